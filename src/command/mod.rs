@@ -1,0 +1,52 @@
+//! The command line: arguments in, exit code out. One file for each subcommand.
+
+mod check;
+mod exit;
+mod models;
+mod options;
+mod output;
+mod problems;
+mod progress;
+mod run;
+mod verify;
+
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+pub use exit::{Exit, Failure};
+
+/// Measurement uncertainty by the GUM and by Monte Carlo, side by side.
+#[derive(Debug, Parser)]
+#[command(name = "gumption", version, max_term_width = 100)]
+struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Evaluate a model file by GUM and by Monte Carlo and print its budget and intervals
+    Run(run::Run),
+    /// Check a model file and list all of its mistakes
+    Check(check::Check),
+    /// List the typed measurement models, or describe one
+    Models(models::Models),
+    /// Compare this machine's code paths trial by trial
+    Verify(verify::Verify),
+}
+
+/// Runs the program with the arguments of the process.
+pub fn main() -> ExitCode {
+    let arguments = Arguments::parse();
+    let result = match arguments.command {
+        Command::Run(command) => command.execute(),
+        Command::Check(command) => command.execute(),
+        Command::Models(command) => command.execute(),
+        Command::Verify(command) => command.execute(),
+    };
+    match result {
+        Ok(exit) => exit.code(),
+        Err(failure) => failure.report(),
+    }
+}

@@ -1,0 +1,104 @@
+//! `gumption models`
+
+use std::fmt::Write;
+
+use clap::Args;
+use comfy_table::{ContentArrangement, Table, presets};
+
+use super::{Exit, Failure, output};
+use crate::file::nearest;
+use crate::model::typed::{self, Entry};
+
+/// List the typed models or describe one.
+#[derive(Debug, Args)]
+pub(super) struct Models {
+    /// A model to describe
+    name: Option<String>,
+    /// Print a model file of it, ready to fill in
+    #[arg(long, requires = "name")]
+    template: bool,
+}
+
+impl Models {
+    pub(super) fn execute(&self) -> Result<Exit, Failure> {
+        let text = match &self.name {
+            None => list(&typed::all()),
+            Some(name) => match typed::find(name) {
+                Some(entry) if self.template => entry.example.to_owned(),
+                Some(entry) => describe(&entry),
+                None => return Err(unknown(name)),
+            },
+        };
+        output::write(&text, None)?;
+        Ok(Exit::Done)
+    }
+}
+
+fn unknown(name: &str) -> Failure {
+    let known = typed::all();
+    let hint = match nearest(name, known.iter().map(|e| e.typed.declaration.name)) {
+        Some(near) => format!("did you mean `{near}`?"),
+        None => "`gumption models` lists those that there are".to_owned(),
+    };
+    Failure::Argument(format!("there is no typed model `{name}`; {hint}"))
+}
+
+/// The first sentence or line of a doc text.
+fn headline(about: &str) -> &str {
+    about.trim().split("\n\n").next().unwrap_or("").trim()
+}
+
+fn plain_table() -> Table {
+    let mut table = Table::new();
+    table.load_style(presets::NOTHING).set_content_arrangement(ContentArrangement::Dynamic);
+    table.set_width(100);
+    table
+}
+
+fn one_line(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+fn list(entries: &[Entry]) -> String {
+    let mut table = plain_table();
+    for entry in entries {
+        let declaration = entry.typed.declaration;
+        table.add_row([declaration.name.to_owned(), one_line(headline(declaration.about))]);
+    }
+    format!("{table}\n")
+}
+
+fn describe(entry: &Entry) -> String {
+    let declaration = entry.typed.declaration;
+    let mut text = format!("{}\n\n{}\n\n", declaration.name, declaration.about.trim());
+    let _ = writeln!(text, "Source: {}\n", declaration.source);
+    let mut inputs = plain_table();
+    inputs.set_header(["input", "unit", "default", "what it is"]);
+    for input in declaration.inputs {
+        let default = match input.default {
+            None => "required".to_owned(),
+            Some(value) if value.is_infinite() => "absent".to_owned(),
+            Some(value) => value.to_string(),
+        };
+        let unit = unit(input.unit, entry.any_unit.contains(&input.name));
+        inputs.add_row([input.name.to_owned(), unit, default, one_line(input.about)]);
+    }
+    let _ = writeln!(text, "{inputs}\n");
+    let mut outputs = plain_table();
+    outputs.set_header(["output", "unit", "equation", "what it is"]);
+    for output in declaration.outputs {
+        let mut unit = unit(output.unit, entry.any_unit.contains(&output.name));
+        if let Some(period) = output.period {
+            let _ = write!(unit, ", periodic {period}");
+        }
+        let about = one_line(output.about);
+        outputs.add_row([output.name.to_owned(), unit, output.equation.to_owned(), about]);
+    }
+    let _ = writeln!(text, "{outputs}\n");
+    let _ = writeln!(text, "A file to start from: gumption models {} --template", declaration.name);
+    text
+}
+
+fn unit(declared: &str, any: bool) -> String {
+    if any { "any".to_owned() } else { declared.to_owned() }
+}

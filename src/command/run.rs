@@ -1,0 +1,173 @@
+//! `gumption run`
+
+use std::path::{Path, PathBuf};
+use std::sync::atomic::Ordering;
+
+use clap::{Args, ValueEnum};
+use sha2::{Digest, Sha256};
+
+use super::options::{self, Answer, Format};
+use super::{Exit, Failure, output, progress};
+use crate::file::{self, Fault, ModelFile, Override, Problem, Problems};
+use crate::propagate::{Control, Evaluation, EvaluationError, evaluate, warnings};
+use crate::report::{self, Provenance, Report};
+use crate::task::{Coverage, Task, Trials, Warning};
+
+/// Evaluate a model file.
+#[derive(Debug, Args)]
+pub(super) struct Run {
+    /// The model file; - for standard input
+    model: PathBuf,
+    #[command(flatten)]
+    answer: Answer,
+    /// Seed of the random streams
+    #[arg(long, value_name = "N")]
+    seed: Option<u64>,
+    /// Number of Monte Carlo trials; 0 for the GUM evaluation alone
+    #[arg(long, value_name = "N", value_parser = options::trials)]
+    trials: Option<Trials>,
+    /// Number of threads; all of the machine's unless given
+    #[arg(long, value_name = "N", value_parser = options::threads)]
+    threads: Option<usize>,
+    /// Memory for kept trial values
+    #[arg(long, value_name = "SIZE", default_value = "64M", value_parser = options::memory)]
+    memory: usize,
+    /// Coverage probability
+    #[arg(long, value_name = "P", value_parser = options::probability)]
+    coverage: Option<f64>,
+    /// Significant digits of the standard uncertainty that are held meaningful (clause 8)
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=15))]
+    digits: Option<u32>,
+    /// Take the coverage factor at the real number of effective degrees of freedom
+    #[arg(long, value_name = "real")]
+    dof: Option<DofRule>,
+    /// Replace an input's estimate (NAME=35, NAME="35 deg") or a field (NAME.half_width=0.2)
+    #[arg(long = "set", value_name = "NAME=VALUE", value_parser = options::replacement)]
+    replacements: Vec<Override>,
+    /// End with exit code 3 if clause 8 finds a GUM interval not valid
+    #[arg(long)]
+    fail: bool,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum DofRule {
+    Real,
+}
+
+impl Run {
+    pub(super) fn execute(&self) -> Result<Exit, Failure> {
+        let (text, file) = self.read()?;
+        let mut task = file.task.clone();
+        self.settings(&mut task);
+        let stop = progress::stop_flag();
+        let (evaluation, warnings) = self.evaluate(&file, &task, &stop)?;
+        let provenance = provenance(&text, &file);
+        let report = Report {
+            task: &task,
+            evaluation: &evaluation,
+            warnings: &warnings,
+            provenance: &provenance,
+        };
+        let answer = match self.answer.format {
+            Format::Table => report::table(&report, &report::Style::default()),
+            Format::Json => report::json(&report),
+            Format::Csv => report::csv(&report),
+        };
+        if !self.answer.quiet {
+            say(&warnings);
+        }
+        if evaluation.stopped || stop.load(Ordering::Relaxed) {
+            output::write(&answer, None)?;
+            return Ok(Exit::Interrupted);
+        }
+        output::write(&answer, self.answer.output.as_deref())?;
+        Ok(if self.fail && is_refuted(&evaluation) { Exit::No } else { Exit::Done })
+    }
+
+    fn read(&self) -> Result<(String, ModelFile), Failure> {
+        let overrides = &self.replacements;
+        if self.model == Path::new("-") {
+            let text = options::standard_input()?;
+            let file = file::read_text("<stdin>", &text, Path::new(""), overrides)?;
+            return Ok((text, file));
+        }
+        let file = file::read(&self.model, overrides)?;
+        Ok((file.source.text.clone(), file))
+    }
+
+    /// The command line beats the file.
+    fn settings(&self, task: &mut Task) {
+        let settings = &mut task.settings;
+        if let Some(p) = self.coverage {
+            settings.coverage = Coverage::Probability(p);
+        }
+        settings.trials = self.trials.unwrap_or(settings.trials);
+        settings.seed = self.seed.unwrap_or(settings.seed);
+        settings.digits = self.digits.unwrap_or(settings.digits);
+        settings.real_dof |= self.dof.is_some();
+    }
+
+    fn evaluate(
+        &self,
+        file: &ModelFile,
+        task: &Task,
+        stop: &std::sync::atomic::AtomicBool,
+    ) -> Result<(Evaluation, Vec<Warning>), Failure> {
+        let Trials::Fixed(trials) = task.settings.trials;
+        let bar = progress::bar(trials.saturating_mul(task.rows.len() as u64), self.answer.quiet);
+        let advance = |trials: u64| bar.inc(trials);
+        let control = Control {
+            threads: self.threads.unwrap_or(0),
+            memory: self.memory,
+            stop: Some(stop),
+            progress: Some(&advance),
+            ..Control::default()
+        };
+        let result = evaluate(task, &control);
+        bar.finish_and_clear();
+        let evaluation = result.map_err(|error| failure(file, error))?;
+        let mut notes = file.warnings.clone();
+        notes.extend(warnings(task, &evaluation));
+        Ok((evaluation, notes))
+    }
+}
+
+/// An evaluation that failed, as a mistake with its place where it is the user's.
+fn failure(file: &ModelFile, error: EvaluationError) -> Failure {
+    let message = error.to_string();
+    match error {
+        EvaluationError::Threads(_) => Failure::System(message),
+        EvaluationError::Undefined { .. } | EvaluationError::Correlation(_) => {
+            let (source, span) = file.output_place(0);
+            let fault = Fault::Evaluation { message };
+            Failure::Problems(Problems(vec![Problem { source, span, fault }]))
+        }
+    }
+}
+
+fn provenance(text: &str, file: &ModelFile) -> Provenance {
+    let digest = |bytes: &[u8]| {
+        Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect::<String>()
+    };
+    Provenance {
+        model_sha256: digest(text.as_bytes()),
+        files: file.files.iter().map(|(name, bytes)| (name.clone(), digest(bytes))).collect(),
+    }
+}
+
+/// Warnings and notes on standard error.
+#[allow(clippy::print_stderr)]
+pub(super) fn say(warnings: &[Warning]) {
+    for warning in warnings {
+        anstream::eprintln!("note: {}", warning.text);
+    }
+}
+
+/// Whether clause 8 clearly fails for some output.
+fn is_refuted(evaluation: &Evaluation) -> bool {
+    evaluation
+        .rows
+        .iter()
+        .flat_map(|row| &row.outputs)
+        .any(|output| output.validation.is_some_and(|v| v.gum_valid == Some(false)))
+}

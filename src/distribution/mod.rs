@@ -1,0 +1,133 @@
+//! What is known about a quantity: probability distributions, one file each, and the joint draw of
+//! many quantities.
+//!
+//! The seam for a new shape is one file that implements [`shape::Shape`] and one line in the list
+//! of [`Distribution`].
+
+mod constant;
+mod input;
+mod joint;
+mod normal;
+mod readings;
+mod rectangular;
+mod shape;
+pub(crate) mod special;
+mod stream;
+mod student;
+mod triangular;
+
+pub use constant::Constant;
+pub use input::{Evaluation, Input, InputError};
+pub use joint::{Correlation, CorrelationError};
+pub(crate) use joint::{Draws, Joint};
+pub use normal::Normal;
+pub use readings::Readings;
+pub use rectangular::Rectangular;
+pub use shape::Invalid;
+use shape::Shape;
+pub(crate) use stream::{BLOCK, Stream, StreamKey};
+pub use student::StudentT;
+pub use triangular::Triangular;
+
+use crate::number::Column;
+
+macro_rules! distributions {
+    ($($(#[$about:meta])* $shape:ident,)*) => {
+        /// A probability distribution (JCGM 101, Table 1).
+        #[derive(Clone, Debug, PartialEq)]
+        pub enum Distribution {
+            $($(#[$about])* $shape($shape),)*
+        }
+
+        $(
+            impl From<$shape> for Distribution {
+                fn from(shape: $shape) -> Self {
+                    Self::$shape(shape)
+                }
+            }
+        )*
+
+        impl Distribution {
+            /// The canonical name, as files and budgets have it.
+            pub fn name(&self) -> &'static str {
+                match self { $(Self::$shape(_) => <$shape as Shape>::NAME,)* }
+            }
+
+            /// The estimate: the expectation of the distribution.
+            pub fn mean(&self) -> f64 {
+                match self { $(Self::$shape(shape) => shape.mean(),)* }
+            }
+
+            /// The standard uncertainty on the GUM side: the standard deviation, but the scale of
+            /// a t distribution and s/sqrt(n) of readings.
+            pub fn standard_uncertainty(&self) -> f64 {
+                match self { $(Self::$shape(shape) => shape.standard_uncertainty(),)* }
+            }
+
+            /// Degrees of freedom of the standard uncertainty; infinite unless it was estimated.
+            pub fn dof(&self) -> f64 {
+                match self { $(Self::$shape(shape) => shape.dof(),)* }
+            }
+
+            /// Degrees of freedom of the t distribution that trials are drawn from; infinite for
+            /// all other shapes. Moments of that order and above do not exist.
+            pub fn drawn_dof(&self) -> f64 {
+                match self { $(Self::$shape(shape) => shape.drawn_dof(),)* }
+            }
+
+            /// Standard deviation of the drawn values; infinite where it does not exist.
+            pub fn standard_deviation(&self) -> f64 {
+                match self { $(Self::$shape(shape) => shape.standard_deviation(),)* }
+            }
+
+            /// The value below which a drawn value lies with probability `p`, 0 < p < 1.
+            pub fn quantile(&self, p: f64) -> f64 {
+                match self { $(Self::$shape(shape) => shape.quantile(p),)* }
+            }
+
+            /// The same distribution with its estimate moved; limits move along.
+            #[must_use]
+            pub fn moved_to(&self, estimate: f64) -> Self {
+                match self { $(Self::$shape(shape) => Self::$shape(shape.moved_to(estimate)),)* }
+            }
+
+            #[inline(always)]
+            pub(crate) fn draw(&self, stream: &mut Stream, out: &mut Column) {
+                match self { $(Self::$shape(shape) => shape.draw(stream, out),)* }
+            }
+        }
+    };
+}
+
+distributions! {
+    /// Known exactly.
+    Constant,
+    /// Normal, or the t that stands for it at few degrees of freedom.
+    Normal,
+    /// Rectangular (uniform).
+    Rectangular,
+    /// Triangular.
+    Triangular,
+    /// Scaled and shifted t.
+    StudentT,
+    /// Repeated readings (Type A).
+    Readings,
+}
+
+impl Distribution {
+    /// The value of a quantity that is known exactly.
+    pub fn constant(&self) -> Option<f64> {
+        match self {
+            Self::Constant(constant) => Some(constant.mean()),
+            _ => None,
+        }
+    }
+
+    /// Whether trials are drawn from a normal distribution, so that a joint normal is exact.
+    pub(crate) fn is_drawn_normal(&self) -> bool {
+        matches!(self, Self::Normal(normal) if normal.drawn_dof().is_infinite())
+    }
+}
+
+#[cfg(test)]
+mod tests;

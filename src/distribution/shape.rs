@@ -1,0 +1,188 @@
+//! What every distribution tells, and what is wrong with one that cannot be.
+
+use std::fmt;
+
+use super::stream::Stream;
+use crate::number::Column;
+
+/// A probability distribution of one quantity.
+///
+/// The GUM side uses [`Shape::mean`], [`Shape::standard_uncertainty`] and [`Shape::dof`]; the
+/// Monte Carlo side [`Shape::draw`] and, for dependent quantities, [`Shape::quantile`].
+pub(crate) trait Shape {
+    /// The canonical name, as files and budgets have it.
+    const NAME: &'static str;
+
+    /// The estimate: the expectation.
+    fn mean(&self) -> f64;
+
+    /// The standard uncertainty on the GUM side: the standard deviation, but for a t distribution
+    /// its scale (JCGM 100, 4.2.3 and G.3).
+    fn standard_uncertainty(&self) -> f64;
+
+    /// Degrees of freedom of the standard uncertainty; infinite unless it was estimated.
+    fn dof(&self) -> f64 {
+        f64::INFINITY
+    }
+
+    /// Degrees of freedom of the t distribution that trials are drawn from, infinite for all other
+    /// shapes. Moments of that order and above do not exist.
+    fn drawn_dof(&self) -> f64 {
+        f64::INFINITY
+    }
+
+    /// Standard deviation of the drawn values; infinite where it does not exist.
+    fn standard_deviation(&self) -> f64 {
+        self.standard_uncertainty()
+    }
+
+    /// The value below which the drawn quantity lies with probability `p`, 0 < p < 1.
+    fn quantile(&self, p: f64) -> f64;
+
+    /// Fills a column with independent draws.
+    fn draw(&self, stream: &mut Stream, out: &mut Column);
+
+    /// The same distribution with its estimate moved to `estimate`; limits move along.
+    #[must_use]
+    fn moved_to(&self, estimate: f64) -> Self;
+}
+
+/// Why a distribution cannot be made from the given numbers.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Invalid {
+    /// A parameter is infinite or not a number.
+    NotFinite {
+        /// Name of the parameter.
+        parameter: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// A parameter must be above zero.
+    NotPositive {
+        /// Name of the parameter.
+        parameter: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// A parameter lies outside its range.
+    OutOfRange {
+        /// Name of the parameter.
+        parameter: &'static str,
+        /// Its value.
+        value: f64,
+        /// The range, in words.
+        range: &'static str,
+    },
+    /// The lower limit is not below the upper one.
+    LimitsReversed {
+        /// The lower limit.
+        lower: f64,
+        /// The upper limit.
+        upper: f64,
+    },
+    /// A Type A evaluation needs at least two readings.
+    TooFewReadings {
+        /// How many there are.
+        count: usize,
+    },
+    /// All readings are equal, so their scatter says nothing about the uncertainty.
+    NoScatter {
+        /// How many readings there are.
+        count: usize,
+    },
+    /// The width is lost in the rounding of the estimate.
+    WidthLost {
+        /// Name of the width.
+        parameter: &'static str,
+        /// The width.
+        value: f64,
+        /// The estimate.
+        estimate: f64,
+    },
+}
+
+impl Invalid {
+    /// The parameter that is at fault, by the name that files use.
+    pub fn parameter(&self) -> &'static str {
+        match self {
+            Self::NotFinite { parameter, .. }
+            | Self::NotPositive { parameter, .. }
+            | Self::OutOfRange { parameter, .. }
+            | Self::WidthLost { parameter, .. } => parameter,
+            Self::LimitsReversed { .. } => "upper",
+            Self::TooFewReadings { .. } | Self::NoScatter { .. } => "values",
+        }
+    }
+}
+
+impl fmt::Display for Invalid {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NotFinite { parameter, value } => {
+                write!(f, "{parameter} is {value}, but must be a finite number")
+            }
+            Self::NotPositive { parameter, value } => {
+                write!(f, "{parameter} is {value}, but must be above zero")
+            }
+            Self::OutOfRange { parameter, value, range } => {
+                write!(f, "{parameter} is {value}, but must be {range}")
+            }
+            Self::LimitsReversed { lower, upper } => {
+                write!(f, "the lower limit {lower} is not below the upper limit {upper}")
+            }
+            Self::TooFewReadings { count } => {
+                write!(f, "a Type A evaluation needs at least two readings, not {count}")
+            }
+            Self::NoScatter { count } => write!(
+                f,
+                "all {count} readings are equal, so they show no scatter to evaluate; \
+                 state the resolution as a rectangular distribution"
+            ),
+            Self::WidthLost { parameter, value, estimate } => write!(
+                f,
+                "{parameter} is {value}, which is lost in the rounding of the estimate {estimate}"
+            ),
+        }
+    }
+}
+
+impl std::error::Error for Invalid {}
+
+/// The value if it is finite.
+pub(crate) fn finite(parameter: &'static str, value: f64) -> Result<f64, Invalid> {
+    if value.is_finite() { Ok(value) } else { Err(Invalid::NotFinite { parameter, value }) }
+}
+
+/// The value if it is finite and above zero.
+pub(crate) fn positive(parameter: &'static str, value: f64) -> Result<f64, Invalid> {
+    let value = finite(parameter, value)?;
+    if value > 0.0 { Ok(value) } else { Err(Invalid::NotPositive { parameter, value }) }
+}
+
+/// Degrees of freedom: above zero, infinite allowed.
+pub(crate) fn degrees_of_freedom(value: f64) -> Result<f64, Invalid> {
+    if value > 0.0 { Ok(value) } else { Err(Invalid::NotPositive { parameter: "dof", value }) }
+}
+
+/// Degrees of freedom of a t distribution that is drawn: at least 0.2, infinite allowed. Below, a
+/// draw can exceed the largest number that there is.
+pub(crate) fn drawn_degrees_of_freedom(value: f64) -> Result<f64, Invalid> {
+    let value = degrees_of_freedom(value)?;
+    if value >= 0.2 {
+        Ok(value)
+    } else {
+        Err(Invalid::OutOfRange { parameter: "dof", value, range: "at least 0.2" })
+    }
+}
+
+/// Centre and half-width of two limits.
+pub(crate) fn limits(lower: f64, upper: f64) -> Result<(f64, f64), Invalid> {
+    let (lower, upper) = (finite("lower", lower)?, finite("upper", upper)?);
+    // halves first: the sum or difference of huge limits would overflow
+    let (centre, half_width) = (0.5 * lower + 0.5 * upper, 0.5 * upper - 0.5 * lower);
+    if lower < upper {
+        Ok((centre, half_width))
+    } else {
+        Err(Invalid::LimitsReversed { lower, upper })
+    }
+}

@@ -1,0 +1,106 @@
+//! The scaled and shifted t distribution (JCGM 101, 6.4.9).
+
+use super::shape::{Invalid, Shape, drawn_degrees_of_freedom, finite, positive};
+use super::stream::Stream;
+use super::{normal, special};
+use crate::number::{COLUMN, Column, elementary};
+
+/// From here on the t distribution and the normal one differ by less than 1e-9 in any probability,
+/// and the generator of t values would lose digits.
+const AS_GOOD_AS_NORMAL: f64 = 1e9;
+
+/// A t distribution: expectation `mean`, `scale` and degrees of freedom.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StudentT {
+    mean: f64,
+    scale: f64,
+    dof: f64,
+}
+
+impl StudentT {
+    /// A t distribution of the given centre, scale (> 0) and degrees of freedom (at least 0.2, so
+    /// that no draw overflows).
+    ///
+    /// # Errors
+    /// Parameters that are not finite or out of their range.
+    pub fn new(mean: f64, scale: f64, dof: f64) -> Result<Self, Invalid> {
+        let (mean, scale) = (finite("mean", mean)?, positive("scale", scale)?);
+        Ok(Self { mean, scale, dof: drawn_degrees_of_freedom(dof)? })
+    }
+}
+
+impl Shape for StudentT {
+    const NAME: &'static str = "t";
+
+    fn mean(&self) -> f64 {
+        self.mean
+    }
+
+    fn standard_uncertainty(&self) -> f64 {
+        self.scale
+    }
+
+    fn dof(&self) -> f64 {
+        self.dof
+    }
+
+    fn drawn_dof(&self) -> f64 {
+        self.dof
+    }
+
+    fn standard_deviation(&self) -> f64 {
+        standard_deviation(self.scale, self.dof)
+    }
+
+    fn quantile(&self, p: f64) -> f64 {
+        self.mean + self.scale * standard_quantile(p, self.dof)
+    }
+
+    #[inline(always)]
+    fn draw(&self, stream: &mut Stream, out: &mut Column) {
+        draw(self.mean, self.scale, self.dof, stream, out);
+    }
+
+    fn moved_to(&self, estimate: f64) -> Self {
+        Self { mean: estimate, ..*self }
+    }
+}
+
+/// Standard deviation of a t distribution; infinite at two degrees of freedom and below.
+pub(super) fn standard_deviation(scale: f64, dof: f64) -> f64 {
+    if dof.is_infinite() {
+        scale
+    } else if dof > 2.0 {
+        scale * (dof / (dof - 2.0)).sqrt()
+    } else {
+        f64::INFINITY
+    }
+}
+
+/// Quantile of the standard t distribution.
+pub(super) fn standard_quantile(p: f64, dof: f64) -> f64 {
+    if dof.is_finite() { special::student::quantile(p, dof) } else { normal::standard_quantile(p) }
+}
+
+/// Bailey's polar form (Mathematics of Computation 62, 1994): exact for any degrees of freedom,
+/// one logarithm, one exponential, one root and one cosine a value, and nothing is rejected.
+#[inline(always)]
+pub(super) fn draw(mean: f64, scale: f64, dof: f64, stream: &mut Stream, out: &mut Column) {
+    if dof >= AS_GOOD_AS_NORMAL {
+        normal::draw(mean, scale, stream, out);
+        return;
+    }
+    let mut radius = [0.0; COLUMN];
+    let mut turn = [0.0; COLUMN];
+    stream.uniform(&mut radius);
+    stream.uniform(&mut turn);
+    let exponent = -2.0 / dof;
+    for i in 0..COLUMN {
+        let x = exponent * elementary::ln_uniform(radius[i]);
+        // exp(x) - 1 loses the digits of a small x; its series does not
+        let series = x * (1.0 + x * (0.5 + x * (1.0 / 6.0 + x * (1.0 / 24.0 + x / 120.0))));
+        let grown = if x < 1e-3 { series } else { elementary::exp(x) - 1.0 };
+        let (_, cos) = elementary::sin_cos_turn(turn[i]);
+        out.0[i] = mean + scale * ((dof * grown).sqrt() * cos);
+    }
+}

@@ -1,0 +1,195 @@
+//! The battery that every distribution goes through.
+
+use super::*;
+
+fn shapes() -> Vec<(&'static str, Distribution)> {
+    vec![
+        ("normal", Normal::new(10.0, 0.3).unwrap().into()),
+        ("normal, 4 dof", Normal::with_dof(10.0, 0.3, 4.0).unwrap().into()),
+        ("rectangular", Rectangular::new(-2.0, 0.5).unwrap().into()),
+        ("rectangular by limits", Rectangular::between(1.0, 4.0).unwrap().into()),
+        ("triangular", Triangular::new(3.0, 0.5).unwrap().into()),
+        ("triangular, skew", Triangular::between(0.0, 3.0, Some(0.5)).unwrap().into()),
+        ("triangular, mode at the limit", Triangular::between(0.0, 3.0, Some(3.0)).unwrap().into()),
+        ("t", StudentT::new(1.0, 2.0, 9.0).unwrap().into()),
+        ("t, many dof", StudentT::new(1.0, 2.0, 1e6).unwrap().into()),
+        ("readings", Readings::new((0..12).map(|i| f64::from(i * i)).collect()).unwrap().into()),
+    ]
+}
+
+/// `count` draws; `count` is a multiple of a block's length.
+fn draws(distribution: &Distribution, count: usize) -> Vec<f64> {
+    let key = StreamKey::new(20, "x");
+    let mut values = Vec::with_capacity(count);
+    for block in 0..count / BLOCK {
+        let mut stream = key.block(block as u64);
+        for _ in 0..BLOCK / crate::number::COLUMN {
+            let mut column = Column::ZERO;
+            distribution.draw(&mut stream, &mut column);
+            values.extend(column.0);
+        }
+    }
+    values
+}
+
+/// Kolmogorov-Smirnov at 1,024,000 draws against the quantile function: at the 4000 points p the
+/// share of draws below quantile(p) is p. The statistic sqrt(n) D exceeds 2.6 with a probability of
+/// 2 exp(-2 2.6^2) = 3e-6 a shape.
+#[test]
+fn draws_follow_the_quantile_function() {
+    let n = 1000 * BLOCK;
+    for (name, distribution) in shapes() {
+        let mut values = draws(&distribution, n);
+        assert!(values.iter().all(|v| v.is_finite()), "{name}");
+        values.sort_unstable_by(f64::total_cmp);
+        let points = 4000;
+        let worst = (1..points)
+            .map(|i| {
+                let p = f64::from(i) / f64::from(points);
+                let q = distribution.quantile(p);
+                (values.partition_point(|&v| v <= q) as f64 / n as f64 - p).abs()
+            })
+            .fold(0.0, f64::max);
+        let statistic = worst * (n as f64).sqrt();
+        assert!(statistic < 2.6, "{name}: {statistic}");
+    }
+}
+
+/// Mean and standard deviation of 1,024,000 draws lie within six standard errors of the stated
+/// ones (2e-9 each); the fourth moments of all shapes here exist.
+#[test]
+fn draws_have_the_stated_moments() {
+    let n = 1000 * BLOCK;
+    for (name, distribution) in shapes().into_iter().filter(|(name, _)| *name != "normal, 4 dof") {
+        let values = draws(&distribution, n);
+        let (mean, std) = (distribution.mean(), distribution.standard_deviation());
+        let m1 = values.iter().map(|v| v - mean).sum::<f64>() / n as f64;
+        let m2 = values.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / n as f64;
+        let m4 = values.iter().map(|v| (v - mean).powi(4)).sum::<f64>() / n as f64;
+        assert!(m1.abs() < 6.0 * std / (n as f64).sqrt(), "{name}: mean off by {m1}");
+        let error = ((m4 - m2 * m2) / n as f64).sqrt();
+        assert!((m2 - std * std).abs() < 6.0 * error, "{name}: variance {m2} not {}", std * std);
+    }
+}
+
+/// The stated moments are those of the quantile function, by the midpoint rule in p; the shapes
+/// with bounded support converge to 1e-6 of the width at 2e5 points.
+#[test]
+fn stated_moments_are_those_of_the_quantile_function() {
+    for (name, distribution) in shapes() {
+        if distribution.drawn_dof().is_finite() || distribution.is_drawn_normal() {
+            continue;
+        }
+        let n = 200_000;
+        let values: Vec<f64> =
+            (0..n).map(|i| distribution.quantile((f64::from(i) + 0.5) / f64::from(n))).collect();
+        let mean = values.iter().sum::<f64>() / f64::from(n);
+        let variance =
+            values.iter().map(|v| (v - distribution.mean()).powi(2)).sum::<f64>() / f64::from(n);
+        let u = distribution.standard_uncertainty();
+        assert!((mean - distribution.mean()).abs() < 1e-6 * u, "{name}: mean {mean}");
+        assert!((variance.sqrt() / u - 1.0).abs() < 1e-5, "{name}: {} not {u}", variance.sqrt());
+    }
+}
+
+#[test]
+fn moving_an_estimate_moves_the_limits_along() {
+    for (name, distribution) in shapes() {
+        let moved = distribution.moved_to(100.0);
+        assert!((moved.mean() - 100.0).abs() < 1e-12, "{name}");
+        let shift = 100.0 - distribution.mean();
+        assert!((moved.quantile(0.9) - distribution.quantile(0.9) - shift).abs() < 1e-12, "{name}");
+    }
+}
+
+/// JCGM 100, 4.4.3 (Table 1 of the example): twenty readings of a temperature, mean 100.145 degC,
+/// experimental standard deviation 1.489 degC, of the mean 0.333 degC.
+#[test]
+fn readings_of_the_guide() {
+    let values = vec![
+        96.90, 98.18, 98.25, 98.61, 99.03, 99.49, 99.56, 99.74, 99.89, 100.07, 100.33, 100.42,
+        100.68, 100.95, 101.11, 101.20, 101.57, 101.84, 102.36, 102.72,
+    ];
+    let readings = Readings::new(values).unwrap();
+    assert!((readings.mean() - 100.145).abs() < 5e-4);
+    assert!((readings.standard_uncertainty() * 20f64.sqrt() - 1.489).abs() < 5e-4);
+    assert!((readings.standard_uncertainty() - 0.333).abs() < 5e-4);
+    assert_eq!(readings.dof(), 19.0);
+}
+
+/// The t of few degrees of freedom has no variance, yet no draw is lost: the largest of a million
+/// draws with half a degree of freedom is huge and finite.
+#[test]
+fn heavy_tails_stay_finite() {
+    for dof in [0.5, 1.0, 2.0, 1e8, 1e9, 1e300] {
+        let t: Distribution = StudentT::new(0.0, 1.0, dof).unwrap().into();
+        assert!(draws(&t, 1000 * BLOCK).iter().all(|v| v.is_finite()), "{dof}");
+        assert_eq!(t.standard_deviation().is_infinite(), dof <= 2.0);
+    }
+}
+
+#[test]
+fn impossible_parameters_are_refused() {
+    assert!(matches!(Normal::new(0.0, 0.0), Err(Invalid::NotPositive { parameter: "std", .. })));
+    assert!(matches!(Normal::new(f64::NAN, 1.0), Err(Invalid::NotFinite { .. })));
+    assert!(matches!(Rectangular::new(0.0, -1.0), Err(Invalid::NotPositive { .. })));
+    assert!(matches!(Rectangular::between(2.0, 1.0), Err(Invalid::LimitsReversed { .. })));
+    assert!(matches!(
+        Triangular::between(0.0, 1.0, Some(2.0)),
+        Err(Invalid::OutOfRange { parameter: "mode", .. })
+    ));
+    assert!(matches!(StudentT::new(0.0, 1.0, 0.0), Err(Invalid::NotPositive { .. })));
+    assert!(matches!(Readings::new(vec![1.0]), Err(Invalid::TooFewReadings { count: 1 })));
+    assert!(matches!(Readings::new(vec![1.0, 1.0]), Err(Invalid::NoScatter { count: 2 })));
+}
+
+/// Three joint normals keep their declared coefficients: with 1,024,000 draws each coefficient has
+/// a standard error of (1 - r^2)/1012; five of them leave 6e-7 a pair.
+#[test]
+fn joint_normals_have_the_declared_correlations() {
+    let distributions: Vec<Distribution> =
+        (0..3).map(|i| Normal::new(f64::from(i), 2.0).unwrap().into()).collect();
+    let correlation = |first, second, coefficient| Correlation { first, second, coefficient };
+    let declared = [correlation(0, 1, 0.9), correlation(0, 2, -0.36), correlation(1, 2, -0.65)];
+    let joint = Joint::new(&distributions, &declared).unwrap();
+    let keys: Vec<StreamKey> = ["a", "b", "c"].map(|n| StreamKey::new(3, n)).to_vec();
+    let mut registers = vec![Column::ZERO; 3];
+    let mut sums = [[0.0; 3]; 3];
+    let blocks = 1000;
+    for block in 0..blocks {
+        let mut draws = Draws::new(&distributions, &joint, &keys, block);
+        for _ in 0..BLOCK / crate::number::COLUMN {
+            draws.column(&mut registers, &[0, 1, 2], &[true; 3]);
+            for i in 0..3 {
+                for j in 0..3 {
+                    for t in 0..crate::number::COLUMN {
+                        let z = |q: usize| (registers[q].0[t] - q as f64) / 2.0;
+                        sums[i][j] += z(i) * z(j);
+                    }
+                }
+            }
+        }
+    }
+    let n = (blocks as usize * BLOCK) as f64;
+    for c in declared {
+        let drawn = sums[c.first][c.second] / n;
+        let error = (1.0 - c.coefficient.powi(2)) / n.sqrt();
+        // the scales are known to be 1, which adds the error of two variances
+        assert!((drawn - c.coefficient).abs() < 5.0 * (error + 1.0 / n.sqrt()), "{c:?}: {drawn}");
+    }
+}
+
+#[test]
+fn contradictory_correlations_are_refused() {
+    let distributions: Vec<Distribution> =
+        (0..3).map(|_| Normal::new(0.0, 1.0).unwrap().into()).collect();
+    let correlation = |first, second, coefficient| Correlation { first, second, coefficient };
+    let impossible = [correlation(0, 1, 0.9), correlation(0, 2, 0.9), correlation(1, 2, -0.9)];
+    assert!(matches!(
+        Joint::new(&distributions, &impossible),
+        Err(CorrelationError::Contradiction { .. })
+    ));
+    // 1 between all three, printed as 0.9999: singular up to rounding, and accepted
+    let singular = [correlation(0, 1, 1.0), correlation(0, 2, 1.0), correlation(1, 2, 0.9999)];
+    assert!(Joint::new(&distributions, &singular).unwrap().rounded);
+}

@@ -1,0 +1,165 @@
+//! The conditions of a measurement: a grid of values, or the rows of a table.
+
+use std::ops::Range;
+use std::path::Path;
+
+use super::Fault;
+use super::json::{Json, Member};
+use super::object::Object;
+use super::problem::Log;
+use super::table;
+use crate::model::Quantity;
+use crate::unit::Unit;
+
+/// At most so many rows: a sweep of a million.
+const MOST_ROWS: usize = 1_000_000;
+
+/// Conditions with their rows of values, in their units.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Conditions {
+    pub(super) quantities: Vec<Quantity>,
+    pub(super) places: Vec<Range<usize>>,
+    pub(super) rows: Vec<Vec<f64>>,
+    /// The tables read: name and content.
+    pub(super) files: Vec<(String, Vec<u8>)>,
+}
+
+/// Reads `conditions`; paths are relative to `folder`.
+pub(super) fn read(log: &Log, member: &Member, folder: &Path) -> Option<Conditions> {
+    let object = Object::new(log, "`conditions`", &member.value, &member.key_span)?;
+    match object.get("file") {
+        Some(file) if matches!(file.value.value, Json::Text(_)) => {
+            from_table(&object, file, folder)
+        }
+        _ => grid(&object),
+    }
+}
+
+/// The unit at `key`, a plain number if it is not there.
+pub(super) fn unit(object: &Object<'_>, key: &str) -> Option<Unit> {
+    let Some(text) = object.text(key) else {
+        return object.get(key).is_none().then(Unit::one);
+    };
+    let span = object.get(key).map_or(object.place(), |member| &member.value.span);
+    parse_unit(object.log, text, span)
+}
+
+fn parse_unit(log: &Log, text: &str, span: &Range<usize>) -> Option<Unit> {
+    let parsed = Unit::parse(text);
+    log.value(span, parsed.map_err(|error| Fault::Unit { unit: text.to_owned(), error }))
+}
+
+fn grid(object: &Object<'_>) -> Option<Conditions> {
+    let log = object.log;
+    let mut conditions = Conditions::default();
+    let mut axes: Vec<Vec<f64>> = Vec::new();
+    for member in object.members() {
+        let Some(condition) = Object::new(log, "a condition", &member.value, &member.key_span)
+        else {
+            continue;
+        };
+        condition.check_keys(&["unit", "values", "about"]);
+        let unit = unit(&condition, "unit");
+        let values = if condition.get("values").is_some() {
+            condition.numbers("values")
+        } else {
+            condition.report(Fault::NoTable { name: member.key.clone() });
+            None
+        };
+        if values.as_ref().is_some_and(Vec::is_empty) {
+            condition.report(Fault::NoValues { name: member.key.clone() });
+        }
+        conditions.places.push(member.key_span.clone());
+        conditions.quantities.push(Quantity {
+            name: member.key.clone(),
+            unit: unit.unwrap_or_else(Unit::one),
+            about: condition.text("about").unwrap_or("").to_owned(),
+        });
+        axes.push(values.unwrap_or_default());
+    }
+    if axes.is_empty() {
+        object.report(Fault::NoValues { name: "conditions".into() });
+    }
+    let count = axes.iter().try_fold(1usize, |n, axis| n.checked_mul(axis.len()));
+    let count = count.unwrap_or(usize::MAX);
+    if count > MOST_ROWS {
+        object.report(Fault::TooMany { what: "rows of conditions", found: count, most: MOST_ROWS });
+        return None;
+    }
+    // the last condition is the fastest
+    conditions.rows = (0..count)
+        .map(|number| {
+            let mut left = number;
+            let mut row: Vec<f64> = axes
+                .iter()
+                .rev()
+                .filter_map(|axis| {
+                    let value = axis.get(left % axis.len().max(1)).copied();
+                    left /= axis.len().max(1);
+                    value
+                })
+                .collect();
+            row.reverse();
+            row
+        })
+        .collect();
+    Some(conditions)
+}
+
+fn from_table(object: &Object<'_>, file: &Member, folder: &Path) -> Option<Conditions> {
+    object.check_keys(&["file", "units"]);
+    let log = object.log;
+    let name = object.text("file")?;
+    let table = match table::read(&folder.join(name), name) {
+        Ok((table, bytes)) => Some((table, bytes)),
+        Err(faults) => {
+            for (place, fault) in faults {
+                match fault {
+                    // a file that is not there is named where the model file names it
+                    Fault::Unreadable { message } => {
+                        let message = format!("`{name}`: {message}");
+                        log.report(&file.value.span, Fault::Unreadable { message });
+                    }
+                    fault => log.report_at(place, fault),
+                }
+            }
+            None
+        }
+    };
+    let units = match object.get("units") {
+        Some(member) => Object::new(log, "`units`", &member.value, &member.key_span),
+        None => None,
+    };
+    let (table, bytes) = table?;
+    if table.rows.len() > MOST_ROWS {
+        let found = table.rows.len();
+        object.report(Fault::TooMany { what: "rows of conditions", found, most: MOST_ROWS });
+        return None;
+    }
+    if let Some(units) = &units {
+        for member in units.members() {
+            if !table.columns.contains(&member.key) {
+                let known: Vec<String> = table.columns.clone();
+                let nearest = super::nearest(&member.key, known.iter().map(String::as_str));
+                let reason = format!(
+                    "`{}` has no column `{}`{}",
+                    table.source.name,
+                    member.key,
+                    nearest.map(|n| format!("; did you mean `{n}`?")).unwrap_or_default()
+                );
+                log.report(&member.key_span, Fault::Table { reason });
+            }
+        }
+    }
+    let quantities = table
+        .columns
+        .iter()
+        .map(|column| Quantity {
+            name: column.clone(),
+            unit: units.as_ref().and_then(|units| unit(units, column)).unwrap_or_else(Unit::one),
+            about: String::new(),
+        })
+        .collect();
+    let places = vec![file.value.span.clone(); table.columns.len()];
+    Some(Conditions { quantities, places, rows: table.rows, files: vec![(name.to_owned(), bytes)] })
+}

@@ -1,0 +1,232 @@
+//! Declared correlation coefficients.
+
+use std::ops::Range;
+use std::path::Path;
+
+use super::Fault;
+use super::inputs::Inputs;
+use super::json::{Json, Node};
+use super::nearest::nearest;
+use super::object::Object;
+use super::problem::Log;
+use super::table;
+use crate::distribution::{Correlation, CorrelationError, Joint};
+
+/// Reads `correlations` and `correlation_matrix` of the root object and checks that the quantities
+/// can have them in every row. Tables that were read are added to `files`.
+pub(super) fn read(
+    root: &Object<'_>,
+    inputs: &Inputs,
+    folder: &Path,
+    files: &mut Vec<(String, Vec<u8>)>,
+) -> Vec<Correlation> {
+    let mut reader = Reader { log: root.log, inputs, found: Vec::new(), places: Vec::new() };
+    if let Some(list) = root.list("correlations") {
+        for node in list {
+            reader.triple(node);
+        }
+    }
+    if let Some(member) = root.get("correlation_matrix") {
+        reader.matrix(root.log, member, folder, files);
+    }
+    reader.check(root);
+    reader.found
+}
+
+struct Reader<'a> {
+    log: &'a Log,
+    inputs: &'a Inputs,
+    found: Vec<Correlation>,
+    places: Vec<Range<usize>>,
+}
+
+impl Reader<'_> {
+    fn triple(&mut self, node: &Node) {
+        let Json::List(items) = &node.value else {
+            return self.wrong(node);
+        };
+        let [first, second, coefficient] = items.as_slice() else {
+            return self.wrong(node);
+        };
+        let (Json::Text(a), Json::Text(b), Some(r)) =
+            (&first.value, &second.value, coefficient.number())
+        else {
+            return self.wrong(node);
+        };
+        let (a, b) = (self.variable(a, &first.span), self.variable(b, &second.span));
+        if let (Some(a), Some(b)) = (a, b) {
+            self.add(a, b, r, &coefficient.span);
+        }
+    }
+
+    fn wrong(&self, node: &Node) {
+        let reason = "a correlation is a list of two names and a coefficient, such as \
+                      [\"a\", \"b\", 0.5]";
+        self.log.report(&node.span, Fault::Correlation { reason: reason.to_owned() });
+    }
+
+    fn variable(&self, name: &str, span: &Range<usize>) -> Option<usize> {
+        let shown = |place: &usize| self.inputs.variables.get(*place).is_some_and(|v| v.shown);
+        let place = self.inputs.variables.iter().position(|v| v.name == name && v.shown);
+        if place.is_none() {
+            let names = (0..self.inputs.variables.len())
+                .filter(shown)
+                .filter_map(|v| self.inputs.variables.get(v).map(|v| v.name.as_str()));
+            let nearest = nearest(name, names).map(str::to_owned);
+            self.log.report(span, Fault::NoSuchInput { name: name.to_owned(), nearest });
+        }
+        place
+    }
+
+    fn add(&mut self, a: usize, b: usize, r: f64, span: &Range<usize>) {
+        let name = |v: usize| self.inputs.variables.get(v).map_or("", |v| v.name.as_str());
+        let reason = if !(-1.0..=1.0).contains(&r) {
+            format!("the correlation coefficient is {r}, but must be from -1 to 1")
+        } else if a == b {
+            format!("`{}` is correlated with itself", name(a))
+        } else if self.found.iter().any(|c| (c.first, c.second) == (a.min(b), a.max(b))) {
+            format!("the correlation of `{}` and `{}` is given twice", name(a), name(b))
+        } else {
+            self.found.push(Correlation { first: a.min(b), second: a.max(b), coefficient: r });
+            self.places.push(span.clone());
+            return;
+        };
+        self.log.report(span, Fault::Correlation { reason });
+    }
+
+    fn matrix(
+        &mut self,
+        log: &Log,
+        member: &super::json::Member,
+        folder: &Path,
+        files: &mut Vec<(String, Vec<u8>)>,
+    ) {
+        let Some(object) =
+            Object::new(log, "`correlation_matrix`", &member.value, &member.key_span)
+        else {
+            return;
+        };
+        object.check_keys(&["names", "values", "file"]);
+        let (names, values, spans) = if let Some(file) = object.text("file") {
+            let place = object.get("file").map_or(object.place(), |m| &m.value.span).clone();
+            match table::read(&folder.join(file), file) {
+                Ok((table, bytes)) => {
+                    files.push((file.to_owned(), bytes));
+                    let spans = vec![place.clone(); table.columns.len()];
+                    (table.columns, table.rows, (spans, place))
+                }
+                Err(faults) => {
+                    for (at, fault) in faults {
+                        match fault {
+                            Fault::Unreadable { message } => {
+                                let message = format!("`{file}`: {message}");
+                                log.report(&place, Fault::Unreadable { message });
+                            }
+                            fault => log.report_at(at, fault),
+                        }
+                    }
+                    return;
+                }
+            }
+        } else {
+            let names = object.required("names").and_then(|_| object.list("names"));
+            let values = object.required("values").and_then(|_| object.list("values"));
+            let (Some(names), Some(values)) = (names, values) else {
+                return;
+            };
+            let texts = names.iter().map(|n| match &n.value {
+                Json::Text(text) => text.clone(),
+                _ => String::new(),
+            });
+            let rows = values.iter().map(|row| match &row.value {
+                Json::List(cells) => cells.iter().filter_map(Node::number).collect(),
+                _ => Vec::new(),
+            });
+            let spans = names.iter().map(|n| n.span.clone()).collect();
+            let place = object.get("values").map_or(object.place(), |m| &m.value.span).clone();
+            (texts.collect(), rows.collect(), (spans, place))
+        };
+        self.entries(&names, &values, &spans.0, &spans.1);
+    }
+
+    fn entries(
+        &mut self,
+        names: &[String],
+        values: &[Vec<f64>],
+        spans: &[Range<usize>],
+        place: &Range<usize>,
+    ) {
+        let n = names.len();
+        let report = |reason: String| self.log.report(place, Fault::Correlation { reason });
+        if values.len() != n || values.iter().any(|row| row.len() != n) {
+            return report(format!(
+                "the correlation matrix of {n} names must be {n} rows of {n} numbers"
+            ));
+        }
+        let entry =
+            |i: usize, j: usize| values.get(i).and_then(|row| row.get(j)).copied().unwrap_or(0.0);
+        for i in 0..n {
+            if entry(i, i) != 1.0 {
+                report(format!("the diagonal of the correlation matrix is 1, not {}", entry(i, i)));
+                return;
+            }
+            for j in 0..i {
+                if entry(i, j) != entry(j, i) {
+                    let (a, b) = (entry(i, j), entry(j, i));
+                    report(format!("the correlation matrix is not symmetric: {a} and {b}"));
+                    return;
+                }
+            }
+        }
+        let places: Vec<Option<usize>> =
+            names.iter().zip(spans).map(|(name, span)| self.variable(name, span)).collect();
+        for (j, b) in places.iter().enumerate() {
+            for (i, a) in places.iter().enumerate().take(j) {
+                if let (Some(a), Some(b)) = (a, b) {
+                    self.add(*a, *b, entry(i, j), place);
+                }
+            }
+        }
+    }
+
+    /// Whether the quantities can have these coefficients.
+    fn check(&self, root: &Object<'_>) {
+        let mut seen: Vec<CorrelationError> = Vec::new();
+        for row in &self.inputs.rows {
+            let Err(error) = Joint::new(row, &self.found) else {
+                continue;
+            };
+            if seen.contains(&error) {
+                continue;
+            }
+            seen.push(error.clone());
+            let name = |v: &usize| {
+                format!("`{}`", self.inputs.variables.get(*v).map_or("", |v| v.name.as_str()))
+            };
+            let concerns = |c: &Correlation| match &error {
+                CorrelationError::Contradiction { members, .. } => members.contains(&c.first),
+                CorrelationError::NotNormal { member } => c.first == *member || c.second == *member,
+            };
+            let place = self.found.iter().position(concerns).and_then(|p| self.places.get(p));
+            let fault = match &error {
+                CorrelationError::Contradiction { members, eigenvalue } => {
+                    let names: Vec<String> = members.iter().map(name).collect();
+                    Fault::Correlation {
+                        reason: format!(
+                            "the correlation coefficients of {} contradict each other: their matrix \
+                             is not positive semi-definite (lowest eigenvalue {eigenvalue:.3})",
+                            names.join(", ")
+                        ),
+                    }
+                }
+                CorrelationError::NotNormal { member } => Fault::NotBuilt {
+                    what: format!(
+                        "a correlation of {}, which is not drawn from a normal distribution",
+                        name(member)
+                    ),
+                },
+            };
+            self.log.report(place.unwrap_or(root.place()), fault);
+        }
+    }
+}

@@ -1,0 +1,370 @@
+//! The inputs of a file: quantities, their variables, and what is known about them in each row.
+
+use std::ops::Range;
+
+use super::Fault;
+use super::conditions::unit;
+use super::json::{Json, Member};
+use super::model_file::Override;
+use super::object::Object;
+use super::problem::Log;
+use super::shapes::{self, Estimate, Fields, Kind};
+use crate::distribution::{Constant, Distribution, Evaluation};
+use crate::model::formula::Formula;
+use crate::model::{InputQuantity, Quantity};
+use crate::task::{Sharing, Variable, Warning};
+use crate::unit::Unit;
+
+/// At most so many variables.
+const MOST_VARIABLES: usize = 100_000;
+
+/// Keys of any input or component beside those of its distribution.
+const COMMON: [&str; 6] = ["distribution", "about", "type", "group", "unit", "per"];
+
+/// The conditions' values in one row, by name, in SI units; and how formulas of them are checked.
+pub(super) trait Conditions {
+    /// The number of rows.
+    fn rows(&self) -> usize;
+    /// Checks a formula of conditions for an estimate in `unit`.
+    fn check(&self, formula: &Formula, unit: &Unit) -> Result<(), Vec<Fault>>;
+    /// The formula's value in SI in a row.
+    fn value(&self, formula: &Formula, row: usize) -> f64;
+    /// The place of a condition of that name.
+    fn place(&self, name: &str) -> Option<usize>;
+    /// The names.
+    fn names(&self) -> Vec<String>;
+}
+
+/// What was read.
+#[derive(Debug, Default)]
+pub(super) struct Inputs {
+    pub(super) quantities: Vec<InputQuantity>,
+    pub(super) variables: Vec<Variable>,
+    /// The key of each variable, for messages.
+    pub(super) places: Vec<Range<usize>>,
+    /// The key of each quantity.
+    pub(super) quantity_places: Vec<Range<usize>>,
+    /// For each row, the distributions of the variables.
+    pub(super) rows: Vec<Vec<Distribution>>,
+    pub(super) warnings: Vec<Warning>,
+}
+
+/// Where a quantity's estimate comes from.
+enum Source {
+    Own,
+    Fixed(f64),
+    Formula(Formula),
+}
+
+/// Reads `inputs`.
+pub(super) fn read(
+    log: &Log,
+    member: &Member,
+    conditions: &dyn Conditions,
+    overrides: &[Override],
+) -> Option<Inputs> {
+    let object = Object::new(log, "`inputs`", &member.value, &member.key_span)?;
+    let found = object.members().len();
+    if found > MOST_VARIABLES {
+        object.report(Fault::TooMany { what: "inputs", found, most: MOST_VARIABLES });
+        return None;
+    }
+    let mut inputs = Inputs { rows: vec![Vec::new(); conditions.rows()], ..Inputs::default() };
+    for member in object.members() {
+        let Some(object) = Object::new(log, "an input", &member.value, &member.key_span) else {
+            continue;
+        };
+        let moved = overrides.iter().rev().find(|o| o.input == member.key && o.field.is_none());
+        Reader { object, name: &member.key, conditions, moved, inputs: &mut inputs }.input();
+    }
+    Some(inputs)
+}
+
+struct Reader<'a, 'i> {
+    object: Object<'a>,
+    name: &'a str,
+    conditions: &'a dyn Conditions,
+    moved: Option<&'a Override>,
+    inputs: &'i mut Inputs,
+}
+
+impl<'a> Reader<'a, '_> {
+    fn input(&mut self) {
+        let object = self.object;
+        let unit = unit(&object, "unit").unwrap_or_else(Unit::one);
+        let quantity = Quantity {
+            name: self.name.to_owned(),
+            unit: unit.clone(),
+            about: object.text("about").unwrap_or("").to_owned(),
+        };
+        let first = self.inputs.variables.len();
+        if object.get("components").is_some() {
+            self.components(&unit);
+        } else {
+            self.single(&unit);
+        }
+        let parts = (self.inputs.variables.len() - first).max(1);
+        self.inputs.quantities.push(InputQuantity { quantity, parts });
+        self.inputs.quantity_places.push(object.place().clone());
+    }
+
+    /// The estimate's source: the command line, a formula of the conditions, or the own fields.
+    fn source(&self, key: &str, unit: &Unit) -> Option<Source> {
+        if let Some(moved) = self.moved {
+            let value = moved.value_in(unit);
+            return self.object.log.value(self.object.place(), value).map(Source::Fixed);
+        }
+        let Some(member) = self.object.get(key) else {
+            return Some(Source::Own);
+        };
+        let Json::Text(text) = &member.value.value else {
+            return Some(Source::Own);
+        };
+        let log = self.object.log;
+        let formula = log.value(
+            &member.value.span,
+            Formula::parse(text).map_err(|error| Fault::Formula { error }),
+        )?;
+        if let Err(faults) = self.conditions.check(&formula, unit) {
+            for fault in faults {
+                log.report(&member.value.span, fault);
+            }
+            return None;
+        }
+        Some(Source::Formula(formula))
+    }
+
+    /// The estimate in a row, in the quantity's unit.
+    fn estimate(&self, source: &Source, unit: &Unit, row: usize) -> Option<Estimate> {
+        let value = match source {
+            Source::Own => return Some(Estimate::Own),
+            Source::Fixed(value) => *value,
+            Source::Formula(formula) => unit.from_si(self.conditions.value(formula, row)),
+        };
+        if value.is_finite() {
+            return Some(Estimate::Given(value));
+        }
+        let place = self.object.get("mean").or_else(|| self.object.get("value"));
+        let place = place.map_or(self.object.place(), |member| &member.value.span);
+        self.object.log.report(place, Fault::EstimateUndefined { row: row + 1, found: value });
+        None
+    }
+
+    /// An input with one distribution.
+    fn single(&mut self, unit: &Unit) {
+        let object = self.object;
+        let Some(kind) = shapes::kind(&object) else {
+            return self.variable(self.name.to_owned(), &object, None, unit);
+        };
+        let mut known: Vec<&str> = COMMON.into_iter().chain(kind.fields.iter().copied()).collect();
+        known.extend(["evidence", "paired"]);
+        object.check_keys(&known);
+        if object.truth("paired") == Some(true) {
+            let what = "paired readings".to_owned();
+            object.log.report(object.place(), Fault::NotBuilt { what });
+        }
+        self.variable(self.name.to_owned(), &object, Some(kind), unit);
+        let key = if kind.name == "constant" { "value" } else { "mean" };
+        let Some(source) = self.source(key, unit) else {
+            return;
+        };
+        let fields = |estimate| Fields { object, name: self.name, unit, estimate, share_of: None };
+        let mut zero_width = Vec::new();
+        let mut drawn: Vec<Distribution> = Vec::new();
+        for row in 0..self.conditions.rows() {
+            let same = !matches!(source, Source::Formula(_)) && row > 0;
+            let distribution = if same {
+                drawn.first().cloned()
+            } else {
+                self.estimate(&source, unit, row)
+                    .and_then(|estimate| fields(estimate).distribution(kind))
+            };
+            let Some(distribution) = distribution else {
+                return;
+            };
+            if kind.name != "constant" && distribution.constant().is_some() {
+                zero_width.push(row + 1);
+            }
+            drawn.push(distribution);
+        }
+        if let Some(first) = zero_width.first() {
+            let text = format!(
+                "the width of `{}` follows its estimate and becomes 0 in row {first}{}; it is a \
+                 constant there",
+                self.name,
+                if zero_width.len() > 1 { " and others" } else { "" }
+            );
+            self.inputs.warnings.push(Warning::new("width-zero", self.name, text));
+        }
+        for (row, distribution) in self.inputs.rows.iter_mut().zip(drawn) {
+            row.push(distribution);
+        }
+    }
+
+    /// Adds a variable of the budget.
+    fn variable(&mut self, name: String, object: &Object<'_>, kind: Option<&Kind>, unit: &Unit) {
+        let readings = kind.is_some_and(|kind| kind.name == "readings");
+        let evaluation = match object.text("type") {
+            Some("A") => Evaluation::A,
+            Some("B") => Evaluation::B,
+            None if readings => Evaluation::A,
+            None => Evaluation::B,
+            Some(other) => {
+                let fault = Fault::NotOneOf {
+                    key: "type".into(),
+                    found: other.to_owned(),
+                    allowed: vec!["A".into(), "B".into()],
+                };
+                let place = object.get("type").map_or(object.place(), |m| &m.value.span);
+                object.log.report(place, fault);
+                Evaluation::B
+            }
+        };
+        let about = object.text("about").or_else(|| self.object.text("about")).unwrap_or("");
+        let sharing = self.sharing();
+        self.inputs.variables.push(Variable {
+            name,
+            unit: unit.clone(),
+            evaluation,
+            group: object.text("group").or_else(|| self.object.text("group")).map(str::to_owned),
+            about: about.to_owned(),
+            sharing,
+            shown: true,
+        });
+        self.inputs.places.push(object.place().clone());
+    }
+
+    /// `per`: which rows share a value.
+    fn sharing(&self) -> Sharing {
+        match self.object.text("per") {
+            None => Sharing::All,
+            Some("row") => Sharing::Row,
+            Some(name) => match self.conditions.place(name) {
+                Some(place) => Sharing::Condition(place),
+                None => {
+                    let mut allowed = self.conditions.names();
+                    allowed.push("row".to_owned());
+                    let fault =
+                        Fault::NotOneOf { key: "per".into(), found: name.to_owned(), allowed };
+                    let place =
+                        self.object.get("per").map_or(self.object.place(), |m| &m.value.span);
+                    self.object.log.report(place, fault);
+                    Sharing::All
+                }
+            },
+        }
+    }
+
+    /// An input that is the sum of an estimate and its components.
+    fn components(&mut self, unit: &Unit) {
+        let object = self.object;
+        object.check_keys(&["unit", "mean", "components", "about", "type", "group", "per"]);
+        // the estimate: a constant without a line of its own
+        self.variable(self.name.to_owned(), &object, None, unit);
+        if let Some(base) = self.inputs.variables.last_mut() {
+            base.shown = false;
+        }
+        let parts = self.parts(unit);
+        let source = self.source("mean", unit);
+        let (Some(parts), Some(source)) = (parts, source) else {
+            return;
+        };
+        let readings: Vec<&Part<'_>> = parts.iter().filter(|p| p.kind.name == "readings").collect();
+        if readings.len() > 1 {
+            let reason = "is a second one of `readings`; at most one can be".to_owned();
+            object.report(Fault::Component { name: self.name.to_owned(), reason });
+            return;
+        }
+        let own_mean = match (&source, object.get("mean")) {
+            (Source::Own, Some(_)) => match object.number("mean") {
+                Some(mean) => Some(mean),
+                None => return,
+            },
+            (Source::Own, None) if readings.is_empty() => {
+                object.report(Fault::MissingKey { key: "mean", what: "an input with components" });
+                return;
+            }
+            _ => None,
+        };
+        let of_readings = match readings.first().map(|part| part.distribution(unit, 0.0)) {
+            Some(Some(distribution)) => distribution.mean(),
+            Some(None) => return,
+            None => 0.0,
+        };
+        for row in 0..self.conditions.rows() {
+            let total = match self.estimate(&source, unit, row) {
+                Some(Estimate::Own) => own_mean.unwrap_or(of_readings),
+                Some(Estimate::Given(value)) => value,
+                None => return,
+            };
+            let drawn: Option<Vec<Distribution>> =
+                parts.iter().map(|part| part.distribution(unit, total)).collect();
+            let base = Constant::new(total - of_readings)
+                .map_err(|error| Fault::Distribution { name: self.name.to_owned(), error });
+            let base = object.log.value(object.place(), base);
+            let (Some(drawn), Some(base), Some(out)) = (drawn, base, self.inputs.rows.get_mut(row))
+            else {
+                return;
+            };
+            out.push(base.into());
+            out.extend(drawn);
+        }
+    }
+
+    /// The components as written, each with a variable of its own; `None` if one is faulty.
+    fn parts(&mut self, unit: &Unit) -> Option<Vec<Part<'a>>> {
+        let object = self.object;
+        let list = object.list("components")?;
+        let quantity = self.name;
+        let fault = |reason: String| Fault::Component { name: quantity.to_owned(), reason };
+        if list.is_empty() {
+            object.report(Fault::NoValues { name: format!("{}/components", self.name) });
+        }
+        let mut parts: Vec<Part<'a>> = Vec::new();
+        for node in list {
+            let Some(component) = Object::new(object.log, "a component", node, &node.span) else {
+                continue;
+            };
+            let Some(name) = component.text("name") else {
+                if component.get("name").is_none() {
+                    component.report(fault("needs a `name`".to_owned()));
+                }
+                continue;
+            };
+            let full = format!("{}/{name}", self.name);
+            if name.is_empty() || name.contains('/') {
+                component.report(fault(format!("cannot have the name `{name}`")));
+            } else if parts.iter().any(|part| part.full == full) {
+                component.report(fault(format!("has the name `{name}` of another one")));
+            } else if let Some(kind) = shapes::kind(&component) {
+                let mut known: Vec<&str> = vec!["name", "distribution", "about", "type", "group"];
+                known.extend(kind.fields);
+                component.check_keys(&known);
+                parts.push(Part { object: component, full, kind });
+            }
+        }
+        for part in &parts {
+            self.variable(part.full.clone(), &part.object, Some(part.kind), unit);
+        }
+        (parts.len() == list.len() && !list.is_empty()).then_some(parts)
+    }
+}
+
+/// A component as written.
+struct Part<'a> {
+    object: Object<'a>,
+    full: String,
+    kind: &'static Kind,
+}
+
+impl Part<'_> {
+    /// Its distribution where the quantity's estimate is `total`, of which a share may be its
+    /// width. A component's own mean is 0 unless it is given.
+    fn distribution(&self, unit: &Unit, total: f64) -> Option<Distribution> {
+        let own = self.kind.name == "readings"
+            || ["mean", "value", "lower"].iter().any(|key| self.object.get(key).is_some());
+        let estimate = if own { Estimate::Own } else { Estimate::Given(0.0) };
+        let (object, name) = (self.object, self.full.as_str());
+        Fields { object, name, unit, estimate, share_of: Some(total) }.distribution(self.kind)
+    }
+}

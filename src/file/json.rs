@@ -1,0 +1,177 @@
+//! JSON with places: `serde_json` decides what is JSON, `jsonc-parser` says where everything
+//! stands.
+
+use std::ops::Range;
+
+use jsonc_parser::ast;
+use jsonc_parser::common::Ranged;
+use jsonc_parser::{CollectOptions, ParseOptions, parse_to_ast};
+
+use super::Fault;
+use super::source::Source;
+
+/// A value with its place.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Node {
+    pub(crate) span: Range<usize>,
+    pub(crate) value: Json,
+}
+
+/// A JSON value. Numbers keep their text.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Json {
+    Null,
+    Bool(bool),
+    Number(String),
+    Text(String),
+    List(Vec<Node>),
+    Object(Vec<Member>),
+}
+
+/// A key with its value.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Member {
+    pub(crate) key: String,
+    pub(crate) key_span: Range<usize>,
+    pub(crate) value: Node,
+}
+
+impl Json {
+    /// What it is, in words.
+    pub(crate) fn kind(&self) -> &'static str {
+        match self {
+            Self::Null => "null",
+            Self::Bool(_) => "true or false",
+            Self::Number(_) => "a number",
+            Self::Text(_) => "a text",
+            Self::List(_) => "a list",
+            Self::Object(_) => "an object",
+        }
+    }
+}
+
+impl Node {
+    /// The number, if it is one. A number beyond the range of double precision does not get here.
+    pub(crate) fn number(&self) -> Option<f64> {
+        match &self.value {
+            Json::Number(text) => text.parse().ok(),
+            _ => None,
+        }
+    }
+}
+
+/// Parses a whole text.
+pub(crate) fn parse(source: &Source) -> Result<Node, (Range<usize>, Fault)> {
+    if source.text.trim().is_empty() {
+        return Err((0..0, Fault::Empty));
+    }
+    if let Err(error) = serde_json::from_str::<serde_json::Value>(&source.text) {
+        return Err(syntax(source, &error));
+    }
+    let strict = ParseOptions {
+        allow_comments: false,
+        allow_loose_object_property_names: false,
+        allow_trailing_commas: false,
+        allow_missing_commas: false,
+        allow_single_quoted_strings: false,
+        allow_hexadecimal_numbers: false,
+        allow_unary_plus_numbers: false,
+        allow_bare_decimal_point_numbers: false,
+        allow_non_finite_numbers: false,
+        allow_extended_string_escapes: false,
+    };
+    let parsed = parse_to_ast(&source.text, &CollectOptions::default(), &strict);
+    match parsed.map(|parsed| parsed.value) {
+        Ok(Some(value)) => Ok(node(value)),
+        Ok(None) => Err((0..0, Fault::Empty)),
+        // both parsers are strict, so this is not expected
+        Err(error) => Err((0..0, Fault::NotJson { message: error.to_string() })),
+    }
+}
+
+/// The parser's message without its place, and the place as a range.
+fn syntax(source: &Source, error: &serde_json::Error) -> (Range<usize>, Fault) {
+    let full = error.to_string();
+    let message = full.split(" at line ").next().unwrap_or(&full).to_owned();
+    let start = source.line_start(error.line());
+    let line = source.text.get(start..).and_then(|rest| rest.lines().next()).unwrap_or("");
+    // the parser counts bytes within the line
+    let mut at = (start + error.column().saturating_sub(1)).min(source.text.len());
+    while at > 0 && !source.text.is_char_boundary(at) {
+        at -= 1;
+    }
+    if at >= start + line.len() && !line.is_empty() {
+        // the end of a line has nothing to underline; its last character does
+        at = start + line.char_indices().next_back().map_or(0, |(i, _)| i);
+    }
+    let word: String = source.text.get(at..).unwrap_or("").chars().take(8).collect();
+    let length =
+        source.text.get(at..).and_then(|rest| rest.chars().next()).map_or(0, char::len_utf8);
+    let word = word.trim_start_matches(['-', '+']);
+    let not_finite = ["NaN", "nan", "Inf", "inf"].iter().any(|name| word.starts_with(name));
+    let fault = if not_finite {
+        Fault::NotFiniteInJson
+    } else if message.contains("number out of range") {
+        Fault::NumberTooLarge
+    } else {
+        Fault::NotJson { message }
+    };
+    (at..at + length, fault)
+}
+
+fn node(value: ast::Value<'_>) -> Node {
+    let range = value.range();
+    let span = range.start..range.end;
+    let value = match value {
+        ast::Value::NullKeyword(_) => Json::Null,
+        ast::Value::BooleanLit(lit) => Json::Bool(lit.value),
+        ast::Value::NumberLit(lit) => Json::Number(lit.value.to_owned()),
+        ast::Value::StringLit(lit) => Json::Text(lit.value.into_owned()),
+        ast::Value::Array(array) => Json::List(array.elements.into_iter().map(node).collect()),
+        ast::Value::Object(object) => {
+            Json::Object(object.properties.into_iter().map(member).collect())
+        }
+    };
+    Node { span, value }
+}
+
+fn member(property: ast::ObjectProp<'_>) -> Member {
+    let key_range = property.name.range();
+    Member {
+        key_span: key_range.start..key_range.end,
+        key: property.name.into_string(),
+        value: node(property.value),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn at(text: &str) -> (String, Fault) {
+        let source = Source::new("x", text);
+        let (span, fault) = parse(&source).unwrap_err();
+        (source.text[span].to_owned(), fault)
+    }
+
+    #[test]
+    fn values_know_their_places() {
+        let source = Source::new("x", r#"{"a": [1, {"b": "ü"}]}"#);
+        let node = parse(&source).unwrap();
+        let Json::Object(members) = &node.value else { panic!() };
+        assert_eq!(&source.text[members[0].key_span.clone()], "\"a\"");
+        let Json::List(list) = &members[0].value.value else { panic!() };
+        assert_eq!(&source.text[list[1].span.clone()], r#"{"b": "ü"}"#);
+    }
+
+    #[test]
+    fn mistakes_of_syntax() {
+        assert_eq!(at("  \n "), (String::new(), Fault::Empty));
+        assert!(matches!(at("{\"a\": 1,}").1, Fault::NotJson { .. }));
+        assert_eq!(at("{\"a\": NaN}").1, Fault::NotFiniteInJson);
+        assert_eq!(at("{\"a\": -Infinity}").1, Fault::NotFiniteInJson);
+        assert_eq!(at("{\"a\": 1e999}").1, Fault::NumberTooLarge);
+        let deep = "[".repeat(100_000);
+        assert!(matches!(at(&deep).1, Fault::NotJson { .. }));
+    }
+}

@@ -1,0 +1,26 @@
+//! User files: read, validated, turned into tasks. Every mistake is a [`Problem`] with its place.
+//!
+//! Reading goes on after a mistake, so that all of a file's mistakes are reported at once; only
+//! text that is not JSON stops it.
+
+mod conditions;
+mod correlations;
+mod fault;
+mod inputs;
+mod json;
+mod model_file;
+mod nearest;
+mod object;
+mod outputs;
+mod problem;
+mod settings;
+mod shapes;
+mod source;
+mod table;
+mod width;
+
+pub use fault::Fault;
+pub use model_file::{ModelFile, Override, Overrides, read, read_text};
+pub use nearest::nearest;
+pub use problem::{Problem, Problems};
+pub use source::Source;

@@ -1,0 +1,699 @@
+//! A model file as a whole.
+
+use std::collections::HashMap;
+use std::ops::Range;
+use std::path::Path;
+use std::sync::Arc;
+
+use super::conditions::{self, Conditions};
+use super::inputs::{self, Inputs};
+use super::json::{Json, Member, Node};
+use super::object::Object;
+use super::outputs::{self, Outputs};
+use super::problem::{Log, Problems};
+use super::source::{Place, Source};
+use super::{Fault, correlations, json, nearest, settings};
+use crate::model::formula::{self, Formula, Scope, Typing};
+use crate::model::typed::{Entry, find};
+use crate::model::{
+    InputQuantity, Model, Recorder, Traced, in_unit, recorded_values, typed, variables,
+};
+use crate::number::Number;
+use crate::task::{Row, Task, Warning};
+use crate::unit::{Dimension, Unit};
+
+/// A model file that was read and found right.
+#[derive(Debug)]
+pub struct ModelFile {
+    /// The evaluation that it asks for.
+    pub task: Task,
+    /// Notes on what was read.
+    pub warnings: Vec<Warning>,
+    /// The file's text.
+    pub source: Arc<Source>,
+    /// The content of the tables that were read, by name.
+    pub files: Vec<(String, Vec<u8>)>,
+    /// Where each output stands in the file, for messages of the evaluation.
+    pub output_places: Vec<Range<usize>>,
+}
+
+/// A replacement from the command line: `NAME=VALUE` or `NAME.field=VALUE`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Override {
+    /// The option's text.
+    pub text: String,
+    /// The input.
+    pub input: String,
+    /// The field, or none for the estimate.
+    pub field: Option<String>,
+    /// What to put there.
+    pub value: String,
+}
+
+/// Replacements in the order of the command line.
+pub type Overrides = Vec<Override>;
+
+impl Override {
+    /// Parses `NAME=VALUE` or `NAME.field=VALUE`; `None` if there is no `=` or no name.
+    pub fn parse(text: &str) -> Option<Self> {
+        let (name, value) = text.split_once('=')?;
+        let (input, field) = match name.split_once('.') {
+            Some((input, field)) => (input, Some(field.trim().to_owned())),
+            None => (name, None),
+        };
+        let input = input.trim().to_owned();
+        (!input.is_empty()).then(|| Self {
+            text: text.to_owned(),
+            input,
+            field,
+            value: value.trim().to_owned(),
+        })
+    }
+
+    /// The value in `unit`: a number in it, or a number with a unit of its own.
+    pub(super) fn value_in(&self, unit: &Unit) -> Result<f64, Fault> {
+        let fault = |reason: String| Fault::Override { text: self.text.clone(), reason };
+        if let Ok(value) = self.value.parse::<f64>() {
+            if value.is_finite() {
+                return Ok(value);
+            }
+            return Err(fault("the value must be a finite number".to_owned()));
+        }
+        let (number, text) = self.value.split_once(char::is_whitespace).ok_or_else(|| {
+            fault("a number is needed, or one with a unit: \"35 deg\"".to_owned())
+        })?;
+        let number: f64 = number
+            .parse()
+            .ok()
+            .filter(|n: &f64| n.is_finite())
+            .ok_or_else(|| fault(format!("`{number}` is not a finite number")))?;
+        let given = Unit::parse(text.trim()).map_err(|error| fault(error.to_string()))?;
+        let factor = Unit::conversion_factor(&given, unit)
+            .map_err(|_| fault(format!("`{given}` cannot be converted to `{unit}`")))?;
+        Ok(number * factor)
+    }
+}
+
+/// Reads and checks a model file.
+///
+/// # Errors
+/// All mistakes of the file, in the order of their places.
+pub fn read(path: &Path, overrides: &[Override]) -> Result<ModelFile, Problems> {
+    let name = path.display().to_string();
+    let folder = path.parent().unwrap_or_else(|| Path::new(""));
+    let text = std::fs::read(path)
+        .map_err(|error| error.to_string())
+        .and_then(|bytes| String::from_utf8(bytes).map_err(|_| "it is not UTF-8 text".to_owned()));
+    match text {
+        Ok(text) => read_text(&name, &text, folder, overrides),
+        Err(message) => {
+            let log = Log::new(Source::new(name, ""));
+            log.report(&(0..0), Fault::Unreadable { message });
+            Err(log.into_problems())
+        }
+    }
+}
+
+/// Reads and checks a model file's text; `name` is used in messages, and tables are looked for in
+/// `folder`.
+///
+/// # Errors
+/// All mistakes of the text, in the order of their places.
+pub fn read_text(
+    name: &str,
+    text: &str,
+    folder: &Path,
+    overrides: &[Override],
+) -> Result<ModelFile, Problems> {
+    let source = Source::new(name, text);
+    let log = Log::new(source.clone());
+    let file = match json::parse(&source) {
+        Ok(mut node) => {
+            override_fields(&log, &mut node, overrides);
+            let whole = 0..source.text.find('\n').unwrap_or(source.text.len());
+            Object::new(&log, "a model file", &node, &whole)
+                .and_then(|root| ModelReader { log: &log, root, folder, overrides }.read())
+        }
+        Err((span, fault)) => {
+            log.report(&span, fault);
+            None
+        }
+    };
+    match file {
+        Some(file) if log.is_clean() => Ok(file),
+        _ => Err(log.into_problems()),
+    }
+}
+
+/// Puts the values of `--set NAME.field=VALUE` into the tree.
+fn override_fields(log: &Log, root: &mut Node, overrides: &[Override]) {
+    let whole = root.span.start..root.span.start;
+    for replaced in overrides {
+        let inputs = match &mut root.value {
+            Json::Object(members) => members.iter_mut().find(|m| m.key == "inputs"),
+            _ => None,
+        };
+        let inputs = match inputs.map(|m| &mut m.value.value) {
+            Some(Json::Object(members)) => members,
+            _ => return,
+        };
+        let names: Vec<String> = inputs.iter().map(|m| m.key.clone()).collect();
+        let Some(input) = inputs.iter_mut().find(|m| m.key == replaced.input) else {
+            let nearest = nearest(&replaced.input, names.iter().map(String::as_str));
+            let reason = match nearest {
+                Some(name) => format!("there is no input of that name; did you mean `{name}`?"),
+                None => "there is no input of that name".to_owned(),
+            };
+            log.report(&whole, Fault::Override { text: replaced.text.clone(), reason });
+            continue;
+        };
+        let (Some(field), Json::Object(fields)) = (&replaced.field, &mut input.value.value) else {
+            continue;
+        };
+        let finite = replaced.value.parse::<f64>().is_ok_and(f64::is_finite);
+        let value = if finite {
+            Json::Number(replaced.value.clone())
+        } else {
+            Json::Text(replaced.value.clone())
+        };
+        match fields.iter_mut().find(|m| m.key == *field) {
+            Some(member) => member.value.value = value,
+            None => {
+                let span = input.key_span.clone();
+                fields.push(Member {
+                    key: field.clone(),
+                    key_span: span.clone(),
+                    value: Node { span, value },
+                });
+            }
+        }
+    }
+}
+
+const KEYS: [&str; 20] = [
+    "format",
+    "title",
+    "source",
+    "about",
+    "inputs",
+    "correlations",
+    "correlation_matrix",
+    "conditions",
+    "equations",
+    "model",
+    "outputs",
+    "coverage_probability",
+    "coverage_factor",
+    "coverage_factor_fixed",
+    "monte_carlo",
+    "check_units",
+    "allow_undefined",
+    "observations",
+    "effects",
+    "catalogue",
+];
+
+struct ModelReader<'a> {
+    log: &'a Log,
+    root: Object<'a>,
+    folder: &'a Path,
+    overrides: &'a [Override],
+}
+
+/// An equation with its formula, if that could be read.
+type Equation<'a> = (&'a Member, Option<Formula>);
+
+/// What computes the outputs.
+enum Maker<'a> {
+    Typed(Entry, &'a Range<usize>),
+    Equations(Vec<Equation<'a>>),
+}
+
+impl<'a> ModelReader<'a> {
+    fn read(&self) -> Option<ModelFile> {
+        let Self { log, root, .. } = self;
+        let mut keys = KEYS.to_vec();
+        keys.push("prior");
+        root.check_keys(&keys);
+        self.format();
+        let title = root.text("title").unwrap_or("").to_owned();
+        root.text("source");
+        let check_units = root.truth("check_units").unwrap_or(true);
+        let settings = settings::read(root);
+
+        let swept = root.get("conditions");
+        let mut conditions = match swept {
+            Some(member) => conditions::read(log, member, self.folder)?,
+            None => Conditions { rows: vec![Vec::new()], ..Conditions::default() },
+        };
+        let maker = self.maker();
+        let set = ConditionSet { conditions: &conditions, check_units };
+        let inputs = match root.required("inputs") {
+            Some(member) => inputs::read(log, member, &set, self.overrides),
+            None => None,
+        };
+        let outputs = root.required("outputs").and_then(|member| outputs::read(log, member));
+        let (inputs, outputs) = (inputs?, outputs?);
+        self.names(&inputs, &conditions, &maker);
+        let mut files = std::mem::take(&mut conditions.files);
+        let correlations = correlations::read(root, &inputs, self.folder, &mut files);
+        let mut warnings = inputs.warnings.clone();
+        let Outputs { mut outputs, places, unit_places } = outputs;
+        let model = match maker? {
+            Maker::Typed(entry, place) => {
+                for output in &mut outputs {
+                    if let Some((_, declared)) = entry.typed.output(&output.quantity.name) {
+                        fill_from_declaration(output, declared);
+                    }
+                }
+                self.check_typed(
+                    &entry,
+                    place,
+                    &inputs,
+                    &conditions,
+                    &outputs,
+                    &places,
+                    &unit_places,
+                );
+                if !log.is_clean() {
+                    return None;
+                }
+                entry.typed.model_with(inputs.quantities, conditions.quantities.clone(), outputs)
+            }
+            Maker::Equations(equations) => {
+                let scope = self.check_equations(&equations, &inputs, &conditions, check_units);
+                self.check_formula_outputs(&scope, &outputs, &places, &unit_places, check_units);
+                warnings.extend(celsius_as_kelvin(&scope, &outputs));
+                if !log.is_clean() {
+                    return None;
+                }
+                from_equations(
+                    &equations,
+                    &scope,
+                    inputs.quantities,
+                    conditions.quantities.clone(),
+                    outputs,
+                )
+            }
+        };
+        let rows = conditions
+            .rows
+            .into_iter()
+            .zip(inputs.rows)
+            .map(|(conditions, distributions)| Row { conditions, distributions })
+            .collect();
+        let swept = swept.is_some();
+        let task =
+            Task { title, model, variables: inputs.variables, correlations, rows, swept, settings };
+        Some(ModelFile { task, warnings, source: log.source.clone(), files, output_places: places })
+    }
+
+    fn format(&self) {
+        if let Some(member) = self.root.get("format") {
+            if member.value.number() != Some(1.0) {
+                let found = match &member.value.value {
+                    Json::Number(text) | Json::Text(text) => text.clone(),
+                    other => other.kind().to_owned(),
+                };
+                self.log.report(&member.value.span, Fault::UnknownFormat { found });
+            }
+        }
+    }
+
+    fn maker(&self) -> Option<Maker<'a>> {
+        match (self.root.get("model"), self.root.get("equations")) {
+            (Some(member), None) => {
+                let name = self.root.text("model")?;
+                if let Some(entry) = find(name) {
+                    return Some(Maker::Typed(entry, &member.value.span));
+                }
+                let known = typed::all();
+                let nearest = nearest(name, known.iter().map(|e| e.typed.declaration.name));
+                let fault = Fault::UnknownModel {
+                    name: name.to_owned(),
+                    nearest: nearest.map(str::to_owned),
+                };
+                self.log.report(&member.value.span, fault);
+                None
+            }
+            (None, Some(member)) => {
+                let object = Object::new(self.log, "`equations`", &member.value, &member.key_span)?;
+                let mut equations = Vec::new();
+                for member in object.members() {
+                    let Some(text) = object.text(&member.key) else {
+                        continue;
+                    };
+                    let formula = Formula::parse(text).map_err(|error| {
+                        self.report_formula(member, error);
+                    });
+                    equations.push((member, formula.ok()));
+                }
+                Some(Maker::Equations(equations))
+            }
+            (Some(_), Some(second)) => {
+                self.log.report(&second.key_span, Fault::TwoModels);
+                None
+            }
+            (None, None) => {
+                self.root.report(Fault::NoModel);
+                None
+            }
+        }
+    }
+
+    /// A formula's mistake at its place inside the JSON text.
+    fn report_formula(&self, member: &Member, error: formula::FormulaError) {
+        let span = &member.value.span;
+        let inner = error.span();
+        let raw = self.log.source.text.get(span.start + 1..span.end.saturating_sub(1));
+        let plain = raw.is_some_and(|raw| !raw.contains('\\'));
+        // escapes in the JSON text would shift the place, so the whole text is underlined then
+        let place = if plain {
+            let start = (span.start + 1 + inner.start).min(span.end);
+            start..(span.start + 1 + inner.end).clamp(start, span.end)
+        } else {
+            span.clone()
+        };
+        self.log.report(&place, Fault::Formula { error });
+    }
+
+    /// Names of all quantities: possible, and each used once.
+    fn names(&self, inputs: &Inputs, conditions: &Conditions, maker: &Option<Maker<'a>>) {
+        let mut taken: Vec<&str> = Vec::new();
+        let inputs = inputs.quantities.iter().map(|q| q.quantity.name.as_str());
+        let input_places = self.root.get("inputs").map(|m| match &m.value.value {
+            Json::Object(members) => members.iter().map(|m| &m.key_span).collect(),
+            _ => Vec::new(),
+        });
+        let mut named: Vec<(&str, &Range<usize>)> =
+            inputs.zip(input_places.unwrap_or_default()).collect();
+        named.extend(conditions.quantities.iter().map(|q| q.name.as_str()).zip(&conditions.places));
+        if let Some(Maker::Equations(equations)) = maker {
+            named.extend(equations.iter().map(|(m, _)| (m.key.as_str(), &m.key_span)));
+        }
+        for (name, place) in named {
+            if let Err(error) = formula::check_name(name) {
+                let (name, reason) = (name.to_owned(), error.to_string());
+                self.log.report(place, Fault::BadName { name, reason });
+            } else if taken.contains(&name) {
+                self.log.report(place, Fault::NameTaken { name: name.to_owned() });
+            }
+            taken.push(name);
+        }
+    }
+
+    #[allow(clippy::too_many_arguments)]
+    fn check_typed(
+        &self,
+        entry: &Entry,
+        place: &Range<usize>,
+        inputs: &Inputs,
+        conditions: &Conditions,
+        outputs: &[crate::model::Output],
+        output_places: &[Range<usize>],
+        unit_places: &[Range<usize>],
+    ) {
+        let declaration = entry.typed.declaration;
+        let model = declaration.name.to_owned();
+        let known: Vec<String> = declaration.inputs.iter().map(|i| i.name.to_owned()).collect();
+        let mut free: Option<(String, Unit)> = None;
+        let mut check = |name: &str, declared: &str, unit: &Unit, place: &Range<usize>| {
+            if entry.any_unit.contains(&name) {
+                let (_, first) = free.get_or_insert_with(|| (name.to_owned(), unit.clone()));
+                self.check_unit(name, unit, first, place);
+            } else if let Ok(declared) = Unit::parse(declared) {
+                self.check_unit(name, unit, &declared, place);
+            }
+        };
+        for (input, place) in inputs.quantities.iter().zip(&inputs.quantity_places) {
+            let Quantity { name, unit } = Quantity::of(input);
+            match entry.typed.input(name) {
+                Some((_, declared)) => check(name, declared.unit, unit, place),
+                None => {
+                    let nearest = nearest(name, known.iter().map(String::as_str));
+                    let fault = Fault::UnknownInput {
+                        name: name.to_owned(),
+                        model: model.clone(),
+                        nearest: nearest.map(str::to_owned),
+                        known: known.clone(),
+                    };
+                    self.log.report(place, fault);
+                }
+            }
+        }
+        for (condition, place) in conditions.quantities.iter().zip(&conditions.places) {
+            if let Some((_, declared)) = entry.typed.input(&condition.name) {
+                check(&condition.name, declared.unit, &condition.unit, place);
+            }
+        }
+        for declared in declaration.inputs {
+            let given = inputs.quantities.iter().any(|q| q.quantity.name == declared.name)
+                || conditions.quantities.iter().any(|q| q.name == declared.name);
+            if !given && declared.default.is_none() {
+                let (name, unit) = (declared.name.to_owned(), declared.unit.to_owned());
+                self.log.report(place, Fault::MissingInput { name, model: model.clone(), unit });
+            }
+        }
+        let known: Vec<String> = declaration.outputs.iter().map(|o| o.name.to_owned()).collect();
+        for ((output, place), unit_place) in outputs.iter().zip(output_places).zip(unit_places) {
+            let name = &output.quantity.name;
+            match entry.typed.output(name) {
+                Some((_, declared)) => {
+                    check(name, declared.unit, &output.quantity.unit, unit_place)
+                }
+                None => self.unknown_output(name, &known, place),
+            }
+        }
+    }
+
+    fn unknown_output(&self, name: &str, known: &[String], place: &Range<usize>) {
+        let nearest = nearest(name, known.iter().map(String::as_str)).map(str::to_owned);
+        let fault = Fault::UnknownOutput { name: name.to_owned(), nearest, known: known.to_vec() };
+        self.log.report(place, fault);
+    }
+
+    fn check_unit(&self, name: &str, found: &Unit, expected: &Unit, place: &Range<usize>) {
+        if !expected.is_compatible(found) {
+            let shown = if expected.text().is_empty() { "1" } else { expected.text() };
+            let fault = Fault::WrongDimension {
+                name: name.to_owned(),
+                found: found.to_string(),
+                found_as: found.dimension().describe(),
+                expected: shown.to_owned(),
+                expected_as: expected.dimension().describe(),
+            };
+            self.log.report(place, fault);
+        }
+    }
+
+    /// Checks the equations in order; gives what every name is.
+    fn check_equations(
+        &self,
+        equations: &[Equation<'a>],
+        inputs: &Inputs,
+        conditions: &Conditions,
+        check_units: bool,
+    ) -> Scope {
+        let mut scope = condition_scope(conditions);
+        for input in &inputs.quantities {
+            let Quantity { name, unit } = Quantity::of(input);
+            scope.define(name, Typing::in_unit(unit));
+        }
+        for (member, _) in equations {
+            scope.announce(&member.key);
+        }
+        for (member, formula) in equations {
+            let result = match formula {
+                Some(formula) if check_units => formula.check(&scope),
+                Some(formula) => formula.check_names(&scope),
+                None => Ok(Typing::ANY),
+            };
+            let typing = result.unwrap_or_else(|errors| {
+                for error in errors {
+                    self.report_formula(member, error);
+                }
+                Typing::ANY
+            });
+            scope.define(&member.key, typing);
+        }
+        scope
+    }
+
+    fn check_formula_outputs(
+        &self,
+        scope: &Scope,
+        outputs: &[crate::model::Output],
+        places: &[Range<usize>],
+        unit_places: &[Range<usize>],
+        check_units: bool,
+    ) {
+        let known: Vec<String> = scope.names().map(str::to_owned).collect();
+        for ((output, place), unit_place) in outputs.iter().zip(places).zip(unit_places) {
+            let name = &output.quantity.name;
+            let Some(typing) = scope.get(name) else {
+                self.unknown_output(name, &known, place);
+                continue;
+            };
+            let unit = &output.quantity.unit;
+            if let Some(dimension) = typing.dimension.filter(|_| check_units) {
+                if dimension != unit.dimension() {
+                    let fault = Fault::WrongDimension {
+                        name: name.clone(),
+                        found: unit.to_string(),
+                        found_as: unit.dimension().describe(),
+                        expected: coherent(dimension),
+                        expected_as: dimension.describe(),
+                    };
+                    self.log.report(unit_place, fault);
+                }
+            }
+        }
+    }
+}
+
+/// A coherent unit of a dimension, as text.
+fn coherent(dimension: Dimension) -> String {
+    Unit::coherent(dimension).to_string()
+}
+
+/// Name and unit of an input.
+struct Quantity<'q> {
+    name: &'q str,
+    unit: &'q Unit,
+}
+
+impl<'q> Quantity<'q> {
+    fn of(input: &'q InputQuantity) -> Self {
+        Self { name: &input.quantity.name, unit: &input.quantity.unit }
+    }
+}
+
+/// What a typed output says of itself where the file does not.
+fn fill_from_declaration(output: &mut crate::model::Output, declared: &typed::DeclaredOutput) {
+    if output.quantity.about.is_empty() {
+        output.quantity.about = declared.about.trim().to_owned();
+    }
+    if let (None, Some(period), Ok(unit)) =
+        (output.period, declared.period, Unit::parse(declared.unit))
+    {
+        let factor = Unit::conversion_factor(&unit, &output.quantity.unit);
+        output.period = factor.ok().map(|factor| period * factor);
+    }
+}
+
+/// Outputs in K of what is a number of degrees Celsius.
+fn celsius_as_kelvin(scope: &Scope, outputs: &[crate::model::Output]) -> Vec<Warning> {
+    outputs
+        .iter()
+        .map(|output| &output.quantity)
+        .filter(|output| {
+            let celsius = scope.get(&output.name).is_some_and(Typing::is_celsius);
+            celsius && !output.unit.is_celsius()
+        })
+        .map(|output| {
+            let text = format!(
+                "`{}` comes from temperatures in degC, which formulas never shift, and is reported \
+                 in {}; write kelvin(...) for a thermodynamic temperature, or report it in degC",
+                output.name, output.unit
+            );
+            Warning::new("celsius-as-kelvin", &output.name, text)
+        })
+        .collect()
+}
+
+/// The model that equations make. A formula that was found right records without an error.
+fn from_equations(
+    equations: &[Equation<'_>],
+    scope: &Scope,
+    inputs: Vec<InputQuantity>,
+    conditions: Vec<crate::model::Quantity>,
+    outputs: Vec<crate::model::Output>,
+) -> Model {
+    let recorder = Recorder::default();
+    let mut values: HashMap<String, Traced<'_>> =
+        recorded_values(&recorder, &inputs, &conditions).into_iter().collect();
+    for (member, formula) in equations {
+        let value = formula.as_ref().and_then(|formula| formula.record(scope, &values).ok());
+        values.insert(member.key.clone(), value.unwrap_or_else(|| Traced::constant(f64::NAN)));
+    }
+    let results: Vec<Traced<'_>> = outputs
+        .iter()
+        .map(|output| {
+            let value = values.get(&output.quantity.name).copied();
+            let value = value.unwrap_or_else(|| Traced::constant(f64::NAN));
+            in_unit(value, &output.quantity.unit)
+        })
+        .collect();
+    let program = recorder.program(variables(&inputs, &conditions), &results);
+    Model { inputs, conditions, outputs, program }
+}
+
+fn condition_scope(conditions: &Conditions) -> Scope {
+    let mut scope = Scope::default();
+    for condition in &conditions.quantities {
+        scope.define(&condition.name, Typing::in_unit(&condition.unit));
+    }
+    scope
+}
+
+/// The conditions as estimates' formulas see them.
+struct ConditionSet<'c> {
+    conditions: &'c Conditions,
+    check_units: bool,
+}
+
+impl inputs::Conditions for ConditionSet<'_> {
+    fn rows(&self) -> usize {
+        self.conditions.rows.len()
+    }
+
+    fn check(&self, formula: &Formula, unit: &Unit) -> Result<(), Vec<Fault>> {
+        let scope = condition_scope(self.conditions);
+        let result =
+            if self.check_units { formula.check(&scope) } else { formula.check_names(&scope) };
+        let faults = |errors: Vec<formula::FormulaError>| {
+            errors.into_iter().map(|error| Fault::Formula { error }).collect::<Vec<_>>()
+        };
+        let typing = result.map_err(faults)?;
+        match typing.dimension.filter(|_| self.check_units) {
+            Some(dimension) if dimension != unit.dimension() => Err(vec![Fault::WrongDimension {
+                name: "mean".to_owned(),
+                found: coherent(dimension),
+                found_as: dimension.describe(),
+                expected: unit.to_string(),
+                expected_as: unit.dimension().describe(),
+            }]),
+            _ => Ok(()),
+        }
+    }
+
+    fn value(&self, formula: &Formula, row: usize) -> f64 {
+        let row = self.conditions.rows.get(row).map_or(&[][..], Vec::as_slice);
+        let values: HashMap<String, f64> = self
+            .conditions
+            .quantities
+            .iter()
+            .zip(row)
+            .map(|(quantity, &value)| (quantity.name.clone(), quantity.unit.to_si(value)))
+            .collect();
+        let scope = condition_scope(self.conditions);
+        formula.evaluate(&scope, &values).unwrap_or(f64::NAN)
+    }
+
+    fn place(&self, name: &str) -> Option<usize> {
+        self.conditions.quantities.iter().position(|quantity| quantity.name == name)
+    }
+
+    fn names(&self) -> Vec<String> {
+        self.conditions.quantities.iter().map(|quantity| quantity.name.clone()).collect()
+    }
+}
+
+impl ModelFile {
+    /// The place of an output in the file, for messages of the evaluation.
+    pub fn output_place(&self, output: usize) -> (Arc<Source>, Range<usize>) {
+        let span = self.output_places.get(output).cloned().unwrap_or(0..0);
+        let Place { source, span } = Place { source: self.source.clone(), span };
+        (source, span)
+    }
+}

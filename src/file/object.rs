@@ -1,0 +1,194 @@
+//! Reading the members of an object, with every mistake reported where it stands.
+
+use std::ops::Range;
+
+use super::Fault;
+use super::json::{Json, Member, Node};
+use super::nearest::nearest;
+use super::problem::Log;
+
+/// An object that is being read.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Object<'a> {
+    pub(crate) log: &'a Log,
+    /// What it is, for messages.
+    what: &'static str,
+    members: &'a [Member],
+    /// Where a missing key is reported: the key that the object belongs to.
+    place: &'a Range<usize>,
+}
+
+impl<'a> Object<'a> {
+    /// The object at `node`; `place` is the key that it belongs to.
+    pub(crate) fn new(
+        log: &'a Log,
+        what: &'static str,
+        node: &'a Node,
+        place: &'a Range<usize>,
+    ) -> Option<Self> {
+        let Json::Object(members) = &node.value else {
+            log.report(
+                &node.span,
+                Fault::WrongType {
+                    what: what.into(),
+                    found: node.value.kind(),
+                    expected: "an object",
+                },
+            );
+            return None;
+        };
+        for (number, member) in members.iter().enumerate() {
+            if members.iter().take(number).any(|earlier| earlier.key == member.key) {
+                log.report(&member.key_span, Fault::DuplicateKey { key: member.key.clone() });
+            }
+        }
+        Some(Self { log, what, members, place })
+    }
+
+    pub(crate) fn members(&self) -> &'a [Member] {
+        self.members
+    }
+
+    pub(crate) fn place(&self) -> &'a Range<usize> {
+        self.place
+    }
+
+    pub(crate) fn report(&self, fault: Fault) {
+        self.log.report(self.place, fault);
+    }
+
+    /// Reports every key that is not among `known`; keys that begin with `$` belong to editors.
+    pub(crate) fn check_keys(&self, known: &[&'static str]) {
+        for member in self.members {
+            if !known.contains(&member.key.as_str()) && !member.key.starts_with('$') {
+                self.log.report(
+                    &member.key_span,
+                    Fault::UnknownKey {
+                        key: member.key.clone(),
+                        what: self.what,
+                        nearest: nearest(&member.key, known.iter().copied()).map(str::to_owned),
+                        known: known.to_vec(),
+                    },
+                );
+            }
+        }
+    }
+
+    pub(crate) fn get(&self, key: &str) -> Option<&'a Member> {
+        self.members.iter().find(|member| member.key == key)
+    }
+
+    /// The member, or its absence reported.
+    pub(crate) fn required(&self, key: &'static str) -> Option<&'a Member> {
+        let member = self.get(key);
+        if member.is_none() {
+            self.report(Fault::MissingKey { key, what: self.what });
+        }
+        member
+    }
+
+    fn wrong_type(&self, member: &Member, expected: &'static str) {
+        self.log.report(
+            &member.value.span,
+            Fault::WrongType {
+                what: format!("`{}`", member.key),
+                found: member.value.value.kind(),
+                expected,
+            },
+        );
+    }
+
+    /// A number, if the key is there.
+    pub(crate) fn number(&self, key: &str) -> Option<f64> {
+        let member = self.get(key)?;
+        let number = member.value.number();
+        if number.is_none() {
+            self.wrong_type(member, "a number");
+        }
+        number
+    }
+
+    /// A text, if the key is there.
+    pub(crate) fn text(&self, key: &str) -> Option<&'a str> {
+        let member = self.get(key)?;
+        match &member.value.value {
+            Json::Text(text) => Some(text),
+            _ => {
+                self.wrong_type(member, "a text");
+                None
+            }
+        }
+    }
+
+    /// True or false, if the key is there.
+    pub(crate) fn truth(&self, key: &str) -> Option<bool> {
+        let member = self.get(key)?;
+        match member.value.value {
+            Json::Bool(truth) => Some(truth),
+            _ => {
+                self.wrong_type(member, "true or false");
+                None
+            }
+        }
+    }
+
+    /// A list, if the key is there.
+    pub(crate) fn list(&self, key: &str) -> Option<&'a [Node]> {
+        let member = self.get(key)?;
+        match &member.value.value {
+            Json::List(list) => Some(list),
+            _ => {
+                self.wrong_type(member, "a list");
+                None
+            }
+        }
+    }
+
+    /// A list of numbers, if the key is there; every element that is none is reported.
+    pub(crate) fn numbers(&self, key: &str) -> Option<Vec<f64>> {
+        let list = self.list(key)?;
+        let numbers: Vec<f64> = list
+            .iter()
+            .filter_map(|node| {
+                let number = node.number();
+                if number.is_none() {
+                    self.log.report(
+                        &node.span,
+                        Fault::WrongType {
+                            what: format!("an element of `{key}`"),
+                            found: node.value.kind(),
+                            expected: "a number",
+                        },
+                    );
+                }
+                number
+            })
+            .collect();
+        (numbers.len() == list.len()).then_some(numbers)
+    }
+
+    /// A whole number from `least` to `most`, if the key is there; 1e6 counts as one.
+    pub(crate) fn whole(&self, key: &'static str, least: u64, most: u64) -> Option<u64> {
+        let member = self.get(key)?;
+        let Json::Number(text) = &member.value.value else {
+            self.wrong_type(member, "a number");
+            return None;
+        };
+        let whole = whole_number(text).filter(|n| (least..=most).contains(n));
+        if whole.is_none() {
+            self.log.report(
+                &member.value.span,
+                Fault::NotWhole { key: key.into(), found: text.clone(), least, most },
+            );
+        }
+        whole
+    }
+}
+
+/// The whole number that a text is, written plainly or as 1e6.
+pub(crate) fn whole_number(text: &str) -> Option<u64> {
+    text.parse().ok().or_else(|| {
+        let value: f64 = text.parse().ok()?;
+        (value.fract() == 0.0 && (0.0..9e15).contains(&value)).then_some(value as u64)
+    })
+}

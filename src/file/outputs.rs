@@ -1,0 +1,58 @@
+//! The outputs of a file.
+
+use std::ops::Range;
+
+use super::Fault;
+use super::conditions::unit;
+use super::json::Member;
+use super::object::Object;
+use super::problem::Log;
+use crate::model::{Output, Quantity};
+use crate::unit::Unit;
+
+/// Outputs with their places.
+#[derive(Debug, Default)]
+pub(super) struct Outputs {
+    pub(super) outputs: Vec<Output>,
+    pub(super) places: Vec<Range<usize>>,
+    /// Where each output's unit stands.
+    pub(super) unit_places: Vec<Range<usize>>,
+}
+
+/// Reads `outputs`.
+pub(super) fn read(log: &Log, member: &Member) -> Option<Outputs> {
+    let object = Object::new(log, "`outputs`", &member.value, &member.key_span)?;
+    if object.members().is_empty() {
+        object.report(Fault::NoValues { name: "outputs".into() });
+    }
+    let mut outputs = Outputs::default();
+    for member in object.members() {
+        let Some(object) = Object::new(log, "an output", &member.value, &member.key_span) else {
+            continue;
+        };
+        object.check_keys(&["unit", "about", "periodic", "tolerance", "cmc", "cmc_floor"]);
+        for key in ["tolerance", "cmc", "cmc_floor"] {
+            if let Some(member) = object.get(key) {
+                let what = format!("`{key}` of an output");
+                log.report(&member.key_span, Fault::NotBuilt { what });
+            }
+        }
+        let period = object.number("periodic");
+        if let (Some(period), Some(member)) = (period, object.get("periodic")) {
+            if period <= 0.0 {
+                let fault = Fault::NotPositive { key: "periodic".into(), found: period };
+                log.report(&member.value.span, fault);
+            }
+        }
+        let quantity = Quantity {
+            name: member.key.clone(),
+            unit: unit(&object, "unit").unwrap_or_else(Unit::one),
+            about: object.text("about").unwrap_or("").to_owned(),
+        };
+        let unit_place = object.get("unit").map_or(&member.key_span, |m| &m.value.span);
+        outputs.outputs.push(Output { quantity, period });
+        outputs.places.push(member.key_span.clone());
+        outputs.unit_places.push(unit_place.clone());
+    }
+    Some(outputs)
+}

@@ -1,0 +1,303 @@
+//! From the fields of an input to its distribution.
+
+use std::ops::Range;
+
+use super::Fault;
+use super::nearest::nearest;
+use super::object::Object;
+use super::width::Width;
+use crate::distribution::{
+    Constant, Distribution, Invalid, Normal, Readings, Rectangular, StudentT, Triangular, special,
+};
+use crate::unit::Unit;
+
+/// A shape that files can name: its canonical name, its other names, its fields.
+#[derive(Debug)]
+pub(super) struct Kind {
+    pub(super) name: &'static str,
+    aliases: &'static [&'static str],
+    pub(super) fields: &'static [&'static str],
+}
+
+const LIMITS: [&str; 5] = ["mean", "half_width", "semi_range", "lower", "upper"];
+
+/// The shapes, in the order of the contract.
+pub(super) const KINDS: [Kind; 6] = [
+    Kind { name: "constant", aliases: &[], fields: &["value"] },
+    Kind {
+        name: "normal",
+        aliases: &["gaussian"],
+        fields: &["mean", "std", "expanded", "k", "p", "dof"],
+    },
+    Kind {
+        name: "rectangular",
+        aliases: &["uniform"],
+        fields: &[LIMITS[0], LIMITS[1], LIMITS[2], LIMITS[3], LIMITS[4], "dof"],
+    },
+    Kind {
+        name: "triangular",
+        aliases: &[],
+        fields: &[LIMITS[0], LIMITS[1], LIMITS[2], LIMITS[3], LIMITS[4], "mode"],
+    },
+    Kind { name: "t", aliases: &["student-t"], fields: &["mean", "scale", "dof"] },
+    Kind { name: "readings", aliases: &[], fields: &["values"] },
+];
+
+/// Shapes of the contract that this version does not draw.
+const LATER: [&str; 11] = [
+    "trapezoidal",
+    "curvilinear-trapezoid",
+    "arcsine",
+    "u-shaped",
+    "exponential",
+    "gamma",
+    "lognormal",
+    "beta",
+    "log-uniform",
+    "poisson-count",
+    "samples",
+];
+
+/// The shape that an object names.
+pub(super) fn kind(object: &Object<'_>) -> Option<&'static Kind> {
+    let member = object.required("distribution")?;
+    let name = object.text("distribution")?;
+    let found = KINDS.iter().find(|kind| kind.name == name || kind.aliases.contains(&name));
+    if found.is_none() {
+        let fault = if LATER.contains(&name) || name == "result" {
+            Fault::NotBuilt { what: format!("the distribution `{name}`") }
+        } else {
+            let known =
+                KINDS.iter().flat_map(|k| std::iter::once(&k.name).chain(k.aliases)).copied();
+            let nearest = nearest(name, known.chain(LATER)).map(str::to_owned);
+            Fault::UnknownDistribution { name: name.to_owned(), nearest }
+        };
+        object.log.report(&member.value.span, fault);
+    }
+    found
+}
+
+/// Where an input's estimate comes from.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Estimate {
+    /// From its own fields.
+    Own,
+    /// From elsewhere: a formula of the conditions, an override, or 0 for a component.
+    Given(f64),
+}
+
+/// What reading a distribution needs to know.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Fields<'a> {
+    pub(super) object: Object<'a>,
+    pub(super) name: &'a str,
+    pub(super) unit: &'a Unit,
+    pub(super) estimate: Estimate,
+    /// What a relative width is a share of, if not of the own estimate.
+    pub(super) share_of: Option<f64>,
+}
+
+impl<'a> Fields<'a> {
+    /// The distribution, with what cannot be reported.
+    pub(super) fn distribution(&self, kind: &Kind) -> Option<Distribution> {
+        match kind.name {
+            "constant" => {
+                let value = self.estimate("value")?;
+                self.made(Constant::new(value))
+            }
+            "normal" => self.normal(),
+            "rectangular" => {
+                let (mean, half_width, _) = self.limits()?;
+                let dof = self.dof();
+                let Some(half_width) = half_width else {
+                    return self.made(Constant::new(mean));
+                };
+                self.made(Rectangular::new(mean, half_width).and_then(|shape| match dof {
+                    Some(dof) => shape.with_dof(dof),
+                    None => Ok(shape),
+                }))
+            }
+            "triangular" => self.triangular(),
+            "t" => {
+                let mean = self.estimate("mean");
+                let scale = self.width("scale", mean?)?;
+                let dof = self.object.required("dof").and_then(|_| self.object.number("dof"));
+                match scale {
+                    Some(scale) => self.made(StudentT::new(mean?, scale, dof?)),
+                    None => self.made(Constant::new(mean?)),
+                }
+            }
+            _ => {
+                self.object.required("values")?;
+                let values = self.object.numbers("values")?;
+                let readings = self.made(Readings::new(values))?;
+                match self.estimate {
+                    Estimate::Own => Some(readings),
+                    Estimate::Given(mean) => Some(readings.moved_to(mean)),
+                }
+            }
+        }
+    }
+
+    fn normal(&self) -> Option<Distribution> {
+        let mean = self.estimate("mean");
+        let dof = self.dof();
+        let std = match (self.object.get("std"), self.object.get("expanded")) {
+            (Some(_), Some(second)) => {
+                let fault = Fault::Exclusive { first: "std", second: "expanded" };
+                self.object.log.report(&second.key_span, fault);
+                return None;
+            }
+            (_, Some(_)) => {
+                let factor = self.coverage_factor(dof);
+                self.width("expanded", mean?)?.zip(factor).map(|(expanded, k)| expanded / k)
+            }
+            _ => self.width("std", mean?)?,
+        };
+        match std {
+            Some(std) => self.made(Normal::with_dof(mean?, std, dof.unwrap_or(f64::INFINITY))),
+            None => self.made(Constant::new(mean?)),
+        }
+    }
+
+    /// The k of an expanded uncertainty: given, or from p and the degrees of freedom.
+    fn coverage_factor(&self, dof: Option<f64>) -> Option<f64> {
+        match (self.object.get("k"), self.object.get("p")) {
+            (Some(_), Some(second)) => {
+                let fault = Fault::Exclusive { first: "k", second: "p" };
+                self.object.log.report(&second.key_span, fault);
+                None
+            }
+            (Some(member), None) => {
+                let k = self.object.number("k")?;
+                if k > 0.0 {
+                    Some(k)
+                } else {
+                    let fault = Fault::NotPositive { key: "k".into(), found: k };
+                    self.object.log.report(&member.value.span, fault);
+                    None
+                }
+            }
+            (None, Some(member)) => {
+                let p = self.object.number("p")?;
+                if p > 0.0 && p < 1.0 {
+                    let dof = dof.unwrap_or(f64::INFINITY);
+                    Some(special::student::two_sided_factor(p, dof))
+                } else {
+                    let fault = Fault::NotProbability { key: "p".into(), found: p };
+                    self.object.log.report(&member.value.span, fault);
+                    None
+                }
+            }
+            (None, None) => {
+                let place =
+                    self.object.get("expanded").map_or(self.object.place(), |m| &m.key_span);
+                self.object.log.report(place, Fault::NoCoverage { name: self.name.to_owned() });
+                None
+            }
+        }
+    }
+
+    fn triangular(&self) -> Option<Distribution> {
+        let (mean, half_width, limits) = self.limits()?;
+        let Some(half_width) = half_width else {
+            return self.made(Constant::new(mean));
+        };
+        let Some([lower, upper]) = limits else {
+            if let Some(mode) = self.object.get("mode") {
+                let reason = "`mode` needs `lower` and `upper`".to_owned();
+                let fault =
+                    Fault::Width { name: self.name.to_owned(), found: "mode".into(), reason };
+                self.object.log.report(&mode.key_span, fault);
+            }
+            return self.made(Triangular::new(mean, half_width));
+        };
+        let mode = self.object.number("mode");
+        let shape = self.made(Triangular::between(lower, upper, mode))?;
+        match self.estimate {
+            Estimate::Own => Some(shape),
+            Estimate::Given(estimate) => Some(shape.moved_to(estimate)),
+        }
+    }
+
+    /// Middle, half-width (`None` where a specification became 0) and, if given so, the limits.
+    #[allow(clippy::type_complexity)]
+    fn limits(&self) -> Option<(f64, Option<f64>, Option<[f64; 2]>)> {
+        let object = &self.object;
+        if object.get("lower").is_none() && object.get("upper").is_none() {
+            let key = if object.get("semi_range").is_some() { "semi_range" } else { "half_width" };
+            if let (Some(_), Some(second)) = (object.get("half_width"), object.get("semi_range")) {
+                let fault = Fault::Exclusive { first: "half_width", second: "semi_range" };
+                object.log.report(&second.key_span, fault);
+            }
+            let mean = self.estimate("mean")?;
+            return Some((mean, self.width(key, mean)?, None));
+        }
+        for key in ["mean", "half_width", "semi_range"] {
+            if let Some(second) = object.get(key) {
+                let fault = Fault::Exclusive { first: "lower", second: key };
+                object.log.report(&second.key_span, fault);
+                return None;
+            }
+        }
+        let lower = object.required("lower").and_then(|_| object.number("lower"));
+        let upper = object.required("upper").and_then(|_| object.number("upper"));
+        let (lower, upper) = (lower?, upper?);
+        if lower >= upper {
+            return self.made(Rectangular::between(lower, upper)).and(None);
+        }
+        let middle = match self.estimate {
+            Estimate::Own => 0.5 * lower + 0.5 * upper,
+            Estimate::Given(estimate) => estimate,
+        };
+        Some((middle, Some(0.5 * upper - 0.5 * lower), Some([lower, upper])))
+    }
+
+    /// The estimate from `key`, or from elsewhere.
+    fn estimate(&self, key: &'static str) -> Option<f64> {
+        match self.estimate {
+            Estimate::Given(estimate) => Some(estimate),
+            Estimate::Own => {
+                self.object.required(key)?;
+                self.object.number(key)
+            }
+        }
+    }
+
+    /// The width at `key`; inside, `None` where a specification becomes 0 at this estimate.
+    #[allow(clippy::option_option)]
+    fn width(&self, key: &'static str, estimate: f64) -> Option<Option<f64>> {
+        let member = self.object.required(key)?;
+        let read = Width::read(&member.value, self.name, key, self.unit);
+        let width = self.object.log.value(&member.value.span, read)?;
+        let value = width.at(self.share_of.unwrap_or(estimate));
+        if value == 0.0 && width.is_relative_only() { Some(None) } else { Some(Some(value)) }
+    }
+
+    fn dof(&self) -> Option<f64> {
+        self.object.number("dof")
+    }
+
+    fn made<S: Into<Distribution>>(&self, shape: Result<S, Invalid>) -> Option<Distribution> {
+        match shape {
+            Ok(shape) => Some(shape.into()),
+            Err(error) => {
+                let place = self.place_of(error.parameter());
+                let name = self.name.to_owned();
+                self.object.log.report(&place, Fault::Distribution { name, error });
+                None
+            }
+        }
+    }
+
+    /// The place of a parameter's value, or of the input's name.
+    fn place_of(&self, parameter: &str) -> Range<usize> {
+        let other = match parameter {
+            "std" => "expanded",
+            "half_width" => "semi_range",
+            other => other,
+        };
+        let member = self.object.get(parameter).or_else(|| self.object.get(other));
+        member.map_or_else(|| self.object.place().clone(), |m| m.value.span.clone())
+    }
+}

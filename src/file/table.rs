@@ -1,0 +1,135 @@
+//! Tables of numbers from CSV files, with the place of every cell.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use super::Fault;
+use super::source::{Place, Source};
+
+/// A table: column names and rows of numbers.
+#[derive(Clone, Debug)]
+pub(super) struct Table {
+    pub(super) source: Arc<Source>,
+    pub(super) columns: Vec<String>,
+    pub(super) rows: Vec<Vec<f64>>,
+}
+
+/// Reads a table: a header row of names, `,` or `;` (then with decimal commas), lines that begin
+/// with `#` skipped. All faulty cells are returned.
+pub(super) fn read(path: &Path, name: &str) -> Result<(Table, Vec<u8>), Vec<(Place, Fault)>> {
+    let bytes = std::fs::read(path).map_err(|error| {
+        let place = Place { source: Source::new(name, ""), span: 0..0 };
+        vec![(place, Fault::Unreadable { message: error.to_string() })]
+    })?;
+    let Ok(text) = std::str::from_utf8(&bytes) else {
+        let place = Place { source: Source::new(name, ""), span: 0..0 };
+        let message = "it is not UTF-8 text".to_owned();
+        return Err(vec![(place, Fault::Unreadable { message })]);
+    };
+    let source = Source::new(name, text);
+    Ok((parse(&source)?, bytes))
+}
+
+fn parse(source: &Arc<Source>) -> Result<Table, Vec<(Place, Fault)>> {
+    let at_line = |line: usize| {
+        let start = source.line_start(line);
+        let text = source.text.get(start..).and_then(|rest| rest.lines().next()).unwrap_or("");
+        Place { source: source.clone(), span: start..start + text.len() }
+    };
+    let header =
+        source.text.lines().find(|l| !l.trim_start().starts_with('#') && !l.trim().is_empty());
+    let Some(header) = header else {
+        let reason = "the table is empty; a header row of names and rows of numbers are needed";
+        return Err(vec![(at_line(1), Fault::Table { reason: reason.to_owned() })]);
+    };
+    let semicolon = header.contains(';');
+    let mut reader = csv::ReaderBuilder::new()
+        .delimiter(if semicolon { b';' } else { b',' })
+        .comment(Some(b'#'))
+        .trim(csv::Trim::All)
+        .flexible(true)
+        .from_reader(source.text.as_bytes());
+    let columns: Vec<String> = match reader.headers() {
+        Ok(header) => header.iter().map(str::to_owned).collect(),
+        Err(error) => {
+            return Err(vec![(at_line(1), Fault::Table { reason: error.to_string() })]);
+        }
+    };
+    let mut faults = Vec::new();
+    for (number, name) in columns.iter().enumerate() {
+        if name.is_empty() || columns.iter().take(number).any(|earlier| earlier == name) {
+            let reason =
+                format!("the header's column {} (`{name}`) has no name of its own", number + 1);
+            faults.push((at_line(1), Fault::Table { reason }));
+        }
+    }
+    let mut rows = Vec::new();
+    for (number, record) in reader.records().enumerate() {
+        let record = match record {
+            Ok(record) => record,
+            Err(error) => {
+                faults.push((at_line(number + 2), Fault::Table { reason: error.to_string() }));
+                break;
+            }
+        };
+        let line = record.position().map_or(number + 2, |p| p.line() as usize);
+        let place = at_line(line);
+        if record.len() != columns.len() {
+            let fault =
+                Fault::ShortRow { row: number + 1, found: record.len(), expected: columns.len() };
+            faults.push((place, fault));
+            continue;
+        }
+        let mut row = Vec::with_capacity(columns.len());
+        for (cell, column) in record.iter().zip(&columns) {
+            let value = if semicolon { cell.replace(',', ".") } else { cell.to_owned() };
+            match value.parse::<f64>() {
+                Ok(value) if value.is_finite() => row.push(value),
+                _ => {
+                    let (column, found) = (column.clone(), cell.to_owned());
+                    let fault = Fault::Cell { row: number + 1, column, found };
+                    faults.push((place.clone(), fault));
+                }
+            }
+        }
+        rows.push(row);
+    }
+    if rows.is_empty() && faults.is_empty() {
+        let reason = "the table has a header but no rows".to_owned();
+        faults.push((at_line(1), Fault::Table { reason }));
+    }
+    if faults.is_empty() {
+        Ok(Table { source: source.clone(), columns, rows })
+    } else {
+        Err(faults)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn both_separators_are_read() {
+        let table = parse(&Source::new("t", "# note\nf, x\n1,2.5\n")).unwrap();
+        assert_eq!(
+            (table.columns, table.rows),
+            (vec!["f".into(), "x".into()], vec![vec![1.0, 2.5]])
+        );
+        let table = parse(&Source::new("t", "\u{feff}f;x\n1;2,5\n# end\n3;4\n")).unwrap();
+        assert_eq!(table.rows, vec![vec![1.0, 2.5], vec![3.0, 4.0]]);
+    }
+
+    #[test]
+    fn faults_name_row_column_and_line() {
+        let faults = parse(&Source::new("t", "f,x\n1,\n# c\n2\nz,1\n")).unwrap_err();
+        let lines: Vec<usize> =
+            faults.iter().map(|(place, _)| place.source.position(place.span.start).0).collect();
+        assert_eq!(lines, vec![2, 4, 5]);
+        assert_eq!(faults[0].1, Fault::Cell { row: 1, column: "x".into(), found: String::new() });
+        assert_eq!(faults[1].1, Fault::ShortRow { row: 2, found: 1, expected: 2 });
+        assert!(parse(&Source::new("t", "")).is_err());
+        assert!(parse(&Source::new("t", "a,b\n")).is_err());
+        assert!(parse(&Source::new("t", "a,a\n1,2\n")).is_err());
+    }
+}

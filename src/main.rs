@@ -1,0 +1,7 @@
+//! The `gumption` program; everything that it does is in the library.
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    gumption::command::main()
+}

@@ -1,0 +1,161 @@
+//! Computing a formula with any kind of number.
+
+use std::collections::HashMap;
+
+use super::dimension::check;
+use super::error::FormulaError;
+use super::function::Function;
+use super::suggest;
+use super::syntax::{Kind, Operator, Tree};
+use super::typing::{Scope, Typing};
+use crate::number::{Binary, Number, Unary};
+
+/// The zero of the Celsius scale in K.
+const CELSIUS_ZERO: f64 = 273.15;
+
+/// The largest exponent, in size, of a power that is computed by multiplication.
+const MAX_WHOLE: f64 = 64.0;
+
+/// Computes a formula.
+pub(super) fn evaluate<T: Number>(
+    text: &str,
+    tree: &Tree,
+    scope: &Scope,
+    values: &HashMap<String, T>,
+) -> Result<T, FormulaError> {
+    // only `kelvin` depends on what its argument is
+    let typings =
+        if tree.calls_kelvin() { check(text, tree, scope, false).typings } else { Vec::new() };
+    let constants = constants(tree);
+    let mut results: Vec<T> = Vec::with_capacity(tree.nodes.len());
+    for node in &tree.nodes {
+        let result = match &node.kind {
+            Kind::Name => {
+                let name = text.get(node.span.clone()).unwrap_or_default();
+                let value = values.get(name).copied();
+                value.ok_or_else(|| FormulaError::UnknownName {
+                    name: name.to_owned(),
+                    span: node.span.clone(),
+                    nearest: suggest::names(name, scope.names()),
+                    known: scope.names().map(str::to_owned).collect(),
+                })?
+            }
+            Kind::Call { function: Some(Function::Kelvin), arguments, .. }
+                if arguments.len() == 1 =>
+            {
+                let place = arguments.first().copied().unwrap_or_default();
+                let typing = typings.get(place).copied().unwrap_or(Typing::ANY);
+                let value = at(&results, place);
+                if typing.kelvin_shifts() { value + CELSIUS_ZERO } else { value }
+            }
+            kind => apply(kind, &results, &constants).ok_or_else(|| wrong_call(text, kind))?,
+        };
+        results.push(result);
+    }
+    Ok(results.pop().unwrap_or_else(|| T::constant(f64::NAN)))
+}
+
+/// The value of every node that depends on no name.
+fn constants(tree: &Tree) -> Vec<Option<f64>> {
+    let mut constants: Vec<Option<f64>> = Vec::with_capacity(tree.nodes.len());
+    let mut values: Vec<f64> = Vec::with_capacity(tree.nodes.len());
+    for node in &tree.nodes {
+        let known = |place: &usize| constants.get(*place).is_some_and(Option::is_some);
+        let is_constant = match &node.kind {
+            Kind::Number(_) | Kind::Pi => true,
+            Kind::Name => false,
+            Kind::Negate(x) => known(x),
+            Kind::Infix { left, right, .. } => known(left) && known(right),
+            Kind::Call { function: None | Some(Function::Kelvin), .. } => false,
+            Kind::Call { arguments, .. } => arguments.iter().all(known),
+        };
+        let value = if is_constant { apply(&node.kind, &values, &constants) } else { None };
+        constants.push(value);
+        values.push(value.unwrap_or(f64::NAN));
+    }
+    constants
+}
+
+/// One node from those before it; `None` for a call that is wrong, and for a name.
+fn apply<T: Number>(kind: &Kind, results: &[T], constants: &[Option<f64>]) -> Option<T> {
+    Some(match kind {
+        Kind::Number(value) => T::constant(*value),
+        Kind::Pi => T::constant(std::f64::consts::PI),
+        Kind::Name => return None,
+        Kind::Negate(x) => -at(results, *x),
+        Kind::Infix { operator: Operator::Power, left, right, .. } => {
+            let exponent = constants.get(*right).copied().flatten();
+            power(at(results, *left), at(results, *right), exponent)
+        }
+        Kind::Infix { operator, left, right, .. } => {
+            infix(*operator, at(results, *left), at(results, *right))
+        }
+        Kind::Call { function, arguments, .. } => {
+            let function = (*function)?;
+            if !function.arity().admits(arguments.len()) {
+                return None;
+            }
+            let mut arguments = arguments.iter().map(|&place| at(results, place));
+            let first = arguments.next()?;
+            match function {
+                Function::One(operation) => first.unary(operation),
+                Function::Two(operation) | Function::Fold(operation) => {
+                    arguments.fold(first, |result, argument| result.binary(operation, argument))
+                }
+                Function::Kelvin => return None,
+            }
+        }
+    })
+}
+
+fn infix<T: Number>(operator: Operator, x: T, y: T) -> T {
+    match operator {
+        Operator::Add => x + y,
+        Operator::Subtract => x - y,
+        Operator::Multiply => x * y,
+        Operator::Divide => x / y,
+        Operator::Power => x.pow(y),
+        Operator::Less => x.binary(Binary::Less, y),
+        Operator::LessOrEqual => x.binary(Binary::LessOrEqual, y),
+        Operator::Greater => y.binary(Binary::Less, x),
+        Operator::GreaterOrEqual => y.binary(Binary::LessOrEqual, x),
+        Operator::Equal => x.binary(Binary::Equal, y),
+        Operator::NotEqual => x.binary(Binary::NotEqual, y),
+    }
+}
+
+/// A power; whole exponents by multiplication, so that the base may be negative.
+fn power<T: Number>(base: T, exponent: T, constant: Option<f64>) -> T {
+    match constant {
+        Some(whole) if whole.trunc() == whole && whole.abs() <= MAX_WHOLE => {
+            base.powi(whole as i32)
+        }
+        Some(0.5) => base.unary(Unary::Sqrt),
+        _ => base.pow(exponent),
+    }
+}
+
+fn at<T: Number>(results: &[T], place: usize) -> T {
+    results.get(place).copied().unwrap_or_else(|| T::constant(f64::NAN))
+}
+
+/// The error for a call that cannot be computed.
+fn wrong_call(text: &str, kind: &Kind) -> FormulaError {
+    let Kind::Call { function, name_span, arguments } = kind else {
+        return FormulaError::Empty;
+    };
+    let span = name_span.clone();
+    match function {
+        Some(function) => FormulaError::ArgumentCount {
+            function: function.name(),
+            span,
+            expected: function.arity(),
+            found: arguments.len(),
+            suggestion: None,
+        },
+        None => {
+            let name = text.get(span.clone()).unwrap_or_default().to_owned();
+            FormulaError::UnknownFunction { nearest: suggest::functions(&name), name, span }
+        }
+    }
+}

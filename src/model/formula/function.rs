@@ -1,0 +1,101 @@
+//! The functions that a formula may call.
+
+use crate::number::{Binary, Unary};
+
+/// A function.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Function {
+    /// Of one argument.
+    One(Unary),
+    /// Of two arguments.
+    Two(Binary),
+    /// Of two or more arguments, which are taken together from left to right.
+    Fold(Binary),
+    /// The thermodynamic temperature.
+    Kelvin,
+}
+
+/// All functions, in the order in which messages list them.
+const FUNCTIONS: [Function; 20] = [
+    Function::One(Unary::Sin),
+    Function::One(Unary::Cos),
+    Function::One(Unary::Tan),
+    Function::One(Unary::Asin),
+    Function::One(Unary::Acos),
+    Function::One(Unary::Atan),
+    Function::Two(Binary::Atan2),
+    Function::One(Unary::Sinh),
+    Function::One(Unary::Cosh),
+    Function::One(Unary::Tanh),
+    Function::One(Unary::Exp),
+    Function::One(Unary::Ln),
+    Function::One(Unary::Log10),
+    Function::One(Unary::Sqrt),
+    Function::One(Unary::Cbrt),
+    Function::One(Unary::Abs),
+    Function::Fold(Binary::Min),
+    Function::Fold(Binary::Max),
+    Function::Fold(Binary::Hypot),
+    Function::Kelvin,
+];
+
+/// How many arguments a function takes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Arity {
+    /// One.
+    One,
+    /// Two.
+    Two,
+    /// Two or more.
+    TwoOrMore,
+}
+
+impl Arity {
+    /// Whether that many arguments are right.
+    pub fn admits(self, count: usize) -> bool {
+        match self {
+            Self::One => count == 1,
+            Self::Two => count == 2,
+            Self::TwoOrMore => count >= 2,
+        }
+    }
+
+    /// Words such as `two arguments`.
+    pub fn describe(self) -> &'static str {
+        match self {
+            Self::One => "one argument",
+            Self::Two => "two arguments",
+            Self::TwoOrMore => "two or more arguments",
+        }
+    }
+}
+
+impl Function {
+    /// All functions.
+    pub(super) fn all() -> impl Iterator<Item = Self> {
+        FUNCTIONS.into_iter()
+    }
+
+    /// The function of that name.
+    pub(super) fn named(name: &str) -> Option<Self> {
+        Self::all().find(|function| function.name() == name)
+    }
+
+    /// The name.
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            Self::One(operation) => operation.name(),
+            Self::Two(operation) | Self::Fold(operation) => operation.name(),
+            Self::Kelvin => "kelvin",
+        }
+    }
+
+    /// How many arguments it takes.
+    pub(super) fn arity(self) -> Arity {
+        match self {
+            Self::One(_) | Self::Kelvin => Arity::One,
+            Self::Two(_) => Arity::Two,
+            Self::Fold(_) => Arity::TwoOrMore,
+        }
+    }
+}

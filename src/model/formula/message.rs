@@ -1,0 +1,186 @@
+//! What is wrong with a formula, in sentences.
+
+use std::fmt;
+use std::ops::Range;
+
+use super::error::{FormulaError, NumberFault, Operand};
+use super::function::Function;
+use super::name::Shown;
+
+/// The longest part of a formula that a message quotes, in characters.
+const LONGEST_QUOTE: usize = 40;
+
+/// A part of a formula for a message: on one line, and its middle left out if it is long.
+pub(super) fn excerpt(text: &str, span: Range<usize>) -> String {
+    let part = text.get(span).unwrap_or_default().trim();
+    let one_line = |c: char| if c.is_whitespace() || c.is_control() { ' ' } else { c };
+    let count = part.chars().take(100 * LONGEST_QUOTE).count();
+    if count <= LONGEST_QUOTE {
+        return part.chars().map(one_line).collect();
+    }
+    let half = LONGEST_QUOTE / 2 - 1;
+    let mut end: Vec<char> = part.chars().rev().take(half).collect();
+    end.reverse();
+    part.chars().take(half).chain(['…']).chain(end).map(one_line).collect()
+}
+
+/// A name for a message.
+fn short(name: &str) -> String {
+    excerpt(name, 0..name.len())
+}
+
+/// "`a`", "`a` or `b`", "`a`, `b` or `c`".
+fn alternatives(texts: &[String]) -> String {
+    let quoted: Vec<String> = texts.iter().map(|text| format!("`{text}`")).collect();
+    match quoted.split_last() {
+        Some((last, rest)) if !rest.is_empty() => format!("{} or {last}", rest.join(", ")),
+        _ => quoted.concat(),
+    }
+}
+
+/// "; hint" and "; did you mean `suggestion`?", as far as there are such.
+fn more(f: &mut fmt::Formatter<'_>, hint: Option<&str>, suggestion: Option<&str>) -> fmt::Result {
+    if let Some(hint) = hint {
+        write!(f, "; {hint}")?;
+    }
+    match suggestion {
+        Some(suggestion) if hint.is_none_or(|hint| !hint.contains(&format!("`{suggestion}`"))) => {
+            write!(f, "; did you mean `{suggestion}`?")
+        }
+        _ => Ok(()),
+    }
+}
+
+impl fmt::Display for Operand {
+    /// "`height` is a length (m)".
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "`{}` is {}", self.text, self.dimension.describe())
+    }
+}
+
+impl fmt::Display for FormulaError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Empty => f.write_str("the formula is empty"),
+            Self::TooLong { length, limit } => write!(
+                f,
+                "a text of {length} bytes is too long for a formula; at most {limit} are allowed"
+            ),
+            Self::TooDeep { limit, .. } => write!(
+                f,
+                "there are more than {limit} parentheses, functions, signs or powers inside each \
+                 other; give a part of the formula a name of its own"
+            ),
+            Self::UnexpectedCharacter { found, hint, suggestion, .. } => {
+                write!(f, "`{}` has no meaning in a formula", Shown(*found))?;
+                more(f, *hint, suggestion.as_deref())
+            }
+            Self::UnexpectedEnd { expected, opened, .. } => {
+                write!(f, "the formula stops where {expected} should stand")?;
+                match opened {
+                    Some(_) => f.write_str("; a parenthesis is still open"),
+                    None => Ok(()),
+                }
+            }
+            Self::UnexpectedToken { found, expected, hint, suggestion, .. } => {
+                write!(f, "`{found}` cannot stand here; expected {expected}")?;
+                more(f, *hint, suggestion.as_deref())
+            }
+            Self::UnreadableNumber { text, fault, suggestion, .. } => {
+                write!(f, "`{text}` is not a number that can be read: ")?;
+                f.write_str(match fault {
+                    NumberFault::Comma => "a decimal fraction is written with a point",
+                    NumberFault::TwoPoints => "it has more than one decimal point",
+                    NumberFault::Grouped => "digits are written without anything between them",
+                    NumberFault::OutOfRange => {
+                        "it is too large or too small for double precision (about 1e-308 to 1e308)"
+                    }
+                })?;
+                more(f, None, suggestion.as_deref())
+            }
+            Self::ChainedComparison { .. } => f.write_str(
+                "comparisons cannot be joined like this; that both hold is their product, such as \
+                 `(a < b)*(b < c)`",
+            ),
+            Self::FunctionWithoutArguments { name, suggestion, .. } => write!(
+                f,
+                "`{name}` is a function and needs its argument in parentheses: `{suggestion}`"
+            ),
+            Self::UnknownName { name, nearest, .. } if !nearest.is_empty() => {
+                write!(f, "`{name}` is not defined; did you mean {}?", alternatives(nearest))
+            }
+            Self::UnknownName { name, known, .. } if known.is_empty() => {
+                write!(f, "`{name}` is not defined, nor is any other name here")
+            }
+            Self::UnknownName { name, known, .. } => {
+                write!(f, "`{name}` is not defined; names here are {}", alternatives(known))
+            }
+            Self::DefinedLater { name, .. } => write!(
+                f,
+                "`{name}` is not defined yet; a formula may use inputs, conditions and the \
+                 quantities above it"
+            ),
+            Self::UnknownFunction { name, nearest, .. } if !nearest.is_empty() => {
+                write!(f, "there is no function `{name}`; did you mean {}?", alternatives(nearest))
+            }
+            Self::UnknownFunction { name, .. } => {
+                let all: Vec<&str> = Function::all().map(Function::name).collect();
+                write!(f, "there is no function `{name}`; the functions are {}", all.join(", "))
+            }
+            Self::NotAFunction { name, .. } => write!(
+                f,
+                "`{name}` is a quantity and not a function; a product is written `{name}*(...)`"
+            ),
+            Self::ArgumentCount { function, expected, found, suggestion, .. } => {
+                write!(f, "`{function}` takes {}, not {found}", expected.describe())?;
+                more(f, None, suggestion.as_deref())
+            }
+            Self::MixedDimensions { operator, operands, .. } => {
+                let [left, right] = operands.as_ref();
+                let right_kind = right.dimension.describe();
+                write!(f, "{left}, but `{}` is {right_kind}; {}", right.text, joined(operator))?;
+                if left.is_number != right.is_number {
+                    f.write_str(
+                        " (a number other than 0 in a formula has no unit; give it as an input \
+                         with one)",
+                    )?;
+                }
+                Ok(())
+            }
+            Self::ArgumentNotPlain { function, argument, .. } => {
+                let kind = if matches!(*function, "sin" | "cos" | "tan") {
+                    "an angle or another plain number"
+                } else {
+                    "a plain number"
+                };
+                write!(f, "`{function}` needs {kind}, but {argument}")
+            }
+            Self::NotATemperature { argument, .. } => {
+                write!(f, "`kelvin` needs a temperature, but {argument}")
+            }
+            Self::ExponentNotPlain { exponent } => {
+                write!(f, "an exponent must be a plain number, but {exponent}")
+            }
+            Self::ExponentNotConstant { base, exponent, .. } => write!(
+                f,
+                "{base}, so its exponent must be a number written out, such as `2` or `(1/2)`, \
+                 not `{exponent}`"
+            ),
+            Self::DimensionOverflow { text, .. } => write!(
+                f,
+                "the dimension of `{text}` is out of range: its exponents are too large or too \
+                 fine"
+            ),
+        }
+    }
+}
+
+/// What an operator or function cannot do with quantities of different dimension.
+fn joined(operator: &str) -> String {
+    match operator {
+        "+" => "they cannot be added".to_owned(),
+        "-" => "one cannot be subtracted from the other".to_owned(),
+        "<" | "<=" | ">" | ">=" | "==" | "!=" => "they cannot be compared".to_owned(),
+        function => format!("`{function}` needs quantities of the same dimension"),
+    }
+}

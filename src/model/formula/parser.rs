@@ -1,0 +1,315 @@
+//! Reading a formula.
+//!
+//! ```text
+//! formula    = comparison
+//! comparison = sum [ ( "<" | "<=" | "≤" | ">" | ">=" | "≥" | "==" | "!=" | "≠" ) sum ]
+//! sum        = product { ( "+" | "-" ) product }               from left to right
+//! product    = signed { ( "*" | "/" ) signed }                 from left to right
+//! signed     = ( "-" | "+" ) signed | power
+//! power      = operand [ ( "^" | "**" ) exponent ]             from right to left: 2^3^2 is 2^9
+//! exponent   = ( "-" | "+" ) signed | power
+//! operand    = number | "pi" | "π" | name | call | "(" comparison ")"
+//! call       = name "(" [ comparison { "," comparison } ] ")"
+//! number     = ( digits [ "." [ digits ] ] | "." digits ) [ ( "e" | "E" ) [ "+" | "-" ] digits ]
+//! name       = a letter or "_", then letters, digits and "_"
+//! ```
+//!
+//! `-` may be the minus sign `−` and `*` one of `·`, `⋅`, `×`. White space is allowed between
+//! tokens. The reader is a Pratt parser: every operator has a rank, and an operand goes to the
+//! neighbour of higher rank. It calls itself only for what is nested, and nesting is limited.
+
+use std::ops::Range;
+
+use super::error::{FormulaError, NumberFault};
+use super::function::Function;
+use super::lexer::{Lexer, Token, TokenKind};
+use super::message::excerpt;
+use super::syntax::{Kind, Node, Operator, Tree};
+
+/// The longest formula, in bytes.
+pub(super) const MAX_LENGTH: usize = 100_000;
+
+/// The deepest nesting of parentheses, calls, signs and exponents.
+pub(super) const MAX_DEPTH: usize = 200;
+
+const OPERAND: &str = "a number, a name, a function or `(`";
+const AFTER_WHOLE: &str = "an operator or the end of the formula";
+const AFTER_PART: &str = "an operator or `)`";
+const AFTER_ARGUMENT: &str = "an operator, `,` or `)`";
+
+/// The rank of what an operand is part of.
+type Rank = u8;
+
+const LOOSEST: Rank = 0;
+/// Above `*` and `/`, below `^`.
+const SIGN: Rank = 7;
+
+/// The ranks of an operator to its left and to its right.
+fn ranks(operator: Operator) -> (Rank, Rank) {
+    match operator {
+        Operator::Add | Operator::Subtract => (3, 4),
+        Operator::Multiply | Operator::Divide => (5, 6),
+        Operator::Power => (9, 8),
+        _ => (1, 2),
+    }
+}
+
+/// Reads a whole formula.
+pub(super) fn parse(text: &str) -> Result<Tree, FormulaError> {
+    if text.len() > MAX_LENGTH {
+        return Err(FormulaError::TooLong { length: text.len(), limit: MAX_LENGTH });
+    }
+    let mut lexer = Lexer::new(text);
+    let token = lexer.next()?;
+    if token.kind == TokenKind::End {
+        return Err(FormulaError::Empty);
+    }
+    let mut parser =
+        Parser { text, lexer, token, last: None, depth: 0, opened: Vec::new(), nodes: Vec::new() };
+    parser.expression(LOOSEST)?;
+    if parser.token.kind != TokenKind::End {
+        return Err(parser.unexpected(AFTER_WHOLE));
+    }
+    Ok(Tree { nodes: parser.nodes })
+}
+
+struct Parser<'t> {
+    text: &'t str,
+    lexer: Lexer<'t>,
+    /// The token that is next.
+    token: Token,
+    /// The token before it.
+    last: Option<Token>,
+    depth: usize,
+    /// The parentheses that are open.
+    opened: Vec<Range<usize>>,
+    nodes: Vec<Node>,
+}
+
+/// What has been read: a node, and its place with the parentheses around it.
+struct Part {
+    node: usize,
+    outer: Range<usize>,
+}
+
+impl Parser<'_> {
+    /// Reads operands and operators down to rank `least`.
+    fn expression(&mut self, least: Rank) -> Result<Part, FormulaError> {
+        let mut left = self.operand()?;
+        let mut compared: Option<Range<usize>> = None;
+        while let TokenKind::Operator(operator) = self.token.kind {
+            let (rank, rank_right) = ranks(operator);
+            if rank < least {
+                break;
+            }
+            let operator_span = self.token.span.clone();
+            if operator.is_comparison() {
+                if let Some(first) = compared {
+                    return Err(FormulaError::ChainedComparison { span: operator_span, first });
+                }
+                compared = Some(operator_span.clone());
+            }
+            self.advance()?;
+            let right = if operator == Operator::Power {
+                self.nested(&operator_span, |parser| parser.expression(rank_right))?
+            } else {
+                self.expression(rank_right)?
+            };
+            let span = left.outer.start..right.outer.end;
+            let (left_node, right_node) = (left.node, right.node);
+            let kind = Kind::Infix { operator, operator_span, left: left_node, right: right_node };
+            left = self.push(kind, span);
+        }
+        Ok(left)
+    }
+
+    /// Reads an operand with its signs.
+    fn operand(&mut self) -> Result<Part, FormulaError> {
+        let span = self.token.span.clone();
+        match self.token.kind {
+            TokenKind::Number(value) => {
+                self.advance()?;
+                Ok(self.push(Kind::Number(value), span))
+            }
+            TokenKind::Pi => {
+                self.advance()?;
+                Ok(self.push(Kind::Pi, span))
+            }
+            TokenKind::Name => self.name_or_call(),
+            TokenKind::Open => {
+                self.open()?;
+                let part = self.nested(&span, |parser| parser.expression(LOOSEST))?;
+                let outer = span.start..self.token.span.end;
+                self.close(AFTER_PART)?;
+                Ok(Part { outer, ..part })
+            }
+            TokenKind::Operator(sign @ (Operator::Subtract | Operator::Add)) => {
+                self.advance()?;
+                let part = self.nested(&span, |parser| parser.expression(SIGN))?;
+                let outer = span.start..part.outer.end;
+                Ok(match sign {
+                    Operator::Subtract => self.push(Kind::Negate(part.node), outer),
+                    _ => Part { outer, ..part },
+                })
+            }
+            _ => Err(self.unexpected(OPERAND)),
+        }
+    }
+
+    fn name_or_call(&mut self) -> Result<Part, FormulaError> {
+        let name_span = self.token.span.clone();
+        let function = Function::named(self.slice(&name_span));
+        self.advance()?;
+        if self.token.kind != TokenKind::Open {
+            return match function {
+                Some(function) => Err(self.without_arguments(function, name_span)),
+                None => Ok(self.push(Kind::Name, name_span)),
+            };
+        }
+        self.open()?;
+        let arguments = self.nested(&name_span, Self::arguments)?;
+        let span = name_span.start..self.token.span.end;
+        self.close(AFTER_ARGUMENT)?;
+        Ok(self.push(Kind::Call { function, name_span, arguments }, span))
+    }
+
+    /// Reads the arguments of a call up to its closing parenthesis.
+    fn arguments(&mut self) -> Result<Vec<usize>, FormulaError> {
+        let mut arguments = Vec::new();
+        if self.token.kind == TokenKind::Close {
+            return Ok(arguments);
+        }
+        loop {
+            arguments.push(self.expression(LOOSEST)?.node);
+            if self.token.kind != TokenKind::Comma {
+                return Ok(arguments);
+            }
+            self.advance()?;
+        }
+    }
+
+    /// Reads something that is inside of something else.
+    fn nested<R>(
+        &mut self,
+        span: &Range<usize>,
+        read: impl FnOnce(&mut Self) -> Result<R, FormulaError>,
+    ) -> Result<R, FormulaError> {
+        if self.depth == MAX_DEPTH {
+            return Err(FormulaError::TooDeep { span: span.clone(), limit: MAX_DEPTH });
+        }
+        self.depth += 1;
+        let result = read(self);
+        self.depth -= 1;
+        result
+    }
+
+    fn open(&mut self) -> Result<(), FormulaError> {
+        self.opened.push(self.token.span.clone());
+        self.advance()
+    }
+
+    fn close(&mut self, expected: &'static str) -> Result<(), FormulaError> {
+        if self.token.kind != TokenKind::Close {
+            return Err(self.unexpected(expected));
+        }
+        self.opened.pop();
+        self.advance()
+    }
+
+    fn advance(&mut self) -> Result<(), FormulaError> {
+        let next = self.lexer.next()?;
+        self.last = Some(std::mem::replace(&mut self.token, next));
+        Ok(())
+    }
+
+    fn push(&mut self, kind: Kind, span: Range<usize>) -> Part {
+        self.nodes.push(Node { kind, span: span.clone() });
+        Part { node: self.nodes.len() - 1, outer: span }
+    }
+
+    fn slice(&self, span: &Range<usize>) -> &str {
+        self.text.get(span.clone()).unwrap_or_default()
+    }
+
+    /// The error for a next token that cannot stand where it does.
+    fn unexpected(&self, expected: &'static str) -> FormulaError {
+        let Token { kind, span } = &self.token;
+        if *kind == TokenKind::End {
+            let opened = self.opened.last().cloned();
+            return FormulaError::UnexpectedEnd { span: span.clone(), expected, opened };
+        }
+        if let Some(error) = self.decimal_comma() {
+            return error;
+        }
+        let (hint, suggestion) = match kind {
+            _ if expected == OPERAND => self.missing_operand(),
+            TokenKind::Close => {
+                (Some("this parenthesis closes nothing; remove it or add `(`"), None)
+            }
+            TokenKind::Number(_) if self.last_is_number() => {
+                (Some("two numbers need an operator between them"), None)
+            }
+            TokenKind::Number(_) | TokenKind::Pi | TokenKind::Name | TokenKind::Open => {
+                let before = self.last.as_ref().map_or("", |last| self.slice(&last.span));
+                let here = self.slice(span);
+                let product = (before.len() + here.len() < 60).then(|| format!("{before}*{here}"));
+                (Some("a product is written with `*`"), product)
+            }
+            _ => (None, None),
+        };
+        FormulaError::UnexpectedToken {
+            found: excerpt(self.text, span.clone()),
+            span: span.clone(),
+            expected,
+            hint,
+            suggestion,
+        }
+    }
+
+    /// What may be meant where an operand is missing: `<>`.
+    fn missing_operand(&self) -> (Option<&'static str>, Option<String>) {
+        let before = self.last.as_ref().map(|last| (last.kind, last.span.end));
+        let here = (self.token.kind, self.token.span.start);
+        match (before, here) {
+            (
+                Some((TokenKind::Operator(Operator::Less), end)),
+                (TokenKind::Operator(Operator::Greater), start),
+            ) if start == end => (None, Some("!=".to_owned())),
+            _ => (None, None),
+        }
+    }
+
+    fn last_is_number(&self) -> bool {
+        self.last.as_ref().is_some_and(|last| matches!(last.kind, TokenKind::Number(_)))
+    }
+
+    /// The error for a comma between digits, where no comma can stand.
+    fn decimal_comma(&self) -> Option<FormulaError> {
+        let last = self.last.as_ref().filter(|_| self.last_is_number())?;
+        let comma = &self.token;
+        let behind = self.text.get(comma.span.end..)?;
+        let digits = behind.find(|c: char| !c.is_ascii_digit()).unwrap_or(behind.len());
+        let adjacent = comma.kind == TokenKind::Comma && last.span.end == comma.span.start;
+        if !adjacent || digits == 0 {
+            return None;
+        }
+        let span = last.span.start..comma.span.end + digits;
+        let text = self.slice(&span).to_owned();
+        let suggestion = Some(text.replace(',', ".")).filter(|t| t.matches('.').count() == 1);
+        Some(FormulaError::UnreadableNumber { text, span, fault: NumberFault::Comma, suggestion })
+    }
+
+    /// The error for a function's name without parentheses behind it.
+    fn without_arguments(&self, function: Function, span: Range<usize>) -> FormulaError {
+        let name = function.name().to_owned();
+        let argument = match self.token.kind {
+            TokenKind::Number(_) | TokenKind::Pi | TokenKind::Name => {
+                excerpt(self.text, self.token.span.clone())
+            }
+            _ if function.arity().admits(1) => "x".to_owned(),
+            _ => "x, y".to_owned(),
+        };
+        let suggestion = format!("{name}({argument})");
+        FormulaError::FunctionWithoutArguments { name, span, suggestion }
+    }
+}

@@ -1,0 +1,100 @@
+//! Measurement models: named inputs with units, a function from inputs to outputs, named outputs.
+//!
+//! A [`Model`] is the same thing whether it was written as a Rust function ([`typed`]) or as
+//! formulas in a file: quantities on both sides and a [`Program`] between them.
+
+pub mod formula;
+mod program;
+mod schedule;
+mod trace;
+pub mod typed;
+
+pub use program::Program;
+pub(crate) use schedule::{Place, Schedule};
+pub use trace::{Recorder, Traced};
+
+use crate::unit::Unit;
+
+/// A named quantity with its unit.
+#[derive(Clone, Debug)]
+pub struct Quantity {
+    /// The name that equations use.
+    pub name: String,
+    /// The unit that its values are given and reported in.
+    pub unit: Unit,
+    /// What it is, in words.
+    pub about: String,
+}
+
+/// An input quantity: the sum of one or more variables of the program, its components.
+#[derive(Clone, Debug)]
+pub struct InputQuantity {
+    /// Name and unit.
+    pub quantity: Quantity,
+    /// How many consecutive variables of the program add up to it; one unless it has components.
+    pub parts: usize,
+}
+
+/// An output quantity (measurand).
+#[derive(Clone, Debug)]
+pub struct Output {
+    /// Name and unit.
+    pub quantity: Quantity,
+    /// The length of a turn in the output's unit, for phases: values are taken on the branch within
+    /// half a turn of the estimate.
+    pub period: Option<f64>,
+}
+
+/// A measurement model. The program's variables are the parts of the inputs, then the conditions,
+/// each in its own unit; its results are the outputs in their own units.
+#[derive(Clone, Debug)]
+pub struct Model {
+    /// The input quantities.
+    pub inputs: Vec<InputQuantity>,
+    /// The conditions of the measurement: quantities that are set and known.
+    pub conditions: Vec<Quantity>,
+    /// The output quantities.
+    pub outputs: Vec<Output>,
+    /// The function between them.
+    pub program: Program,
+}
+
+/// The recorded values of a model's inputs and conditions, in SI units, by name.
+pub(crate) fn recorded_values<'r>(
+    recorder: &'r Recorder,
+    inputs: &[InputQuantity],
+    conditions: &[Quantity],
+) -> Vec<(String, Traced<'r>)> {
+    let mut next = 0;
+    let mut variable = || {
+        next += 1;
+        recorder.variable(next - 1)
+    };
+    let mut values = Vec::with_capacity(inputs.len() + conditions.len());
+    for input in inputs {
+        let mut sum = variable();
+        for _ in 1..input.parts {
+            sum = sum + variable();
+        }
+        values.push((input.quantity.name.clone(), in_si(sum, &input.quantity.unit)));
+    }
+    for condition in conditions {
+        values.push((condition.name.clone(), in_si(variable(), &condition.unit)));
+    }
+    values
+}
+
+/// How many variables the program of these inputs and conditions has.
+pub(crate) fn variables(inputs: &[InputQuantity], conditions: &[Quantity]) -> usize {
+    inputs.iter().map(|input| input.parts).sum::<usize>() + conditions.len()
+}
+
+/// A value in a unit, converted to SI.
+fn in_si<'r>(value: Traced<'r>, unit: &Unit) -> Traced<'r> {
+    if unit.factor() == 1.0 { value } else { value * unit.factor() }
+}
+
+/// A value in SI, converted to a unit.
+pub(crate) fn in_unit<'r>(value: Traced<'r>, unit: &Unit) -> Traced<'r> {
+    if unit.factor() == 1.0 { value } else { value / unit.factor() }
+}

@@ -1,0 +1,158 @@
+//! Recording: a number that writes down what is done to it.
+
+use std::cell::RefCell;
+use std::collections::HashMap;
+
+use super::program::{Node, Program};
+use crate::number::{Binary, Number, Unary, number_operators};
+
+/// Where the operations of a function are written down.
+#[derive(Debug, Default)]
+pub struct Recorder {
+    graph: RefCell<Graph>,
+}
+
+#[derive(Debug, Default)]
+struct Graph {
+    nodes: Vec<Node>,
+    places: HashMap<Key, usize>,
+}
+
+/// What makes two nodes the same.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+enum Key {
+    Variable(usize),
+    Constant(u64),
+    Unary(Unary, usize),
+    Binary(Binary, usize, usize),
+}
+
+impl Graph {
+    fn place(&mut self, node: Node) -> usize {
+        let key = match node {
+            Node::Variable(v) => Key::Variable(v),
+            Node::Constant(c) => Key::Constant(c.to_bits()),
+            Node::Unary(operation, x) => Key::Unary(operation, x),
+            Node::Binary(operation, x, y) => Key::Binary(operation, x, y),
+        };
+        *self.places.entry(key).or_insert_with(|| {
+            self.nodes.push(node);
+            self.nodes.len() - 1
+        })
+    }
+}
+
+/// A number whose value is not known yet. Constants are computed at once; whatever involves a
+/// variable is recorded.
+#[derive(Clone, Copy, Debug)]
+pub struct Traced<'r>(Recorded<'r>);
+
+#[derive(Clone, Copy, Debug)]
+enum Recorded<'r> {
+    Constant(f64),
+    Node(&'r Recorder, usize),
+}
+
+impl Recorder {
+    /// The variable of place `index`.
+    pub fn variable(&self, index: usize) -> Traced<'_> {
+        let place = self.graph.borrow_mut().place(Node::Variable(index));
+        Traced(Recorded::Node(self, place))
+    }
+
+    /// The program that computes `outputs` from `variables` many variables.
+    pub fn program(&self, variables: usize, outputs: &[Traced<'_>]) -> Program {
+        let outputs = outputs.iter().map(|&output| self.place(output)).collect();
+        Program { nodes: self.graph.borrow().nodes.clone(), variables, outputs }
+    }
+
+    fn place(&self, number: Traced<'_>) -> usize {
+        match number.0 {
+            Recorded::Constant(c) => self.graph.borrow_mut().place(Node::Constant(c)),
+            Recorded::Node(_, place) => place,
+        }
+    }
+}
+
+impl Number for Traced<'_> {
+    fn constant(value: f64) -> Self {
+        Self(Recorded::Constant(value))
+    }
+
+    fn unary(self, operation: Unary) -> Self {
+        match self.0 {
+            Recorded::Constant(c) => Self::constant(c.unary(operation)),
+            Recorded::Node(recorder, x) => {
+                let place = recorder.graph.borrow_mut().place(Node::Unary(operation, x));
+                Self(Recorded::Node(recorder, place))
+            }
+        }
+    }
+
+    fn binary(self, operation: Binary, other: Self) -> Self {
+        let recorder = match (self.0, other.0) {
+            (Recorded::Constant(x), Recorded::Constant(y)) => {
+                return Self::constant(x.binary(operation, y));
+            }
+            (Recorded::Node(recorder, _), _) | (_, Recorded::Node(recorder, _)) => recorder,
+        };
+        let (x, y) = (recorder.place(self), recorder.place(other));
+        let place = recorder.graph.borrow_mut().place(Node::Binary(operation, x, y));
+        Self(Recorded::Node(recorder, place))
+    }
+}
+
+number_operators!(['r] Traced<'r>);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn equal_operations_are_recorded_once() {
+        let recorder = Recorder::default();
+        let (x, y) = (recorder.variable(0), recorder.variable(1));
+        let sum = (x * y).sin() + (x * y).sin() * 2.0;
+        let program = recorder.program(2, &[sum]);
+        // x y, its sine, twice the sine, the sum
+        assert_eq!(program.operations(), 4);
+        let expected = 3.0 * Number::sin(0.3 * 0.7);
+        assert!((program.evaluate(&[0.3, 0.7])[0] - expected).abs() < 1e-15);
+    }
+
+    #[test]
+    fn constants_are_computed_at_once() {
+        let recorder = Recorder::default();
+        let x = recorder.variable(0);
+        let factor = Traced::constant(2.0).sqrt() * 3.0;
+        let program = recorder.program(1, &[x * factor, factor]);
+        assert_eq!(program.operations(), 1);
+        assert_eq!(program.evaluate(&[1.0])[1], 3.0 * 2f64.sqrt());
+    }
+
+    #[test]
+    fn a_place_without_a_value_is_named() {
+        let recorder = Recorder::default();
+        let x = recorder.variable(0);
+        let program = recorder.program(1, &[(x - 2.0).sqrt() / x]);
+        assert_eq!(program.first_undefined(&[3.0]), None);
+        assert_eq!(program.first_undefined(&[1.0]).as_deref(), Some("sqrt of -1"));
+    }
+
+    #[test]
+    fn gradients_of_more_inputs_than_a_chunk() {
+        let recorder = Recorder::default();
+        let n = 19;
+        let x: Vec<_> = (0..n).map(|i| recorder.variable(i)).collect();
+        let sum = x
+            .iter()
+            .enumerate()
+            .fold(Traced::constant(0.0), |s, (i, x)| s + x.square() * (i as f64));
+        let program = recorder.program(n, &[sum]);
+        let at: Vec<f64> = (0..n).map(|i| 0.5 + i as f64).collect();
+        let (_, gradients) = program.gradients(&at);
+        for i in 0..n {
+            assert_eq!(gradients[0][i], 2.0 * i as f64 * at[i]);
+        }
+    }
+}

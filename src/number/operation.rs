@@ -1,0 +1,119 @@
+//! The operations of the arithmetic: the only list of them.
+
+/// An operation of one operand. Angles are in radians.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Unary {
+    /// `-x`
+    Negate,
+    /// modulus
+    Abs,
+    /// square root
+    Sqrt,
+    /// cube root
+    Cbrt,
+    /// exponential
+    Exp,
+    /// natural logarithm
+    Ln,
+    /// logarithm to base ten
+    Log10,
+    /// sine
+    Sin,
+    /// cosine
+    Cos,
+    /// tangent
+    Tan,
+    /// inverse sine
+    Asin,
+    /// inverse cosine
+    Acos,
+    /// inverse tangent
+    Atan,
+    /// hyperbolic sine
+    Sinh,
+    /// hyperbolic cosine
+    Cosh,
+    /// hyperbolic tangent
+    Tanh,
+}
+
+impl Unary {
+    /// The name that formulas and messages use.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Negate => "-",
+            Self::Abs => "abs",
+            Self::Sqrt => "sqrt",
+            Self::Cbrt => "cbrt",
+            Self::Exp => "exp",
+            Self::Ln => "ln",
+            Self::Log10 => "log10",
+            Self::Sin => "sin",
+            Self::Cos => "cos",
+            Self::Tan => "tan",
+            Self::Asin => "asin",
+            Self::Acos => "acos",
+            Self::Atan => "atan",
+            Self::Sinh => "sinh",
+            Self::Cosh => "cosh",
+            Self::Tanh => "tanh",
+        }
+    }
+}
+
+/// An operation of two operands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Binary {
+    /// `x + y`
+    Add,
+    /// `x - y`
+    Subtract,
+    /// `x * y`
+    Multiply,
+    /// `x / y`
+    Divide,
+    /// `x ^ y`
+    Power,
+    /// angle of the point (y, x) of `atan2(x, y)`
+    Atan2,
+    /// `sqrt(x^2 + y^2)`
+    Hypot,
+    /// the smaller
+    Min,
+    /// the larger
+    Max,
+    /// 1 where `x < y`, else 0
+    Less,
+    /// 1 where `x <= y`, else 0
+    LessOrEqual,
+    /// 1 where `x = y`, else 0
+    Equal,
+    /// 1 where `x != y`, else 0
+    NotEqual,
+}
+
+impl Binary {
+    /// The name that formulas and messages use.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Add => "+",
+            Self::Subtract => "-",
+            Self::Multiply => "*",
+            Self::Divide => "/",
+            Self::Power => "^",
+            Self::Atan2 => "atan2",
+            Self::Hypot => "hypot",
+            Self::Min => "min",
+            Self::Max => "max",
+            Self::Less => "<",
+            Self::LessOrEqual => "<=",
+            Self::Equal => "==",
+            Self::NotEqual => "!=",
+        }
+    }
+
+    /// Whether the name stands between the operands rather than before them.
+    pub fn is_infix(self) -> bool {
+        !matches!(self, Self::Atan2 | Self::Hypot | Self::Min | Self::Max)
+    }
+}

@@ -1,0 +1,267 @@
+//! The evaluation of a task: both methods, every row, side by side.
+
+use std::fmt;
+
+use rayon::prelude::*;
+
+use super::Control;
+use super::gum::{self, Gum, GumRow};
+use super::monte_carlo::{self, MonteCarlo, Request, Undefined};
+use super::validate::{Validation, validate};
+use crate::distribution::{CorrelationError, Joint};
+use crate::model::Program;
+use crate::task::{Row, Settings, Task, Trials};
+
+/// The evaluation of a whole task.
+#[derive(Clone, Debug)]
+pub struct Evaluation {
+    /// The coverage probability used.
+    pub coverage_probability: f64,
+    /// The settings used.
+    pub settings: Settings,
+    /// One entry for each row of conditions.
+    pub rows: Vec<RowEvaluation>,
+    /// Whether declared correlations were taken as possible only within the rounding of their
+    /// coefficients.
+    pub rounded_correlations: bool,
+    /// Whether the run was stopped before all trials were made.
+    pub stopped: bool,
+}
+
+/// The evaluation of one row.
+#[derive(Clone, Debug)]
+pub struct RowEvaluation {
+    /// Values of the conditions.
+    pub conditions: Vec<f64>,
+    /// One entry for each output.
+    pub outputs: Vec<OutputEvaluation>,
+    /// Correlation coefficients between the outputs i < j: from the trials, or by the law of
+    /// propagation if there are none.
+    pub correlations: Vec<f64>,
+    /// Trials that were left out because an output was not finite.
+    pub undefined: Option<Undefined>,
+}
+
+/// One output by both methods.
+#[derive(Clone, Debug)]
+pub struct OutputEvaluation {
+    /// By the law of propagation; `None` where a sensitivity coefficient is not finite.
+    pub gum: Option<Gum>,
+    /// By the Monte Carlo method; `None` without trials.
+    pub monte_carlo: Option<MonteCarlo>,
+    /// Their comparison.
+    pub validation: Option<Validation>,
+    /// The fewest degrees of freedom among the t distributions that the output depends on.
+    pub drawn_dof: f64,
+}
+
+/// Why a task cannot be evaluated.
+#[derive(Clone, Debug, PartialEq)]
+pub enum EvaluationError {
+    /// Declared correlations that no joint distribution has, or that cannot be drawn.
+    Correlation(CorrelationError),
+    /// More trials are not finite than are allowed.
+    Undefined {
+        /// The row.
+        row: usize,
+        /// How many, out of how many, and the first one's drawn inputs.
+        undefined: Undefined,
+        /// Names and values of the varying inputs in the first such trial.
+        inputs: Vec<(String, f64)>,
+        /// The operation that gave no number.
+        operation: Option<String>,
+    },
+    /// The thread pool could not be started.
+    Threads(String),
+}
+
+impl fmt::Display for EvaluationError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Correlation(error) => error.fmt(f),
+            Self::Undefined { undefined, inputs, operation, .. } => {
+                let Undefined { count, trials, .. } = undefined;
+                write!(f, "{count} of {trials} trials have no finite result")?;
+                if let Some(operation) = operation {
+                    write!(f, "; the first is {operation}")?;
+                }
+                let at: Vec<String> = inputs.iter().map(|(n, v)| format!("{n} = {v}")).collect();
+                if at.is_empty() { Ok(()) } else { write!(f, ", at {}", at.join(", ")) }
+            }
+            Self::Threads(error) => write!(f, "cannot start threads: {error}"),
+        }
+    }
+}
+
+impl std::error::Error for EvaluationError {}
+
+impl From<CorrelationError> for EvaluationError {
+    fn from(error: CorrelationError) -> Self {
+        Self::Correlation(error)
+    }
+}
+
+/// Evaluates every row of a task by the law of propagation and by the Monte Carlo method, on all
+/// threads at once.
+///
+/// ```
+/// use gumption::distribution::Input;
+/// use gumption::model::typed::InclinedPlane;
+/// use gumption::propagate::{Control, evaluate};
+/// use gumption::task::{Settings, Task};
+///
+/// let plane = InclinedPlane {
+///     a_ref: Input::normal(10.0, 0.01, "m/s^2")?,
+///     tilt: Input::rectangular(35.0, 0.1, "deg")?,
+///     rotation: Input::constant(0.0, "deg")?,
+/// };
+/// let evaluation = evaluate(&Task::of(plane, Settings::default())?, &Control::default())?;
+/// let a_z = &evaluation.rows[0].outputs[2];
+/// // a_ref cos(35 deg) = 8.19152 m/s^2
+/// assert!((a_z.gum.as_ref().unwrap().estimate - 8.191_52).abs() < 1e-5);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// Contradictory correlations; more undefined trials than the settings allow.
+pub fn evaluate(task: &Task, control: &Control<'_>) -> Result<Evaluation, EvaluationError> {
+    in_pool(control, || evaluate_rows(task, control))?
+}
+
+/// Runs `work` on the number of threads that the control asks for.
+fn in_pool<R: Send>(
+    control: &Control<'_>,
+    work: impl FnOnce() -> R + Send,
+) -> Result<R, EvaluationError> {
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(control.threads)
+        .build()
+        .map_err(|error| EvaluationError::Threads(error.to_string()))?;
+    Ok(pool.install(work))
+}
+
+fn evaluate_rows(task: &Task, control: &Control<'_>) -> Result<Evaluation, EvaluationError> {
+    let reaches = reach(&task.model.program, task.variables.len());
+    let mut rounded = false;
+    if let Some(row) = task.rows.first() {
+        rounded = Joint::new(&row.distributions, &task.correlations)?.rounded;
+    }
+    let rows: Vec<Result<(RowEvaluation, bool), EvaluationError>> = task
+        .rows
+        .par_iter()
+        .enumerate()
+        .map(|(number, row)| evaluate_row(task, number, row, &reaches, control))
+        .collect();
+    let mut stopped = false;
+    let mut evaluated = Vec::with_capacity(rows.len());
+    for row in rows {
+        let (row, row_stopped) = row?;
+        stopped |= row_stopped;
+        evaluated.push(row);
+    }
+    Ok(Evaluation {
+        coverage_probability: task.settings.coverage.probability(),
+        settings: task.settings,
+        rows: evaluated,
+        rounded_correlations: rounded,
+        stopped,
+    })
+}
+
+fn evaluate_row(
+    task: &Task,
+    number: usize,
+    row: &Row,
+    reaches: &[Vec<bool>],
+    control: &Control<'_>,
+) -> Result<(RowEvaluation, bool), EvaluationError> {
+    let GumRow { estimates, outputs: gums, correlations } = gum::evaluate(task, row);
+    let drawn_dof: Vec<f64> = reaches.iter().map(|reach| fewest_dof(reach, row)).collect();
+    let Trials::Fixed(count) = task.settings.trials;
+    let mut result = RowEvaluation {
+        conditions: row.conditions.clone(),
+        outputs: Vec::with_capacity(gums.len()),
+        correlations,
+        undefined: None,
+    };
+    let mut figures: Vec<Option<MonteCarlo>> = vec![None; gums.len()];
+    let mut stopped = false;
+    if count > 0 {
+        let trials = monte_carlo::Trials::new(task, row, &estimates)?;
+        let probability = task.settings.coverage.probability();
+        let request = Request { trials: count, probability, drawn_dof: &drawn_dof };
+        let finished = monte_carlo::run(&trials, request, control);
+        stopped = finished.stopped;
+        if let Some(undefined) = finished.undefined {
+            if undefined.count as f64 > task.settings.allowed_undefined * undefined.trials as f64 {
+                return Err(explain(task, number, row, undefined));
+            }
+            result.undefined = Some(undefined);
+        }
+        if finished.trials > 0 {
+            figures = finished.outputs.into_iter().map(Some).collect();
+            result.correlations = finished.correlations;
+        }
+    }
+    for ((gum, monte_carlo), drawn_dof) in gums.into_iter().zip(figures).zip(drawn_dof) {
+        let validation = match (&gum, &monte_carlo) {
+            (Some(gum), Some(figures)) => validate(gum, figures, task.settings.digits),
+            _ => None,
+        };
+        result.outputs.push(OutputEvaluation { gum, monte_carlo, validation, drawn_dof });
+    }
+    Ok((result, stopped))
+}
+
+/// For each output, the variables that it depends on.
+fn reach(program: &Program, variables: usize) -> Vec<Vec<bool>> {
+    program
+        .reach()
+        .into_iter()
+        .map(|mut reach| {
+            reach.truncate(variables);
+            reach
+        })
+        .collect()
+}
+
+fn fewest_dof(reach: &[bool], row: &Row) -> f64 {
+    row.distributions
+        .iter()
+        .zip(reach)
+        .filter(|(_, reached)| **reached)
+        .map(|(distribution, _)| distribution.drawn_dof())
+        .fold(f64::INFINITY, f64::min)
+}
+
+/// Names the first undefined trial's inputs and operation.
+fn explain(task: &Task, number: usize, row: &Row, undefined: Undefined) -> EvaluationError {
+    let mut drawn = undefined.first.iter().copied();
+    let mut inputs = Vec::new();
+    let mut values = Vec::with_capacity(task.model.program.variables());
+    for (variable, distribution) in task.variables.iter().zip(&row.distributions) {
+        let value = distribution.constant().or_else(|| {
+            let value = drawn.next()?;
+            inputs.push((variable.name.clone(), value));
+            Some(value)
+        });
+        values.push(value.unwrap_or(f64::NAN));
+    }
+    values.extend(&row.conditions);
+    let operation = task.model.program.first_undefined(&values);
+    EvaluationError::Undefined { row: number, undefined, inputs, operation }
+}
+
+/// The hash over the bits of all trials of all rows (`gumption verify --paths`).
+///
+/// # Errors
+/// Correlations that cannot be drawn.
+pub fn trial_hash(task: &Task, trials: u64, control: &Control<'_>) -> Result<u64, EvaluationError> {
+    in_pool(control, || {
+        task.rows.iter().try_fold(0u64, |hash, row| {
+            let estimates = gum::evaluate(task, row).estimates;
+            let made = monte_carlo::Trials::new(task, row, &estimates)?;
+            Ok(hash.rotate_left(1) ^ monte_carlo::hash_trials(&made, trials, control.path))
+        })
+    })?
+}

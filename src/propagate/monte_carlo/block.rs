@@ -1,0 +1,150 @@
+//! One block of trials: the inputs drawn, the model evaluated, the outputs handed over.
+
+use crate::distribution::{BLOCK, CorrelationError, Distribution, Draws, Joint, StreamKey};
+use crate::model::{Place, Schedule};
+use crate::number::{COLUMN, CodePath, Column, Kernel};
+use crate::task::{Row, Sharing, Task};
+
+/// One row of a task made ready for trials.
+#[derive(Debug)]
+pub(crate) struct Trials {
+    schedule: Schedule,
+    /// The variables that vary, in the order of their registers.
+    distributions: Vec<Distribution>,
+    registers: Vec<usize>,
+    joint: Joint,
+    keys: Vec<StreamKey>,
+    /// For each output, the branch that phases are taken on: its middle and the length of a turn.
+    branches: Vec<Option<(f64, f64)>>,
+}
+
+/// Buffers of one thread, reused from block to block.
+#[derive(Debug)]
+pub(crate) struct Workspace {
+    registers: Vec<Column>,
+    /// The outputs' values in the block's trials.
+    pub(crate) outputs: Vec<[f64; BLOCK]>,
+}
+
+impl Trials {
+    /// A row of the task. `estimates` are the outputs' values at the estimates of the inputs, the
+    /// middle of a phase's branch.
+    ///
+    /// # Errors
+    /// Correlations that cannot be drawn; the places in the error are the task's variables.
+    pub(crate) fn new(task: &Task, row: &Row, estimates: &[f64]) -> Result<Self, CorrelationError> {
+        let mut bound: Vec<Option<f64>> =
+            row.distributions.iter().map(Distribution::constant).collect();
+        let varying: Vec<usize> =
+            (0..row.distributions.len()).filter(|&v| bound[v].is_none()).collect();
+        bound.extend(row.conditions.iter().map(|&value| Some(value)));
+        let schedule = Schedule::new(&task.model.program, &bound);
+        let distributions: Vec<Distribution> =
+            varying.iter().map(|&v| row.distributions[v].clone()).collect();
+        let keys = varying
+            .iter()
+            .map(|&v| StreamKey::new(task.settings.seed, &stream_name(task, row, v)))
+            .collect();
+        let branches = task
+            .model
+            .outputs
+            .iter()
+            .zip(estimates)
+            .map(|(output, &middle)| {
+                output.period.map(|turn| (if middle.is_finite() { middle } else { 0.0 }, turn))
+            })
+            .collect();
+        let joint = Joint::new(&row.distributions, &task.correlations)?.restricted(&varying);
+        Ok(Self {
+            registers: (0..varying.len()).collect(),
+            joint,
+            schedule,
+            distributions,
+            keys,
+            branches,
+        })
+    }
+
+    pub(crate) fn workspace(&self) -> Workspace {
+        Workspace {
+            registers: vec![Column::ZERO; self.schedule.registers],
+            outputs: vec![[0.0; BLOCK]; self.schedule.outputs.len()],
+        }
+    }
+
+    pub(crate) fn outputs(&self) -> usize {
+        self.schedule.outputs.len()
+    }
+
+    /// Fills the workspace's outputs with the trials of block `block`.
+    pub(crate) fn block(&self, path: CodePath, block: u64, workspace: &mut Workspace) {
+        path.run(BlockKernel { trials: self, block, workspace });
+    }
+
+    /// The drawn values of the varying variables, in the order of the task's variables with
+    /// constants left out, in trial `trial` of block `block`.
+    pub(crate) fn inputs_of(&self, block: u64, trial: usize) -> Vec<f64> {
+        let mut registers = vec![Column::ZERO; self.schedule.registers];
+        let all = vec![true; self.distributions.len()];
+        let mut draws = Draws::new(&self.distributions, &self.joint, &self.keys, block);
+        for _ in 0..=trial / COLUMN {
+            draws.column(&mut registers, &self.registers, &all);
+        }
+        registers.iter().take(all.len()).map(|column| column.0[trial % COLUMN]).collect()
+    }
+}
+
+/// The stream of a variable: its name, and where rows have values of their own, what tells the
+/// rows apart.
+fn stream_name(task: &Task, row: &Row, variable: usize) -> String {
+    let name = &task.variables[variable].name;
+    match task.variables[variable].sharing {
+        Sharing::All => name.clone(),
+        Sharing::Row => format!("{name}#{:?}", row.conditions),
+        Sharing::Condition(c) => format!("{name}#{c}#{:?}", row.conditions.get(c)),
+    }
+}
+
+struct BlockKernel<'a> {
+    trials: &'a Trials,
+    block: u64,
+    workspace: &'a mut Workspace,
+}
+
+impl Kernel for BlockKernel<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let Self { trials, block, workspace } = self;
+        let Workspace { registers, outputs } = workspace;
+        let schedule = &trials.schedule;
+        let mut draws = Draws::new(&trials.distributions, &trials.joint, &trials.keys, block);
+        for first in (0..BLOCK).step_by(COLUMN) {
+            draws.column(registers, &trials.registers, &schedule.used);
+            schedule.run(registers);
+            for (output, place) in schedule.outputs.iter().enumerate() {
+                let out = &mut outputs[output][first..first + COLUMN];
+                match *place {
+                    Place::Register(register) => out.copy_from_slice(&registers[register].0),
+                    Place::Constant(value) => out.fill(value),
+                }
+                if let Some((middle, turn)) = trials.branches[output] {
+                    onto_branch(out, middle, turn);
+                }
+            }
+        }
+    }
+}
+
+/// Moves values by whole turns to within half a turn of the middle.
+#[inline(always)]
+fn onto_branch(values: &mut [f64], middle: f64, turn: f64) {
+    // adding and taking away 1.5 x 2^52 rounds to the nearest integer; phases of more turns than
+    // that have lost their angle anyway
+    const ROUND: f64 = 6_755_399_441_055_744.0;
+    for value in values {
+        let turns = ((*value - middle) / turn + ROUND) - ROUND;
+        *value -= turn * turns;
+    }
+}

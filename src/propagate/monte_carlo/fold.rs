@@ -1,0 +1,112 @@
+//! Folding trials: a block's values become sums and the few values that intervals depend on.
+
+use super::moments::{Reference, Sums};
+use super::windows::Windows;
+use crate::distribution::BLOCK;
+use crate::number::Kernel;
+
+/// What is left of a run of blocks.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Folded {
+    /// Number of trials folded in.
+    pub(crate) trials: u64,
+    /// Trials whose outputs were not all finite; they are not among `trials`.
+    pub(crate) undefined: u64,
+    /// The first of them: its block and its place in it.
+    pub(crate) first_undefined: Option<(u64, usize)>,
+    /// One entry for each output.
+    pub(crate) outputs: Vec<FoldedOutput>,
+}
+
+/// What is left of one output's values.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct FoldedOutput {
+    pub(crate) sums: Sums,
+    /// Kept values; sorted once the run of blocks is finished.
+    pub(crate) kept: Vec<f64>,
+    /// Number of values below the window about the median.
+    pub(crate) below_median: u64,
+}
+
+impl FoldedOutput {
+    pub(crate) fn sort(&mut self) {
+        self.kept.sort_unstable_by(f64::total_cmp);
+    }
+}
+
+/// How one output is folded.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Plan {
+    pub(crate) reference: Reference,
+    pub(crate) windows: Windows,
+    /// Share of the values that the windows keep.
+    pub(crate) kept: f64,
+}
+
+impl Folded {
+    pub(crate) fn new(outputs: usize) -> Self {
+        Self { outputs: vec![FoldedOutput::default(); outputs], ..Self::default() }
+    }
+}
+
+/// Removes the trials of a block in which an output is not finite; returns how many trials are left
+/// of the first `count`, and the place of the first that was removed.
+pub(crate) fn drop_undefined(values: &mut [[f64; BLOCK]], count: usize) -> (usize, Option<usize>) {
+    // x - x is 0 for finite values and not a number otherwise
+    let clean = values.iter().all(|v| v[..count].iter().map(|x| x - x).sum::<f64>() == 0.0);
+    if clean {
+        return (count, None);
+    }
+    let mut left = 0;
+    let mut first = None;
+    for trial in 0..count {
+        if values.iter().all(|v| v[trial].is_finite()) {
+            for v in values.iter_mut() {
+                v[left] = v[trial];
+            }
+            left += 1;
+        } else {
+            first = first.or(Some(trial));
+        }
+    }
+    (left, first)
+}
+
+/// Folds the first `count` trials of a block.
+pub(crate) struct FoldKernel<'a> {
+    pub(crate) values: &'a [[f64; BLOCK]],
+    pub(crate) count: usize,
+    pub(crate) plans: &'a [Plan],
+    pub(crate) folded: &'a mut Folded,
+}
+
+impl Kernel for FoldKernel<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let Self { values, count, plans, folded } = self;
+        folded.trials += count as u64;
+        let after: Vec<(&[f64], Reference)> =
+            values.iter().zip(plans).map(|(v, plan)| (&v[..count], plan.reference)).collect();
+        for (output, (plan, out)) in plans.iter().zip(&mut folded.outputs).enumerate() {
+            let block = &values[output][..count];
+            out.sums.add(block, plan.reference, &after[output + 1..]);
+            out.below_median +=
+                block.iter().map(|&v| u64::from(v < plan.windows.median_low)).sum::<u64>();
+            keep(block, &plan.windows, &mut out.kept);
+        }
+    }
+}
+
+/// Appends the values that the windows keep, without a branch on each value.
+#[inline(always)]
+fn keep(block: &[f64], windows: &Windows, kept: &mut Vec<f64>) {
+    let mut buffer = [0.0; BLOCK];
+    let mut length = 0;
+    for &value in block {
+        buffer[length] = value;
+        length += usize::from(windows.keeps(value));
+    }
+    kept.extend_from_slice(&buffer[..length]);
+}

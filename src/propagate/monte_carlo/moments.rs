@@ -1,0 +1,172 @@
+//! Moments of the trials, added up in a fixed order about a pilot value.
+
+/// Where an output's values lie and how far they spread: the pilot's median and a width. Sums are
+/// taken of (value - middle)/scale, so that they neither cancel nor overflow.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Reference {
+    pub(crate) middle: f64,
+    pub(crate) scale: f64,
+}
+
+/// Sums over trials of the powers 1 to 4 of one output, and of its products with the outputs after
+/// it, all about the reference.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Sums {
+    pub(crate) powers: [f64; 4],
+    pub(crate) products: Vec<f64>,
+}
+
+const LANES: usize = 8;
+
+impl Sums {
+    /// Adds a block's values; `others` are the outputs after this one with their references. Every
+    /// lane adds its own trials, and the lanes are added in order, so the result does not depend on
+    /// the width of the machine's vectors.
+    #[inline(always)]
+    pub(crate) fn add(
+        &mut self,
+        values: &[f64],
+        reference: Reference,
+        others: &[(&[f64], Reference)],
+    ) {
+        let inverse = 1.0 / reference.scale;
+        let mut lanes = [[0.0; LANES]; 4];
+        let chunks = values.chunks_exact(LANES);
+        let rest = chunks.remainder();
+        for chunk in chunks {
+            for i in 0..LANES {
+                let d = (chunk[i] - reference.middle) * inverse;
+                let d2 = d * d;
+                lanes[0][i] += d;
+                lanes[1][i] += d2;
+                lanes[2][i] += d2 * d;
+                lanes[3][i] += d2 * d2;
+            }
+        }
+        for (i, &value) in rest.iter().enumerate() {
+            let d = (value - reference.middle) * inverse;
+            let d2 = d * d;
+            lanes[0][i] += d;
+            lanes[1][i] += d2;
+            lanes[2][i] += d2 * d;
+            lanes[3][i] += d2 * d2;
+        }
+        for (sum, lane) in self.powers.iter_mut().zip(lanes) {
+            *sum += pairwise(lane);
+        }
+        self.products.resize(others.len(), 0.0);
+        for (sum, (other, about)) in self.products.iter_mut().zip(others) {
+            let other_inverse = 1.0 / about.scale;
+            let mut lane = [0.0; LANES];
+            for (a, b) in values.chunks(LANES).zip(other.chunks(LANES)) {
+                for i in 0..a.len().min(b.len()) {
+                    let d = (a[i] - reference.middle) * inverse;
+                    lane[i] += d * ((b[i] - about.middle) * other_inverse);
+                }
+            }
+            *sum += pairwise(lane);
+        }
+    }
+
+    /// The sums of two sets of trials.
+    pub(crate) fn merge(&mut self, other: &Self) {
+        for (sum, term) in self.powers.iter_mut().zip(other.powers) {
+            *sum += term;
+        }
+        self.products.resize(self.products.len().max(other.products.len()), 0.0);
+        for (sum, term) in self.products.iter_mut().zip(&other.products) {
+            *sum += term;
+        }
+    }
+}
+
+#[inline(always)]
+fn pairwise(lane: [f64; LANES]) -> f64 {
+    let [a, b, c, d, e, f, g, h] = lane;
+    ((a + e) + (c + g)) + ((b + f) + (d + h))
+}
+
+/// Mean, standard deviation and shape of one output's trials.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Moments {
+    pub(crate) trials: f64,
+    pub(crate) mean: f64,
+    /// Standard deviation with divisor M - 1 (JCGM 101, 7.6).
+    pub(crate) std: f64,
+    pub(crate) skewness: f64,
+    pub(crate) excess_kurtosis: f64,
+}
+
+impl Moments {
+    /// The moments of `trials` many values with these sums.
+    pub(crate) fn new(trials: u64, reference: Reference, sums: &Sums) -> Self {
+        let n = trials as f64;
+        let [s1, s2, s3, s4] = sums.powers.map(|s| s / n);
+        let m2 = f64::max(s2 - s1 * s1, 0.0);
+        let m3 = s3 - 3.0 * s1 * s2 + 2.0 * s1.powi(3);
+        let m4 = s4 - 4.0 * s1 * s3 + 6.0 * s1 * s1 * s2 - 3.0 * s1.powi(4);
+        Self {
+            trials: n,
+            mean: reference.middle + reference.scale * s1,
+            std: reference.scale * (m2 * n / (n - 1.0)).sqrt(),
+            skewness: m3 / m2.powf(1.5),
+            excess_kurtosis: m4 / (m2 * m2) - 3.0,
+        }
+    }
+
+    /// Numerical standard error of the mean (JCGM 101, 5.9.6 note).
+    pub(crate) fn mean_error(&self) -> f64 {
+        self.std / self.trials.sqrt()
+    }
+
+    /// Numerical standard error of the standard deviation: the variance of s^2 is
+    /// (m4 - m2^2)/M to first order, and u = sqrt(s^2).
+    pub(crate) fn std_error(&self) -> f64 {
+        self.std * (f64::max(self.excess_kurtosis + 2.0, 0.0) / self.trials).sqrt() / 2.0
+    }
+}
+
+/// The correlation coefficient of two outputs from their sums and the sum of their products.
+pub(crate) fn correlation(trials: u64, a: &Sums, b: &Sums, product: f64) -> f64 {
+    let n = trials as f64;
+    let (a1, b1) = (a.powers[0] / n, b.powers[0] / n);
+    let (a2, b2) = (a.powers[1] / n - a1 * a1, b.powers[1] / n - b1 * b1);
+    ((product / n - a1 * b1) / (a2 * b2).sqrt()).clamp(-1.0, 1.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Moments of the numbers 1 to 1000 about a middle far off, against their closed forms:
+    /// variance (n^2 - 1)/12 with divisor n, excess kurtosis -6/5 (n^2 + 1)/(n^2 - 1).
+    #[test]
+    fn moments_of_consecutive_numbers() {
+        let values: Vec<f64> = (1..=1000).map(f64::from).collect();
+        let reference = Reference { middle: 480.0, scale: 300.0 };
+        let mut sums = Sums::default();
+        sums.add(&values[..617], reference, &[]);
+        let mut rest = Sums::default();
+        rest.add(&values[617..], reference, &[]);
+        sums.merge(&rest);
+        let m = Moments::new(1000, reference, &sums);
+        assert!((m.mean - 500.5).abs() < 1e-10);
+        let variance: f64 = (1e6 - 1.0) / 12.0 * 1000.0 / 999.0;
+        assert!((m.std - variance.sqrt()).abs() < 1e-10);
+        assert!(m.skewness.abs() < 1e-12);
+        let kurtosis = -1.2 * (1e6 + 1.0) / (1e6 - 1.0);
+        assert!((m.excess_kurtosis - kurtosis).abs() < 1e-12);
+    }
+
+    #[test]
+    fn correlation_of_a_line_is_one() {
+        let a: Vec<f64> = (0..100).map(f64::from).collect();
+        let b: Vec<f64> = a.iter().map(|x| 5.0 - 3.0 * x).collect();
+        let (ra, rb) =
+            (Reference { middle: 50.0, scale: 30.0 }, Reference { middle: 0.0, scale: 90.0 });
+        let (mut sa, mut sb) = (Sums::default(), Sums::default());
+        sa.add(&a, ra, &[(&b, rb)]);
+        sb.add(&b, rb, &[]);
+        assert!((correlation(100, &sa, &sb, sa.products[0]) + 1.0).abs() < 1e-14);
+    }
+}

@@ -1,0 +1,424 @@
+//! A Monte Carlo run of one row: pilot, main pass, figures.
+
+use rayon::prelude::*;
+
+use super::block::{Trials, Workspace};
+use super::capped;
+use super::fold::{FoldKernel, Folded, Plan, drop_undefined};
+use super::interval::{Ranks, quantile_error, shortest, symmetric};
+use super::moments::{Moments, Reference, correlation};
+use super::order::Order;
+use super::windows::Windows;
+use crate::distribution::BLOCK;
+use crate::propagate::Control;
+
+/// Blocks of the pilot; fewer trials than that are all kept.
+const PILOT_BLOCKS: u64 = 16;
+
+/// Batches whose scatter gives the numerical standard error of the shortest interval.
+const BATCHES: usize = 32;
+
+/// Blocks that a thread works on at a time, at most.
+const LARGEST_CHUNK: u64 = 64;
+
+/// One output's figures from the trials.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MonteCarlo {
+    /// Number of trials behind the figures.
+    pub trials: u64,
+    /// Mean of the trials.
+    pub estimate: f64,
+    /// Standard deviation of the trials; `None` if the distribution has none.
+    pub standard_uncertainty: Option<f64>,
+    /// Median of the trials.
+    pub median: f64,
+    /// Probabilistically symmetric coverage interval.
+    pub symmetric_interval: [f64; 2],
+    /// Shortest coverage interval.
+    pub shortest_interval: [f64; 2],
+    /// Whether the shortest interval is exactly that of the trials.
+    pub shortest_exact: bool,
+    /// Skewness; `None` if the distribution has none, or if all trials are equal.
+    pub skewness: Option<f64>,
+    /// Excess kurtosis; `None` as for the skewness.
+    pub excess_kurtosis: Option<f64>,
+    /// Numerical standard errors.
+    pub errors: NumericalError,
+}
+
+/// How far the finite number of trials lets each figure scatter: one standard deviation.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NumericalError {
+    /// Of the estimate; `None` if the distribution has no standard deviation.
+    pub estimate: Option<f64>,
+    /// Of the standard uncertainty; `None` if the distribution has no fourth moment.
+    pub standard_uncertainty: Option<f64>,
+    /// Of the median.
+    pub median: f64,
+    /// Of the ends of the symmetric interval.
+    pub symmetric_interval: [f64; 2],
+    /// Of the ends of the shortest interval, which settles only with the cube root of the trials;
+    /// not a number with too few trials to tell.
+    pub shortest_interval: [f64; 2],
+}
+
+/// Trials whose outputs were not all finite.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Undefined {
+    /// How many there were.
+    pub count: u64,
+    /// Out of how many.
+    pub trials: u64,
+    /// The drawn values of the varying inputs in the first such trial, in order.
+    pub first: Vec<f64>,
+}
+
+/// What a run of one row gives.
+#[derive(Clone, Debug)]
+pub(crate) struct Finished {
+    /// Trials behind the figures.
+    pub(crate) trials: u64,
+    /// One entry for each output.
+    pub(crate) outputs: Vec<MonteCarlo>,
+    /// Correlation coefficients of the outputs i < j.
+    pub(crate) correlations: Vec<f64>,
+    /// Trials that were left out.
+    pub(crate) undefined: Option<Undefined>,
+    /// Whether the run was stopped early.
+    pub(crate) stopped: bool,
+}
+
+/// What a run needs beside its trials.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Request<'a> {
+    /// Number of trials.
+    pub(crate) trials: u64,
+    /// Coverage probability.
+    pub(crate) probability: f64,
+    /// For each output the fewest degrees of freedom among the t distributions that it depends on:
+    /// moments of that order and above do not exist.
+    pub(crate) drawn_dof: &'a [f64],
+}
+
+/// Runs the trials of one row. Where every trial is undefined, or the run was stopped before the
+/// first one, there are no outputs.
+pub(crate) fn run(trials: &Trials, request: Request<'_>, control: &Control<'_>) -> Finished {
+    let mut margin = 1.0;
+    loop {
+        let plans = plans(trials, request, control, margin);
+        if kept_bytes(&plans, request) > control.memory {
+            return run_capped(trials, request, control, &plans);
+        }
+        let chunks = fold_all(trials, request.trials, &plans, control);
+        if let Some(finished) = finish(trials, request, control, &plans, chunks) {
+            return finished;
+        }
+        // a tail came out short: wider windows, in the end everything
+        margin *= 4.0;
+    }
+}
+
+/// The memory that the kept values of all outputs would take.
+fn kept_bytes(plans: &[Plan], request: Request<'_>) -> usize {
+    let share: f64 = plans.iter().map(|plan| plan.kept).sum();
+    (8.0 * share * request.trials as f64) as usize
+}
+
+/// A run in bounded memory. A run of its first trials tells how far the shortest interval scatters,
+/// and is what is handed back if the user stops the whole.
+fn run_capped(
+    trials: &Trials,
+    request: Request<'_>,
+    control: &Control<'_>,
+    plans: &[Plan],
+) -> Finished {
+    let affordable = control.memory as f64 / 8.0 / plans.len().max(1) as f64;
+    let part = (request.trials / 64).min(affordable as u64 / 2).max(2);
+    let quiet = Control { progress: None, ..*control };
+    let mut first = run(trials, Request { trials: part, ..request }, &quiet);
+    let law = (part as f64 / request.trials as f64).cbrt();
+    let errors: Vec<[f64; 2]> = first
+        .outputs
+        .iter()
+        .map(|output| output.errors.shortest_interval.map(|error| law * error))
+        .collect();
+    capped::run(trials, request, control, plans, &errors).unwrap_or_else(|| {
+        first.stopped = true;
+        first
+    })
+}
+
+/// References and windows from the first blocks.
+fn plans(trials: &Trials, request: Request<'_>, control: &Control<'_>, margin: f64) -> Vec<Plan> {
+    let blocks = request.trials.div_ceil(BLOCK as u64).min(PILOT_BLOCKS);
+    let mut workspace = trials.workspace();
+    let mut pilot: Vec<Vec<f64>> = vec![Vec::new(); trials.outputs()];
+    for block in 0..blocks {
+        let count = trials_in(block, request.trials);
+        trials.block(control.path, block, &mut workspace);
+        let (count, _) = drop_undefined(&mut workspace.outputs, count);
+        for (values, out) in pilot.iter_mut().zip(&workspace.outputs) {
+            values.extend_from_slice(&out[..count]);
+        }
+    }
+    pilot
+        .into_iter()
+        .map(|mut values| {
+            values.sort_unstable_by(f64::total_cmp);
+            let reference = reference(&values);
+            let all = request.trials <= 4 * PILOT_BLOCKS * BLOCK as u64 || margin > 20.0;
+            let windows = if all {
+                Windows::ALL
+            } else {
+                Windows::from_pilot(&values, request.probability, margin)
+            };
+            let kept = values.iter().filter(|v| windows.keeps(**v)).count() as f64;
+            Plan { reference, windows, kept: kept / values.len().max(1) as f64 }
+        })
+        .collect()
+}
+
+/// The median and a width of sorted values: half the distance of the quartiles, or what is there.
+fn reference(sorted: &[f64]) -> Reference {
+    let at = |share: f64| sorted.get((share * sorted.len() as f64) as usize).copied();
+    let middle = at(0.5).unwrap_or(0.0);
+    let widths = [at(0.25).zip(at(0.75)), sorted.first().copied().zip(sorted.last().copied())];
+    let scale = widths
+        .into_iter()
+        .flatten()
+        .map(|(low, high)| 0.5 * high - 0.5 * low)
+        .find(|width| *width > 0.0)
+        .unwrap_or(1.0);
+    Reference { middle, scale }
+}
+
+/// How many of the first `trials` trials lie in a block.
+pub(super) fn trials_in(block: u64, trials: u64) -> usize {
+    trials.saturating_sub(block * BLOCK as u64).min(BLOCK as u64) as usize
+}
+
+/// Folds all trials, chunk by chunk on all threads; the chunks come back in order.
+fn fold_all(trials: &Trials, count: u64, plans: &[Plan], control: &Control<'_>) -> Vec<Folded> {
+    let blocks = count.div_ceil(BLOCK as u64);
+    let chunk = blocks.div_ceil(BATCHES as u64).clamp(1, LARGEST_CHUNK);
+    let fold_chunk = |workspace: &mut Workspace, number: u64| {
+        let mut folded = Folded::new(plans.len());
+        for block in number * chunk..((number + 1) * chunk).min(blocks) {
+            if control.is_stopped() {
+                break;
+            }
+            trials.block(control.path, block, workspace);
+            let values = &mut workspace.outputs;
+            let wanted = trials_in(block, count);
+            let (count, first) = drop_undefined(values, wanted);
+            if let Some(first) = first {
+                folded.undefined += (wanted - count) as u64;
+                folded.first_undefined = folded.first_undefined.or(Some((block, first)));
+            }
+            control.path.run(FoldKernel { values, count, plans, folded: &mut folded });
+            control.advance(wanted as u64);
+        }
+        for output in &mut folded.outputs {
+            output.sort();
+        }
+        folded
+    };
+    (0..blocks.div_ceil(chunk))
+        .into_par_iter()
+        .map_init(|| trials.workspace(), fold_chunk)
+        .collect()
+}
+
+/// The figures from the folded chunks; `None` if a window missed a value that is needed.
+fn finish(
+    trials: &Trials,
+    request: Request<'_>,
+    control: &Control<'_>,
+    plans: &[Plan],
+    mut chunks: Vec<Folded>,
+) -> Option<Finished> {
+    let undefined = undefined(trials, &chunks);
+    let stopped = control.is_stopped();
+    let count: u64 = chunks.iter().map(|chunk| chunk.trials).sum();
+    if count == 0 {
+        let (outputs, correlations) = (Vec::new(), Vec::new());
+        return Some(Finished { trials: 0, outputs, correlations, undefined, stopped });
+    }
+    let totals: Vec<_> = (0..plans.len())
+        .map(|output| {
+            chunks.iter().fold(super::moments::Sums::default(), |mut sums, chunk| {
+                sums.merge(&chunk.outputs[output].sums);
+                sums
+            })
+        })
+        .collect();
+    let mut correlations = Vec::new();
+    for (i, a) in totals.iter().enumerate() {
+        for (b, &product) in totals[i + 1..].iter().zip(&a.products) {
+            correlations.push(correlation(count, a, b, product));
+        }
+    }
+    let mut per_output: Vec<Vec<Batch>> = (0..plans.len()).map(|_| Vec::new()).collect();
+    for chunk in &mut chunks {
+        for (batches, output) in per_output.iter_mut().zip(&mut chunk.outputs) {
+            batches.push(Batch {
+                trials: chunk.trials,
+                below_median: output.below_median,
+                kept: std::mem::take(&mut output.kept),
+            });
+        }
+    }
+    // one output after the other: sorting copies, and memory is for one copy at a time
+    let outputs: Vec<Option<MonteCarlo>> = per_output
+        .into_iter()
+        .enumerate()
+        .map(|(o, chunks)| {
+            let moments = Moments::new(count, plans[o].reference, &totals[o]);
+            let dof = request.drawn_dof.get(o).copied().unwrap_or(f64::INFINITY);
+            figures(moments, dof, request.probability, &plans[o].windows, chunks)
+        })
+        .collect();
+    let outputs = outputs.into_iter().collect::<Option<Vec<_>>>()?;
+    Some(Finished { trials: count, outputs, correlations, undefined, stopped })
+}
+
+fn undefined(trials: &Trials, chunks: &[Folded]) -> Option<Undefined> {
+    let (block, trial) = chunks.iter().find_map(|chunk| chunk.first_undefined)?;
+    let count = chunks.iter().map(|chunk| chunk.undefined).sum();
+    let defined: u64 = chunks.iter().map(|chunk| chunk.trials).sum();
+    Some(Undefined { count, trials: defined + count, first: trials.inputs_of(block, trial) })
+}
+
+/// Kept values of some consecutive trials of one output, sorted.
+struct Batch {
+    trials: u64,
+    below_median: u64,
+    kept: Vec<f64>,
+}
+
+impl Batch {
+    fn join(batches: Vec<Self>) -> Self {
+        let (trials, below_median) = batches
+            .iter()
+            .fold((0, 0), |(trials, below), b| (trials + b.trials, below + b.below_median));
+        let mut kept = Vec::with_capacity(batches.iter().map(|b| b.kept.len()).sum());
+        for batch in batches {
+            kept.extend(batch.kept);
+        }
+        // a stable sort merges the sorted runs that it finds
+        kept.sort_by(f64::total_cmp);
+        Self { trials, below_median, kept }
+    }
+}
+
+fn figures(
+    moments: Moments,
+    drawn_dof: f64,
+    probability: f64,
+    windows: &Windows,
+    chunks: Vec<Batch>,
+) -> Option<MonteCarlo> {
+    let (batches, shortest_error) = shortest_error(chunks, probability, windows);
+    let all = Batch::join(batches);
+    let order = Order::new(all.trials, all.kept, all.below_median, windows);
+    let symmetric_interval = symmetric(&order, probability)?;
+    let shortest_interval = shortest(&order, probability)?;
+    let median = order.median()?;
+    let ranks = Ranks::new(order.trials, probability);
+    let upper = (ranks.r + ranks.q).min(order.trials);
+    let quantile_errors = [
+        quantile_error(&order, ranks.r)?,
+        quantile_error(&order, upper)?,
+        quantile_error(&order, order.trials.div_ceil(2))?,
+    ];
+    let errors = NumericalError::new(&moments, drawn_dof, quantile_errors, shortest_error);
+    let intervals = (symmetric_interval, shortest_interval, true);
+    Some(MonteCarlo::new(&moments, drawn_dof, median, intervals, errors))
+}
+
+impl MonteCarlo {
+    /// The figures, without the moments that do not exist for t distributions of `drawn_dof`
+    /// degrees of freedom. The intervals are the symmetric one, the shortest one and whether that
+    /// is exact.
+    pub(super) fn new(
+        moments: &Moments,
+        drawn_dof: f64,
+        median: f64,
+        intervals: ([f64; 2], [f64; 2], bool),
+        errors: NumericalError,
+    ) -> Self {
+        let spread = moments.std > 0.0;
+        Self {
+            trials: moments.trials as u64,
+            estimate: moments.mean,
+            standard_uncertainty: (drawn_dof > 2.0).then_some(moments.std),
+            median,
+            symmetric_interval: intervals.0,
+            shortest_interval: intervals.1,
+            shortest_exact: intervals.2,
+            skewness: (drawn_dof > 3.0 && spread).then_some(moments.skewness),
+            excess_kurtosis: (drawn_dof > 4.0 && spread).then_some(moments.excess_kurtosis),
+            errors,
+        }
+    }
+}
+
+impl NumericalError {
+    /// The errors, `quantiles` being those of the lower end, the upper end and the median.
+    pub(super) fn new(
+        moments: &Moments,
+        drawn_dof: f64,
+        quantiles: [f64; 3],
+        shortest_interval: [f64; 2],
+    ) -> Self {
+        let [low, high, median] = quantiles;
+        Self {
+            estimate: (drawn_dof > 2.0).then(|| moments.mean_error()),
+            standard_uncertainty: (drawn_dof > 4.0).then(|| moments.std_error()),
+            median,
+            symmetric_interval: [low, high],
+            shortest_interval,
+        }
+    }
+}
+
+/// The scatter of the shortest interval between batches of the trials, brought to the number of
+/// all trials by the cube-root law of such intervals (Kim and Pollard, Annals of Statistics 18,
+/// 1990). The batches are handed back.
+fn shortest_error(
+    chunks: Vec<Batch>,
+    probability: f64,
+    windows: &Windows,
+) -> (Vec<Batch>, [f64; 2]) {
+    let size = chunks.len().div_ceil(BATCHES).max(1);
+    let mut batches = Vec::with_capacity(BATCHES);
+    let mut chunks = chunks.into_iter().peekable();
+    while chunks.peek().is_some() {
+        batches.push(Batch::join(chunks.by_ref().take(size).collect()));
+    }
+    let total: u64 = batches.iter().map(|b| b.trials).sum();
+    let largest = batches.iter().map(|b| b.trials).max().unwrap_or(0);
+    let ends: Vec<[f64; 2]> = batches
+        .iter_mut()
+        // a last batch of few trials would scatter more than the others
+        .filter(|batch| 2 * batch.trials > largest)
+        .filter_map(|batch| {
+            let kept = std::mem::take(&mut batch.kept);
+            let order = Order::new(batch.trials, kept, batch.below_median, windows);
+            let ends = shortest(&order, probability);
+            batch.kept = order.into_sorted();
+            ends
+        })
+        .collect();
+    let n = ends.len() as f64;
+    if ends.len() < 4 {
+        return (batches, [f64::NAN; 2]);
+    }
+    let law = (largest as f64 / total as f64).cbrt();
+    let error = [0, 1].map(|end| {
+        let mean = ends.iter().map(|e| e[end]).sum::<f64>() / n;
+        let squares: f64 = ends.iter().map(|e| (e[end] - mean).powi(2)).sum();
+        law * (squares / (n - 1.0)).sqrt()
+    });
+    (batches, error)
+}

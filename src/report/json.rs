@@ -1,0 +1,357 @@
+//! The answer for programs.
+
+use serde::ser::SerializeMap;
+use serde::{Serialize, Serializer};
+
+use super::Report;
+use super::subtotals::Subtotals;
+use crate::propagate::gum::{BudgetLine, CorrelationLine, Dof, Gum};
+use crate::propagate::monte_carlo::{MonteCarlo, NumericalError};
+use crate::propagate::{OutputEvaluation, RowEvaluation, validate};
+use crate::task::{Task, Trials, Warning};
+
+/// The answer as JSON, keys in a fixed order, numbers in the shortest text that reads back as the
+/// same number, `null` for what is infinite or not defined. It ends in a newline.
+///
+/// The same evaluation gives the same bytes always.
+pub fn json(report: &Report<'_>) -> String {
+    // only a map with keys that are not text could fail
+    let mut text = serde_json::to_string_pretty(&Answer::of(report)).unwrap_or_default();
+    text.push('\n');
+    text
+}
+
+#[derive(Serialize)]
+struct Answer<'a> {
+    gumption: &'static str,
+    title: &'a str,
+    coverage_probability: f64,
+    #[serde(skip_serializing_if = "is_false")]
+    stopped: bool,
+    #[serde(flatten)]
+    results: Results<'a>,
+    warnings: Vec<Remark<'a>>,
+    provenance: Origin<'a>,
+}
+
+#[derive(Serialize)]
+#[serde(untagged)]
+enum Results<'a> {
+    Single(Figures<'a>),
+    Swept { rows: Vec<Row<'a>> },
+}
+
+#[derive(Serialize)]
+struct Row<'a> {
+    conditions: Map<&'a str, f64>,
+    #[serde(flatten)]
+    figures: Figures<'a>,
+}
+
+#[derive(Default, Serialize)]
+struct Figures<'a> {
+    outputs: Map<&'a str, Output<'a>>,
+    output_correlations: Vec<(&'a str, &'a str, f64)>,
+}
+
+#[derive(Serialize)]
+struct Output<'a> {
+    unit: &'a str,
+    gum: Option<GumSide<'a>>,
+    monte_carlo: Option<MonteCarloSide>,
+    validation: Option<Validation>,
+}
+
+#[derive(Serialize)]
+struct GumSide<'a> {
+    estimate: f64,
+    standard_uncertainty: f64,
+    dof: Option<f64>,
+    dof_status: &'static str,
+    coverage_factor: Option<f64>,
+    expanded_uncertainty: Option<f64>,
+    interval: Option<[f64; 2]>,
+    budget: Vec<Line<'a>>,
+    subtotals: Vec<Subtotal<'a>>,
+}
+
+#[derive(Serialize)]
+#[serde(untagged)]
+enum Line<'a> {
+    Input(InputLine<'a>),
+    Coefficient(CoefficientLine<'a>),
+}
+
+#[derive(Serialize)]
+struct InputLine<'a> {
+    input: &'a str,
+    estimate: f64,
+    standard_uncertainty: f64,
+    distribution: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    drawn_as: Option<&'static str>,
+    r#type: &'static str,
+    group: Option<&'a str>,
+    dof: Option<f64>,
+    sensitivity: f64,
+    contribution: f64,
+    share: f64,
+}
+
+#[derive(Serialize)]
+struct CoefficientLine<'a> {
+    /// Always null: the line belongs to two inputs.
+    input: (),
+    correlation: [&'a str; 2],
+    coefficient: f64,
+    /// Always null.
+    contribution: (),
+    share: f64,
+}
+
+#[derive(Serialize)]
+#[serde(untagged)]
+enum Subtotal<'a> {
+    Group { group: Option<&'a str>, share: f64 },
+    Type { r#type: &'static str, share: f64 },
+}
+
+#[derive(Serialize)]
+struct MonteCarloSide {
+    trials: u64,
+    seed: u64,
+    #[serde(skip_serializing_if = "is_false")]
+    stopped: bool,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    undefined_share: Option<f64>,
+    estimate: f64,
+    standard_uncertainty: Option<f64>,
+    median: f64,
+    symmetric_interval: [f64; 2],
+    shortest_interval: [f64; 2],
+    shortest_exact: bool,
+    skewness: Option<f64>,
+    excess_kurtosis: Option<f64>,
+    numerical_standard_error: ErrorSide,
+}
+
+#[derive(Serialize)]
+struct ErrorSide {
+    estimate: Option<f64>,
+    standard_uncertainty: Option<f64>,
+    median: f64,
+    symmetric_interval: [f64; 2],
+    shortest_interval: [f64; 2],
+}
+
+#[derive(Serialize)]
+struct Validation {
+    digits: u32,
+    tolerance: f64,
+    d_low: f64,
+    d_high: f64,
+    gum_valid: Option<bool>,
+}
+
+#[derive(Serialize)]
+struct Remark<'a> {
+    code: &'static str,
+    r#where: &'a str,
+    text: &'a str,
+}
+
+#[derive(Serialize)]
+struct Origin<'a> {
+    model_sha256: &'a str,
+    seed: u64,
+    trials: u64,
+    files: Map<&'a str, &'a str>,
+}
+
+impl<'a> Answer<'a> {
+    fn of(report: &Report<'a>) -> Self {
+        let Report { task, evaluation, warnings, provenance } = *report;
+        let figures = |row| Figures::of(task, row, evaluation.stopped);
+        let mut rows = evaluation.rows.iter();
+        let results = if task.swept {
+            let rows = rows.map(|row| {
+                let names = task.model.conditions.iter().map(|condition| condition.name.as_str());
+                let conditions = names.zip(row.conditions.iter().copied()).collect();
+                Row { conditions: Map(conditions), figures: figures(row) }
+            });
+            Results::Swept { rows: rows.collect() }
+        } else {
+            Results::Single(rows.next().map(figures).unwrap_or_default())
+        };
+        let Trials::Fixed(trials) = evaluation.settings.trials;
+        let files = provenance.files.iter().map(|(name, sha)| (name.as_str(), sha.as_str()));
+        Self {
+            gumption: env!("CARGO_PKG_VERSION"),
+            title: &task.title,
+            coverage_probability: evaluation.coverage_probability,
+            stopped: evaluation.stopped,
+            results,
+            warnings: warnings.iter().map(Remark::of).collect(),
+            provenance: Origin {
+                model_sha256: &provenance.model_sha256,
+                seed: evaluation.settings.seed,
+                trials,
+                files: Map(files.collect()),
+            },
+        }
+    }
+}
+
+impl<'a> Figures<'a> {
+    fn of(task: &'a Task, row: &RowEvaluation, stopped: bool) -> Self {
+        let names = || task.model.outputs.iter().map(|output| output.quantity.name.as_str());
+        let outputs = task.model.outputs.iter().zip(&row.outputs).map(|(output, evaluation)| {
+            let side = Output {
+                unit: output.quantity.unit.text(),
+                gum: evaluation.gum.as_ref().map(|gum| GumSide::of(task, gum)),
+                monte_carlo: MonteCarloSide::of(task, row, evaluation, stopped),
+                validation: evaluation.validation.map(Validation::from),
+            };
+            (output.quantity.name.as_str(), side)
+        });
+        let pairs = names().enumerate().flat_map(|(i, a)| names().skip(i + 1).map(move |b| (a, b)));
+        let correlations = pairs.zip(&row.correlations).map(|((a, b), &r)| (a, b, r)).collect();
+        Self { outputs: Map(outputs.collect()), output_correlations: correlations }
+    }
+}
+
+impl<'a> GumSide<'a> {
+    fn of(task: &'a Task, gum: &Gum) -> Self {
+        let (dof, dof_status) = match gum.dof {
+            Dof::Finite(dof) => (Some(dof), "finite"),
+            Dof::Infinite => (None, "infinite"),
+            Dof::Undefined => (None, "undefined"),
+        };
+        let inputs = gum.budget.iter().filter_map(|line| InputLine::of(task, line));
+        let coefficients =
+            gum.correlations.iter().filter_map(|line| CoefficientLine::of(task, line));
+        let Subtotals { groups, types } = Subtotals::of(task, gum);
+        let groups = groups.into_iter().map(|(group, share)| Subtotal::Group { group, share });
+        let types = types.map(|(kind, share)| Subtotal::Type { r#type: kind.letter(), share });
+        Self {
+            estimate: gum.estimate,
+            standard_uncertainty: gum.standard_uncertainty,
+            dof,
+            dof_status,
+            coverage_factor: gum.coverage_factor,
+            expanded_uncertainty: gum.expanded_uncertainty(),
+            interval: gum.interval(),
+            budget: inputs.map(Line::Input).chain(coefficients.map(Line::Coefficient)).collect(),
+            subtotals: groups.chain(types).collect(),
+        }
+    }
+}
+
+impl<'a> InputLine<'a> {
+    fn of(task: &'a Task, line: &BudgetLine) -> Option<Self> {
+        let variable = task.variables.get(line.variable)?;
+        Some(Self {
+            input: &variable.name,
+            estimate: line.estimate,
+            standard_uncertainty: line.standard_uncertainty,
+            distribution: line.distribution,
+            drawn_as: line.drawn_as_t.then_some("t"),
+            r#type: variable.evaluation.letter(),
+            group: variable.group.as_deref(),
+            dof: line.dof.is_finite().then_some(line.dof),
+            sensitivity: line.sensitivity,
+            contribution: line.contribution,
+            share: line.share,
+        })
+    }
+}
+
+impl<'a> CoefficientLine<'a> {
+    fn of(task: &'a Task, line: &CorrelationLine) -> Option<Self> {
+        let [a, b] = line.variables.map(|place| task.variables.get(place));
+        Some(Self {
+            input: (),
+            correlation: [&a?.name, &b?.name],
+            coefficient: line.coefficient,
+            contribution: (),
+            share: line.share,
+        })
+    }
+}
+
+impl MonteCarloSide {
+    fn of(
+        task: &Task,
+        row: &RowEvaluation,
+        output: &OutputEvaluation,
+        stopped: bool,
+    ) -> Option<Self> {
+        let figures: &MonteCarlo = output.monte_carlo.as_ref()?;
+        let undefined = row.undefined.as_ref();
+        Some(Self {
+            trials: figures.trials,
+            seed: task.settings.seed,
+            stopped,
+            undefined_share: undefined
+                .map(|left_out| left_out.count as f64 / left_out.trials as f64),
+            estimate: figures.estimate,
+            standard_uncertainty: figures.standard_uncertainty,
+            median: figures.median,
+            symmetric_interval: figures.symmetric_interval,
+            shortest_interval: figures.shortest_interval,
+            shortest_exact: figures.shortest_exact,
+            skewness: figures.skewness,
+            excess_kurtosis: figures.excess_kurtosis,
+            numerical_standard_error: ErrorSide::from(figures.errors),
+        })
+    }
+}
+
+impl From<NumericalError> for ErrorSide {
+    fn from(errors: NumericalError) -> Self {
+        let NumericalError {
+            estimate,
+            standard_uncertainty,
+            median,
+            symmetric_interval,
+            shortest_interval,
+        } = errors;
+        Self { estimate, standard_uncertainty, median, symmetric_interval, shortest_interval }
+    }
+}
+
+impl From<validate::Validation> for Validation {
+    fn from(validation: validate::Validation) -> Self {
+        let validate::Validation { digits, tolerance, d_low, d_high, gum_valid } = validation;
+        Self { digits, tolerance, d_low, d_high, gum_valid }
+    }
+}
+
+impl<'a> Remark<'a> {
+    fn of(warning: &'a Warning) -> Self {
+        Self { code: warning.code, r#where: &warning.place, text: &warning.text }
+    }
+}
+
+/// Pairs that become an object in their own order.
+struct Map<K, V>(Vec<(K, V)>);
+
+impl<K, V> Default for Map<K, V> {
+    fn default() -> Self {
+        Self(Vec::new())
+    }
+}
+
+impl<K: Serialize, V: Serialize> Serialize for Map<K, V> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(Some(self.0.len()))?;
+        for (key, value) in &self.0 {
+            map.serialize_entry(key, value)?;
+        }
+        map.end()
+    }
+}
+
+fn is_false(value: &bool) -> bool {
+    !value
+}

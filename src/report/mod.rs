@@ -1,0 +1,41 @@
+//! Reports: what an evaluation looks like, one file for each format.
+
+mod csv;
+mod json;
+pub mod number;
+mod subtotals;
+#[cfg(feature = "cli")]
+mod table;
+
+pub use csv::csv;
+pub use json::json;
+#[cfg(feature = "cli")]
+pub use table::{Style, table};
+
+use crate::propagate::Evaluation;
+use crate::task::{Task, Warning};
+
+/// Where a result comes from: enough to repeat it.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Provenance {
+    /// SHA-256 of the model file, in hexadecimal.
+    pub model_sha256: String,
+    /// SHA-256 of every other file that was read, by its name as the model file has it.
+    pub files: Vec<(String, String)>,
+}
+
+/// Everything that a report may show.
+#[derive(Clone, Copy, Debug)]
+pub struct Report<'a> {
+    /// What was evaluated.
+    pub task: &'a Task,
+    /// The results.
+    pub evaluation: &'a Evaluation,
+    /// Warnings and notes, in order.
+    pub warnings: &'a [Warning],
+    /// Where it comes from.
+    pub provenance: &'a Provenance,
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,218 @@
+//! The uncertainty budget of one output, and what follows from it.
+
+use super::grid::Grid;
+use super::{WIDTH, coverage_text, has_name, in_unit, text};
+use crate::model::Quantity;
+use crate::propagate::Evaluation;
+use crate::propagate::gum::{BudgetLine, Dof, Gum};
+use crate::report::number::{exact, place, rounded, significant, with_uncertainty};
+use crate::report::subtotals::Subtotals;
+use crate::task::{Settings, Task};
+
+/// Significant digits of sensitivity coefficients.
+const SENSITIVITY_DIGITS: u32 = 4;
+
+/// Units and distributions up to this width stay in one line.
+const WORD: usize = 12;
+
+/// Degrees of freedom above this are written as a power of ten.
+const MANY: f64 = 1e7;
+
+/// Headers of the columns: as words, and broken for pages that would become too wide.
+const HEADERS: [[&str; 9]; 2] = [
+    [
+        "quantity",
+        "estimate",
+        "standard\nuncertainty",
+        "unit",
+        "distribution",
+        "dof",
+        "sensitivity\ncoefficient",
+        "contribution",
+        "share\nin %",
+    ],
+    [
+        "quantity",
+        "estimate",
+        "standard\nuncer-\ntainty",
+        "unit",
+        "distri-\nbution",
+        "dof",
+        "sensi-\ntivity",
+        "contri-\nbution",
+        "share\nin %",
+    ],
+];
+
+/// The budget with the combined standard uncertainty as its last line, subtotals, degrees of
+/// freedom, coverage factor and expanded uncertainty.
+pub(super) fn table(
+    task: &Task,
+    evaluation: &Evaluation,
+    output: &Quantity,
+    gum: &Gum,
+    digits: u32,
+) -> String {
+    let lines = lines(task, output, gum, digits);
+    let grids = HEADERS.map(|headers| grid(headers, &lines));
+    let grid = grids.iter().find(|grid| grid.natural_width() <= WIDTH).unwrap_or(&grids[1]);
+    let mut page = grid.render(WIDTH);
+    page += &text::wrapped(&legend(output));
+    page += &text::wrapped(&subtotals(task, gum).unwrap_or_default());
+    page.push('\n');
+    page + &conclusion(&evaluation.settings, output, gum, digits)
+}
+
+/// The cells of a line.
+type Line = [String; 9];
+
+fn grid(headers: [&str; 9], lines: &[Line]) -> Grid {
+    let mut grid = Grid::with_footer();
+    for (place, header) in headers.into_iter().enumerate() {
+        let cells = lines.iter().map(|line| line[place].clone());
+        match place {
+            0 => grid.text(header, cells),
+            3 | 4 => grid.text_from(header, WORD, cells),
+            _ => grid.numbers(header, cells),
+        }
+    }
+    grid
+}
+
+fn lines(task: &Task, output: &Quantity, gum: &Gum, digits: u32) -> Vec<Line> {
+    let inputs = gum.budget.iter().filter_map(|line| {
+        let variable = task.variables.get(line.variable)?;
+        let (estimate, uncertainty) =
+            with_uncertainty(line.estimate, line.standard_uncertainty, digits);
+        Some([
+            text::plain(&variable.name),
+            estimate,
+            uncertainty,
+            text::plain(variable.unit.text()),
+            distribution(line),
+            dof(line.dof),
+            significant(line.sensitivity, SENSITIVITY_DIGITS),
+            significant(line.contribution, digits),
+            percent(line.share),
+        ])
+    });
+    let coefficients = gum.correlations.iter().filter_map(|line| {
+        let [a, b] = line.variables.map(|place| task.variables.get(place));
+        let mut cells = Line::default();
+        cells[0] = format!("r({}, {})", text::plain(&a?.name), text::plain(&b?.name));
+        cells[1] = exact(line.coefficient);
+        cells[4] = "correlation".to_owned();
+        cells[8] = percent(line.share);
+        Some(cells)
+    });
+    let mut lines: Vec<Line> = inputs.chain(coefficients).collect();
+    let (estimate, combined) = with_uncertainty(gum.estimate, gum.standard_uncertainty, digits);
+    let mut total = Line::default();
+    total[0] = text::plain(&output.name);
+    total[1] = estimate;
+    total[2] = combined.clone();
+    total[3] = text::plain(output.unit.text());
+    total[4] = "combined".to_owned();
+    total[5] = effective(gum.dof, false);
+    total[7] = combined;
+    total[8] = percent(if gum.standard_uncertainty > 0.0 { 1.0 } else { 0.0 });
+    lines.push(total);
+    lines
+}
+
+fn distribution(line: &BudgetLine) -> String {
+    if line.drawn_as_t {
+        format!("{} (drawn as t)", line.distribution)
+    } else {
+        line.distribution.to_owned()
+    }
+}
+
+fn legend(output: &Quantity) -> String {
+    if has_name(&output.unit) {
+        let unit = output.unit.text();
+        format!(
+            "sensitivity coefficients in {unit} per unit of the quantity, contributions in {unit}"
+        )
+    } else {
+        "sensitivity coefficients per unit of the quantity".to_owned()
+    }
+}
+
+/// Shares by group and by type, where there is more than one of them.
+fn subtotals(task: &Task, gum: &Gum) -> Option<String> {
+    let Subtotals { groups, types } = Subtotals::of(task, gum);
+    let entry = |name: &str, share: f64| format!("{} {} %", text::plain(name), percent(share));
+    let mut sums = Vec::new();
+    if groups.iter().any(|(group, _)| group.is_some()) {
+        let named = groups.iter().map(|&(group, share)| entry(group.unwrap_or("no group"), share));
+        sums.push(named.collect::<Vec<_>>().join(", "));
+    }
+    let both = types.iter().all(|(kind, _)| {
+        let mut lines = gum.budget.iter().filter(|line| line.contribution > 0.0);
+        lines.any(|line| task.variables.get(line.variable).is_some_and(|v| v.evaluation == *kind))
+    });
+    if both {
+        let [a, b] = types.map(|(kind, share)| entry(&format!("type {}", kind.letter()), share));
+        sums.push(format!("{a}, {b}"));
+    }
+    if sums.is_empty() {
+        return None;
+    }
+    if !gum.correlations.is_empty() {
+        sums.push(entry("correlations", gum.correlations.iter().map(|line| line.share).sum()));
+    }
+    Some(format!("subtotals: {}", sums.join("; ")))
+}
+
+fn conclusion(settings: &Settings, output: &Quantity, gum: &Gum, digits: u32) -> String {
+    let (_, combined) = with_uncertainty(gum.estimate, gum.standard_uncertainty, digits);
+    let factor = match gum.coverage_factor {
+        Some(factor) => {
+            format!("{} for {}", rounded(factor, -2), coverage_text(settings.coverage))
+        }
+        None => "not defined for these degrees of freedom".to_owned(),
+    };
+    let expanded = match gum.expanded_uncertainty() {
+        Some(expanded) => in_unit(&significant(expanded, digits), &output.unit),
+        None => "not defined".to_owned(),
+    };
+    let entries = [
+        ("combined standard uncertainty", in_unit(&combined, &output.unit)),
+        ("effective degrees of freedom", effective(gum.dof, settings.real_dof)),
+        ("coverage factor", factor),
+        ("expanded uncertainty", expanded),
+    ];
+    let entries: Vec<_> = entries.iter().map(|(name, text)| (*name, text.as_str())).collect();
+    text::definitions(&entries)
+}
+
+/// The effective degrees of freedom: their integer part, with which the coverage factor is taken,
+/// unless that is asked for at the real number or is zero.
+fn effective(value: Dof, real: bool) -> String {
+    match value {
+        Dof::Undefined => "undefined".to_owned(),
+        Dof::Infinite => dof(f64::INFINITY),
+        Dof::Finite(value) => {
+            let whole = (value * (1.0 + 1e-9)).floor();
+            if real || whole < 1.0 { significant(value, 4) } else { dof(whole) }
+        }
+    }
+}
+
+/// Degrees of freedom of one line.
+fn dof(value: f64) -> String {
+    if value == f64::INFINITY {
+        "∞".to_owned()
+    } else if value < MANY && value.fract() != 0.0 {
+        rounded(value, place(value, 3).unwrap_or(0).min(-1))
+    } else if value < MANY {
+        exact(value)
+    } else {
+        significant(value, 2)
+    }
+}
+
+fn percent(share: f64) -> String {
+    rounded(100.0 * share, -1)
+}

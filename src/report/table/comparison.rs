@@ -1,0 +1,135 @@
+//! The two methods side by side, and the verdict of JCGM 101, clause 8.
+
+use super::grid::Grid;
+use super::{WIDTH, in_unit, text};
+use crate::model::Quantity;
+use crate::propagate::OutputEvaluation;
+use crate::propagate::gum::Gum;
+use crate::propagate::monte_carlo::MonteCarlo;
+use crate::propagate::validate::Validation;
+use crate::report::number::{MISSING, coarser, justified, place, rounded, significant, to};
+
+/// Decimal place of skewness and kurtosis.
+const SHAPE_PLACE: i32 = -2;
+
+/// The figures of both methods with the numerical standard errors of the Monte Carlo ones, and the
+/// verdict; nothing without trials and without a GUM interval.
+pub(super) fn table(output: &Quantity, figures: &OutputEvaluation, digits: u32) -> Option<String> {
+    let gum = figures.gum.as_ref();
+    let Some(monte_carlo) = &figures.monte_carlo else {
+        return gum.and_then(|gum| interval_line(output, gum, digits));
+    };
+    let lines = lines(gum, monte_carlo, digits);
+    let mut grid = Grid::default();
+    grid.text("", lines.iter().map(|line| line.name.to_owned()));
+    grid.numbers("GUM", lines.iter().map(|line| line.gum.clone()));
+    grid.numbers("Monte Carlo", lines.iter().map(|line| line.monte_carlo.clone()));
+    grid.numbers("numerical\nstandard error", lines.iter().map(|line| line.error.clone()));
+    let mut page = grid.render(WIDTH);
+    if !monte_carlo.shortest_exact {
+        page += &text::wrapped("the shortest interval is that of the trials within 1e-5 u");
+    }
+    page.push('\n');
+    page += &text::wrapped(&verdict(output, figures, monte_carlo));
+    Some(page)
+}
+
+struct Line {
+    name: &'static str,
+    gum: String,
+    monte_carlo: String,
+    error: String,
+}
+
+fn lines(gum: Option<&Gum>, figures: &MonteCarlo, digits: u32) -> Vec<Line> {
+    let uncertainty = gum.map(|gum| gum.standard_uncertainty);
+    let own = figures.standard_uncertainty.or(uncertainty);
+    let gum_place = uncertainty.and_then(|u| place(u, digits));
+    let own_place = own.and_then(|u| place(u, digits)).or(gum_place);
+    let errors = &figures.errors;
+    let line = |name, gum: Option<f64>, value: Option<f64>, error: Option<f64>| Line {
+        name,
+        gum: gum.map_or_else(|| MISSING.to_owned(), |value| to(value, gum_place)),
+        monte_carlo: value.map_or_else(
+            || MISSING.to_owned(),
+            |value| justified(value, own_place, error.unwrap_or(f64::NAN)),
+        ),
+        error: error.map_or_else(|| MISSING.to_owned(), |error| significant(error, 1)),
+    };
+    let ends = |[low, high]: [f64; 2]| (Some(low), Some(high));
+    let (gum_low, gum_high) = gum.and_then(Gum::interval).map_or((None, None), ends);
+    let (low, high) = ends(figures.symmetric_interval);
+    let (low_error, high_error) = ends(errors.symmetric_interval);
+    let (short_low, short_high) = ends(figures.shortest_interval);
+    let (short_low_error, short_high_error) = ends(errors.shortest_interval);
+    let spread = figures.standard_uncertainty;
+    vec![
+        line("estimate", gum.map(|gum| gum.estimate), Some(figures.estimate), errors.estimate),
+        line("standard uncertainty", uncertainty, spread, errors.standard_uncertainty),
+        line("median", None, Some(figures.median), Some(errors.median)),
+        line("coverage interval, symmetric: from", gum_low, low, low_error),
+        line("                              to", gum_high, high, high_error),
+        line("coverage interval, shortest:  from", None, short_low, short_low_error),
+        line("                              to", None, short_high, short_high_error),
+        shape("skewness", figures.skewness, figures.trials, 6.0),
+        shape("excess kurtosis", figures.excess_kurtosis, figures.trials, 24.0),
+    ]
+}
+
+/// Skewness and kurtosis: with few trials fewer decimals, by the standard error that they have for
+/// a normal distribution, the root of `variance` over the number of trials.
+fn shape(name: &'static str, value: Option<f64>, trials: u64, variance: f64) -> Line {
+    let error = (variance / trials as f64).sqrt();
+    let missing = || MISSING.to_owned();
+    Line {
+        name,
+        gum: missing(),
+        monte_carlo: value.map_or_else(missing, |value| justified(value, Some(SHAPE_PLACE), error)),
+        error: missing(),
+    }
+}
+
+/// The GUM interval alone, where there are no trials.
+fn interval_line(output: &Quantity, gum: &Gum, digits: u32) -> Option<String> {
+    let place = place(gum.standard_uncertainty, digits);
+    let [low, high] = gum.interval()?.map(|end| to(end, place));
+    let high = in_unit(&high, &output.unit);
+    Some(text::wrapped(&format!("coverage interval from {low} to {high}, by GUM alone")))
+}
+
+fn verdict(output: &Quantity, figures: &OutputEvaluation, monte_carlo: &MonteCarlo) -> String {
+    let Some(validation) = &figures.validation else {
+        return "JCGM 101, clause 8: there is no GUM interval to compare; take the Monte Carlo one."
+            .to_owned();
+    };
+    let Validation { digits, tolerance, d_low, d_high, gum_valid } = *validation;
+    let [low_error, high_error] = monte_carlo.errors.symmetric_interval;
+    let low = difference(d_low, low_error);
+    let high = in_unit(&difference(d_high, high_error), &output.unit);
+    let tolerance = in_unit(&significant(tolerance, 1), &output.unit);
+    let plural = if digits == 1 { "" } else { "s" };
+    let limit = format!("the numerical tolerance {tolerance} ({digits} digit{plural})");
+    let ends = format!("its ends lie d_low = {low} and d_high = {high} from the Monte Carlo ones");
+    match gum_valid {
+        Some(true) => {
+            format!("JCGM 101, clause 8: the GUM interval is valid here: {ends}, within {limit}.")
+        }
+        Some(false) => format!(
+            "JCGM 101, clause 8: the GUM interval is not valid here: {ends}, beyond {limit}. \
+             Take the Monte Carlo interval."
+        ),
+        None => format!(
+            "JCGM 101, clause 8: undecided whether the GUM interval is valid here: {ends}, too near \
+             to {limit} for {} trials to tell.",
+            text::grouped(monte_carlo.trials)
+        ),
+    }
+}
+
+/// The difference of two ends, to the digits that its numerical standard error justifies.
+fn difference(value: f64, error: f64) -> String {
+    match coarser(place(value, 2), place(error, 1)) {
+        Some(place) => rounded(value, place),
+        None => "0".to_owned(),
+    }
+}

@@ -1,0 +1,53 @@
+//! Correlation coefficients between the outputs.
+
+use super::grid::Grid;
+use super::{WIDTH, text};
+use crate::propagate::RowEvaluation;
+use crate::report::number::justified;
+use crate::task::Task;
+
+/// Decimal place of the coefficients (JCGM 100, 7.2.6).
+const PLACE: i32 = -3;
+
+/// The coefficients as the upper triangle of their matrix or, if that is too wide, as a list.
+pub(super) fn table(task: &Task, row: &RowEvaluation) -> Option<String> {
+    let names: Vec<String> =
+        task.model.outputs.iter().map(|output| text::plain(&output.quantity.name)).collect();
+    if names.len() < 2 {
+        return None;
+    }
+    let trials = row.outputs.first()?.monte_carlo.as_ref().map(|figures| figures.trials);
+    let coefficients: Vec<String> = row.correlations.iter().map(|&r| cell(r, trials)).collect();
+    let grid = matrix(&names, &coefficients);
+    if grid.natural_width() <= WIDTH {
+        return Some(grid.render(WIDTH));
+    }
+    let pairs =
+        names.iter().enumerate().flat_map(|(i, a)| names.iter().skip(i + 1).map(move |b| (a, b)));
+    let listed = pairs.zip(&coefficients).map(|((a, b), r)| format!("r({a}, {b}) = {r}"));
+    Some(text::wrapped(&listed.collect::<Vec<_>>().join("; ")))
+}
+
+fn matrix(names: &[String], coefficients: &[String]) -> Grid {
+    let mut grid = Grid::default();
+    grid.text("correlation", names[..names.len() - 1].iter().cloned());
+    for j in 1..names.len() {
+        let cells = (0..names.len() - 1).map(|i| {
+            let place = pair(i, j, names.len());
+            place.and_then(|place| coefficients.get(place).cloned()).unwrap_or_default()
+        });
+        grid.numbers(&names[j], cells);
+    }
+    grid
+}
+
+/// The place of the pair i < j among all such pairs.
+fn pair(i: usize, j: usize, count: usize) -> Option<usize> {
+    (i < j).then(|| i * (2 * count - i - 1) / 2 + j - i - 1)
+}
+
+/// A coefficient from that many trials; its standard error is that of jointly normal outputs.
+fn cell(coefficient: f64, trials: Option<u64>) -> String {
+    let error = trials.map_or(0.0, |trials| (1.0 - coefficient.powi(2)) / (trials as f64).sqrt());
+    justified(coefficient, Some(PLACE), error)
+}

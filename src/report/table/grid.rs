@@ -1,0 +1,158 @@
+//! Columns of texts and of numbers whose decimal points stand under each other.
+
+use comfy_table::{
+    Cell, CellAlignment, ColumnConstraint, ContentArrangement, ContentLineStyle, LineStyle, Row,
+    Table, TableStyle, Width,
+};
+
+use crate::report::number::align;
+
+/// Spaces between columns.
+const GAP: u16 = 2;
+
+const LINE: char = '─';
+
+/// A table that is filled column by column.
+#[derive(Debug, Default)]
+pub(super) struct Grid {
+    columns: Vec<Column>,
+    /// Whether the last row is set off by a line and kept to one line.
+    footer: bool,
+}
+
+#[derive(Debug)]
+struct Column {
+    header: String,
+    cells: Vec<String>,
+    alignment: CellAlignment,
+    constraint: Option<ColumnConstraint>,
+}
+
+impl Column {
+    fn width(&self) -> usize {
+        let lines = self.header.lines().chain(self.cells.iter().map(String::as_str));
+        lines.map(|line| line.chars().count()).max().unwrap_or(0)
+    }
+}
+
+impl Grid {
+    /// A table whose last row is set off by a line and kept to one line.
+    pub(super) fn with_footer() -> Self {
+        Self { columns: Vec::new(), footer: true }
+    }
+
+    /// A column of texts, which wrap if the page is too narrow.
+    pub(super) fn text(&mut self, header: &str, cells: impl IntoIterator<Item = String>) {
+        self.push(header, cells.into_iter().collect(), CellAlignment::Left, None);
+    }
+
+    /// A column of texts that wrap only above a width.
+    pub(super) fn text_from(
+        &mut self,
+        header: &str,
+        width: usize,
+        cells: impl IntoIterator<Item = String>,
+    ) {
+        self.text(header, cells);
+        if let Some(column) = self.columns.last_mut() {
+            let width = width.min(column.width()) as u16 + GAP;
+            column.constraint = Some(ColumnConstraint::LowerBoundary(Width::Fixed(width)));
+        }
+    }
+
+    /// A column of texts that wrap at a width of their own.
+    pub(super) fn text_within(
+        &mut self,
+        header: &str,
+        width: usize,
+        cells: impl IntoIterator<Item = String>,
+    ) {
+        let width = u16::try_from(width).unwrap_or(u16::MAX).saturating_add(GAP);
+        let constraint = ColumnConstraint::UpperBoundary(Width::Fixed(width));
+        let cells = cells.into_iter().collect();
+        self.push(header, cells, CellAlignment::Left, Some(constraint));
+    }
+
+    /// A column of numbers, which never wrap.
+    pub(super) fn numbers(&mut self, header: &str, cells: impl IntoIterator<Item = String>) {
+        let cells: Vec<String> = cells.into_iter().collect();
+        let constraint = Some(ColumnConstraint::ContentWidth);
+        self.push(header, align(&cells), CellAlignment::Right, constraint);
+    }
+
+    fn push(
+        &mut self,
+        header: &str,
+        cells: Vec<String>,
+        alignment: CellAlignment,
+        constraint: Option<ColumnConstraint>,
+    ) {
+        self.columns.push(Column { header: header.to_owned(), cells, alignment, constraint });
+    }
+
+    /// The width that nothing wraps at.
+    pub(super) fn natural_width(&self) -> usize {
+        let gaps = self.columns.len().saturating_sub(1) * usize::from(GAP);
+        self.columns.iter().map(Column::width).sum::<usize>() + gaps
+    }
+
+    /// The table with its header, ending in a newline.
+    pub(super) fn render(&self, width: usize) -> String {
+        let lines = self.lines(width, true);
+        let header = self.columns.iter().map(|column| column.header.lines().count()).max();
+        // the line below the header, over the whole table
+        let rule = lines.get(header.unwrap_or(0).max(1)).cloned().unwrap_or_default();
+        let mut text = String::new();
+        let last = lines.len().saturating_sub(1);
+        for (place, line) in lines.iter().enumerate() {
+            if self.footer && place == last {
+                text += &format!("{rule}\n");
+            }
+            text += &format!("{line}\n");
+        }
+        text
+    }
+
+    /// The table without a header, ending in a newline.
+    pub(super) fn bare(&self, width: usize) -> String {
+        self.lines(width, false).into_iter().map(|line| line + "\n").collect()
+    }
+
+    fn lines(&self, width: usize, header: bool) -> Vec<String> {
+        let mut table = Table::new();
+        let mut style = TableStyle::new()
+            .header_lines(ContentLineStyle::none())
+            .content_lines(ContentLineStyle::none());
+        if header {
+            style = style.header_separator(LineStyle::none().fill(LINE));
+            table.set_header(
+                self.columns
+                    .iter()
+                    .map(|column| Cell::new(&column.header).set_alignment(column.alignment)),
+            );
+        }
+        table.load_style(style);
+        let width = u16::try_from(width).unwrap_or(u16::MAX);
+        table.set_content_arrangement(ContentArrangement::Dynamic).set_width(width);
+        let rows = self.columns.iter().map(|column| column.cells.len()).max().unwrap_or(0);
+        for place in 0..rows {
+            let cells = self.columns.iter().map(|column| {
+                let text = column.cells.get(place).map(String::as_str).unwrap_or_default();
+                Cell::new(text).set_alignment(column.alignment)
+            });
+            let mut row = Row::from(cells.collect::<Vec<_>>());
+            if self.footer && place + 1 == rows {
+                row.max_height(1);
+            }
+            table.add_row(row);
+        }
+        let last = self.columns.len().saturating_sub(1);
+        for (place, (column, wanted)) in table.column_iter_mut().zip(&self.columns).enumerate() {
+            column.set_padding((0, if place == last { 0 } else { GAP }));
+            if let Some(constraint) = wanted.constraint {
+                column.set_constraint(constraint);
+            }
+        }
+        table.lines().map(|line| line.trim_end().to_owned()).collect()
+    }
+}

@@ -1,0 +1,36 @@
+//! The coverage that an evaluation is asked for.
+
+use crate::distribution::special;
+
+/// A coverage probability, or the coverage factor that accreditation practice names instead.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Coverage {
+    /// The coverage probability p, 0 < p < 1.
+    Probability(f64),
+    /// The coverage factor K > 0 for infinite degrees of freedom; it sets the probability.
+    Factor {
+        /// K.
+        factor: f64,
+        /// Whether K is kept whatever the degrees of freedom.
+        fixed: bool,
+    },
+}
+
+impl Coverage {
+    /// The coverage probability: 0.9545 for K = 2 (EA-4/02, 5.1), else 2 Phi(K) - 1.
+    pub fn probability(self) -> f64 {
+        match self {
+            Self::Probability(p) => p,
+            Self::Factor { factor: 2.0, .. } => 0.9545,
+            Self::Factor { factor, .. } => 1.0 - 2.0 * special::normal::sf(factor),
+        }
+    }
+
+    /// The factor that the file gives, if it gives one.
+    pub fn given_factor(self) -> Option<f64> {
+        match self {
+            Self::Probability(_) => None,
+            Self::Factor { factor, .. } => Some(factor),
+        }
+    }
+}

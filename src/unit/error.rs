@@ -1,0 +1,275 @@
+//! What can be wrong with the text of a unit.
+
+use std::error::Error;
+use std::fmt;
+use std::ops::Range;
+
+use super::dimension::Dimension;
+
+/// Why a text is not a unit.
+///
+/// Every variant carries the place (`span`, a half-open byte range inside the unit text, on
+/// character boundaries), what was found there, and where possible what would be right. `Display`
+/// says it in one sentence.
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum UnitError {
+    /// A name that is neither a unit nor a prefix and a unit.
+    UnknownUnit {
+        /// The name as written.
+        name: String,
+        /// Where it stands.
+        span: Range<usize>,
+        /// At most three unit texts that may be meant, likeliest first; each of them parses.
+        nearest: Vec<String>,
+    },
+    /// A prefix before a unit that takes none: `mdegC`, `kmin`, `mkg`.
+    PrefixNotAllowed {
+        /// The prefix as written.
+        prefix: String,
+        /// The unit after it.
+        unit: String,
+        /// Where the two stand.
+        span: Range<usize>,
+        /// What to write instead: `mK`, `1e-3*deg`.
+        instead: String,
+    },
+    /// A character that cannot stand where it does.
+    UnexpectedCharacter {
+        /// The character.
+        found: char,
+        /// Where it stands.
+        span: Range<usize>,
+        /// What could stand there, in words.
+        expected: &'static str,
+        /// What may be meant by the part of the text around it: `m^-3` for `m-3`.
+        suggestion: Option<String>,
+    },
+    /// An operator, root or pair of parentheses without the unit or number that it applies to.
+    MissingFactor {
+        /// The operator as written: `/`, `()`.
+        operator: String,
+        /// Where it stands.
+        span: Range<usize>,
+        /// On which side of it, or within it, something is missing.
+        side: Side,
+    },
+    /// A parenthesis that is opened and not closed, or closed and not opened.
+    UnbalancedParenthesis {
+        /// `(` or `)`.
+        found: char,
+        /// Where it stands.
+        span: Range<usize>,
+    },
+    /// An exponent that is not a whole number, a decimal number or a fraction in parentheses.
+    ExponentNotANumber {
+        /// What stands in its place; empty if nothing does.
+        found: String,
+        /// Where that stands; the power operator if nothing does.
+        span: Range<usize>,
+    },
+    /// An exponent beyond the limits.
+    ExponentTooLarge {
+        /// The exponent, or the whole power if only the resulting dimension is out of range.
+        found: String,
+        /// Where it stands.
+        span: Range<usize>,
+        /// The largest exponent there, in size; the denominator may be
+        /// [`Unit::MAX_EXPONENT`](super::Unit::MAX_EXPONENT).
+        limit: u32,
+    },
+    /// A whole exponent followed by a division by a small number, as in `Hz^1/2`: half a hertz, or
+    /// its square root?
+    AmbiguousPower {
+        /// The exponent and the division.
+        span: Range<usize>,
+        /// The same as a fraction: `Hz^(1/2)`.
+        as_root: String,
+        /// The same as a division: `(Hz^1)/2`.
+        as_quotient: String,
+    },
+    /// A factor that is zero, or too large or too small for a floating-point number.
+    FactorOutOfRange {
+        /// What has that factor.
+        span: Range<usize>,
+    },
+    /// A text that is too long to be a unit.
+    TooLong {
+        /// Its length in bytes.
+        length: usize,
+        /// The largest allowed length in bytes.
+        limit: usize,
+    },
+    /// Too many parentheses or roots inside each other.
+    NestedTooDeep {
+        /// The first one too many.
+        span: Range<usize>,
+        /// The largest allowed depth.
+        limit: usize,
+    },
+}
+
+/// On which side of an operator its unit or number is missing.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Side {
+    /// Before it.
+    Before,
+    /// After it.
+    After,
+    /// Inside it, for a pair of parentheses.
+    Inside,
+}
+
+impl UnitError {
+    /// Where in the unit text the error lies: a half-open byte range on character boundaries.
+    pub fn span(&self) -> Range<usize> {
+        match self {
+            Self::UnknownUnit { span, .. }
+            | Self::PrefixNotAllowed { span, .. }
+            | Self::UnexpectedCharacter { span, .. }
+            | Self::MissingFactor { span, .. }
+            | Self::UnbalancedParenthesis { span, .. }
+            | Self::ExponentNotANumber { span, .. }
+            | Self::ExponentTooLarge { span, .. }
+            | Self::AmbiguousPower { span, .. }
+            | Self::FactorOutOfRange { span }
+            | Self::NestedTooDeep { span, .. } => span.clone(),
+            Self::TooLong { length, .. } => 0..*length,
+        }
+    }
+
+    /// Unit texts that may be meant, likeliest first; possibly none.
+    pub fn suggestions(&self) -> Vec<&str> {
+        match self {
+            Self::UnknownUnit { nearest, .. } => nearest.iter().map(String::as_str).collect(),
+            Self::PrefixNotAllowed { instead, .. } => vec![instead],
+            Self::UnexpectedCharacter { suggestion, .. } => {
+                suggestion.iter().map(String::as_str).collect()
+            }
+            Self::AmbiguousPower { as_root, as_quotient, .. } => vec![as_root, as_quotient],
+            _ => Vec::new(),
+        }
+    }
+}
+
+impl Error for UnitError {}
+
+impl fmt::Display for UnitError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::UnknownUnit { name, nearest, .. } if nearest.is_empty() => write!(
+                f,
+                "`{name}` is not a known unit; units are written like `mm`, `kg*m^-3` or `m/s^2`"
+            ),
+            Self::UnknownUnit { name, nearest, .. } => {
+                write!(f, "`{name}` is not a known unit; did you mean {}?", alternatives(nearest))
+            }
+            Self::PrefixNotAllowed { prefix, unit, instead, .. } => {
+                write!(f, "the prefix `{prefix}` cannot stand before `{unit}`; write `{instead}`")
+            }
+            Self::UnexpectedCharacter { found, expected, suggestion, .. } => {
+                write!(f, "`{}` cannot stand here; expected {expected}", Shown(*found))?;
+                match suggestion {
+                    Some(suggestion) => write!(f, "; did you mean `{suggestion}`?"),
+                    None => Ok(()),
+                }
+            }
+            Self::MissingFactor { operator, side: Side::Before, .. } => {
+                write!(f, "`{operator}` needs a unit or a number before it, such as `1{operator}`")
+            }
+            Self::MissingFactor { operator, side: Side::After, .. } => {
+                write!(f, "`{operator}` needs a unit or a number after it")
+            }
+            Self::MissingFactor { operator, side: Side::Inside, .. } => {
+                write!(f, "`{operator}` needs a unit or a number between the parentheses")
+            }
+            Self::UnbalancedParenthesis { found: ')', .. } => {
+                f.write_str("`)` closes a parenthesis that was not opened; remove it or add `(`")
+            }
+            Self::UnbalancedParenthesis { found, .. } => {
+                write!(f, "`{found}` opens a parenthesis that is not closed; add `)`")
+            }
+            Self::ExponentNotANumber { found, .. } if found.is_empty() => {
+                f.write_str("the exponent is missing; write it like `^2`, `^-3` or `^(1/2)`")
+            }
+            Self::ExponentNotANumber { found, .. } => {
+                write!(f, "`{found}` is not an exponent; write it like `^2`, `^-3` or `^(1/2)`")
+            }
+            Self::ExponentTooLarge { found, limit, .. } => write!(
+                f,
+                "`{found}` is too large an exponent or too fine a fraction; the exponent may be \
+                 from -{limit} to {limit}, its denominator at most {MAX_EXPONENT}"
+            ),
+            Self::AmbiguousPower { as_root, as_quotient, .. } => write!(
+                f,
+                "a power followed by a division by a number can be read in two ways; write \
+                 `{as_root}` or `{as_quotient}`"
+            ),
+            Self::FactorOutOfRange { .. } => f.write_str(
+                "the factor of this unit is zero, or too large or too small to calculate with; it \
+                 must be a positive number from about 1e-307 to 1e308",
+            ),
+            Self::TooLong { length, limit } => write!(
+                f,
+                "a text of {length} bytes is too long to be a unit; at most {limit} are allowed"
+            ),
+            Self::NestedTooDeep { limit, .. } => write!(
+                f,
+                "there are too many parentheses or roots inside each other; at most {limit} are \
+                 allowed"
+            ),
+        }
+    }
+}
+
+/// The largest exponent of a unit, in size, and the largest denominator of an exponent.
+pub(super) const MAX_EXPONENT: u32 = 24;
+
+/// "`a`", "`a` or `b`", "`a`, `b` or `c`".
+fn alternatives(texts: &[String]) -> String {
+    let quoted: Vec<String> = texts.iter().map(|text| format!("`{text}`")).collect();
+    match quoted.split_last() {
+        Some((last, rest)) if !rest.is_empty() => format!("{} or {last}", rest.join(", ")),
+        _ => quoted.concat(),
+    }
+}
+
+/// A character in a message: quotes as they are, control characters escaped.
+struct Shown(char);
+
+impl fmt::Display for Shown {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.0 {
+            '\'' | '"' | '\\' => write!(f, "{}", self.0),
+            c => write!(f, "{}", c.escape_debug()),
+        }
+    }
+}
+
+/// Two units of different dimension, between which nothing can be converted.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct IncompatibleUnits {
+    /// The text of the unit to convert from.
+    pub from: String,
+    /// Its dimension.
+    pub from_dimension: Dimension,
+    /// The text of the unit to convert to.
+    pub to: String,
+    /// Its dimension.
+    pub to_dimension: Dimension,
+}
+
+impl Error for IncompatibleUnits {}
+
+impl fmt::Display for IncompatibleUnits {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "`{}` measures {} and `{}` {}; one cannot be converted to the other",
+            self.from,
+            self.from_dimension.describe(),
+            self.to,
+            self.to_dimension.describe()
+        )
+    }
+}

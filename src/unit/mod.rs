@@ -1,0 +1,187 @@
+//! Units of measurement at run time: reading them from text, their dimension and their size.
+//!
+//! [`Unit::parse`] reads SI units with prefixes, the usual non-SI units of metrology, and products,
+//! quotients and powers of them:
+//!
+//! ```text
+//! m/s^2   kg*m^-3   kg·m⁻³   W/(m^2 K)   nV/√Hz   nV/Hz^(1/2)   10^-6/K   1e-6/K   %   1
+//! ```
+//!
+//! Three things to know:
+//!
+//! * `degC` has the dimension of temperature and the factor 1. Nothing here ever adds 273.15: a
+//!   difference of 1 degC is 1 K, and a model that needs thermodynamic temperatures must say so;
+//!   [`Unit::is_celsius`] tells.
+//! * Angles are dimensionless, so `deg`, `rad`, `%` and `1` convert into each other.
+//! * `g` is the gram and `mg` the milligram; the standard acceleration of free fall is `g_n`.
+
+mod dimension;
+mod error;
+mod exponent;
+mod names;
+mod parse;
+mod power;
+mod scale;
+mod suggest;
+#[cfg(test)]
+mod tests;
+
+use std::fmt;
+use std::str::FromStr;
+
+pub use dimension::Dimension;
+pub use error::{IncompatibleUnits, Side, UnitError};
+pub use exponent::Exponent;
+
+use names::{Flavour, Meaning};
+use scale::Scale;
+
+/// A unit of measurement: its text as written, its dimension, and its size in coherent SI units.
+///
+/// Two units are equal if their texts, dimensions and sizes are; `mm` and `1e-3*m` are compatible
+/// but not equal.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Unit {
+    text: String,
+    dimension: Dimension,
+    scale: Scale,
+    factor: f64,
+    fraction: Option<(f64, f64)>,
+    flavour: Flavour,
+}
+
+impl Unit {
+    /// The longest unit text, in bytes.
+    pub const MAX_LENGTH: usize = parse::MAX_LENGTH;
+
+    /// The largest exponent of a unit, in size, and the largest denominator of an exponent.
+    pub const MAX_EXPONENT: u32 = error::MAX_EXPONENT;
+
+    /// The unit of a plain number, `1`.
+    pub fn one() -> Self {
+        Self::new("1".to_owned(), parse::ONE)
+    }
+
+    /// The coherent SI unit of a dimension in base units, such as `kg m^2 s^-2`.
+    pub fn coherent(dimension: Dimension) -> Self {
+        Self::new(dimension.to_string(), Meaning { dimension, ..parse::ONE })
+    }
+
+    /// Reads a unit from text; an empty text is a plain number.
+    ///
+    /// # Errors
+    ///
+    /// [`UnitError`] says what is wrong, where, and what may be meant. No text makes this panic or
+    /// take long.
+    pub fn parse(text: &str) -> Result<Self, UnitError> {
+        Ok(Self::new(text.to_owned(), parse::parse(text)?))
+    }
+
+    fn new(text: String, meaning: Meaning) -> Self {
+        let Meaning { dimension, scale, flavour } = meaning;
+        Self { text, dimension, scale, factor: scale.value(), fraction: scale.fraction(), flavour }
+    }
+
+    /// The text as written.
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// The dimension.
+    pub fn dimension(&self) -> Dimension {
+        self.dimension
+    }
+
+    /// The size of the unit in coherent SI units: 0.001 for `mm`, pi/180 for `deg`, 0.01 for `%`,
+    /// 1 for `degC`.
+    ///
+    /// A normal positive number. It is the nearest `f64` to the exact value unless roots or very
+    /// long literals are involved; then it is within a few units in the last place.
+    pub fn factor(&self) -> f64 {
+        self.factor
+    }
+
+    /// Whether the unit is the degree Celsius on its own. `W/degC` is not.
+    pub fn is_celsius(&self) -> bool {
+        self.flavour == Flavour::Celsius
+    }
+
+    /// Whether the unit is `%`, `‰`, `ppm` or `ppb` on its own. `ppm/K` is not.
+    pub fn is_relative(&self) -> bool {
+        self.flavour == Flavour::Relative
+    }
+
+    /// A value in this unit, converted to the coherent SI unit. Degrees Celsius are not shifted.
+    ///
+    /// Rounded once where the size of the unit is a quotient of moderate integers, as in `mm` or
+    /// `km/h`: 9 mm is 0.009 m to the last bit. This may differ from a multiplication by
+    /// [`Unit::factor`] in the last bit.
+    pub fn to_si(&self, value: f64) -> f64 {
+        match self.fraction {
+            Some((numerator, denominator)) => {
+                let converted = value * numerator / denominator;
+                if converted.is_finite() { converted } else { value * self.factor }
+            }
+            None => value * self.factor,
+        }
+    }
+
+    /// A value in the coherent SI unit, converted to this unit. Degrees Celsius are not shifted.
+    /// Rounded as by [`Unit::to_si`].
+    pub fn from_si(&self, value: f64) -> f64 {
+        match self.fraction {
+            Some((numerator, denominator)) => {
+                let converted = value * denominator / numerator;
+                if converted.is_finite() { converted } else { value / self.factor }
+            }
+            None => value / self.factor,
+        }
+    }
+
+    /// Whether the other unit has the same dimension.
+    pub fn is_compatible(&self, other: &Self) -> bool {
+        self.dimension == other.dimension
+    }
+
+    /// What a value in the unit `from` is to be multiplied by to get it in the unit `to`: 1000 from
+    /// `m` to `mm`. Computed from the exact sizes, not from the rounded factors. May be infinite or
+    /// zero if the sizes are more than about 300 powers of ten apart.
+    ///
+    /// # Errors
+    ///
+    /// [`IncompatibleUnits`] if the dimensions differ.
+    pub fn conversion_factor(from: &Self, to: &Self) -> Result<f64, IncompatibleUnits> {
+        if !from.is_compatible(to) {
+            return Err(IncompatibleUnits {
+                from: from.text.clone(),
+                from_dimension: from.dimension,
+                to: to.text.clone(),
+                to_dimension: to.dimension,
+            });
+        }
+        let exact = to.scale.inverse().and_then(|inverse| from.scale.times(inverse));
+        Ok(exact.map_or(from.factor / to.factor, Scale::value))
+    }
+}
+
+impl Default for Unit {
+    /// The unit of a plain number.
+    fn default() -> Self {
+        Self::one()
+    }
+}
+
+impl FromStr for Unit {
+    type Err = UnitError;
+
+    fn from_str(text: &str) -> Result<Self, UnitError> {
+        Self::parse(text)
+    }
+}
+
+impl fmt::Display for Unit {
+    /// The text as written.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(&self.text)
+    }
+}

@@ -1,0 +1,428 @@
+//! Reading a unit from text.
+//!
+//! ```text
+//! unit     = [ product ]                               nothing at all is the number 1
+//! product  = power { operator power }                  from left to right
+//! operator = "*" | "." | "·" | "⋅" | "×"               times
+//!          | "/"                                       divided by
+//!          | space                                     times, before anything but a number
+//!          | nothing                                   times, after a number: 10mm
+//! power    = factor [ ( "^" | "**" ) exponent | superscripts ]
+//! factor   = number | name | "(" product ")" | "√" factor | "sqrt" "(" product ")"
+//! exponent = whole | decimal | [ sign ] "(" rational ")"
+//! rational = whole [ "/" digits ] | decimal
+//! whole    = [ sign ] digits                           sign is + or - or the minus sign
+//! decimal  = whole "." digits
+//! number   = digits [ "." digits ] [ ( "e" | "E" ) [ sign ] digits ]
+//! name     = a letter, "_" or "°", then letters, digits, "_" and "°"
+//!          | "%" or "‰", then letters | apostrophes, primes, quotation marks
+//! ```
+//!
+//! Products and quotients have the same rank and are taken from left to right: `J/kg*K` and
+//! `J/kg K` are `(J/kg)*K`, `a/b/c` is `a/(b*c)`. Spaces are allowed around every operator.
+
+use std::ops::Range;
+
+use super::dimension::Dimension;
+use super::error::{MAX_EXPONENT, Side, UnitError};
+use super::exponent::Exponent;
+use super::names::{Flavour, Meaning, meaning};
+use super::power::superscript;
+use super::scale::Scale;
+use super::suggest;
+
+/// The longest text read, in bytes.
+pub(super) const MAX_LENGTH: usize = 256;
+
+/// The deepest nesting of parentheses and roots.
+pub(super) const MAX_DEPTH: usize = 16;
+
+/// The largest exponent of a number such as the 10 in `10^-6`, in size.
+const MAX_NUMBER_EXPONENT: u32 = 300;
+
+const FACTOR: &str = "a unit, a positive number or `(`";
+const OPERATOR: &str = "`*`, `/`, `^` or the end of the unit";
+const SECOND_EXPONENT: &str =
+    "`*`, `/` or the end of the unit, because a unit takes one exponent only";
+
+/// The number 1.
+pub(super) const ONE: Meaning =
+    Meaning { dimension: Dimension::NONE, scale: Scale::ONE, flavour: Flavour::Plain };
+
+/// Reads a whole text.
+pub(super) fn parse(text: &str) -> Result<Meaning, UnitError> {
+    if text.len() > MAX_LENGTH {
+        return Err(UnitError::TooLong { length: text.len(), limit: MAX_LENGTH });
+    }
+    let mut parser = Parser { text, at: 0 };
+    parser.skip_space();
+    let start = parser.at;
+    if parser.peek().is_none() {
+        return Ok(ONE);
+    }
+    let meaning = parser.product(0)?;
+    if let Some(found) = parser.peek() {
+        return Err(UnitError::UnbalancedParenthesis { found, span: parser.next_span() });
+    }
+    if !meaning.scale.in_range() {
+        return Err(UnitError::FactorOutOfRange { span: start..text.trim_end().len() });
+    }
+    Ok(meaning)
+}
+
+/// A text and how far it has been read.
+pub(super) struct Parser<'t> {
+    pub(super) text: &'t str,
+    pub(super) at: usize,
+}
+
+/// What kind of factor has been read, for the rules that depend on it.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Kind {
+    Number,
+    Name,
+    Group,
+}
+
+/// A factor with its exponent.
+struct Power {
+    meaning: Meaning,
+    kind: Kind,
+    start: usize,
+    has_exponent: bool,
+}
+
+impl<'t> Parser<'t> {
+    /// What has not been read yet.
+    pub(super) fn rest(&self) -> &'t str {
+        self.slice(self.at..self.text.len())
+    }
+
+    /// A part of the text.
+    pub(super) fn slice(&self, span: Range<usize>) -> &'t str {
+        self.text.get(span).unwrap_or_default()
+    }
+
+    /// The next character.
+    pub(super) fn peek(&self) -> Option<char> {
+        self.rest().chars().next()
+    }
+
+    /// The place of the next character.
+    pub(super) fn next_span(&self) -> Range<usize> {
+        self.at..self.at + self.peek().map_or(0, char::len_utf8)
+    }
+
+    /// Reads a fixed text if it is next.
+    pub(super) fn take(&mut self, text: &str) -> bool {
+        let found = self.rest().starts_with(text);
+        if found {
+            self.at += text.len();
+        }
+        found
+    }
+
+    /// Reads the characters that satisfy a condition.
+    pub(super) fn take_while(&mut self, condition: impl Fn(char) -> bool) -> &'t str {
+        let rest = self.rest();
+        let end = rest.find(|c| !condition(c)).unwrap_or(rest.len());
+        self.at += end;
+        rest.get(..end).unwrap_or_default()
+    }
+
+    /// Reads white space; whether there was any.
+    pub(super) fn skip_space(&mut self) -> bool {
+        !self.take_while(char::is_whitespace).is_empty()
+    }
+
+    /// The next character is wrong.
+    fn unexpected(&self, expected: &'static str, suggestion: Option<String>) -> UnitError {
+        let found = self.peek().unwrap_or(' ');
+        UnitError::UnexpectedCharacter { found, span: self.next_span(), expected, suggestion }
+    }
+
+    /// Reads factors up to the end or a closing parenthesis. Something other than space is next.
+    fn product(&mut self, depth: usize) -> Result<Meaning, UnitError> {
+        if let [b'.', b'0'..=b'9', ..] = self.rest().as_bytes() {
+            let mut ahead = Parser { text: self.text, at: self.at + 1 };
+            let suggestion = format!("0.{}", ahead.take_while(|c| c.is_ascii_digit()));
+            let suggestion = Some(suggestion).filter(|text| parse(text).is_ok());
+            return Err(self.unexpected(FACTOR, suggestion));
+        }
+        if self.peek().is_some_and(is_operator) {
+            let span = self.next_span();
+            let operator = self.slice(span.clone()).to_owned();
+            return Err(UnitError::MissingFactor { operator, span, side: Side::Before });
+        }
+        let mut last = self.power(depth)?;
+        let start = last.start;
+        let mut product = last.meaning;
+        loop {
+            let end = self.at;
+            let spaced = self.skip_space();
+            let divide = match self.peek() {
+                None | Some(')') => return Ok(product),
+                Some('*') if self.rest().starts_with("**") => {
+                    return Err(self.unexpected(SECOND_EXPONENT, None));
+                }
+                Some(operator) if is_operator(operator) => {
+                    self.operator()?;
+                    operator == '/'
+                }
+                Some(next)
+                    if starts_factor(next)
+                        && !next.is_ascii_digit()
+                        && (spaced || last.kind == Kind::Number && !last.has_exponent) =>
+                {
+                    false
+                }
+                Some(_) => return Err(self.no_operator(&last, end)),
+            };
+            last = self.power(depth)?;
+            product = self.combine(product, last.meaning, divide, start)?;
+        }
+    }
+
+    /// Reads an operator and makes sure that a factor follows.
+    fn operator(&mut self) -> Result<(), UnitError> {
+        let span = self.next_span();
+        self.at = span.end;
+        self.skip_space();
+        match self.peek() {
+            Some(next) if !is_operator(next) && !matches!(next, ')' | '^') => Ok(()),
+            _ => {
+                let operator = self.slice(span.clone()).to_owned();
+                Err(UnitError::MissingFactor { operator, span, side: Side::After })
+            }
+        }
+    }
+
+    /// Neither an operator nor a factor follows where one must; `end` is where `last` ends.
+    fn no_operator(&self, last: &Power, end: usize) -> UnitError {
+        let next = self.peek().unwrap_or(' ');
+        if last.has_exponent && (next == '^' || superscript(next).is_some()) {
+            return self.unexpected(SECOND_EXPONENT, None);
+        }
+        // `m-3` and `m 2` are powers without their sign, `10 000` is one number.
+        let mut ahead = Parser { text: self.text, at: self.at };
+        let sign = if ahead.sign() { "-" } else { "" };
+        let digits = ahead.take_while(|c| c.is_ascii_digit());
+        let before = self.slice(last.start..end);
+        let suggestion = match last.kind {
+            _ if digits.is_empty() || last.has_exponent => None,
+            Kind::Name => Some(format!("{before}^{sign}{digits}")),
+            Kind::Number if next.is_ascii_digit() => Some(format!("{before}{digits}")),
+            _ => None,
+        };
+        self.unexpected(OPERATOR, suggestion.filter(|text| parse(text).is_ok()))
+    }
+
+    /// The product or quotient of what has been read since `start`.
+    fn combine(
+        &self,
+        left: Meaning,
+        right: Meaning,
+        divide: bool,
+        start: usize,
+    ) -> Result<Meaning, UnitError> {
+        let span = start..self.at;
+        let (dimension, scale) = if divide {
+            (
+                left.dimension.checked_div(right.dimension),
+                right.scale.inverse().and_then(|inverse| left.scale.times(inverse)),
+            )
+        } else {
+            (left.dimension.checked_mul(right.dimension), left.scale.times(right.scale))
+        };
+        self.meaning(dimension, scale, Flavour::Plain, span)
+    }
+
+    /// A meaning of which both parts must be in range.
+    fn meaning(
+        &self,
+        dimension: Option<Dimension>,
+        scale: Option<Scale>,
+        flavour: Flavour,
+        span: Range<usize>,
+    ) -> Result<Meaning, UnitError> {
+        let Some(dimension) = dimension else {
+            let found = self.slice(span.clone()).to_owned();
+            return Err(UnitError::ExponentTooLarge { found, span, limit: MAX_EXPONENT });
+        };
+        let Some(scale) = scale else {
+            return Err(UnitError::FactorOutOfRange { span });
+        };
+        Ok(Meaning { dimension, scale, flavour })
+    }
+
+    /// Reads a factor and its exponent, if it has one.
+    fn power(&mut self, depth: usize) -> Result<Power, UnitError> {
+        let start = self.at;
+        let (base, kind) = self.factor(depth)?;
+        let end = self.at;
+        let limit = if kind == Kind::Number { MAX_NUMBER_EXPONENT } else { MAX_EXPONENT };
+        self.skip_space();
+        let Some(read) = self.exponent(limit)? else {
+            self.at = end;
+            return Ok(Power { meaning: base, kind, start, has_exponent: false });
+        };
+        if read.bare && kind != Kind::Number {
+            self.refuse_ambiguous(start..end, &read)?;
+        }
+        let flavour = if read.exponent == Exponent::ONE { base.flavour } else { Flavour::Plain };
+        let meaning = self.meaning(
+            base.dimension.checked_pow(read.exponent),
+            base.scale.power(read.exponent),
+            flavour,
+            start..self.at,
+        )?;
+        Ok(Power { meaning, kind, start, has_exponent: true })
+    }
+
+    /// Reads a number, a name, a group or a root.
+    fn factor(&mut self, depth: usize) -> Result<(Meaning, Kind), UnitError> {
+        let start = self.at;
+        match self.peek() {
+            Some('(') => self.group(start, depth),
+            Some('√') => {
+                self.at += '√'.len_utf8();
+                let span = start..self.at;
+                self.skip_space();
+                if !self.peek().is_some_and(starts_factor) {
+                    let operator = "√".to_owned();
+                    return Err(UnitError::MissingFactor { operator, span, side: Side::After });
+                }
+                let (inner, _) = self.factor(deeper(depth, span)?)?;
+                self.root(inner, start)
+            }
+            Some(c) if c.is_ascii_digit() => self.number(),
+            Some(c) if starts_factor(c) => self.name(depth),
+            Some(')') if depth == 0 => {
+                Err(UnitError::UnbalancedParenthesis { found: ')', span: self.next_span() })
+            }
+            _ => Err(self.unexpected(FACTOR, None)),
+        }
+    }
+
+    /// Reads a product in parentheses; the opening one is next.
+    fn group(&mut self, start: usize, depth: usize) -> Result<(Meaning, Kind), UnitError> {
+        let open = self.next_span();
+        let depth = deeper(depth, open.clone())?;
+        self.at = open.end;
+        self.skip_space();
+        let meaning = match self.peek() {
+            None => None,
+            Some(')') => {
+                return Err(UnitError::MissingFactor {
+                    operator: "()".to_owned(),
+                    span: start..self.at + 1,
+                    side: Side::Inside,
+                });
+            }
+            Some(_) => Some(self.product(depth)?),
+        };
+        match meaning {
+            Some(meaning) if self.take(")") => Ok((meaning, Kind::Group)),
+            _ => Err(UnitError::UnbalancedParenthesis { found: '(', span: open }),
+        }
+    }
+
+    /// The square root of what has been read since `start`.
+    fn root(&self, inner: Meaning, start: usize) -> Result<(Meaning, Kind), UnitError> {
+        let half = Exponent::new(1, 2).unwrap_or(Exponent::ONE);
+        let dimension = inner.dimension.checked_pow(half);
+        let scale = inner.scale.power(half);
+        let meaning = self.meaning(dimension, scale, Flavour::Plain, start..self.at)?;
+        Ok((meaning, Kind::Group))
+    }
+
+    /// Reads a number; a digit is next.
+    fn number(&mut self) -> Result<(Meaning, Kind), UnitError> {
+        let start = self.at;
+        self.take_while(|c| c.is_ascii_digit());
+        if matches!(self.rest().as_bytes(), [b'.', b'0'..=b'9', ..]) {
+            self.at += 1;
+            self.take_while(|c| c.is_ascii_digit());
+        }
+        if let Some(length) = self.exponent_of_literal() {
+            self.at += length;
+        }
+        let span = start..self.at;
+        let scale = Scale::literal(self.slice(span.clone()));
+        Ok((self.meaning(Some(Dimension::NONE), scale, Flavour::Plain, span)?, Kind::Number))
+    }
+
+    /// The length of an `e-6` that is next.
+    pub(super) fn exponent_of_literal(&self) -> Option<usize> {
+        let rest = self.rest();
+        let after = rest.strip_prefix(['e', 'E'])?;
+        let digits = after.strip_prefix(['+', '-']).unwrap_or(after);
+        let end = digits.trim_start_matches(|c: char| c.is_ascii_digit());
+        (end.len() < digits.len()).then_some(rest.len() - end.len())
+    }
+
+    /// Reads a name; its first character is next.
+    fn name(&mut self, depth: usize) -> Result<(Meaning, Kind), UnitError> {
+        let start = self.at;
+        match self.peek() {
+            Some(c) if is_quote(c) => {
+                self.take_while(is_quote);
+            }
+            Some('%' | '‰') => {
+                self.at = self.next_span().end;
+                self.take_while(char::is_alphabetic);
+            }
+            _ => {
+                let part = |c: char| starts_name(c) || c.is_ascii_digit();
+                self.take_while(part);
+            }
+        }
+        let span = start..self.at;
+        let name = self.slice(span.clone());
+        if name == "sqrt" && self.rest().trim_start().starts_with('(') {
+            self.skip_space();
+            let (inner, _) = self.group(self.at, depth)?;
+            return self.root(inner, start);
+        }
+        match meaning(name) {
+            Some(meaning) => Ok((meaning, Kind::Name)),
+            None => Err(suggest::unknown(name, span)),
+        }
+    }
+
+    /// Reads a sign; whether it is a minus.
+    pub(super) fn sign(&mut self) -> bool {
+        self.take("-") || self.take("\u{2212}") || {
+            self.take("+");
+            false
+        }
+    }
+}
+
+/// One level deeper, if that is allowed.
+fn deeper(depth: usize, span: Range<usize>) -> Result<usize, UnitError> {
+    if depth >= MAX_DEPTH {
+        return Err(UnitError::NestedTooDeep { span, limit: MAX_DEPTH });
+    }
+    Ok(depth + 1)
+}
+
+/// A sign between two factors.
+fn is_operator(c: char) -> bool {
+    matches!(c, '*' | '/' | '.' | '·' | '⋅' | '×')
+}
+
+/// Apostrophes and primes, also those that are not units but easily taken for them.
+fn is_quote(c: char) -> bool {
+    matches!(c, '\'' | '"' | '′' | '″' | '’' | '‘' | '“' | '”' | '`' | '´')
+}
+
+/// The first character of a name in letters.
+fn starts_name(c: char) -> bool {
+    c.is_alphabetic() || matches!(c, '_' | '°' | '˚' | '℃')
+}
+
+/// The first character of a factor.
+fn starts_factor(c: char) -> bool {
+    starts_name(c) || is_quote(c) || c.is_ascii_digit() || matches!(c, '(' | '√' | '%' | '‰')
+}

@@ -1,0 +1,263 @@
+//! What may be meant by a name that is not a unit.
+
+use std::ops::Range;
+
+use super::error::UnitError;
+use super::names::{Flavour, PREFIXES, SYMBOLS, meaning, prefixed, symbol};
+
+/// The most suggestions given.
+const MOST: usize = 3;
+
+/// Names that are not units here, in lower case, and what is probably meant. The right-hand sides
+/// are unit texts, likeliest first; none where nothing corresponds.
+#[rustfmt::skip]
+const SPELLED: &[(&str, &[&str])] = &[
+    ("meter", &["m"]), ("metre", &["m"]), ("mtr", &["m"]),
+    ("gram", &["g"]), ("gramme", &["g"]), ("gr", &["g"]), ("gm", &["g"]), ("kilo", &["kg"]),
+    ("second", &["s"]), ("sec", &["s"]), ("minute", &["min"]), ("mins", &["min"]),
+    ("hour", &["h"]), ("hr", &["h"]), ("day", &["d"]),
+    ("week", &["7*d"]), ("year", &["365.25*d"]), ("yr", &["365.25*d"]),
+    ("ampere", &["A"]), ("amp", &["A"]), ("kelvin", &["K"]), ("mole", &["mol"]),
+    ("candela", &["cd"]), ("radian", &["rad"]), ("steradian", &["sr"]),
+    ("hertz", &["Hz"]), ("cps", &["Hz"]), ("newton", &["N"]), ("pascal", &["Pa"]),
+    ("joule", &["J"]), ("watt", &["W"]), ("coulomb", &["C"]), ("volt", &["V"]),
+    ("farad", &["F"]), ("ohms", &["ohm"]), ("siemens", &["S"]), ("mho", &["S"]),
+    ("weber", &["Wb"]), ("tesla", &["T"]), ("gauss", &["1e-4*T"]), ("henry", &["H"]),
+    ("lumen", &["lm"]), ("lux", &["lx"]), ("becquerel", &["Bq"]), ("gray", &["Gy"]),
+    ("sievert", &["Sv"]), ("katal", &["kat"]),
+    ("celsius", &["degC"]), ("centigrade", &["degC"]), ("°f", &["degC", "K"]),
+    ("degf", &["degC", "K"]), ("fahrenheit", &["degC", "K"]), ("°k", &["K"]), ("degk", &["K"]),
+    ("degree", &["deg"]), ("degs", &["deg"]), ("º", &["deg"]), ("˚", &["deg"]), ("ºc", &["degC"]),
+    ("˚c", &["degC"]), ("arcminute", &["arcmin"]), ("amin", &["arcmin"]),
+    ("arcsecond", &["arcsec"]), ("asec", &["arcsec"]), ("mas", &["1e-3*arcsec"]),
+    ("gon", &["0.9*deg"]), ("grad", &["0.9*deg"]),
+    ("\"", &["arcsec", "in"]), ("”", &["arcsec", "in"]), ("“", &["arcsec", "in"]),
+    ("’", &["arcmin"]), ("‘", &["arcmin"]), ("`", &["arcmin"]), ("´", &["arcmin"]),
+    ("revolution", &["rev"]), ("cycle", &["rev"]), ("rps", &["rev/s"]),
+    ("percent", &["%"]), ("pct", &["%"]), ("permille", &["‰"]),
+    ("permil", &["‰"]), ("ppt", &["1e-12", "‰"]), ("decibel", &["dB"]),
+    ("digit", &["D"]), ("dig", &["D"]), ("dgt", &["D"]), ("cnt", &["count"]), ("cts", &["count"]),
+    ("bit", &["LSB"]),
+    ("liter", &["L"]), ("litre", &["L"]), ("ltr", &["L"]), ("cc", &["cm^3"]), ("ccm", &["cm^3"]),
+    ("tonne", &["t"]), ("ton", &["t"]), ("electronvolt", &["eV"]), ("dalton", &["Da"]),
+    ("amu", &["u"]), ("hectare", &["ha"]), ("torr", &["Torr"]), ("atmosphere", &["atm"]),
+    ("inch", &["in"]), ("inches", &["in"]), ("foot", &["ft"]), ("feet", &["ft"]),
+    ("yard", &["0.9144*m"]), ("yd", &["0.9144*m"]), ("mile", &["1609.344*m"]),
+    ("mil", &["1e-3*in", "mL"]), ("thou", &["1e-3*in"]), ("pound", &["lb"]), ("lbs", &["lb"]),
+    ("ounce", &["28.349523125*g"]), ("oz", &["28.349523125*g"]), ("dyn", &["1e-5*N"]),
+    ("dyne", &["1e-5*N"]), ("erg", &["1e-7*J"]), ("cal", &["4.184*J"]),
+    ("calorie", &["4.184*J"]), ("gal", &["Gal", "3.785411784*L"]),
+    ("gallon", &["3.785411784*L"]), ("mph", &["1609.344*m/h"]), ("kph", &["km/h"]),
+    ("kmh", &["km/h"]), ("mps", &["m/s"]), ("fps", &["ft/s"]), ("sqm", &["m^2"]),
+    ("micron", &["um"]), ("angstrom", &["1e-10*m"]), ("å", &["1e-10*m"]),
+    ("\u{212b}", &["1e-10*m"]), ("gee", &["g_n"]), ("gn", &["g_n"]), ("g0", &["g_n"]),
+    ("gravity", &["g_n"]), ("lbm", &["lb"]), ("psig", &["psi"]), ("psia", &["psi"]),
+    ("mmh2o", &["9.80665*Pa"]), ("oc", &["degC"]), ("c°", &["degC"]), ("dbm", &[]), ("dbv", &[]),
+    ("microstrain", &["um/m"]), ("ustrain", &["um/m"]), ("µε", &["um/m"]), ("με", &["um/m"]),
+    ("strain", &["m/m"]), ("vdc", &["V"]), ("vac", &["V"]), ("vrms", &["V"]), ("vpp", &["V"]),
+];
+
+/// Products written without a sign, and the same with one. They take prefixes.
+const JOINED: &[(&str, &str)] = &[
+    ("Nm", "N*m"),
+    ("VA", "V*A"),
+    ("As", "A*s"),
+    ("Ah", "A*h"),
+    ("Vs", "V*s"),
+    ("Ws", "W*s"),
+    ("Wh", "W*h"),
+    ("Pas", "Pa*s"),
+];
+
+/// The error for a name that is not a unit, standing at `span`.
+pub(super) fn unknown(name: &str, span: Range<usize>) -> UnitError {
+    if let Some(nearest) = spelled_out(name) {
+        return UnitError::UnknownUnit { name: name.to_owned(), span, nearest };
+    }
+    // `Min` and `MIN` are minutes in the wrong case, not a mega-inch.
+    let unprefixed = SYMBOLS.iter().any(|symbol| same_letters(symbol.name, name));
+    if !unprefixed && let Some(error) = bare_unit_with_prefix(name, &span) {
+        return error;
+    }
+    let nearest = wrong_case(name);
+    if nearest.is_empty()
+        && let Some(error) = two_prefixes(name, &span)
+    {
+        return error;
+    }
+    let mut nearest = nearest;
+    for guess in [joined, similar] {
+        if nearest.is_empty() {
+            nearest = guess(name);
+        }
+    }
+    UnitError::UnknownUnit { name: name.to_owned(), span, nearest }
+}
+
+/// Names in words, with the plural and with prefixes; products without a sign; powers without `^`.
+/// An empty list means that the name is known and that nothing here corresponds to it.
+fn spelled_out(name: &str) -> Option<Vec<String>> {
+    if let Some((_, right)) = JOINED.iter().find(|(wrong, _)| *wrong == name) {
+        return Some(vec![(*right).to_owned()]);
+    }
+    let lower = name.to_lowercase();
+    if let Some(right) = word(&lower) {
+        return Some(right.iter().map(|text| (*text).to_owned()).collect());
+    }
+    for prefix in PREFIXES {
+        if let Some(rest) = name.strip_prefix(prefix.symbol) {
+            if let Some((_, right)) = JOINED.iter().find(|(wrong, _)| *wrong == rest) {
+                return Some(vec![format!("{}{right}", prefix.symbol)]);
+            }
+            if let Some(text) = word(&rest.to_lowercase()).and_then(|right| right.first())
+                && rest.chars().count() > 2
+                && takes_prefix(text)
+            {
+                return Some(vec![format!("{}{text}", prefix.symbol)]);
+            }
+        }
+        if !prefix.name.is_empty()
+            && let Some(rest) = lower.strip_prefix(prefix.name)
+            && let Some(text) = word(rest).and_then(|right| right.first()).copied().or_else(|| {
+                SYMBOLS.iter().map(|symbol| symbol.name).find(|symbol| same_letters(symbol, rest))
+            })
+            && takes_prefix(text)
+        {
+            return Some(vec![format!("{}{text}", prefix.symbol)]);
+        }
+    }
+    if name.starts_with('%') {
+        return Some(vec!["%".to_owned()]);
+    }
+    if let Some(singular) = name.strip_suffix('s')
+        && singular.chars().count() > 2
+        && meaning(singular).is_some()
+    {
+        return Some(vec![singular.to_owned()]);
+    }
+    let stem = name.trim_end_matches(|c: char| c.is_ascii_digit());
+    let power = name.strip_prefix(stem).filter(|power| power.len() == 1 && *power != "0")?;
+    meaning(stem).map(|_| vec![format!("{stem}^{power}")])
+}
+
+/// The meaning of a word in lower case, in the singular or the plural.
+fn word(lower: &str) -> Option<&'static [&'static str]> {
+    let find = |text: &str| SPELLED.iter().find(|(wrong, _)| *wrong == text).map(|(_, r)| *r);
+    find(lower).or_else(|| lower.strip_suffix('s').and_then(find))
+}
+
+/// Whether a text is one symbol that takes prefixes.
+fn takes_prefix(text: &str) -> bool {
+    symbol(text).is_some_and(|symbol| symbol.prefixes)
+}
+
+/// Whether two names differ at most in case.
+fn same_letters(a: &str, b: &str) -> bool {
+    a.chars().flat_map(char::to_lowercase).eq(b.chars().flat_map(char::to_lowercase))
+}
+
+/// A prefix before a unit that takes none.
+fn bare_unit_with_prefix(name: &str, span: &Range<usize>) -> Option<UnitError> {
+    let (prefix, symbol) = prefixed(name).find(|(_, symbol)| !symbol.prefixes)?;
+    let instead = match symbol.flavour {
+        Flavour::Celsius => format!("{}K", prefix.symbol),
+        _ => format!("1e{}*{}", prefix.decimal, symbol.name),
+    };
+    Some(UnitError::PrefixNotAllowed {
+        prefix: prefix.symbol.to_owned(),
+        unit: symbol.name.to_owned(),
+        span: span.clone(),
+        instead,
+    })
+}
+
+/// A prefix before a unit that has one already.
+fn two_prefixes(name: &str, span: &Range<usize>) -> Option<UnitError> {
+    PREFIXES.iter().find_map(|outer| {
+        let unit = name.strip_prefix(outer.symbol)?;
+        let (inner, symbol) = prefixed(unit).find(|(_, symbol)| symbol.prefixes)?;
+        let decimal = outer.decimal + inner.decimal;
+        let instead = if decimal == 0 {
+            symbol.name.to_owned()
+        } else if let Some(one) = PREFIXES.iter().find(|prefix| prefix.decimal == decimal) {
+            format!("{}{}", one.symbol, symbol.name)
+        } else {
+            format!("1e{decimal}*{}", symbol.name)
+        };
+        Some(UnitError::PrefixNotAllowed {
+            prefix: outer.symbol.to_owned(),
+            unit: unit.to_owned(),
+            span: span.clone(),
+            instead,
+        })
+    })
+}
+
+/// Units that differ from the name in case only, those with the fewest differences first.
+fn wrong_case(name: &str) -> Vec<String> {
+    let mut found: Vec<(usize, String)> = every_name()
+        .filter(|candidate| same_letters(candidate, name))
+        .map(|candidate| {
+            (candidate.chars().zip(name.chars()).filter(|(a, b)| a != b).count(), candidate)
+        })
+        .collect();
+    found.sort_by_key(|(differences, _)| *differences);
+    found.into_iter().take(MOST).map(|(_, candidate)| candidate).collect()
+}
+
+/// Every unit name that can be typed on any keyboard: symbols, then symbols with prefixes.
+fn every_name() -> impl Iterator<Item = String> {
+    let plain = SYMBOLS.iter().map(|symbol| symbol.name.to_owned());
+    let with_prefix = PREFIXES.iter().flat_map(|prefix| {
+        SYMBOLS
+            .iter()
+            .filter(|symbol| symbol.prefixes)
+            .map(move |symbol| format!("{}{}", prefix.symbol, symbol.name))
+    });
+    plain.chain(with_prefix).filter(|name| name.is_ascii())
+}
+
+/// The name as two units without a sign between them.
+fn joined(name: &str) -> Vec<String> {
+    name.char_indices()
+        .skip(1)
+        .filter_map(|(at, _)| name.split_at_checked(at))
+        .filter(|(left, right)| meaning(left).is_some() && meaning(right).is_some())
+        .map(|(left, right)| format!("{left}*{right}"))
+        .take(MOST)
+        .collect()
+}
+
+/// Words and symbols of three letters or more that are a typing error away.
+fn similar(name: &str) -> Vec<String> {
+    let lower = name.to_lowercase();
+    let limit = match lower.chars().count() {
+        0..=2 => return Vec::new(),
+        3..=5 => 1,
+        _ => 2,
+    };
+    let words = SPELLED.iter().map(|(wrong, right)| (*wrong, right.first().copied()));
+    let symbols = SYMBOLS.iter().map(|symbol| (symbol.name, Some(symbol.name)));
+    let mut found: Vec<(usize, &str)> = words
+        .chain(symbols)
+        .filter(|(known, _)| known.chars().count() >= 3)
+        .filter_map(|(known, right)| {
+            let distance = strsim::damerau_levenshtein(&known.to_lowercase(), &lower);
+            right.filter(|_| distance <= limit).map(|right| (distance, right))
+        })
+        .collect();
+    found.sort_by_key(|(distance, _)| *distance);
+    let mut nearest: Vec<String> = Vec::new();
+    for (_, right) in found {
+        if nearest.len() < MOST && !nearest.iter().any(|text| text == right) {
+            nearest.push(right.to_owned());
+        }
+    }
+    nearest
+}
+
+/// The table of spelled-out names.
+#[cfg(test)]
+pub(super) fn words() -> &'static [(&'static str, &'static [&'static str])] {
+    SPELLED
+}
