@@ -142,6 +142,8 @@ struct ErrorSide {
     median: f64,
     symmetric_interval: [f64; 2],
     shortest_interval: [f64; 2],
+    skewness: Option<f64>,
+    excess_kurtosis: Option<f64>,
 }
 
 #[derive(Serialize)]
@@ -315,8 +317,18 @@ impl From<NumericalError> for ErrorSide {
             median,
             symmetric_interval,
             shortest_interval,
+            skewness,
+            excess_kurtosis,
         } = errors;
-        Self { estimate, standard_uncertainty, median, symmetric_interval, shortest_interval }
+        Self {
+            estimate,
+            standard_uncertainty,
+            median,
+            symmetric_interval,
+            shortest_interval,
+            skewness,
+            excess_kurtosis,
+        }
     }
 }
 

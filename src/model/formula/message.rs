@@ -29,11 +29,11 @@ fn short(name: &str) -> String {
     excerpt(name, 0..name.len())
 }
 
-/// "`a`", "`a` or `b`", "`a`, `b` or `c`".
-fn alternatives(texts: &[String]) -> String {
-    let quoted: Vec<String> = texts.iter().map(|text| format!("`{text}`")).collect();
+/// "`a`", "`a` or `b`", "`a`, `b` or `c`", or the same with another last word.
+fn listed(texts: &[String], last_word: &str) -> String {
+    let quoted: Vec<String> = texts.iter().map(|text| format!("`{}`", short(text))).collect();
     match quoted.split_last() {
-        Some((last, rest)) if !rest.is_empty() => format!("{} or {last}", rest.join(", ")),
+        Some((last, rest)) if !rest.is_empty() => format!("{}{last_word}{last}", rest.join(", ")),
         _ => quoted.concat(),
     }
 }
@@ -87,7 +87,7 @@ impl fmt::Display for FormulaError {
                 more(f, *hint, suggestion.as_deref())
             }
             Self::UnreadableNumber { text, fault, suggestion, .. } => {
-                write!(f, "`{text}` is not a number that can be read: ")?;
+                write!(f, "`{}` is not a number that can be read: ", short(text))?;
                 f.write_str(match fault {
                     NumberFault::Comma => "a decimal fraction is written with a point",
                     NumberFault::TwoPoints => "it has more than one decimal point",
@@ -106,31 +106,36 @@ impl fmt::Display for FormulaError {
                 f,
                 "`{name}` is a function and needs its argument in parentheses: `{suggestion}`"
             ),
-            Self::UnknownName { name, nearest, .. } if !nearest.is_empty() => {
-                write!(f, "`{name}` is not defined; did you mean {}?", alternatives(nearest))
-            }
-            Self::UnknownName { name, known, .. } if known.is_empty() => {
-                write!(f, "`{name}` is not defined, nor is any other name here")
-            }
-            Self::UnknownName { name, known, .. } => {
-                write!(f, "`{name}` is not defined; names here are {}", alternatives(known))
+            Self::UnknownName { name, nearest, known, .. } => {
+                write!(f, "`{}` is not defined", short(name))?;
+                match (nearest.is_empty(), known.is_empty()) {
+                    (false, _) => write!(f, "; did you mean {}?", listed(nearest, " or ")),
+                    (true, false) => write!(f, "; names here are {}", listed(known, " and ")),
+                    (true, true) => f.write_str(", nor is any other name here"),
+                }
             }
             Self::DefinedLater { name, .. } => write!(
                 f,
-                "`{name}` is not defined yet; a formula may use inputs, conditions and the \
-                 quantities above it"
+                "`{}` is not defined yet; a formula may use inputs, conditions and the \
+                 quantities above it",
+                short(name)
             ),
-            Self::UnknownFunction { name, nearest, .. } if !nearest.is_empty() => {
-                write!(f, "there is no function `{name}`; did you mean {}?", alternatives(nearest))
+            Self::UnknownFunction { name, nearest, .. } => {
+                write!(f, "there is no function `{}`", short(name))?;
+                if nearest.is_empty() {
+                    let all: Vec<&str> = Function::all().map(Function::name).collect();
+                    write!(f, "; the functions are {}", all.join(", "))
+                } else {
+                    write!(f, "; did you mean {}?", listed(nearest, " or "))
+                }
             }
-            Self::UnknownFunction { name, .. } => {
-                let all: Vec<&str> = Function::all().map(Function::name).collect();
-                write!(f, "there is no function `{name}`; the functions are {}", all.join(", "))
+            Self::NotAFunction { name, .. } => {
+                let name = short(name);
+                write!(
+                    f,
+                    "`{name}` is a quantity and not a function; a product is written `{name}*(...)`"
+                )
             }
-            Self::NotAFunction { name, .. } => write!(
-                f,
-                "`{name}` is a quantity and not a function; a product is written `{name}*(...)`"
-            ),
             Self::ArgumentCount { function, expected, found, suggestion, .. } => {
                 write!(f, "`{function}` takes {}, not {found}", expected.describe())?;
                 more(f, None, suggestion.as_deref())

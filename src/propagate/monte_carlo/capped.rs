@@ -35,8 +35,8 @@ struct Pass {
     trials: u64,
     undefined: u64,
     first_undefined: Option<(u64, usize)>,
-    /// Sums of each chunk, with its number.
-    sums: Vec<(u64, Vec<Sums>)>,
+    /// Sums of each chunk with its number and its trials.
+    sums: Vec<(u64, u64, Vec<Sums>)>,
     tallies: Vec<Tally>,
 }
 
@@ -97,9 +97,8 @@ pub(super) fn run(
             if searches[output].as_ref().is_some_and(|search| search.found.is_some()) {
                 continue;
             }
-            let totals = total(&whole.sums, output);
-            let moments = Moments::new(whole.trials, plans[output].reference, &totals);
-            let mut search = Search::new(whole.trials, request.probability, moments.std);
+            let std = moments(&whole.sums, output, &plans[output]).std;
+            let mut search = Search::new(whole.trials, request.probability, std);
             let leaves = partitions[output].leaves(&tally);
             let last = number + 1 == MOST_PASSES;
             let needed = search.step(&leaves, &tally.into_sorted(), last);
@@ -157,6 +156,7 @@ fn pass(
             |(mut pass, mut workspace), chunk| {
                 let chunk = chunk as u64;
                 let mut sums = vec![Sums::default(); plans.len()];
+                let before = pass.trials;
                 for block in chunk * CHUNK..((chunk + 1) * CHUNK).min(blocks) {
                     if control.is_stopped() {
                         break;
@@ -184,7 +184,7 @@ fn pass(
                     }
                 }
                 if with_sums {
-                    pass.sums.push((chunk, sums));
+                    pass.sums.push((chunk, pass.trials - before, sums));
                 }
                 (pass, workspace)
             },
@@ -204,16 +204,15 @@ fn pass(
             a
         });
     let mut found = found;
-    found.sums.sort_by_key(|(chunk, _)| *chunk);
+    found.sums.sort_by_key(|(chunk, ..)| *chunk);
     (!control.is_stopped()).then_some(found)
 }
 
-/// One output's sums, chunk by chunk in order.
-fn total(sums: &[(u64, Vec<Sums>)], output: usize) -> Sums {
-    sums.iter().fold(Sums::default(), |mut total, (_, chunk)| {
-        total.merge(&chunk[output]);
-        total
-    })
+/// One output's moments from its sums, chunk by chunk in order.
+fn moments(sums: &[(u64, u64, Vec<Sums>)], output: usize, plan: &Plan) -> Moments {
+    let parts = sums.iter().filter(|(_, trials, _)| *trials > 0);
+    let parts = parts.map(|(_, trials, sums)| (*trials, &sums[output]));
+    Moments::of_parts(parts, plan.reference)
 }
 
 /// The figures of one output that are order statistics.
@@ -391,18 +390,25 @@ fn finish(
         trials: whole.trials + whole.undefined,
         first: trials.inputs_of(block, trial),
     });
-    let totals: Vec<Sums> = (0..plans.len()).map(|output| total(&whole.sums, output)).collect();
+    let totals: Vec<Sums> = (0..plans.len())
+        .map(|output| {
+            whole.sums.iter().fold(Sums::default(), |mut total, (.., chunk)| {
+                total.merge(&chunk[output]);
+                total
+            })
+        })
+        .collect();
     let mut correlations = Vec::new();
     for (i, a) in totals.iter().enumerate() {
         for (b, &product) in totals[i + 1..].iter().zip(&a.products) {
             correlations.push(correlation(whole.trials, a, b, product));
         }
     }
-    let figures = searches.into_iter().zip(&totals).zip(plans).enumerate();
+    let figures = searches.into_iter().zip(plans).enumerate();
     let outputs: Vec<MonteCarlo> = figures
-        .filter_map(|(output, ((search, sums), plan))| {
+        .filter_map(|(output, (search, plan))| {
             let found = search?.found?;
-            let moments = Moments::new(whole.trials, plan.reference, sums);
+            let moments = moments(&whole.sums, output, plan);
             let dof = request.drawn_dof.get(output).copied().unwrap_or(f64::INFINITY);
             let shortest_error = shortest_errors.get(output).copied().unwrap_or([f64::NAN; 2]);
             let errors = NumericalError::new(&moments, dof, found.errors, shortest_error);

@@ -95,9 +95,26 @@ pub(crate) struct Moments {
     pub(crate) std: f64,
     pub(crate) skewness: f64,
     pub(crate) excess_kurtosis: f64,
+    /// Numerical standard errors of the two.
+    pub(crate) shape_errors: Option<[f64; 2]>,
 }
 
 impl Moments {
+    /// The moments of all `parts` together, with the errors that their scatter gives.
+    pub(crate) fn of_parts<'s>(
+        parts: impl Iterator<Item = (u64, &'s Sums)> + Clone,
+        reference: Reference,
+    ) -> Self {
+        let mut total = Sums::default();
+        let mut trials = 0;
+        for (count, sums) in parts.clone() {
+            trials += count;
+            total.merge(sums);
+        }
+        let shape_errors = shape_errors(parts, reference);
+        Self { shape_errors, ..Self::new(trials, reference, &total) }
+    }
+
     /// The moments of `trials` many values with these sums.
     pub(crate) fn new(trials: u64, reference: Reference, sums: &Sums) -> Self {
         let n = trials as f64;
@@ -111,6 +128,7 @@ impl Moments {
             std: reference.scale * (m2 * n / (n - 1.0)).sqrt(),
             skewness: m3 / m2.powf(1.5),
             excess_kurtosis: m4 / (m2 * m2) - 3.0,
+            shape_errors: None,
         }
     }
 
@@ -124,6 +142,31 @@ impl Moments {
     pub(crate) fn std_error(&self) -> f64 {
         self.std * (f64::max(self.excess_kurtosis + 2.0, 0.0) / self.trials).sqrt() / 2.0
     }
+}
+
+/// Numerical standard errors of skewness and excess kurtosis: their scatter between parts of the
+/// trials, brought to all trials by the square-root law. They would need moments up to the eighth
+/// otherwise. `None` with fewer than four parts of comparable size.
+pub(crate) fn shape_errors<'s>(
+    parts: impl Iterator<Item = (u64, &'s Sums)> + Clone,
+    reference: Reference,
+) -> Option<[f64; 2]> {
+    let total: u64 = parts.clone().map(|(trials, _)| trials).sum();
+    let largest = parts.clone().map(|(trials, _)| trials).max()?;
+    let shapes: Vec<[f64; 2]> = parts
+        .filter(|(trials, _)| 2 * trials > largest)
+        .map(|(trials, sums)| {
+            let moments = Moments::new(trials, reference, sums);
+            [moments.skewness, moments.excess_kurtosis]
+        })
+        .collect();
+    let n = shapes.len() as f64;
+    let law = (largest as f64 / total as f64).sqrt();
+    let error = |which: usize| {
+        let mean = shapes.iter().map(|s| s[which]).sum::<f64>() / n;
+        law * (shapes.iter().map(|s| (s[which] - mean).powi(2)).sum::<f64>() / (n - 1.0)).sqrt()
+    };
+    (shapes.len() >= 4).then(|| [error(0), error(1)])
 }
 
 /// The correlation coefficient of two outputs from their sums and the sum of their products.

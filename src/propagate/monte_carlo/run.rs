@@ -6,7 +6,7 @@ use super::block::{Trials, Workspace};
 use super::capped;
 use super::fold::{FoldKernel, Folded, Plan, drop_undefined};
 use super::interval::{Ranks, quantile_error, shortest, symmetric};
-use super::moments::{Moments, Reference, correlation};
+use super::moments::{Moments, Reference, Sums, correlation};
 use super::order::Order;
 use super::windows::Windows;
 use crate::distribution::BLOCK;
@@ -60,6 +60,10 @@ pub struct NumericalError {
     /// Of the ends of the shortest interval, which settles only with the cube root of the trials;
     /// not a number with too few trials to tell.
     pub shortest_interval: [f64; 2],
+    /// Of the skewness; `None` if there is none, or with too few trials to tell.
+    pub skewness: Option<f64>,
+    /// Of the excess kurtosis; `None` as for the skewness.
+    pub excess_kurtosis: Option<f64>,
 }
 
 /// Trials whose outputs were not all finite.
@@ -244,12 +248,21 @@ fn finish(
         let (outputs, correlations) = (Vec::new(), Vec::new());
         return Some(Finished { trials: 0, outputs, correlations, undefined, stopped });
     }
-    let totals: Vec<_> = (0..plans.len())
+    let totals: Vec<Sums> = (0..plans.len())
         .map(|output| {
-            chunks.iter().fold(super::moments::Sums::default(), |mut sums, chunk| {
+            chunks.iter().fold(Sums::default(), |mut sums, chunk| {
                 sums.merge(&chunk.outputs[output].sums);
                 sums
             })
+        })
+        .collect();
+    let moments: Vec<Moments> = plans
+        .iter()
+        .enumerate()
+        .map(|(output, plan)| {
+            let parts = chunks.iter().filter(|chunk| chunk.trials > 0);
+            let parts = parts.map(|chunk| (chunk.trials, &chunk.outputs[output].sums));
+            Moments::of_parts(parts, plan.reference)
         })
         .collect();
     let mut correlations = Vec::new();
@@ -273,9 +286,8 @@ fn finish(
         .into_iter()
         .enumerate()
         .map(|(o, chunks)| {
-            let moments = Moments::new(count, plans[o].reference, &totals[o]);
             let dof = request.drawn_dof.get(o).copied().unwrap_or(f64::INFINITY);
-            figures(moments, dof, request.probability, &plans[o].windows, chunks)
+            figures(moments[o], dof, request.probability, &plans[o].windows, chunks)
         })
         .collect();
     let outputs = outputs.into_iter().collect::<Option<Vec<_>>>()?;
@@ -372,12 +384,19 @@ impl NumericalError {
         shortest_interval: [f64; 2],
     ) -> Self {
         let [low, high, median] = quantiles;
+        let shape = |order: f64, which: usize| {
+            let exists = drawn_dof > order && moments.std > 0.0;
+            moments.shape_errors.filter(|_| exists).map(|errors| errors[which])
+        };
         Self {
             estimate: (drawn_dof > 2.0).then(|| moments.mean_error()),
             standard_uncertainty: (drawn_dof > 4.0).then(|| moments.std_error()),
             median,
             symmetric_interval: [low, high],
             shortest_interval,
+            // the variance of the third moment is of sixth order, that of the fourth of eighth
+            skewness: shape(6.0, 0),
+            excess_kurtosis: shape(8.0, 1),
         }
     }
 }

@@ -71,21 +71,20 @@ fn lines(gum: Option<&Gum>, figures: &MonteCarlo, digits: u32) -> Vec<Line> {
         line("                              to", gum_high, high, high_error),
         line("coverage interval, shortest:  from", None, short_low, short_low_error),
         line("                              to", None, short_high, short_high_error),
-        shape("skewness", figures.skewness, figures.trials, 6.0),
-        shape("excess kurtosis", figures.excess_kurtosis, figures.trials, 24.0),
+        shape("skewness", figures.skewness, errors.skewness),
+        shape("excess kurtosis", figures.excess_kurtosis, errors.excess_kurtosis),
     ]
 }
 
-/// Skewness and kurtosis: with few trials fewer decimals, by the standard error that they have for
-/// a normal distribution, the root of `variance` over the number of trials.
-fn shape(name: &'static str, value: Option<f64>, trials: u64, variance: f64) -> Line {
-    let error = (variance / trials as f64).sqrt();
+/// Skewness and kurtosis: two decimals, fewer where the numerical standard error says so.
+fn shape(name: &'static str, value: Option<f64>, error: Option<f64>) -> Line {
     let missing = || MISSING.to_owned();
+    let figure = |value: f64| justified(value, Some(SHAPE_PLACE), error.unwrap_or(f64::NAN));
     Line {
         name,
         gum: missing(),
-        monte_carlo: value.map_or_else(missing, |value| justified(value, Some(SHAPE_PLACE), error)),
-        error: missing(),
+        monte_carlo: value.map_or_else(missing, figure),
+        error: error.map_or_else(missing, |error| significant(error, 1)),
     }
 }
 

@@ -12,16 +12,19 @@ use crate::task::Task;
 pub(super) fn tables(task: &Task, rows: &[RowEvaluation], digits: u32) -> String {
     let conditions = &task.model.conditions;
     let varying: Vec<usize> = (0..conditions.len()).filter(|&place| varies(rows, place)).collect();
-    let labels = Labels::Conditions(&varying);
     let outputs = &task.model.outputs;
-    let grids = |labels: &Labels<'_>| -> Vec<Grid> {
-        (0..outputs.len()).map(|output| grid(task, rows, output, labels, digits)).collect()
+    let grids = |labels: &Labels<'_>, width: &str| -> Vec<Grid> {
+        (0..outputs.len()).map(|output| grid(task, rows, output, labels, width, digits)).collect()
     };
-    let mut tables = grids(&labels);
+    let fits = |tables: &[Grid]| tables.iter().all(|grid| grid.natural_width() <= WIDTH);
+    let mut tables = grids(&Labels::Conditions(&varying), WIDE);
     let mut parts = Vec::new();
     parts.extend(fixed(conditions, rows, &varying));
-    if tables.iter().any(|grid| grid.natural_width() > WIDTH) {
-        tables = grids(&Labels::Numbers);
+    if !fits(&tables) {
+        tables = grids(&Labels::Conditions(&varying), NARROW);
+    }
+    if !fits(&tables) {
+        tables = grids(&Labels::Numbers, WIDE);
         parts.push(numbered(conditions, rows, &varying));
     }
     for (Output { quantity, .. }, grid) in outputs.iter().zip(&tables) {
@@ -33,6 +36,10 @@ pub(super) fn tables(task: &Task, rows: &[RowEvaluation], digits: u32) -> String
     ));
     parts.join("\n")
 }
+
+/// The word below "standard" and "expanded", and its form for narrow columns.
+const WIDE: &str = "uncertainty";
+const NARROW: &str = "uncer-\ntainty";
 
 /// What stands at the start of a line.
 enum Labels<'a> {
@@ -84,6 +91,7 @@ fn grid(
     rows: &[RowEvaluation],
     output: usize,
     labels: &Labels<'_>,
+    uncertainty: &str,
     digits: u32,
 ) -> Grid {
     let mut grid = Grid::default();
@@ -101,8 +109,8 @@ fn grid(
         rows.iter().map(|row| line(row.outputs.get(output), digits)).collect();
     let column = |place: usize| lines.iter().map(move |line| line[place].clone());
     grid.numbers("estimate", column(0));
-    grid.numbers("standard\nuncertainty", column(1));
-    grid.numbers("expanded\nuncertainty", column(2));
+    grid.numbers(&format!("standard\n{uncertainty}"), column(1));
+    grid.numbers(&format!("expanded\n{uncertainty}"), column(2));
     grid.numbers("k", column(3));
     if rows.iter().any(|row| row.outputs.get(output).is_some_and(|o| o.monte_carlo.is_some())) {
         let ends = [4, 5].map(|place| align(&column(place).collect::<Vec<_>>()));

@@ -6,11 +6,11 @@ mod json;
 mod table;
 
 use super::{Provenance, Report};
-use crate::distribution::{Correlation, Evaluation as Kind, Input};
+use crate::distribution::{Correlation, Input};
 use crate::model::Quantity;
 use crate::model::typed::InclinedPlane;
 use crate::propagate::{Control, Evaluation, evaluate};
-use crate::task::{Coverage, Settings, Task, Trials, Warning};
+use crate::task::{Settings, Task, Trials, Warning};
 use crate::unit::Unit;
 
 /// An evaluation with what belongs to it.

@@ -1,8 +1,10 @@
 //! Pages for a terminal.
 
 use super::*;
+use crate::distribution::Evaluation as Kind;
 use crate::propagate::gum::Dof;
 use crate::report::{Style, table};
+use crate::task::Coverage;
 
 fn page(case: &Case) -> String {
     let page = table(&case.report(), &Style::default());
