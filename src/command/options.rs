@@ -42,7 +42,10 @@ pub(super) fn threads(text: &str) -> Result<usize, String> {
 
 /// A number of trials.
 pub(super) fn trials(text: &str) -> Result<Trials, String> {
-    const NEEDED: &str = "a whole number is needed: 0, or from 2 to 1e12";
+    const NEEDED: &str = "a whole number (0, or from 2 to 1e12) or `adaptive` is needed";
+    if text == "adaptive" {
+        return Ok(Trials::Adaptive);
+    }
     let value: f64 = text.parse().map_err(|_| NEEDED.to_owned())?;
     if value.fract() == 0.0 && (0.0..=1e12).contains(&value) && value != 1.0 {
         Ok(Trials::Fixed(value as u64))

@@ -6,13 +6,19 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-/// A bar on standard error, hidden where that is no terminal or nothing is to be shown.
-pub(super) fn bar(trials: u64, quiet: bool) -> ProgressBar {
+/// A bar on standard error, hidden where that is no terminal or nothing is to be shown; a count
+/// where it is not known how many trials there will be.
+pub(super) fn bar(trials: Option<u64>, quiet: bool) -> ProgressBar {
     let hidden = quiet || !std::io::stderr().is_terminal();
     let target =
         if hidden { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr_with_hz(10) };
-    let bar = ProgressBar::with_draw_target(Some(trials), target);
-    let look = "{bar:30} {percent:>3} %  {human_pos} of {human_len} trials, {per_sec}, {eta} left";
+    let bar = ProgressBar::with_draw_target(trials, target);
+    let look = match trials {
+        Some(_) => {
+            "{bar:30} {percent:>3} %  {human_pos} of {human_len} trials, {per_sec}, {eta} left"
+        }
+        None => "{spinner} {human_pos} trials, {per_sec}",
+    };
     if let Ok(style) = ProgressStyle::with_template(look) {
         bar.set_style(style);
     }

@@ -23,9 +23,16 @@ pub(super) struct Run {
     /// Seed of the random streams
     #[arg(long, value_name = "N")]
     seed: Option<u64>,
-    /// Number of Monte Carlo trials; 0 for the GUM evaluation alone
-    #[arg(long, value_name = "N", value_parser = options::trials)]
+    /// Number of Monte Carlo trials; 0 for the GUM evaluation alone, `adaptive` for as many as the
+    /// digits need (JCGM 101, 7.9)
+    #[arg(long, value_name = "N|adaptive", value_parser = options::trials)]
     trials: Option<Trials>,
+    /// Make as many trials as the validation of the GUM interval needs (JCGM 101, 8.2)
+    #[arg(long, conflicts_with = "trials")]
+    validate: bool,
+    /// Largest number of trials of an adaptive run
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(20_000..))]
+    max_trials: Option<u64>,
     /// Number of threads; all of the machine's unless given
     #[arg(long, value_name = "N", value_parser = options::threads)]
     threads: Option<usize>,
@@ -102,6 +109,11 @@ impl Run {
             settings.coverage = Coverage::Probability(p);
         }
         settings.trials = self.trials.unwrap_or(settings.trials);
+        if self.validate {
+            settings.trials = Trials::Adaptive;
+            settings.for_validation = true;
+        }
+        settings.max_trials = self.max_trials.unwrap_or(settings.max_trials);
         settings.seed = self.seed.unwrap_or(settings.seed);
         settings.digits = self.digits.unwrap_or(settings.digits);
         settings.real_dof |= self.dof.is_some();
@@ -113,8 +125,12 @@ impl Run {
         task: &Task,
         stop: &std::sync::atomic::AtomicBool,
     ) -> Result<(Evaluation, Vec<Warning>), Failure> {
-        let Trials::Fixed(trials) = task.settings.trials;
-        let bar = progress::bar(trials.saturating_mul(task.rows.len() as u64), self.answer.quiet);
+        let rows = task.rows.len() as u64;
+        let trials = match task.settings.trials {
+            Trials::Fixed(trials) => Some(trials.saturating_mul(rows)),
+            Trials::Adaptive => None,
+        };
+        let bar = progress::bar(trials, self.answer.quiet);
         let advance = |trials: u64| bar.inc(trials);
         let control = Control {
             threads: self.threads.unwrap_or(0),

@@ -42,7 +42,9 @@ impl Verify {
                 file::read_text(name, example, std::path::Path::new(""), &[])?
             }
         };
-        let Trials::Fixed(trials) = self.trials;
+        let Trials::Fixed(trials) = self.trials else {
+            return Err(Failure::Argument("a fixed number of trials is compared".to_owned()));
+        };
         let mut text = String::new();
         let mut hashes = Vec::new();
         for path in CodePath::available() {

@@ -41,18 +41,16 @@ pub(super) fn read(root: &Object<'_>) -> Settings {
     if let Some(digits) = object.whole("digits", 1, 15) {
         settings.digits = u32::try_from(digits).unwrap_or(2);
     }
-    object.whole("max_trials", 1, MOST_TRIALS);
+    if let Some(most) = object.whole("max_trials", 20_000, MOST_TRIALS) {
+        settings.max_trials = most;
+    }
     settings
 }
 
 fn trials(object: &Object<'_>) -> Option<Trials> {
     let member = object.get("trials")?;
     match &member.value.value {
-        Json::Text(text) if text == "adaptive" => {
-            let what = "an adaptive number of trials".to_owned();
-            object.log.report(&member.value.span, Fault::NotBuilt { what });
-            None
-        }
+        Json::Text(text) if text == "adaptive" => Some(Trials::Adaptive),
         Json::Text(text) => {
             let fault = Fault::NotOneOf {
                 key: "trials".into(),

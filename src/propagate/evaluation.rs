@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use super::Control;
 use super::gum::{self, Gum, GumRow};
-use super::monte_carlo::{self, MonteCarlo, Request, Undefined};
+use super::monte_carlo::{self, MonteCarlo, Request, Rule, Undefined};
 use super::validate::{Validation, validate};
 use crate::distribution::{CorrelationError, Joint};
 use crate::model::Program;
@@ -177,7 +177,6 @@ fn evaluate_row(
 ) -> Result<(RowEvaluation, bool), EvaluationError> {
     let GumRow { estimates, outputs: gums, correlations } = gum::evaluate(task, row);
     let drawn_dof: Vec<f64> = reaches.iter().map(|reach| fewest_dof(reach, row)).collect();
-    let Trials::Fixed(count) = task.settings.trials;
     let mut result = RowEvaluation {
         conditions: row.conditions.clone(),
         outputs: Vec::with_capacity(gums.len()),
@@ -186,11 +185,9 @@ fn evaluate_row(
     };
     let mut figures: Vec<Option<MonteCarlo>> = vec![None; gums.len()];
     let mut stopped = false;
-    if count > 0 {
+    if task.settings.trials != Trials::Fixed(0) {
         let trials = monte_carlo::Trials::new(task, row, &estimates)?;
-        let probability = task.settings.coverage.probability();
-        let request = Request { trials: count, probability, drawn_dof: &drawn_dof };
-        let finished = monte_carlo::run(&trials, request, control);
+        let finished = run(task, &trials, &gums, &drawn_dof, control);
         stopped = finished.stopped;
         if let Some(undefined) = finished.undefined {
             if undefined.count as f64 > task.settings.allowed_undefined * undefined.trials as f64 {
@@ -211,6 +208,39 @@ fn evaluate_row(
         result.outputs.push(OutputEvaluation { gum, monte_carlo, validation, drawn_dof });
     }
     Ok((result, stopped))
+}
+
+/// The Monte Carlo run of a row, of a fixed or an adaptive number of trials.
+fn run(
+    task: &Task,
+    trials: &monte_carlo::Trials,
+    gums: &[Option<Gum>],
+    drawn_dof: &[f64],
+    control: &Control<'_>,
+) -> monte_carlo::Finished {
+    let settings = &task.settings;
+    let probability = settings.coverage.probability();
+    if let Trials::Fixed(count) = settings.trials {
+        let request = Request { trials: count, probability, drawn_dof };
+        return monte_carlo::run(trials, request, control);
+    }
+    let gum: Vec<f64> =
+        gums.iter().map(|gum| gum.as_ref().map_or(0.0, |g| g.standard_uncertainty)).collect();
+    let rule = Rule {
+        probability,
+        digits: settings.digits,
+        strictness: if settings.for_validation { 5.0 } else { 1.0 },
+        most: settings.max_trials,
+        drawn_dof,
+        gum: &gum,
+    };
+    let (count, ends) = monte_carlo::find_trials(trials, rule, control);
+    let request = Request { trials: count, probability, drawn_dof };
+    let mut finished = monte_carlo::run(trials, request, control);
+    for (figures, end) in finished.outputs.iter_mut().zip(ends) {
+        figures.adaptive = Some(end);
+    }
+    finished
 }
 
 /// For each output, the variables that it depends on.

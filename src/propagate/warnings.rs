@@ -2,6 +2,7 @@
 
 use super::evaluation::{Evaluation, OutputEvaluation, RowEvaluation};
 use super::gum::Dof;
+use super::monte_carlo::Adaptive;
 use crate::task::{Task, Trials, Warning};
 
 /// A difference of the two standard uncertainties below this is not worth a note.
@@ -11,9 +12,10 @@ const NOTEWORTHY: f64 = 0.01;
 /// for an output, at the first row that it concerns.
 pub fn warnings(task: &Task, evaluation: &Evaluation) -> Vec<Warning> {
     let mut found: Vec<Warning> = Vec::new();
-    let Trials::Fixed(trials) = task.settings.trials;
     let needed = 1e4 / (1.0 - evaluation.coverage_probability);
-    if trials > 0 && (trials as f64) < needed * (1.0 - 1e-9) {
+    if let Trials::Fixed(trials @ 1..) = task.settings.trials
+        && (trials as f64) < needed * (1.0 - 1e-9)
+    {
         found.push(Warning::new(
             "few-trials",
             "",
@@ -94,6 +96,14 @@ fn of_output(
     let Some(monte_carlo) = &output.monte_carlo else {
         return;
     };
+    if let Some(Adaptive { converged: false, tolerance, .. }) = monte_carlo.adaptive {
+        let text = format!(
+            "`{name}`{at}: after {} trials the figures are not yet stable to the tolerance \
+             {tolerance}; the numerical standard errors say how far they are",
+            monte_carlo.trials
+        );
+        push(found, Warning::new("not-converged", name, text));
+    }
     if output.drawn_dof <= 2.0 {
         let text = format!(
             "`{name}`{at}: an input is drawn from a t distribution with {} degrees of freedom, which \

@@ -133,6 +133,24 @@ struct MonteCarloSide {
     skewness: Option<f64>,
     excess_kurtosis: Option<f64>,
     numerical_standard_error: ErrorSide,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    adaptive: Option<AdaptiveSide>,
+}
+
+/// The number of trials that was asked for.
+#[derive(Serialize)]
+#[serde(untagged)]
+enum Asked {
+    Number(u64),
+    Word(&'static str),
+}
+
+#[derive(Serialize)]
+struct AdaptiveSide {
+    block_trials: u64,
+    blocks: u64,
+    tolerance: f64,
+    converged: bool,
 }
 
 #[derive(Serialize)]
@@ -166,7 +184,7 @@ struct Remark<'a> {
 struct Origin<'a> {
     model_sha256: &'a str,
     seed: u64,
-    trials: u64,
+    trials: Asked,
     files: Map<&'a str, &'a str>,
 }
 
@@ -185,7 +203,10 @@ impl<'a> Answer<'a> {
         } else {
             Results::Single(rows.next().map(figures).unwrap_or_default())
         };
-        let Trials::Fixed(trials) = evaluation.settings.trials;
+        let trials = match evaluation.settings.trials {
+            Trials::Fixed(trials) => Asked::Number(trials),
+            Trials::Adaptive => Asked::Word("adaptive"),
+        };
         let files = provenance.files.iter().map(|(name, sha)| (name.as_str(), sha.as_str()));
         Self {
             gumption: env!("CARGO_PKG_VERSION"),
@@ -305,6 +326,12 @@ impl MonteCarloSide {
             skewness: figures.skewness,
             excess_kurtosis: figures.excess_kurtosis,
             numerical_standard_error: ErrorSide::from(figures.errors),
+            adaptive: figures.adaptive.map(|end| AdaptiveSide {
+                block_trials: end.block_trials,
+                blocks: end.blocks,
+                tolerance: end.tolerance,
+                converged: end.converged,
+            }),
         })
     }
 }

@@ -7,6 +7,8 @@ use super::Coverage;
 pub enum Trials {
     /// This many; 0 for an evaluation by the law of propagation alone.
     Fixed(u64),
+    /// As many as the figures need to be stable to [`Settings::digits`] (JCGM 101, 7.9).
+    Adaptive,
 }
 
 /// The settings of an evaluation.
@@ -16,6 +18,11 @@ pub struct Settings {
     pub coverage: Coverage,
     /// Monte Carlo trials.
     pub trials: Trials,
+    /// The largest number of trials of an adaptive run.
+    pub max_trials: u64,
+    /// Whether an adaptive run goes to a fifth of the tolerance, as the validation of the GUM
+    /// interval asks (JCGM 101, 8.2).
+    pub for_validation: bool,
     /// Seed of the random streams.
     pub seed: u64,
     /// Significant digits of the standard uncertainty that are held meaningful (JCGM 101, 7.9.2).
@@ -32,6 +39,8 @@ impl Default for Settings {
         Self {
             coverage: Coverage::Probability(0.95),
             trials: Trials::Fixed(1_000_000),
+            max_trials: 1_000_000_000,
+            for_validation: false,
             seed: 1,
             digits: 2,
             real_dof: false,

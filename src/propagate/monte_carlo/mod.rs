@@ -7,6 +7,7 @@
 //! kept are then those of all trials ([`order`], [`interval`]). Where that would not fit into memory,
 //! the trials are generated again in a few passes ([`capped`]).
 
+mod adaptive;
 mod block;
 mod capped;
 mod fold;
@@ -18,7 +19,9 @@ mod partition;
 mod run;
 mod windows;
 
+pub use adaptive::Adaptive;
+pub(crate) use adaptive::{Rule, find_trials};
 pub(crate) use block::Trials;
 pub(crate) use hash::hash_trials;
+pub(crate) use run::{Finished, Request, run};
 pub use run::{MonteCarlo, NumericalError, Undefined};
-pub(crate) use run::{Request, run};

@@ -2,6 +2,7 @@
 
 use rayon::prelude::*;
 
+use super::adaptive::Adaptive;
 use super::block::{Trials, Workspace};
 use super::capped;
 use super::fold::{FoldKernel, Folded, Plan, drop_undefined};
@@ -44,6 +45,8 @@ pub struct MonteCarlo {
     pub excess_kurtosis: Option<f64>,
     /// Numerical standard errors.
     pub errors: NumericalError,
+    /// How the adaptive procedure ended, if the number of trials was found by it.
+    pub adaptive: Option<Adaptive>,
 }
 
 /// How far the finite number of trials lets each figure scatter: one standard deviation.
@@ -368,6 +371,7 @@ impl MonteCarlo {
             symmetric_interval: intervals.0,
             shortest_interval: intervals.1,
             shortest_exact: intervals.2,
+            adaptive: None,
             skewness: (drawn_dof > 3.0 && spread).then_some(moments.skewness),
             excess_kurtosis: (drawn_dof > 4.0 && spread).then_some(moments.excess_kurtosis),
             errors,

@@ -5,7 +5,7 @@ use super::{WIDTH, in_unit, text};
 use crate::model::Quantity;
 use crate::propagate::OutputEvaluation;
 use crate::propagate::gum::Gum;
-use crate::propagate::monte_carlo::MonteCarlo;
+use crate::propagate::monte_carlo::{Adaptive, MonteCarlo};
 use crate::propagate::validate::Validation;
 use crate::report::number::{MISSING, coarser, justified, place, rounded, significant, to};
 
@@ -29,9 +29,26 @@ pub(super) fn table(output: &Quantity, figures: &OutputEvaluation, digits: u32) 
     if !monte_carlo.shortest_exact {
         page += &text::wrapped("the shortest interval is that of the trials within 1e-5 u");
     }
+    if let Some(end) = &monte_carlo.adaptive {
+        page += &text::wrapped(&stability(output, end));
+    }
     page.push('\n');
     page += &text::wrapped(&verdict(output, figures, monte_carlo));
     Some(page)
+}
+
+/// How the adaptive procedure ended.
+fn stability(output: &Quantity, end: &Adaptive) -> String {
+    let Adaptive { block_trials, blocks, tolerance, converged } = *end;
+    let tolerance = in_unit(&significant(tolerance, 1), &output.unit);
+    let made = format!("{blocks} blocks of {} trials", text::grouped(block_trials));
+    if converged {
+        format!(
+            "JCGM 101, 7.9: all figures of all outputs are stable after {made}, here to {tolerance}"
+        )
+    } else {
+        format!("JCGM 101, 7.9: not yet stable to {tolerance} after {made}")
+    }
 }
 
 struct Line {

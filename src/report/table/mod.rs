@@ -55,10 +55,15 @@ pub fn table(report: &Report<'_>, style: &Style) -> String {
 fn heading(task: &Task, evaluation: &Evaluation) -> String {
     let Settings { coverage, trials, seed, .. } = evaluation.settings;
     let mut line = format!("coverage probability {}", coverage_text(coverage));
-    let Trials::Fixed(count) = trials;
-    if count > 0 {
-        let each = if evaluation.rows.len() > 1 { " for each row" } else { "" };
-        line += &format!("; {} Monte Carlo trials{each}, seed {seed}", text::grouped(count));
+    let each = if evaluation.rows.len() > 1 { " for each row" } else { "" };
+    match trials {
+        Trials::Fixed(0) => {}
+        Trials::Fixed(count) => {
+            line += &format!("; {} Monte Carlo trials{each}, seed {seed}", text::grouped(count));
+        }
+        Trials::Adaptive => {
+            line += &format!("; as many Monte Carlo trials{each} as are needed, seed {seed}");
+        }
     }
     let mut heading = text::wrapped(&task.title) + &text::wrapped(&line);
     if let [row] = evaluation.rows.as_slice()
