@@ -43,9 +43,31 @@ fn unknown(name: &str) -> Failure {
     Failure::Argument(format!("there is no typed model `{name}`; {hint}"))
 }
 
-/// The first sentence or line of a doc text.
-fn headline(about: &str) -> &str {
-    about.trim().split("\n\n").next().unwrap_or("").trim()
+/// A doc text as a page has it: no indentation, and links by their text.
+fn plain(about: &str) -> String {
+    let lines: Vec<&str> = about.trim().lines().map(str::trim).collect();
+    let mut text = String::new();
+    let whole = lines.join("\n");
+    let mut rest = whole.as_str();
+    while let Some((before, after)) = rest.split_once("[`") {
+        text.push_str(before);
+        let (name, after) = after.split_once("`]").unwrap_or((after, ""));
+        text.push_str(name);
+        let target = after.strip_prefix('(').and_then(|target| target.split_once(')'));
+        rest = target.map_or(after, |(_, after)| after);
+    }
+    text.push_str(rest);
+    text.replace('`', "")
+}
+
+/// The first paragraph of a doc text, on one line.
+fn headline(about: &str) -> String {
+    one_line(plain(about).split("\n\n").next().unwrap_or(""))
+}
+
+/// A table as text, without blanks at the ends of lines.
+fn render(table: &Table) -> String {
+    table.to_string().lines().map(|line| line.trim_end().to_owned() + "\n").collect()
 }
 
 fn plain_table() -> Table {
@@ -63,14 +85,14 @@ fn list(entries: &[Entry]) -> String {
     let mut table = plain_table();
     for entry in entries {
         let declaration = entry.typed.declaration;
-        table.add_row([declaration.name.to_owned(), one_line(headline(declaration.about))]);
+        table.add_row([declaration.name.to_owned(), headline(declaration.about)]);
     }
-    format!("{table}\n")
+    render(&table)
 }
 
 fn describe(entry: &Entry) -> String {
     let declaration = entry.typed.declaration;
-    let mut text = format!("{}\n\n{}\n\n", declaration.name, declaration.about.trim());
+    let mut text = format!("{}\n\n{}\n\n", declaration.name, plain(declaration.about));
     let _ = writeln!(text, "Source: {}\n", declaration.source);
     let mut inputs = plain_table();
     inputs.set_header(["input", "unit", "default", "what it is"]);
@@ -81,9 +103,9 @@ fn describe(entry: &Entry) -> String {
             Some(value) => value.to_string(),
         };
         let unit = unit(input.unit, entry.any_unit.contains(&input.name));
-        inputs.add_row([input.name.to_owned(), unit, default, one_line(input.about)]);
+        inputs.add_row([input.name.to_owned(), unit, default, one_line(&plain(input.about))]);
     }
-    let _ = writeln!(text, "{inputs}\n");
+    let _ = writeln!(text, "{}", render(&inputs));
     let mut outputs = plain_table();
     outputs.set_header(["output", "unit", "equation", "what it is"]);
     for output in declaration.outputs {
@@ -91,10 +113,10 @@ fn describe(entry: &Entry) -> String {
         if let Some(period) = output.period {
             let _ = write!(unit, ", periodic {period}");
         }
-        let about = one_line(output.about);
+        let about = one_line(&plain(output.about));
         outputs.add_row([output.name.to_owned(), unit, output.equation.to_owned(), about]);
     }
-    let _ = writeln!(text, "{outputs}\n");
+    let _ = writeln!(text, "{}", render(&outputs));
     let _ = writeln!(text, "A file to start from: gumption models {} --template", declaration.name);
     text
 }

@@ -51,7 +51,7 @@ pub(super) struct Run {
     /// Replace an input's estimate (NAME=35, NAME="35 deg") or a field (NAME.half_width=0.2)
     #[arg(long = "set", value_name = "NAME=VALUE", value_parser = options::replacement)]
     replacements: Vec<Override>,
-    /// End with exit code 3 if clause 8 finds a GUM interval not valid
+    /// End with exit code 3 if clause 8 finds a GUM interval not valid or an output does not conform
     #[arg(long)]
     fail: bool,
 }
@@ -179,11 +179,10 @@ pub(super) fn say(warnings: &[Warning]) {
     }
 }
 
-/// Whether clause 8 clearly fails for some output.
+/// Whether clause 8 clearly fails for some output, or an output does not conform.
 fn is_refuted(evaluation: &Evaluation) -> bool {
-    evaluation
-        .rows
-        .iter()
-        .flat_map(|row| &row.outputs)
-        .any(|output| output.validation.is_some_and(|v| v.gum_valid == Some(false)))
+    evaluation.rows.iter().flat_map(|row| &row.outputs).any(|output| {
+        output.validation.is_some_and(|v| v.gum_valid == Some(false))
+            || output.conformity.is_some_and(|c| !c.conforms)
+    })
 }

@@ -1,6 +1,6 @@
 //! A model file as a whole.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
@@ -379,7 +379,7 @@ impl<'a> ModelReader<'a> {
 
     /// Names of all quantities: possible, and each used once.
     fn names(&self, inputs: &Inputs, conditions: &Conditions, maker: &Option<Maker<'a>>) {
-        let mut taken: Vec<&str> = Vec::new();
+        let mut taken: HashSet<&str> = HashSet::new();
         let inputs = inputs.quantities.iter().map(|q| q.quantity.name.as_str());
         let input_places = self.root.get("inputs").map(|m| match &m.value.value {
             Json::Object(members) => members.iter().map(|m| &m.key_span).collect(),
@@ -395,10 +395,9 @@ impl<'a> ModelReader<'a> {
             if let Err(error) = formula::check_name(name) {
                 let (name, reason) = (name.to_owned(), error.to_string());
                 self.log.report(place, Fault::BadName { name, reason });
-            } else if taken.contains(&name) {
+            } else if !taken.insert(name) {
                 self.log.report(place, Fault::NameTaken { name: name.to_owned() });
             }
-            taken.push(name);
         }
     }
 

@@ -4,10 +4,11 @@ use std::ops::Range;
 
 use super::Fault;
 use super::conditions::unit;
-use super::json::Member;
+use super::json::{Json, Member};
 use super::object::Object;
 use super::problem::Log;
-use crate::model::{Output, Quantity};
+use crate::distribution::Invalid;
+use crate::model::{Output, Quantity, Tolerance};
 use crate::unit::Unit;
 
 /// Outputs with their places.
@@ -31,7 +32,7 @@ pub(super) fn read(log: &Log, member: &Member) -> Option<Outputs> {
             continue;
         };
         object.check_keys(&["unit", "about", "periodic", "tolerance", "cmc", "cmc_floor"]);
-        for key in ["tolerance", "cmc", "cmc_floor"] {
+        for key in ["cmc", "cmc_floor"] {
             if let Some(member) = object.get(key) {
                 let what = format!("`{key}` of an output");
                 log.report(&member.key_span, Fault::NotBuilt { what });
@@ -50,9 +51,39 @@ pub(super) fn read(log: &Log, member: &Member) -> Option<Outputs> {
             about: object.text("about").unwrap_or("").to_owned(),
         };
         let unit_place = object.get("unit").map_or(&member.key_span, |m| &m.value.span);
-        outputs.outputs.push(Output { quantity, period });
+        let tolerance = tolerance(&object);
+        outputs.outputs.push(Output { quantity, period, tolerance });
         outputs.places.push(member.key_span.clone());
         outputs.unit_places.push(unit_place.clone());
     }
     Some(outputs)
+}
+
+/// The tolerance limits of an output.
+fn tolerance(output: &Object<'_>) -> Option<Tolerance> {
+    let member = output.get("tolerance")?;
+    let object = Object::new(output.log, "`tolerance`", &member.value, &member.key_span)?;
+    object.check_keys(&["lower", "upper", "prior"]);
+    if let Some(prior) = object.get("prior") {
+        let what = "the global risk that `prior` is for".to_owned();
+        object.log.report(&prior.key_span, Fault::NotBuilt { what });
+    }
+    // null stands for a limit that is not there
+    let limit = |key: &str| match object.get(key).map(|m| &m.value.value) {
+        None | Some(Json::Null) => None,
+        Some(_) => object.number(key),
+    };
+    let (lower, upper) = (limit("lower"), limit("upper"));
+    match (lower, upper) {
+        (None, None) => {
+            object.report(Fault::NoValues { name: "tolerance".into() });
+            None
+        }
+        (Some(lower), Some(upper)) if lower >= upper => {
+            let error = Invalid::LimitsReversed { lower, upper };
+            object.report(Fault::Distribution { name: "tolerance".into(), error });
+            None
+        }
+        _ => Some(Tolerance { lower, upper }),
+    }
 }

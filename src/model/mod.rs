@@ -43,6 +43,24 @@ pub struct Output {
     /// The length of a turn in the output's unit, for phases: values are taken on the branch within
     /// half a turn of the estimate.
     pub period: Option<f64>,
+    /// The limits that a conforming value lies within, in the output's unit.
+    pub tolerance: Option<Tolerance>,
+}
+
+/// Tolerance limits of an output; at least one is given (JCGM 106).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tolerance {
+    /// Lower limit.
+    pub lower: Option<f64>,
+    /// Upper limit.
+    pub upper: Option<f64>,
+}
+
+impl Tolerance {
+    /// Whether a value lies within the limits.
+    pub fn holds(&self, value: f64) -> bool {
+        self.lower.is_none_or(|lower| value >= lower) && self.upper.is_none_or(|u| value <= u)
+    }
 }
 
 /// A measurement model. The program's variables are the parts of the inputs, then the conditions,

@@ -9,7 +9,7 @@ use super::gum::{self, Gum, GumRow};
 use super::monte_carlo::{self, MonteCarlo, Request, Rule, Undefined};
 use super::validate::{Validation, validate};
 use crate::distribution::{CorrelationError, Joint};
-use crate::model::Program;
+use crate::model::{Program, Tolerance};
 use crate::task::{Row, Settings, Task, Trials};
 
 /// The evaluation of a whole task.
@@ -51,8 +51,24 @@ pub struct OutputEvaluation {
     pub monte_carlo: Option<MonteCarlo>,
     /// Their comparison.
     pub validation: Option<Validation>,
+    /// The probability that the output conforms to its tolerance; `None` without a tolerance or
+    /// without trials.
+    pub conformity: Option<Conformity>,
     /// The fewest degrees of freedom among the t distributions that the output depends on.
     pub drawn_dof: f64,
+}
+
+/// How probable it is that an output lies within its tolerance limits (JCGM 106, clause 7).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Conformity {
+    /// The limits.
+    pub tolerance: Tolerance,
+    /// The share of trials within them.
+    pub probability: f64,
+    /// Numerical standard error of the probability.
+    pub numerical_standard_error: f64,
+    /// Whether the estimate itself lies within the limits.
+    pub conforms: bool,
 }
 
 /// Why a task cannot be evaluated.
@@ -140,12 +156,19 @@ fn in_pool<R: Send>(
     Ok(pool.install(work))
 }
 
+/// Among how many rows at most the memory for kept values is divided.
+const ROWS_AT_A_TIME: usize = 16;
+
 fn evaluate_rows(task: &Task, control: &Control<'_>) -> Result<Evaluation, EvaluationError> {
     let reaches = reach(&task.model.program, task.variables.len());
     let mut rounded = false;
     if let Some(row) = task.rows.first() {
         rounded = Joint::new(&row.distributions, &task.correlations)?.rounded;
     }
+    // rows are evaluated at the same time and share the memory; how is a matter of the task alone,
+    // so that no figure depends on the number of threads
+    let memory = control.memory / task.rows.len().clamp(1, ROWS_AT_A_TIME);
+    let control = &Control { memory, ..*control };
     let rows: Vec<Result<(RowEvaluation, bool), EvaluationError>> = task
         .rows
         .par_iter()
@@ -200,12 +223,28 @@ fn evaluate_row(
             result.correlations = finished.correlations;
         }
     }
-    for ((gum, monte_carlo), drawn_dof) in gums.into_iter().zip(figures).zip(drawn_dof) {
+    let evaluated = gums.into_iter().zip(figures).zip(drawn_dof).zip(&task.model.outputs);
+    for (((gum, monte_carlo), drawn_dof), output) in evaluated {
+        let conformity = output.tolerance.zip(monte_carlo.as_ref()).map(|(tolerance, figures)| {
+            let p = figures.inside;
+            Conformity {
+                tolerance,
+                probability: p,
+                numerical_standard_error: (p * (1.0 - p) / figures.trials as f64).sqrt(),
+                conforms: tolerance.holds(figures.estimate),
+            }
+        });
         let validation = match (&gum, &monte_carlo) {
             (Some(gum), Some(figures)) => validate(gum, figures, task.settings.digits),
             _ => None,
         };
-        result.outputs.push(OutputEvaluation { gum, monte_carlo, validation, drawn_dof });
+        result.outputs.push(OutputEvaluation {
+            gum,
+            monte_carlo,
+            validation,
+            conformity,
+            drawn_dof,
+        });
     }
     Ok((result, stopped))
 }
@@ -236,7 +275,12 @@ fn run(
     };
     let (count, ends) = monte_carlo::find_trials(trials, rule, control);
     let request = Request { trials: count, probability, drawn_dof };
-    let mut finished = monte_carlo::run(trials, request, control);
+    // a search that was stopped still hands back the figures of the trials that it made
+    let stopped = control.is_stopped();
+    let control =
+        if stopped { Control { stop: None, progress: None, ..*control } } else { *control };
+    let mut finished = monte_carlo::run(trials, request, &control);
+    finished.stopped |= stopped;
     for (figures, end) in finished.outputs.iter_mut().zip(ends) {
         figures.adaptive = Some(end);
     }

@@ -12,6 +12,6 @@ mod warnings;
 
 pub use control::Control;
 pub use evaluation::{
-    Evaluation, EvaluationError, OutputEvaluation, RowEvaluation, evaluate, trial_hash,
+    Conformity, Evaluation, EvaluationError, OutputEvaluation, RowEvaluation, evaluate, trial_hash,
 };
 pub use warnings::warnings;

@@ -60,6 +60,8 @@ struct Output<'a> {
     gum: Option<GumSide<'a>>,
     monte_carlo: Option<MonteCarloSide>,
     validation: Option<Validation>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    conformity: Option<ConformitySide>,
 }
 
 #[derive(Serialize)]
@@ -135,6 +137,14 @@ struct MonteCarloSide {
     numerical_standard_error: ErrorSide,
     #[serde(skip_serializing_if = "Option::is_none")]
     adaptive: Option<AdaptiveSide>,
+}
+
+#[derive(Serialize)]
+struct ConformitySide {
+    lower: Option<f64>,
+    upper: Option<f64>,
+    probability: f64,
+    numerical_standard_error: f64,
 }
 
 /// The number of trials that was asked for.
@@ -234,6 +244,12 @@ impl<'a> Figures<'a> {
                 gum: evaluation.gum.as_ref().map(|gum| GumSide::of(task, gum)),
                 monte_carlo: MonteCarloSide::of(task, row, evaluation, stopped),
                 validation: evaluation.validation.map(Validation::from),
+                conformity: evaluation.conformity.map(|conformity| ConformitySide {
+                    lower: conformity.tolerance.lower,
+                    upper: conformity.tolerance.upper,
+                    probability: conformity.probability,
+                    numerical_standard_error: conformity.numerical_standard_error,
+                }),
             };
             (output.quantity.name.as_str(), side)
         });

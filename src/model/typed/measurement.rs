@@ -121,7 +121,7 @@ impl Typed {
                 unit: Unit::parse(output.unit)?,
                 about: output.about.to_owned(),
             };
-            Ok(Output { quantity, period: output.period })
+            Ok(Output { quantity, period: output.period, tolerance: None })
         });
         let inputs = inputs.collect::<Result<Vec<_>, UnitError>>()?;
         let outputs = outputs.collect::<Result<Vec<_>, UnitError>>()?;

@@ -221,7 +221,11 @@ impl Ready {
             u.push(deviation);
         }
         let outputs = file["outputs"].as_object().unwrap().iter();
-        let outputs = outputs.map(|output| Output { quantity: quantity(output), period: None });
+        let outputs = outputs.map(|output| Output {
+            quantity: quantity(output),
+            period: None,
+            tolerance: None,
+        });
         let inputs =
             inputs.iter().map(|i| InputQuantity { quantity: quantity(i), parts: 1 }).collect();
         let model = typed.model_with(inputs, Vec::new(), outputs.collect());

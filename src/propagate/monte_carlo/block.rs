@@ -16,6 +16,8 @@ pub(crate) struct Trials {
     keys: Vec<StreamKey>,
     /// For each output, the branch that phases are taken on: its middle and the length of a turn.
     branches: Vec<Option<(f64, f64)>>,
+    /// For each output its tolerance limits, infinite where there are none.
+    limits: Vec<[f64; 2]>,
 }
 
 /// Buffers of one thread, reused from block to block.
@@ -54,6 +56,11 @@ impl Trials {
                 output.period.map(|turn| (if middle.is_finite() { middle } else { 0.0 }, turn))
             })
             .collect();
+        let limits = task.model.outputs.iter().map(|output| {
+            let limits = output.tolerance.map(|t| (t.lower, t.upper)).unwrap_or_default();
+            [limits.0.unwrap_or(f64::NEG_INFINITY), limits.1.unwrap_or(f64::INFINITY)]
+        });
+        let limits = limits.collect();
         let joint = Joint::new(&row.distributions, &task.correlations)?.restricted(&varying);
         Ok(Self {
             registers: (0..varying.len()).collect(),
@@ -62,6 +69,7 @@ impl Trials {
             distributions,
             keys,
             branches,
+            limits,
         })
     }
 
@@ -70,6 +78,10 @@ impl Trials {
             registers: vec![Column::ZERO; self.schedule.registers],
             outputs: vec![[0.0; BLOCK]; self.schedule.outputs.len()],
         }
+    }
+
+    pub(crate) fn limits(&self, output: usize) -> [f64; 2] {
+        self.limits.get(output).copied().unwrap_or([f64::NEG_INFINITY, f64::INFINITY])
     }
 
     pub(crate) fn outputs(&self) -> usize {

@@ -6,12 +6,16 @@
 pub(crate) struct Reference {
     pub(crate) middle: f64,
     pub(crate) scale: f64,
+    /// The output's tolerance limits, infinite where there are none.
+    pub(crate) limits: [f64; 2],
 }
 
 /// Sums over trials of the powers 1 to 4 of one output, and of its products with the outputs after
 /// it, all about the reference.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Sums {
+    /// How many values lie within the output's tolerance limits.
+    pub(crate) inside: u64,
     pub(crate) powers: [f64; 4],
     pub(crate) products: Vec<f64>,
 }
@@ -29,6 +33,8 @@ impl Sums {
         reference: Reference,
         others: &[(&[f64], Reference)],
     ) {
+        let [lower, upper] = reference.limits;
+        self.inside += values.iter().map(|&v| u64::from((v >= lower) & (v <= upper))).sum::<u64>();
         let inverse = 1.0 / reference.scale;
         let mut lanes = [[0.0; LANES]; 4];
         let chunks = values.chunks_exact(LANES);
@@ -70,6 +76,7 @@ impl Sums {
 
     /// The sums of two sets of trials.
     pub(crate) fn merge(&mut self, other: &Self) {
+        self.inside += other.inside;
         for (sum, term) in self.powers.iter_mut().zip(other.powers) {
             *sum += term;
         }
@@ -97,6 +104,8 @@ pub(crate) struct Moments {
     pub(crate) excess_kurtosis: f64,
     /// Numerical standard errors of the two.
     pub(crate) shape_errors: Option<[f64; 2]>,
+    /// Share of the trials within the tolerance limits.
+    pub(crate) inside: f64,
 }
 
 impl Moments {
@@ -129,6 +138,7 @@ impl Moments {
             skewness: m3 / m2.powf(1.5),
             excess_kurtosis: m4 / (m2 * m2) - 3.0,
             shape_errors: None,
+            inside: sums.inside as f64 / n,
         }
     }
 
@@ -186,7 +196,7 @@ mod tests {
     #[test]
     fn moments_of_consecutive_numbers() {
         let values: Vec<f64> = (1..=1000).map(f64::from).collect();
-        let reference = Reference { middle: 480.0, scale: 300.0 };
+        let reference = Reference { middle: 480.0, scale: 300.0, limits: [11.0, 20.0] };
         let mut sums = Sums::default();
         sums.add(&values[..617], reference, &[]);
         let mut rest = Sums::default();
@@ -196,6 +206,7 @@ mod tests {
         assert!((m.mean - 500.5).abs() < 1e-10);
         let variance: f64 = (1e6 - 1.0) / 12.0 * 1000.0 / 999.0;
         assert!((m.std - variance.sqrt()).abs() < 1e-10);
+        assert_eq!(m.inside, 0.01);
         assert!(m.skewness.abs() < 1e-12);
         let kurtosis = -1.2 * (1e6 + 1.0) / (1e6 - 1.0);
         assert!((m.excess_kurtosis - kurtosis).abs() < 1e-12);
@@ -205,8 +216,8 @@ mod tests {
     fn correlation_of_a_line_is_one() {
         let a: Vec<f64> = (0..100).map(f64::from).collect();
         let b: Vec<f64> = a.iter().map(|x| 5.0 - 3.0 * x).collect();
-        let (ra, rb) =
-            (Reference { middle: 50.0, scale: 30.0 }, Reference { middle: 0.0, scale: 90.0 });
+        let about = |middle, scale| Reference { middle, scale, limits: [0.0, 0.0] };
+        let (ra, rb) = (about(50.0, 30.0), about(0.0, 90.0));
         let (mut sa, mut sb) = (Sums::default(), Sums::default());
         sa.add(&a, ra, &[(&b, rb)]);
         sb.add(&b, rb, &[]);

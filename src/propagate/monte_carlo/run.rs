@@ -19,6 +19,9 @@ const PILOT_BLOCKS: u64 = 16;
 /// Batches whose scatter gives the numerical standard error of the shortest interval.
 const BATCHES: usize = 32;
 
+/// Windows wider than this many times the first ones keep everything.
+const KEEP_ALL_MARGIN: f64 = 20.0;
+
 /// Blocks that a thread works on at a time, at most.
 const LARGEST_CHUNK: u64 = 64;
 
@@ -45,6 +48,8 @@ pub struct MonteCarlo {
     pub excess_kurtosis: Option<f64>,
     /// Numerical standard errors.
     pub errors: NumericalError,
+    /// Share of the trials within the output's tolerance limits; 1 where it has none.
+    pub inside: f64,
     /// How the adaptive procedure ended, if the number of trials was found by it.
     pub adaptive: Option<Adaptive>,
 }
@@ -120,7 +125,8 @@ pub(crate) fn run(trials: &Trials, request: Request<'_>, control: &Control<'_>) 
         if let Some(finished) = finish(trials, request, control, &plans, chunks) {
             return finished;
         }
-        // a tail came out short: wider windows, in the end everything
+        // a tail came out short: wider windows, in the end everything, which cannot come out short
+        debug_assert!(margin <= KEEP_ALL_MARGIN);
         margin *= 4.0;
     }
 }
@@ -170,10 +176,11 @@ fn plans(trials: &Trials, request: Request<'_>, control: &Control<'_>, margin: f
     }
     pilot
         .into_iter()
-        .map(|mut values| {
+        .enumerate()
+        .map(|(output, mut values)| {
             values.sort_unstable_by(f64::total_cmp);
-            let reference = reference(&values);
-            let all = request.trials <= 4 * PILOT_BLOCKS * BLOCK as u64 || margin > 20.0;
+            let reference = reference(&values, trials.limits(output));
+            let all = request.trials <= 4 * PILOT_BLOCKS * BLOCK as u64 || margin > KEEP_ALL_MARGIN;
             let windows = if all {
                 Windows::ALL
             } else {
@@ -186,7 +193,7 @@ fn plans(trials: &Trials, request: Request<'_>, control: &Control<'_>, margin: f
 }
 
 /// The median and a width of sorted values: half the distance of the quartiles, or what is there.
-fn reference(sorted: &[f64]) -> Reference {
+fn reference(sorted: &[f64], limits: [f64; 2]) -> Reference {
     let at = |share: f64| sorted.get((share * sorted.len() as f64) as usize).copied();
     let middle = at(0.5).unwrap_or(0.0);
     let widths = [at(0.25).zip(at(0.75)), sorted.first().copied().zip(sorted.last().copied())];
@@ -196,7 +203,7 @@ fn reference(sorted: &[f64]) -> Reference {
         .map(|(low, high)| 0.5 * high - 0.5 * low)
         .find(|width| *width > 0.0)
         .unwrap_or(1.0);
-    Reference { middle, scale }
+    Reference { middle, scale, limits }
 }
 
 /// How many of the first `trials` trials lie in a block.
@@ -371,6 +378,7 @@ impl MonteCarlo {
             symmetric_interval: intervals.0,
             shortest_interval: intervals.1,
             shortest_exact: intervals.2,
+            inside: moments.inside,
             adaptive: None,
             skewness: (drawn_dof > 3.0 && spread).then_some(moments.skewness),
             excess_kurtosis: (drawn_dof > 4.0 && spread).then_some(moments.excess_kurtosis),

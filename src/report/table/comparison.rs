@@ -3,10 +3,10 @@
 use super::grid::Grid;
 use super::{WIDTH, in_unit, text};
 use crate::model::Quantity;
-use crate::propagate::OutputEvaluation;
 use crate::propagate::gum::Gum;
 use crate::propagate::monte_carlo::{Adaptive, MonteCarlo};
 use crate::propagate::validate::Validation;
+use crate::propagate::{Conformity, OutputEvaluation};
 use crate::report::number::{MISSING, coarser, justified, place, rounded, significant, to};
 
 /// Decimal place of skewness and kurtosis.
@@ -34,7 +34,30 @@ pub(super) fn table(output: &Quantity, figures: &OutputEvaluation, digits: u32) 
     }
     page.push('\n');
     page += &text::wrapped(&verdict(output, figures, monte_carlo));
+    if let Some(found) = &figures.conformity {
+        page += &text::wrapped(&conformity_text(output, found));
+    }
     Some(page)
+}
+
+/// The probability of conformity with the output's tolerance.
+fn conformity_text(output: &Quantity, found: &Conformity) -> String {
+    let limits = match (found.tolerance.lower, found.tolerance.upper) {
+        (Some(lower), Some(upper)) => format!("from {lower} to {upper}"),
+        (Some(lower), None) => format!("from {lower} on"),
+        (None, Some(upper)) => format!("up to {upper}"),
+        (None, None) => String::new(),
+    };
+    let limits = in_unit(&limits, &output.unit);
+    let percent = |share: f64| 100.0 * share;
+    let error = percent(found.numerical_standard_error);
+    let probability = justified(percent(found.probability), Some(-2), error);
+    let side = if found.conforms { "within" } else { "outside" };
+    format!(
+        "Tolerance {limits}: the estimate lies {side}, and the value conforms with a probability of \
+         {probability} % (numerical standard error {} %).",
+        significant(error, 1)
+    )
 }
 
 /// How the adaptive procedure ended.

@@ -13,135 +13,137 @@ fn whole_answer_in_the_order_of_the_contract() {
         (r#""gumption": "[^"]*""#, r#""gumption": "[version]""#),
     ]}, {
         insta::assert_snapshot!(report::json(&case.report()), @r#"
-            {
-              "gumption": "[version]",
-              "title": "inclined-plane",
-              "coverage_probability": 0.95,
-              "outputs": {
-                "a_z": {
-                  "unit": "m/s^2",
-                  "gum": {
-                    "estimate": [number],
-                    "standard_uncertainty": [number],
+        {
+          "gumption": "[version]",
+          "title": "inclined-plane",
+          "coverage_probability": 0.95,
+          "outputs": {
+            "a_z": {
+              "unit": "m/s^2",
+              "gum": {
+                "estimate": [number],
+                "standard_uncertainty": [number],
+                "dof": null,
+                "dof_status": "infinite",
+                "coverage_factor": [number],
+                "expanded_uncertainty": [number],
+                "interval": [
+                  [number],
+                  [number]
+                ],
+                "budget": [
+                  {
+                    "input": "a_ref",
+                    "estimate": 10.0,
+                    "standard_uncertainty": 0.01,
+                    "distribution": "normal",
+                    "type": "B",
+                    "group": null,
                     "dof": null,
-                    "dof_status": "infinite",
-                    "coverage_factor": [number],
-                    "expanded_uncertainty": [number],
-                    "interval": [
-                      [number],
-                      [number]
-                    ],
-                    "budget": [
-                      {
-                        "input": "a_ref",
-                        "estimate": 10.0,
-                        "standard_uncertainty": 0.01,
-                        "distribution": "normal",
-                        "type": "B",
-                        "group": null,
-                        "dof": null,
-                        "sensitivity": [number],
-                        "contribution": [number],
-                        "share": [number]
-                      },
-                      {
-                        "input": "tilt",
-                        "estimate": 35.0,
-                        "standard_uncertainty": [number],
-                        "distribution": "rectangular",
-                        "type": "B",
-                        "group": null,
-                        "dof": null,
-                        "sensitivity": [number],
-                        "contribution": [number],
-                        "share": [number]
-                      },
-                      {
-                        "input": "rotation",
-                        "estimate": 0.0,
-                        "standard_uncertainty": 0.0,
-                        "distribution": "constant",
-                        "type": "B",
-                        "group": null,
-                        "dof": null,
-                        "sensitivity": 0.0,
-                        "contribution": 0.0,
-                        "share": 0.0
-                      }
-                    ],
-                    "subtotals": [
-                      {
-                        "group": null,
-                        "share": 1.0
-                      },
-                      {
-                        "type": "A",
-                        "share": 0.0
-                      },
-                      {
-                        "type": "B",
-                        "share": 1.0
-                      }
-                    ]
+                    "sensitivity": [number],
+                    "contribution": [number],
+                    "share": [number]
                   },
-                  "monte_carlo": {
-                    "trials": 2000,
-                    "seed": 1,
-                    "estimate": [number],
+                  {
+                    "input": "tilt",
+                    "estimate": 35.0,
                     "standard_uncertainty": [number],
-                    "median": [number],
-                    "symmetric_interval": [
-                      [number],
-                      [number]
-                    ],
-                    "shortest_interval": [
-                      [number],
-                      [number]
-                    ],
-                    "shortest_exact": true,
-                    "skewness": [number],
-                    "excess_kurtosis": [number],
-                    "numerical_standard_error": {
-                      "estimate": [number],
-                      "standard_uncertainty": [number],
-                      "median": [number],
-                      "symmetric_interval": [
-                        [number],
-                        [number]
-                      ],
-                      "shortest_interval": [
-                        null,
-                        null
-                      ]
-                    }
+                    "distribution": "rectangular",
+                    "type": "B",
+                    "group": null,
+                    "dof": null,
+                    "sensitivity": [number],
+                    "contribution": [number],
+                    "share": [number]
                   },
-                  "validation": {
-                    "digits": 2,
-                    "tolerance": 0.0005,
-                    "d_low": [number],
-                    "d_high": [number],
-                    "gum_valid": null
+                  {
+                    "input": "rotation",
+                    "estimate": 0.0,
+                    "standard_uncertainty": 0.0,
+                    "distribution": "constant",
+                    "type": "B",
+                    "group": null,
+                    "dof": null,
+                    "sensitivity": 0.0,
+                    "contribution": 0.0,
+                    "share": 0.0
                   }
+                ],
+                "subtotals": [
+                  {
+                    "group": null,
+                    "share": 1.0
+                  },
+                  {
+                    "type": "A",
+                    "share": 0.0
+                  },
+                  {
+                    "type": "B",
+                    "share": 1.0
+                  }
+                ]
+              },
+              "monte_carlo": {
+                "trials": 2000,
+                "seed": 1,
+                "estimate": [number],
+                "standard_uncertainty": [number],
+                "median": [number],
+                "symmetric_interval": [
+                  [number],
+                  [number]
+                ],
+                "shortest_interval": [
+                  [number],
+                  [number]
+                ],
+                "shortest_exact": true,
+                "skewness": [number],
+                "excess_kurtosis": [number],
+                "numerical_standard_error": {
+                  "estimate": [number],
+                  "standard_uncertainty": [number],
+                  "median": [number],
+                  "symmetric_interval": [
+                    [number],
+                    [number]
+                  ],
+                  "shortest_interval": [
+                    null,
+                    null
+                  ],
+                  "skewness": null,
+                  "excess_kurtosis": null
                 }
               },
-              "output_correlations": [],
-              "warnings": [
-                {
-                  "code": "few-trials",
-                  "where": "",
-                  "text": "2000 trials are few"
-                }
-              ],
-              "provenance": {
-                "model_sha256": "0123",
-                "seed": 1,
-                "trials": 2000,
-                "files": {
-                  "data.csv": "4567"
-                }
+              "validation": {
+                "digits": 2,
+                "tolerance": 0.0005,
+                "d_low": [number],
+                "d_high": [number],
+                "gum_valid": null
               }
             }
-            "#);
+          },
+          "output_correlations": [],
+          "warnings": [
+            {
+              "code": "few-trials",
+              "where": "",
+              "text": "2000 trials are few"
+            }
+          ],
+          "provenance": {
+            "model_sha256": "0123",
+            "seed": 1,
+            "trials": 2000,
+            "files": {
+              "data.csv": "4567"
+            }
+          }
+        }
+        "#);
     });
 }
 

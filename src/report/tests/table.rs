@@ -16,48 +16,48 @@ fn page(case: &Case) -> String {
 
 #[test]
 fn inclined_plane() {
-    insta::assert_snapshot!(page(&only_z(Case::new(plane_at(35.0, 100_000)))), @r"
-        inclined-plane
-        coverage probability 95 %; 100 000 Monte Carlo trials, seed 1
+    insta::assert_snapshot!(page(&only_z(Case::new(plane_at(35.0, 100_000)))), @"
+    inclined-plane
+    coverage probability 95 %; 100 000 Monte Carlo trials, seed 1
 
-        a_ref     Reference acceleration along the vertical, RMS.
-        tilt      Tilt angle of the plane against the horizontal.
-        rotation  Rotation angle of the sensor on the plane.
+    a_ref     Reference acceleration along the vertical, RMS.
+    tilt      Tilt angle of the plane against the horizontal.
+    rotation  Rotation angle of the sensor on the plane.
 
-        a_z in m/s^2: Acceleration along the sensor's z axis, RMS.
-        ══════════════════════════════════════════════════════════
+    a_z in m/s^2: Acceleration along the sensor's z axis, RMS.
+    ══════════════════════════════════════════════════════════
 
-        quantity  estimate     standard  unit   distribution  dof  sensitivity  contribution  share
-                            uncertainty                            coefficient                 in %
-        ───────────────────────────────────────────────────────────────────────────────────────────
-        a_ref       10.000        0.010  m/s^2  normal          ∞       0.8192        0.0082   66.8
-        tilt        35.000        0.058  deg    rectangular     ∞      -0.1001        0.0058   33.2
-        rotation     0            0      deg    constant        ∞       0             0         0.0
-        ───────────────────────────────────────────────────────────────────────────────────────────
-        a_z          8.192        0.010  m/s^2  combined        ∞                     0.010   100.0
-        sensitivity coefficients in m/s^2 per unit of the quantity, contributions in m/s^2
+    quantity  estimate     standard  unit   distribution  dof  sensitivity  contribution  share
+                        uncertainty                            coefficient                 in %
+    ───────────────────────────────────────────────────────────────────────────────────────────
+    a_ref       10.000        0.010  m/s^2  normal          ∞       0.8192        0.0082   66.8
+    tilt        35.000        0.058  deg    rectangular     ∞      -0.1001        0.0058   33.2
+    rotation     0            0      deg    constant        ∞       0             0         0.0
+    ───────────────────────────────────────────────────────────────────────────────────────────
+    a_z          8.192        0.010  m/s^2  combined        ∞                     0.010   100.0
+    sensitivity coefficients in m/s^2 per unit of the quantity, contributions in m/s^2
 
-        combined standard uncertainty  0.010 m/s^2
-        effective degrees of freedom   ∞
-        coverage factor                1.96 for 95 %
-        expanded uncertainty           0.020 m/s^2
+    combined standard uncertainty  0.010 m/s^2
+    effective degrees of freedom   ∞
+    coverage factor                1.96 for 95 %
+    expanded uncertainty           0.020 m/s^2
 
-                                              GUM  Monte Carlo       numerical
-                                                                standard error
-        ──────────────────────────────────────────────────────────────────────
-        estimate                            8.192        8.192         0.00003
-        standard uncertainty                0.010        0.010         0.00002
-        median                              -            8.192         0.00004
-        coverage interval, symmetric: from  8.172        8.172         0.00007
-                                      to    8.211        8.211         0.00007
-        coverage interval, shortest:  from  -            8.172         0.0003
-                                      to    -            8.211         0.0003
-        skewness                            -           -0.01          -
-        excess kurtosis                     -           -0.13          -
+                                          GUM  Monte Carlo       numerical
+                                                            standard error
+    ──────────────────────────────────────────────────────────────────────
+    estimate                            8.192        8.192         0.00003
+    standard uncertainty                0.010        0.010         0.00002
+    median                              -            8.192         0.00004
+    coverage interval, symmetric: from  8.172        8.172         0.00007
+                                  to    8.211        8.211         0.00007
+    coverage interval, shortest:  from  -            8.172         0.0003
+                                  to    -            8.211         0.0003
+    skewness                            -           -0.01          0.008
+    excess kurtosis                     -           -0.13          0.01
 
-        JCGM 101, clause 8: the GUM interval is valid here: its ends lie d_low = 0.00016 and d_high =
-        0.00007 m/s^2 from the Monte Carlo ones, within the numerical tolerance 0.0005 m/s^2 (2 digits).
-        ");
+    JCGM 101, clause 8: the GUM interval is valid here: its ends lie d_low = 0.00016 and d_high =
+    0.00007 m/s^2 from the Monte Carlo ones, within the numerical tolerance 0.0005 m/s^2 (2 digits).
+    ");
 }
 
 #[test]
@@ -187,50 +187,50 @@ fn readings_groups_and_degrees_of_freedom() {
 
 #[test]
 fn correlated_inputs() {
-    insta::assert_snapshot!(page(&only_z(Case::new(correlated(20_000)))), @r"
-        inclined-plane
-        coverage probability 95 %; 20 000 Monte Carlo trials, seed 1
+    insta::assert_snapshot!(page(&only_z(Case::new(correlated(20_000)))), @"
+    inclined-plane
+    coverage probability 95 %; 20 000 Monte Carlo trials, seed 1
 
-        a_ref     Reference acceleration along the vertical, RMS.
-        tilt      Tilt angle of the plane against the horizontal.
-        rotation  Rotation angle of the sensor on the plane.
+    a_ref     Reference acceleration along the vertical, RMS.
+    tilt      Tilt angle of the plane against the horizontal.
+    rotation  Rotation angle of the sensor on the plane.
 
-        a_z in m/s^2: Acceleration along the sensor's z axis, RMS.
-        ══════════════════════════════════════════════════════════
+    a_z in m/s^2: Acceleration along the sensor's z axis, RMS.
+    ══════════════════════════════════════════════════════════
 
-        quantity        estimate     standard  unit   distribution  dof  sensitivity  contribution  share
-                                  uncertainty                            coefficient                 in %
-        ─────────────────────────────────────────────────────────────────────────────────────────────────
-        a_ref             10.000        0.010  m/s^2  normal          ∞       0.8192        0.0082   25.3
-        tilt              35.00         0.10   deg    normal          ∞      -0.1001        0.010    37.7
-        rotation           0            0      deg    constant        ∞       0             0         0.0
-        r(a_ref, tilt)    -0.6                        correlation                                    37.0
-        ─────────────────────────────────────────────────────────────────────────────────────────────────
-        a_z                8.192        0.016  m/s^2  combined        ∞                     0.016   100.0
-        sensitivity coefficients in m/s^2 per unit of the quantity, contributions in m/s^2
+    quantity        estimate     standard  unit   distribution  dof  sensitivity  contribution  share
+                              uncertainty                            coefficient                 in %
+    ─────────────────────────────────────────────────────────────────────────────────────────────────
+    a_ref             10.000        0.010  m/s^2  normal          ∞       0.8192        0.0082   25.3
+    tilt              35.00         0.10   deg    normal          ∞      -0.1001        0.010    37.7
+    rotation           0            0      deg    constant        ∞       0             0         0.0
+    r(a_ref, tilt)    -0.6                        correlation                                    37.0
+    ─────────────────────────────────────────────────────────────────────────────────────────────────
+    a_z                8.192        0.016  m/s^2  combined        ∞                     0.016   100.0
+    sensitivity coefficients in m/s^2 per unit of the quantity, contributions in m/s^2
 
-        combined standard uncertainty  0.016 m/s^2
-        effective degrees of freedom   ∞
-        coverage factor                1.96 for 95 %
-        expanded uncertainty           0.032 m/s^2
+    combined standard uncertainty  0.016 m/s^2
+    effective degrees of freedom   ∞
+    coverage factor                1.96 for 95 %
+    expanded uncertainty           0.032 m/s^2
 
-                                              GUM  Monte Carlo       numerical
-                                                                standard error
-        ──────────────────────────────────────────────────────────────────────
-        estimate                            8.192        8.191         0.0001
-        standard uncertainty                0.016        0.016         0.00008
-        median                              -            8.191         0.0001
-        coverage interval, symmetric: from  8.160        8.159         0.0003
-                                      to    8.223        8.223         0.0003
-        coverage interval, shortest:  from  -            8.159         0.0007
-                                      to    -            8.223         0.0009
-        skewness                            -           -0.02          -
-        excess kurtosis                     -            0.08          -
+                                          GUM  Monte Carlo       numerical
+                                                            standard error
+    ──────────────────────────────────────────────────────────────────────
+    estimate                            8.192        8.191         0.0001
+    standard uncertainty                0.016        0.016         0.00008
+    median                              -            8.191         0.0001
+    coverage interval, symmetric: from  8.160        8.159         0.0003
+                                  to    8.223        8.223         0.0003
+    coverage interval, shortest:  from  -            8.159         0.0007
+                                  to    -            8.223         0.0009
+    skewness                            -           -0.02          0.02
+    excess kurtosis                     -            0.08          0.05
 
-        JCGM 101, clause 8: undecided whether the GUM interval is valid here: its ends lie d_low = 0.0005
-        and d_high = 0.0003 m/s^2 from the Monte Carlo ones, too near to the numerical tolerance 0.0005
-        m/s^2 (2 digits) for 20 000 trials to tell.
-        ");
+    JCGM 101, clause 8: undecided whether the GUM interval is valid here: its ends lie d_low = 0.0005
+    and d_high = 0.0003 m/s^2 from the Monte Carlo ones, too near to the numerical tolerance 0.0005
+    m/s^2 (2 digits) for 20 000 trials to tell.
+    ");
 }
 
 #[test]
@@ -273,49 +273,49 @@ fn where_gum_is_not_valid() {
     task.rows[0].distributions[1] =
         crate::distribution::Rectangular::new(0.0, 10.0).unwrap().into();
     case.evaluation = only_z(Case::new(task)).evaluation;
-    insta::assert_snapshot!(page(&case), @r"
-        inclined-plane
-        coverage probability 95 %; 100 000 Monte Carlo trials, seed 1
+    insta::assert_snapshot!(page(&case), @"
+    inclined-plane
+    coverage probability 95 %; 100 000 Monte Carlo trials, seed 1
 
-        a_ref     Reference acceleration along the vertical, RMS.
-        tilt      Tilt angle of the plane against the horizontal.
-        rotation  Rotation angle of the sensor on the plane.
+    a_ref     Reference acceleration along the vertical, RMS.
+    tilt      Tilt angle of the plane against the horizontal.
+    rotation  Rotation angle of the sensor on the plane.
 
-        a_z in m/s^2: Acceleration along the sensor's z axis, RMS.
-        ══════════════════════════════════════════════════════════
+    a_z in m/s^2: Acceleration along the sensor's z axis, RMS.
+    ══════════════════════════════════════════════════════════
 
-        quantity  estimate     standard  unit   distribution  dof  sensitivity  contribution  share
-                            uncertainty                            coefficient                 in %
-        ───────────────────────────────────────────────────────────────────────────────────────────
-        a_ref       10.000        0.010  m/s^2  normal          ∞        1.000         0.010  100.0
-        tilt         0.0          5.8    deg    rectangular     ∞        0             0        0.0
-        rotation     0            0      deg    constant        ∞        0             0        0.0
-        ───────────────────────────────────────────────────────────────────────────────────────────
-        a_z         10.000        0.010  m/s^2  combined        ∞                      0.010  100.0
-        sensitivity coefficients in m/s^2 per unit of the quantity, contributions in m/s^2
+    quantity  estimate     standard  unit   distribution  dof  sensitivity  contribution  share
+                        uncertainty                            coefficient                 in %
+    ───────────────────────────────────────────────────────────────────────────────────────────
+    a_ref       10.000        0.010  m/s^2  normal          ∞        1.000         0.010  100.0
+    tilt         0.0          5.8    deg    rectangular     ∞        0             0        0.0
+    rotation     0            0      deg    constant        ∞        0             0        0.0
+    ───────────────────────────────────────────────────────────────────────────────────────────
+    a_z         10.000        0.010  m/s^2  combined        ∞                      0.010  100.0
+    sensitivity coefficients in m/s^2 per unit of the quantity, contributions in m/s^2
 
-        combined standard uncertainty  0.010 m/s^2
-        effective degrees of freedom   ∞
-        coverage factor                1.96 for 95 %
-        expanded uncertainty           0.020 m/s^2
+    combined standard uncertainty  0.010 m/s^2
+    effective degrees of freedom   ∞
+    coverage factor                1.96 for 95 %
+    expanded uncertainty           0.020 m/s^2
 
-                                               GUM  Monte Carlo       numerical
-                                                                 standard error
-        ───────────────────────────────────────────────────────────────────────
-        estimate                            10.000        9.950         0.0001
-        standard uncertainty                 0.010        0.046         0.00008
-        median                               -            9.962         0.0002
-        coverage interval, symmetric: from   9.980        9.854         0.0002
-                                      to    10.020       10.010         0.0001
-        coverage interval, shortest:  from   -            9.857         0.0007
-                                      to     -           10.013         0.0006
-        skewness                             -           -0.60          -
-        excess kurtosis                      -           -0.78          -
+                                           GUM  Monte Carlo       numerical
+                                                             standard error
+    ───────────────────────────────────────────────────────────────────────
+    estimate                            10.000        9.950         0.0001
+    standard uncertainty                 0.010        0.046         0.00008
+    median                               -            9.962         0.0002
+    coverage interval, symmetric: from   9.980        9.854         0.0002
+                                  to    10.020       10.010         0.0001
+    coverage interval, shortest:  from   -            9.857         0.0007
+                                  to     -           10.013         0.0006
+    skewness                             -           -0.60          0.004
+    excess kurtosis                      -           -0.78          0.008
 
-        JCGM 101, clause 8: the GUM interval is not valid here: its ends lie d_low = 0.13 and d_high =
-        0.0092 m/s^2 from the Monte Carlo ones, beyond the numerical tolerance 0.0005 m/s^2 (2 digits). Take
-        the Monte Carlo interval.
-        ");
+    JCGM 101, clause 8: the GUM interval is not valid here: its ends lie d_low = 0.13 and d_high =
+    0.0092 m/s^2 from the Monte Carlo ones, beyond the numerical tolerance 0.0005 m/s^2 (2 digits). Take
+    the Monte Carlo interval.
+    ");
 }
 
 #[test]
@@ -324,36 +324,36 @@ fn no_gum_interval() {
     case.evaluation.rows[0].outputs[0].gum = None;
     case.evaluation.rows[0].outputs[0].validation = None;
     case.evaluation.stopped = true;
-    insta::assert_snapshot!(page(&case), @r"
-        inclined-plane
-        coverage probability 95 %; 10 000 Monte Carlo trials, seed 1
+    insta::assert_snapshot!(page(&case), @"
+    inclined-plane
+    coverage probability 95 %; 10 000 Monte Carlo trials, seed 1
 
-        a_ref     Reference acceleration along the vertical, RMS.
-        tilt      Tilt angle of the plane against the horizontal.
-        rotation  Rotation angle of the sensor on the plane.
+    a_ref     Reference acceleration along the vertical, RMS.
+    tilt      Tilt angle of the plane against the horizontal.
+    rotation  Rotation angle of the sensor on the plane.
 
-        a_z in m/s^2: Acceleration along the sensor's z axis, RMS.
-        ══════════════════════════════════════════════════════════
+    a_z in m/s^2: Acceleration along the sensor's z axis, RMS.
+    ══════════════════════════════════════════════════════════
 
-        There is no budget: the estimate or a sensitivity coefficient is not finite here.
+    There is no budget: the estimate or a sensitivity coefficient is not finite here.
 
-                                            GUM  Monte Carlo       numerical
-                                                              standard error
-        ────────────────────────────────────────────────────────────────────
-        estimate                              -        8.191         0.0001
-        standard uncertainty                  -        0.010         0.00007
-        median                                -        8.192         0.0001
-        coverage interval, symmetric: from    -        8.172         0.0002
-                                      to      -        8.211         0.0002
-        coverage interval, shortest:  from    -        8.172         0.0004
-                                      to      -        8.212         0.0004
-        skewness                              -       -0.02          -
-        excess kurtosis                       -       -0.14          -
+                                        GUM  Monte Carlo       numerical
+                                                          standard error
+    ────────────────────────────────────────────────────────────────────
+    estimate                              -        8.191         0.0001
+    standard uncertainty                  -        0.010         0.00007
+    median                                -        8.192         0.0001
+    coverage interval, symmetric: from    -        8.172         0.0002
+                                  to      -        8.211         0.0002
+    coverage interval, shortest:  from    -        8.172         0.0004
+                                  to      -        8.212         0.0004
+    skewness                              -       -0.02          0.02
+    excess kurtosis                       -       -0.14          0.05
 
-        JCGM 101, clause 8: there is no GUM interval to compare; take the Monte Carlo one.
+    JCGM 101, clause 8: there is no GUM interval to compare; take the Monte Carlo one.
 
-        stopped after 10 000 trials
-        ");
+    stopped after 10 000 trials
+    ");
 }
 
 #[test]
