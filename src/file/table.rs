@@ -72,8 +72,7 @@ fn parse(source: &Arc<Source>) -> Result<Table, Vec<(Place, Fault)>> {
                 break;
             }
         };
-        let line = record.position().map_or(number + 2, |p| p.line() as usize);
-        let place = at_line(line);
+        let place = record_place(source, record.position().map_or(0, csv::Position::byte));
         if record.len() != columns.len() {
             let fault =
                 Fault::ShortRow { row: number + 1, found: record.len(), expected: columns.len() };
@@ -103,6 +102,19 @@ fn parse(source: &Arc<Source>) -> Result<Table, Vec<(Place, Fault)>> {
     } else {
         Err(faults)
     }
+}
+
+/// The line of a record that the reader found from a byte on: comments and empty lines come before.
+fn record_place(source: &Arc<Source>, byte: u64) -> Place {
+    let mut start = usize::try_from(byte).unwrap_or(0);
+    let rest = source.text.get(start..).unwrap_or("");
+    for line in rest.split_inclusive('\n') {
+        if !line.trim().is_empty() && !line.trim_start().starts_with('#') {
+            return Place { source: source.clone(), span: start..start + line.trim_end().len() };
+        }
+        start += line.len();
+    }
+    Place { source: source.clone(), span: start..start }
 }
 
 #[cfg(test)]
