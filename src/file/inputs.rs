@@ -1,5 +1,6 @@
 //! The inputs of a file: quantities, their variables, and what is known about them in each row.
 
+use std::collections::HashSet;
 use std::ops::Range;
 
 use super::Fault;
@@ -47,6 +48,8 @@ pub(super) struct Inputs {
     /// For each row, the distributions of the variables.
     pub(super) rows: Vec<Vec<Distribution>>,
     pub(super) warnings: Vec<Warning>,
+    /// Quantities whose unit could not be read: they fit every dimension.
+    pub(super) without_unit: HashSet<String>,
 }
 
 /// Where a quantity's estimate comes from.
@@ -91,7 +94,10 @@ struct Reader<'a, 'i> {
 impl<'a> Reader<'a, '_> {
     fn input(&mut self) {
         let object = self.object;
-        let unit = unit(&object, "unit").unwrap_or_else(Unit::one);
+        let unit = unit(&object, "unit").unwrap_or_else(|| {
+            self.inputs.without_unit.insert(self.name.to_owned());
+            Unit::one()
+        });
         let quantity = Quantity {
             name: self.name.to_owned(),
             unit: unit.clone(),

@@ -427,6 +427,7 @@ impl<'a> ModelReader<'a> {
         for (input, place) in inputs.quantities.iter().zip(&inputs.quantity_places) {
             let Quantity { name, unit } = Quantity::of(input);
             match entry.typed.input(name) {
+                Some(_) if inputs.without_unit.contains(name) => {}
                 Some((_, declared)) => check(name, declared.unit, unit, place),
                 None => {
                     let nearest = nearest(name, known.iter().map(String::as_str));
@@ -496,7 +497,8 @@ impl<'a> ModelReader<'a> {
         let mut scope = condition_scope(conditions);
         for input in &inputs.quantities {
             let Quantity { name, unit } = Quantity::of(input);
-            scope.define(name, Typing::in_unit(unit));
+            let unknown = inputs.without_unit.contains(name);
+            scope.define(name, if unknown { Typing::ANY } else { Typing::in_unit(unit) });
         }
         for (member, _) in equations {
             scope.announce(&member.key);

@@ -83,7 +83,9 @@ impl<'a> Object<'a> {
     /// The member, or its absence reported.
     pub(crate) fn required(&self, key: &'static str) -> Option<&'a Member> {
         let member = self.get(key);
-        if member.is_none() {
+        // a misspelt key is reported where it stands, not as missing as well
+        let misspelt = || self.members.iter().any(|m| nearest(&m.key, [key]).is_some());
+        if member.is_none() && !misspelt() {
             self.report(Fault::MissingKey { key, what: self.what });
         }
         member
