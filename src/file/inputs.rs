@@ -47,6 +47,8 @@ pub(super) struct Inputs {
     /// For each row, the distributions of the variables.
     pub(super) rows: Vec<Vec<Distribution>>,
     pub(super) warnings: Vec<Warning>,
+    /// Names of the quantities whose unit could not be read.
+    pub(super) without_unit: Vec<String>,
 }
 
 /// Where a quantity's estimate comes from.
@@ -91,7 +93,10 @@ struct Reader<'a, 'i> {
 impl<'a> Reader<'a, '_> {
     fn input(&mut self) {
         let object = self.object;
-        let unit = unit(&object, "unit").unwrap_or_else(Unit::one);
+        let unit = unit(&object, "unit").unwrap_or_else(|| {
+            self.inputs.without_unit.push(self.name.to_owned());
+            Unit::one()
+        });
         let quantity = Quantity {
             name: self.name.to_owned(),
             unit: unit.clone(),

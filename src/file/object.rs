@@ -1,5 +1,6 @@
 //! Reading the members of an object, with every mistake reported where it stands.
 
+use std::collections::HashSet;
 use std::ops::Range;
 
 use super::Fault;
@@ -37,8 +38,9 @@ impl<'a> Object<'a> {
             );
             return None;
         };
-        for (number, member) in members.iter().enumerate() {
-            if members.iter().take(number).any(|earlier| earlier.key == member.key) {
+        let mut seen = HashSet::new();
+        for member in members {
+            if !seen.insert(member.key.as_str()) {
                 log.report(&member.key_span, Fault::DuplicateKey { key: member.key.clone() });
             }
         }

@@ -16,7 +16,7 @@ const SMALL: &str = r#"{
   },
   "equations": {"v": "x / t"},
   "outputs": {"v": {"unit": "mm/s"}},
-  "monte_carlo": {"trials": 20000}
+  "monte_carlo": {"trials": 200000}
 }"#;
 
 /// A model that clause 8 refutes: a square at zero.
@@ -142,7 +142,7 @@ fn the_command_line_beats_the_file() {
     };
     let base = with(&[]);
     let figure = |answer: &Value| answer["outputs"]["v"]["monte_carlo"]["estimate"].as_f64();
-    assert_eq!(base["outputs"]["v"]["monte_carlo"]["trials"], 20_000);
+    assert_eq!(base["outputs"]["v"]["monte_carlo"]["trials"], 200_000);
     assert_eq!(with(&["--trials", "3000"])["outputs"]["v"]["monte_carlo"]["trials"], 3000);
     assert_eq!(with(&["--trials", "1e4"])["outputs"]["v"]["monte_carlo"]["trials"], 10_000);
     assert_ne!(figure(&base), figure(&with(&["--seed", "2"])));

@@ -213,8 +213,8 @@ fn check_places(problems: &Problems) {
 fn evaluate_and_report(mut file: ModelFile) {
     file.task.rows.truncate(3);
     file.task.settings.trials = match file.task.settings.trials {
-        Trials::Fixed(0) => Trials::Fixed(0),
         Trials::Fixed(trials) => Trials::Fixed(trials.min(300)),
+        Trials::Adaptive => Trials::Fixed(300),
     };
     let control = Control { threads: 1, ..Control::default() };
     let evaluation = match evaluate(&file.task, &control) {
