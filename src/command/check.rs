@@ -43,7 +43,7 @@ impl From<&Problem> for Mistake {
             line,
             column,
             code: problem.fault.code(),
-            message: problem.fault.to_string(),
+            message: problem.message(),
             suggestion: problem.fault.suggestion(),
         }
     }

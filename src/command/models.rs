@@ -77,8 +77,29 @@ fn plain_table() -> Table {
     table
 }
 
+/// On one line, and links of the documentation as names.
 fn one_line(text: &str) -> String {
-    text.split_whitespace().collect::<Vec<_>>().join(" ")
+    let plain = text.replace("[`", "`").replace("`]", "`");
+    plain.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+/// On lines of at most 100 characters.
+fn wrapped(paragraph: &str) -> String {
+    let mut text = String::new();
+    let mut width = 0;
+    for word in one_line(paragraph).split(' ') {
+        let length = word.chars().count();
+        if width > 0 && width + 1 + length > 100 {
+            text.push('\n');
+            width = 0;
+        } else if width > 0 {
+            text.push(' ');
+            width += 1;
+        }
+        text.push_str(word);
+        width += length;
+    }
+    text
 }
 
 fn list(entries: &[Entry]) -> String {
@@ -92,8 +113,11 @@ fn list(entries: &[Entry]) -> String {
 
 fn describe(entry: &Entry) -> String {
     let declaration = entry.typed.declaration;
-    let mut text = format!("{}\n\n{}\n\n", declaration.name, plain(declaration.about));
-    let _ = writeln!(text, "Source: {}\n", declaration.source);
+    let mut text = format!("{}\n\n", declaration.name);
+    for paragraph in plain(declaration.about).split("\n\n") {
+        let _ = writeln!(text, "{}\n", wrapped(paragraph));
+    }
+    let _ = writeln!(text, "{}\n", wrapped(&format!("Source: {}", declaration.source)));
     let mut inputs = plain_table();
     inputs.set_header(["input", "unit", "default", "what it is"]);
     for input in declaration.inputs {

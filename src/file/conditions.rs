@@ -22,6 +22,17 @@ pub(super) struct Conditions {
     pub(super) rows: Vec<Vec<f64>>,
     /// The tables read: name and content.
     pub(super) files: Vec<(String, Vec<u8>)>,
+    /// Names of those whose unit could not be read.
+    pub(super) without_unit: Vec<String>,
+    /// Whether the rows could not be read, so that nothing is known of the conditions.
+    pub(super) unreadable: bool,
+}
+
+impl Conditions {
+    /// The only row of a file without conditions.
+    pub(super) fn none() -> Self {
+        Self { rows: vec![Vec::new()], ..Self::default() }
+    }
 }
 
 /// Reads `conditions`; paths are relative to `folder`.
@@ -72,10 +83,14 @@ fn grid(object: &Object<'_>) -> Option<Conditions> {
         conditions.places.push(member.key_span.clone());
         conditions.quantities.push(Quantity {
             name: member.key.clone(),
-            unit: unit.unwrap_or_else(Unit::one),
+            unit: unit.unwrap_or_else(|| {
+                conditions.without_unit.push(member.key.clone());
+                Unit::one()
+            }),
             about: condition.text("about").unwrap_or("").to_owned(),
         });
-        axes.push(values.unwrap_or_default());
+        // one value in the place of none, so that the inputs are checked all the same
+        axes.push(values.filter(|values| !values.is_empty()).unwrap_or_else(|| vec![1.0]));
     }
     if axes.is_empty() {
         object.report(Fault::NoValues { name: "conditions".into() });
@@ -151,15 +166,22 @@ fn from_table(object: &Object<'_>, file: &Member, folder: &Path) -> Option<Condi
             }
         }
     }
+    let mut without_unit = Vec::new();
     let quantities = table
         .columns
         .iter()
-        .map(|column| Quantity {
-            name: column.clone(),
-            unit: units.as_ref().and_then(|units| unit(units, column)).unwrap_or_else(Unit::one),
-            about: String::new(),
+        .map(|column| {
+            let unit = match &units {
+                Some(units) => unit(units, column).unwrap_or_else(|| {
+                    without_unit.push(column.clone());
+                    Unit::one()
+                }),
+                None => Unit::one(),
+            };
+            Quantity { name: column.clone(), unit, about: String::new() }
         })
         .collect();
     let places = vec![file.value.span.clone(); table.columns.len()];
-    Some(Conditions { quantities, places, rows: table.rows, files: vec![(name.to_owned(), bytes)] })
+    let (rows, files) = (table.rows, vec![(name.to_owned(), bytes)]);
+    Some(Conditions { quantities, places, rows, files, without_unit, unreadable: false })
 }

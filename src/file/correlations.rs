@@ -193,6 +193,10 @@ impl Reader<'_> {
     fn check(&self, root: &Object<'_>) {
         let mut seen: Vec<CorrelationError> = Vec::new();
         for row in &self.inputs.rows {
+            if row.len() != self.inputs.variables.len() {
+                // an input was refused, so that places in the row do not count
+                return;
+            }
             let Err(error) = Joint::new(row, &self.found) else {
                 continue;
             };

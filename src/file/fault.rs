@@ -183,7 +183,20 @@ impl Fault {
 
 /// `a`, `b`, `c`
 fn list<S: AsRef<str>>(names: &[S]) -> String {
-    names.iter().map(|n| format!("`{}`", n.as_ref())).collect::<Vec<_>>().join(", ")
+    let quoted = names.iter().map(|n| format!("`{}`", n.as_ref()));
+    let mut list = quoted.take(LONGEST_LIST).collect::<Vec<_>>().join(", ");
+    if names.len() > LONGEST_LIST {
+        list.push_str(&format!(" and {} more", names.len() - LONGEST_LIST));
+    }
+    list
+}
+
+/// At most so many names are listed in a message.
+const LONGEST_LIST: usize = 30;
+
+/// "1 cell", "2 cells"
+fn counted(count: usize, what: &str) -> String {
+    format!("{count} {what}{}", if count == 1 { "" } else { "s" })
 }
 
 /// "; did you mean `x`?" or the list of what there is.
@@ -252,8 +265,11 @@ impl fmt::Display for Fault {
                 write!(f, "the name `{name}` is already that of another quantity of this file")
             }
             Self::NoSuchInput { name, nearest } => {
-                let known = "the names of the file's inputs and their components to choose from";
-                write!(f, "there is no input `{name}`{}", hint(nearest.as_ref(), known))
+                write!(f, "there is no input `{name}` in this file")?;
+                match nearest {
+                    Some(near) => write!(f, "; did you mean `{near}`?"),
+                    None => f.write_str("; a component is named `input/component`"),
+                }
             }
             Self::Unit { unit, error } => write!(f, "the unit `{unit}` cannot be read: {error}"),
             Self::WrongDimension { name, found, found_as, expected, expected_as } => write!(
@@ -316,7 +332,8 @@ impl fmt::Display for Fault {
                 write!(f, "row {row}, column `{column}`: `{found}` is not a finite number")
             }
             Self::ShortRow { row, found, expected } => {
-                write!(f, "row {row} has {found} cells, but the header has {expected}")
+                let (found, expected) = (counted(*found, "cell"), counted(*expected, "name"));
+                write!(f, "row {row} has {found}, but the header has {expected}")
             }
             Self::Table { reason } => f.write_str(reason),
             Self::Correlation { reason } => f.write_str(reason),

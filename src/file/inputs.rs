@@ -1,6 +1,5 @@
 //! The inputs of a file: quantities, their variables, and what is known about them in each row.
 
-use std::collections::HashSet;
 use std::ops::Range;
 
 use super::Fault;
@@ -48,8 +47,8 @@ pub(super) struct Inputs {
     /// For each row, the distributions of the variables.
     pub(super) rows: Vec<Vec<Distribution>>,
     pub(super) warnings: Vec<Warning>,
-    /// Quantities whose unit could not be read: they fit every dimension.
-    pub(super) without_unit: HashSet<String>,
+    /// Names of the quantities whose unit could not be read.
+    pub(super) without_unit: Vec<String>,
 }
 
 /// Where a quantity's estimate comes from.
@@ -95,7 +94,7 @@ impl<'a> Reader<'a, '_> {
     fn input(&mut self) {
         let object = self.object;
         let unit = unit(&object, "unit").unwrap_or_else(|| {
-            self.inputs.without_unit.insert(self.name.to_owned());
+            self.inputs.without_unit.push(self.name.to_owned());
             Unit::one()
         });
         let quantity = Quantity {

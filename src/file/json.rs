@@ -104,19 +104,59 @@ fn syntax(source: &Source, error: &serde_json::Error) -> (Range<usize>, Fault) {
         // the end of a line has nothing to underline; its last character does
         at = start + line.char_indices().next_back().map_or(0, |(i, _)| i);
     }
-    let word: String = source.text.get(at..).unwrap_or("").chars().take(8).collect();
-    let length =
-        source.text.get(at..).and_then(|rest| rest.chars().next()).map_or(0, char::len_utf8);
-    let word = word.trim_start_matches(['-', '+']);
-    let not_finite = ["NaN", "nan", "Inf", "inf"].iter().any(|name| word.starts_with(name));
-    let fault = if not_finite {
-        Fault::NotFiniteInJson
+    let first = source.text.get(at..).and_then(|rest| rest.chars().next());
+    let whole = word(&source.text, at);
+    let bare = source.text.get(whole.clone()).unwrap_or("").trim_start_matches(['-', '+']);
+    let not_finite = ["NaN", "nan", "Inf", "inf"].iter().any(|name| bare.starts_with(name));
+    if not_finite {
+        (whole, Fault::NotFiniteInJson)
     } else if message.contains("number out of range") {
-        Fault::NumberTooLarge
+        (whole, Fault::NumberTooLarge)
     } else {
-        Fault::NotJson { message }
+        let message = in_plain_words(&message, first);
+        (at..at + first.map_or(0, char::len_utf8), Fault::NotJson { message })
+    }
+}
+
+/// The number or bare word about a place.
+fn word(text: &str, at: usize) -> Range<usize> {
+    let belongs = |c: char| c.is_alphanumeric() || matches!(c, '.' | '-' | '+');
+    let before = text.get(..at).unwrap_or("");
+    let start = before.trim_end_matches(belongs).len();
+    let after = text.get(at..).unwrap_or("");
+    let length = after.find(|c| !belongs(c)).unwrap_or(after.len());
+    start..at + length
+}
+
+/// What would be right, for the parser's messages that do not say it.
+fn in_plain_words(message: &str, found: Option<char>) -> String {
+    let words = match message {
+        "expected value" => {
+            "a value should stand here: a number, a text in double quotes, true, false, null, a \
+             list or an object"
+        }
+        "key must be a string" if found == Some('/') => {
+            "it has no comments; `about`, `title` and `source` take texts"
+        }
+        "key must be a string" => "a key in double quotes should stand here",
+        "trailing comma" => "a comma stands before this end of a list or object; take it out",
+        "trailing characters" => "there is more after the end of the value",
+        "expected `,` or `}`" | "expected `,` or `]`" => {
+            return format!("{} should stand before this", message.replace("expected ", ""));
+        }
+        "expected `:`" => "a colon should stand between key and value",
+        "invalid number" => {
+            "a number is written like 0.5, -3 or 1e-6: with digits on both sides of a point, \
+             without leading zeros or a plus sign"
+        }
+        "recursion limit exceeded" => "more than 127 lists and objects stand inside each other",
+        _ if message.starts_with("EOF") => "the text ends before a text, list or object is closed",
+        _ if message.starts_with("control character") => {
+            "a text in quotes ends on the line on which it begins; a line break in it is written `\\n`"
+        }
+        other => other,
     };
-    (at..at + length, fault)
+    words.to_owned()
 }
 
 fn node(value: ast::Value<'_>) -> Node {
@@ -173,5 +213,7 @@ mod tests {
         assert_eq!(at("{\"a\": 1e999}").1, Fault::NumberTooLarge);
         let deep = "[".repeat(100_000);
         assert!(matches!(at(&deep).1, Fault::NotJson { .. }));
+        assert_eq!(at("[-Infinity]").0, "-Infinity");
+        assert_eq!(at("[1e999, 2]").0, "1e999");
     }
 }

@@ -243,8 +243,9 @@ impl<'a> ModelReader<'a> {
 
         let swept = root.get("conditions");
         let mut conditions = match swept {
-            Some(member) => conditions::read(log, member, self.folder)?,
-            None => Conditions { rows: vec![Vec::new()], ..Conditions::default() },
+            Some(member) => conditions::read(log, member, self.folder)
+                .unwrap_or_else(|| Conditions { unreadable: true, ..Conditions::none() }),
+            None => Conditions::none(),
         };
         let maker = self.maker();
         let set = ConditionSet { conditions: &conditions, check_units };
@@ -253,12 +254,22 @@ impl<'a> ModelReader<'a> {
             None => None,
         };
         let outputs = root.required("outputs").and_then(|member| outputs::read(log, member));
-        let (inputs, outputs) = (inputs?, outputs?);
+        let (inputs, outputs) = (inputs?, outputs.unwrap_or_default());
         self.names(&inputs, &conditions, &maker);
+        if conditions.unreadable {
+            // without the names of the conditions nothing can be said about formulas
+            return None;
+        }
         let mut files = std::mem::take(&mut conditions.files);
         let correlations = correlations::read(root, &inputs, self.folder, &mut files);
         let mut warnings = inputs.warnings.clone();
-        let Outputs { mut outputs, places, unit_places } = outputs;
+        let Outputs { mut outputs, places, unit_places, without_unit } = outputs;
+        let unknown_units: HashSet<&str> =
+            [&inputs.without_unit, &conditions.without_unit, &without_unit]
+                .into_iter()
+                .flatten()
+                .map(String::as_str)
+                .collect();
         let model = match maker? {
             Maker::Typed(entry, place) => {
                 for output in &mut outputs {
@@ -274,6 +285,7 @@ impl<'a> ModelReader<'a> {
                     &outputs,
                     &places,
                     &unit_places,
+                    &unknown_units,
                 );
                 if !log.is_clean() {
                     return None;
@@ -281,8 +293,20 @@ impl<'a> ModelReader<'a> {
                 entry.typed.model_with(inputs.quantities, conditions.quantities.clone(), outputs)
             }
             Maker::Equations(equations) => {
-                let scope = self.check_equations(&equations, &inputs, &conditions, check_units);
-                self.check_formula_outputs(&scope, &outputs, &places, &unit_places, check_units);
+                let scope = self.check_equations(
+                    &equations,
+                    &inputs,
+                    &conditions,
+                    &unknown_units,
+                    check_units,
+                );
+                self.check_formula_outputs(
+                    &scope,
+                    &outputs,
+                    (&places, &unit_places),
+                    &unknown_units,
+                    check_units,
+                );
                 warnings.extend(celsius_as_kelvin(&scope, &outputs));
                 if !log.is_clean() {
                     return None;
@@ -340,13 +364,21 @@ impl<'a> ModelReader<'a> {
                 let object = Object::new(self.log, "`equations`", &member.value, &member.key_span)?;
                 let mut equations = Vec::new();
                 for member in object.members() {
-                    let Some(text) = object.text(&member.key) else {
-                        continue;
+                    let formula = match &member.value.value {
+                        Json::Text(text) => Formula::parse(text)
+                            .map_err(|error| self.report_formula(member, error))
+                            .ok(),
+                        other => {
+                            let fault = Fault::WrongType {
+                                what: format!("`{}`", member.key),
+                                found: other.kind(),
+                                expected: "a formula in quotes",
+                            };
+                            self.log.report(&member.value.span, fault);
+                            None
+                        }
                     };
-                    let formula = Formula::parse(text).map_err(|error| {
-                        self.report_formula(member, error);
-                    });
-                    equations.push((member, formula.ok()));
+                    equations.push((member, formula));
                 }
                 Some(Maker::Equations(equations))
             }
@@ -379,25 +411,30 @@ impl<'a> ModelReader<'a> {
 
     /// Names of all quantities: possible, and each used once.
     fn names(&self, inputs: &Inputs, conditions: &Conditions, maker: &Option<Maker<'a>>) {
-        let mut taken: HashSet<&str> = HashSet::new();
+        // names with the kind of quantity; a key that stands twice in one object is reported there
+        let mut taken: HashMap<&str, usize> = HashMap::new();
         let inputs = inputs.quantities.iter().map(|q| q.quantity.name.as_str());
         let input_places = self.root.get("inputs").map(|m| match &m.value.value {
             Json::Object(members) => members.iter().map(|m| &m.key_span).collect(),
             _ => Vec::new(),
         });
-        let mut named: Vec<(&str, &Range<usize>)> =
-            inputs.zip(input_places.unwrap_or_default()).collect();
-        named.extend(conditions.quantities.iter().map(|q| q.name.as_str()).zip(&conditions.places));
+        let mut named: Vec<(usize, &str, &Range<usize>)> = inputs
+            .zip(input_places.unwrap_or_default())
+            .map(|(name, place)| (0, name, place))
+            .collect();
+        let swept = conditions.quantities.iter().zip(&conditions.places);
+        named.extend(swept.map(|(quantity, place)| (1, quantity.name.as_str(), place)));
         if let Some(Maker::Equations(equations)) = maker {
-            named.extend(equations.iter().map(|(m, _)| (m.key.as_str(), &m.key_span)));
+            named.extend(equations.iter().map(|(m, _)| (2, m.key.as_str(), &m.key_span)));
         }
-        for (name, place) in named {
+        for (kind, name, place) in named {
             if let Err(error) = formula::check_name(name) {
                 let (name, reason) = (name.to_owned(), error.to_string());
                 self.log.report(place, Fault::BadName { name, reason });
-            } else if !taken.insert(name) {
+            } else if taken.get(name).is_some_and(|&earlier| earlier != kind) {
                 self.log.report(place, Fault::NameTaken { name: name.to_owned() });
             }
+            taken.entry(name).or_insert(kind);
         }
     }
 
@@ -411,12 +448,16 @@ impl<'a> ModelReader<'a> {
         outputs: &[crate::model::Output],
         output_places: &[Range<usize>],
         unit_places: &[Range<usize>],
+        unknown_units: &HashSet<&str>,
     ) {
         let declaration = entry.typed.declaration;
         let model = declaration.name.to_owned();
         let known: Vec<String> = declaration.inputs.iter().map(|i| i.name.to_owned()).collect();
         let mut free: Option<(String, Unit)> = None;
         let mut check = |name: &str, declared: &str, unit: &Unit, place: &Range<usize>| {
+            if unknown_units.contains(name) {
+                return;
+            }
             if entry.any_unit.contains(&name) {
                 let (_, first) = free.get_or_insert_with(|| (name.to_owned(), unit.clone()));
                 self.check_unit(name, unit, first, place);
@@ -427,7 +468,6 @@ impl<'a> ModelReader<'a> {
         for (input, place) in inputs.quantities.iter().zip(&inputs.quantity_places) {
             let Quantity { name, unit } = Quantity::of(input);
             match entry.typed.input(name) {
-                Some(_) if inputs.without_unit.contains(name) => {}
                 Some((_, declared)) => check(name, declared.unit, unit, place),
                 None => {
                     let nearest = nearest(name, known.iter().map(String::as_str));
@@ -492,13 +532,14 @@ impl<'a> ModelReader<'a> {
         equations: &[Equation<'a>],
         inputs: &Inputs,
         conditions: &Conditions,
+        unknown_units: &HashSet<&str>,
         check_units: bool,
     ) -> Scope {
         let mut scope = condition_scope(conditions);
         for input in &inputs.quantities {
             let Quantity { name, unit } = Quantity::of(input);
-            let unknown = inputs.without_unit.contains(name);
-            scope.define(name, if unknown { Typing::ANY } else { Typing::in_unit(unit) });
+            let known = !unknown_units.contains(name);
+            scope.define(name, if known { Typing::in_unit(unit) } else { Typing::ANY });
         }
         for (member, _) in equations {
             scope.announce(&member.key);
@@ -524,8 +565,8 @@ impl<'a> ModelReader<'a> {
         &self,
         scope: &Scope,
         outputs: &[crate::model::Output],
-        places: &[Range<usize>],
-        unit_places: &[Range<usize>],
+        (places, unit_places): (&[Range<usize>], &[Range<usize>]),
+        unknown_units: &HashSet<&str>,
         check_units: bool,
     ) {
         let known: Vec<String> = scope.names().map(str::to_owned).collect();
@@ -536,7 +577,8 @@ impl<'a> ModelReader<'a> {
                 continue;
             };
             let unit = &output.quantity.unit;
-            if let Some(dimension) = typing.dimension.filter(|_| check_units) {
+            let checked = check_units && !unknown_units.contains(name.as_str());
+            if let Some(dimension) = typing.dimension.filter(|_| checked) {
                 if dimension != unit.dimension() {
                     let fault = Fault::WrongDimension {
                         name: name.clone(),
@@ -632,7 +674,9 @@ fn from_equations(
 fn condition_scope(conditions: &Conditions) -> Scope {
     let mut scope = Scope::default();
     for condition in &conditions.quantities {
-        scope.define(&condition.name, Typing::in_unit(&condition.unit));
+        let known = !conditions.without_unit.contains(&condition.name);
+        let typing = if known { Typing::in_unit(&condition.unit) } else { Typing::ANY };
+        scope.define(&condition.name, typing);
     }
     scope
 }
@@ -649,6 +693,9 @@ impl inputs::Conditions for ConditionSet<'_> {
     }
 
     fn check(&self, formula: &Formula, unit: &Unit) -> Result<(), Vec<Fault>> {
+        if self.conditions.unreadable {
+            return Ok(());
+        }
         let scope = condition_scope(self.conditions);
         let result =
             if self.check_units { formula.check(&scope) } else { formula.check_names(&scope) };
@@ -669,6 +716,9 @@ impl inputs::Conditions for ConditionSet<'_> {
     }
 
     fn value(&self, formula: &Formula, row: usize) -> f64 {
+        if self.conditions.unreadable {
+            return 1.0;
+        }
         let row = self.conditions.rows.get(row).map_or(&[][..], Vec::as_slice);
         let values: HashMap<String, f64> = self
             .conditions
@@ -682,6 +732,9 @@ impl inputs::Conditions for ConditionSet<'_> {
     }
 
     fn place(&self, name: &str) -> Option<usize> {
+        if self.conditions.unreadable {
+            return Some(0);
+        }
         self.conditions.quantities.iter().position(|quantity| quantity.name == name)
     }
 

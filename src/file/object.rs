@@ -38,9 +38,9 @@ impl<'a> Object<'a> {
             );
             return None;
         };
-        let mut keys = HashSet::with_capacity(members.len());
+        let mut seen = HashSet::new();
         for member in members {
-            if !keys.insert(member.key.as_str()) {
+            if !seen.insert(member.key.as_str()) {
                 log.report(&member.key_span, Fault::DuplicateKey { key: member.key.clone() });
             }
         }

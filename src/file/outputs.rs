@@ -18,6 +18,8 @@ pub(super) struct Outputs {
     pub(super) places: Vec<Range<usize>>,
     /// Where each output's unit stands.
     pub(super) unit_places: Vec<Range<usize>>,
+    /// Names of those whose unit could not be read.
+    pub(super) without_unit: Vec<String>,
 }
 
 /// Reads `outputs`.
@@ -47,7 +49,10 @@ pub(super) fn read(log: &Log, member: &Member) -> Option<Outputs> {
         }
         let quantity = Quantity {
             name: member.key.clone(),
-            unit: unit(&object, "unit").unwrap_or_else(Unit::one),
+            unit: unit(&object, "unit").unwrap_or_else(|| {
+                outputs.without_unit.push(member.key.clone());
+                Unit::one()
+            }),
             about: object.text("about").unwrap_or("").to_owned(),
         };
         let unit_place = object.get("unit").map_or(&member.key_span, |m| &m.value.span);

@@ -205,9 +205,7 @@ impl<'a> Fields<'a> {
         };
         let Some([lower, upper]) = limits else {
             if let Some(mode) = self.object.get("mode") {
-                let reason = "`mode` needs `lower` and `upper`".to_owned();
-                let fault =
-                    Fault::Width { name: self.name.to_owned(), found: "mode".into(), reason };
+                let fault = Fault::MissingKey { key: "lower", what: "an input with a `mode`" };
                 self.object.log.report(&mode.key_span, fault);
             }
             return self.made(Triangular::new(mean, half_width));

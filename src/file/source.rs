@@ -10,6 +10,8 @@ pub struct Source {
     pub name: String,
     /// The text, without a byte-order mark.
     pub text: String,
+    /// The byte at which each line begins.
+    lines: Vec<usize>,
 }
 
 /// A place in a source: a half-open range of bytes.
@@ -23,23 +25,22 @@ impl Source {
     /// A text of the given name; a byte-order mark is dropped.
     pub fn new(name: impl Into<String>, text: &str) -> Arc<Self> {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-        Arc::new(Self { name: name.into(), text: text.to_owned() })
+        let after = text.match_indices('\n').map(|(at, _)| at + 1);
+        let lines = std::iter::once(0).chain(after).collect();
+        Arc::new(Self { name: name.into(), text: text.to_owned(), lines })
     }
 
     /// Line and column of a byte, both counted from 1; the column counts characters.
     pub fn position(&self, byte: usize) -> (usize, usize) {
-        let before = self.text.get(..byte.min(self.text.len())).unwrap_or(&self.text);
-        let line = before.matches('\n').count() + 1;
-        let start = before.rfind('\n').map_or(0, |newline| newline + 1);
-        (line, before.get(start..).unwrap_or("").chars().count() + 1)
+        let byte = byte.min(self.text.len());
+        let line = self.lines.partition_point(|&start| start <= byte);
+        let before = self.text.get(self.line_start(line)..byte).unwrap_or("");
+        (line, before.chars().count() + 1)
     }
 
     /// The byte at which a line begins, lines counted from 1.
     pub(crate) fn line_start(&self, line: usize) -> usize {
-        if line <= 1 {
-            return 0;
-        }
-        self.text.match_indices('\n').nth(line - 2).map_or(self.text.len(), |(at, _)| at + 1)
+        self.lines.get(line.saturating_sub(1)).copied().unwrap_or(self.text.len())
     }
 }
 

@@ -36,32 +36,43 @@ fn parse(source: &Arc<Source>) -> Result<Table, Vec<(Place, Fault)>> {
         let text = source.text.get(start..).and_then(|rest| rest.lines().next()).unwrap_or("");
         Place { source: source.clone(), span: start..start + text.len() }
     };
-    let header =
-        source.text.lines().find(|l| !l.trim_start().starts_with('#') && !l.trim().is_empty());
-    let Some(header) = header else {
+    // comments and blank lines become empty ones, which count but are no records
+    let mut text = String::with_capacity(source.text.len() + 1);
+    let mut header = None;
+    for (number, line) in source.text.lines().enumerate() {
+        let line = if line.trim_start().starts_with('#') { "" } else { line.trim_end() };
+        if header.is_none() && !line.is_empty() {
+            header = Some((number + 1, line));
+        }
+        text.push_str(line);
+        text.push('\n');
+    }
+    let Some((header_line, header)) = header else {
         let reason = "the table is empty; a header row of names and rows of numbers are needed";
         return Err(vec![(at_line(1), Fault::Table { reason: reason.to_owned() })]);
     };
     let semicolon = header.contains(';');
     let mut reader = csv::ReaderBuilder::new()
         .delimiter(if semicolon { b';' } else { b',' })
-        .comment(Some(b'#'))
         .trim(csv::Trim::All)
         .flexible(true)
-        .from_reader(source.text.as_bytes());
+        .from_reader(text.as_bytes());
     let columns: Vec<String> = match reader.headers() {
         Ok(header) => header.iter().map(str::to_owned).collect(),
         Err(error) => {
-            return Err(vec![(at_line(1), Fault::Table { reason: error.to_string() })]);
+            return Err(vec![(at_line(header_line), Fault::Table { reason: error.to_string() })]);
         }
     };
     let mut faults = Vec::new();
     for (number, name) in columns.iter().enumerate() {
-        if name.is_empty() || columns.iter().take(number).any(|earlier| earlier == name) {
-            let reason =
-                format!("the header's column {} (`{name}`) has no name of its own", number + 1);
-            faults.push((at_line(1), Fault::Table { reason }));
-        }
+        let reason = if name.is_empty() {
+            format!("column {} has no name in the header", number + 1)
+        } else if columns.iter().take(number).any(|earlier| earlier == name) {
+            format!("the header has the name `{name}` twice")
+        } else {
+            continue;
+        };
+        faults.push((at_line(header_line), Fault::Table { reason }));
     }
     let mut rows = Vec::new();
     for (number, record) in reader.records().enumerate() {
@@ -72,7 +83,7 @@ fn parse(source: &Arc<Source>) -> Result<Table, Vec<(Place, Fault)>> {
                 break;
             }
         };
-        let place = record_place(source, record.position().map_or(0, csv::Position::byte));
+        let place = place_of_record(source, record.position().map_or(0, csv::Position::byte));
         if record.len() != columns.len() {
             let fault =
                 Fault::ShortRow { row: number + 1, found: record.len(), expected: columns.len() };
@@ -80,14 +91,14 @@ fn parse(source: &Arc<Source>) -> Result<Table, Vec<(Place, Fault)>> {
             continue;
         }
         let mut row = Vec::with_capacity(columns.len());
-        for (cell, column) in record.iter().zip(&columns) {
+        for (number_of_cell, (cell, column)) in record.iter().zip(&columns).enumerate() {
             let value = if semicolon { cell.replace(',', ".") } else { cell.to_owned() };
             match value.parse::<f64>() {
                 Ok(value) if value.is_finite() => row.push(value),
                 _ => {
                     let (column, found) = (column.clone(), cell.to_owned());
                     let fault = Fault::Cell { row: number + 1, column, found };
-                    faults.push((place.clone(), fault));
+                    faults.push((place_of_cell(&place, number_of_cell, semicolon), fault));
                 }
             }
         }
@@ -95,7 +106,7 @@ fn parse(source: &Arc<Source>) -> Result<Table, Vec<(Place, Fault)>> {
     }
     if rows.is_empty() && faults.is_empty() {
         let reason = "the table has a header but no rows".to_owned();
-        faults.push((at_line(1), Fault::Table { reason }));
+        faults.push((at_line(header_line), Fault::Table { reason }));
     }
     if faults.is_empty() {
         Ok(Table { source: source.clone(), columns, rows })
@@ -105,7 +116,7 @@ fn parse(source: &Arc<Source>) -> Result<Table, Vec<(Place, Fault)>> {
 }
 
 /// The line of a record that the reader found from a byte on: comments and empty lines come before.
-fn record_place(source: &Arc<Source>, byte: u64) -> Place {
+fn place_of_record(source: &Arc<Source>, byte: u64) -> Place {
     let mut start = usize::try_from(byte).unwrap_or(0);
     let rest = source.text.get(start..).unwrap_or("");
     for line in rest.split_inclusive('\n') {
@@ -115,6 +126,30 @@ fn record_place(source: &Arc<Source>, byte: u64) -> Place {
         start += line.len();
     }
     Place { source: source.clone(), span: start..start }
+}
+
+/// The place of a cell in its line; the whole line where quotes make that uncertain. An empty cell is
+/// shown by the separator before or after it.
+fn place_of_cell(line: &Place, number: usize, semicolon: bool) -> Place {
+    let text = line.source.text.get(line.span.clone()).unwrap_or("");
+    let separator = if semicolon { ';' } else { ',' };
+    if text.contains('"') {
+        return line.clone();
+    }
+    let Some(cell) = text.split(separator).nth(number) else {
+        return line.clone();
+    };
+    let before: usize = text.split(separator).take(number).map(|cell| cell.len() + 1).sum();
+    let start = line.span.start + before;
+    let blank = cell.len() - cell.trim_start().len();
+    let span = if !cell.trim().is_empty() {
+        start + blank..start + blank + cell.trim().len()
+    } else if before > 0 {
+        start - 1..start + cell.len()
+    } else {
+        start..(start + cell.len() + 1).min(line.span.end)
+    };
+    Place { source: line.source.clone(), span }
 }
 
 #[cfg(test)]
@@ -130,6 +165,9 @@ mod tests {
         );
         let table = parse(&Source::new("t", "\u{feff}f;x\n1;2,5\n# end\n3;4\n")).unwrap();
         assert_eq!(table.rows, vec![vec![1.0, 2.5], vec![3.0, 4.0]]);
+        // a comment may be the last line, without a line end, and may be indented
+        let table = parse(&Source::new("t", "f\n  # middle\n\n1\n# end")).unwrap();
+        assert_eq!(table.rows, vec![vec![1.0]]);
     }
 
     #[test]
@@ -140,6 +178,9 @@ mod tests {
         assert_eq!(lines, vec![2, 4, 5]);
         assert_eq!(faults[0].1, Fault::Cell { row: 1, column: "x".into(), found: String::new() });
         assert_eq!(faults[1].1, Fault::ShortRow { row: 2, found: 1, expected: 2 });
+        let places: Vec<&str> =
+            faults.iter().map(|(place, _)| &place.source.text[place.span.clone()]).collect();
+        assert_eq!(places, vec![",", "2", "z"]);
         assert!(parse(&Source::new("t", "")).is_err());
         assert!(parse(&Source::new("t", "a,b\n")).is_err());
         assert!(parse(&Source::new("t", "a,a\n1,2\n")).is_err());

@@ -1,0 +1,118 @@
+//! The smallest file for each mistake, and what is said about it.
+//!
+//! The files lie in `tests/errors`, the messages in `tests/errors/snapshots`. A new mistake is a new
+//! file; `INSTA_UPDATE=always cargo test errors` writes its message.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::PathBuf;
+
+use serde_json::Value;
+
+use crate::support::{command, file_name, root};
+
+/// Mistakes that `check` does not see, with the command that does.
+const COMMANDS: [(&str, &[&str]); 2] = [
+    ("run_undefined", &["run", "--trials", "1000", "run_undefined.json"]),
+    ("set_unknown_input", &["run", "--set", "y=2", "set_unknown_input.json"]),
+];
+
+/// Mistakes that no file of a reasonable size and no command shows.
+const WITHOUT_EXAMPLE: [&str; 0] = [];
+
+fn folder() -> PathBuf {
+    root().join("tests/errors")
+}
+
+fn names() -> Vec<String> {
+    let mut names: Vec<String> = fs::read_dir(folder())
+        .expect("the folder of mistakes")
+        .map(|entry| file_name(&entry.expect("an entry").path()))
+        .filter_map(|name| name.strip_suffix(".json").map(str::to_owned))
+        .collect();
+    names.sort();
+    names
+}
+
+#[test]
+fn every_mistake_is_explained() {
+    let mut settings = insta::Settings::clone_current();
+    settings.set_snapshot_path(folder().join("snapshots"));
+    settings.set_prepend_module_to_snapshot(false);
+    settings.set_omit_expression(true);
+    // the system's words
+    settings.add_filter(r": [^\n]*\(os error 2\)", ": [not found]");
+    settings.bind(|| {
+        for name in names() {
+            let file = format!("{name}.json");
+            let special = COMMANDS.iter().find(|(of, _)| *of == name);
+            let arguments = special.map_or(vec!["check", &file], |(_, words)| words.to_vec());
+            let said = command().current_dir(folder()).args(&arguments).output();
+            let said = said.expect("the program runs");
+            assert_eq!(said.status.code(), Some(2), "{name}");
+            assert!(said.stdout.is_empty(), "{name}");
+            insta::assert_snapshot!(name, String::from_utf8_lossy(&said.stderr));
+        }
+    });
+}
+
+/// The codes that `check --format json` gives, and that of each special command by its message.
+fn shown_codes() -> BTreeSet<String> {
+    let mut codes: BTreeSet<String> = ["evaluation", "bad-override"].map(str::to_owned).into();
+    for name in names() {
+        if COMMANDS.iter().any(|(special, _)| *special == name) {
+            continue;
+        }
+        let arguments = ["check", &format!("{name}.json"), "--format", "json", "--quiet"];
+        let answer = command().current_dir(folder()).args(arguments).output();
+        let answer: Value =
+            serde_json::from_slice(&answer.expect("the program runs").stdout).expect("JSON");
+        assert_eq!(answer["ok"], false, "{name}");
+        for error in answer["errors"].as_array().expect("a list of errors") {
+            codes.insert(error["code"].as_str().expect("a code").to_owned());
+        }
+    }
+    codes
+}
+
+/// The codes in the text of `Fault::code`: the quoted words after `=> "`.
+fn all_codes() -> BTreeSet<String> {
+    let source = fs::read_to_string(root().join("src/file/fault.rs")).expect("the source");
+    let body = source.split("fn code(").nth(1).expect("the function `code`");
+    let body = body.split("pub fn").next().expect("its body");
+    let codes: BTreeSet<String> = body
+        .split("=> \"")
+        .skip(1)
+        .filter_map(|rest| rest.split('"').next())
+        .map(str::to_owned)
+        .collect();
+    assert!(codes.len() > 40, "only {} codes found", codes.len());
+    codes
+}
+
+#[test]
+fn every_kind_of_mistake_has_an_example() {
+    let (all, shown) = (all_codes(), shown_codes());
+    let missing: Vec<&String> =
+        all.difference(&shown).filter(|code| !WITHOUT_EXAMPLE.contains(&code.as_str())).collect();
+    assert!(missing.is_empty(), "no example in tests/errors: {missing:?}");
+    let invented: Vec<&String> = shown.difference(&all).collect();
+    assert!(invented.is_empty(), "codes that `Fault::code` does not have: {invented:?}");
+}
+
+#[test]
+fn all_mistakes_of_a_file_come_at_once() {
+    let answer = command()
+        .current_dir(folder())
+        .args(["check", "ten_mistakes.json", "--format", "json", "--quiet"])
+        .output()
+        .expect("the program runs");
+    let answer: Value = serde_json::from_slice(&answer.stdout).expect("JSON");
+    let errors = answer["errors"].as_array().expect("a list of errors");
+    let codes: BTreeSet<&str> = errors.iter().filter_map(|error| error["code"].as_str()).collect();
+    assert!(codes.len() >= 10, "{codes:?}");
+    let places: Vec<u64> = errors.iter().filter_map(|error| error["line"].as_u64()).collect();
+    assert_eq!(places.len(), errors.len());
+    assert!(places.is_sorted());
+    assert!(errors.iter().all(|error| error["column"].as_u64().is_some_and(|column| column > 0)));
+}

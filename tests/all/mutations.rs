@@ -1,0 +1,348 @@
+//! Damaged files: whatever they say, reading and evaluating them ends with an answer or with
+//! mistakes that have places, never with a panic.
+
+use std::path::Path;
+use std::sync::OnceLock;
+
+use gumption::file::{ModelFile, Problems, read_text};
+use gumption::propagate::{Control, evaluate, warnings};
+use gumption::report;
+use gumption::task::Trials;
+use proptest::prelude::*;
+use proptest::sample::{Index, select};
+
+use crate::support::{model_files, root};
+
+/// Files to damage: the ready models and the smaller examples.
+fn seeds() -> &'static [String] {
+    static SEEDS: OnceLock<Vec<String>> = OnceLock::new();
+    SEEDS.get_or_init(|| {
+        let cases = std::fs::read_dir(root().join("tests/cases")).expect("the examples");
+        let mut paths: Vec<_> =
+            cases.map(|entry| entry.expect("an entry").path().join("model.json")).collect();
+        paths.sort();
+        paths.extend(model_files());
+        paths.iter().filter_map(|path| std::fs::read_to_string(path).ok()).collect()
+    })
+}
+
+/// Pieces to put in the place of others.
+const PIECES: &[&str] = &[
+    "0",
+    "-0",
+    "1",
+    "-1",
+    "2",
+    "1e308",
+    "-1e308",
+    "1.7976931348623157e308",
+    "5e-324",
+    "1e-300",
+    "0.5",
+    "1e999",
+    "NaN",
+    "null",
+    "true",
+    "\"\"",
+    "\"x\"",
+    "\"\\u0000\"",
+    "\"1/0\"",
+    "[]",
+    "{}",
+    "[[]]",
+    "[1]",
+    "{\"\": 1}",
+    ",",
+    ":",
+    "{",
+    "}",
+    "[",
+    "]",
+    "\"",
+    "\"unit\"",
+    "\"m\"",
+    "\"deg\"",
+    "\"degC\"",
+    "\"%\"",
+    "\"m^999\"",
+    "\"1e300 m\"",
+    "\"distribution\"",
+    "\"normal\"",
+    "\"t\"",
+    "\"constant\"",
+    "\"rectangular\"",
+    "\"triangular\"",
+    "\"readings\"",
+    "\"mean\"",
+    "\"std\"",
+    "\"half_width\"",
+    "\"lower\"",
+    "\"upper\"",
+    "\"values\"",
+    "\"dof\"",
+    "\"expanded\"",
+    "\"k\"",
+    "\"p\"",
+    "\"components\"",
+    "\"correlations\"",
+    "\"conditions\"",
+    "\"file\"",
+    "\"inputs\"",
+    "\"equations\"",
+    "\"outputs\"",
+    "\"periodic\"",
+    "\"per\"",
+    "\"row\"",
+    "\"type\"",
+    "\"A\"",
+    "\"10 % + 1e308\"",
+    "\"1e308 %\"",
+    "\"x^x^x\"",
+    "\"-(-(-x))\"",
+    "\"sqrt(-1)\"",
+    "\"ä\u{1F600}\"",
+    "\"allow_undefined\": 1,",
+    "\"check_units\": false,",
+    "\"coverage_factor\": 8,",
+    "\"coverage_probability\": 1e-300,",
+    "\"coverage_probability\": 0.9999999999999999,",
+];
+
+/// The text in tokens: quoted texts, numbers and words, single signs, white space.
+fn tokens(text: &str) -> Vec<String> {
+    let mut tokens = Vec::new();
+    let mut rest = text;
+    while let Some(first) = rest.chars().next() {
+        let is_word = |c: char| c.is_alphanumeric() || matches!(c, '.' | '-' | '+' | '_');
+        let length = if first == '"' {
+            rest.get(1..).and_then(|after| after.find('"')).map_or(rest.len(), |at| at + 2)
+        } else if is_word(first) {
+            rest.find(|c| !is_word(c)).unwrap_or(rest.len())
+        } else if first.is_whitespace() {
+            rest.find(|c: char| !c.is_whitespace()).unwrap_or(rest.len())
+        } else {
+            first.len_utf8()
+        };
+        let (token, after) = rest.split_at(length);
+        tokens.push(token.to_owned());
+        rest = after;
+    }
+    tokens
+}
+
+/// One damage to a list of tokens.
+#[derive(Clone, Debug)]
+enum Damage {
+    Delete(Index, usize),
+    Insert(Index, &'static str),
+    Replace(Index, &'static str),
+    Number(Index, &'static str),
+    Repeat(Index, usize),
+    Swap(Index, Index),
+    Inside(Index, Index, char),
+    Cut(Index),
+}
+
+fn damage() -> impl Strategy<Value = Damage> {
+    let piece = || select(PIECES.to_vec());
+    let at = any::<Index>;
+    let sign = select(vec!['(', ')', '*', '-', '^', '0', '9', 'e', '/', ' ', '\\', ',', 'ß', '%']);
+    let numbers = PIECES[..11].to_vec();
+    prop_oneof![
+        2 => (at(), 1..6usize).prop_map(|(at, count)| Damage::Delete(at, count)),
+        2 => (at(), piece()).prop_map(|(at, piece)| Damage::Insert(at, piece)),
+        4 => (at(), piece()).prop_map(|(at, piece)| Damage::Replace(at, piece)),
+        8 => (at(), select(numbers)).prop_map(|(at, piece)| Damage::Number(at, piece)),
+        2 => (at(), 1..40usize).prop_map(|(at, count)| Damage::Repeat(at, count)),
+        2 => (at(), at()).prop_map(|(a, b)| Damage::Swap(a, b)),
+        6 => (at(), at(), sign).prop_map(|(at, within, sign)| Damage::Inside(at, within, sign)),
+        1 => at().prop_map(Damage::Cut),
+    ]
+}
+
+impl Damage {
+    fn apply(&self, tokens: &mut Vec<String>) {
+        if tokens.is_empty() {
+            return;
+        }
+        let n = tokens.len();
+        match self {
+            Self::Delete(at, count) => {
+                let at = at.index(n);
+                tokens.drain(at..(at + count).min(n));
+            }
+            Self::Insert(at, piece) => tokens.insert(at.index(n + 1), (*piece).to_owned()),
+            Self::Replace(at, piece) => tokens[at.index(n)] = (*piece).to_owned(),
+            Self::Number(at, piece) => {
+                let numbers: Vec<usize> =
+                    (0..n).filter(|&i| tokens[i].parse::<f64>().is_ok()).collect();
+                if !numbers.is_empty() {
+                    tokens[numbers[at.index(numbers.len())]] = (*piece).to_owned();
+                }
+            }
+            Self::Repeat(at, count) => {
+                let at = at.index(n);
+                let run: Vec<String> = tokens[at..(at + count).min(n)].to_vec();
+                tokens.splice(at..at, run);
+            }
+            Self::Swap(a, b) => tokens.swap(a.index(n), b.index(n)),
+            Self::Inside(at, within, sign) => {
+                let token = &mut tokens[at.index(n)];
+                let places: Vec<usize> = token.char_indices().map(|(place, _)| place).collect();
+                token.insert(places[within.index(places.len())], *sign);
+            }
+            Self::Cut(at) => tokens.truncate(at.index(n)),
+        }
+    }
+}
+
+/// Mistakes have places inside their text.
+fn check_places(problems: &Problems) {
+    assert!(!problems.0.is_empty(), "refused without a reason");
+    for problem in &problems.0 {
+        let (line, column) = problem.position();
+        assert!(line > 0 && column > 0);
+        assert!(problem.span.start <= problem.span.end, "{problem}");
+        assert!(problem.source.text.get(problem.span.clone()).is_some(), "{problem}");
+        assert!(!problem.fault.to_string().trim().is_empty());
+        assert!(problem.fault.to_string().len() < 20_000, "a message without end");
+    }
+}
+
+/// Evaluates with few trials and writes every report.
+fn evaluate_and_report(mut file: ModelFile) {
+    file.task.rows.truncate(3);
+    file.task.settings.trials = match file.task.settings.trials {
+        Trials::Fixed(trials) => Trials::Fixed(trials.min(300)),
+        Trials::Adaptive => Trials::Fixed(300),
+    };
+    let control = Control { threads: 1, ..Control::default() };
+    let evaluation = match evaluate(&file.task, &control) {
+        Ok(evaluation) => evaluation,
+        Err(error) => return assert!(!error.to_string().is_empty()),
+    };
+    let warnings = warnings(&file.task, &evaluation);
+    let provenance = report::Provenance { model_sha256: String::new(), files: Vec::new() };
+    let report = report::Report {
+        task: &file.task,
+        evaluation: &evaluation,
+        warnings: &warnings,
+        provenance: &provenance,
+    };
+    assert!(!report::table(&report, &report::Style::default()).is_empty());
+    assert!(!report::csv(&report).is_empty());
+    let json = report::json(&report);
+    let parsed = serde_json::from_str::<serde_json::Value>(&json);
+    assert!(parsed.is_ok(), "the answer is no JSON: {json}");
+}
+
+fn feed(text: &str) {
+    match read_text("damaged", text, Path::new("no folder"), &[]) {
+        Ok(file) => evaluate_and_report(file),
+        Err(problems) => check_places(&problems),
+    }
+}
+
+fn few_cases(cases: u32) -> ProptestConfig {
+    ProptestConfig { cases, failure_persistence: None, ..ProptestConfig::default() }
+}
+
+proptest! {
+    #![proptest_config(few_cases(400))]
+
+    #[test]
+    fn damaged_model_files_are_answered(
+        seed in any::<Index>(),
+        damages in prop::collection::vec(damage(), 1..5),
+    ) {
+        let mut tokens = tokens(seed.get(seeds()).as_str());
+        for damage in &damages {
+            damage.apply(&mut tokens);
+        }
+        feed(&tokens.concat());
+    }
+
+    #[test]
+    fn any_text_is_answered(text in any::<String>()) {
+        feed(&text);
+    }
+
+    #[test]
+    fn any_bytes_are_answered(bytes in prop::collection::vec(any::<u8>(), 0..200)) {
+        feed(&String::from_utf8_lossy(&bytes));
+    }
+
+    #[test]
+    fn any_formula_is_answered(
+        signs in prop::collection::vec(
+            select(vec![
+                "x", "y", "t", "(", ")", "+", "-", "*", "/", "^", ",", "<", ">=", "==", "1", "0",
+                "2.5", "1e308", "1e-308", "pi", "sin", "sqrt", "ln", "atan2", "max", "kelvin",
+                "abs", "exp", "hypot", "cbrt", " ",
+            ]),
+            0..25,
+        ),
+    ) {
+        let formula = signs.concat();
+        feed(&format!(
+            r#"{{"inputs": {{
+                "x": {{"distribution": "normal", "mean": 0.5, "std": 1e-3}},
+                "t": {{"unit": "degC", "distribution": "rectangular", "mean": 20, "half_width": 1}}}},
+              "check_units": false, "allow_undefined": 1,
+              "equations": {{"y": "{formula}"}}, "outputs": {{"y": {{}}}}}}"#
+        ));
+    }
+
+    #[test]
+    fn any_numbers_are_answered(
+        mean in any::<f64>(),
+        width in any::<f64>(),
+        dof in any::<f64>(),
+        p in any::<f64>(),
+        unit in select(vec!["m", "nm", "km^20", "Gm^-30", "1e300 m", "deg", "%", "degC"]),
+        shape in select(vec!["normal\", \"std", "rectangular\", \"half_width", "t\", \"scale"]),
+    ) {
+        let p = if p.is_finite() { (p.abs() % 1.0).max(1e-300) } else { 0.95 };
+        feed(&format!(
+            r#"{{"inputs": {{"x": {{"unit": "{unit}", "distribution": "{shape}": {width:e},
+                "mean": {mean:e}, "dof": {dof:e}}}}},
+              "check_units": false, "allow_undefined": 1, "coverage_probability": {p:e},
+              "equations": {{"y": "x*x"}}, "outputs": {{"y": {{"unit": "{unit}"}}}}}}"#
+        ));
+    }
+}
+
+/// Files that once were answered badly, and extremes.
+#[test]
+fn extremes_are_answered() {
+    let one = |input: &str, equation: &str| {
+        feed(&format!(
+            r#"{{"inputs": {{"x": {{"distribution": {input}}}}},
+                "equations": {{"y": "{equation}"}}, "outputs": {{"y": {{}}}}}}"#
+        ));
+    };
+    for input in [
+        r#""normal", "mean": 1e308, "std": 1e308"#,
+        r#""normal", "mean": 0, "std": 5e-324"#,
+        r#""normal", "mean": 1, "std": 1e-300"#,
+        r#""rectangular", "lower": -1.7e308, "upper": 1.7e308"#,
+        r#""rectangular", "mean": 1, "half_width": 5e-324"#,
+        r#""triangular", "lower": 0, "upper": 5e-324"#,
+        r#""t", "mean": 0, "scale": 1, "dof": 1e-300"#,
+        r#""t", "mean": 0, "scale": 1, "dof": 0.5"#,
+        r#""t", "mean": 0, "scale": 1e-320, "dof": 1e300"#,
+        r#""normal", "mean": 0, "std": 1, "dof": 1e-5"#,
+        r#""normal", "mean": 0, "expanded": 1, "p": 0.9999999999999999"#,
+        r#""normal", "mean": 0, "expanded": 1, "p": 1e-300"#,
+        r#""normal", "mean": 0, "expanded": 1, "p": 0.95, "dof": 1e-3"#,
+        r#""normal", "mean": 0, "expanded": 1, "k": 5e-324"#,
+        r#""readings", "values": [1e308, -1e308]"#,
+        r#""readings", "values": [1, 1.0000000000000002]"#,
+        r#""readings", "values": [5e-324, 0]"#,
+        r#""constant", "value": 1e308"#,
+    ] {
+        for equation in ["x", "x*x", "1/x", "exp(x)", "x - x", "x^x", "0*x", "x > 0", "1e308*x"] {
+            one(input, equation);
+        }
+    }
+}

@@ -1,0 +1,227 @@
+//! The same bits on any number of threads, on every code path, with any memory.
+//!
+//! `tests/data/golden.csv` holds a hash over all trials of every model file, so that a change of
+//! any bit is seen. `GUMPTION_GOLDEN=write cargo test golden` writes it anew; such a change belongs
+//! into the changelog.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use gumption::file::{self, read_text};
+use gumption::number::CodePath;
+use gumption::propagate::{Control, Evaluation, evaluate, trial_hash};
+use gumption::task::{Task, Trials};
+
+use crate::support::{command, file_name, model_files, root};
+
+/// Trials of each comparison: some dozen blocks of different threads, and more than a pilot.
+const TRIALS: u64 = 200_000;
+
+fn task(path: &Path) -> Task {
+    file::read(path, &[]).unwrap_or_else(|problems| panic!("{problems}")).task
+}
+
+#[test]
+fn answers_are_the_same_bytes_on_any_number_of_threads() {
+    for path in model_files() {
+        let answer = |threads: &str| {
+            let arguments = ["--format", "json", "--quiet", "--trials", "200000"];
+            let mut run = command();
+            run.arg("run").arg(&path).args(arguments).args(["--threads", threads]);
+            let run = run.output().expect("the program runs");
+            assert!(run.status.success(), "{}", path.display());
+            run.stdout
+        };
+        let one = answer("1");
+        assert!(one.len() > 500);
+        for threads in ["2", "3"] {
+            assert!(answer(threads) == one, "{} on {threads} threads", path.display());
+        }
+    }
+}
+
+/// The lines of `verify --paths` as code path and hash.
+fn verified(path: &Path, threads: &str) -> Vec<(String, String)> {
+    let arguments = ["--trials", "200000", "--threads", threads, "--fail"];
+    let mut run = command();
+    run.args(["verify", "--paths", "--model"]).arg(path).args(arguments);
+    let run = run.output().expect("the program runs");
+    assert_eq!(run.status.code(), Some(0), "{}", path.display());
+    let text = String::from_utf8(run.stdout).expect("UTF-8");
+    assert!(text.contains("200000 trials: the same bits on every path"), "{text}");
+    text.lines()
+        .filter_map(|line| line.split_once(' '))
+        .map(|(name, hash)| (name.to_owned(), hash.trim().to_owned()))
+        .filter(|(_, hash)| hash.len() == 16)
+        .collect()
+}
+
+#[test]
+fn hashes_over_all_trials_are_the_same_on_one_and_two_threads_and_every_path() {
+    for path in model_files() {
+        let one = verified(&path, "1");
+        assert_eq!(one.len(), CodePath::available().len(), "{}", path.display());
+        assert!(one.windows(2).all(|pair| pair[0].1 == pair[1].1), "{}: {one:?}", path.display());
+        assert_eq!(one, verified(&path, "2"), "{}", path.display());
+    }
+}
+
+/// One line for each model file.
+fn golden_lines() -> Vec<String> {
+    let line = |path: &PathBuf| {
+        let task = task(path);
+        let hash = trial_hash(&task, TRIALS, &Control::default()).expect("a hash");
+        format!("{},{TRIALS},{},{hash:016x}", file_name(path), task.settings.seed)
+    };
+    model_files().iter().map(line).collect()
+}
+
+#[test]
+fn golden_hashes() {
+    let path = root().join("tests/data/golden.csv");
+    let now = format!("file,trials,seed,hash\n{}\n", golden_lines().join("\n"));
+    if std::env::var_os("GUMPTION_GOLDEN").is_some_and(|value| value == "write") {
+        fs::write(&path, &now).expect("the list is written");
+    }
+    let golden = fs::read_to_string(&path).expect("tests/data/golden.csv");
+    for (now, golden) in now.lines().zip(golden.lines()) {
+        assert_eq!(now, golden, "the trials have changed");
+    }
+    assert_eq!(now.lines().count(), golden.lines().count(), "model files without a hash");
+}
+
+#[test]
+fn seeds_and_trials_change_the_hash() {
+    let mut task = task(&root().join("models/inclined_plane.json"));
+    let hash = |task: &Task, trials: u64| trial_hash(task, trials, &Control::default());
+    let first = hash(&task, 10_000).expect("a hash");
+    assert_ne!(first, hash(&task, 10_001).expect("a hash"));
+    task.settings.seed += 1;
+    assert_ne!(first, hash(&task, 10_000).expect("a hash"));
+}
+
+/// A sum of many kinds of inputs, more curved than the models are.
+const CURVED: &str = r#"{
+  "inputs": {
+    "a": {"distribution": "normal", "mean": 1, "std": 0.5},
+    "b": {"distribution": "rectangular", "lower": 0, "upper": 1},
+    "c": {"distribution": "t", "mean": 0, "scale": 1, "dof": 5},
+    "d": {"distribution": "triangular", "lower": 0, "upper": 2, "mode": 0.5}
+  },
+  "equations": {"y": "a^3 + b*c", "z": "exp(-d) + sin(6*b)", "n": "b > 0.25"},
+  "outputs": {"y": {}, "z": {}, "n": {}}
+}"#;
+
+fn curved(trials: u64) -> Task {
+    let mut task = read_text("curved", CURVED, Path::new(""), &[]).expect("a right model").task;
+    task.settings.trials = Trials::Fixed(trials);
+    task
+}
+
+fn figures(evaluation: &Evaluation) -> Vec<[f64; 5]> {
+    let outputs = evaluation.rows.iter().flat_map(|row| &row.outputs);
+    outputs
+        .map(|output| {
+            let found = output.monte_carlo.as_ref().expect("trials");
+            assert!(found.shortest_exact);
+            let ([a, b], [c, d]) = (found.symmetric_interval, found.shortest_interval);
+            [a, b, c, d, found.median]
+        })
+        .collect()
+}
+
+#[test]
+fn capped_runs_are_the_same_on_any_number_of_threads() {
+    let task = curved(300_001);
+    let with = |threads: usize| {
+        let control = Control { memory: 100 << 10, threads, ..Control::default() };
+        format!("{:?}", evaluate(&task, &control).expect("an evaluation"))
+    };
+    let one = with(1);
+    assert!(one == with(2) && one == with(3));
+}
+
+/// With little memory the trials are made again in several passes instead of kept; the order
+/// statistics are those of the same trials, bit for bit.
+#[test]
+fn capped_memory_gives_the_same_order_statistics() {
+    let trials = 3_000_000;
+    for task in [curved(trials), {
+        let mut task = task(&root().join("models/inclined_plane_spurious.json"));
+        task.settings.trials = Trials::Fixed(trials);
+        task
+    }] {
+        let with = |memory: usize, threads: usize| {
+            let control = Control { memory, threads, ..Control::default() };
+            evaluate(&task, &control).expect("an evaluation")
+        };
+        let whole = with(1 << 30, 2);
+        for (memory, threads) in [(1 << 20, 3), (100 << 10, 1)] {
+            let capped = with(memory, threads);
+            assert_eq!(figures(&capped), figures(&whole), "{memory} bytes");
+            for (a, b) in capped.rows[0].outputs.iter().zip(&whole.rows[0].outputs) {
+                let (a, b) = (a.monte_carlo.as_ref(), b.monte_carlo.as_ref());
+                let (a, b) = (a.expect("trials"), b.expect("trials"));
+                // moments are the same but for the order of their sums
+                let near = |a: f64, b: f64, scale: f64| (a - b).abs() <= 1e-10 * scale.abs();
+                let u = b.standard_uncertainty.expect("a standard uncertainty");
+                assert!(near(a.estimate, b.estimate, u + b.estimate.abs()));
+                assert!(near(a.standard_uncertainty.expect("a standard uncertainty"), u, u));
+            }
+        }
+    }
+}
+
+#[test]
+fn the_code_path_and_the_number_of_threads_do_not_matter() {
+    let task = curved(300_001);
+    let with = |path: CodePath, threads: usize| {
+        let control = Control { path, threads, ..Control::default() };
+        format!("{:?}", evaluate(&task, &control).expect("an evaluation"))
+    };
+    let first = with(CodePath::best(), 1);
+    for path in CodePath::available() {
+        for threads in [1, 2, 7] {
+            assert!(with(path, threads) == first, "{} on {threads} threads", path.name());
+        }
+    }
+}
+
+/// A shorter run's trials are the first of a longer one's, and the order in which blocks are made
+/// does not matter: each is made again here in a run of its own length.
+#[test]
+fn the_first_trials_of_a_longer_run_are_those_of_a_shorter_one() {
+    let text = r#"{"inputs": {"x": {"distribution": "normal", "mean": 0, "std": 1}},
+        "equations": {"y": "x"}, "outputs": {"y": {}}}"#;
+    let mut task = read_text("first", text, Path::new(""), &[]).expect("a right model").task;
+    let mut sum = |trials: u64| {
+        task.settings.trials = Trials::Fixed(trials);
+        let evaluation = evaluate(&task, &Control::default()).expect("an evaluation");
+        let figures = evaluation.rows[0].outputs[0].monte_carlo.clone().expect("trials");
+        (figures.estimate * trials as f64, figures.symmetric_interval)
+    };
+    // adding the trials one by one moves the sum by a value that one trial can have
+    for trials in [1023, 1024, 1025, 4095, 70_000] {
+        let ((shorter, _), (longer, _)) = (sum(trials), sum(trials + 1));
+        assert!((longer - shorter).abs() < 6.0, "{trials}");
+    }
+}
+
+/// Inputs keep their draws when others are added or the order changes: their streams go by name.
+#[test]
+fn an_input_keeps_its_draws_whatever_stands_beside_it() {
+    let one = r#""x": {"distribution": "normal", "mean": 0, "std": 1}"#;
+    let other = r#""w": {"distribution": "rectangular", "mean": 0, "half_width": 1}"#;
+    let interval = |inputs: &[&str]| {
+        let inputs = inputs.join(", ");
+        let text = format!(
+            r#"{{"inputs": {{{inputs}}}, "equations": {{"y": "x^3"}}, "outputs": {{"y": {{}}}},
+                "monte_carlo": {{"trials": 50000}}}}"#
+        );
+        let task = read_text("draws", &text, Path::new(""), &[]).expect("a right model").task;
+        figures(&evaluate(&task, &Control::default()).expect("an evaluation"))
+    };
+    let alone = interval(&[one]);
+    assert_eq!(alone, interval(&[one, other]));
+    assert_eq!(alone, interval(&[other, one]));
+}
