@@ -249,13 +249,14 @@ impl<'a> ModelReader<'a> {
         let maker = self.maker();
         let set = ConditionSet { conditions: &conditions, check_units };
         let inputs = match root.required("inputs") {
-            Some(member) => inputs::read(log, member, &set, self.overrides),
+            Some(member) => inputs::read(log, member, &set, self.overrides, self.folder),
             None => None,
         };
         let outputs = root.required("outputs").and_then(|member| outputs::read(log, member));
         let (inputs, outputs) = (inputs?, outputs?);
         self.names(&inputs, &conditions, &maker);
         let mut files = std::mem::take(&mut conditions.files);
+        files.extend(inputs.files.iter().cloned());
         let correlations = correlations::read(root, &inputs, self.folder, &mut files);
         let mut warnings = inputs.warnings.clone();
         let Outputs { mut outputs, places, unit_places } = outputs;
