@@ -40,7 +40,7 @@ impl Shape for Constant {
         out.0.fill(self.value);
     }
 
-    fn moved_to(&self, estimate: f64) -> Self {
-        Self { value: estimate }
+    fn moved_to(&self, estimate: f64) -> Result<Self, Invalid> {
+        Ok(Self { value: finite("estimate", estimate)? })
     }
 }

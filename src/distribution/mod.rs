@@ -4,29 +4,49 @@
 //! The seam for a new shape is one file that implements [`shape::Shape`] and one line in the list
 //! of [`Distribution`].
 
+mod arcsine;
+mod beta;
 mod constant;
+mod curvilinear_trapezoid;
+mod exponential;
+mod gamma;
 mod input;
 mod joint;
+mod log_uniform;
+mod lognormal;
 mod normal;
+mod poisson_count;
 mod readings;
 mod rectangular;
+mod samples;
 mod shape;
 pub(crate) mod special;
 mod stream;
 mod student;
+mod trapezoidal;
 mod triangular;
 
+pub use arcsine::Arcsine;
+pub use beta::Beta;
 pub use constant::Constant;
+pub use curvilinear_trapezoid::CurvilinearTrapezoid;
+pub use exponential::Exponential;
+pub use gamma::Gamma;
 pub use input::{Evaluation, Input, InputError};
 pub use joint::{Correlation, CorrelationError};
 pub(crate) use joint::{Draws, Joint};
+pub use log_uniform::LogUniform;
+pub use lognormal::Lognormal;
 pub use normal::Normal;
+pub use poisson_count::PoissonCount;
 pub use readings::Readings;
 pub use rectangular::Rectangular;
+pub use samples::Samples;
 pub use shape::Invalid;
 use shape::Shape;
 pub(crate) use stream::{BLOCK, Stream, StreamKey};
 pub use student::StudentT;
+pub use trapezoidal::Trapezoidal;
 pub use triangular::Triangular;
 
 use crate::number::Column;
@@ -85,10 +105,16 @@ macro_rules! distributions {
                 match self { $(Self::$shape(shape) => shape.quantile(p),)* }
             }
 
-            /// The same distribution with its estimate moved; limits move along.
-            #[must_use]
-            pub fn moved_to(&self, estimate: f64) -> Self {
-                match self { $(Self::$shape(shape) => Self::$shape(shape.moved_to(estimate)),)* }
+            /// The same distribution with its estimate moved: limits move along. Shapes of
+            /// positive quantities keep the shape (gamma, exponential, log-uniform) or the
+            /// standard deviation (lognormal); a count becomes the one of that estimate.
+            ///
+            /// # Errors
+            /// An estimate that is not finite, or that the shape cannot have.
+            pub fn moved_to(&self, estimate: f64) -> Result<Self, Invalid> {
+                match self {
+                    $(Self::$shape(shape) => Ok(Self::$shape(shape.moved_to(estimate)?)),)*
+                }
             }
 
             #[inline(always)]
@@ -110,8 +136,28 @@ distributions! {
     Triangular,
     /// Scaled and shifted t.
     StudentT,
+    /// Trapezoidal, symmetric.
+    Trapezoidal,
+    /// Rectangular with inexactly known limits.
+    CurvilinearTrapezoid,
+    /// Arc sine (U-shaped).
+    Arcsine,
     /// Repeated readings (Type A).
     Readings,
+    /// Exponential.
+    Exponential,
+    /// Gamma.
+    Gamma,
+    /// Lognormal.
+    Lognormal,
+    /// Beta between two limits.
+    Beta,
+    /// Rectangular in the logarithm.
+    LogUniform,
+    /// Expectation of a Poisson process, of which events were counted.
+    PoissonCount,
+    /// Empirical: samples drawn with replacement.
+    Samples,
 }
 
 impl Distribution {

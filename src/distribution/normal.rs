@@ -70,8 +70,8 @@ impl Shape for Normal {
         }
     }
 
-    fn moved_to(&self, estimate: f64) -> Self {
-        Self { mean: estimate, ..*self }
+    fn moved_to(&self, estimate: f64) -> Result<Self, Invalid> {
+        Ok(Self { mean: finite("estimate", estimate)?, ..*self })
     }
 }
 

@@ -82,7 +82,7 @@ impl Shape for Readings {
         student::draw(self.mean, self.scale, self.dof(), stream, out);
     }
 
-    fn moved_to(&self, estimate: f64) -> Self {
-        Self { mean: estimate, ..self.clone() }
+    fn moved_to(&self, estimate: f64) -> Result<Self, Invalid> {
+        Ok(Self { mean: finite("estimate", estimate)?, ..self.clone() })
     }
 }

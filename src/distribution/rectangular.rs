@@ -68,7 +68,7 @@ impl Shape for Rectangular {
         }
     }
 
-    fn moved_to(&self, estimate: f64) -> Self {
-        Self { mean: estimate, ..*self }
+    fn moved_to(&self, estimate: f64) -> Result<Self, Invalid> {
+        Ok(Self { mean: finite("estimate", estimate)?, ..*self })
     }
 }

@@ -42,9 +42,11 @@ pub(crate) trait Shape {
     /// Fills a column with independent draws.
     fn draw(&self, stream: &mut Stream, out: &mut Column);
 
-    /// The same distribution with its estimate moved to `estimate`; limits move along.
-    #[must_use]
-    fn moved_to(&self, estimate: f64) -> Self;
+    /// The same distribution with its estimate moved to `estimate`. A shape with a location is
+    /// shifted, its limits move along; a shape of positive quantities says itself what it keeps.
+    fn moved_to(&self, estimate: f64) -> Result<Self, Invalid>
+    where
+        Self: Sized;
 }
 
 /// Why a distribution cannot be made from the given numbers.
@@ -90,6 +92,16 @@ pub enum Invalid {
         /// How many readings there are.
         count: usize,
     },
+    /// An empirical distribution needs at least two samples.
+    TooFewSamples {
+        /// How many there are.
+        count: usize,
+    },
+    /// All samples are equal, so the quantity does not vary.
+    EqualSamples {
+        /// How many samples there are.
+        count: usize,
+    },
     /// The width is lost in the rounding of the estimate.
     WidthLost {
         /// Name of the width.
@@ -110,7 +122,10 @@ impl Invalid {
             | Self::OutOfRange { parameter, .. }
             | Self::WidthLost { parameter, .. } => parameter,
             Self::LimitsReversed { .. } => "upper",
-            Self::TooFewReadings { .. } | Self::NoScatter { .. } => "values",
+            Self::TooFewReadings { .. }
+            | Self::NoScatter { .. }
+            | Self::TooFewSamples { .. }
+            | Self::EqualSamples { .. } => "values",
         }
     }
 }
@@ -137,6 +152,14 @@ impl fmt::Display for Invalid {
                 f,
                 "all {count} readings are equal, so they show no scatter to evaluate; \
                  state the resolution as a rectangular distribution"
+            ),
+            Self::TooFewSamples { count } => {
+                write!(f, "an empirical distribution needs at least two samples, not {count}")
+            }
+            Self::EqualSamples { count } => write!(
+                f,
+                "all {count} samples are equal, so nothing varies; state a constant, or the \
+                 resolution as a rectangular distribution"
             ),
             Self::WidthLost { parameter, value, estimate } => write!(
                 f,
@@ -172,6 +195,22 @@ pub(crate) fn drawn_degrees_of_freedom(value: f64) -> Result<f64, Invalid> {
         Ok(value)
     } else {
         Err(Invalid::OutOfRange { parameter: "dof", value, range: "at least 0.2" })
+    }
+}
+
+/// The value if it lies from `least` to `most`, which `range` says in words.
+pub(crate) fn within(
+    parameter: &'static str,
+    value: f64,
+    least: f64,
+    most: f64,
+    range: &'static str,
+) -> Result<f64, Invalid> {
+    let value = finite(parameter, value)?;
+    if value >= least && value <= most {
+        Ok(value)
+    } else {
+        Err(Invalid::OutOfRange { parameter, value, range })
     }
 }
 

@@ -61,8 +61,8 @@ impl Shape for StudentT {
         draw(self.mean, self.scale, self.dof, stream, out);
     }
 
-    fn moved_to(&self, estimate: f64) -> Self {
-        Self { mean: estimate, ..*self }
+    fn moved_to(&self, estimate: f64) -> Result<Self, Invalid> {
+        Ok(Self { mean: finite("estimate", estimate)?, ..*self })
     }
 }
 

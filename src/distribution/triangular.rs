@@ -79,7 +79,8 @@ impl Shape for Triangular {
         }
     }
 
-    fn moved_to(&self, estimate: f64) -> Self {
-        Self { lower: self.lower + (estimate - self.mean()), ..*self }
+    fn moved_to(&self, estimate: f64) -> Result<Self, Invalid> {
+        let shift = finite("estimate", estimate)? - self.mean();
+        Ok(Self { lower: finite("estimate", self.lower + shift)?, ..*self })
     }
 }

@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use super::shapes::KINDS;
 use crate::distribution::Invalid;
 use crate::model::formula::FormulaError;
 use crate::unit::UnitError;
@@ -101,6 +102,8 @@ pub enum Fault {
     Cell { row: usize, column: String, found: String },
     /// A table's row with another number of cells than the header.
     ShortRow { row: usize, found: usize, expected: usize },
+    /// A line of a file of samples that is not a number.
+    Sample { found: String },
     /// A table without rows, or a bad header.
     Table { reason: String },
     /// A coefficient out of range, of unknown or equal quantities.
@@ -157,6 +160,7 @@ impl Fault {
             Self::NoTable { .. } => "no-table",
             Self::Cell { .. } => "bad-cell",
             Self::ShortRow { .. } => "short-row",
+            Self::Sample { .. } => "bad-sample",
             Self::Table { .. } => "bad-table",
             Self::Correlation { .. } => "bad-correlation",
             Self::TooMany { .. } => "too-many",
@@ -278,8 +282,12 @@ impl fmt::Display for Fault {
                  `{expected}`"
             ),
             Self::UnknownDistribution { name, nearest } => {
-                let known = "constant, normal, rectangular, triangular, t and readings";
-                write!(f, "there is no distribution `{name}`{}", hint(nearest.as_ref(), known))
+                let known: Vec<&str> = KINDS.iter().map(|kind| kind.name).collect();
+                write!(
+                    f,
+                    "there is no distribution `{name}`{}",
+                    hint(nearest.as_ref(), &list(&known))
+                )
             }
             Self::NotBuilt { what } => write!(f, "{what}: this version cannot do that yet"),
             Self::Distribution { name, error } => write!(f, "`{name}`: {error}"),
@@ -335,6 +343,11 @@ impl fmt::Display for Fault {
                 let (found, expected) = (counted(*found, "cell"), counted(*expected, "name"));
                 write!(f, "row {row} has {found}, but the header has {expected}")
             }
+            Self::Sample { found } => write!(
+                f,
+                "`{found}` is not a finite number; a file of samples has one on each line, and `#` \
+                 before words"
+            ),
             Self::Table { reason } => f.write_str(reason),
             Self::Correlation { reason } => f.write_str(reason),
             Self::TooMany { what, found, most } => {

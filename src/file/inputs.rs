@@ -1,6 +1,7 @@
 //! The inputs of a file: quantities, their variables, and what is known about them in each row.
 
 use std::ops::Range;
+use std::path::Path;
 
 use super::Fault;
 use super::conditions::unit;
@@ -8,8 +9,9 @@ use super::json::{Json, Member};
 use super::model_file::Override;
 use super::object::Object;
 use super::problem::Log;
+use super::samples;
 use super::shapes::{self, Estimate, Fields, Kind};
-use crate::distribution::{Constant, Distribution, Evaluation};
+use crate::distribution::{Constant, Distribution, Evaluation, Samples};
 use crate::model::formula::Formula;
 use crate::model::{InputQuantity, Quantity};
 use crate::task::{Sharing, Variable, Warning};
@@ -47,8 +49,10 @@ pub(super) struct Inputs {
     /// For each row, the distributions of the variables.
     pub(super) rows: Vec<Vec<Distribution>>,
     pub(super) warnings: Vec<Warning>,
-    /// Names of the quantities whose unit could not be read.
+    /// Quantities whose unit could not be read: they fit every dimension.
     pub(super) without_unit: Vec<String>,
+    /// The files of samples that were read: name and content.
+    pub(super) files: Vec<(String, Vec<u8>)>,
 }
 
 /// Where a quantity's estimate comes from.
@@ -58,12 +62,13 @@ enum Source {
     Formula(Formula),
 }
 
-/// Reads `inputs`.
+/// Reads `inputs`; paths are relative to `folder`.
 pub(super) fn read(
     log: &Log,
     member: &Member,
     conditions: &dyn Conditions,
     overrides: &[Override],
+    folder: &Path,
 ) -> Option<Inputs> {
     let object = Object::new(log, "`inputs`", &member.value, &member.key_span)?;
     let found = object.members().len();
@@ -77,7 +82,8 @@ pub(super) fn read(
             continue;
         };
         let moved = overrides.iter().rev().find(|o| o.input == member.key && o.field.is_none());
-        Reader { object, name: &member.key, conditions, moved, inputs: &mut inputs }.input();
+        Reader { object, name: &member.key, conditions, moved, folder, inputs: &mut inputs }
+            .input();
     }
     Some(inputs)
 }
@@ -87,6 +93,7 @@ struct Reader<'a, 'i> {
     name: &'a str,
     conditions: &'a dyn Conditions,
     moved: Option<&'a Override>,
+    folder: &'a Path,
     inputs: &'i mut Inputs,
 }
 
@@ -173,7 +180,15 @@ impl<'a> Reader<'a, '_> {
         let Some(source) = self.source(key, unit) else {
             return;
         };
-        let fields = |estimate| Fields { object, name: self.name, unit, estimate, share_of: None };
+        let samples = self.samples(&object, self.name, kind);
+        let fields = |estimate| Fields {
+            object,
+            name: self.name,
+            unit,
+            estimate,
+            share_of: None,
+            samples: samples.as_ref(),
+        };
         let mut zero_width = Vec::new();
         let mut drawn: Vec<Distribution> = Vec::new();
         for row in 0..self.conditions.rows() {
@@ -204,6 +219,14 @@ impl<'a> Reader<'a, '_> {
         for (row, distribution) in self.inputs.rows.iter_mut().zip(drawn) {
             row.push(distribution);
         }
+    }
+
+    /// The samples of an input or component, if that is its shape.
+    fn samples(&mut self, object: &Object<'_>, name: &str, kind: &Kind) -> Option<Samples> {
+        if kind.name != "samples" {
+            return None;
+        }
+        samples::read(object, name, self.folder, &mut self.inputs.files)
     }
 
     /// Adds a variable of the budget.
@@ -345,7 +368,8 @@ impl<'a> Reader<'a, '_> {
                 let mut known: Vec<&str> = vec!["name", "distribution", "about", "type", "group"];
                 known.extend(kind.fields);
                 component.check_keys(&known);
-                parts.push(Part { object: component, full, kind });
+                let samples = self.samples(&component, &full, kind);
+                parts.push(Part { object: component, full, kind, samples });
             }
         }
         for part in &parts {
@@ -360,16 +384,19 @@ struct Part<'a> {
     object: Object<'a>,
     full: String,
     kind: &'static Kind,
+    samples: Option<Samples>,
 }
 
 impl Part<'_> {
     /// Its distribution where the quantity's estimate is `total`, of which a share may be its
     /// width. A component's own mean is 0 unless it is given.
     fn distribution(&self, unit: &Unit, total: f64) -> Option<Distribution> {
-        let own = self.kind.name == "readings"
+        let own = !self.kind.is_about_zero()
             || ["mean", "value", "lower"].iter().any(|key| self.object.get(key).is_some());
         let estimate = if own { Estimate::Own } else { Estimate::Given(0.0) };
         let (object, name) = (self.object, self.full.as_str());
-        Fields { object, name, unit, estimate, share_of: Some(total) }.distribution(self.kind)
+        let samples = self.samples.as_ref();
+        Fields { object, name, unit, estimate, share_of: Some(total), samples }
+            .distribution(self.kind)
     }
 }

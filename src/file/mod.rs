@@ -13,6 +13,7 @@ mod nearest;
 mod object;
 mod outputs;
 mod problem;
+mod samples;
 mod settings;
 mod shapes;
 mod source;

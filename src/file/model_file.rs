@@ -250,7 +250,7 @@ impl<'a> ModelReader<'a> {
         let maker = self.maker();
         let set = ConditionSet { conditions: &conditions, check_units };
         let inputs = match root.required("inputs") {
-            Some(member) => inputs::read(log, member, &set, self.overrides),
+            Some(member) => inputs::read(log, member, &set, self.overrides, self.folder),
             None => None,
         };
         let outputs = root.required("outputs").and_then(|member| outputs::read(log, member));
@@ -261,6 +261,7 @@ impl<'a> ModelReader<'a> {
             return None;
         }
         let mut files = std::mem::take(&mut conditions.files);
+        files.extend(inputs.files.iter().cloned());
         let correlations = correlations::read(root, &inputs, self.folder, &mut files);
         let mut warnings = inputs.warnings.clone();
         let Outputs { mut outputs, places, unit_places, without_unit } = outputs;

@@ -7,7 +7,9 @@ use super::nearest::nearest;
 use super::object::Object;
 use super::width::Width;
 use crate::distribution::{
-    Constant, Distribution, Invalid, Normal, Readings, Rectangular, StudentT, Triangular, special,
+    Arcsine, Beta, Constant, CurvilinearTrapezoid, Distribution, Exponential, Gamma, Invalid,
+    LogUniform, Lognormal, Normal, PoissonCount, Readings, Rectangular, Samples, StudentT,
+    Trapezoidal, Triangular, special,
 };
 use crate::unit::Unit;
 
@@ -22,7 +24,7 @@ pub(super) struct Kind {
 const LIMITS: [&str; 5] = ["mean", "half_width", "semi_range", "lower", "upper"];
 
 /// The shapes, in the order of the contract.
-pub(super) const KINDS: [Kind; 6] = [
+pub(super) const KINDS: [Kind; 16] = [
     Kind { name: "constant", aliases: &[], fields: &["value"] },
     Kind {
         name: "normal",
@@ -39,24 +41,39 @@ pub(super) const KINDS: [Kind; 6] = [
         aliases: &[],
         fields: &[LIMITS[0], LIMITS[1], LIMITS[2], LIMITS[3], LIMITS[4], "mode"],
     },
+    Kind {
+        name: "trapezoidal",
+        aliases: &[],
+        fields: &[LIMITS[0], LIMITS[1], LIMITS[2], LIMITS[3], LIMITS[4], "beta"],
+    },
+    Kind {
+        name: "curvilinear-trapezoid",
+        aliases: &[],
+        fields: &["lower", "upper", "inexactness"],
+    },
+    Kind { name: "arcsine", aliases: &["u-shaped"], fields: &LIMITS },
     Kind { name: "t", aliases: &["student-t"], fields: &["mean", "scale", "dof"] },
     Kind { name: "readings", aliases: &[], fields: &["values"] },
+    Kind { name: "exponential", aliases: &[], fields: &["mean"] },
+    Kind { name: "gamma", aliases: &[], fields: &["shape", "rate"] },
+    Kind { name: "lognormal", aliases: &[], fields: &["mean", "std"] },
+    Kind { name: "beta", aliases: &[], fields: &["alpha", "beta", "lower", "upper"] },
+    Kind { name: "log-uniform", aliases: &[], fields: &["lower", "upper"] },
+    Kind { name: "poisson-count", aliases: &[], fields: &["count"] },
+    Kind { name: "samples", aliases: &[], fields: &["file", "values"] },
 ];
 
-/// Shapes of the contract that this version does not draw.
-const LATER: [&str; 11] = [
-    "trapezoidal",
-    "curvilinear-trapezoid",
-    "arcsine",
-    "u-shaped",
-    "exponential",
-    "gamma",
-    "lognormal",
-    "beta",
-    "log-uniform",
-    "poisson-count",
-    "samples",
-];
+/// The largest count of events; one more is still a whole number in double precision.
+const MOST_COUNT: u64 = 999_999_999_999_999;
+
+impl Kind {
+    /// Whether a component of this shape is about 0 unless it says otherwise. Shapes of positive
+    /// quantities and those without a field for their estimate are where their fields put them.
+    pub(super) fn is_about_zero(&self) -> bool {
+        let located = ["mean", "value"].iter().any(|key| self.fields.contains(key));
+        located && !matches!(self.name, "exponential" | "lognormal")
+    }
+}
 
 /// The shape that an object names.
 pub(super) fn kind(object: &Object<'_>) -> Option<&'static Kind> {
@@ -64,12 +81,12 @@ pub(super) fn kind(object: &Object<'_>) -> Option<&'static Kind> {
     let name = object.text("distribution")?;
     let found = KINDS.iter().find(|kind| kind.name == name || kind.aliases.contains(&name));
     if found.is_none() {
-        let fault = if LATER.contains(&name) || name == "result" {
+        let fault = if name == "result" {
             Fault::NotBuilt { what: format!("the distribution `{name}`") }
         } else {
             let known =
                 KINDS.iter().flat_map(|k| std::iter::once(&k.name).chain(k.aliases)).copied();
-            let nearest = nearest(name, known.chain(LATER)).map(str::to_owned);
+            let nearest = nearest(name, known).map(str::to_owned);
             Fault::UnknownDistribution { name: name.to_owned(), nearest }
         };
         object.log.report(&member.value.span, fault);
@@ -95,6 +112,8 @@ pub(super) struct Fields<'a> {
     pub(super) estimate: Estimate,
     /// What a relative width is a share of, if not of the own estimate.
     pub(super) share_of: Option<f64>,
+    /// The samples, where the shape has any: read once for all rows.
+    pub(super) samples: Option<&'a Samples>,
 }
 
 impl<'a> Fields<'a> {
@@ -118,6 +137,23 @@ impl<'a> Fields<'a> {
                 }))
             }
             "triangular" => self.triangular(),
+            "trapezoidal" => {
+                let beta = self.number("beta");
+                let (mean, half_width, _) = self.limits()?;
+                match half_width {
+                    Some(half_width) => self.made(Trapezoidal::new(mean, half_width, beta?)),
+                    None => self.made(Constant::new(mean)),
+                }
+            }
+            "arcsine" => match self.limits()? {
+                (mean, Some(half_width), _) => self.made(Arcsine::new(mean, half_width)),
+                (mean, None, _) => self.made(Constant::new(mean)),
+            },
+            "curvilinear-trapezoid" => {
+                let (lower, upper) = (self.number("lower"), self.number("upper"));
+                let inexactness = self.number("inexactness");
+                self.moved(CurvilinearTrapezoid::new(lower?, upper?, inexactness?))
+            }
             "t" => {
                 let mean = self.estimate("mean");
                 let scale = self.width("scale", mean?)?;
@@ -127,16 +163,61 @@ impl<'a> Fields<'a> {
                     None => self.made(Constant::new(mean?)),
                 }
             }
+            "exponential" => {
+                let mean = self.estimate("mean")?;
+                self.made(Exponential::new(mean))
+            }
+            "gamma" => {
+                let (shape, rate) = (self.number("shape"), self.number("rate"));
+                self.moved(Gamma::new(shape?, rate?))
+            }
+            "lognormal" => {
+                let mean = self.estimate("mean")?;
+                match self.width("std", mean)? {
+                    Some(std) => self.made(Lognormal::new(mean, std)),
+                    None => self.made(Constant::new(mean)),
+                }
+            }
+            "beta" => {
+                let (alpha, beta) = (self.number("alpha"), self.number("beta"));
+                let (lower, upper) = (self.number_or("lower", 0.0), self.number_or("upper", 1.0));
+                self.moved(Beta::between(alpha?, beta?, lower?, upper?))
+            }
+            "log-uniform" => {
+                let (lower, upper) = (self.number("lower"), self.number("upper"));
+                self.moved(LogUniform::new(lower?, upper?))
+            }
+            "poisson-count" => {
+                self.object.required("count")?;
+                self.moved(PoissonCount::new(self.object.whole("count", 0, MOST_COUNT)?))
+            }
+            "samples" => self.moved(Ok(self.samples?.clone())),
             _ => {
                 self.object.required("values")?;
                 let values = self.object.numbers("values")?;
-                let readings = self.made(Readings::new(values))?;
-                match self.estimate {
-                    Estimate::Own => Some(readings),
-                    Estimate::Given(mean) => Some(readings.moved_to(mean)),
-                }
+                self.moved(Readings::new(values))
             }
         }
+    }
+
+    /// The shape, moved to an estimate that comes from elsewhere.
+    fn moved<S: Into<Distribution>>(&self, shape: Result<S, Invalid>) -> Option<Distribution> {
+        let shape = self.made(shape)?;
+        match self.estimate {
+            Estimate::Own => Some(shape),
+            Estimate::Given(estimate) => self.made(shape.moved_to(estimate)),
+        }
+    }
+
+    /// A number that must be there.
+    fn number(&self, key: &'static str) -> Option<f64> {
+        self.object.required(key)?;
+        self.object.number(key)
+    }
+
+    /// A number that may be left out.
+    fn number_or(&self, key: &str, default: f64) -> Option<f64> {
+        if self.object.get(key).is_some() { self.object.number(key) } else { Some(default) }
     }
 
     fn normal(&self) -> Option<Distribution> {
@@ -211,11 +292,7 @@ impl<'a> Fields<'a> {
             return self.made(Triangular::new(mean, half_width));
         };
         let mode = self.object.number("mode");
-        let shape = self.made(Triangular::between(lower, upper, mode))?;
-        match self.estimate {
-            Estimate::Own => Some(shape),
-            Estimate::Given(estimate) => Some(shape.moved_to(estimate)),
-        }
+        self.moved(Triangular::between(lower, upper, mode))
     }
 
     /// Middle, half-width (`None` where a specification became 0) and, if given so, the limits.
@@ -299,3 +376,6 @@ impl<'a> Fields<'a> {
         member.map_or_else(|| self.object.place().clone(), |m| m.value.span.clone())
     }
 }
+
+#[cfg(test)]
+mod tests;

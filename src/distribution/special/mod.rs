@@ -24,6 +24,8 @@ pub(crate) mod normal;
 mod quadrature;
 #[cfg(test)]
 mod reference;
-mod root;
+pub(crate) mod root;
 pub(crate) mod student;
 mod weight;
+
+pub(crate) use weight::ln_1p_minus;

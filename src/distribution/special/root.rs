@@ -1,16 +1,16 @@
 //! The root of a monotone function in log-log coordinates.
 
 /// A positive function at one argument.
-pub(super) struct Point {
+pub(crate) struct Point {
     /// The value f(x).
-    pub(super) value: f64,
+    pub(crate) value: f64,
     /// |df / d ln x|.
-    pub(super) rate: f64,
+    pub(crate) rate: f64,
 }
 
 /// Whether the function rises or falls with x.
 #[derive(Clone, Copy, PartialEq)]
-pub(super) enum Trend {
+pub(crate) enum Trend {
     Rising,
     Falling,
 }
@@ -29,7 +29,7 @@ const STEPS: u32 = NEWTON_STEPS + 64;
 ///
 /// The tails met here are concave in these coordinates, so that Newton's steps settle on one side
 /// of the root. A step below 1e-9 is the last one, as its successor would be within rounding.
-pub(super) fn find(
+pub(crate) fn find(
     trend: Trend,
     target: f64,
     start: f64,

@@ -42,7 +42,7 @@ const ONE_MINUS_EULER: f64 = 0.422_784_335_098_467_139_39;
 ///
 /// Near 0 with r = u / (2 + u): ln(1 + u) = 2 artanh(r), so the result is
 /// -u r + 2 (r^3 / 3 + r^5 / 5 + ...).
-pub(super) fn ln_1p_minus(u: f64) -> f64 {
+pub(crate) fn ln_1p_minus(u: f64) -> f64 {
     if !(-0.4..=0.5).contains(&u) {
         return libm::log1p(u) - u;
     }

@@ -1,0 +1,77 @@
+//! The symmetric trapezoidal distribution (JCGM 101, 6.4.4; JCGM 100, 4.3.9).
+
+use super::shape::{Invalid, Shape, finite, limits, positive, within};
+use super::stream::Stream;
+use crate::number::{COLUMN, Column};
+
+/// A symmetric trapezoid: the sum of two independent rectangular quantities.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Trapezoidal {
+    mean: f64,
+    half_width: f64,
+    beta: f64,
+}
+
+impl Trapezoidal {
+    /// A trapezoid of the given half-width (> 0) of its base about `mean`; `beta` is the width of
+    /// its top over that of its base, from 0 (a triangle) to 1 (a rectangle).
+    ///
+    /// # Errors
+    /// Parameters that are not finite, a half-width that is not above zero, a ratio out of range.
+    pub fn new(mean: f64, half_width: f64, beta: f64) -> Result<Self, Invalid> {
+        Ok(Self {
+            mean: finite("mean", mean)?,
+            half_width: positive("half_width", half_width)?,
+            beta: within("beta", beta, 0.0, 1.0, "from 0 to 1")?,
+        })
+    }
+
+    /// The same between two limits.
+    ///
+    /// # Errors
+    /// Limits that are not finite or not in order, a ratio out of range.
+    pub fn between(lower: f64, upper: f64, beta: f64) -> Result<Self, Invalid> {
+        let (mean, half_width) = limits(lower, upper)?;
+        Self::new(mean, half_width, beta)
+    }
+}
+
+impl Shape for Trapezoidal {
+    const NAME: &'static str = "trapezoidal";
+
+    fn mean(&self) -> f64 {
+        self.mean
+    }
+
+    fn standard_uncertainty(&self) -> f64 {
+        self.half_width * ((1.0 + self.beta * self.beta) / 6.0).sqrt()
+    }
+
+    fn quantile(&self, p: f64) -> f64 {
+        let Self { mean, half_width, beta } = *self;
+        let tail = p.min(1.0 - p);
+        // the flanks hold (1 - beta) / (1 + beta) of the probability, half of it each
+        if 2.0 * tail * (1.0 + beta) < 1.0 - beta {
+            let inwards = (2.0 * tail * (1.0 - beta) * (1.0 + beta)).sqrt();
+            mean + half_width * if p < 0.5 { inwards - 1.0 } else { 1.0 - inwards }
+        } else {
+            mean + half_width * ((p - 0.5) * (1.0 + beta))
+        }
+    }
+
+    #[inline(always)]
+    fn draw(&self, stream: &mut Stream, out: &mut Column) {
+        let mut second = [0.0; COLUMN];
+        stream.uniform(&mut out.0);
+        stream.uniform(&mut second);
+        let (wide, narrow) = (1.0 + self.beta, 1.0 - self.beta);
+        for (x, second) in out.0.iter_mut().zip(&second) {
+            let sum = wide * *x + narrow * second;
+            *x = self.mean + self.half_width * (sum - 1.0);
+        }
+    }
+
+    fn moved_to(&self, estimate: f64) -> Result<Self, Invalid> {
+        Ok(Self { mean: finite("estimate", estimate)?, ..*self })
+    }
+}
