@@ -31,8 +31,11 @@ pub(super) fn read(path: &Path, name: &str) -> Result<(Table, Vec<u8>), Vec<(Pla
 }
 
 fn parse(source: &Arc<Source>) -> Result<Table, Vec<(Place, Fault)>> {
+    let starts: Vec<usize> = std::iter::once(0)
+        .chain(source.text.match_indices('\n').map(|(newline, _)| newline + 1))
+        .collect();
     let at_line = |line: usize| {
-        let start = source.line_start(line);
+        let start = starts.get(line.saturating_sub(1)).copied().unwrap_or(source.text.len());
         let text = source.text.get(start..).and_then(|rest| rest.lines().next()).unwrap_or("");
         Place { source: source.clone(), span: start..start + text.len() }
     };
@@ -83,7 +86,8 @@ fn parse(source: &Arc<Source>) -> Result<Table, Vec<(Place, Fault)>> {
                 break;
             }
         };
-        let place = place_of_record(source, record.position().map_or(0, csv::Position::byte));
+        let line = record.position().map_or(number + 2, |p| p.line() as usize);
+        let place = at_line(line);
         if record.len() != columns.len() {
             let fault =
                 Fault::ShortRow { row: number + 1, found: record.len(), expected: columns.len() };
@@ -113,19 +117,6 @@ fn parse(source: &Arc<Source>) -> Result<Table, Vec<(Place, Fault)>> {
     } else {
         Err(faults)
     }
-}
-
-/// The line of a record that the reader found from a byte on: comments and empty lines come before.
-fn place_of_record(source: &Arc<Source>, byte: u64) -> Place {
-    let mut start = usize::try_from(byte).unwrap_or(0);
-    let rest = source.text.get(start..).unwrap_or("");
-    for line in rest.split_inclusive('\n') {
-        if !line.trim().is_empty() && !line.trim_start().starts_with('#') {
-            return Place { source: source.clone(), span: start..start + line.trim_end().len() };
-        }
-        start += line.len();
-    }
-    Place { source: source.clone(), span: start..start }
 }
 
 /// The place of a cell in its line; the whole line where quotes make that uncertain. An empty cell is
