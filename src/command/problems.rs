@@ -7,10 +7,19 @@ use crate::file::{Problem, Problems};
 /// Longer lines are cut around the place.
 const LONGEST: usize = 160;
 
+/// So many mistakes are shown; a table of a million faulty cells helps nobody.
+const MOST: usize = 200;
+
 /// All mistakes as text, with colours or without.
 pub(super) fn render(problems: &Problems, colours: bool) -> String {
     let renderer = if colours { Renderer::styled() } else { Renderer::plain() };
-    problems.0.iter().map(|problem| one(problem, &renderer)).collect()
+    let mut text: String =
+        problems.0.iter().take(MOST).map(|problem| one(problem, &renderer)).collect();
+    if problems.0.len() > MOST {
+        let more = problems.0.len() - MOST;
+        text.push_str(&format!("and {more} more; `check --format json` lists them all\n"));
+    }
+    text
 }
 
 fn one(problem: &Problem, renderer: &Renderer) -> String {

@@ -1,5 +1,6 @@
 //! Declared correlation coefficients.
 
+use std::collections::{HashMap, HashSet};
 use std::ops::Range;
 use std::path::Path;
 
@@ -20,7 +21,16 @@ pub(super) fn read(
     folder: &Path,
     files: &mut Vec<(String, Vec<u8>)>,
 ) -> Vec<Correlation> {
-    let mut reader = Reader { log: root.log, inputs, found: Vec::new(), places: Vec::new() };
+    let shown = inputs.variables.iter().enumerate().filter(|(_, variable)| variable.shown);
+    let by_name = shown.map(|(place, variable)| (variable.name.as_str(), place)).collect();
+    let mut reader = Reader {
+        log: root.log,
+        inputs,
+        by_name,
+        found: Vec::new(),
+        pairs: HashSet::new(),
+        places: Vec::new(),
+    };
     if let Some(list) = root.list("correlations") {
         for node in list {
             reader.triple(node);
@@ -36,7 +46,9 @@ pub(super) fn read(
 struct Reader<'a> {
     log: &'a Log,
     inputs: &'a Inputs,
+    by_name: HashMap<&'a str, usize>,
     found: Vec<Correlation>,
+    pairs: HashSet<(usize, usize)>,
     places: Vec<Range<usize>>,
 }
 
@@ -67,7 +79,7 @@ impl Reader<'_> {
 
     fn variable(&self, name: &str, span: &Range<usize>) -> Option<usize> {
         let shown = |place: &usize| self.inputs.variables.get(*place).is_some_and(|v| v.shown);
-        let place = self.inputs.variables.iter().position(|v| v.name == name && v.shown);
+        let place = self.by_name.get(name).copied();
         if place.is_none() {
             let names = (0..self.inputs.variables.len())
                 .filter(shown)
@@ -84,7 +96,7 @@ impl Reader<'_> {
             format!("the correlation coefficient is {r}, but must be from -1 to 1")
         } else if a == b {
             format!("`{}` is correlated with itself", name(a))
-        } else if self.found.iter().any(|c| (c.first, c.second) == (a.min(b), a.max(b))) {
+        } else if !self.pairs.insert((a.min(b), a.max(b))) {
             format!("the correlation of `{}` and `{}` is given twice", name(a), name(b))
         } else {
             self.found.push(Correlation { first: a.min(b), second: a.max(b), coefficient: r });
