@@ -60,6 +60,10 @@ impl Shape for Rectangular {
         self.mean + self.half_width * (2.0 * p - 1.0)
     }
 
+    fn quantile_upper(&self, q: f64) -> f64 {
+        self.mean + self.half_width * (1.0 - 2.0 * q)
+    }
+
     #[inline(always)]
     fn draw(&self, stream: &mut Stream, out: &mut Column) {
         stream.uniform(&mut out.0);
