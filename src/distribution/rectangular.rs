@@ -31,6 +31,11 @@ impl Rectangular {
         Self::new(mean, half_width)
     }
 
+    /// Half the distance of the limits.
+    pub(super) fn half_width(&self) -> f64 {
+        self.half_width
+    }
+
     /// The same with degrees of freedom (> 0) that say how well the half-width is known (JCGM 100,
     /// G.4.2). They count on the GUM side; trials are drawn as before.
     ///

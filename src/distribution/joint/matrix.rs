@@ -82,7 +82,7 @@ impl Symmetric {
                 row.push((entries[j] - sum) / above[j]);
             }
             let pivot = entries[i] - row.iter().map(|a| a * a).sum::<f64>();
-            if !(pivot > PIVOT) {
+            if pivot <= PIVOT || pivot.is_nan() {
                 return None;
             }
             row.push(pivot.sqrt());
@@ -145,10 +145,10 @@ impl Symmetric {
                     row[p] = c * x - s * y;
                     row[q] = s * x + c * y;
                 }
-                for k in 0..n {
-                    let (x, y) = (a[p][k], a[q][k]);
-                    a[p][k] = c * x - s * y;
-                    a[q][k] = s * x + c * y;
+                // the same for the rows; p < q
+                let (above, below) = a.split_at_mut(q);
+                for (x, y) in above[p].iter_mut().zip(&mut below[0]) {
+                    (*x, *y) = (c * *x - s * *y, s * *x + c * *y);
                 }
             }
         }
@@ -173,10 +173,9 @@ impl Symmetric {
                 }
             }
             semidefinite = shifted.clipped();
-            for i in 0..n {
-                for j in 0..n {
-                    correction[i][j] = semidefinite.rows[i][j] - shifted.rows[i][j];
-                }
+            let changes = semidefinite.rows.iter().flatten().zip(shifted.rows.iter().flatten());
+            for (c, (after, before)) in correction.iter_mut().flatten().zip(changes) {
+                *c = after - before;
             }
             let mut next = semidefinite.clone();
             for (i, row) in next.rows.iter_mut().enumerate() {

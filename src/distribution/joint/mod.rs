@@ -25,7 +25,7 @@ use error::unit;
 use matrix::Symmetric;
 use profile::{Profile, Table};
 
-use super::{Distribution, Stream, StreamKey, normal};
+use super::{Distribution, Rectangular, Stream, StreamKey, StudentT, normal};
 use crate::number::Column;
 
 /// A declared correlation coefficient of two quantities.
@@ -43,11 +43,22 @@ pub struct Correlation {
 #[derive(Clone, Debug)]
 struct Member {
     place: usize,
-    /// Estimate and scale of what is a multiple of the group's standard normal or t quantity.
+    /// The quantity is `location` + `scale` times the group's standard normal or t quantity,
     location: f64,
     scale: f64,
-    /// For other quantities, their values at standard normals.
+    /// or times what this makes of the standard normal.
     table: Option<Arc<Table>>,
+}
+
+impl Member {
+    /// A multiple of the group's own quantity.
+    fn plain(place: usize, distribution: &Distribution) -> Self {
+        let scale = match distribution {
+            Distribution::Readings(readings) => readings.drawn_scale(),
+            other => other.standard_uncertainty(),
+        };
+        Self { place, location: distribution.mean(), scale, table: None }
+    }
 }
 
 /// Quantities that are drawn together.
@@ -59,6 +70,9 @@ struct Group {
     /// Degrees of freedom of a multivariate t distribution; `None` for joint normals.
     dof: Option<f64>,
 }
+
+/// A joint draw that rows share, or why there is none.
+pub(crate) type Shared = Result<Arc<Joint>, CorrelationError>;
 
 /// How a set of quantities is drawn.
 #[derive(Clone, Debug, Default)]
@@ -74,9 +88,19 @@ pub(crate) struct Joint {
 }
 
 impl Joint {
-    /// The joint draw of quantities with these distributions and coefficients. Constants take no
-    /// part; coefficients of 0 say nothing.
+    /// The joint draw of quantities with these distributions and coefficients.
+    #[cfg(test)]
     pub(crate) fn new(
+        distributions: &[Distribution],
+        correlations: &[Correlation],
+    ) -> Result<Self, CorrelationError> {
+        Self::with(&mut Profiles::default(), distributions, correlations)
+    }
+
+    /// The joint draw of quantities with these distributions and coefficients. Constants take no
+    /// part; coefficients of 0 say nothing. `profiles` is kept for the next one.
+    fn with(
+        profiles: &mut Profiles,
         distributions: &[Distribution],
         correlations: &[Correlation],
     ) -> Result<Self, CorrelationError> {
@@ -99,14 +123,13 @@ impl Joint {
                 return Err(CorrelationError::GivenByReadings { member, other, paired });
             }
             joint.groups.push(Group {
-                members: members.iter().map(|&place| member(distributions, place, None)).collect(),
+                members: members.iter().map(|&m| Member::plain(m, &distributions[m])).collect(),
                 factor: ensemble.coefficients.factor(),
                 dof: members.first().map(|&m| distributions[m].drawn_dof()),
             });
         }
-        let mut profiles = Profiles::default();
         for members in connected(&active) {
-            joint.add_correlated(&members, distributions, &active, &mut profiles)?;
+            joint.add_correlated(&members, distributions, &active, profiles)?;
         }
         joint.copula.sort_unstable();
         Ok(joint)
@@ -117,7 +140,7 @@ impl Joint {
     pub(crate) fn of_rows<'a>(
         rows: impl Iterator<Item = &'a [Distribution]>,
         correlations: &[Correlation],
-    ) -> Vec<Result<Arc<Self>, CorrelationError>> {
+    ) -> Vec<Shared> {
         let linked = |row: &'a [Distribution]| -> Vec<&'a Distribution> {
             let declared = correlations.iter().flat_map(|c| [c.first, c.second]);
             let is_paired =
@@ -125,15 +148,16 @@ impl Joint {
             let paired = row.iter().filter(is_paired);
             declared.filter_map(|q| row.get(q)).chain(paired).collect()
         };
-        let mut last: Option<(Vec<&Distribution>, Result<Arc<Self>, CorrelationError>)> = None;
+        let mut profiles = Profiles::default();
+        let mut last: Option<(Vec<&Distribution>, Shared)> = None;
         rows.map(|row| {
             let now = linked(row);
-            if let Some((before, joint)) = &last {
-                if *before == now {
-                    return joint.clone();
-                }
+            if let Some((before, joint)) = &last
+                && *before == now
+            {
+                return joint.clone();
             }
-            let joint = Self::new(row, correlations).map(Arc::new);
+            let joint = Self::with(&mut profiles, row, correlations).map(Arc::new);
             last = Some((now, joint.clone()));
             joint
         })
@@ -164,26 +188,24 @@ impl Joint {
             }
             self.rounded = true;
         }
-        let mut tables = vec![None; members.len()];
+        let mut shaped: Vec<Option<Arc<Profiled>>> = vec![None; members.len()];
+        let mut drawn: Vec<Member> =
+            members.iter().map(|&m| Member::plain(m, &distributions[m])).collect();
         if members.iter().any(|&m| !distributions[m].is_drawn_normal()) {
-            for (table, &m) in tables.iter_mut().zip(members) {
-                if !distributions[m].is_drawn_normal() {
-                    *table = Some(profiles.of(&distributions[m]));
+            for (shaped, member) in shaped.iter_mut().zip(&mut drawn) {
+                let distribution = &distributions[member.place];
+                if !distribution.is_drawn_normal() {
+                    let (standard, location, scale) = standard(distribution);
+                    let profiled = profiles.of(&standard);
+                    let table = Some(Arc::clone(&profiled.table));
+                    *member = Member { place: member.place, location, scale, table };
+                    *shaped = Some(profiled);
                 }
             }
-            wanted = self.fit(members, &wanted, &tables, decimals)?;
+            wanted = self.fit(members, &wanted, &shaped, decimals)?;
             self.copula.extend(members);
         }
-        let shared = |table: Option<Arc<Profiled>>| table.map(|p| Arc::clone(&p.table));
-        self.groups.push(Group {
-            members: members
-                .iter()
-                .zip(tables)
-                .map(|(&place, table)| member(distributions, place, shared(table)))
-                .collect(),
-            factor: wanted.factor(),
-            dof: None,
-        });
+        self.groups.push(Group { members: drawn, factor: wanted.factor(), dof: None });
         Ok(())
     }
 
@@ -256,6 +278,9 @@ impl Joint {
     }
 }
 
+/// Profiles that are kept at a time.
+const MOST_PROFILES: usize = 64;
+
 /// Profiles of the quantities met so far, as equal ones are frequent.
 #[derive(Debug, Default)]
 struct Profiles(Vec<(Distribution, Arc<Profiled>)>);
@@ -276,6 +301,9 @@ impl Profiles {
         let (profile, table) = Profile::of(distribution);
         let terms = copula::hermite(&profile);
         let profiled = Arc::new(Profiled { profile, terms, table: Arc::new(table) });
+        if self.0.len() >= MOST_PROFILES {
+            self.0.clear();
+        }
         self.0.push((distribution.clone(), Arc::clone(&profiled)));
         profiled
     }
@@ -287,13 +315,20 @@ impl Profiled {
     }
 }
 
-fn member(distributions: &[Distribution], place: usize, table: Option<Arc<Table>>) -> Member {
-    let distribution = &distributions[place];
-    let scale = match distribution {
-        Distribution::Readings(readings) => readings.drawn_scale(),
-        other => other.standard_uncertainty(),
+/// What a distribution is the multiple of, and location and scale: a t or rectangular distribution
+/// of the standard one, whose profile serves all rows of a sweep; others of themselves.
+fn standard(distribution: &Distribution) -> (Distribution, f64, f64) {
+    let dof = distribution.drawn_dof();
+    let found = match distribution {
+        Distribution::Rectangular(shape) => Rectangular::new(0.0, 1.0)
+            .map(|standard| (standard.into(), distribution.mean(), shape.half_width())),
+        _ if dof.is_finite() => StudentT::new(0.0, 1.0, dof).map(|standard| {
+            let Member { location, scale, .. } = Member::plain(0, distribution);
+            (standard.into(), location, scale)
+        }),
+        _ => return (distribution.clone(), 0.0, 1.0),
     };
-    Member { place, location: distribution.mean(), scale, table }
+    found.unwrap_or_else(|_| (distribution.clone(), 0.0, 1.0))
 }
 
 /// The decimals that the coefficients of a group are given with: those of the longest, as trailing
@@ -449,18 +484,17 @@ impl<'a> Draws<'a> {
             let mut sum = Column::ZERO;
             for (&weight, other) in row.iter().zip(&group.members) {
                 let z = &registers[register[other.place]].0;
-                for t in 0..z.len() {
-                    sum.0[t] += weight * z[t];
+                for (sum, z) in sum.0.iter_mut().zip(z) {
+                    *sum += weight * z;
                 }
             }
             let out = &mut registers[register[member.place]].0;
-            match &member.table {
-                Some(table) => table.values(&self.distributions[member.place], &sum.0, out),
-                None => {
-                    for t in 0..out.len() {
-                        out[t] = member.location + member.scale * sum.0[t];
-                    }
-                }
+            if let Some(table) = &member.table {
+                let z = sum.clone();
+                table.values(&z.0, &mut sum.0);
+            }
+            for (out, sum) in out.iter_mut().zip(&sum.0) {
+                *out = member.location + member.scale * sum;
             }
         }
     }

@@ -142,32 +142,29 @@ impl Piece {
 /// A cell of the table that draws look up: the value less the mean as a polynomial, and the values
 /// at both ends, which no draw leaves.
 #[derive(Clone, Debug)]
-struct Cell {
+pub(super) struct Cell {
     polynomial: Polynomial,
     low: f64,
     high: f64,
 }
 
-/// The cells on \[-9, 9\]; `None` where the quantile function itself has to be taken.
+/// The values of a quantity at standard normal ones: cells on \[-9, 9\], `None` where the quantile
+/// function itself has to be taken.
 #[derive(Clone, Debug)]
 pub(super) struct Table {
+    distribution: Distribution,
     mean: f64,
     cells: Vec<Option<Cell>>,
 }
 
 impl Table {
-    /// The quantities' values at standard normal ones. A function of its own, compiled once, so
-    /// that it has the same bits in every compiled form of the inner loop.
+    /// A function of its own, compiled once, so that it has the same bits in every compiled form
+    /// of the inner loop.
     #[inline(never)]
-    pub(super) fn values(
-        &self,
-        distribution: &Distribution,
-        z: &[f64; COLUMN],
-        out: &mut [f64; COLUMN],
-    ) {
+    pub(super) fn values(&self, z: &[f64; COLUMN], out: &mut [f64; COLUMN]) {
         for (&z, out) in z.iter().zip(out) {
-            // a conversion of what lies left of the table, or of no number, gives 0
             let place = (z + f64::from(TABLE) * WIDTH) / WIDTH;
+            // what lies left of the table would be converted to 0
             let number = if place >= 0.0 { place as usize } else { usize::MAX };
             *out = match self.cells.get(number) {
                 Some(Some(cell)) => {
@@ -175,7 +172,7 @@ impl Table {
                     let value = self.mean + horner(&cell.polynomial, t);
                     value.max(cell.low).min(cell.high)
                 }
-                _ => at_normal(distribution, z),
+                _ => at_normal(&self.distribution, z),
             };
         }
     }
@@ -200,11 +197,17 @@ impl Profile {
     /// The profile of a distribution that has a variance, and its table for draws.
     pub(super) fn of(distribution: &Distribution) -> (Self, Table) {
         let (mean, std) = (distribution.mean(), distribution.standard_deviation());
-        Self::new(mean, std, |z| at_normal(distribution, z))
+        let (profile, cells) = Self::new(mean, std, |z| at_normal(distribution, z));
+        (profile, Table { distribution: distribution.clone(), mean, cells })
     }
 
-    /// The profile of a rising function of z with this mean and standard deviation.
-    pub(super) fn new(mean: f64, std: f64, value: impl Fn(f64) -> f64) -> (Self, Table) {
+    /// The profile of a rising function of z with this mean and standard deviation, and the cells
+    /// of a table of it.
+    pub(super) fn new(
+        mean: f64,
+        std: f64,
+        value: impl Fn(f64) -> f64,
+    ) -> (Self, Vec<Option<Cell>>) {
         let sampler = Sampler { mean, std, value };
         let mut pieces = Vec::new();
         let mut cells: Vec<Option<Cell>> = vec![None; 2 * TABLE as usize];
@@ -242,7 +245,7 @@ impl Profile {
         }
         pieces.sort_by(|a, b| a.left.total_cmp(&b.left));
         let variance = pieces.iter().map(Piece::variance).sum();
-        (Self { pieces, variance }, Table { mean, cells })
+        (Self { pieces, variance }, cells)
     }
 
     pub(super) fn pieces(&self) -> &[Piece] {
@@ -375,7 +378,7 @@ mod tests {
                     *z = -10.0 + 20.0 * (step * COLUMN + i) as f64 / (160 * COLUMN) as f64;
                 }
                 let mut out = [0.0; COLUMN];
-                table.values(&distribution, &z, &mut out);
+                table.values(&z, &mut out);
                 for (z, x) in z.into_iter().zip(out) {
                     let exact = at_normal(&distribution, z);
                     // in far tails the standard deviation is no scale; there, of the value
@@ -398,7 +401,7 @@ mod tests {
             let mut z = [40.0; COLUMN];
             z[..4].copy_from_slice(&[-1e9, -40.0, 9.0, -9.0]);
             let mut out = [0.0; COLUMN];
-            table.values(&distribution, &z, &mut out);
+            table.values(&z, &mut out);
             assert!(out.iter().all(|x| x.is_finite()), "{distribution:?}");
         }
     }
