@@ -153,7 +153,7 @@ fn failure(file: &ModelFile, error: EvaluationError) -> Failure {
     let message = error.to_string();
     match error {
         EvaluationError::Threads(_) => Failure::System(message),
-        EvaluationError::Undefined { .. } | EvaluationError::Correlation(_) => {
+        EvaluationError::Undefined { .. } | EvaluationError::Correlation { .. } => {
             let (source, span) = file.output_place(0);
             let fault = Fault::Evaluation { message };
             Failure::Problems(Problems(vec![Problem { source, span, fault }]))

@@ -34,7 +34,7 @@ pub use exponential::Exponential;
 pub use gamma::Gamma;
 pub use input::{Evaluation, Input, InputError};
 pub use joint::{Correlation, CorrelationError};
-pub(crate) use joint::{Draws, Joint};
+pub(crate) use joint::{Draws, Joint, paired};
 pub use log_uniform::LogUniform;
 pub use lognormal::Lognormal;
 pub use normal::Normal;
@@ -103,6 +103,12 @@ macro_rules! distributions {
             /// The value below which a drawn value lies with probability `p`, 0 < p < 1.
             pub fn quantile(&self, p: f64) -> f64 {
                 match self { $(Self::$shape(shape) => shape.quantile(p),)* }
+            }
+
+            /// The value above which a drawn value lies with probability `q`, 0 < q < 1: the
+            /// quantile of 1 - q, also where that rounds to 1.
+            pub fn quantile_upper(&self, q: f64) -> f64 {
+                match self { $(Self::$shape(shape) => shape.quantile_upper(q),)* }
             }
 
             /// The same distribution with its estimate moved: limits move along. Shapes of

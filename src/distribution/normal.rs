@@ -61,6 +61,10 @@ impl Shape for Normal {
         self.mean + self.std * student::standard_quantile(p, self.dof)
     }
 
+    fn quantile_upper(&self, q: f64) -> f64 {
+        self.mean - self.std * student::standard_quantile(q, self.dof)
+    }
+
     #[inline(always)]
     fn draw(&self, stream: &mut Stream, out: &mut Column) {
         if self.dof.is_finite() {

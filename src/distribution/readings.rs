@@ -7,11 +7,17 @@ use crate::number::Column;
 
 /// Repeated independent readings of one quantity. The estimate is their mean; trials are drawn from
 /// the t distribution with n - 1 degrees of freedom, scaled by s/sqrt(n).
+///
+/// Readings of several quantities that were taken together are *paired* ([`Readings::paired`]): the
+/// i-th readings of all belong to one observation. They are drawn from the multivariate t
+/// distribution of JCGM 102, 5.3, with n - N degrees of freedom for N quantities.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Readings {
     values: Vec<f64>,
     mean: f64,
     scale: f64,
+    /// How many quantities were read together with this one, itself included.
+    together: usize,
 }
 
 impl Readings {
@@ -38,10 +44,37 @@ impl Readings {
                 values,
                 mean: finite("values", origin + offset)?,
                 scale: finite("values", scale)?,
+                together: 1,
             })
         } else {
             Err(Invalid::NoScatter { count })
         }
+    }
+
+    /// The same readings, taken together with those of other quantities: `together` quantities,
+    /// this one included. All paired readings of equal length are drawn together, and there must be
+    /// as many of them.
+    ///
+    /// # Errors
+    /// Not above `together` + 2 readings, for which the joint distribution has no covariance.
+    pub fn paired(self, together: usize) -> Result<Self, Invalid> {
+        let count = self.values.len();
+        if count > together + 2 {
+            Ok(Self { together: together.max(1), ..self })
+        } else {
+            Err(Invalid::TooFewPaired { count, together })
+        }
+    }
+
+    /// How many quantities were read together with this one, itself included: 1 unless paired.
+    pub fn together(&self) -> usize {
+        self.together
+    }
+
+    /// The scale of the t distribution that trials are drawn from: s/sqrt(n), and of paired
+    /// readings the same with the divisor n - N in s.
+    pub(super) fn drawn_scale(&self) -> f64 {
+        self.scale * (self.dof() / self.drawn_dof()).sqrt()
     }
 
     /// The readings.
@@ -66,20 +99,24 @@ impl Shape for Readings {
     }
 
     fn drawn_dof(&self) -> f64 {
-        self.dof()
+        self.values.len() as f64 - self.together as f64
     }
 
     fn standard_deviation(&self) -> f64 {
-        student::standard_deviation(self.scale, self.dof())
+        student::standard_deviation(self.drawn_scale(), self.drawn_dof())
     }
 
     fn quantile(&self, p: f64) -> f64 {
-        self.mean + self.scale * student::standard_quantile(p, self.dof())
+        self.mean + self.drawn_scale() * student::standard_quantile(p, self.drawn_dof())
+    }
+
+    fn quantile_upper(&self, q: f64) -> f64 {
+        self.mean - self.drawn_scale() * student::standard_quantile(q, self.drawn_dof())
     }
 
     #[inline(always)]
     fn draw(&self, stream: &mut Stream, out: &mut Column) {
-        student::draw(self.mean, self.scale, self.dof(), stream, out);
+        student::draw(self.mean, self.drawn_scale(), self.drawn_dof(), stream, out);
     }
 
     fn moved_to(&self, estimate: f64) -> Result<Self, Invalid> {

@@ -31,6 +31,11 @@ impl Rectangular {
         Self::new(mean, half_width)
     }
 
+    /// Half the distance of the limits.
+    pub(super) fn half_width(&self) -> f64 {
+        self.half_width
+    }
+
     /// The same with degrees of freedom (> 0) that say how well the half-width is known (JCGM 100,
     /// G.4.2). They count on the GUM side; trials are drawn as before.
     ///
@@ -58,6 +63,10 @@ impl Shape for Rectangular {
 
     fn quantile(&self, p: f64) -> f64 {
         self.mean + self.half_width * (2.0 * p - 1.0)
+    }
+
+    fn quantile_upper(&self, q: f64) -> f64 {
+        self.mean + self.half_width * (1.0 - 2.0 * q)
     }
 
     #[inline(always)]

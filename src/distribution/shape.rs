@@ -39,6 +39,13 @@ pub(crate) trait Shape {
     /// The value below which the drawn quantity lies with probability `p`, 0 < p < 1.
     fn quantile(&self, p: f64) -> f64;
 
+    /// The value above which the drawn quantity lies with probability `q`, 0 < q < 1. Where 1 - `q`
+    /// rounds to 1 the default stays at the largest double below; a shape with a tail that matters
+    /// there has its own.
+    fn quantile_upper(&self, q: f64) -> f64 {
+        self.quantile((1.0 - q).min(1.0 - 0.5 * f64::EPSILON))
+    }
+
     /// Fills a column with independent draws.
     fn draw(&self, stream: &mut Stream, out: &mut Column);
 
@@ -102,6 +109,13 @@ pub enum Invalid {
         /// How many samples there are.
         count: usize,
     },
+    /// Too few paired readings for a joint distribution with a covariance.
+    TooFewPaired {
+        /// How many readings there are of each quantity.
+        count: usize,
+        /// How many quantities are paired.
+        together: usize,
+    },
     /// The width is lost in the rounding of the estimate.
     WidthLost {
         /// Name of the width.
@@ -125,7 +139,8 @@ impl Invalid {
             Self::TooFewReadings { .. }
             | Self::NoScatter { .. }
             | Self::TooFewSamples { .. }
-            | Self::EqualSamples { .. } => "values",
+            | Self::EqualSamples { .. }
+            | Self::TooFewPaired { .. } => "values",
         }
     }
 }
@@ -160,6 +175,12 @@ impl fmt::Display for Invalid {
                 f,
                 "all {count} samples are equal, so nothing varies; state a constant, or the \
                  resolution as a rectangular distribution"
+            ),
+            Self::TooFewPaired { count, together } => write!(
+                f,
+                "{count} readings of each of {together} paired quantities are too few for their \
+                 joint distribution to have a covariance; at least {} are needed (JCGM 102, 5.3)",
+                together + 3
             ),
             Self::WidthLost { parameter, value, estimate } => write!(
                 f,

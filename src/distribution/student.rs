@@ -56,6 +56,10 @@ impl Shape for StudentT {
         self.mean + self.scale * standard_quantile(p, self.dof)
     }
 
+    fn quantile_upper(&self, q: f64) -> f64 {
+        self.mean - self.scale * standard_quantile(q, self.dof)
+    }
+
     #[inline(always)]
     fn draw(&self, stream: &mut Stream, out: &mut Column) {
         draw(self.mean, self.scale, self.dof, stream, out);

@@ -66,6 +66,15 @@ impl Shape for Triangular {
         }
     }
 
+    fn quantile_upper(&self, q: f64) -> f64 {
+        let width = self.width();
+        if q * width < self.fall {
+            self.lower + width - (q * width * self.fall).sqrt()
+        } else {
+            self.lower + ((1.0 - q) * width * self.rise).sqrt()
+        }
+    }
+
     #[inline(always)]
     fn draw(&self, stream: &mut Stream, out: &mut Column) {
         stream.uniform(&mut out.0);

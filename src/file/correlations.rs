@@ -11,7 +11,7 @@ use super::nearest::nearest;
 use super::object::Object;
 use super::problem::Log;
 use super::table;
-use crate::distribution::{Correlation, CorrelationError, Joint};
+use crate::distribution::{Correlation, CorrelationError, Distribution, Joint};
 
 /// Reads `correlations` and `correlation_matrix` of the root object and checks that the quantities
 /// can have them in every row. Tables that were read are added to `files`.
@@ -204,45 +204,22 @@ impl Reader<'_> {
     /// Whether the quantities can have these coefficients.
     fn check(&self, root: &Object<'_>) {
         let mut seen: Vec<CorrelationError> = Vec::new();
-        for row in &self.inputs.rows {
-            if row.len() != self.inputs.variables.len() {
-                // an input was refused, so that places in the row do not count
-                return;
-            }
-            let Err(error) = Joint::new(row, &self.found) else {
+        let complete = |row: &&Vec<Distribution>| row.len() == self.inputs.variables.len();
+        let rows = self.inputs.rows.iter().filter(complete).map(Vec::as_slice);
+        for joint in Joint::of_rows(rows, &self.found) {
+            let Err(error) = joint else {
                 continue;
             };
             if seen.contains(&error) {
                 continue;
             }
             seen.push(error.clone());
-            let name = |v: &usize| {
-                format!("`{}`", self.inputs.variables.get(*v).map_or("", |v| v.name.as_str()))
+            let name = |v: usize| {
+                format!("`{}`", self.inputs.variables.get(v).map_or("", |v| v.name.as_str()))
             };
-            let concerns = |c: &Correlation| match &error {
-                CorrelationError::Contradiction { members, .. } => members.contains(&c.first),
-                CorrelationError::NotNormal { member } => c.first == *member || c.second == *member,
-            };
-            let place = self.found.iter().position(concerns).and_then(|p| self.places.get(p));
-            let fault = match &error {
-                CorrelationError::Contradiction { members, eigenvalue } => {
-                    let names: Vec<String> = members.iter().map(name).collect();
-                    Fault::Correlation {
-                        reason: format!(
-                            "the correlation coefficients of {} contradict each other: their matrix \
-                             is not positive semi-definite (lowest eigenvalue {eigenvalue:.3})",
-                            names.join(", ")
-                        ),
-                    }
-                }
-                CorrelationError::NotNormal { member } => Fault::NotBuilt {
-                    what: format!(
-                        "a correlation of {}, which is not drawn from a normal distribution",
-                        name(member)
-                    ),
-                },
-            };
-            self.log.report(place.unwrap_or(root.place()), fault);
+            let place = self.found.iter().position(|c| error.concerns(c));
+            let place = place.and_then(|p| self.places.get(p)).unwrap_or(root.place());
+            self.log.report(place, Fault::Correlation { reason: error.describe(&name) });
         }
     }
 }

@@ -8,6 +8,7 @@ use super::conditions::unit;
 use super::json::{Json, Member};
 use super::model_file::Override;
 use super::object::Object;
+use super::paired;
 use super::problem::Log;
 use super::samples;
 use super::shapes::{self, Estimate, Fields, Kind};
@@ -53,6 +54,8 @@ pub(super) struct Inputs {
     pub(super) without_unit: Vec<String>,
     /// The files of samples that were read: name and content.
     pub(super) files: Vec<(String, Vec<u8>)>,
+    /// The variables whose readings are said to be paired.
+    pub(super) paired: Vec<usize>,
 }
 
 /// Where a quantity's estimate comes from.
@@ -85,6 +88,7 @@ pub(super) fn read(
         Reader { object, name: &member.key, conditions, moved, folder, inputs: &mut inputs }
             .input();
     }
+    paired::apply(log, &mut inputs);
     Some(inputs)
 }
 
@@ -169,12 +173,8 @@ impl<'a> Reader<'a, '_> {
             return self.variable(self.name.to_owned(), &object, None, unit);
         };
         let mut known: Vec<&str> = COMMON.into_iter().chain(kind.fields.iter().copied()).collect();
-        known.extend(["evidence", "paired"]);
+        known.push("evidence");
         object.check_keys(&known);
-        if object.truth("paired") == Some(true) {
-            let what = "paired readings".to_owned();
-            object.log.report(object.place(), Fault::NotBuilt { what });
-        }
         self.variable(self.name.to_owned(), &object, Some(kind), unit);
         let key = if kind.name == "constant" { "value" } else { "mean" };
         let Some(source) = self.source(key, unit) else {
@@ -232,6 +232,9 @@ impl<'a> Reader<'a, '_> {
     /// Adds a variable of the budget.
     fn variable(&mut self, name: String, object: &Object<'_>, kind: Option<&Kind>, unit: &Unit) {
         let readings = kind.is_some_and(|kind| kind.name == "readings");
+        if readings && object.truth("paired") == Some(true) {
+            self.inputs.paired.push(self.inputs.variables.len());
+        }
         let evaluation = match object.text("type") {
             Some("A") => Evaluation::A,
             Some("B") => Evaluation::B,

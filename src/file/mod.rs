@@ -12,6 +12,7 @@ mod model_file;
 mod nearest;
 mod object;
 mod outputs;
+mod paired;
 mod problem;
 mod samples;
 mod settings;

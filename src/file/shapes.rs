@@ -53,7 +53,7 @@ pub(super) const KINDS: [Kind; 16] = [
     },
     Kind { name: "arcsine", aliases: &["u-shaped"], fields: &LIMITS },
     Kind { name: "t", aliases: &["student-t"], fields: &["mean", "scale", "dof"] },
-    Kind { name: "readings", aliases: &[], fields: &["values"] },
+    Kind { name: "readings", aliases: &[], fields: &["values", "paired"] },
     Kind { name: "exponential", aliases: &[], fields: &["mean"] },
     Kind { name: "gamma", aliases: &[], fields: &["shape", "rate"] },
     Kind { name: "lognormal", aliases: &[], fields: &["mean", "std"] },

@@ -1,6 +1,7 @@
 //! The evaluation of a task: both methods, every row, side by side.
 
 use std::fmt;
+use std::sync::Arc;
 
 use rayon::prelude::*;
 
@@ -24,6 +25,10 @@ pub struct Evaluation {
     /// Whether declared correlations were taken as possible only within the rounding of their
     /// coefficients.
     pub rounded_correlations: bool,
+    /// The variables that are drawn through a Gaussian copula in some row, in order.
+    pub copula: Vec<usize>,
+    /// The largest change of a declared coefficient, within its rounding, that a copula needed.
+    pub copula_adjusted: f64,
     /// Whether the run was stopped before all trials were made.
     pub stopped: bool,
 }
@@ -75,7 +80,12 @@ pub struct Conformity {
 #[derive(Clone, Debug, PartialEq)]
 pub enum EvaluationError {
     /// Declared correlations that no joint distribution has, or that cannot be drawn.
-    Correlation(CorrelationError),
+    Correlation {
+        /// What is wrong; the quantities are the task's variables.
+        error: CorrelationError,
+        /// The sentence, with their names.
+        message: String,
+    },
     /// More trials are not finite than are allowed.
     Undefined {
         /// The row.
@@ -94,7 +104,7 @@ pub enum EvaluationError {
 impl fmt::Display for EvaluationError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Correlation(error) => error.fmt(f),
+            Self::Correlation { message, .. } => f.write_str(message),
             Self::Undefined { undefined, inputs, operation, .. } => {
                 let Undefined { count, trials, .. } = undefined;
                 write!(f, "{count} of {trials} trials have no finite result")?;
@@ -111,10 +121,21 @@ impl fmt::Display for EvaluationError {
 
 impl std::error::Error for EvaluationError {}
 
-impl From<CorrelationError> for EvaluationError {
-    fn from(error: CorrelationError) -> Self {
-        Self::Correlation(error)
+impl EvaluationError {
+    fn correlation(task: &Task, error: CorrelationError) -> Self {
+        let name = |v: usize| task.variables.get(v).map_or("", |v| v.name.as_str());
+        let message = error.describe(&|v| format!("`{}`", name(v)));
+        Self::Correlation { error, message }
     }
+}
+
+/// The joint draw of every row.
+fn joints(task: &Task) -> Result<Vec<Arc<Joint>>, EvaluationError> {
+    let rows = task.rows.iter().map(|row| row.distributions.as_slice());
+    Joint::of_rows(rows, &task.correlations)
+        .into_iter()
+        .map(|joint| joint.map_err(|error| EvaluationError::correlation(task, error)))
+        .collect()
 }
 
 /// Evaluates every row of a task by the law of propagation and by the Monte Carlo method, on all
@@ -161,10 +182,7 @@ const ROWS_AT_A_TIME: usize = 16;
 
 fn evaluate_rows(task: &Task, control: &Control<'_>) -> Result<Evaluation, EvaluationError> {
     let reaches = reach(&task.model.program, task.variables.len());
-    let mut rounded = false;
-    if let Some(row) = task.rows.first() {
-        rounded = Joint::new(&row.distributions, &task.correlations)?.rounded;
-    }
+    let joints = joints(task)?;
     // rows are evaluated at the same time and share the memory; how is a matter of the task alone,
     // so that no figure depends on the number of threads
     let memory = control.memory / task.rows.len().clamp(1, ROWS_AT_A_TIME);
@@ -172,8 +190,9 @@ fn evaluate_rows(task: &Task, control: &Control<'_>) -> Result<Evaluation, Evalu
     let rows: Vec<Result<(RowEvaluation, bool), EvaluationError>> = task
         .rows
         .par_iter()
+        .zip(&joints)
         .enumerate()
-        .map(|(number, row)| evaluate_row(task, number, row, &reaches, control))
+        .map(|(number, (row, joint))| evaluate_row(task, (number, row, joint), &reaches, control))
         .collect();
     let mut stopped = false;
     let mut evaluated = Vec::with_capacity(rows.len());
@@ -186,15 +205,16 @@ fn evaluate_rows(task: &Task, control: &Control<'_>) -> Result<Evaluation, Evalu
         coverage_probability: task.settings.coverage.probability(),
         settings: task.settings,
         rows: evaluated,
-        rounded_correlations: rounded,
+        rounded_correlations: joints.iter().any(|joint| joint.rounded),
+        copula: drawn_by_copula(&joints),
+        copula_adjusted: joints.iter().map(|joint| joint.adjusted).fold(0.0, f64::max),
         stopped,
     })
 }
 
 fn evaluate_row(
     task: &Task,
-    number: usize,
-    row: &Row,
+    (number, row, joint): (usize, &Row, &Joint),
     reaches: &[Vec<bool>],
     control: &Control<'_>,
 ) -> Result<(RowEvaluation, bool), EvaluationError> {
@@ -209,7 +229,7 @@ fn evaluate_row(
     let mut figures: Vec<Option<MonteCarlo>> = vec![None; gums.len()];
     let mut stopped = false;
     if task.settings.trials != Trials::Fixed(0) {
-        let trials = monte_carlo::Trials::new(task, row, &estimates)?;
+        let trials = monte_carlo::Trials::new(task, row, &estimates, joint);
         let finished = run(task, &trials, &gums, &drawn_dof, control);
         stopped = finished.stopped;
         if let Some(undefined) = finished.undefined {
@@ -285,6 +305,18 @@ fn run(
         figures.adaptive = Some(end);
     }
     finished
+/// The variables that a copula draws in some row.
+fn drawn_by_copula(joints: &[Arc<Joint>]) -> Vec<usize> {
+    let mut variables: Vec<usize> = Vec::new();
+    for joint in joints {
+        let new = |v: &&usize| variables.binary_search(v).is_err();
+        let added: Vec<usize> = joint.copula.iter().filter(new).copied().collect();
+        if !added.is_empty() {
+            variables.extend(added);
+            variables.sort_unstable();
+        }
+    }
+    variables
 }
 
 /// For each output, the variables that it depends on.
@@ -332,10 +364,11 @@ fn explain(task: &Task, number: usize, row: &Row, undefined: Undefined) -> Evalu
 /// Correlations that cannot be drawn.
 pub fn trial_hash(task: &Task, trials: u64, control: &Control<'_>) -> Result<u64, EvaluationError> {
     in_pool(control, || {
-        task.rows.iter().try_fold(0u64, |hash, row| {
+        let joints = joints(task)?;
+        Ok(task.rows.iter().zip(&joints).fold(0u64, |hash, (row, joint)| {
             let estimates = gum::evaluate(task, row).estimates;
-            let made = monte_carlo::Trials::new(task, row, &estimates)?;
-            Ok(hash.rotate_left(1) ^ monte_carlo::hash_trials(&made, trials, control.path))
-        })
+            let made = monte_carlo::Trials::new(task, row, &estimates, joint);
+            hash.rotate_left(1) ^ monte_carlo::hash_trials(&made, trials, control.path)
+        }))
     })?
 }

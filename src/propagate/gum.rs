@@ -1,6 +1,6 @@
 //! The law of propagation of uncertainty (JCGM 100, clause 5) and the budget that follows from it.
 
-use crate::distribution::{Correlation, Distribution, special};
+use crate::distribution::{Correlation, Distribution, paired, special};
 use crate::task::{Coverage, Row, Settings, Task};
 
 /// The degrees of freedom of a combined standard uncertainty.
@@ -61,7 +61,8 @@ pub struct Gum {
     pub coverage_factor: Option<f64>,
     /// One line for each variable.
     pub budget: Vec<BudgetLine>,
-    /// One line for each declared coefficient that is not zero.
+    /// One line for each declared coefficient that is not zero, then one for each pair of paired
+    /// readings.
     pub correlations: Vec<CorrelationLine>,
 }
 
@@ -96,7 +97,8 @@ pub(crate) fn evaluate(task: &Task, row: &Row) -> GumRow {
     let (estimates, gradients) = task.model.program.gradients(&values);
     let uncertainties: Vec<f64> =
         row.distributions.iter().map(Distribution::standard_uncertainty).collect();
-    let correlations = effective(&task.correlations, &uncertainties);
+    let linked = Linked::of(task, row, &uncertainties);
+    let correlations = &linked.correlations;
 
     let outputs = estimates
         .iter()
@@ -106,7 +108,7 @@ pub(crate) fn evaluate(task: &Task, row: &Row) -> GumRow {
             if !estimate.is_finite() || !slopes.iter().all(|c| c.is_finite()) {
                 return None;
             }
-            let mut gum = output(&task.settings, row, estimate, slopes, &correlations);
+            let mut gum = output(&task.settings, row, estimate, slopes, &linked);
             gum.budget.retain(|line| task.variables.get(line.variable).is_some_and(|v| v.shown));
             Some(gum)
         })
@@ -144,13 +146,31 @@ fn effective(correlations: &[Correlation], uncertainties: &[f64]) -> Vec<Correla
         .collect()
 }
 
-fn output(
-    settings: &Settings,
-    row: &Row,
-    estimate: f64,
-    slopes: &[f64],
-    correlations: &[Correlation],
-) -> Gum {
+/// What links the variables of a row.
+struct Linked {
+    /// The declared coefficients, then those of paired readings.
+    correlations: Vec<Correlation>,
+    /// The sets of paired readings.
+    ensembles: Vec<Vec<usize>>,
+}
+
+impl Linked {
+    fn of(task: &Task, row: &Row, uncertainties: &[f64]) -> Self {
+        let ensembles = paired::ensembles(&row.distributions);
+        let mut correlations = effective(&task.correlations, uncertainties);
+        correlations.extend(ensembles.iter().flat_map(paired::Ensemble::correlations));
+        let ensembles = ensembles.into_iter().map(|ensemble| ensemble.members).collect();
+        Self { correlations, ensembles }
+    }
+
+    /// Whether the two variables have paired readings of the same ensemble.
+    fn are_paired(&self, c: &Correlation) -> bool {
+        self.ensembles.iter().any(|set| set.contains(&c.first) && set.contains(&c.second))
+    }
+}
+
+fn output(settings: &Settings, row: &Row, estimate: f64, slopes: &[f64], linked: &Linked) -> Gum {
+    let correlations = &linked.correlations;
     let mut budget: Vec<BudgetLine> = row
         .distributions
         .iter()
@@ -184,7 +204,7 @@ fn output(
     // full negative correlation may leave a rounding error below zero
     let variance = f64::max(variance, 0.0);
     let standard_uncertainty = largest * variance.sqrt();
-    let dof = effective_dof(&budget, correlations, standard_uncertainty);
+    let dof = effective_dof(&budget, linked, standard_uncertainty);
     let share = |term: f64| if variance > 0.0 { term / variance } else { 0.0 };
     let correlation_lines = correlations
         .iter()
@@ -210,28 +230,51 @@ fn output(
     }
 }
 
-/// The Welch-Satterthwaite formula (JCGM 100, equation G.2b).
-fn effective_dof(budget: &[BudgetLine], correlations: &[Correlation], combined: f64) -> Dof {
+/// The Welch-Satterthwaite formula (JCGM 100, equation G.2b). Paired readings are one term: their
+/// joint contribution is itself the mean of n values, with n - 1 degrees of freedom (H.2, note 2 of
+/// table H.4 and approach 2).
+fn effective_dof(budget: &[BudgetLine], linked: &Linked, combined: f64) -> Dof {
     let estimated = |line: &BudgetLine| line.contribution > 0.0 && line.dof.is_finite();
     if !budget.iter().any(estimated) || combined == 0.0 {
         return Dof::Infinite;
     }
     let contributes = |q: usize| budget.get(q).is_some_and(|line| line.contribution > 0.0);
-    let correlated = correlations.iter().any(|c| {
-        contributes(c.first)
+    let correlated = linked.correlations.iter().any(|c| {
+        !linked.are_paired(c)
+            && contributes(c.first)
             && contributes(c.second)
             && [c.first, c.second].iter().any(|&q| budget.get(q).is_some_and(estimated))
     });
     if correlated {
         return Dof::Undefined;
     }
-    let sum: f64 = budget
+    let alone =
+        |line: &BudgetLine| !linked.ensembles.iter().any(|set| set.contains(&line.variable));
+    let single: f64 = budget
         .iter()
-        .filter(|line| estimated(line))
+        .filter(|line| estimated(line) && alone(line))
         .map(|line| (line.contribution / combined).powi(4) / line.dof)
         .sum();
-    let dof = 1.0 / sum;
+    let joint: f64 = linked
+        .ensembles
+        .iter()
+        .map(|set| {
+            let dof = set.first().and_then(|&q| budget.get(q)).map_or(f64::INFINITY, |l| l.dof);
+            (joint_variance(set, budget, linked, combined)).powi(2) / dof
+        })
+        .sum();
+    let dof = 1.0 / (single + joint);
     if dof.is_finite() { Dof::Finite(dof) } else { Dof::Infinite }
+}
+
+/// The variance that a set of paired readings contributes, as a share of the combined one.
+fn joint_variance(set: &[usize], budget: &[BudgetLine], linked: &Linked, combined: f64) -> f64 {
+    let signed =
+        |q: usize| budget.get(q).map_or(0.0, |l| l.contribution.copysign(l.sensitivity) / combined);
+    let own: f64 = set.iter().map(|&q| signed(q).powi(2)).sum();
+    let inside = linked.correlations.iter().filter(|c| set.contains(&c.first));
+    let mixed: f64 = inside.map(|c| 2.0 * signed(c.first) * signed(c.second) * c.coefficient).sum();
+    (own + mixed).max(0.0)
 }
 
 /// The coverage factor k_p (JCGM 100, G.3.3 and G.4.1): the t factor at the integer part of the

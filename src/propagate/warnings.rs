@@ -34,6 +34,7 @@ pub fn warnings(task: &Task, evaluation: &Evaluation) -> Vec<Warning> {
              nearest possible ones are used in the trials",
         ));
     }
+    copula(task, evaluation, &mut found);
     for row in &evaluation.rows {
         if let Some(undefined) = &row.undefined {
             let (count, all) = (undefined.count, undefined.trials);
@@ -45,6 +46,33 @@ pub fn warnings(task: &Task, evaluation: &Evaluation) -> Vec<Warning> {
         }
     }
     found
+}
+
+/// Which inputs were drawn by a copula, and where that could not be exact.
+fn copula(task: &Task, evaluation: &Evaluation, found: &mut Vec<Warning>) {
+    if evaluation.copula.is_empty() {
+        return;
+    }
+    let names: Vec<String> = evaluation
+        .copula
+        .iter()
+        .filter_map(|&v| task.variables.get(v).map(|v| format!("`{}`", v.name)))
+        .collect();
+    let text = format!(
+        "{} are drawn by a Gaussian copula, fitted so that they have their distributions and the \
+         declared correlation coefficients; the coefficients do not say more about their joint \
+         distribution, so this is an assumption",
+        names.join(", ")
+    );
+    found.push(Warning::new("gaussian-copula", "", text));
+    if evaluation.copula_adjusted > 0.0 {
+        let text = format!(
+            "a Gaussian copula gives the declared correlation coefficients only within their \
+             rounding; in the trials they differ by up to {:.1e}",
+            evaluation.copula_adjusted
+        );
+        found.push(Warning::new("copula-adjusted", "", text));
+    }
 }
 
 fn push(found: &mut Vec<Warning>, warning: Warning) {

@@ -1,6 +1,6 @@
 //! One block of trials: the inputs drawn, the model evaluated, the outputs handed over.
 
-use crate::distribution::{BLOCK, CorrelationError, Distribution, Draws, Joint, StreamKey};
+use crate::distribution::{BLOCK, Distribution, Draws, Joint, StreamKey};
 use crate::model::{Place, Schedule};
 use crate::number::{COLUMN, CodePath, Column, Kernel};
 use crate::task::{Row, Sharing, Task};
@@ -30,11 +30,8 @@ pub(crate) struct Workspace {
 
 impl Trials {
     /// A row of the task. `estimates` are the outputs' values at the estimates of the inputs, the
-    /// middle of a phase's branch.
-    ///
-    /// # Errors
-    /// Correlations that cannot be drawn; the places in the error are the task's variables.
-    pub(crate) fn new(task: &Task, row: &Row, estimates: &[f64]) -> Result<Self, CorrelationError> {
+    /// middle of a phase's branch; `joint` is the joint draw of the row's distributions.
+    pub(crate) fn new(task: &Task, row: &Row, estimates: &[f64], joint: &Joint) -> Self {
         let mut bound: Vec<Option<f64>> =
             row.distributions.iter().map(Distribution::constant).collect();
         let varying: Vec<usize> =
@@ -61,16 +58,15 @@ impl Trials {
             [limits.0.unwrap_or(f64::NEG_INFINITY), limits.1.unwrap_or(f64::INFINITY)]
         });
         let limits = limits.collect();
-        let joint = Joint::new(&row.distributions, &task.correlations)?.restricted(&varying);
-        Ok(Self {
+        Self {
             registers: (0..varying.len()).collect(),
-            joint,
+            joint: joint.clone().restricted(&varying),
             schedule,
             distributions,
             keys,
             branches,
             limits,
-        })
+        }
     }
 
     pub(crate) fn workspace(&self) -> Workspace {
