@@ -32,7 +32,7 @@ enum Command {
     Check(check::Check),
     /// List the typed measurement models, or describe one
     Models(models::Models),
-    /// Compare this machine's code paths trial by trial
+    /// Recompute the published examples on this machine, or compare its code paths
     Verify(verify::Verify),
 }
 
