@@ -1,5 +1,7 @@
 //! The commands `verify`, `schema` and `diff`, run as a user runs them.
 
+mod diff;
+mod schema;
 mod verify;
 
 use assert_cmd::Command;
