@@ -349,6 +349,7 @@ fn share_out(parts: &mut [Part], rounding: f64) {
         return;
     };
     for part in parts {
-        part.share = part.change.map(|change| change / total);
+        // no negative zero
+        part.share = part.change.map(|change| if change == 0.0 { 0.0 } else { change / total });
     }
 }

@@ -74,7 +74,18 @@ fn the_page_leaves_out_what_did_not_change() {
     let [a, b] = paths.each_ref().map(|path| path.file_name().unwrap());
     let run = gumption().current_dir(folder.path()).arg("diff").args([a, b]).assert().success();
     let page = String::from_utf8(run.get_output().stdout.clone()).unwrap();
-    insta::assert_snapshot!(page, @"");
+    insta::assert_snapshot!(page, @r#"
+    from a.json to b.json
+
+    equation `power`: from "(voltage + drift)^2/resistance" to "voltage^2/resistance"
+
+    power: U from 1.99 to 3.93 mW (+97.2 %)
+    what changed  from                             to                         change  share
+                                                                                of U   in %
+    ───────────────────────────────────────────────────────────────────────────────────────
+    voltage       5.000 V, u 0.010, normal         5.000 V, u 0.020, normal     1.94  100.4
+    drift         0.0000 V, u 0.0012, rectangular  absent                      -0.01   -0.4
+    "#);
 }
 
 /// Mistakes of both files are reported, each with its file's name.

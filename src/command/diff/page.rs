@@ -4,7 +4,7 @@ use serde::Serialize;
 use serde::ser::{SerializeMap, Serializer};
 
 use crate::diff::{Difference, Due, OutputDifference, Part, RowDifference, State};
-use crate::report::number::{MISSING, exact, significant, with_uncertainty};
+use crate::report::number::{MISSING, exact, place, rounded, significant, to, with_uncertainty};
 use crate::report::{Grid, WIDTH, wrapped};
 
 /// Significant digits of uncertainties.
@@ -160,8 +160,11 @@ fn section(output: &OutputDifference, at: &str) -> String {
     if changed().next().is_none() {
         return text + &wrapped("No input changed.");
     }
-    let number = |value: Option<f64>| value.map_or_else(missing, |v| significant(v, DIGITS));
-    let share = |part: &Part| part.share.map_or_else(missing, |s| format!("{:.1}", 100.0 * s));
+    // all to the place that the largest change deserves
+    let largest = changed().filter_map(|part| part.change).map(f64::abs).fold(0.0, f64::max);
+    let last = place(largest, DIGITS + 1);
+    let change = |part: &Part| part.change.map_or_else(missing, |change| to(change, last));
+    let share = |part: &Part| part.share.map_or_else(missing, |share| rounded(100.0 * share, -1));
     let mut grid = Grid::default();
     grid.text(
         "what changed",
@@ -172,7 +175,7 @@ fn section(output: &OutputDifference, at: &str) -> String {
     );
     grid.text("from", changed().map(|part| known(part, 0)));
     grid.text("to", changed().map(|part| known(part, 1)));
-    grid.numbers("change\nof U", changed().map(|part| number(part.change)));
+    grid.numbers("change\nof U", changed().map(change));
     grid.numbers("share\nin %", changed().map(share));
     text += &grid.render(WIDTH);
     if changed().any(|part| part.change.is_none()) {
@@ -181,6 +184,11 @@ fn section(output: &OutputDifference, at: &str) -> String {
         );
     }
     text
+}
+
+/// Degrees of freedom to three digits.
+fn three_digits(dof: f64) -> String {
+    if dof.fract() == 0.0 { exact(dof) } else { significant(dof, 3) }
 }
 
 fn missing() -> String {
@@ -217,7 +225,7 @@ fn known(part: &Part, side: usize) -> String {
     }
     let (estimate, u) = with_uncertainty(*estimate, *u, DIGITS);
     let dof = if dof.is_finite() {
-        format!(", {} degrees of freedom", significant(*dof, 3))
+        format!(", {} degrees of freedom", three_digits(*dof))
     } else {
         String::new()
     };

@@ -216,5 +216,5 @@ fn trials(example: &Recomputed) -> Option<String> {
 /// A text in one line, without what would end a cell or begin a tag.
 fn cell(text: &str) -> String {
     let line = text.split_whitespace().collect::<Vec<_>>().join(" ");
-    line.replace('|', "\\|").replace('<', "&lt;").trim_end_matches('.').to_owned()
+    line.replace('|', "\\|").replace('<', "&lt;")
 }
