@@ -52,11 +52,13 @@
 
 #[cfg(feature = "cli")]
 pub mod command;
+pub mod diff;
 pub mod distribution;
 pub mod file;
 pub mod model;
 pub mod number;
 pub mod propagate;
 pub mod report;
+pub mod schema;
 pub mod task;
 pub mod unit;

@@ -1,6 +1,7 @@
 //! The command line: arguments in, exit code out. One file for each subcommand.
 
 mod check;
+mod diff;
 mod exit;
 mod models;
 mod options;
@@ -8,6 +9,7 @@ mod output;
 mod problems;
 mod progress;
 mod run;
+mod schema;
 mod verify;
 
 use std::process::ExitCode;
@@ -32,8 +34,12 @@ enum Command {
     Check(check::Check),
     /// List the typed measurement models, or describe one
     Models(models::Models),
-    /// Compare this machine's code paths trial by trial
+    /// Recompute the published examples on this machine, or compare its code paths
     Verify(verify::Verify),
+    /// Say what changed between two model files, and how much of the change of U each explains
+    Diff(diff::Diff),
+    /// Print the JSON Schema of the files, for editors
+    Schema(schema::Schema),
 }
 
 /// Runs the program with the arguments of the process.
@@ -44,6 +50,8 @@ pub fn main() -> ExitCode {
         Command::Check(command) => command.execute(),
         Command::Models(command) => command.execute(),
         Command::Verify(command) => command.execute(),
+        Command::Diff(command) => command.execute(),
+        Command::Schema(command) => command.execute(),
     };
     match result {
         Ok(exit) => exit.code(),

@@ -6,6 +6,15 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
+/// A bar that counts examples, hidden where standard error is no terminal or nothing is to be shown.
+pub(super) fn examples(count: u64, quiet: bool) -> ProgressBar {
+    let bar = bar(Some(count), quiet);
+    if let Ok(style) = ProgressStyle::with_template("{bar:30} {pos} of {len} examples") {
+        bar.set_style(style);
+    }
+    bar
+}
+
 /// A bar on standard error, hidden where that is no terminal or nothing is to be shown; a count
 /// where it is not known how many trials there will be.
 pub(super) fn bar(trials: Option<u64>, quiet: bool) -> ProgressBar {

@@ -10,6 +10,8 @@ mod table;
 pub use csv::csv;
 pub use json::json;
 #[cfg(feature = "cli")]
+pub(crate) use table::{Grid, WIDTH, wrapped};
+#[cfg(feature = "cli")]
 pub use table::{Style, table};
 
 use crate::propagate::Evaluation;

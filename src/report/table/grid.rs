@@ -14,7 +14,7 @@ const LINE: char = '─';
 
 /// A table that is filled column by column.
 #[derive(Debug, Default)]
-pub(super) struct Grid {
+pub(crate) struct Grid {
     columns: Vec<Column>,
     /// Whether the last row is set off by a line and kept to one line.
     footer: bool,
@@ -42,7 +42,7 @@ impl Grid {
     }
 
     /// A column of texts, which wrap if the page is too narrow.
-    pub(super) fn text(&mut self, header: &str, cells: impl IntoIterator<Item = String>) {
+    pub(crate) fn text(&mut self, header: &str, cells: impl IntoIterator<Item = String>) {
         self.push(header, cells.into_iter().collect(), CellAlignment::Left, None);
     }
 
@@ -74,7 +74,7 @@ impl Grid {
     }
 
     /// A column of numbers, which never wrap.
-    pub(super) fn numbers(&mut self, header: &str, cells: impl IntoIterator<Item = String>) {
+    pub(crate) fn numbers(&mut self, header: &str, cells: impl IntoIterator<Item = String>) {
         let cells: Vec<String> = cells.into_iter().collect();
         let constraint = Some(ColumnConstraint::ContentWidth);
         self.push(header, align(&cells), CellAlignment::Right, constraint);
@@ -97,7 +97,7 @@ impl Grid {
     }
 
     /// The table with its header, ending in a newline.
-    pub(super) fn render(&self, width: usize) -> String {
+    pub(crate) fn render(&self, width: usize) -> String {
         let lines = self.lines(width, true);
         let header = self.columns.iter().map(|column| column.header.lines().count()).max();
         // the line below the header, over the whole table

@@ -7,6 +7,9 @@ mod grid;
 mod sweep;
 mod text;
 
+pub(crate) use grid::Grid;
+pub(crate) use text::wrapped;
+
 use super::Report;
 use crate::model::{InputQuantity, Output, Quantity};
 use crate::propagate::{Evaluation, OutputEvaluation, RowEvaluation};
@@ -14,7 +17,7 @@ use crate::task::{Coverage, Settings, Task, Trials};
 use crate::unit::Unit;
 
 /// Characters in a line, at most.
-const WIDTH: usize = 100;
+pub(crate) const WIDTH: usize = 100;
 
 /// How the page looks.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

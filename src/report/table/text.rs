@@ -21,7 +21,7 @@ fn is_invisible(c: char) -> bool {
 }
 
 /// A paragraph within the width of the page, ending in a newline; nothing for an empty text.
-pub(super) fn wrapped(text: &str) -> String {
+pub(crate) fn wrapped(text: &str) -> String {
     let text = plain(text);
     if text.is_empty() {
         return String::new();

@@ -1,0 +1,91 @@
+//! `gumption verify`: the published examples recomputed (ISO/IEC 17025, 7.11), and with `--paths`
+//! this machine's code paths compared.
+
+mod examples;
+mod page;
+mod paths;
+mod recompute;
+mod words;
+
+use std::path::PathBuf;
+use std::sync::atomic::Ordering;
+
+use clap::{Args, ValueEnum};
+
+use super::{Exit, Failure, options, output, progress};
+use recompute::{Machine, Recomputed, Verdict};
+
+/// Recompute the published examples.
+#[derive(Debug, Args)]
+pub(super) struct Verify {
+    /// Instead: run every code path that this machine has and print the hash over all trials of
+    /// each
+    #[arg(long, conflicts_with_all = ["format", "output"])]
+    paths: bool,
+    #[command(flatten)]
+    compared: paths::Paths,
+    /// Format of the answer
+    #[arg(long, value_enum, default_value = "table")]
+    format: Format,
+    /// Write the answer to this file instead of standard output
+    #[arg(long, value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// No progress on standard error
+    #[arg(long)]
+    quiet: bool,
+    /// Number of threads; all of the machine's unless given
+    #[arg(long, value_name = "N", value_parser = options::threads)]
+    threads: Option<usize>,
+    /// End with exit code 3 if a value differs, or with --paths a hash
+    #[arg(long)]
+    fail: bool,
+}
+
+/// The format of the answer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Format {
+    /// A page of text for people
+    Table,
+    /// The whole answer for programs
+    Json,
+    /// One line for each published value
+    Csv,
+    /// A page to file
+    Markdown,
+}
+
+impl Verify {
+    pub(super) fn execute(&self) -> Result<Exit, Failure> {
+        let threads = self.threads.unwrap_or(0);
+        if self.paths {
+            return self.compared.execute(threads, self.fail);
+        }
+        let stop = progress::stop_flag();
+        let examples = examples::all().map_err(Failure::System)?;
+        let bar = progress::examples(examples.len() as u64, self.quiet);
+        let machine = Machine { threads, stop: &stop };
+        let mut found: Vec<Recomputed> = Vec::new();
+        for example in examples {
+            let recomputed = recompute::recompute(example, machine);
+            if stop.load(Ordering::Relaxed) {
+                break;
+            }
+            found.push(recomputed);
+            bar.inc(1);
+        }
+        bar.finish_and_clear();
+        let answer = match self.format {
+            Format::Table => page::table(&found),
+            Format::Json => page::json(&found),
+            Format::Csv => page::csv(&found),
+            Format::Markdown => page::markdown(&found),
+        };
+        if stop.load(Ordering::Relaxed) {
+            output::write(&answer, None)?;
+            return Ok(Exit::Interrupted);
+        }
+        output::write(&answer, self.output.as_deref())?;
+        let differs = found.iter().flat_map(|e| &e.rows).any(|row| row.verdict == Verdict::Diff);
+        Ok(if differs && self.fail { Exit::No } else { Exit::Done })
+    }
+}

@@ -1,0 +1,389 @@
+//! The distributions, with the keys that each of them has.
+
+use super::node::{Node, object, reference, texts};
+use super::{closed, described, referenced, text_of};
+
+/// A distribution as files name it.
+pub(super) struct Shape {
+    pub(super) name: &'static str,
+    pub(super) aliases: &'static [&'static str],
+    about: &'static str,
+    /// Its own keys.
+    pub(super) fields: &'static [&'static str],
+    rule: Rule,
+}
+
+/// Which of its keys a distribution needs.
+#[derive(Clone, Copy)]
+enum Rule {
+    /// An estimate at this key, which a component may leave out, and the others.
+    Estimate(&'static str, &'static [&'static str]),
+    /// All of these.
+    All(&'static [&'static str]),
+    /// One of these.
+    One(&'static [&'static str]),
+    /// An estimate, and a standard or an expanded uncertainty.
+    Uncertainty,
+    /// An estimate and a half-width, or two limits; and the others.
+    Limits(&'static [&'static str]),
+}
+
+/// The distributions in the order of JCGM 101, Table 1, then the others.
+pub(super) const SHAPES: [Shape; 17] = [
+    Shape {
+        name: "constant",
+        aliases: &[],
+        about: "Known exactly.",
+        fields: &["value"],
+        rule: Rule::Estimate("value", &[]),
+    },
+    Shape {
+        name: "normal",
+        aliases: &["gaussian"],
+        about: "Normal. With `expanded` the coverage factor `k` or the coverage probability `p` is \
+                needed; with `dof` it is drawn as the scaled and shifted t of JCGM 101, 6.4.9.7.",
+        fields: &["mean", "std", "expanded", "k", "p", "dof"],
+        rule: Rule::Uncertainty,
+    },
+    Shape {
+        name: "rectangular",
+        aliases: &["uniform"],
+        about: "Rectangular (uniform) within limits.",
+        fields: &["mean", "half_width", "semi_range", "lower", "upper", "dof"],
+        rule: Rule::Limits(&[]),
+    },
+    Shape {
+        name: "triangular",
+        aliases: &[],
+        about: "Triangular within limits; with `lower` and `upper` the mode may lie off the \
+                middle.",
+        fields: &["mean", "half_width", "semi_range", "lower", "upper", "mode"],
+        rule: Rule::Limits(&[]),
+    },
+    Shape {
+        name: "trapezoidal",
+        aliases: &[],
+        about: "Symmetric trapezoidal within limits (JCGM 101, 6.4.4).",
+        fields: &["mean", "half_width", "semi_range", "lower", "upper", "beta"],
+        rule: Rule::Limits(&["beta"]),
+    },
+    Shape {
+        name: "curvilinear-trapezoid",
+        aliases: &[],
+        about: "Rectangular with limits that are not known exactly (JCGM 101, 6.4.3).",
+        fields: &["lower", "upper", "inexactness"],
+        rule: Rule::All(&["lower", "upper", "inexactness"]),
+    },
+    Shape {
+        name: "arcsine",
+        aliases: &["u-shaped"],
+        about: "Arcsine (U-shaped) within limits: a sinusoidal cycle (JCGM 101, 6.4.6).",
+        fields: &["mean", "half_width", "semi_range", "lower", "upper"],
+        rule: Rule::Limits(&[]),
+    },
+    Shape {
+        name: "t",
+        aliases: &["student-t"],
+        about: "Scaled and shifted t; its standard uncertainty by the GUM is `scale`.",
+        fields: &["mean", "scale", "dof"],
+        rule: Rule::Estimate("mean", &["scale", "dof"]),
+    },
+    Shape {
+        name: "readings",
+        aliases: &[],
+        about: "Repeated readings (Type A): mean, s/sqrt(n), n - 1 degrees of freedom; drawn as \
+                the scaled and shifted t of JCGM 101, 6.4.9.2.",
+        fields: &["values"],
+        rule: Rule::All(&["values"]),
+    },
+    Shape {
+        name: "exponential",
+        aliases: &[],
+        about: "Exponential (JCGM 101, 6.4.10).",
+        fields: &["mean"],
+        rule: Rule::All(&["mean"]),
+    },
+    Shape {
+        name: "gamma",
+        aliases: &[],
+        about: "Gamma.",
+        fields: &["shape", "rate"],
+        rule: Rule::All(&["shape", "rate"]),
+    },
+    Shape {
+        name: "lognormal",
+        aliases: &[],
+        about: "Log-normal; `mean` and `std` are those of the quantity itself.",
+        fields: &["mean", "std"],
+        rule: Rule::All(&["mean", "std"]),
+    },
+    Shape {
+        name: "beta",
+        aliases: &[],
+        about: "Beta, between 0 and 1 or between limits.",
+        fields: &["alpha", "beta", "lower", "upper"],
+        rule: Rule::All(&["alpha", "beta"]),
+    },
+    Shape {
+        name: "log-uniform",
+        aliases: &[],
+        about: "Of which the logarithm is rectangular, between limits above 0.",
+        fields: &["lower", "upper"],
+        rule: Rule::All(&["lower", "upper"]),
+    },
+    Shape {
+        name: "poisson-count",
+        aliases: &[],
+        about: "The expectation behind a count: a gamma of shape count + 1 (JCGM 101, 6.4.11).",
+        fields: &["count"],
+        rule: Rule::All(&["count"]),
+    },
+    Shape {
+        name: "samples",
+        aliases: &[],
+        about: "An empirical distribution: values that are drawn with replacement.",
+        fields: &["file", "values"],
+        rule: Rule::One(&["file", "values"]),
+    },
+    Shape {
+        name: "result",
+        aliases: &[],
+        about: "An output of a saved result.",
+        fields: &["file", "output"],
+        rule: Rule::All(&["file", "output"]),
+    },
+];
+
+/// What stands at a distribution's own key.
+fn field(shape: &str, key: &str) -> Node {
+    let referenced = |name, about| referenced(name, about);
+    match (shape, key) {
+        ("exponential" | "lognormal", "mean") => {
+            referenced("positive", "The expectation of the quantity, above 0.")
+        }
+        (_, "mean" | "value") => reference("estimate"),
+        (_, "std") => referenced("width", "Standard uncertainty."),
+        (_, "expanded") => referenced("width", "Expanded uncertainty U = k u."),
+        (_, "k") => referenced("positive", "Coverage factor of `expanded`."),
+        (_, "p") => referenced("probability", "Coverage probability of `expanded`."),
+        (_, "dof") => referenced("positive", "Degrees of freedom of the standard uncertainty."),
+        (_, "half_width") => referenced("width", "Half of the distance of the limits."),
+        (_, "semi_range") => referenced("width", "Another name of `half_width`."),
+        (_, "lower") => referenced("number", "Lower limit."),
+        (_, "upper") => referenced("number", "Upper limit."),
+        (_, "mode") => referenced("number", "The most probable value, from `lower` to `upper`."),
+        (_, "inexactness") => {
+            referenced("width", "Half of the length of the interval in which each limit lies.")
+        }
+        (_, "scale") => referenced("width", "Scale of the t."),
+        ("trapezoidal", "beta") => described("number", "Ratio of the top's width to the base's.")
+            .with("minimum", 0.0)
+            .with("maximum", 1.0),
+        (_, "shape") => referenced("positive", "Shape."),
+        (_, "rate") => referenced("positive", "Rate, in 1/unit."),
+        (_, "alpha") => referenced("positive", "First shape parameter."),
+        (_, "beta") => referenced("positive", "Second shape parameter."),
+        (_, "count") => described("integer", "The count.").with("minimum", 0u64),
+        (_, "values") => reference("numbers"),
+        ("samples", "file") => referenced("file", "A file with one number in each line."),
+        ("result", "file") => referenced("file", "A result that `gumption run --save` wrote."),
+        (_, "output") => text_of("Name of the output in the saved result."),
+        (_, key) => text_of(key),
+    }
+}
+
+/// Keys that every input without components has beside those of its distribution.
+pub(super) const INPUT: [&str; 7] =
+    ["unit", "distribution", "about", "type", "group", "per", "evidence"];
+
+/// Keys that every component has beside those of its distribution.
+pub(super) const COMPONENT: [&str; 5] = ["name", "distribution", "about", "type", "group"];
+
+/// Keys of an input with components.
+pub(super) const COMPOSED: [&str; 7] =
+    ["unit", "mean", "components", "about", "type", "group", "per"];
+
+fn common(key: &str) -> Node {
+    match key {
+        "unit" => reference("unit"),
+        "distribution" => reference("distribution"),
+        "about" => text_of("The source of uncertainty, in words."),
+        "type" => described("string", "How the uncertainty was evaluated.")
+            .with("enum", texts(["A", "B"])),
+        "group" => text_of("A group for subtotals of the budget."),
+        "per" => text_of(
+            "In which rows of the conditions the quantity has a value of its own: `row`, or the \
+             name of a condition for one value of each of its values. One value for all rows \
+             unless given.",
+        ),
+        "evidence" => referenced(
+            "values-or-file",
+            "Readings that the stated distribution is tested against (`gumption assumptions`).",
+        ),
+        "name" => text_of("Name of the component, unique in its quantity.")
+            .with("minLength", 1u64)
+            .with("pattern", "^[^/]*$"),
+        "mean" => referenced("estimate", "The estimate; that of `readings` unless given."),
+        "components" => described("array", "Contributions that add up.")
+            .with("items", reference("component"))
+            .with("minItems", 1u64),
+        _ => described("boolean", "Readings that were taken together with those of other inputs."),
+    }
+}
+
+/// The quantities that have a distribution.
+#[derive(Clone, Copy, PartialEq)]
+enum Holder {
+    Input,
+    Component,
+}
+
+impl Holder {
+    fn name(self) -> &'static str {
+        match self {
+            Self::Input => "input",
+            Self::Component => "component",
+        }
+    }
+
+    fn keys(self) -> &'static [&'static str] {
+        match self {
+            Self::Input => &INPUT,
+            Self::Component => &COMPONENT,
+        }
+    }
+}
+
+pub(super) fn definitions() -> Vec<(String, Node)> {
+    let names = SHAPES.iter().flat_map(|shape| std::iter::once(&shape.name).chain(shape.aliases));
+    let distribution = described(
+        "string",
+        "What is known about the quantity. `uniform` is `rectangular`, `gaussian` `normal`, \
+         `u-shaped` `arcsine`, `student-t` `t`.",
+    )
+    .with("enum", texts(names.copied()));
+    let composed = COMPOSED.iter().map(|&key| (key, common(key))).collect();
+    let composed = closed(
+        "An input that is the sum of an estimate and of several contributions.",
+        composed,
+        &["components"],
+    );
+    let mut definitions = vec![
+        ("distribution".to_owned(), distribution),
+        ("input".to_owned(), choice(Holder::Input)),
+        ("component".to_owned(), choice(Holder::Component)),
+        ("input-of-components".to_owned(), composed),
+    ];
+    for holder in [Holder::Input, Holder::Component] {
+        for shape in &SHAPES {
+            let name = format!("{}-{}", holder.name(), shape.name);
+            definitions.push((name, definition(holder, shape)));
+        }
+    }
+    definitions
+}
+
+/// The definition by the distribution that is named.
+fn choice(holder: Holder) -> Node {
+    let chosen = SHAPES.iter().map(|shape| {
+        let names = std::iter::once(shape.name).chain(shape.aliases.iter().copied());
+        let distribution = object([("enum", texts(names))]);
+        let condition = object([
+            ("properties", object([("distribution", distribution)])),
+            ("required", texts(["distribution"])),
+        ]);
+        let then = reference(&format!("{}-{}", holder.name(), shape.name));
+        object([("if", condition), ("then", then)])
+    });
+    let chosen: Vec<Node> = chosen.collect();
+    let needed = object([("required", texts(["distribution"]))])
+        .with("properties", object([("distribution", reference("distribution"))]));
+    let about = match holder {
+        Holder::Input => "What is known about an input quantity.",
+        Holder::Component => "One of several contributions to a quantity.",
+    };
+    let choice = described("object", about);
+    match holder {
+        Holder::Component => choice
+            .with("required", texts(["name", "distribution"]))
+            .with("properties", object([("distribution", reference("distribution"))]))
+            .with("allOf", chosen),
+        Holder::Input => choice
+            .with("if", object([("required", texts(["components"]))]))
+            .with("then", reference("input-of-components"))
+            .with("else", needed.with("allOf", chosen)),
+    }
+    .with("examples", examples(holder))
+}
+
+fn examples(holder: Holder) -> Node {
+    let mut normal = object([
+        ("distribution", Node::from("normal")),
+        ("mean", Node::from(10.0)),
+        ("std", Node::from(0.01)),
+    ]);
+    if holder == Holder::Component {
+        normal = object([
+            ("name", Node::from("resolution")),
+            ("distribution", Node::from("rectangular")),
+            ("half_width", Node::from(0.05)),
+        ]);
+    } else if let Node::Object(members) = &mut normal {
+        members.insert(0, ("unit".to_owned(), Node::from("m/s^2")));
+    }
+    Node::List(vec![normal])
+}
+
+fn definition(holder: Holder, shape: &Shape) -> Node {
+    let keys = holder.keys().iter().map(|&key| (key, common(key)));
+    let own = shape.fields.iter().map(|&key| (key, field(shape.name, key)));
+    let mut properties: Vec<(&str, Node)> = keys.chain(own).collect();
+    if shape.name == "readings" && holder == Holder::Input {
+        properties.push(("paired", common("paired")));
+    }
+    let mut required: Vec<&str> = match holder {
+        Holder::Input => vec!["distribution"],
+        Holder::Component => vec!["name", "distribution"],
+    };
+    // the estimate of a component is 0 unless given
+    let estimate = |key| (holder == Holder::Input).then_some(key);
+    match shape.rule {
+        Rule::Estimate(key, others) => {
+            required.extend(estimate(key));
+            required.extend(others);
+        }
+        Rule::All(keys) => required.extend(keys),
+        Rule::One(_) => {}
+        Rule::Uncertainty => required.extend(estimate("mean")),
+        Rule::Limits(others) => required.extend(others),
+    }
+    let definition = closed(shape.about, properties, &required);
+    let needs = |keys: &[&str]| object([("required", texts(keys.iter().copied()))]);
+    match shape.rule {
+        Rule::Estimate(..) | Rule::All(_) => definition,
+        Rule::One(keys) => {
+            let alternatives: Vec<Node> = keys.iter().map(|&key| needs(&[key])).collect();
+            definition.with("oneOf", alternatives)
+        }
+        Rule::Uncertainty => {
+            let factor = vec![needs(&["k"]), needs(&["p"])];
+            let expanded = needs(&["expanded"]).with("oneOf", factor);
+            definition.with("oneOf", vec![needs(&["std"]), expanded])
+        }
+        Rule::Limits(_) => {
+            let width = |key: &'static str| {
+                needs(&estimate("mean").into_iter().chain([key]).collect::<Vec<_>>())
+            };
+            let absent = ["mean", "half_width", "semi_range"];
+            let absent = object(absent.map(|key| (key, Node::from(false))));
+            let limits = needs(&["lower", "upper"]).with("properties", absent);
+            let mut definition =
+                definition.with("oneOf", vec![width("half_width"), width("semi_range"), limits]);
+            if shape.fields.contains(&"mode") {
+                let needed = object([("mode", texts(["lower", "upper"]))]);
+                definition = definition.with("dependentRequired", needed);
+            }
+            definition
+        }
+    }
+}

@@ -1,0 +1,95 @@
+//! Values that many keys have: numbers of a range, widths, estimates, units, names.
+
+use super::node::{Node, object, texts};
+use super::{closed, described, text_of};
+
+/// A number with an open lower limit, an open upper one, or both.
+fn number(about: &str, above: Option<f64>, below: Option<f64>) -> Node {
+    let mut number = described("number", about);
+    if let Some(limit) = above {
+        number = number.with("exclusiveMinimum", limit);
+    }
+    if let Some(limit) = below {
+        number = number.with("exclusiveMaximum", limit);
+    }
+    number
+}
+
+/// A number, or a text of the given kind.
+fn number_or_text(about: &str, number: Node, text: Node) -> Node {
+    object([("description", Node::from(about)), ("anyOf", Node::List(vec![number, text]))])
+}
+
+/// A whole number from `least` to `most`.
+pub(super) fn whole(about: &str, least: u64, most: u64) -> Node {
+    described("integer", about).with("minimum", least).with("maximum", most)
+}
+
+pub(super) fn definitions() -> Vec<(String, Node)> {
+    let numbers = object([("type", Node::from("number"))]);
+    let list = |about: &str| {
+        described("array", about).with("items", numbers.clone()).with("minItems", 1u64)
+    };
+    let formula = text_of("A formula of conditions and constants, evaluated in SI units.");
+    let specification = text_of(
+        "A specification: terms of `x %` or `x ppm` (of the reading), `x % of VALUE UNIT` (of the \
+         range) and `VALUE UNIT`, joined by `+`. The terms add linearly.",
+    );
+    let definitions = [
+        ("number", described("number", "A number in the quantity's unit.")),
+        ("positive", number("A number above 0.", Some(0.0), None)),
+        ("probability", number("A probability between 0 and 1.", Some(0.0), Some(1.0))),
+        ("numbers", list("Numbers in the quantity's unit.")),
+        (
+            "estimate",
+            number_or_text(
+                "The estimate, in the quantity's unit, or a formula of the conditions.",
+                numbers.clone(),
+                formula,
+            )
+            .with("examples", Node::List(vec![Node::from(9.81), Node::from("2*f_nominal")])),
+        ),
+        (
+            "width",
+            number_or_text(
+                "A width above 0 in the quantity's unit, or a specification as data sheets have \
+                 it.",
+                number("A width in the quantity's unit.", Some(0.0), None),
+                specification,
+            )
+            .with(
+                "examples",
+                Node::List(vec![Node::from(0.01), Node::from("0.02 % + 0.005 % of 10 V + 2 uV")]),
+            ),
+        ),
+        (
+            "unit",
+            text_of(
+                "A unit: SI units with prefixes, products, quotients and powers, and those of \
+                 laboratories; `1` for a number.",
+            )
+            .with("examples", texts(["m/s^2", "kHz", "kg*m^-3", "degC", "deg", "%", "1"])),
+        ),
+        (
+            "name",
+            text_of(
+                "A name: letters of any alphabet, digits and `_`; no function's name, not `pi`.",
+            )
+            .with("pattern", "^[\\p{Alphabetic}_][\\p{Alphabetic}0-9_]*$"),
+        ),
+        ("file", text_of("A path, relative to the folder of this file.")),
+        (
+            "values-or-file",
+            closed(
+                "Readings of the same quantity.",
+                vec![
+                    ("values", list("The readings.")),
+                    ("file", text_of("A file with one reading in each line.")),
+                ],
+                &[],
+            )
+            .with("minProperties", 1u64),
+        ),
+    ];
+    definitions.into_iter().map(|(name, node)| (name.to_owned(), node)).collect()
+}

@@ -1,0 +1,119 @@
+use std::path::PathBuf;
+
+use serde_json::Value;
+use tempfile::TempDir;
+
+use super::{gumption, output};
+
+const FIRST: &str = r#"{
+  "inputs": {
+    "voltage": {"unit": "V", "distribution": "normal", "mean": 5, "std": 0.01},
+    "resistance": {"unit": "ohm", "distribution": "rectangular", "mean": 100, "half_width": 0.1},
+    "drift": {"unit": "V", "distribution": "rectangular", "mean": 0, "half_width": 0.002}
+  },
+  "equations": {"power": "(voltage + drift)^2/resistance"},
+  "outputs": {"power": {"unit": "mW"}}
+}"#;
+
+/// Two files in a folder of their own, the second with some texts replaced.
+fn files(replaced: &[(&str, &str)]) -> (TempDir, [PathBuf; 2]) {
+    let folder = tempfile::tempdir().unwrap();
+    let paths = ["a.json", "b.json"].map(|name| folder.path().join(name));
+    let second = replaced.iter().fold(FIRST.to_owned(), |text, (old, new)| {
+        assert!(text.contains(old), "{old}");
+        text.replace(old, new)
+    });
+    std::fs::write(&paths[0], FIRST).unwrap();
+    std::fs::write(&paths[1], second).unwrap();
+    (folder, paths)
+}
+
+fn json(paths: &[PathBuf; 2]) -> Value {
+    let [a, b] = paths.each_ref().map(|path| path.to_str().unwrap());
+    serde_json::from_str(&output(&["diff", a, b, "--format", "json"])).unwrap()
+}
+
+#[test]
+fn shares_explain_the_change() {
+    let (_folder, paths) =
+        files(&[("0.01}", "0.02}"), ("0.1}", "0.3}"), ("\"mean\": 5", "\"mean\": 6")]);
+    let answer = json(&paths);
+    let power = &answer["outputs"]["power"];
+    let inputs = power["inputs"].as_array().unwrap();
+    let sum = |key: &str| inputs.iter().map(|input| input[key].as_f64().unwrap()).sum::<f64>();
+    assert!((sum("share_of_change") - 1.0).abs() < 1e-12, "{power}");
+    let [before, after] = [0, 1].map(|i| power["U"][i].as_f64().unwrap());
+    assert!((sum("change_of_U") / (after - before) - 1.0).abs() < 1e-12, "{power}");
+    let names: Vec<&str> = inputs.iter().map(|input| input["input"].as_str().unwrap()).collect();
+    assert_eq!(names, ["voltage", "resistance", "drift"]);
+    assert_eq!(inputs[0]["from"]["estimate"], 5.0);
+    assert_eq!(inputs[0]["to"]["standard_uncertainty"], 0.02);
+    assert_eq!(inputs[1]["from"]["distribution"], "rectangular");
+    assert_eq!(inputs[1]["from"]["dof"], Value::Null);
+    // the drift's coefficient moves with the voltage, which is the voltage's doing
+    assert_eq!(inputs[2]["from"], inputs[2]["to"]);
+    assert_eq!(inputs[2]["share_of_change"], 0.0);
+
+    // each file gives the U of its own run
+    for (path, expanded) in paths.iter().zip([before, after]) {
+        let path = path.to_str().unwrap();
+        let run = output(&["run", path, "--trials", "0", "--format", "json", "--quiet"]);
+        let run: Value = serde_json::from_str(&run).unwrap();
+        let own = run["outputs"]["power"]["gum"]["expanded_uncertainty"].as_f64().unwrap();
+        assert!((own / expanded - 1.0).abs() < 1e-14);
+    }
+}
+
+#[test]
+fn the_page_leaves_out_what_did_not_change() {
+    let removed = ("\"half_width\": 0.1},", "\"half_width\": 0.1}");
+    let drift = r#"
+    "drift": {"unit": "V", "distribution": "rectangular", "mean": 0, "half_width": 0.002}"#;
+    let (folder, paths) =
+        files(&[removed, (drift, ""), ("(voltage + drift)^2", "voltage^2"), ("0.01}", "0.02}")]);
+    let [a, b] = paths.each_ref().map(|path| path.file_name().unwrap());
+    let run = gumption().current_dir(folder.path()).arg("diff").args([a, b]).assert().success();
+    let page = String::from_utf8(run.get_output().stdout.clone()).unwrap();
+    insta::assert_snapshot!(page, @r#"
+    from a.json to b.json
+
+    equation `power`: from "(voltage + drift)^2/resistance" to "voltage^2/resistance"
+
+    power: U from 1.99 to 3.93 mW (+97.2 %)
+    what changed  from                             to                         change  share
+                                                                                of U   in %
+    ───────────────────────────────────────────────────────────────────────────────────────
+    voltage       5.000 V, u 0.010, normal         5.000 V, u 0.020, normal     1.94  100.4
+    drift         0.0000 V, u 0.0012, rectangular  absent                      -0.01   -0.4
+    "#);
+}
+
+/// Mistakes of both files are reported, each with its file's name.
+#[test]
+fn mistakes_of_both_files() {
+    let (_folder, paths) = files(&[("\"mean\": 5", "\"mean\": \"five\"")]);
+    std::fs::write(&paths[0], FIRST.replace("voltage + drift", "voltage + drifft")).unwrap();
+    let run = gumption().arg("diff").args(&paths).assert().code(2);
+    let message = String::from_utf8(run.get_output().stderr.clone()).unwrap();
+    for part in ["a.json:7:", "drifft", "b.json:3:", "five"] {
+        assert!(message.contains(part), "{part}: {message}");
+    }
+    gumption().args(["diff", "-", "-"]).assert().code(2);
+}
+
+#[test]
+fn standard_input_and_files() {
+    let (folder, paths) = files(&[]);
+    let file = folder.path().join("answer.json");
+    gumption()
+        .args(["diff", "-", paths[1].to_str().unwrap(), "--format", "json", "--output"])
+        .arg(&file)
+        .write_stdin(FIRST)
+        .assert()
+        .success()
+        .stdout("");
+    let answer: Value = serde_json::from_slice(&std::fs::read(file).unwrap()).unwrap();
+    assert_eq!(answer["a"], "<stdin>");
+    assert_eq!(answer["changes"], Value::Array(Vec::new()));
+    assert_eq!(answer["outputs"]["power"]["inputs"][0]["share_of_change"], Value::Null);
+}
