@@ -305,6 +305,8 @@ fn run(
         figures.adaptive = Some(end);
     }
     finished
+}
+
 /// The variables that a copula draws in some row.
 fn drawn_by_copula(joints: &[Arc<Joint>]) -> Vec<usize> {
     let mut variables: Vec<usize> = Vec::new();
