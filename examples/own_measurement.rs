@@ -1,6 +1,7 @@
 //! A measurement of one's own: declare its quantities, write its equation, evaluate it.
 //!
 //! Run with `cargo run --release --example own_measurement`.
+#![allow(clippy::print_stdout)]
 
 use gumption::distribution::Input;
 use gumption::model::typed::Equations;

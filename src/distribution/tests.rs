@@ -266,6 +266,7 @@ fn joint_normals_have_the_declared_correlations() {
         let mut draws = Draws::new(&distributions, &joint, &keys, block);
         for _ in 0..BLOCK / crate::number::COLUMN {
             draws.column(&mut registers, &[0, 1, 2], &[true; 3]);
+            #[allow(clippy::needless_range_loop)] // two indices each
             for i in 0..3 {
                 for j in 0..3 {
                     for t in 0..crate::number::COLUMN {

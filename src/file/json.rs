@@ -61,6 +61,7 @@ impl Node {
 }
 
 /// Parses a whole text.
+#[allow(clippy::result_large_err)] // once for a file
 pub(crate) fn parse(source: &Source) -> Result<Node, (Range<usize>, Fault)> {
     if source.text.trim().is_empty() {
         return Err((0..0, Fault::Empty));

@@ -334,14 +334,14 @@ impl<'a> ModelReader<'a> {
     }
 
     fn format(&self) {
-        if let Some(member) = self.root.get("format") {
-            if member.value.number() != Some(1.0) {
-                let found = match &member.value.value {
-                    Json::Number(text) | Json::Text(text) => text.clone(),
-                    other => other.kind().to_owned(),
-                };
-                self.log.report(&member.value.span, Fault::UnknownFormat { found });
-            }
+        if let Some(member) = self.root.get("format")
+            && member.value.number() != Some(1.0)
+        {
+            let found = match &member.value.value {
+                Json::Number(text) | Json::Text(text) => text.clone(),
+                other => other.kind().to_owned(),
+            };
+            self.log.report(&member.value.span, Fault::UnknownFormat { found });
         }
     }
 
@@ -579,17 +579,17 @@ impl<'a> ModelReader<'a> {
             };
             let unit = &output.quantity.unit;
             let checked = check_units && !unknown_units.contains(name.as_str());
-            if let Some(dimension) = typing.dimension.filter(|_| checked) {
-                if dimension != unit.dimension() {
-                    let fault = Fault::WrongDimension {
-                        name: name.clone(),
-                        found: unit.to_string(),
-                        found_as: unit.dimension().describe(),
-                        expected: coherent(dimension),
-                        expected_as: dimension.describe(),
-                    };
-                    self.log.report(unit_place, fault);
-                }
+            if let Some(dimension) = typing.dimension.filter(|_| checked)
+                && dimension != unit.dimension()
+            {
+                let fault = Fault::WrongDimension {
+                    name: name.clone(),
+                    found: unit.to_string(),
+                    found_as: unit.dimension().describe(),
+                    expected: coherent(dimension),
+                    expected_as: dimension.describe(),
+                };
+                self.log.report(unit_place, fault);
             }
         }
     }

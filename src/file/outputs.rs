@@ -41,11 +41,11 @@ pub(super) fn read(log: &Log, member: &Member) -> Option<Outputs> {
             }
         }
         let period = object.number("periodic");
-        if let (Some(period), Some(member)) = (period, object.get("periodic")) {
-            if period <= 0.0 {
-                let fault = Fault::NotPositive { key: "periodic".into(), found: period };
-                log.report(&member.value.span, fault);
-            }
+        if let (Some(period), Some(member)) = (period, object.get("periodic"))
+            && period <= 0.0
+        {
+            let fault = Fault::NotPositive { key: "periodic".into(), found: period };
+            log.report(&member.value.span, fault);
         }
         let quantity = Quantity {
             name: member.key.clone(),

@@ -14,14 +14,14 @@ pub(super) fn read(root: &Object<'_>) -> Settings {
     if let Some(coverage) = coverage(root) {
         settings.coverage = coverage;
     }
-    if let Some(member) = root.get("allow_undefined") {
-        if let Some(share) = root.number("allow_undefined") {
-            if (0.0..=1.0).contains(&share) {
-                settings.allowed_undefined = share;
-            } else {
-                let fault = Fault::NotProbability { key: "allow_undefined".into(), found: share };
-                root.log.report(&member.value.span, fault);
-            }
+    if let Some(member) = root.get("allow_undefined")
+        && let Some(share) = root.number("allow_undefined")
+    {
+        if (0.0..=1.0).contains(&share) {
+            settings.allowed_undefined = share;
+        } else {
+            let fault = Fault::NotProbability { key: "allow_undefined".into(), found: share };
+            root.log.report(&member.value.span, fault);
         }
     }
     let Some(member) = root.get("monte_carlo") else {

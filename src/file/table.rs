@@ -14,9 +14,12 @@ pub(super) struct Table {
     pub(super) rows: Vec<Vec<f64>>,
 }
 
+/// All faults of a table, with their places.
+type Faults = Vec<(Place, Fault)>;
+
 /// Reads a table: a header row of names, `,` or `;` (then with decimal commas), lines that begin
 /// with `#` skipped. All faulty cells are returned.
-pub(super) fn read(path: &Path, name: &str) -> Result<(Table, Vec<u8>), Vec<(Place, Fault)>> {
+pub(super) fn read(path: &Path, name: &str) -> Result<(Table, Vec<u8>), Faults> {
     let bytes = std::fs::read(path).map_err(|error| {
         let place = Place { source: Source::new(name, ""), span: 0..0 };
         vec![(place, Fault::Unreadable { message: error.to_string() })]
@@ -30,7 +33,7 @@ pub(super) fn read(path: &Path, name: &str) -> Result<(Table, Vec<u8>), Vec<(Pla
     Ok((parse(&source)?, bytes))
 }
 
-fn parse(source: &Arc<Source>) -> Result<Table, Vec<(Place, Fault)>> {
+fn parse(source: &Arc<Source>) -> Result<Table, Faults> {
     let starts: Vec<usize> = std::iter::once(0)
         .chain(source.text.match_indices('\n').map(|(newline, _)| newline + 1))
         .collect();

@@ -50,10 +50,11 @@ impl Schedule {
 
         let mut used = vec![false; registers];
         for (place, node) in program.nodes.iter().enumerate() {
-            if let Node::Variable(v) = *node {
-                if needed[place] && folded[place].is_none() {
-                    used[register_of_variable[v]] = true;
-                }
+            if let Node::Variable(v) = *node
+                && needed[place]
+                && folded[place].is_none()
+            {
+                used[register_of_variable[v]] = true;
             }
         }
 

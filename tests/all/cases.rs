@@ -110,10 +110,10 @@ fn not_refused(code: Option<i32>, message: &str, expected: &Value) -> Vec<String
             misses.push(format!("a message without {part:?}"));
         }
     }
-    if let Some(line) = expected["line"].as_u64() {
-        if !message.contains(&format!(":{line}:")) {
-            misses.push(format!("a message without :{line}:"));
-        }
+    if let Some(line) = expected["line"].as_u64()
+        && !message.contains(&format!(":{line}:"))
+    {
+        misses.push(format!("a message without :{line}:"));
     }
     if !misses.is_empty() {
         misses.push(format!("it said: {message}"));

@@ -1,5 +1,7 @@
 //! The probability that Monte Carlo coverage intervals hold, under exactly known distributions.
 
+#![allow(clippy::manual_div_ceil, clippy::manual_is_multiple_of)] // as the Supplement writes it
+
 use std::f64::consts::{PI, SQRT_2};
 use std::path::Path;
 

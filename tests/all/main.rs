@@ -1,5 +1,7 @@
 //! Tests of the whole program: files in, answers out.
 #![allow(missing_docs)]
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stdout)]
+#![allow(clippy::print_stderr)]
 
 mod cases;
 mod commands;

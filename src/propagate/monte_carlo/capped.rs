@@ -325,9 +325,7 @@ impl Search {
         if !settled {
             for s in &candidates {
                 needed[s.0] = true;
-                for l in s.3..=s.4 {
-                    needed[l] = true;
-                }
+                needed[s.3..=s.4].fill(true);
             }
             return None;
         }

@@ -52,8 +52,8 @@ impl Folded {
 /// Removes the trials of a block in which an output is not finite; returns how many trials are left
 /// of the first `count`, and the place of the first that was removed.
 pub(crate) fn drop_undefined(values: &mut [[f64; BLOCK]], count: usize) -> (usize, Option<usize>) {
-    // x - x is 0 for finite values and not a number otherwise
-    let clean = values.iter().all(|v| v[..count].iter().map(|x| x - x).sum::<f64>() == 0.0);
+    // 0 x is 0 for finite values and not a number otherwise
+    let clean = values.iter().all(|v| v[..count].iter().map(|x| x * 0.0).sum::<f64>() == 0.0);
     if clean {
         return (count, None);
     }

@@ -68,12 +68,12 @@ fn heading(task: &Task, evaluation: &Evaluation) -> String {
             line += &format!("; as many Monte Carlo trials{each} as are needed, seed {seed}");
         }
     }
-    let mut heading = text::wrapped(&task.title) + &text::wrapped(&line);
+    let mut heading = wrapped(&task.title) + &wrapped(&line);
     if let [row] = evaluation.rows.as_slice()
         && task.swept
     {
         let at = conditions_text(&task.model.conditions, &row.conditions);
-        heading += &text::wrapped(&format!("at {at}"));
+        heading += &wrapped(&format!("at {at}"));
     }
     heading
 }
@@ -107,7 +107,7 @@ fn section(
     let mut parts = vec![title(&output.quantity)];
     match &figures.gum {
         Some(gum) => parts.push(budget::table(task, evaluation, &output.quantity, gum, digits)),
-        None => parts.push(text::wrapped(
+        None => parts.push(wrapped(
             "There is no budget: the estimate or a sensitivity coefficient is not finite here.",
         )),
     }
@@ -124,7 +124,7 @@ fn title(quantity: &Quantity) -> String {
     if !quantity.about.trim().is_empty() {
         line += &format!(": {}", text::plain(&quantity.about));
     }
-    let line = text::wrapped(&line);
+    let line = wrapped(&line);
     let width = line.lines().map(|line| line.chars().count()).max().unwrap_or(0);
     format!("{line}{}\n", "═".repeat(width.min(WIDTH)))
 }
