@@ -53,6 +53,11 @@ impl Shape for Arcsine {
         self.at(p)
     }
 
+    fn quantile_upper(&self, q: f64) -> f64 {
+        let (_, cos) = elementary::sin_cos_turn(0.5 * q);
+        self.mean + self.half_width * cos
+    }
+
     #[inline(always)]
     fn draw(&self, stream: &mut Stream, out: &mut Column) {
         stream.uniform(&mut out.0);

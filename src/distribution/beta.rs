@@ -54,6 +54,11 @@ impl Shape for Beta {
         self.lower + self.width * special::beta::quantile(p, self.alpha, self.beta)
     }
 
+    fn quantile_upper(&self, q: f64) -> f64 {
+        let from_above = special::beta::quantile(q, self.beta, self.alpha);
+        self.lower + self.width * (1.0 - from_above)
+    }
+
     /// The share X / (X + Y) of two gamma quantities, as 1 / (1 + e^(ln Y - ln X)): at small shapes
     /// both may be below the smallest number, but their logarithms
     /// are not. Above the middle it is 1 less the other share, which keeps the digits near 1.

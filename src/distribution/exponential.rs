@@ -37,6 +37,10 @@ impl Shape for Exponential {
         -self.mean * libm::log1p(-p)
     }
 
+    fn quantile_upper(&self, q: f64) -> f64 {
+        -self.mean * libm::log(q)
+    }
+
     #[inline(always)]
     fn draw(&self, stream: &mut Stream, out: &mut Column) {
         stream.uniform(&mut out.0);

@@ -55,6 +55,11 @@ impl Shape for Gamma {
         value.max(f64::MIN_POSITIVE)
     }
 
+    fn quantile_upper(&self, q: f64) -> f64 {
+        let value = special::gamma::quantile_upper(q, self.shape) / self.rate;
+        value.max(f64::MIN_POSITIVE)
+    }
+
     #[inline(always)]
     fn draw(&self, stream: &mut Stream, out: &mut Column) {
         draw(self.shape, stream, out);

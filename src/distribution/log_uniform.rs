@@ -85,6 +85,10 @@ impl Shape for LogUniform {
         self.at(self.middle(), self.spread(), 2.0 * p - 1.0)
     }
 
+    fn quantile_upper(&self, q: f64) -> f64 {
+        self.at(self.middle(), self.spread(), 1.0 - 2.0 * q)
+    }
+
     #[inline(always)]
     fn draw(&self, stream: &mut Stream, out: &mut Column) {
         stream.uniform(&mut out.0);

@@ -63,6 +63,10 @@ impl Shape for Lognormal {
         self.at(special::normal::quantile(p))
     }
 
+    fn quantile_upper(&self, q: f64) -> f64 {
+        self.at(special::normal::quantile_upper(q))
+    }
+
     #[inline(always)]
     fn draw(&self, stream: &mut Stream, out: &mut Column) {
         normal::draw(0.0, 1.0, stream, out);

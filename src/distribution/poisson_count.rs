@@ -50,6 +50,10 @@ impl Shape for PoissonCount {
         self.gamma.quantile(p)
     }
 
+    fn quantile_upper(&self, q: f64) -> f64 {
+        self.gamma.quantile_upper(q)
+    }
+
     #[inline(always)]
     fn draw(&self, stream: &mut Stream, out: &mut Column) {
         self.gamma.draw(stream, out);

@@ -300,3 +300,23 @@ fn contradictory_correlations_are_refused() {
     let singular = [correlation(0, 1, 1.0), correlation(0, 2, 1.0), correlation(1, 2, 0.9999)];
     assert!(Joint::new(&distributions, &singular).unwrap().rounded);
 }
+
+/// Both quantile functions are the same where 1 - p is exact, to the rounding of their arithmetic,
+/// and the upper one goes on where 1 - q rounds to 1, without an infinite value.
+#[test]
+fn upper_quantiles_are_those_of_the_other_tail() {
+    for (name, distribution) in shapes() {
+        let std = distribution.standard_uncertainty();
+        for p in [0.5, 0.25, 0.75, 0.125, 2f64.powi(-20), 1.0 - 2f64.powi(-20)] {
+            let (lower, upper) = (distribution.quantile(p), distribution.quantile_upper(1.0 - p));
+            assert!((lower - upper).abs() <= 1e-12 * (std + lower.abs()), "{name} at {p}");
+        }
+        let mut last = distribution.quantile(1.0 - 2f64.powi(-40));
+        for exponent in [-45, -50, -60, -200, -900] {
+            let x = distribution.quantile_upper(2f64.powi(exponent));
+            // shapes that end give their limit to rounding
+            assert!(x.is_finite() && x >= last - 1e-9 * std, "{name} at 2^{exponent}: {x}");
+            last = x;
+        }
+    }
+}

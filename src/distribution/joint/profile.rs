@@ -34,7 +34,7 @@ const TABLE: i32 = 36;
 const MOST: i32 = 148;
 
 /// Pieces that integrals are cut into at most.
-const MOST_PIECES: usize = 20_000;
+const MOST_PIECES: usize = 8192;
 
 /// What a polynomial may miss of the function in an integral: deviation in standard deviations
 /// times width times density of z.

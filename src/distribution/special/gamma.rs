@@ -52,13 +52,23 @@ pub(crate) fn sf(x: f64, shape: f64) -> f64 {
 /// that some 5e-15 / shape, because x goes as p^(1 / shape). Results below the smallest normal
 /// double are 0.
 pub(crate) fn quantile(p: f64, shape: f64) -> f64 {
-    if !is_shape(shape) || !(0.0..=1.0).contains(&p) {
+    between(p, 1.0 - p, shape)
+}
+
+/// The x with Q(a, x) = `q`, for tails down to the smallest double. Accuracy as of [`quantile`].
+pub(crate) fn quantile_upper(q: f64, shape: f64) -> f64 {
+    between(1.0 - q, q, shape)
+}
+
+/// The x with the tails `p` below and `q` above; the smaller of the two is used.
+fn between(p: f64, q: f64, shape: f64) -> f64 {
+    if !is_shape(shape) || !(0.0..=1.0).contains(&p) || !(0.0..=1.0).contains(&q) {
         return f64::NAN;
     }
     if p == 0.0 {
         return 0.0;
     }
-    if p == 1.0 {
+    if q == 0.0 {
         return f64::INFINITY;
     }
     // P(a, x) <= x^a / Γ(a + 1), nearly equal for small x: a lower bound of the root.
@@ -68,14 +78,13 @@ pub(crate) fn quantile(p: f64, shape: f64) -> f64 {
         return 0.0;
     }
     let bound = libm::exp(ln_bound);
-    let start = if shape < 1.0 { bound } else { bound.max(wilson_hilferty(p, shape)) };
+    let start = if shape < 1.0 { bound } else { bound.max(wilson_hilferty(p, q, shape)) };
     if p <= 0.5 {
         find(Trend::Rising, p, start, smallest, largest, |x| {
             let masses = Masses::at(x, shape);
             Point { value: masses.lower, rate: masses.weight }
         })
     } else {
-        let q = 1.0 - p;
         // For shapes below 1, Q(a, x) <= e^-x beyond 1: an upper bound of the root.
         let start = if shape < 1.0 && q < 0.1 * shape { -libm::log(q) } else { start };
         find(Trend::Falling, q, start, smallest, largest, |x| {
@@ -90,9 +99,10 @@ fn is_shape(shape: f64) -> bool {
 }
 
 /// The approximation of Wilson and Hilferty 1931; 0 where it is not positive.
-fn wilson_hilferty(p: f64, shape: f64) -> f64 {
+fn wilson_hilferty(p: f64, q: f64, shape: f64) -> f64 {
     let spread = 1.0 / (9.0 * shape);
-    let root = 1.0 - spread + normal::quantile(p) * spread.sqrt();
+    let normal = if p > 0.5 { normal::quantile_upper(q) } else { normal::quantile(p) };
+    let root = 1.0 - spread + normal * spread.sqrt();
     if root > 0.0 { shape * root * root * root } else { 0.0 }
 }
 
