@@ -10,6 +10,7 @@ use gumption::report;
 use gumption::task::Trials;
 use proptest::prelude::*;
 use proptest::sample::{Index, select};
+use proptest::test_runner::RngSeed;
 
 use crate::support::{model_files, root};
 
@@ -136,23 +137,54 @@ enum Damage {
     Delete(Index, usize),
     Insert(Index, &'static str),
     Replace(Index, &'static str),
-    Number(Index, &'static str),
+    Number(Index, String),
     Repeat(Index, usize),
     Swap(Index, Index),
     Inside(Index, Index, char),
     Cut(Index),
 }
 
+fn finite() -> impl Strategy<Value = f64> {
+    any::<f64>().prop_filter("finite", |number| number.is_finite())
+}
+
+/// Numbers as they may stand in a file: extreme, or plain.
+fn number() -> impl Strategy<Value = String> {
+    prop_oneof![
+        select(PIECES[..11].to_vec()).prop_map(str::to_owned),
+        finite().prop_map(|number| format!("{number:e}")),
+        (-1000..1000i32).prop_map(|number| (f64::from(number) / 10.0).to_string()),
+    ]
+}
+
+/// Formulas that parse.
+fn formula() -> impl Strategy<Value = String> {
+    let leaves = vec!["x", "t", "0", "1", "2.5", "1e308", "1e-308", "pi", "(-1)"];
+    select(leaves).prop_map(str::to_owned).prop_recursive(6, 40, 2, |inner| {
+        let one = vec![
+            "sin", "cos", "tan", "asin", "acos", "atan", "sinh", "cosh", "tanh", "exp", "ln",
+            "log10", "sqrt", "cbrt", "abs", "kelvin", "-",
+        ];
+        let two = vec!["atan2", "min", "max", "hypot"];
+        let infix = vec!["+", "-", "*", "/", "^", "<", ">=", "=="];
+        prop_oneof![
+            (select(one), inner.clone()).prop_map(|(f, a)| format!("{f}({a})")),
+            (select(two), inner.clone(), inner.clone())
+                .prop_map(|(f, a, b)| format!("{f}({a}, {b})")),
+            (select(infix), inner.clone(), inner).prop_map(|(f, a, b)| format!("({a}) {f} ({b})")),
+        ]
+    })
+}
+
 fn damage() -> impl Strategy<Value = Damage> {
     let piece = || select(PIECES.to_vec());
     let at = any::<Index>;
     let sign = select(vec!['(', ')', '*', '-', '^', '0', '9', 'e', '/', ' ', '\\', ',', 'ß', '%']);
-    let numbers = PIECES[..11].to_vec();
     prop_oneof![
         2 => (at(), 1..6usize).prop_map(|(at, count)| Damage::Delete(at, count)),
         2 => (at(), piece()).prop_map(|(at, piece)| Damage::Insert(at, piece)),
         4 => (at(), piece()).prop_map(|(at, piece)| Damage::Replace(at, piece)),
-        8 => (at(), select(numbers)).prop_map(|(at, piece)| Damage::Number(at, piece)),
+        8 => (at(), number()).prop_map(|(at, number)| Damage::Number(at, number)),
         2 => (at(), 1..40usize).prop_map(|(at, count)| Damage::Repeat(at, count)),
         2 => (at(), at()).prop_map(|(a, b)| Damage::Swap(a, b)),
         6 => (at(), at(), sign).prop_map(|(at, within, sign)| Damage::Inside(at, within, sign)),
@@ -173,11 +205,11 @@ impl Damage {
             }
             Self::Insert(at, piece) => tokens.insert(at.index(n + 1), (*piece).to_owned()),
             Self::Replace(at, piece) => tokens[at.index(n)] = (*piece).to_owned(),
-            Self::Number(at, piece) => {
+            Self::Number(at, number) => {
                 let numbers: Vec<usize> =
                     (0..n).filter(|&i| tokens[i].parse::<f64>().is_ok()).collect();
                 if !numbers.is_empty() {
-                    tokens[numbers[at.index(numbers.len())]] = (*piece).to_owned();
+                    tokens[numbers[at.index(numbers.len())]] = number.clone();
                 }
             }
             Self::Repeat(at, count) => {
@@ -243,8 +275,16 @@ fn feed(text: &str) {
     }
 }
 
+/// Always the same cases; `GUMPTION_MUTATIONS=SEED:CASES` makes others.
 fn few_cases(cases: u32) -> ProptestConfig {
-    ProptestConfig { cases, failure_persistence: None, ..ProptestConfig::default() }
+    let wanted = std::env::var("GUMPTION_MUTATIONS").ok();
+    let wanted = wanted.as_deref().and_then(|text| {
+        let (seed, cases) = text.split_once(':')?;
+        Some((seed.parse().ok()?, cases.parse().ok()?))
+    });
+    let (seed, cases) = wanted.unwrap_or((1, cases));
+    let rng_seed = RngSeed::Fixed(seed);
+    ProptestConfig { cases, rng_seed, failure_persistence: None, ..ProptestConfig::default() }
 }
 
 proptest! {
@@ -272,18 +312,21 @@ proptest! {
         feed(&String::from_utf8_lossy(&bytes));
     }
 
+    /// Other numbers in right files: most of these are evaluated.
     #[test]
-    fn any_formula_is_answered(
-        signs in prop::collection::vec(
-            select(vec![
-                "x", "y", "t", "(", ")", "+", "-", "*", "/", "^", ",", "<", ">=", "==", "1", "0",
-                "2.5", "1e308", "1e-308", "pi", "sin", "sqrt", "ln", "atan2", "max", "kelvin",
-                "abs", "exp", "hypot", "cbrt", " ",
-            ]),
-            0..25,
-        ),
+    fn other_numbers_in_right_files_are_answered(
+        seed in any::<Index>(),
+        numbers in prop::collection::vec((any::<Index>(), number()), 1..4),
     ) {
-        let formula = signs.concat();
+        let mut tokens = tokens(seed.get(seeds()).as_str());
+        for (at, number) in &numbers {
+            Damage::Number(*at, number.clone()).apply(&mut tokens);
+        }
+        feed(&tokens.concat());
+    }
+
+    #[test]
+    fn any_formula_is_answered(formula in formula()) {
         feed(&format!(
             r#"{{"inputs": {{
                 "x": {{"distribution": "normal", "mean": 0.5, "std": 1e-3}},
@@ -294,15 +337,32 @@ proptest! {
     }
 
     #[test]
+    fn any_signs_of_formulas_are_answered(
+        signs in prop::collection::vec(
+            select(vec![
+                "x", "y", "t", "(", ")", "+", "-", "*", "/", "^", ",", "<", ">=", "==", "1", "0",
+                "2.5", "1e308", "1e-308", "pi", "sin", "ln", "atan2", "max", "kelvin", " ",
+            ]),
+            0..25,
+        ),
+    ) {
+        let formula = signs.concat();
+        feed(&format!(
+            r#"{{"inputs": {{"x": {{"distribution": "normal", "mean": 0.5, "std": 1e-3}}}},
+              "equations": {{"y": "{formula}"}}, "outputs": {{"y": {{}}}}}}"#
+        ));
+    }
+
+    #[test]
     fn any_numbers_are_answered(
-        mean in any::<f64>(),
-        width in any::<f64>(),
-        dof in any::<f64>(),
-        p in any::<f64>(),
+        mean in finite(),
+        width in finite(),
+        dof in finite(),
+        p in finite(),
         unit in select(vec!["m", "nm", "km^20", "Gm^-30", "1e300 m", "deg", "%", "degC"]),
         shape in select(vec!["normal\", \"std", "rectangular\", \"half_width", "t\", \"scale"]),
     ) {
-        let p = if p.is_finite() { (p.abs() % 1.0).max(1e-300) } else { 0.95 };
+        let (width, dof, p) = (width.abs(), dof.abs(), (p.abs() % 1.0).max(1e-300));
         feed(&format!(
             r#"{{"inputs": {{"x": {{"unit": "{unit}", "distribution": "{shape}": {width:e},
                 "mean": {mean:e}, "dof": {dof:e}}}}},
