@@ -10,9 +10,9 @@ mod table;
 pub use csv::csv;
 pub use json::json;
 #[cfg(feature = "cli")]
-pub(crate) use table::{Grid, WIDTH, wrapped};
-#[cfg(feature = "cli")]
 pub use table::{Style, table};
+#[cfg(feature = "cli")]
+pub(crate) use table::{WIDTH, grid::Grid, text::wrapped};
 
 use crate::propagate::Evaluation;
 use crate::task::{Task, Warning};

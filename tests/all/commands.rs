@@ -254,7 +254,10 @@ fn wrong_arguments_end_with_2() {
         &["check", "-", "--format", "csv"],
         &["models", "no-such-model"],
         &["models", "--template"],
-        &["verify"],
+        &["verify", "--model", "models/inclined_plane.json"],
+        &["verify", "--format", "walk"],
+        &["diff", "-"],
+        &["diff", "-", "no_such_file.json"],
         &["verify", "--paths", "--model", "no_such_file.json"],
     ] {
         let (code, answer, message) = ended(arguments, SMALL);

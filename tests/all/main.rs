@@ -5,8 +5,11 @@
 
 mod cases;
 mod commands;
+mod diff;
 mod errors;
 mod intervals;
 mod mutations;
 mod reproducible;
+mod schema;
 mod support;
+mod verify;

@@ -36,3 +36,16 @@ pub(crate) fn file_name(path: &Path) -> String {
 pub(crate) fn announce(text: &str) {
     let _ = writeln!(std::io::stderr(), "{text}");
 }
+
+/// The program, started in the folder of the repository, to be asserted about.
+pub(crate) fn gumption() -> assert_cmd::Command {
+    let mut command = assert_cmd::Command::new(env!("CARGO_BIN_EXE_gumption"));
+    command.current_dir(root());
+    command
+}
+
+/// Standard output of a run that must succeed.
+pub(crate) fn output(arguments: &[&str]) -> String {
+    let assert = gumption().args(arguments).assert().success();
+    String::from_utf8(assert.get_output().stdout.clone()).expect("UTF-8")
+}

@@ -3,12 +3,9 @@
 mod budget;
 mod comparison;
 mod correlations;
-mod grid;
+pub(crate) mod grid;
 mod sweep;
-mod text;
-
-pub(crate) use grid::Grid;
-pub(crate) use text::wrapped;
+pub(crate) mod text;
 
 use super::Report;
 use crate::model::{InputQuantity, Output, Quantity};

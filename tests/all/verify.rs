@@ -1,6 +1,8 @@
+//! `gumption verify` as a user runs it.
+
 use serde_json::Value;
 
-use super::{gumption, output};
+use crate::support::{gumption, output};
 
 /// The filed page is what this version prints. It is renewed by
 /// `gumption verify --format markdown --output reports/conformance.md`.

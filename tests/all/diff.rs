@@ -1,9 +1,11 @@
+//! `gumption diff` as a user runs it.
+
 use std::path::PathBuf;
 
 use serde_json::Value;
 use tempfile::TempDir;
 
-use super::{gumption, output};
+use crate::support::{gumption, output};
 
 const FIRST: &str = r#"{
   "inputs": {
@@ -80,11 +82,11 @@ fn the_page_leaves_out_what_did_not_change() {
     equation `power`: from "(voltage + drift)^2/resistance" to "voltage^2/resistance"
 
     power: U from 1.99 to 3.93 mW (+97.2 %)
-    what changed  from                             to                         change  share
-                                                                                of U   in %
-    ───────────────────────────────────────────────────────────────────────────────────────
-    voltage       5.000 V, u 0.010, normal         5.000 V, u 0.020, normal     1.94  100.4
-    drift         0.0000 V, u 0.0012, rectangular  absent                      -0.01   -0.4
+    what changed  from                             to                        change  share
+                                                                               of U   in %
+    ──────────────────────────────────────────────────────────────────────────────────────
+    voltage       5.000 V, u 0.010, normal         5.000 V, u 0.020, normal    1.95  100.4
+    drift         0.0000 V, u 0.0012, rectangular  absent                     -0.01   -0.4
     "#);
 }
 

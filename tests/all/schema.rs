@@ -1,6 +1,8 @@
+//! `gumption schema` as a user runs it.
+
 use serde_json::Value;
 
-use super::{gumption, output};
+use crate::support::{gumption, output};
 
 #[test]
 fn the_schema_is_printed_and_written() {
