@@ -65,12 +65,12 @@ fn heading(task: &Task, evaluation: &Evaluation) -> String {
             line += &format!("; as many Monte Carlo trials{each} as are needed, seed {seed}");
         }
     }
-    let mut heading = wrapped(&task.title) + &wrapped(&line);
+    let mut heading = text::wrapped(&task.title) + &text::wrapped(&line);
     if let [row] = evaluation.rows.as_slice()
         && task.swept
     {
         let at = conditions_text(&task.model.conditions, &row.conditions);
-        heading += &wrapped(&format!("at {at}"));
+        heading += &text::wrapped(&format!("at {at}"));
     }
     heading
 }
@@ -104,7 +104,7 @@ fn section(
     let mut parts = vec![title(&output.quantity)];
     match &figures.gum {
         Some(gum) => parts.push(budget::table(task, evaluation, &output.quantity, gum, digits)),
-        None => parts.push(wrapped(
+        None => parts.push(text::wrapped(
             "There is no budget: the estimate or a sensitivity coefficient is not finite here.",
         )),
     }
@@ -121,7 +121,7 @@ fn title(quantity: &Quantity) -> String {
     if !quantity.about.trim().is_empty() {
         line += &format!(": {}", text::plain(&quantity.about));
     }
-    let line = wrapped(&line);
+    let line = text::wrapped(&line);
     let width = line.lines().map(|line| line.chars().count()).max().unwrap_or(0);
     format!("{line}{}\n", "═".repeat(width.min(WIDTH)))
 }
