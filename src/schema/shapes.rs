@@ -338,7 +338,7 @@ fn definition(holder: Holder, shape: &Shape) -> Node {
     let keys = holder.keys().iter().map(|&key| (key, common(key)));
     let own = shape.fields.iter().map(|&key| (key, field(shape.name, key)));
     let mut properties: Vec<(&str, Node)> = keys.chain(own).collect();
-    if shape.name == "readings" && holder == Holder::Input {
+    if shape.name == "readings" {
         properties.push(("paired", common("paired")));
     }
     let mut required: Vec<&str> = match holder {
