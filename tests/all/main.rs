@@ -6,6 +6,7 @@
 mod cases;
 mod commands;
 mod errors;
+mod formulas;
 mod intervals;
 mod mutations;
 mod reproducible;
