@@ -2,9 +2,11 @@
 
 use std::path::PathBuf;
 
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
 
 use super::Failure;
+use crate::report::Column;
 use crate::task::Trials;
 
 /// The format of an answer.
@@ -71,6 +73,12 @@ pub(super) fn memory(text: &str) -> Result<usize, String> {
         .checked_mul(factor)
         .filter(|bytes| *bytes >= 1 << 20)
         .ok_or_else(|| "at least 1 MiB is needed for kept values".to_owned())
+}
+
+/// A further column of the budget, by its name.
+pub(super) fn columns() -> impl TypedValueParser<Value = Column> {
+    PossibleValuesParser::new(Column::ALL.map(Column::name))
+        .try_map(|name| Column::named(&name).ok_or("there is no such column"))
 }
 
 /// A coverage probability.

@@ -10,7 +10,7 @@ use super::options::{self, Answer, Format};
 use super::{Exit, Failure, output, progress};
 use crate::file::{self, Fault, ModelFile, Override, Problem, Problems};
 use crate::propagate::{Control, Evaluation, EvaluationError, evaluate, warnings};
-use crate::report::{self, Provenance, Report};
+use crate::report::{self, Column, Provenance, Report, Style};
 use crate::task::{Coverage, Task, Trials, Warning};
 
 /// Evaluate a model file.
@@ -51,6 +51,9 @@ pub(super) struct Run {
     /// Replace an input's estimate (NAME=35, NAME="35 deg") or a field (NAME.half_width=0.2)
     #[arg(long = "set", value_name = "NAME=VALUE", value_parser = options::replacement)]
     replacements: Vec<Override>,
+    /// More columns of the budget in a table: names with commas between them
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = options::columns())]
+    columns: Vec<Column>,
     /// End with exit code 3 if clause 8 finds a GUM interval not valid or an output does not conform
     #[arg(long)]
     fail: bool,
@@ -76,7 +79,10 @@ impl Run {
             provenance: &provenance,
         };
         let answer = match self.answer.format {
-            Format::Table => report::table(&report, &report::Style::default()),
+            Format::Table => {
+                let style = Style { columns: self.columns.clone(), ..Style::default() };
+                report::table(&report, &style)
+            }
             Format::Json => report::json(&report),
             Format::Csv => report::csv(&report),
         };

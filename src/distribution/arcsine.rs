@@ -49,6 +49,10 @@ impl Shape for Arcsine {
         self.half_width / 2f64.sqrt()
     }
 
+    fn divisor(&self) -> Option<f64> {
+        Some(2f64.sqrt())
+    }
+
     fn quantile(&self, p: f64) -> f64 {
         self.at(p)
     }

@@ -54,6 +54,10 @@ impl Shape for CurvilinearTrapezoid {
         elementary::hypot(self.half_width / 3f64.sqrt(), self.inexactness / 3.0)
     }
 
+    fn divisor(&self) -> Option<f64> {
+        Some(self.half_width / self.standard_uncertainty())
+    }
+
     /// With d the inexactness, w the half-width and s the distance from the middle, the density is
     /// ln((w + d) / (w - d)) / 4d up to s = w - d and ln((w + d) / s) / 4d from there to w + d.
     /// Its integral from s = (w + d)(1 - e) to w + d is (w + d) h(e) / 4d with

@@ -59,6 +59,10 @@ impl Shape for Lognormal {
         self.std
     }
 
+    fn divisor(&self) -> Option<f64> {
+        Some(1.0)
+    }
+
     fn quantile(&self, p: f64) -> f64 {
         self.at(special::normal::quantile(p))
     }

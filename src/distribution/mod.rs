@@ -89,6 +89,13 @@ macro_rules! distributions {
                 match self { $(Self::$shape(shape) => shape.dof(),)* }
             }
 
+            /// What the stated width (the half-width of the limits, an expanded uncertainty, the
+            /// standard uncertainty itself) is divided by to give the standard uncertainty; `None`
+            /// for a shape that is not stated by one width.
+            pub fn divisor(&self) -> Option<f64> {
+                match self { $(Self::$shape(shape) => shape.divisor(),)* }
+            }
+
             /// Degrees of freedom of the t distribution that trials are drawn from; infinite for
             /// all other shapes. Moments of that order and above do not exist.
             pub fn drawn_dof(&self) -> f64 {

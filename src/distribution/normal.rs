@@ -12,6 +12,8 @@ pub struct Normal {
     mean: f64,
     std: f64,
     dof: f64,
+    /// What the stated uncertainty was divided by to give `std`.
+    divisor: f64,
 }
 
 impl Normal {
@@ -30,7 +32,16 @@ impl Normal {
     /// Parameters that are not finite, a standard deviation or degrees of freedom not above zero.
     pub fn with_dof(mean: f64, std: f64, dof: f64) -> Result<Self, Invalid> {
         let (mean, std) = (finite("mean", mean)?, positive("std", std)?);
-        Ok(Self { mean, std, dof: drawn_degrees_of_freedom(dof)? })
+        Ok(Self { mean, std, dof: drawn_degrees_of_freedom(dof)?, divisor: 1.0 })
+    }
+
+    /// The same, known to come from an expanded uncertainty of coverage factor `factor` (> 0). The
+    /// distribution stays as it is; a budget may show the factor as the divisor.
+    ///
+    /// # Errors
+    /// A factor that is not finite or not above zero.
+    pub fn stated_with(self, factor: f64) -> Result<Self, Invalid> {
+        Ok(Self { divisor: positive("k", factor)?, ..self })
     }
 }
 
@@ -43,6 +54,10 @@ impl Shape for Normal {
 
     fn standard_uncertainty(&self) -> f64 {
         self.std
+    }
+
+    fn divisor(&self) -> Option<f64> {
+        Some(self.divisor)
     }
 
     fn dof(&self) -> f64 {

@@ -94,6 +94,10 @@ impl Shape for Readings {
         self.scale
     }
 
+    fn divisor(&self) -> Option<f64> {
+        Some(1.0)
+    }
+
     fn dof(&self) -> f64 {
         self.values.len() as f64 - 1.0
     }

@@ -57,6 +57,10 @@ impl Shape for Rectangular {
         self.half_width / 3f64.sqrt()
     }
 
+    fn divisor(&self) -> Option<f64> {
+        Some(3f64.sqrt())
+    }
+
     fn dof(&self) -> f64 {
         self.dof
     }

@@ -25,6 +25,13 @@ pub(crate) trait Shape {
         f64::INFINITY
     }
 
+    /// What the stated width (the half-width of the limits, an expanded uncertainty, the standard
+    /// uncertainty itself) is divided by to give the standard uncertainty; `None` for a shape that
+    /// is not stated by one width.
+    fn divisor(&self) -> Option<f64> {
+        None
+    }
+
     /// Degrees of freedom of the t distribution that trials are drawn from, infinite for all other
     /// shapes. Moments of that order and above do not exist.
     fn drawn_dof(&self) -> f64 {

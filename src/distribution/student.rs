@@ -40,6 +40,10 @@ impl Shape for StudentT {
         self.scale
     }
 
+    fn divisor(&self) -> Option<f64> {
+        Some(1.0)
+    }
+
     fn dof(&self) -> f64 {
         self.dof
     }

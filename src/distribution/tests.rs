@@ -1,6 +1,7 @@
 //! The battery that every distribution goes through.
 
 mod closed_forms;
+mod divisors;
 mod extremes;
 
 use super::*;

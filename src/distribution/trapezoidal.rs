@@ -47,6 +47,10 @@ impl Shape for Trapezoidal {
         self.half_width * ((1.0 + self.beta * self.beta) / 6.0).sqrt()
     }
 
+    fn divisor(&self) -> Option<f64> {
+        Some((6.0 / (1.0 + self.beta * self.beta)).sqrt())
+    }
+
     fn quantile(&self, p: f64) -> f64 {
         let Self { mean, half_width, beta } = *self;
         let tail = p.min(1.0 - p);

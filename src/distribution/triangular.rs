@@ -57,6 +57,12 @@ impl Shape for Triangular {
         ((rise * rise + rise * fall + fall * fall) / 18.0).sqrt()
     }
 
+    /// The limits of a triangle with its mode off the middle are not one width.
+    fn divisor(&self) -> Option<f64> {
+        let off = (self.rise - self.fall).abs();
+        (off <= 1e-9 * self.width()).then(|| 6f64.sqrt())
+    }
+
     fn quantile(&self, p: f64) -> f64 {
         let width = self.width();
         if p * width < self.rise {

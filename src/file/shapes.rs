@@ -223,6 +223,7 @@ impl<'a> Fields<'a> {
     fn normal(&self) -> Option<Distribution> {
         let mean = self.estimate("mean");
         let dof = self.dof();
+        let mut divisor = 1.0;
         let std = match (self.object.get("std"), self.object.get("expanded")) {
             (Some(_), Some(second)) => {
                 let fault = Fault::Exclusive { first: "std", second: "expanded" };
@@ -231,12 +232,16 @@ impl<'a> Fields<'a> {
             }
             (_, Some(_)) => {
                 let factor = self.coverage_factor(dof);
+                divisor = factor.unwrap_or(1.0);
                 self.width("expanded", mean?)?.zip(factor).map(|(expanded, k)| expanded / k)
             }
             _ => self.width("std", mean?)?,
         };
         match std {
-            Some(std) => self.made(Normal::with_dof(mean?, std, dof.unwrap_or(f64::INFINITY))),
+            Some(std) => {
+                let normal = Normal::with_dof(mean?, std, dof.unwrap_or(f64::INFINITY));
+                self.made(normal.and_then(|normal| normal.stated_with(divisor)))
+            }
             None => self.made(Constant::new(mean?)),
         }
     }

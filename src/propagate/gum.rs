@@ -25,6 +25,8 @@ pub struct BudgetLine {
     pub standard_uncertainty: f64,
     /// Name of the distribution.
     pub distribution: &'static str,
+    /// What the stated width was divided by to give u(x_i), if the distribution has one width.
+    pub divisor: Option<f64>,
     /// Degrees of freedom of u(x_i); infinite unless it was estimated.
     pub dof: f64,
     /// Whether a normal distribution is drawn as a t for its few degrees of freedom.
@@ -181,6 +183,7 @@ fn output(settings: &Settings, row: &Row, estimate: f64, slopes: &[f64], linked:
             estimate: distribution.mean(),
             standard_uncertainty: distribution.standard_uncertainty(),
             distribution: distribution.name(),
+            divisor: distribution.divisor(),
             dof: distribution.dof(),
             drawn_as_t: matches!(distribution, Distribution::Normal(_))
                 && distribution.drawn_dof().is_finite(),

@@ -10,9 +10,9 @@ mod table;
 pub use csv::csv;
 pub use json::json;
 #[cfg(feature = "cli")]
-pub use table::{Style, table};
+pub use table::{Column, Style, table};
 #[cfg(feature = "cli")]
-pub(crate) use table::{WIDTH, grid::Grid, text::wrapped};
+pub(crate) use table::{Grid, WIDTH, wrapped};
 
 use crate::propagate::Evaluation;
 use crate::task::{Task, Warning};

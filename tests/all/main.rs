@@ -7,6 +7,7 @@ mod cases;
 mod commands;
 mod diff;
 mod errors;
+mod formulas;
 mod intervals;
 mod mutations;
 mod reproducible;

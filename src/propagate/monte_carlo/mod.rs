@@ -17,6 +17,7 @@ mod moments;
 mod order;
 mod partition;
 mod run;
+mod sorting;
 mod windows;
 
 pub use adaptive::Adaptive;

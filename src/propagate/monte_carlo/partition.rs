@@ -4,6 +4,8 @@
 //! later passes regenerate them and keep, or count more finely, only what lies in the few cells on
 //! which the wanted order statistics depend.
 
+use super::sorting::sort;
+
 /// Cells of the first pass.
 const FIRST_CELLS: usize = 1 << 14;
 
@@ -201,7 +203,7 @@ impl Tally {
 
     /// The kept values in order.
     pub(super) fn into_sorted(mut self) -> Vec<f64> {
-        self.kept.sort_unstable_by(f64::total_cmp);
+        sort(&mut self.kept);
         self.kept
     }
 }

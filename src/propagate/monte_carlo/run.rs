@@ -9,6 +9,7 @@ use super::fold::{FoldKernel, Folded, Plan, drop_undefined};
 use super::interval::{Ranks, quantile_error, shortest, symmetric};
 use super::moments::{Moments, Reference, Sums, correlation};
 use super::order::Order;
+use super::sorting::sort;
 use super::windows::Windows;
 use crate::distribution::BLOCK;
 use crate::propagate::Control;
@@ -178,7 +179,7 @@ fn plans(trials: &Trials, request: Request<'_>, control: &Control<'_>, margin: f
         .into_iter()
         .enumerate()
         .map(|(output, mut values)| {
-            values.sort_unstable_by(f64::total_cmp);
+            sort(&mut values);
             let reference = reference(&values, trials.limits(output));
             let all = request.trials <= 4 * PILOT_BLOCKS * BLOCK as u64 || margin > KEEP_ALL_MARGIN;
             let windows = if all {
@@ -327,8 +328,7 @@ impl Batch {
         for batch in batches {
             kept.extend(batch.kept);
         }
-        // a stable sort merges the sorted runs that it finds
-        kept.sort_by(f64::total_cmp);
+        sort(&mut kept);
         Self { trials, below_median, kept }
     }
 }

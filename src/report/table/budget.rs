@@ -1,9 +1,9 @@
 //! The uncertainty budget of one output, and what follows from it.
 
+use super::columns::{self, Column};
 use super::grid::Grid;
 use super::{WIDTH, coverage_text, has_name, in_unit, text};
 use crate::model::Quantity;
-use crate::propagate::Evaluation;
 use crate::propagate::gum::{BudgetLine, Dof, Gum};
 use crate::report::number::{exact, place, rounded, significant, with_uncertainty};
 use crate::report::subtotals::Subtotals;
@@ -18,66 +18,122 @@ const WORD: usize = 12;
 /// Degrees of freedom above this are written as a power of ten.
 const MANY: f64 = 1e7;
 
-/// Headers of the columns: as words, and broken for pages that would become too wide.
-const HEADERS: [[&str; 9]; 2] = [
-    [
-        "quantity",
-        "estimate",
-        "standard\nuncertainty",
-        "unit",
-        "distribution",
-        "dof",
-        "sensitivity\ncoefficient",
-        "contribution",
-        "share\nin %",
-    ],
-    [
-        "quantity",
-        "estimate",
-        "standard\nuncer-\ntainty",
-        "unit",
-        "distri-\nbution",
-        "dof",
-        "sensi-\ntivity",
-        "contri-\nbution",
-        "share\nin %",
-    ],
+/// The usual columns: their headers as words, and broken for pages that would become too wide.
+const HEADERS: [[&str; 2]; 9] = [
+    ["quantity"; 2],
+    ["estimate"; 2],
+    ["standard\nuncertainty", "standard\nuncer-\ntainty"],
+    ["unit"; 2],
+    ["distribution", "distri-\nbution"],
+    ["dof"; 2],
+    ["sensitivity\ncoefficient", "sensi-\ntivity"],
+    ["contribution", "contri-\nbution"],
+    ["share\nin %"; 2],
 ];
 
-/// The budget with the combined standard uncertainty as its last line, subtotals, degrees of
-/// freedom, coverage factor and expanded uncertainty.
-pub(super) fn table(
-    task: &Task,
-    evaluation: &Evaluation,
-    output: &Quantity,
-    gum: &Gum,
-    digits: u32,
-) -> String {
-    let lines = lines(task, output, gum, digits);
-    let grids = HEADERS.map(|headers| grid(headers, &lines));
-    let grid = grids.iter().find(|grid| grid.natural_width() <= WIDTH).unwrap_or(&grids[1]);
-    let mut page = grid.render(WIDTH);
-    page += &text::wrapped(&legend(output));
-    page += &text::wrapped(&subtotals(task, gum).unwrap_or_default());
-    page.push('\n');
-    page + &conclusion(&evaluation.settings, output, gum, digits)
+/// The budget of one output, and what it is written with.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Budget<'a> {
+    pub(super) task: &'a Task,
+    pub(super) output: &'a Quantity,
+    pub(super) gum: &'a Gum,
+    pub(super) digits: u32,
+}
+
+/// A column of the budget.
+#[derive(Clone, Debug)]
+pub(super) struct Field {
+    /// The header as words, and broken.
+    pub(super) headers: [&'static str; 2],
+    pub(super) layout: Layout,
+    /// The cells: inputs, correlation coefficients, the output.
+    pub(super) cells: Vec<String>,
+}
+
+/// How cells are set.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Layout {
+    /// Texts that wrap if the page is too narrow.
+    Text,
+    /// Texts that wrap only above a width.
+    TextFrom(usize),
+    /// Numbers, which never wrap.
+    Numbers,
+}
+
+impl Budget<'_> {
+    /// The budget with the combined standard uncertainty as its last line, subtotals, degrees of
+    /// freedom, coverage factor and expanded uncertainty.
+    pub(super) fn table(&self, settings: &Settings, columns: &[Column]) -> String {
+        let Self { task, output, gum, digits } = *self;
+        let mut page = self.grids(columns);
+        page += &text::wrapped(&legend(output, columns));
+        page += &text::wrapped(&subtotals(task, gum).unwrap_or_default());
+        page.push('\n');
+        page + &conclusion(settings, output, gum, digits)
+    }
+
+    /// One table, or two where the further columns leave no room for it.
+    fn grids(&self, columns: &[Column]) -> String {
+        let usual = self.usual_fields();
+        let further = columns::fields(self, columns);
+        let fits = |grid: &Grid| grid.least_width() <= WIDTH;
+        let whole = grid(&arranged(&usual, &further));
+        if further.is_empty() || fits(&whole) {
+            return whole.render(WIDTH);
+        }
+        let names = usual.first().cloned();
+        let apart: Vec<Field> =
+            names.into_iter().chain(further.into_iter().map(|(_, field)| field)).collect();
+        grid(&usual).render(WIDTH) + "\n" + &grid(&apart).render(WIDTH)
+    }
+
+    fn usual_fields(&self) -> Vec<Field> {
+        let Self { task, output, gum, digits } = *self;
+        let lines = lines(task, output, gum, digits);
+        let field = |(place, headers): (usize, [&'static str; 2])| Field {
+            headers,
+            layout: match place {
+                0 => Layout::Text,
+                3 | 4 => Layout::TextFrom(WORD),
+                _ => Layout::Numbers,
+            },
+            cells: lines.iter().map(|line| line[place].clone()).collect(),
+        };
+        HEADERS.into_iter().enumerate().map(field).collect()
+    }
+}
+
+/// The further fields among the usual ones, each behind the field of its place.
+fn arranged(usual: &[Field], further: &[(usize, Field)]) -> Vec<Field> {
+    let mut fields = Vec::new();
+    for (place, field) in usual.iter().enumerate() {
+        fields.push(field.clone());
+        let behind = further.iter().filter(|(behind, _)| *behind == place);
+        fields.extend(behind.map(|(_, field)| field.clone()));
+    }
+    fields
+}
+
+/// The table with headers as words if that fits, else with broken ones.
+fn grid(fields: &[Field]) -> Grid {
+    let [words, broken] = [0, 1].map(|form| {
+        let mut grid = Grid::with_footer();
+        for Field { headers, layout, cells } in fields {
+            let (header, cells) = (headers[form], cells.iter().cloned());
+            match *layout {
+                Layout::Text => grid.text(header, cells),
+                Layout::TextFrom(width) => grid.text_from(header, width, cells),
+                Layout::Numbers => grid.numbers(header, cells),
+            }
+        }
+        grid
+    });
+    if words.natural_width() <= WIDTH { words } else { broken }
 }
 
 /// The cells of a line.
 type Line = [String; 9];
-
-fn grid(headers: [&str; 9], lines: &[Line]) -> Grid {
-    let mut grid = Grid::with_footer();
-    for (place, header) in headers.into_iter().enumerate() {
-        let cells = lines.iter().map(|line| line[place].clone());
-        match place {
-            0 => grid.text(header, cells),
-            3 | 4 => grid.text_from(header, WORD, cells),
-            _ => grid.numbers(header, cells),
-        }
-    }
-    grid
-}
 
 fn lines(task: &Task, output: &Quantity, gum: &Gum, digits: u32) -> Vec<Line> {
     let inputs = gum.budget.iter().filter_map(|line| {
@@ -128,15 +184,23 @@ fn distribution(line: &BudgetLine) -> String {
     }
 }
 
-fn legend(output: &Quantity) -> String {
-    if has_name(&output.unit) {
+fn legend(output: &Quantity, columns: &[Column]) -> String {
+    let mut legend = if has_name(&output.unit) {
         let unit = output.unit.text();
         format!(
             "sensitivity coefficients in {unit} per unit of the quantity, contributions in {unit}"
         )
     } else {
         "sensitivity coefficients per unit of the quantity".to_owned()
+    };
+    if columns.contains(&Column::Relative) {
+        let name = &output.name;
+        legend += &format!(
+            "; relative: standard uncertainty to the modulus of the estimate; of y: \
+             contribution to the modulus of {name}"
+        );
     }
+    legend
 }
 
 /// Shares by group and by type, where there is more than one of them.

@@ -29,6 +29,16 @@ struct Column {
 }
 
 impl Column {
+    /// The width that it needs where texts wrap as far as they may.
+    fn least_width(&self) -> usize {
+        match self.constraint {
+            Some(ColumnConstraint::LowerBoundary(Width::Fixed(width))) => {
+                self.width().min(usize::from(width.saturating_sub(GAP)))
+            }
+            _ => self.width(),
+        }
+    }
+
     fn width(&self) -> usize {
         let lines = self.header.lines().chain(self.cells.iter().map(String::as_str));
         lines.map(|line| line.chars().count()).max().unwrap_or(0)
@@ -94,6 +104,12 @@ impl Grid {
     pub(super) fn natural_width(&self) -> usize {
         let gaps = self.columns.len().saturating_sub(1) * usize::from(GAP);
         self.columns.iter().map(Column::width).sum::<usize>() + gaps
+    }
+
+    /// The width at which texts that may wrap do so and nothing else does.
+    pub(super) fn least_width(&self) -> usize {
+        let gaps = self.columns.len().saturating_sub(1) * usize::from(GAP);
+        self.columns.iter().map(Column::least_width).sum::<usize>() + gaps
     }
 
     /// The table with its header, ending in a newline.

@@ -1,12 +1,18 @@
 //! The page for a terminal.
 
 mod budget;
+mod columns;
 mod comparison;
 mod correlations;
-pub(crate) mod grid;
+mod grid;
 mod sweep;
-pub(crate) mod text;
+mod text;
 
+pub use columns::Column;
+pub(crate) use grid::Grid;
+pub(crate) use text::wrapped;
+
+use self::budget::Budget;
 use super::Report;
 use crate::model::{InputQuantity, Output, Quantity};
 use crate::propagate::{Evaluation, OutputEvaluation, RowEvaluation};
@@ -17,11 +23,13 @@ use crate::unit::Unit;
 pub(crate) const WIDTH: usize = 100;
 
 /// How the page looks.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Style {
     /// Significant digits of standard uncertainties, those of the settings unless given; estimates
     /// are rounded to match.
     pub digits: Option<u32>,
+    /// Columns of the budget beside the usual ones. Each has its own place, whatever the order here.
+    pub columns: Vec<Column>,
 }
 
 /// The results as a page of at most 100 columns: for each output the budget, the two methods side
@@ -37,7 +45,7 @@ pub fn table(report: &Report<'_>, style: &Style) -> String {
     match evaluation.rows.as_slice() {
         [row] => {
             for (output, figures) in task.model.outputs.iter().zip(&row.outputs) {
-                page.push(section(task, evaluation, output, figures, digits));
+                page.push(section(task, evaluation, output, figures, digits, &style.columns));
             }
             page.extend(correlations::table(task, row));
             page.extend(left_out(row));
@@ -65,12 +73,12 @@ fn heading(task: &Task, evaluation: &Evaluation) -> String {
             line += &format!("; as many Monte Carlo trials{each} as are needed, seed {seed}");
         }
     }
-    let mut heading = text::wrapped(&task.title) + &text::wrapped(&line);
+    let mut heading = wrapped(&task.title) + &wrapped(&line);
     if let [row] = evaluation.rows.as_slice()
         && task.swept
     {
         let at = conditions_text(&task.model.conditions, &row.conditions);
-        heading += &text::wrapped(&format!("at {at}"));
+        heading += &wrapped(&format!("at {at}"));
     }
     heading
 }
@@ -100,11 +108,15 @@ fn section(
     output: &Output,
     figures: &OutputEvaluation,
     digits: u32,
+    columns: &[Column],
 ) -> String {
     let mut parts = vec![title(&output.quantity)];
     match &figures.gum {
-        Some(gum) => parts.push(budget::table(task, evaluation, &output.quantity, gum, digits)),
-        None => parts.push(text::wrapped(
+        Some(gum) => {
+            let budget = Budget { task, output: &output.quantity, gum, digits };
+            parts.push(budget.table(&evaluation.settings, columns));
+        }
+        None => parts.push(wrapped(
             "There is no budget: the estimate or a sensitivity coefficient is not finite here.",
         )),
     }
@@ -121,7 +133,7 @@ fn title(quantity: &Quantity) -> String {
     if !quantity.about.trim().is_empty() {
         line += &format!(": {}", text::plain(&quantity.about));
     }
-    let line = text::wrapped(&line);
+    let line = wrapped(&line);
     let width = line.lines().map(|line| line.chars().count()).max().unwrap_or(0);
     format!("{line}{}\n", "═".repeat(width.min(WIDTH)))
 }

@@ -1,5 +1,7 @@
 //! What reports of small evaluations look like.
 
+#[cfg(feature = "cli")]
+mod columns;
 mod csv;
 mod json;
 #[cfg(feature = "cli")]

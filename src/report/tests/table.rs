@@ -383,7 +383,7 @@ fn digits_are_those_of_the_settings_unless_given() {
     let mut case = only_z(Case::new(plane_at(35.0, 0)));
     case.evaluation.settings.digits = 3;
     assert!(page(&case).contains("standard uncertainty  0.0100 m/s^2"));
-    let page = table(&case.report(), &Style { digits: Some(1) });
+    let page = table(&case.report(), &Style { digits: Some(1), ..Style::default() });
     assert!(page.contains("standard uncertainty  0.01 m/s^2"), "{page}");
 }
 
