@@ -89,8 +89,13 @@ fn parse(source: &Arc<Source>) -> Result<Table, Faults> {
                 break;
             }
         };
-        let line = record.position().map_or(number + 2, |p| p.line() as usize);
-        let place = at_line(line);
+        let mut line = record.position().map_or(number + 2, |p| p.line() as usize);
+        let mut place = at_line(line);
+        // the reader stood before the comments and empty lines that it skipped
+        while line < starts.len() && is_skipped(source.text.get(place.span.clone())) {
+            line += 1;
+            place = at_line(line);
+        }
         if record.len() != columns.len() {
             let fault =
                 Fault::ShortRow { row: number + 1, found: record.len(), expected: columns.len() };
@@ -120,6 +125,12 @@ fn parse(source: &Arc<Source>) -> Result<Table, Faults> {
     } else {
         Err(faults)
     }
+}
+
+/// Whether a line is no record: empty, or a comment.
+fn is_skipped(line: Option<&str>) -> bool {
+    let line = line.unwrap_or("").trim();
+    line.is_empty() || line.starts_with('#')
 }
 
 /// The place of a cell in its line; the whole line where quotes make that uncertain. An empty cell is
