@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stdout)]
 #![allow(clippy::print_stderr)]
 
+mod adaptive;
 mod cases;
 mod commands;
 mod diff;

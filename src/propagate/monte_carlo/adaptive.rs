@@ -1,5 +1,20 @@
 //! The adaptive procedure (JCGM 101, 7.9): blocks of trials are added until the figures are stable
 //! to a numerical tolerance.
+//!
+//! How often the interval is then really within the tolerance was measured with 1000 seeds on the
+//! sum of four normal quantities (JCGM 101, 9.2.2; `tests/all/adaptive.rs`), beside Stein's
+//! two-stage rule (Wuebbeler, Harris, Cox, Elster, Metrologia 47 (2010) 317), which takes the
+//! number of blocks from the scatter of the first few and the t quantile at 0.975:
+//!
+//! | rule | one digit | blocks | two digits | blocks |
+//! |---|---|---|---|---|
+//! | 7.9 | 100 % | 2.0 | 86.7 % | 5.1 |
+//! | two stages, 5 blocks first | 100 % | 5.0 | 98.8 % | 12.9 |
+//! | two stages, 10 blocks first | 100 % | 10.0 | 99.3 % | 10.4 |
+//! | two stages, 20 blocks first | 100 % | 20.0 | 99.9 % | 20.0 |
+//!
+//! The standard errors of the shares are below 1.1 %. 7.9 stops early where the first few blocks
+//! happen to agree.
 
 use rayon::prelude::*;
 
