@@ -38,7 +38,7 @@
 //!
 //! # Rooms
 //!
-//! Data flows one way: [`file`] -> [`task`] -> [`propagate`] -> [`report`]; [`number`], [`unit`],
+//! Data flows one way: [`mod@file`] -> [`task`] -> [`propagate`] -> [`report`]; [`number`], [`mod@unit`],
 //! [`distribution`] and [`model`] are what tasks are made of. The library prints nothing and starts
 //! nothing by itself; progress, stopping, threads and memory are the caller's
 //! ([`propagate::Control`]).

@@ -1,8 +1,8 @@
 //! What is known about a quantity: probability distributions, one file each, and the joint draw of
 //! many quantities.
 //!
-//! The seam for a new shape is one file that implements [`shape::Shape`] and one line in the list
-//! of [`Distribution`].
+//! The seam for a new shape is one file that implements `shape::Shape` and one line in the list
+//! of `Distribution`.
 
 mod arcsine;
 mod beta;

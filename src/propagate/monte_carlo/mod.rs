@@ -1,11 +1,11 @@
 //! The Monte Carlo method (JCGM 101, clauses 5.9 and 7).
 //!
-//! Trials are made in blocks ([`block`]) whose draws are functions of (seed, input, block), so any
+//! Trials are made in blocks (`block`) whose draws are functions of (seed, input, block), so any
 //! thread can compute any block and the results are the same bits however the work is shared. A
-//! pilot of the first blocks fixes where the tails lie ([`windows`]); the main pass keeps only what
-//! the coverage intervals and the median can depend on ([`fold`]); order statistics of what was
-//! kept are then those of all trials ([`order`], [`interval`]). Where that would not fit into memory,
-//! the trials are generated again in a few passes ([`capped`]).
+//! pilot of the first blocks fixes where the tails lie (`windows`); the main pass keeps only what
+//! the coverage intervals and the median can depend on (`fold`); order statistics of what was
+//! kept are then those of all trials (`order`, `interval`). Where that would not fit into memory,
+//! the trials are generated again in a few passes (`capped`).
 
 mod adaptive;
 mod block;
