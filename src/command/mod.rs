@@ -9,6 +9,7 @@ mod output;
 mod problems;
 mod progress;
 mod run;
+mod save;
 mod schema;
 mod verify;
 

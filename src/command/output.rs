@@ -21,25 +21,51 @@ pub(super) fn write(text: &str, file: Option<&Path>) -> Result<(), Failure> {
     }
 }
 
-/// Writes a temporary file beside the wanted one, then renames it.
-fn write_file(text: &str, path: &Path) -> Result<(), Failure> {
-    let failed = |error: std::io::Error| {
-        Failure::System(format!("cannot write `{}`: {error}", path.display()))
-    };
+/// Writes a text to a file.
+pub(super) fn write_file(text: &str, path: &Path) -> Result<(), Failure> {
+    write_parts(path, |file| {
+        put(file, path, text.as_bytes())?;
+        Ok(true)
+    })
+}
+
+/// Bytes into a file that is to become `path`.
+pub(super) fn put(
+    file: &mut (impl Write + ?Sized),
+    path: &Path,
+    bytes: &[u8],
+) -> Result<(), Failure> {
+    file.write_all(bytes).map_err(|error| failed(path, &error))
+}
+
+fn failed(path: &Path, error: &std::io::Error) -> Failure {
+    Failure::System(format!("cannot write `{}`: {error}", path.display()))
+}
+
+/// Lets `write` fill a temporary file beside the wanted one, then renames it; if `write` gives
+/// false, nothing is left.
+pub(super) fn write_parts(
+    path: &Path,
+    write: impl FnOnce(&mut (dyn Write + Send)) -> Result<bool, Failure>,
+) -> Result<(), Failure> {
+    let failed = |error: std::io::Error| failed(path, &error);
     let folder = match path.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
         _ => Path::new("."),
     };
     // a device or a pipe cannot be renamed over
     if path.exists() && !path.is_file() {
-        return std::fs::write(path, text).map_err(failed);
+        let mut file = std::fs::OpenOptions::new().write(true).open(path).map_err(failed)?;
+        return write(&mut file).map(|_| ());
     }
     let mut file = tempfile::Builder::new()
         .prefix(".gumption-")
         .permissions_like_new_files()
         .tempfile_in(folder)
         .map_err(failed)?;
-    file.write_all(text.as_bytes()).map_err(failed)?;
+    if !write(file.as_file_mut())? {
+        return Ok(());
+    }
     file.as_file().sync_all().map_err(failed)?;
     file.persist(path).map_err(|error| failed(error.error))?;
     Ok(())

@@ -1,13 +1,13 @@
 //! `gumption run`
 
 use std::path::{Path, PathBuf};
-use std::sync::atomic::Ordering;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use clap::{Args, ValueEnum};
 use sha2::{Digest, Sha256};
 
 use super::options::{self, Answer, Format};
-use super::{Exit, Failure, output, progress};
+use super::{Exit, Failure, output, progress, save};
 use crate::file::{self, Fault, ModelFile, Override, Problem, Problems};
 use crate::propagate::{Control, Evaluation, EvaluationError, evaluate, warnings};
 use crate::report::{self, Column, Provenance, Report, Style};
@@ -54,6 +54,12 @@ pub(super) struct Run {
     /// More columns of the budget in a table: names with commas between them
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = options::columns())]
     columns: Vec<Column>,
+    /// Write a result file, from which inputs of other models can be taken
+    #[arg(long, value_name = "FILE")]
+    save: Option<PathBuf>,
+    /// Write the trials: a .csv or a .npy file
+    #[arg(long, value_name = "FILE", value_parser = save::samples)]
+    samples: Option<save::SampleFile>,
     /// End with exit code 3 if clause 8 finds a GUM interval not valid or an output does not conform
     #[arg(long)]
     fail: bool,
@@ -69,6 +75,7 @@ impl Run {
         let (text, file) = self.read()?;
         let mut task = file.task.clone();
         self.settings(&mut task);
+        save::check(&task, self.save.as_deref(), self.samples.as_ref())?;
         let stop = progress::stop_flag();
         let (evaluation, warnings) = self.evaluate(&file, &task, &stop)?;
         let provenance = provenance(&text, &file);
@@ -91,6 +98,17 @@ impl Run {
         }
         if evaluation.stopped || stop.load(Ordering::Relaxed) {
             output::write(&answer, None)?;
+            return Ok(Exit::Interrupted);
+        }
+        let control = self.control(&stop);
+        let saver = save::Saver { report: &report, control: &control };
+        if let Some(path) = &self.save {
+            saver.result(path)?;
+        }
+        if let Some(file) = &self.samples {
+            saver.samples(file)?;
+        }
+        if stop.load(Ordering::Relaxed) {
             return Ok(Exit::Interrupted);
         }
         output::write(&answer, self.answer.output.as_deref())?;
@@ -125,11 +143,20 @@ impl Run {
         settings.real_dof |= self.dof.is_some();
     }
 
+    fn control<'s>(&self, stop: &'s AtomicBool) -> Control<'s> {
+        Control {
+            threads: self.threads.unwrap_or(0),
+            memory: self.memory,
+            stop: Some(stop),
+            ..Control::default()
+        }
+    }
+
     fn evaluate(
         &self,
         file: &ModelFile,
         task: &Task,
-        stop: &std::sync::atomic::AtomicBool,
+        stop: &AtomicBool,
     ) -> Result<(Evaluation, Vec<Warning>), Failure> {
         let rows = task.rows.len() as u64;
         let trials = match task.settings.trials {
@@ -138,13 +165,7 @@ impl Run {
         };
         let bar = progress::bar(trials, self.answer.quiet);
         let advance = |trials: u64| bar.inc(trials);
-        let control = Control {
-            threads: self.threads.unwrap_or(0),
-            memory: self.memory,
-            stop: Some(stop),
-            progress: Some(&advance),
-            ..Control::default()
-        };
+        let control = Control { progress: Some(&advance), ..self.control(stop) };
         let result = evaluate(task, &control);
         bar.finish_and_clear();
         let evaluation = result.map_err(|error| failure(file, error))?;

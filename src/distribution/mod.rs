@@ -18,6 +18,7 @@ mod normal;
 mod poisson_count;
 mod readings;
 mod rectangular;
+mod result;
 mod samples;
 mod shape;
 pub(crate) mod special;
@@ -41,6 +42,7 @@ pub use normal::Normal;
 pub use poisson_count::PoissonCount;
 pub use readings::Readings;
 pub use rectangular::Rectangular;
+pub use result::{Origin, Root, RootCorrelation, RootName, Saved, SavedResult, Scores};
 pub use samples::Samples;
 pub use shape::Invalid;
 use shape::Shape;
@@ -171,6 +173,8 @@ distributions! {
     PoissonCount,
     /// Empirical: samples drawn with replacement.
     Samples,
+    /// One output of a saved result.
+    SavedResult,
 }
 
 impl Distribution {
@@ -178,6 +182,14 @@ impl Distribution {
     pub fn constant(&self) -> Option<f64> {
         match self {
             Self::Constant(constant) => Some(constant.mean()),
+            _ => None,
+        }
+    }
+
+    /// The saved result, if it is one.
+    pub fn saved(&self) -> Option<&SavedResult> {
+        match self {
+            Self::SavedResult(saved) => Some(saved),
             _ => None,
         }
     }

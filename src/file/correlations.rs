@@ -7,30 +7,30 @@ use std::path::Path;
 use super::Fault;
 use super::inputs::Inputs;
 use super::json::{Json, Node};
+use super::links;
 use super::nearest::nearest;
 use super::object::Object;
 use super::problem::Log;
 use super::table;
 use crate::distribution::{Correlation, CorrelationError, Distribution, Joint};
+use crate::task::Warning;
 
 /// Reads `correlations` and `correlation_matrix` of the root object and checks that the quantities
-/// can have them in every row. Tables that were read are added to `files`.
+/// can have them in every row; those of saved results come with them, with notes. Tables that were
+/// read are added to `files`.
 pub(super) fn read(
     root: &Object<'_>,
     inputs: &Inputs,
     folder: &Path,
     files: &mut Vec<(String, Vec<u8>)>,
-) -> Vec<Correlation> {
+) -> (Vec<Correlation>, Vec<Warning>) {
+    let (found, warnings) = links::links(inputs);
+    let place = |c: &Correlation| inputs.places.get(c.second).unwrap_or(root.place()).clone();
+    let places = found.iter().map(place).collect();
     let shown = inputs.variables.iter().enumerate().filter(|(_, variable)| variable.shown);
     let by_name = shown.map(|(place, variable)| (variable.name.as_str(), place)).collect();
-    let mut reader = Reader {
-        log: root.log,
-        inputs,
-        by_name,
-        found: Vec::new(),
-        pairs: HashSet::new(),
-        places: Vec::new(),
-    };
+    let mut reader =
+        Reader { log: root.log, inputs, by_name, found, pairs: HashSet::new(), places };
     if let Some(list) = root.list("correlations") {
         for node in list {
             reader.triple(node);
@@ -40,7 +40,7 @@ pub(super) fn read(
         reader.matrix(root.log, member, folder, files);
     }
     reader.check(root);
-    reader.found
+    (reader.found, warnings)
 }
 
 struct Reader<'a> {
@@ -96,6 +96,10 @@ impl Reader<'_> {
             format!("the correlation coefficient is {r}, but must be from -1 to 1")
         } else if a == b {
             format!("`{}` is correlated with itself", name(a))
+        } else if self.inputs.rows.first().is_some_and(|row| links::is_linked(row, a, b)) {
+            let (first, second) = (name(a).to_owned(), name(b).to_owned());
+            self.log.report(span, Fault::SavedCorrelation { first, second });
+            return;
         } else if !self.pairs.insert((a.min(b), a.max(b))) {
             format!("the correlation of `{}` and `{}` is given twice", name(a), name(b))
         } else {

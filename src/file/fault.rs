@@ -110,6 +110,16 @@ pub enum Fault {
     Correlation { reason: String },
     /// Too many rows, inputs, nodes.
     TooMany { what: &'static str, found: usize, most: usize },
+    /// A file that `--save` did not write.
+    NotResult { file: String },
+    /// A result file has no such output.
+    NoSuchResult { file: String, name: String, nearest: Option<String>, known: Vec<String> },
+    /// A list of a result file whose entries do not fit.
+    SavedEntry { reason: &'static str },
+    /// A result in degC for an input in another unit, or the other way round.
+    SavedCelsius { name: String, found: String, saved: String },
+    /// A declared coefficient between inputs whose saved results have one.
+    SavedCorrelation { first: String, second: String },
     /// The evaluation met numbers that it cannot go on with.
     Evaluation { message: String },
     /// An override of the command line that does not fit.
@@ -164,6 +174,11 @@ impl Fault {
             Self::Table { .. } => "bad-table",
             Self::Correlation { .. } => "bad-correlation",
             Self::TooMany { .. } => "too-many",
+            Self::NotResult { .. } => "not-a-result",
+            Self::NoSuchResult { .. } => "no-such-result",
+            Self::SavedEntry { .. } => "bad-result",
+            Self::SavedCelsius { .. } => "celsius-result",
+            Self::SavedCorrelation { .. } => "correlated-results",
             Self::Evaluation { .. } => "evaluation",
             Self::Override { .. } => "bad-override",
         }
@@ -177,6 +192,7 @@ impl Fault {
             | Self::UnknownInput { nearest, .. }
             | Self::UnknownOutput { nearest, .. }
             | Self::NoSuchInput { nearest, .. }
+            | Self::NoSuchResult { nearest, .. }
             | Self::UnknownDistribution { nearest, .. } => nearest.clone(),
             Self::Unit { error, .. } => error.suggestions().first().map(|s| (*s).to_owned()),
             Self::Formula { error } => error.suggestion(),
@@ -353,6 +369,26 @@ impl fmt::Display for Fault {
             Self::TooMany { what, found, most } => {
                 write!(f, "there are {found} {what}; this version takes {most} at most")
             }
+            Self::NotResult { file } => write!(
+                f,
+                "`{file}` is not a saved result (`\"result\": true` is missing); `gumption run \
+                 --save` writes one"
+            ),
+            Self::NoSuchResult { file, name, nearest, known } => {
+                let hint = hint(nearest.as_ref(), &list(known));
+                write!(f, "the saved result `{file}` has no output `{name}`{hint}")
+            }
+            Self::SavedEntry { reason } => f.write_str(reason),
+            Self::SavedCelsius { name, found, saved } => write!(
+                f,
+                "the saved result `{name}` is in `{saved}`, the input in `{found}`, and degrees \
+                 Celsius are never shifted; take the unit of the result"
+            ),
+            Self::SavedCorrelation { first, second } => write!(
+                f,
+                "the correlation of `{first}` and `{second}` follows from the saved results that \
+                 they come from; take the declared coefficient out"
+            ),
             Self::Evaluation { message } => f.write_str(message),
             Self::Override { text, reason } => write!(f, "`--set {text}`: {reason}"),
         }

@@ -10,6 +10,7 @@ use super::model_file::Override;
 use super::object::Object;
 use super::paired;
 use super::problem::Log;
+use super::result_file::Results;
 use super::samples;
 use super::shapes::{self, Estimate, Fields, Kind};
 use crate::distribution::{Constant, Distribution, Evaluation, Samples};
@@ -65,13 +66,13 @@ enum Source {
     Formula(Formula),
 }
 
-/// Reads `inputs`; paths are relative to `folder`.
+/// Reads `inputs`; saved results are looked up in `results`, and paths are relative to its folder.
 pub(super) fn read(
     log: &Log,
     member: &Member,
     conditions: &dyn Conditions,
     overrides: &[Override],
-    folder: &Path,
+    results: &Results<'_>,
 ) -> Option<Inputs> {
     let object = Object::new(log, "`inputs`", &member.value, &member.key_span)?;
     let found = object.members().len();
@@ -85,8 +86,8 @@ pub(super) fn read(
             continue;
         };
         let moved = overrides.iter().rev().find(|o| o.input == member.key && o.field.is_none());
-        Reader { object, name: &member.key, conditions, moved, folder, inputs: &mut inputs }
-            .input();
+        let (name, folder) = (&member.key, results.folder);
+        Reader { object, name, conditions, moved, folder, results, inputs: &mut inputs }.input();
     }
     paired::apply(log, &mut inputs);
     Some(inputs)
@@ -98,13 +99,14 @@ struct Reader<'a, 'i> {
     conditions: &'a dyn Conditions,
     moved: Option<&'a Override>,
     folder: &'a Path,
+    results: &'a Results<'a>,
     inputs: &'i mut Inputs,
 }
 
 impl<'a> Reader<'a, '_> {
     fn input(&mut self) {
         let object = self.object;
-        let unit = unit(&object, "unit").unwrap_or_else(|| {
+        let unit = self.unit().unwrap_or_else(|| {
             self.inputs.without_unit.push(self.name.to_owned());
             Unit::one()
         });
@@ -122,6 +124,18 @@ impl<'a> Reader<'a, '_> {
         let parts = (self.inputs.variables.len() - first).max(1);
         self.inputs.quantities.push(InputQuantity { quantity, parts });
         self.inputs.quantity_places.push(object.place().clone());
+    }
+
+    /// The unit as given; without one that of a saved result, or 1.
+    fn unit(&self) -> Option<Unit> {
+        let object = &self.object;
+        let is_result = object.get("distribution").is_some_and(
+            |member| matches!(&member.value.value, Json::Text(name) if name == "result"),
+        );
+        match object.get("unit") {
+            None if is_result => self.results.unit(object),
+            _ => unit(object, "unit"),
+        }
     }
 
     /// The estimate's source: the command line, a formula of the conditions, or the own fields.
@@ -181,6 +195,7 @@ impl<'a> Reader<'a, '_> {
             return;
         };
         let samples = self.samples(&object, self.name, kind);
+        let results = self.results;
         let fields = |estimate| Fields {
             object,
             name: self.name,
@@ -188,6 +203,7 @@ impl<'a> Reader<'a, '_> {
             estimate,
             share_of: None,
             samples: samples.as_ref(),
+            results,
         };
         let mut zero_width = Vec::new();
         let mut drawn: Vec<Distribution> = Vec::new();
@@ -202,7 +218,7 @@ impl<'a> Reader<'a, '_> {
             let Some(distribution) = distribution else {
                 return;
             };
-            if kind.name != "constant" && distribution.constant().is_some() {
+            if !["constant", "result"].contains(&kind.name) && distribution.constant().is_some() {
                 zero_width.push(row + 1);
             }
             drawn.push(distribution);
@@ -317,11 +333,12 @@ impl<'a> Reader<'a, '_> {
             }
             _ => None,
         };
-        let of_readings = match readings.first().map(|part| part.distribution(unit, 0.0)) {
-            Some(Some(distribution)) => distribution.mean(),
-            Some(None) => return,
-            None => 0.0,
-        };
+        let of_readings =
+            match readings.first().map(|part| part.distribution(unit, 0.0, self.results)) {
+                Some(Some(distribution)) => distribution.mean(),
+                Some(None) => return,
+                None => 0.0,
+            };
         for row in 0..self.conditions.rows() {
             let total = match self.estimate(&source, unit, row) {
                 Some(Estimate::Own) => own_mean.unwrap_or(of_readings),
@@ -329,7 +346,7 @@ impl<'a> Reader<'a, '_> {
                 None => return,
             };
             let drawn: Option<Vec<Distribution>> =
-                parts.iter().map(|part| part.distribution(unit, total)).collect();
+                parts.iter().map(|part| part.distribution(unit, total, self.results)).collect();
             let base = Constant::new(total - of_readings)
                 .map_err(|error| Fault::Distribution { name: self.name.to_owned(), error });
             let base = object.log.value(object.place(), base);
@@ -393,13 +410,13 @@ struct Part<'a> {
 impl Part<'_> {
     /// Its distribution where the quantity's estimate is `total`, of which a share may be its
     /// width. A component's own mean is 0 unless it is given.
-    fn distribution(&self, unit: &Unit, total: f64) -> Option<Distribution> {
+    fn distribution(&self, unit: &Unit, total: f64, results: &Results<'_>) -> Option<Distribution> {
         let own = !self.kind.is_about_zero()
             || ["mean", "value", "lower"].iter().any(|key| self.object.get(key).is_some());
         let estimate = if own { Estimate::Own } else { Estimate::Given(0.0) };
         let (object, name) = (self.object, self.full.as_str());
         let samples = self.samples.as_ref();
-        Fields { object, name, unit, estimate, share_of: Some(total), samples }
+        Fields { object, name, unit, estimate, share_of: Some(total), samples, results }
             .distribution(self.kind)
     }
 }

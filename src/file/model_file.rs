@@ -11,6 +11,7 @@ use super::json::{Json, Member, Node};
 use super::object::Object;
 use super::outputs::{self, Outputs};
 use super::problem::{Log, Problems};
+use super::result_file::Results;
 use super::source::{Place, Source};
 use super::{Fault, correlations, json, nearest, settings};
 use crate::model::formula::{self, Formula, Scope, Typing};
@@ -248,9 +249,10 @@ impl<'a> ModelReader<'a> {
             None => Conditions::none(),
         };
         let maker = self.maker();
+        let results = Results::new(self.folder);
         let set = ConditionSet { conditions: &conditions, check_units };
         let inputs = match root.required("inputs") {
-            Some(member) => inputs::read(log, member, &set, self.overrides, self.folder),
+            Some(member) => inputs::read(log, member, &set, self.overrides, &results),
             None => None,
         };
         let outputs = root.required("outputs").and_then(|member| outputs::read(log, member));
@@ -262,8 +264,10 @@ impl<'a> ModelReader<'a> {
         }
         let mut files = std::mem::take(&mut conditions.files);
         files.extend(inputs.files.iter().cloned());
-        let correlations = correlations::read(root, &inputs, self.folder, &mut files);
+        files.extend(results.files.take());
+        let (correlations, notes) = correlations::read(root, &inputs, self.folder, &mut files);
         let mut warnings = inputs.warnings.clone();
+        warnings.extend(notes);
         let Outputs { mut outputs, places, unit_places, without_unit } = outputs;
         let unknown_units: HashSet<&str> =
             [&inputs.without_unit, &conditions.without_unit, &without_unit]

@@ -5,6 +5,7 @@ use std::ops::Range;
 use super::Fault;
 use super::nearest::nearest;
 use super::object::Object;
+use super::result_file::Results;
 use super::width::Width;
 use crate::distribution::{
     Arcsine, Beta, Constant, CurvilinearTrapezoid, Distribution, Exponential, Gamma, Invalid,
@@ -24,7 +25,7 @@ pub(super) struct Kind {
 const LIMITS: [&str; 5] = ["mean", "half_width", "semi_range", "lower", "upper"];
 
 /// The shapes, in the order of the contract.
-pub(super) const KINDS: [Kind; 16] = [
+pub(super) const KINDS: [Kind; 17] = [
     Kind { name: "constant", aliases: &[], fields: &["value"] },
     Kind {
         name: "normal",
@@ -61,6 +62,7 @@ pub(super) const KINDS: [Kind; 16] = [
     Kind { name: "log-uniform", aliases: &[], fields: &["lower", "upper"] },
     Kind { name: "poisson-count", aliases: &[], fields: &["count"] },
     Kind { name: "samples", aliases: &[], fields: &["file", "values"] },
+    Kind { name: "result", aliases: &[], fields: &["file", "output"] },
 ];
 
 /// The largest count of events; one more is still a whole number in double precision.
@@ -71,7 +73,7 @@ impl Kind {
     /// quantities and those without a field for their estimate are where their fields put them.
     pub(super) fn is_about_zero(&self) -> bool {
         let located = ["mean", "value"].iter().any(|key| self.fields.contains(key));
-        located && !matches!(self.name, "exponential" | "lognormal")
+        self.name == "result" || (located && !matches!(self.name, "exponential" | "lognormal"))
     }
 }
 
@@ -81,14 +83,9 @@ pub(super) fn kind(object: &Object<'_>) -> Option<&'static Kind> {
     let name = object.text("distribution")?;
     let found = KINDS.iter().find(|kind| kind.name == name || kind.aliases.contains(&name));
     if found.is_none() {
-        let fault = if name == "result" {
-            Fault::NotBuilt { what: format!("the distribution `{name}`") }
-        } else {
-            let known =
-                KINDS.iter().flat_map(|k| std::iter::once(&k.name).chain(k.aliases)).copied();
-            let nearest = nearest(name, known).map(str::to_owned);
-            Fault::UnknownDistribution { name: name.to_owned(), nearest }
-        };
+        let known = KINDS.iter().flat_map(|k| std::iter::once(&k.name).chain(k.aliases)).copied();
+        let nearest = nearest(name, known).map(str::to_owned);
+        let fault = Fault::UnknownDistribution { name: name.to_owned(), nearest };
         object.log.report(&member.value.span, fault);
     }
     found
@@ -114,6 +111,8 @@ pub(super) struct Fields<'a> {
     pub(super) share_of: Option<f64>,
     /// The samples, where the shape has any: read once for all rows.
     pub(super) samples: Option<&'a Samples>,
+    /// The saved results that inputs name.
+    pub(super) results: &'a Results<'a>,
 }
 
 impl<'a> Fields<'a> {
@@ -192,6 +191,12 @@ impl<'a> Fields<'a> {
                 self.moved(PoissonCount::new(self.object.whole("count", 0, MOST_COUNT)?))
             }
             "samples" => self.moved(Ok(self.samples?.clone())),
+            "result" => {
+                let component = self.share_of.is_some();
+                let results = self.results;
+                let saved = results.distribution(&self.object, self.name, self.unit, component)?;
+                self.moved(Ok(saved))
+            }
             _ => {
                 self.object.required("values")?;
                 let values = self.object.numbers("values")?;

@@ -130,7 +130,7 @@ impl EvaluationError {
 }
 
 /// The joint draw of every row.
-fn joints(task: &Task) -> Result<Vec<Arc<Joint>>, EvaluationError> {
+pub(super) fn joints(task: &Task) -> Result<Vec<Arc<Joint>>, EvaluationError> {
     let rows = task.rows.iter().map(|row| row.distributions.as_slice());
     Joint::of_rows(rows, &task.correlations)
         .into_iter()
@@ -166,7 +166,7 @@ pub fn evaluate(task: &Task, control: &Control<'_>) -> Result<Evaluation, Evalua
 }
 
 /// Runs `work` on the number of threads that the control asks for.
-fn in_pool<R: Send>(
+pub(super) fn in_pool<R: Send>(
     control: &Control<'_>,
     work: impl FnOnce() -> R + Send,
 ) -> Result<R, EvaluationError> {

@@ -1,6 +1,8 @@
 //! The law of propagation of uncertainty (JCGM 100, clause 5) and the budget that follows from it.
 
-use crate::distribution::{Correlation, Distribution, paired, special};
+use std::collections::BTreeMap;
+
+use crate::distribution::{Correlation, Distribution, RootName, paired, special};
 use crate::task::{Coverage, Row, Settings, Task};
 
 /// The degrees of freedom of a combined standard uncertainty.
@@ -99,7 +101,7 @@ pub(crate) fn evaluate(task: &Task, row: &Row) -> GumRow {
     let (estimates, gradients) = task.model.program.gradients(&values);
     let uncertainties: Vec<f64> =
         row.distributions.iter().map(Distribution::standard_uncertainty).collect();
-    let linked = Linked::of(task, row, &uncertainties);
+    let linked = Linked::of(task, row);
     let correlations = &linked.correlations;
 
     let outputs = estimates
@@ -138,12 +140,19 @@ pub(crate) fn evaluate(task: &Task, row: &Row) -> GumRow {
     GumRow { estimates, outputs, correlations: output_correlations }
 }
 
-/// The coefficients that say something: not zero, between quantities that vary.
-fn effective(correlations: &[Correlation], uncertainties: &[f64]) -> Vec<Correlation> {
-    let varies = |q: usize| uncertainties.get(q).is_some_and(|&u| u > 0.0);
+/// The coefficients that say something: not zero, between quantities that vary. Between saved
+/// results it is that of the law of propagation, so that what is computed from them is as if
+/// computed at once.
+fn effective(correlations: &[Correlation], distributions: &[Distribution]) -> Vec<Correlation> {
+    let varies = |q: usize| distributions.get(q).is_some_and(|d| d.standard_uncertainty() > 0.0);
+    let saved = |q: usize| distributions.get(q).and_then(Distribution::saved);
     correlations
         .iter()
-        .copied()
+        .map(|c| {
+            let linear =
+                saved(c.first).zip(saved(c.second)).and_then(|(a, b)| a.linear_coefficient(b));
+            Correlation { coefficient: linear.unwrap_or(c.coefficient), ..*c }
+        })
         .filter(|c| c.coefficient != 0.0 && varies(c.first) && varies(c.second))
         .collect()
 }
@@ -157,9 +166,9 @@ struct Linked {
 }
 
 impl Linked {
-    fn of(task: &Task, row: &Row, uncertainties: &[f64]) -> Self {
+    fn of(task: &Task, row: &Row) -> Self {
         let ensembles = paired::ensembles(&row.distributions);
-        let mut correlations = effective(&task.correlations, uncertainties);
+        let mut correlations = effective(&task.correlations, &row.distributions);
         correlations.extend(ensembles.iter().flat_map(paired::Ensemble::correlations));
         let ensembles = ensembles.into_iter().map(|ensemble| ensemble.members).collect();
         Self { correlations, ensembles }
@@ -207,7 +216,7 @@ fn output(settings: &Settings, row: &Row, estimate: f64, slopes: &[f64], linked:
     // full negative correlation may leave a rounding error below zero
     let variance = f64::max(variance, 0.0);
     let standard_uncertainty = largest * variance.sqrt();
-    let dof = effective_dof(&budget, linked, standard_uncertainty);
+    let dof = effective_dof(&budget, &row.distributions, linked, standard_uncertainty);
     let share = |term: f64| if variance > 0.0 { term / variance } else { 0.0 };
     let correlation_lines = correlations
         .iter()
@@ -235,28 +244,43 @@ fn output(settings: &Settings, row: &Row, estimate: f64, slopes: &[f64], linked:
 
 /// The Welch-Satterthwaite formula (JCGM 100, equation G.2b). Paired readings are one term: their
 /// joint contribution is itself the mean of n values, with n - 1 degrees of freedom (H.2, note 2 of
-/// table H.4 and approach 2).
-fn effective_dof(budget: &[BudgetLine], linked: &Linked, combined: f64) -> Dof {
-    let estimated = |line: &BudgetLine| line.contribution > 0.0 && line.dof.is_finite();
-    if !budget.iter().any(estimated) || combined == 0.0 {
+/// table H.4 and approach 2). Saved results enter it by the inputs that they go back to; alone, this
+/// is the same as by their own degrees of freedom.
+fn effective_dof(
+    budget: &[BudgetLine],
+    distributions: &[Distribution],
+    linked: &Linked,
+    combined: f64,
+) -> Dof {
+    let contributes = |q: usize| budget.get(q).is_some_and(|line| line.contribution > 0.0);
+    let saved = |q: usize| distributions.get(q).and_then(Distribution::saved);
+    let estimated = |q: usize| {
+        let own = budget.get(q).is_some_and(|line| !line.dof.is_infinite());
+        let by_root = || saved(q).is_some_and(|saved| saved.origin().has_finite_dof());
+        contributes(q) && (own || by_root())
+    };
+    if !(0..budget.len()).any(estimated) || combined == 0.0 {
         return Dof::Infinite;
     }
-    let contributes = |q: usize| budget.get(q).is_some_and(|line| line.contribution > 0.0);
     let correlated = linked.correlations.iter().any(|c| {
         !linked.are_paired(c)
             && contributes(c.first)
             && contributes(c.second)
-            && [c.first, c.second].iter().any(|&q| budget.get(q).is_some_and(estimated))
+            && [c.first, c.second].into_iter().any(estimated)
+            && !saved(c.first).zip(saved(c.second)).is_some_and(|(a, b)| a.is_by_roots(b))
     });
-    if correlated {
+    // a result whose own degrees of freedom are undefined
+    if correlated || budget.iter().any(|line| line.contribution > 0.0 && line.dof.is_nan()) {
         return Dof::Undefined;
     }
+    let by_roots = |q: usize| saved(q).filter(|saved| saved.origin().has_independent_roots());
     let alone =
-        |line: &BudgetLine| !linked.ensembles.iter().any(|set| set.contains(&line.variable));
+        |q: usize| by_roots(q).is_none() && !linked.ensembles.iter().any(|set| set.contains(&q));
     let single: f64 = budget
         .iter()
-        .filter(|line| estimated(line) && alone(line))
-        .map(|line| (line.contribution / combined).powi(4) / line.dof)
+        .enumerate()
+        .filter(|(q, line)| estimated(*q) && alone(*q) && line.dof.is_finite())
+        .map(|(_, line)| (line.contribution / combined).powi(4) / line.dof)
         .sum();
     let joint: f64 = linked
         .ensembles
@@ -266,7 +290,17 @@ fn effective_dof(budget: &[BudgetLine], linked: &Linked, combined: f64) -> Dof {
             (joint_variance(set, budget, linked, combined)).powi(2) / dof
         })
         .sum();
-    let dof = 1.0 / (single + joint);
+    let mut roots: BTreeMap<&RootName, (f64, f64)> = BTreeMap::new();
+    for (q, line) in budget.iter().enumerate().filter(|(q, _)| contributes(*q)) {
+        for (root, weight) in by_roots(q).map_or(&[][..], |saved| &saved.origin().roots) {
+            let part = weight * line.contribution.copysign(line.sensitivity) / combined;
+            let (total, dof) = roots.entry(&root.name).or_insert((0.0, f64::INFINITY));
+            *total += part;
+            *dof = dof.min(root.dof);
+        }
+    }
+    let common: f64 = roots.values().map(|(part, dof)| part.powi(4) / dof).sum();
+    let dof = 1.0 / (single + joint + common);
     if dof.is_finite() { Dof::Finite(dof) } else { Dof::Infinite }
 }
 

@@ -3,15 +3,19 @@
 //! ([`monte_carlo`], JCGM 101) at the same time, and the comparison of the two ([`validate`],
 //! JCGM 101, clause 8).
 
+mod again;
 mod control;
 mod evaluation;
 pub mod gum;
 pub mod monte_carlo;
+mod origins;
 pub mod validate;
 mod warnings;
 
+pub use again::{for_each_block, quantiles};
 pub use control::Control;
 pub use evaluation::{
     Conformity, Evaluation, EvaluationError, OutputEvaluation, RowEvaluation, evaluate, trial_hash,
 };
+pub use origins::{Origins, linear, origins};
 pub use warnings::warnings;

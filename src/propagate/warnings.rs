@@ -66,11 +66,22 @@ fn copula(task: &Task, evaluation: &Evaluation, found: &mut Vec<Warning>) {
     );
     found.push(Warning::new("gaussian-copula", "", text));
     if evaluation.copula_adjusted > 0.0 {
-        let text = format!(
-            "a Gaussian copula gives the declared correlation coefficients only within their \
-             rounding; in the trials they differ by up to {:.1e}",
-            evaluation.copula_adjusted
-        );
+        let of_results =
+            task.rows.iter().flat_map(|row| &row.distributions).any(|d| d.saved().is_some());
+        let text = if of_results {
+            format!(
+                "a Gaussian copula gives the correlation coefficients of these saved results only \
+                 nearly; in the trials they differ by up to {:.1e}. Where outputs of one result \
+                 nearly cancel, evaluate the whole in one model",
+                evaluation.copula_adjusted
+            )
+        } else {
+            format!(
+                "a Gaussian copula gives the declared correlation coefficients only within their \
+                 rounding; in the trials they differ by up to {:.1e}",
+                evaluation.copula_adjusted
+            )
+        };
         found.push(Warning::new("copula-adjusted", "", text));
     }
 }

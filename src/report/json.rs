@@ -389,7 +389,7 @@ impl<'a> Remark<'a> {
 }
 
 /// Pairs that become an object in their own order.
-struct Map<K, V>(Vec<(K, V)>);
+pub(super) struct Map<K, V>(pub(super) Vec<(K, V)>);
 
 impl<K, V> Default for Map<K, V> {
     fn default() -> Self {

@@ -3,12 +3,16 @@
 mod csv;
 mod json;
 pub mod number;
+mod samples;
+mod saved;
 mod subtotals;
 #[cfg(feature = "cli")]
 mod table;
 
 pub use csv::csv;
 pub use json::json;
+pub use samples::Samples;
+pub use saved::saved;
 #[cfg(feature = "cli")]
 pub use table::{Column, Style, table};
 #[cfg(feature = "cli")]

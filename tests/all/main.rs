@@ -12,6 +12,7 @@ mod formulas;
 mod intervals;
 mod mutations;
 mod reproducible;
+mod results;
 mod schema;
 mod support;
 mod verify;

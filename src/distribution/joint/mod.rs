@@ -179,7 +179,7 @@ impl Joint {
             }
         }
         let declared = matrix(members, active);
-        let decimals = decimals(members, active);
+        let decimals = decimals(members, active, distributions);
         let mut wanted = declared.clone();
         if !declared.is_semidefinite() {
             wanted = declared.nearest_correlation();
@@ -202,7 +202,7 @@ impl Joint {
                     *shaped = Some(profiled);
                 }
             }
-            wanted = self.fit(members, &wanted, &shaped, decimals)?;
+            wanted = self.fit(members, distributions, &wanted, &shaped, decimals)?;
             self.copula.extend(members);
         }
         self.groups.push(Group { members: drawn, factor: wanted.factor(), dof: None });
@@ -213,6 +213,7 @@ impl Joint {
     fn fit(
         &mut self,
         members: &[usize],
+        distributions: &[Distribution],
         wanted: &Symmetric,
         profiles: &[Option<Arc<Profiled>>],
         decimals: usize,
@@ -230,7 +231,18 @@ impl Joint {
                 continue;
             }
             let pair = Pair::new(&margins[i], &margins[j]);
-            let Some(r) = pair.fit(coefficient) else {
+            let mut found = pair.fit(coefficient);
+            if found.is_none() && are_linked_results(distributions, members[i], members[j]) {
+                // one is a function of the other, and the copula stops at rounding short of it
+                let [least, most] = pair.attainable();
+                let nearest = coefficient.clamp(least, most);
+                let change = (coefficient - nearest).abs();
+                if change <= 0.5 * unit(decimals) {
+                    self.adjusted = self.adjusted.max(change);
+                    found = pair.fit(nearest);
+                }
+            }
+            let Some(r) = found else {
                 let declared = Correlation { first: members[i], second: members[j], coefficient };
                 let attainable = pair.attainable();
                 return Err(CorrelationError::OutOfReach { declared, attainable });
@@ -256,7 +268,10 @@ impl Joint {
             .pairs()
             .map(|(i, j)| (wanted.get(i, j) - drawn.get(i, j)).abs())
             .fold(0.0, f64::max);
-        if change > 0.5 * unit(decimals) {
+        let linked = |i: usize, j: usize| are_linked_results(distributions, members[i], members[j]);
+        let of_results = wanted.pairs().all(|(i, j)| wanted.get(i, j) == 0.0 || linked(i, j));
+        let most = if of_results { RESULTS } else { 0.5 * unit(decimals) };
+        if change > most {
             let nearest = changed(members, wanted, &drawn, decimals);
             return Err(CorrelationError::BeyondCopula {
                 members: members.to_vec(),
@@ -277,6 +292,10 @@ impl Joint {
         self
     }
 }
+
+/// How far the drawn coefficients of saved results may be from theirs: the copula of dependent
+/// outputs need not be Gaussian. The change is told.
+const RESULTS: f64 = 0.05;
 
 /// Profiles that are kept at a time.
 const MOST_PROFILES: usize = 64;
@@ -322,10 +341,12 @@ fn standard(distribution: &Distribution) -> (Distribution, f64, f64) {
     let found = match distribution {
         Distribution::Rectangular(shape) => Rectangular::new(0.0, 1.0)
             .map(|standard| (standard.into(), distribution.mean(), shape.half_width())),
-        _ if dof.is_finite() => StudentT::new(0.0, 1.0, dof).map(|standard| {
-            let Member { location, scale, .. } = Member::plain(0, distribution);
-            (standard.into(), location, scale)
-        }),
+        _ if dof.is_finite() && distribution.saved().is_none() => {
+            StudentT::new(0.0, 1.0, dof).map(|standard| {
+                let Member { location, scale, .. } = Member::plain(0, distribution);
+                (standard.into(), location, scale)
+            })
+        }
         _ => return (distribution.clone(), 0.0, 1.0),
     };
     found.unwrap_or_else(|_| (distribution.clone(), 0.0, 1.0))
@@ -334,13 +355,25 @@ fn standard(distribution: &Distribution) -> (Distribution, f64, f64) {
 /// The decimals that the coefficients of a group are given with: those of the longest, as trailing
 /// zeros are often left out, but at least 2, lest a rough 0.9 be taken as anything from 0.85 to
 /// 0.95, and at most 6.
-fn decimals(members: &[usize], correlations: &[Correlation]) -> usize {
+/// The coefficients of saved results scatter with their trials; they count as given with 2.
+fn decimals(
+    members: &[usize],
+    correlations: &[Correlation],
+    distributions: &[Distribution],
+) -> usize {
     let of = |c: &Correlation| {
         let text = c.coefficient.to_string();
         text.split_once('.').map_or(0, |(_, decimals)| decimals.len())
     };
     let inside = correlations.iter().filter(|c| members.contains(&c.first));
+    let inside = inside.filter(|c| !are_linked_results(distributions, c.first, c.second));
     inside.map(of).max().unwrap_or(0).clamp(2, 6)
+}
+
+/// Whether two quantities are saved results that depend on each other by themselves.
+fn are_linked_results(distributions: &[Distribution], first: usize, second: usize) -> bool {
+    let saved = |q: usize| distributions.get(q).and_then(Distribution::saved);
+    saved(first).zip(saved(second)).is_some_and(|(a, b)| a.is_linked(b))
 }
 
 /// Whether a matrix may be a possible one whose coefficients were rounded to so many decimals. Such

@@ -6,7 +6,7 @@
 //! middle, the cell is halved again for the integrals (kinks, steps of empirical distributions),
 //! and draws in that cell take the quantile function itself.
 
-use crate::distribution::{Distribution, special};
+use crate::distribution::{Distribution, SavedResult, special};
 use crate::number::COLUMN;
 
 /// Nodes of a cell.
@@ -54,6 +54,9 @@ pub(super) fn density(z: f64) -> f64 {
 /// The value of a quantity where a standard normal one, rising together with it, is `z`. Never
 /// infinite: the tails end at 37.
 pub(super) fn at_normal(distribution: &Distribution, z: f64) -> f64 {
+    if let Some(saved) = distribution.saved() {
+        return saved.at(z);
+    }
     let z = z.clamp(-37.0, 37.0);
     if z < 0.0 {
         distribution.quantile(special::normal::cdf(z))
@@ -196,7 +199,9 @@ pub(super) struct Profile {
 impl Profile {
     /// The profile of a distribution that has a variance, and its table for draws.
     pub(super) fn of(distribution: &Distribution) -> (Self, Table) {
-        let (mean, std) = (distribution.mean(), distribution.standard_deviation());
+        let mean =
+            distribution.saved().map_or_else(|| distribution.mean(), SavedResult::drawn_mean);
+        let std = distribution.standard_deviation();
         let (profile, cells) = Self::new(mean, std, |z| at_normal(distribution, z));
         (profile, Table { distribution: distribution.clone(), mean, cells })
     }

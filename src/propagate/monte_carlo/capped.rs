@@ -31,13 +31,13 @@ const MOST_PASSES: usize = 20;
 
 /// What one pass over all trials gives.
 #[derive(Debug)]
-struct Pass {
-    trials: u64,
+pub(super) struct Pass {
+    pub(super) trials: u64,
     undefined: u64,
     first_undefined: Option<(u64, usize)>,
     /// Sums of each chunk with its number and its trials.
     sums: Vec<(u64, u64, Vec<Sums>)>,
-    tallies: Vec<Tally>,
+    pub(super) tallies: Vec<Tally>,
 }
 
 /// Adds a block's moments.
@@ -117,7 +117,7 @@ pub(super) fn run(
 }
 
 /// Decides which leaves to keep and which to split, within the budget of kept values.
-fn narrow(partition: &mut Partition, leaves: &[Leaf], needed: &[bool], budget: usize) {
+pub(super) fn narrow(partition: &mut Partition, leaves: &[Leaf], needed: &[bool], budget: usize) {
     let wanted: Vec<usize> = (0..leaves.len()).filter(|&l| needed[l]).collect();
     let total: u64 = wanted.iter().map(|&l| leaves[l].count).sum();
     let parts = (1 << 16) / wanted.len().max(1);
@@ -131,7 +131,7 @@ fn narrow(partition: &mut Partition, leaves: &[Leaf], needed: &[bool], budget: u
     );
 }
 
-fn pass(
+pub(super) fn pass(
     trials: &Trials,
     count: u64,
     control: &Control<'_>,
@@ -352,7 +352,7 @@ impl Search {
 }
 
 /// The leaf that holds the order statistic of a rank.
-fn leaf_of(leaves: &[Leaf], rank: u64) -> usize {
+pub(super) fn leaf_of(leaves: &[Leaf], rank: u64) -> usize {
     let after = leaves.partition_point(|leaf| leaf.below < rank);
     // the last leaf that begins below the rank; empty ones begin there too
     let mut number = after.saturating_sub(1);

@@ -163,7 +163,12 @@ fn run_capped(
 }
 
 /// References and windows from the first blocks.
-fn plans(trials: &Trials, request: Request<'_>, control: &Control<'_>, margin: f64) -> Vec<Plan> {
+pub(super) fn plans(
+    trials: &Trials,
+    request: Request<'_>,
+    control: &Control<'_>,
+    margin: f64,
+) -> Vec<Plan> {
     let blocks = request.trials.div_ceil(BLOCK as u64).min(PILOT_BLOCKS);
     let mut workspace = trials.workspace();
     let mut pilot: Vec<Vec<f64>> = vec![Vec::new(); trials.outputs()];

@@ -268,6 +268,8 @@ fn effective(value: Dof, real: bool) -> String {
 fn dof(value: f64) -> String {
     if value == f64::INFINITY {
         "∞".to_owned()
+    } else if value.is_nan() {
+        "undefined".to_owned()
     } else if value < MANY && value.fract() != 0.0 {
         rounded(value, place(value, 3).unwrap_or(0).min(-1))
     } else if value < MANY {

@@ -4,6 +4,7 @@
 mod columns;
 mod csv;
 mod json;
+mod saved;
 #[cfg(feature = "cli")]
 mod table;
 

@@ -1,0 +1,412 @@
+//! One output of a saved result (JCGM 101, 6.4.12: a distribution known from an earlier evaluation).
+//!
+//! Trials are drawn through the quantile function of the saved run's trials. It is tabulated over
+//! normal scores: entry k is the quantile at the probability Phi(z_k), z_k = from + k step. Equal
+//! steps of the score are steps that become finer towards the tails, the place in the table follows
+//! from one multiplication, and a nearly normal result is nearly a straight line. Between entries
+//! the function is straight, so it never falls; beyond them it is constant.
+//!
+//! To first order a result is a weighted sum of the inputs that its model file names ([`Root`]). Two
+//! results with a common root depend on each other, and by how much follows from the weights.
+
+use std::collections::{BTreeMap, HashMap};
+use std::sync::Arc;
+
+use super::shape::{Invalid, Shape, finite, positive};
+use super::stream::Stream;
+use super::{normal, special};
+use crate::number::Column;
+
+/// The normal scores over which a quantile function is tabulated.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Scores {
+    /// The first score.
+    pub from: f64,
+    /// The distance of two scores.
+    pub step: f64,
+    /// How many there are.
+    pub count: usize,
+}
+
+impl Scores {
+    /// The scores of the files that this version writes: six standard deviations to both sides, a
+    /// probability of 1e-9 beyond either end.
+    pub const WRITTEN: Self = Self { from: -6.0, step: 0.007_812_5, count: 1537 };
+
+    /// The scores in order.
+    pub fn values(self) -> impl Iterator<Item = f64> {
+        (0..self.count).map(move |k| self.from + k as f64 * self.step)
+    }
+}
+
+/// A named input of a model file; files are told apart by their content.
+#[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct RootName {
+    /// SHA-256 of the model file, in hexadecimal.
+    pub model: Arc<str>,
+    /// The input, or `input/component`.
+    pub name: Arc<str>,
+}
+
+/// An input that a result goes back to, as it was when the result was saved.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Root {
+    /// Which one.
+    pub name: RootName,
+    /// Its unit, as text.
+    pub unit: String,
+    /// Name of its distribution.
+    pub distribution: String,
+    /// Its estimate in its unit.
+    pub estimate: f64,
+    /// Its standard uncertainty in its unit.
+    pub standard_uncertainty: f64,
+    /// Standard deviation of its drawn values; infinite where there is none.
+    pub standard_deviation: f64,
+    /// Degrees of freedom of its standard uncertainty.
+    pub dof: f64,
+}
+
+/// Two roots with their correlation coefficient.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RootCorrelation {
+    /// The first one.
+    pub first: RootName,
+    /// The second one.
+    pub second: RootName,
+    /// The coefficient.
+    pub coefficient: f64,
+}
+
+/// Where a result comes from.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Origin {
+    /// SHA-256 of the result file, in hexadecimal.
+    pub file: Arc<str>,
+    /// The output's name in it.
+    pub output: String,
+    /// The roots with their weights c u(x)/u(y): dimensionless, signed. Where the result has no
+    /// finite sensitivity coefficients, it is itself its only root.
+    pub roots: Vec<(Root, f64)>,
+    /// Whether the roots come from sensitivity coefficients.
+    pub linear: bool,
+    /// Coefficients between roots of the file.
+    pub correlations: Arc<[RootCorrelation]>,
+    /// Coefficients with the other outputs of the file, from its trials.
+    pub siblings: Vec<(String, f64)>,
+    /// SHA-256 of the model file that was saved.
+    pub model: Arc<str>,
+}
+
+impl Origin {
+    /// Whether a root has finite degrees of freedom.
+    pub(crate) fn has_finite_dof(&self) -> bool {
+        self.roots.iter().any(|(root, _)| root.dof.is_finite())
+    }
+
+    /// Whether no root of finite degrees of freedom is correlated with another one, so that the
+    /// Welch-Satterthwaite formula holds for them.
+    pub(crate) fn has_independent_roots(&self) -> bool {
+        let find = |name: &RootName| self.roots.iter().find(|(root, _)| root.name == *name);
+        !self.correlations.iter().any(|c| {
+            let pair = find(&c.first).zip(find(&c.second));
+            pair.is_some_and(|((a, _), (b, _))| a.dof.is_finite() || b.dof.is_finite())
+        })
+    }
+}
+
+/// The figures of a saved output, in one unit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Saved {
+    /// The estimate by the law of propagation, or that of the trials where there is none.
+    pub estimate: f64,
+    /// The standard uncertainty that goes with it.
+    pub standard_uncertainty: f64,
+    /// Standard deviation of the trials; infinite where the distribution has none.
+    pub standard_deviation: f64,
+    /// Effective degrees of freedom; not a number where they are undefined.
+    pub dof: f64,
+    /// The fewest degrees of freedom of a t distribution that the trials depend on.
+    pub drawn_dof: f64,
+}
+
+/// One output of a saved result as the distribution of an input.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SavedResult {
+    saved: Saved,
+    from: f64,
+    per_score: f64,
+    /// Value and rise to the next entry.
+    cells: Arc<[[f64; 2]]>,
+    /// Expectation of the drawn values.
+    drawn_mean: f64,
+    origin: Arc<Origin>,
+}
+
+impl SavedResult {
+    /// A result with the given figures, whose quantiles over `scores` are `quantiles`, in the
+    /// same unit.
+    ///
+    /// # Errors
+    /// Numbers that are not finite, a standard uncertainty that is not above zero, fewer than two
+    /// quantiles or not as many as scores, quantiles that fall.
+    pub fn new(
+        saved: Saved,
+        scores: Scores,
+        quantiles: &[f64],
+        origin: Origin,
+    ) -> Result<Self, Invalid> {
+        finite("estimate", saved.estimate)?;
+        positive("standard_uncertainty", saved.standard_uncertainty)?;
+        positive("step", scores.step)?;
+        finite("from", scores.from)?;
+        let wrong = |value: f64, range: &'static str| {
+            Err(Invalid::OutOfRange { parameter: "quantiles", value, range })
+        };
+        if quantiles.len() < 2 || quantiles.len() != scores.count {
+            return wrong(quantiles.len() as f64, "as many as scores, at least two");
+        }
+        for &value in quantiles {
+            finite("quantiles", value)?;
+        }
+        if let Some(pair) = quantiles.windows(2).find(|pair| pair[0] > pair[1]) {
+            return wrong(pair[1], "not below the one before it");
+        }
+        let per_score = finite("step", 1.0 / scores.step)?;
+        let (cells, origin) = (cells(quantiles.iter().copied()), Arc::new(origin));
+        let (drawn_mean, std) = moments(&cells, scores);
+        let mut saved = saved;
+        if saved.standard_deviation.is_finite() {
+            saved.standard_deviation = positive("quantiles", std)?;
+        }
+        Ok(Self { saved, from: scores.from, per_score, cells, drawn_mean, origin })
+    }
+
+    /// The same result in another unit, `factor` of which make one of the present one.
+    ///
+    /// # Errors
+    /// Values beyond the range of numbers.
+    pub fn scaled(&self, factor: f64) -> Result<Self, Invalid> {
+        let saved = Saved {
+            estimate: finite("estimate", factor * self.saved.estimate)?,
+            standard_uncertainty: positive(
+                "standard_uncertainty",
+                factor * self.saved.standard_uncertainty,
+            )?,
+            standard_deviation: factor * self.saved.standard_deviation,
+            ..self.saved
+        };
+        let cells = cells(self.cells.iter().map(|cell| factor * cell[0]));
+        let drawn_mean = factor * self.drawn_mean;
+        Self { saved, cells, drawn_mean, ..self.clone() }.within_range()
+    }
+
+    /// Refuses tables with ends beyond the range of numbers.
+    fn within_range(self) -> Result<Self, Invalid> {
+        for cell in [self.cells.first(), self.cells.last()].into_iter().flatten() {
+            finite("quantiles", cell[0])?;
+        }
+        Ok(self)
+    }
+
+    /// Where it comes from.
+    pub fn origin(&self) -> &Origin {
+        &self.origin
+    }
+
+    /// Expectation of the drawn values; the estimate may be another, as it is that of the law of
+    /// propagation.
+    pub(super) fn drawn_mean(&self) -> f64 {
+        self.drawn_mean
+    }
+
+    /// The value at a normal score. Plain arithmetic, so the same bits on every machine.
+    #[inline(always)]
+    pub(super) fn at(&self, score: f64) -> f64 {
+        let last = self.cells.len() - 1;
+        let place = ((score - self.from) * self.per_score).clamp(0.0, last as f64);
+        let cell = (place as usize).min(last);
+        let [start, rise] = self.cells[cell];
+        start + rise * (place - cell as f64)
+    }
+
+    /// Whether the two results depend on each other: outputs of one file, or results that go back
+    /// to a common root or to correlated ones.
+    pub fn is_linked(&self, other: &Self) -> bool {
+        let (a, b) = (&self.origin, &other.origin);
+        a.file == b.file || !shared(a, b).is_empty()
+    }
+
+    /// The correlation coefficient of two linked results by the law of propagation; `None` if they
+    /// are not linked, or if it cannot be told because one has no sensitivity coefficients.
+    pub fn linear_coefficient(&self, other: &Self) -> Option<f64> {
+        let (a, b) = (&self.origin, &other.origin);
+        let one_file = a.file == b.file;
+        if one_file && a.output == b.output {
+            return Some(1.0);
+        }
+        let shared = shared(a, b);
+        let told = if one_file { a.linear && b.linear } else { !shared.is_empty() };
+        told.then(|| shared.iter().map(|term| term.product).sum::<f64>().clamp(-1.0, 1.0))
+    }
+
+    /// The correlation coefficient of the trials of two linked results: as saved for two outputs of
+    /// one file, else that of the weighted sums of the roots as they are drawn.
+    pub fn drawn_coefficient(&self, other: &Self) -> Option<f64> {
+        let (a, b) = (&self.origin, &other.origin);
+        if a.file == b.file && a.output != b.output {
+            let saved = a.siblings.iter().find(|(name, _)| *name == b.output);
+            if let Some(&(_, r)) = saved {
+                return Some(r);
+            }
+        }
+        let linear = self.linear_coefficient(other)?;
+        let product = |a: &Origin, b: &Origin| shared(a, b).iter().map(|t| t.drawn).sum::<f64>();
+        let drawn = product(a, b) / (product(a, a) * product(b, b)).sqrt();
+        let drawn = drawn.clamp(-1.0, 1.0);
+        // a root without a variance gives none
+        Some(if drawn.is_finite() { drawn } else { linear })
+    }
+
+    /// Whether the dependence of two results comes from common roots alone, so that degrees of
+    /// freedom can be counted root by root.
+    pub(crate) fn is_by_roots(&self, other: &Self) -> bool {
+        let (a, b) = (&self.origin, &other.origin);
+        if !a.linear || !b.linear {
+            return a.file == b.file && a.output == b.output;
+        }
+        !shared(a, b).iter().any(|term| !term.same && term.finite_dof)
+    }
+}
+
+fn cells(values: impl Iterator<Item = f64>) -> Arc<[[f64; 2]]> {
+    let values: Vec<f64> = values.collect();
+    let next = values.iter().skip(1).chain(values.last());
+    values.iter().zip(next).map(|(&value, &next)| [value, next - value]).collect()
+}
+
+/// Expectation and standard deviation of the tabulated function of a standard normal quantity:
+/// integrals of its straight pieces, of the deviation from the middle entry.
+fn moments(cells: &[[f64; 2]], scores: Scores) -> (f64, f64) {
+    let density = |z: f64| libm::exp(-0.5 * z * z) / std::f64::consts::TAU.sqrt();
+    let (Some(&[first, _]), Some(&[last, _])) = (cells.first(), cells.last()) else {
+        return (f64::NAN, f64::NAN);
+    };
+    let middle = cells[cells.len() / 2][0];
+    let end = scores.from + (cells.len() - 1) as f64 * scores.step;
+    let (below, above) = (special::normal::cdf(scores.from), special::normal::sf(end));
+    let (low, high) = (first - middle, last - middle);
+    let (mut sum, mut squares) =
+        (below * low + above * high, below * low * low + above * high * high);
+    for (k, [start, rise]) in cells.iter().enumerate().take(cells.len() - 1) {
+        let left = scores.from + k as f64 * scores.step;
+        let right = left + scores.step;
+        // tail on the near side, so that small probabilities keep their digits
+        let mass = if left < 0.0 {
+            special::normal::cdf(right) - special::normal::cdf(left)
+        } else {
+            special::normal::sf(left) - special::normal::sf(right)
+        };
+        let slope = rise / scores.step;
+        let constant = start - middle - slope * left;
+        let linear = density(left) - density(right);
+        let square = mass + left * density(left) - right * density(right);
+        sum += constant * mass + slope * linear;
+        squares +=
+            constant * constant * mass + 2.0 * constant * slope * linear + slope * slope * square;
+    }
+    (middle + sum, (squares - sum * sum).max(0.0).sqrt())
+}
+
+/// A product of two weights that adds to the correlation of two results.
+struct Term {
+    product: f64,
+    /// The same with standard deviations of drawn values in place of standard uncertainties.
+    drawn: f64,
+    /// Whether both weights belong to one root.
+    same: bool,
+    /// Whether a root has finite degrees of freedom.
+    finite_dof: bool,
+}
+
+/// What two results have in common: equal roots, and correlated ones.
+fn shared(a: &Origin, b: &Origin) -> Vec<Term> {
+    let by_name = |origin: &'_ Origin| -> HashMap<RootName, (f64, Root)> {
+        origin.roots.iter().map(|(root, w)| (root.name.clone(), (*w, root.clone()))).collect()
+    };
+    let (of_a, of_b) = (by_name(a), by_name(b));
+    let mut terms = Vec::new();
+    let mut add = |first: &RootName, second: &RootName, coefficient: f64| {
+        if let (Some((w, x)), Some((v, y))) = (of_a.get(first), of_b.get(second)) {
+            let product = w * v * coefficient;
+            let wider = |root: &Root| root.standard_deviation / root.standard_uncertainty;
+            terms.push(Term {
+                product,
+                drawn: product * wider(x) * wider(y),
+                same: first == second,
+                finite_dof: x.dof.is_finite() || y.dof.is_finite(),
+            });
+        }
+    };
+    for (root, _) in &a.roots {
+        add(&root.name, &root.name, 1.0);
+    }
+    // both files may tell the same coefficient
+    let mut coefficients = BTreeMap::new();
+    for c in a.correlations.iter().chain(b.correlations.iter()) {
+        let names = (c.first.clone().min(c.second.clone()), c.first.clone().max(c.second.clone()));
+        coefficients.insert(names, c.coefficient);
+    }
+    for ((first, second), r) in &coefficients {
+        add(first, second, *r);
+        add(second, first, *r);
+    }
+    terms
+}
+
+impl Shape for SavedResult {
+    const NAME: &'static str = "result";
+
+    fn mean(&self) -> f64 {
+        self.saved.estimate
+    }
+
+    fn standard_uncertainty(&self) -> f64 {
+        self.saved.standard_uncertainty
+    }
+
+    fn dof(&self) -> f64 {
+        self.saved.dof
+    }
+
+    fn drawn_dof(&self) -> f64 {
+        self.saved.drawn_dof
+    }
+
+    fn standard_deviation(&self) -> f64 {
+        self.saved.standard_deviation
+    }
+
+    fn quantile(&self, p: f64) -> f64 {
+        self.at(special::normal::quantile(p))
+    }
+
+    fn quantile_upper(&self, q: f64) -> f64 {
+        self.at(special::normal::quantile_upper(q))
+    }
+
+    #[inline(always)]
+    fn draw(&self, stream: &mut Stream, out: &mut Column) {
+        normal::draw(0.0, 1.0, stream, out);
+        for value in &mut out.0 {
+            *value = self.at(*value);
+        }
+    }
+
+    fn moved_to(&self, estimate: f64) -> Result<Self, Invalid> {
+        let shift = finite("estimate", estimate)? - self.saved.estimate;
+        let cells = cells(self.cells.iter().map(|cell| cell[0] + shift));
+        let saved = Saved { estimate, ..self.saved };
+        Self { saved, cells, drawn_mean: self.drawn_mean + shift, ..self.clone() }.within_range()
+    }
+}

@@ -1,0 +1,62 @@
+//! A finished run's trials generated again: for what needs more of them than an evaluation keeps.
+
+use super::evaluation::{in_pool, joints};
+use super::monte_carlo::{self, Trials};
+use super::{Control, Evaluation, EvaluationError, gum};
+use crate::task::Task;
+
+/// How many trials the run of a row made, undefined ones included; 0 without trials.
+fn made(evaluation: &Evaluation, row: usize) -> u64 {
+    let Some(row) = evaluation.rows.get(row) else {
+        return 0;
+    };
+    let trials = row.outputs.iter().find_map(|output| output.monte_carlo.as_ref());
+    let undefined = row.undefined.as_ref().map_or(0, |undefined| undefined.count);
+    trials.map_or(0, |figures| figures.trials + undefined)
+}
+
+fn trials(task: &Task, row: usize) -> Result<Option<Trials>, EvaluationError> {
+    let joints = joints(task)?;
+    Ok(task.rows.get(row).zip(joints.get(row)).map(|(row, joint)| {
+        let estimates = gum::evaluate(task, row).estimates;
+        Trials::new(task, row, &estimates, joint)
+    }))
+}
+
+/// For each output of a row the quantiles of the run's trials at the probabilities Phi(score);
+/// `None` without trials, or if stopped.
+///
+/// # Errors
+/// Threads that cannot be started.
+pub fn quantiles(
+    task: &Task,
+    evaluation: &Evaluation,
+    row: usize,
+    scores: &[f64],
+    control: &Control<'_>,
+) -> Result<Option<Vec<Vec<f64>>>, EvaluationError> {
+    let count = made(evaluation, row);
+    in_pool(control, || {
+        let trials = trials(task, row)?.filter(|_| count > 0);
+        Ok(trials.and_then(|trials| monte_carlo::quantiles(&trials, count, scores, control)))
+    })?
+}
+
+/// Hands over the trials of a row, block by block in order: for each output its values, without
+/// the trials that were left out of the figures. The bits are those of the run. `false` if stopped.
+///
+/// # Errors
+/// The taker's; threads that cannot be started.
+pub fn for_each_block<E: Send + From<EvaluationError>>(
+    task: &Task,
+    evaluation: &Evaluation,
+    row: usize,
+    control: &Control<'_>,
+    take: impl FnMut(&[Vec<f64>]) -> Result<(), E> + Send,
+) -> Result<bool, E> {
+    let count = made(evaluation, row);
+    in_pool(control, || match trials(task, row)? {
+        Some(trials) if count > 0 => monte_carlo::repeat(&trials, count, control, take),
+        _ => Ok(true),
+    })?
+}

@@ -1,0 +1,44 @@
+//! The trials of a run once more, handed over in order.
+
+use rayon::prelude::*;
+
+use super::block::{Trials, Workspace};
+use super::fold::drop_undefined;
+use super::run::trials_in;
+use crate::distribution::BLOCK;
+use crate::propagate::Control;
+
+/// Blocks that are held at a time, at most.
+const MOST_BLOCKS: u64 = 256;
+
+/// Generates the first `count` trials again and hands them over block by block in order: the
+/// outputs' values, without the trials in which one is not finite. A few blocks are held at a time.
+/// `false` if the run was stopped.
+pub(crate) fn repeat<E: Send>(
+    trials: &Trials,
+    count: u64,
+    control: &Control<'_>,
+    mut take: impl FnMut(&[Vec<f64>]) -> Result<(), E>,
+) -> Result<bool, E> {
+    let blocks = count.div_ceil(BLOCK as u64);
+    let held = control.memory / (8 * BLOCK * trials.outputs().max(1));
+    let held = (held as u64).clamp(1, MOST_BLOCKS);
+    for first in (0..blocks).step_by(held as usize) {
+        if control.is_stopped() {
+            return Ok(false);
+        }
+        let make = |workspace: &mut Workspace, block: u64| -> Vec<Vec<f64>> {
+            trials.block(control.path, block, workspace);
+            let (left, _) = drop_undefined(&mut workspace.outputs, trials_in(block, count));
+            workspace.outputs.iter().map(|values| values[..left].to_vec()).collect()
+        };
+        let made: Vec<Vec<Vec<f64>>> = (first..(first + held).min(blocks))
+            .into_par_iter()
+            .map_init(|| trials.workspace(), make)
+            .collect();
+        for values in &made {
+            take(values)?;
+        }
+    }
+    Ok(true)
+}
