@@ -125,22 +125,7 @@ fn from_table(object: &Object<'_>, file: &Member, folder: &Path) -> Option<Condi
     object.check_keys(&["file", "units"]);
     let log = object.log;
     let name = object.text("file")?;
-    let table = match table::read(&folder.join(name), name) {
-        Ok((table, bytes)) => Some((table, bytes)),
-        Err(faults) => {
-            for (place, fault) in faults {
-                match fault {
-                    // a file that is not there is named where the model file names it
-                    Fault::Unreadable { message } => {
-                        let message = format!("`{name}`: {message}");
-                        log.report(&file.value.span, Fault::Unreadable { message });
-                    }
-                    fault => log.report_at(place, fault),
-                }
-            }
-            None
-        }
-    };
+    let table = table::read(log, folder, name, &file.value.span);
     let units = match object.get("units") {
         Some(member) => Object::new(log, "`units`", &member.value, &member.key_span),
         None => None,

@@ -125,25 +125,12 @@ impl Reader<'_> {
         object.check_keys(&["names", "values", "file"]);
         let (names, values, spans) = if let Some(file) = object.text("file") {
             let place = object.get("file").map_or(object.place(), |m| &m.value.span).clone();
-            match table::read(&folder.join(file), file) {
-                Ok((table, bytes)) => {
-                    files.push((file.to_owned(), bytes));
-                    let spans = vec![place.clone(); table.columns.len()];
-                    (table.columns, table.rows, (spans, place))
-                }
-                Err(faults) => {
-                    for (at, fault) in faults {
-                        match fault {
-                            Fault::Unreadable { message } => {
-                                let message = format!("`{file}`: {message}");
-                                log.report(&place, Fault::Unreadable { message });
-                            }
-                            fault => log.report_at(at, fault),
-                        }
-                    }
-                    return;
-                }
-            }
+            let Some((table, bytes)) = table::read(log, folder, file, &place) else {
+                return;
+            };
+            files.push((file.to_owned(), bytes));
+            let spans = vec![place.clone(); table.columns.len()];
+            (table.columns, table.rows, (spans, place))
         } else {
             let names = object.required("names").and_then(|_| object.list("names"));
             let values = object.required("values").and_then(|_| object.list("values"));

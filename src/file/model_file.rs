@@ -12,7 +12,7 @@ use super::object::Object;
 use super::outputs::{self, Outputs};
 use super::problem::{Log, Problems};
 use super::result_file::Results;
-use super::source::{Place, Source};
+use super::source::Source;
 use super::{Fault, correlations, json, nearest, settings};
 use crate::model::formula::{self, Formula, Scope, Typing};
 use crate::model::typed::{Entry, find};
@@ -752,7 +752,6 @@ impl ModelFile {
     /// The place of an output in the file, for messages of the evaluation.
     pub fn output_place(&self, output: usize) -> (Arc<Source>, Range<usize>) {
         let span = self.output_places.get(output).cloned().unwrap_or(0..0);
-        let Place { source, span } = Place { source: self.source.clone(), span };
-        (source, span)
+        (self.source.clone(), span)
     }
 }

@@ -1,9 +1,11 @@
 //! Tables of numbers from CSV files, with the place of every cell.
 
+use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
 
 use super::Fault;
+use super::problem::Log;
 use super::source::{Place, Source};
 
 /// A table: column names and rows of numbers.
@@ -17,9 +19,33 @@ pub(super) struct Table {
 /// All faults of a table, with their places.
 type Faults = Vec<(Place, Fault)>;
 
+/// Reads the table `name` in `folder` and reports its faults; a file that cannot be read is reported
+/// at `named`, where the model file names it. The content is given too.
+pub(super) fn read(
+    log: &Log,
+    folder: &Path,
+    name: &str,
+    named: &Range<usize>,
+) -> Option<(Table, Vec<u8>)> {
+    let faults = match read_file(&folder.join(name), name) {
+        Ok(read) => return Some(read),
+        Err(faults) => faults,
+    };
+    for (place, fault) in faults {
+        match fault {
+            Fault::Unreadable { message } => {
+                let message = format!("`{name}`: {message}");
+                log.report(named, Fault::Unreadable { message });
+            }
+            fault => log.report_at(place, fault),
+        }
+    }
+    None
+}
+
 /// Reads a table: a header row of names, `,` or `;` (then with decimal commas), lines that begin
 /// with `#` skipped. All faulty cells are returned.
-pub(super) fn read(path: &Path, name: &str) -> Result<(Table, Vec<u8>), Faults> {
+fn read_file(path: &Path, name: &str) -> Result<(Table, Vec<u8>), Faults> {
     let bytes = std::fs::read(path).map_err(|error| {
         let place = Place { source: Source::new(name, ""), span: 0..0 };
         vec![(place, Fault::Unreadable { message: error.to_string() })]

@@ -9,7 +9,7 @@ use rayon::prelude::*;
 use super::block::Trials;
 use super::fold::{Plan, drop_undefined};
 use super::interval::{Ranks, rank_spread};
-use super::moments::{Moments, Sums, correlation};
+use super::moments::{Moments, Sums, correlations};
 use super::partition::{Leaf, Partition, Tally};
 use super::run::{Finished, MonteCarlo, NumericalError, Request, Undefined, trials_in};
 use crate::distribution::BLOCK;
@@ -71,24 +71,19 @@ pub(super) fn run(
     plans: &[Plan],
     shortest_errors: &[[f64; 2]],
 ) -> Option<Finished> {
-    let mut partitions: Vec<Partition> = plans
-        .iter()
-        .map(|plan| {
-            // the quartiles lie one scale from the middle; fifteen hold nearly all of most shapes
-            let (middle, scale) = (plan.reference.middle, plan.reference.scale);
-            Partition::new(middle - 15.0 * scale, middle + 15.0 * scale)
-        })
-        .collect();
-    let budget = control.memory / 16 / plans.len().max(1);
+    let mut partitions = first_partitions(plans);
+    let budget = kept_budget(plans, control);
     let mut searches: Vec<Option<Search>> = vec![None; plans.len()];
-    let mut first: Option<Pass> = None;
+    let mut first: Option<(Pass, Vec<(Moments, Sums)>)> = None;
     for number in 0..MOST_PASSES {
         let mut found = pass(trials, request.trials, control, plans, &partitions, number == 0)?;
         let tallies = std::mem::take(&mut found.tallies);
         if number == 0 {
-            first = Some(found);
+            let summary = |(output, plan)| summary(&found.sums, output, plan);
+            let summaries = plans.iter().enumerate().map(summary).collect();
+            first = Some((found, summaries));
         }
-        let whole = first.as_ref()?;
+        let (whole, summaries) = first.as_ref()?;
         if whole.trials == 0 {
             break;
         }
@@ -97,7 +92,7 @@ pub(super) fn run(
             if searches[output].as_ref().is_some_and(|search| search.found.is_some()) {
                 continue;
             }
-            let std = moments(&whole.sums, output, &plans[output]).std;
+            let std = summaries[output].0.std;
             let mut search = Search::new(whole.trials, request.probability, std);
             let leaves = partitions[output].leaves(&tally);
             let last = number + 1 == MOST_PASSES;
@@ -112,8 +107,23 @@ pub(super) fn run(
             break;
         }
     }
-    let whole = first?;
-    Some(finish(trials, request, plans, whole, searches, shortest_errors))
+    let (whole, summaries) = first?;
+    Some(finish(trials, request, whole, &summaries, searches, shortest_errors))
+}
+
+/// The cells of the first pass: the quartiles lie one scale from the middle, and fifteen of them
+/// hold nearly all values of most shapes.
+pub(super) fn first_partitions(plans: &[Plan]) -> Vec<Partition> {
+    let references = plans.iter().map(|plan| (plan.reference.middle, plan.reference.scale));
+    references
+        .map(|(middle, scale)| Partition::new(middle - 15.0 * scale, middle + 15.0 * scale))
+        .collect()
+}
+
+/// How many values of each output may be kept: half of the memory, as the threads' values are
+/// copied when they are put together.
+pub(super) fn kept_budget(plans: &[Plan], control: &Control<'_>) -> usize {
+    control.memory / 16 / plans.len().max(1)
 }
 
 /// Decides which leaves to keep and which to split, within the budget of kept values.
@@ -148,7 +158,7 @@ pub(super) fn pass(
         tallies: partitions.iter().map(Partition::tally).collect(),
     };
     let chunks = blocks.div_ceil(CHUNK) as usize;
-    let found = (0..chunks)
+    let mut found = (0..chunks)
         .into_par_iter()
         .with_min_len(16)
         .fold(
@@ -203,13 +213,12 @@ pub(super) fn pass(
             }
             a
         });
-    let mut found = found;
     found.sums.sort_by_key(|(chunk, ..)| *chunk);
     (!control.is_stopped()).then_some(found)
 }
 
-/// One output's moments from its sums, chunk by chunk in order.
-fn moments(sums: &[(u64, u64, Vec<Sums>)], output: usize, plan: &Plan) -> Moments {
+/// One output's moments and total from its sums, chunk by chunk in order.
+fn summary(sums: &[(u64, u64, Vec<Sums>)], output: usize, plan: &Plan) -> (Moments, Sums) {
     let parts = sums.iter().filter(|(_, trials, _)| *trials > 0);
     let parts = parts.map(|(_, trials, sums)| (*trials, &sums[output]));
     Moments::of_parts(parts, plan.reference)
@@ -378,8 +387,8 @@ fn value_at(leaf: &Leaf, kept: &[f64], rank: u64, anyway: bool) -> Option<f64> {
 fn finish(
     trials: &Trials,
     request: Request<'_>,
-    plans: &[Plan],
     whole: Pass,
+    summaries: &[(Moments, Sums)],
     searches: Vec<Option<Search>>,
     shortest_errors: &[[f64; 2]],
 ) -> Finished {
@@ -388,33 +397,20 @@ fn finish(
         trials: whole.trials + whole.undefined,
         first: trials.inputs_of(block, trial),
     });
-    let totals: Vec<Sums> = (0..plans.len())
-        .map(|output| {
-            whole.sums.iter().fold(Sums::default(), |mut total, (.., chunk)| {
-                total.merge(&chunk[output]);
-                total
-            })
-        })
-        .collect();
-    let mut correlations = Vec::new();
-    for (i, a) in totals.iter().enumerate() {
-        for (b, &product) in totals[i + 1..].iter().zip(&a.products) {
-            correlations.push(correlation(whole.trials, a, b, product));
-        }
-    }
-    let figures = searches.into_iter().zip(plans).enumerate();
+    let totals: Vec<&Sums> = summaries.iter().map(|(_, total)| total).collect();
+    let correlations = correlations(whole.trials, &totals);
+    let figures = searches.into_iter().zip(summaries).enumerate();
     let outputs: Vec<MonteCarlo> = figures
-        .filter_map(|(output, (search, plan))| {
+        .filter_map(|(output, (search, (moments, _)))| {
             let found = search?.found?;
-            let moments = moments(&whole.sums, output, plan);
             let dof = request.drawn_dof.get(output).copied().unwrap_or(f64::INFINITY);
             let shortest_error = shortest_errors.get(output).copied().unwrap_or([f64::NAN; 2]);
-            let errors = NumericalError::new(&moments, dof, found.errors, shortest_error);
+            let errors = NumericalError::new(moments, dof, found.errors, shortest_error);
             let [low, high, median] = found.at;
             let intervals = ([low, high], found.shortest, found.exact);
-            Some(MonteCarlo::new(&moments, dof, median, intervals, errors))
+            Some(MonteCarlo::new(moments, dof, median, intervals, errors))
         })
         .collect();
-    let trials = if outputs.len() == plans.len() { whole.trials } else { 0 };
+    let trials = if outputs.len() == summaries.len() { whole.trials } else { 0 };
     Finished { trials, outputs, correlations, undefined, stopped: false }
 }

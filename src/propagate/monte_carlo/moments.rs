@@ -109,11 +109,12 @@ pub(crate) struct Moments {
 }
 
 impl Moments {
-    /// The moments of all `parts` together, with the errors that their scatter gives.
+    /// The moments of all `parts` together, with the errors that their scatter gives, and the sums
+    /// of all parts.
     pub(crate) fn of_parts<'s>(
         parts: impl Iterator<Item = (u64, &'s Sums)> + Clone,
         reference: Reference,
-    ) -> Self {
+    ) -> (Self, Sums) {
         let mut total = Sums::default();
         let mut trials = 0;
         for (count, sums) in parts.clone() {
@@ -121,7 +122,7 @@ impl Moments {
             total.merge(sums);
         }
         let shape_errors = shape_errors(parts, reference);
-        Self { shape_errors, ..Self::new(trials, reference, &total) }
+        (Self { shape_errors, ..Self::new(trials, reference, &total) }, total)
     }
 
     /// The moments of `trials` many values with these sums.
@@ -179,8 +180,17 @@ pub(crate) fn shape_errors<'s>(
     (shapes.len() >= 4).then(|| [error(0), error(1)])
 }
 
+/// The correlation coefficients of all outputs i < j from their sums.
+pub(crate) fn correlations(trials: u64, totals: &[&Sums]) -> Vec<f64> {
+    let pairs = totals.iter().enumerate().flat_map(|(i, a)| {
+        let others = totals[i + 1..].iter().zip(&a.products);
+        others.map(move |(b, &product)| correlation(trials, a, b, product))
+    });
+    pairs.collect()
+}
+
 /// The correlation coefficient of two outputs from their sums and the sum of their products.
-pub(crate) fn correlation(trials: u64, a: &Sums, b: &Sums, product: f64) -> f64 {
+fn correlation(trials: u64, a: &Sums, b: &Sums, product: f64) -> f64 {
     let n = trials as f64;
     let (a1, b1) = (a.powers[0] / n, b.powers[0] / n);
     let (a2, b2) = (a.powers[1] / n - a1 * a1, b.powers[1] / n - b1 * b1);

@@ -89,12 +89,9 @@ impl Grid {
 
     fn visit<'g>(&'g mut self, out: &mut Vec<&'g mut Cell>) {
         for cell in &mut self.cells {
-            if matches!(cell, Cell::Split(_)) {
-                if let Cell::Split(grid) = cell {
-                    grid.visit(out);
-                }
-            } else {
-                out.push(cell);
+            match cell {
+                Cell::Split(grid) => grid.visit(out),
+                other => out.push(other),
             }
         }
     }

@@ -5,8 +5,8 @@
 //! ones (in far tails) are kept or split in further passes.
 
 use super::block::Trials;
-use super::capped::{leaf_of, narrow, pass};
-use super::partition::{Leaf, Partition};
+use super::capped::{first_partitions, kept_budget, leaf_of, narrow, pass};
+use super::partition::Leaf;
 use super::repeat::repeat;
 use super::run::{Request, plans};
 use crate::distribution::special;
@@ -76,14 +76,8 @@ fn of_cells(
 ) -> Option<Vec<Vec<f64>>> {
     let request = Request { trials: count, probability: 0.5, drawn_dof: &[] };
     let plans = plans(trials, request, control, 1.0);
-    let mut partitions: Vec<Partition> = plans
-        .iter()
-        .map(|plan| {
-            let (middle, scale) = (plan.reference.middle, plan.reference.scale);
-            Partition::new(middle - 15.0 * scale, middle + 15.0 * scale)
-        })
-        .collect();
-    let budget = control.memory / 16 / plans.len().max(1);
+    let mut partitions = first_partitions(&plans);
+    let budget = kept_budget(&plans, control);
     let mut found: Vec<Option<Vec<f64>>> = vec![None; plans.len()];
     for number in 1..=MOST_PASSES {
         let made = pass(trials, count, control, &plans, &partitions, false)?;

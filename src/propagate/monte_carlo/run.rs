@@ -7,7 +7,7 @@ use super::block::{Trials, Workspace};
 use super::capped;
 use super::fold::{FoldKernel, Folded, Plan, drop_undefined};
 use super::interval::{Ranks, quantile_error, shortest, symmetric};
-use super::moments::{Moments, Reference, Sums, correlation};
+use super::moments::{Moments, Reference, Sums, correlations};
 use super::order::Order;
 use super::sorting::sort;
 use super::windows::Windows;
@@ -264,15 +264,7 @@ fn finish(
         let (outputs, correlations) = (Vec::new(), Vec::new());
         return Some(Finished { trials: 0, outputs, correlations, undefined, stopped });
     }
-    let totals: Vec<Sums> = (0..plans.len())
-        .map(|output| {
-            chunks.iter().fold(Sums::default(), |mut sums, chunk| {
-                sums.merge(&chunk.outputs[output].sums);
-                sums
-            })
-        })
-        .collect();
-    let moments: Vec<Moments> = plans
+    let summaries: Vec<(Moments, Sums)> = plans
         .iter()
         .enumerate()
         .map(|(output, plan)| {
@@ -281,12 +273,8 @@ fn finish(
             Moments::of_parts(parts, plan.reference)
         })
         .collect();
-    let mut correlations = Vec::new();
-    for (i, a) in totals.iter().enumerate() {
-        for (b, &product) in totals[i + 1..].iter().zip(&a.products) {
-            correlations.push(correlation(count, a, b, product));
-        }
-    }
+    let totals: Vec<&Sums> = summaries.iter().map(|(_, total)| total).collect();
+    let correlations = correlations(count, &totals);
     let mut per_output: Vec<Vec<Batch>> = (0..plans.len()).map(|_| Vec::new()).collect();
     for chunk in &mut chunks {
         for (batches, output) in per_output.iter_mut().zip(&mut chunk.outputs) {
@@ -303,7 +291,7 @@ fn finish(
         .enumerate()
         .map(|(o, chunks)| {
             let dof = request.drawn_dof.get(o).copied().unwrap_or(f64::INFINITY);
-            figures(moments[o], dof, request.probability, &plans[o].windows, chunks)
+            figures(summaries[o].0, dof, request.probability, &plans[o].windows, chunks)
         })
         .collect();
     let outputs = outputs.into_iter().collect::<Option<Vec<_>>>()?;
