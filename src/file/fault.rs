@@ -122,6 +122,12 @@ pub enum Fault {
     SavedCorrelation { first: String, second: String },
     /// The evaluation met numbers that it cannot go on with.
     Evaluation { message: String },
+    /// An effect that cannot act on the sim.
+    Effect { name: String, reason: String },
+    /// Observations that say nothing about the sim, or contradict themselves.
+    Observation { reason: String },
+    /// Prior probabilities that do not sum to one.
+    Prior { reason: String },
     /// An override of the command line that does not fit.
     Override { text: String, reason: String },
 }
@@ -180,6 +186,9 @@ impl Fault {
             Self::SavedCelsius { .. } => "celsius-result",
             Self::SavedCorrelation { .. } => "correlated-results",
             Self::Evaluation { .. } => "evaluation",
+            Self::Effect { .. } => "bad-effect",
+            Self::Observation { .. } => "bad-observations",
+            Self::Prior { .. } => "bad-prior",
             Self::Override { .. } => "bad-override",
         }
     }
@@ -364,7 +373,10 @@ impl fmt::Display for Fault {
                 "`{found}` is not a finite number; a file of samples has one on each line, and `#` \
                  before words"
             ),
-            Self::Table { reason } => f.write_str(reason),
+            Self::Table { reason } | Self::Observation { reason } | Self::Prior { reason } => {
+                f.write_str(reason)
+            }
+            Self::Effect { name, reason } => write!(f, "the effect `{name}` {reason}"),
             Self::Correlation { reason } => f.write_str(reason),
             Self::TooMany { what, found, most } => {
                 write!(f, "there are {found} {what}; this version takes {most} at most")

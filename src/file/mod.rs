@@ -3,8 +3,10 @@
 //! Reading goes on after a mistake, so that all of a file's mistakes are reported at once; only
 //! text that is not JSON stops it.
 
+mod case;
 mod conditions;
 mod correlations;
+mod effects;
 mod fault;
 mod inputs;
 mod json;
@@ -12,6 +14,7 @@ mod links;
 mod model_file;
 mod nearest;
 mod object;
+mod observations;
 mod outputs;
 mod paired;
 mod problem;
@@ -23,6 +26,7 @@ mod source;
 mod table;
 mod width;
 
+pub use case::{CaseFile, read as read_case};
 pub use fault::Fault;
 pub use model_file::{ModelFile, Override, Overrides, read, read_text};
 pub use nearest::nearest;

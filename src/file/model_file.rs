@@ -9,18 +9,16 @@ use super::conditions::{self, Conditions};
 use super::inputs::{self, Inputs};
 use super::json::{Json, Member, Node};
 use super::object::Object;
+use super::observations::Observations;
 use super::outputs::{self, Outputs};
 use super::problem::{Log, Problems};
 use super::result_file::Results;
 use super::source::Source;
-use super::{Fault, correlations, json, nearest, settings};
+use super::{Fault, correlations, json, nearest, observations, settings};
 use crate::model::formula::{self, Formula, Scope, Typing};
 use crate::model::typed::{Entry, find};
-use crate::model::{
-    InputQuantity, Model, Recorder, Traced, in_unit, recorded_values, typed, variables,
-};
-use crate::number::Number;
-use crate::task::{Row, Task, Warning};
+use crate::model::{InputQuantity, Maker as SimMaker, Sim, typed};
+use crate::task::{Observed, Row, Task, Warning};
 use crate::unit::{Dimension, Unit};
 
 /// A model file that was read and found right.
@@ -100,13 +98,22 @@ impl Override {
 /// # Errors
 /// All mistakes of the file, in the order of their places.
 pub fn read(path: &Path, overrides: &[Override]) -> Result<ModelFile, Problems> {
+    read_file(path, overrides, |reader| reader.read())
+}
+
+/// Reads and checks a file; `read` makes what is wanted of it.
+pub(super) fn read_file<T>(
+    path: &Path,
+    overrides: &[Override],
+    read: impl FnOnce(&ModelReader<'_>) -> Option<T>,
+) -> Result<T, Problems> {
     let name = path.display().to_string();
     let folder = path.parent().unwrap_or_else(|| Path::new(""));
     let text = std::fs::read(path)
         .map_err(|error| error.to_string())
         .and_then(|bytes| String::from_utf8(bytes).map_err(|_| "it is not UTF-8 text".to_owned()));
     match text {
-        Ok(text) => read_text(&name, &text, folder, overrides),
+        Ok(text) => read_with(&name, &text, folder, overrides, read),
         Err(message) => {
             let log = Log::new(Source::new(name, ""));
             log.report(&(0..0), Fault::Unreadable { message });
@@ -126,6 +133,16 @@ pub fn read_text(
     folder: &Path,
     overrides: &[Override],
 ) -> Result<ModelFile, Problems> {
+    read_with(name, text, folder, overrides, |reader| reader.read())
+}
+
+fn read_with<T>(
+    name: &str,
+    text: &str,
+    folder: &Path,
+    overrides: &[Override],
+    read: impl FnOnce(&ModelReader<'_>) -> Option<T>,
+) -> Result<T, Problems> {
     let source = Source::new(name, text);
     let log = Log::new(source.clone());
     let file = match json::parse(&source) {
@@ -133,7 +150,7 @@ pub fn read_text(
             override_fields(&log, &mut node, overrides);
             let whole = 0..source.text.find('\n').unwrap_or(source.text.len());
             Object::new(&log, "a model file", &node, &whole)
-                .and_then(|root| ModelReader { log: &log, root, folder, overrides }.read())
+                .and_then(|root| read(&ModelReader { log: &log, root, folder, overrides }))
         }
         Err((span, fault)) => {
             log.report(&span, fault);
@@ -214,15 +231,26 @@ const KEYS: [&str; 20] = [
     "catalogue",
 ];
 
-struct ModelReader<'a> {
-    log: &'a Log,
-    root: Object<'a>,
-    folder: &'a Path,
+/// What was found in a file.
+pub(super) struct Found {
+    pub(super) file: ModelFile,
+    pub(super) sim: Sim,
+    /// What was measured of each output.
+    pub(super) observed: Vec<Option<Observed>>,
+    /// How many of the last conditions are columns of somebody else's simulation.
+    pub(super) simulated: usize,
+}
+
+pub(super) struct ModelReader<'a> {
+    pub(super) log: &'a Log,
+    pub(super) root: Object<'a>,
+    pub(super) folder: &'a Path,
     overrides: &'a [Override],
 }
 
-/// An equation with its formula, if that could be read.
-type Equation<'a> = (&'a Member, Option<Formula>);
+/// An equation: the quantity, where it stands unless it is a column of the data, and its formula if
+/// that could be read.
+type Equation<'a> = (String, Option<&'a Member>, Option<Formula>);
 
 /// What computes the outputs.
 enum Maker<'a> {
@@ -232,6 +260,10 @@ enum Maker<'a> {
 
 impl<'a> ModelReader<'a> {
     fn read(&self) -> Option<ModelFile> {
+        self.found().map(|found| found.file)
+    }
+
+    pub(super) fn found(&self) -> Option<Found> {
         let Self { log, root, .. } = self;
         let mut keys = KEYS.to_vec();
         keys.push("prior");
@@ -242,13 +274,25 @@ impl<'a> ModelReader<'a> {
         let check_units = root.truth("check_units").unwrap_or(true);
         let settings = settings::read(root);
 
+        let observations =
+            root.get("observations").map(|m| observations::read(log, m, self.folder));
+        let unobserved = matches!(observations, Some(None));
+        let mut observations = observations.flatten();
         let swept = root.get("conditions");
-        let mut conditions = match swept {
-            Some(member) => conditions::read(log, member, self.folder)
+        let table = observations.as_ref().map(|observations| &observations.table);
+        let mut conditions = match (swept, table) {
+            // without the data nothing is known of the rows
+            (Some(_), None) if unobserved => Conditions { unreadable: true, ..Conditions::none() },
+            (Some(member), table) => conditions::read(log, member, self.folder, table)
                 .unwrap_or_else(|| Conditions { unreadable: true, ..Conditions::none() }),
-            None => Conditions::none(),
+            (None, Some(table)) => Conditions::rows_of(table),
+            (None, None) => Conditions::none(),
         };
-        let maker = self.maker();
+        let simulated = match &observations {
+            Some(observations) => self.simulated(observations, &mut conditions),
+            None => Vec::new(),
+        };
+        let maker = self.maker(&simulated);
         let results = Results::new(self.folder);
         let set = ConditionSet { conditions: &conditions, check_units };
         let inputs = match root.required("inputs") {
@@ -263,6 +307,9 @@ impl<'a> ModelReader<'a> {
             return None;
         }
         let mut files = std::mem::take(&mut conditions.files);
+        if let Some(observations) = &mut observations {
+            files.append(&mut observations.files);
+        }
         files.extend(inputs.files.iter().cloned());
         files.extend(results.files.take());
         let (correlations, notes) = correlations::read(root, &inputs, self.folder, &mut files);
@@ -275,7 +322,7 @@ impl<'a> ModelReader<'a> {
                 .flatten()
                 .map(String::as_str)
                 .collect();
-        let model = match maker? {
+        let sim = match maker? {
             Maker::Typed(entry, place) => {
                 for output in &mut outputs {
                     if let Some((_, declared)) = entry.typed.output(&output.quantity.name) {
@@ -295,7 +342,13 @@ impl<'a> ModelReader<'a> {
                 if !log.is_clean() {
                     return None;
                 }
-                entry.typed.model_with(inputs.quantities, conditions.quantities.clone(), outputs)
+                Sim {
+                    scope: typed_scope(&entry, &inputs, &conditions),
+                    inputs: inputs.quantities,
+                    conditions: conditions.quantities.clone(),
+                    outputs,
+                    maker: SimMaker::Typed(entry.typed),
+                }
             }
             Maker::Equations(equations) => {
                 let scope = self.check_equations(
@@ -316,13 +369,16 @@ impl<'a> ModelReader<'a> {
                 if !log.is_clean() {
                     return None;
                 }
-                from_equations(
-                    &equations,
-                    &scope,
-                    inputs.quantities,
-                    conditions.quantities.clone(),
+                let equations = equations.into_iter();
+                Sim {
+                    scope,
+                    inputs: inputs.quantities,
+                    conditions: conditions.quantities.clone(),
                     outputs,
-                )
+                    maker: SimMaker::Equations(
+                        equations.filter_map(|(name, _, formula)| Some((name, formula?))).collect(),
+                    ),
+                }
             }
         };
         let rows = conditions
@@ -331,10 +387,14 @@ impl<'a> ModelReader<'a> {
             .zip(inputs.rows)
             .map(|(conditions, distributions)| Row { conditions, distributions })
             .collect();
-        let swept = swept.is_some();
+        let observed = self.observed(observations.as_ref(), &sim)?;
+        let swept = swept.is_some() || observations.is_some();
+        let model = sim.model();
         let task =
             Task { title, model, variables: inputs.variables, correlations, rows, swept, settings };
-        Some(ModelFile { task, warnings, source: log.source.clone(), files, output_places: places })
+        let source = log.source.clone();
+        let file = ModelFile { task, warnings, source, files, output_places: places };
+        Some(Found { file, sim, observed, simulated: simulated.len() })
     }
 
     fn format(&self) {
@@ -349,7 +409,69 @@ impl<'a> ModelReader<'a> {
         }
     }
 
-    fn maker(&self) -> Option<Maker<'a>> {
+    /// Columns of somebody else's simulation: each becomes a condition, and the output is that.
+    fn simulated(
+        &self,
+        observations: &Observations,
+        conditions: &mut Conditions,
+    ) -> Vec<(String, String)> {
+        let mut simulated: Vec<(String, String)> = Vec::new();
+        let outputs = self.root.get("outputs").map(|member| &member.value);
+        for column in &observations.columns {
+            let Some(name) = &column.simulated else { continue };
+            if let Some((_, earlier)) = simulated.iter().find(|(_, known)| known == name) {
+                let reason = format!("the column `{name}` already is `{earlier}`'s simulation");
+                self.log.report(&column.place, Fault::Observation { reason });
+                continue;
+            }
+            let unit = match outputs.map(|node| &node.value) {
+                Some(Json::Object(members)) => members
+                    .iter()
+                    .find(|member| member.key == column.output)
+                    .and_then(|member| {
+                        Object::new(self.log, "an output", &member.value, &member.key_span)
+                    })
+                    .and_then(|object| object.text("unit").and_then(|unit| Unit::parse(unit).ok())),
+                _ => None,
+            };
+            conditions.add_column(
+                &observations.table,
+                name,
+                unit.unwrap_or_else(Unit::one),
+                &column.place,
+            );
+            simulated.push((column.output.clone(), name.clone()));
+        }
+        simulated
+    }
+
+    /// What was measured of each output of the sim.
+    fn observed(
+        &self,
+        observations: Option<&Observations>,
+        sim: &Sim,
+    ) -> Option<Vec<Option<Observed>>> {
+        let Some(observations) = observations else {
+            return Some(vec![None; sim.outputs.len()]);
+        };
+        let mut clean = true;
+        for column in &observations.columns {
+            if !sim.is_output(&column.output) {
+                let known: Vec<String> =
+                    sim.outputs.iter().map(|output| output.quantity.name.clone()).collect();
+                self.unknown_output(&column.output, &known, &column.place);
+                clean = false;
+            }
+        }
+        let of = |output: &crate::model::Output| {
+            let named = |column: &&observations::Column| column.output == output.quantity.name;
+            observations.columns.iter().find(named).map(|column| column.observed.clone())
+        };
+        clean.then(|| sim.outputs.iter().map(of).collect())
+    }
+
+    /// What computes the outputs; `simulated` are outputs with the column that holds them.
+    fn maker(&self, simulated: &[(String, String)]) -> Option<Maker<'a>> {
         match (self.root.get("model"), self.root.get("equations")) {
             (Some(member), None) => {
                 let name = self.root.text("model")?;
@@ -371,7 +493,7 @@ impl<'a> ModelReader<'a> {
                 for member in object.members() {
                     let formula = match &member.value.value {
                         Json::Text(text) => Formula::parse(text)
-                            .map_err(|error| self.report_formula(member, error))
+                            .map_err(|error| report_formula(self.log, member, error))
                             .ok(),
                         other => {
                             let fault = Fault::WrongType {
@@ -383,35 +505,23 @@ impl<'a> ModelReader<'a> {
                             None
                         }
                     };
-                    equations.push((member, formula));
+                    equations.push((member.key.clone(), Some(member), formula));
                 }
+                equations.extend(of_columns(simulated));
                 Some(Maker::Equations(equations))
             }
             (Some(_), Some(second)) => {
                 self.log.report(&second.key_span, Fault::TwoModels);
                 None
             }
+            (None, None) if !simulated.is_empty() => {
+                Some(Maker::Equations(of_columns(simulated).collect()))
+            }
             (None, None) => {
                 self.root.report(Fault::NoModel);
                 None
             }
         }
-    }
-
-    /// A formula's mistake at its place inside the JSON text.
-    fn report_formula(&self, member: &Member, error: formula::FormulaError) {
-        let span = &member.value.span;
-        let inner = error.span();
-        let raw = self.log.source.text.get(span.start + 1..span.end.saturating_sub(1));
-        let plain = raw.is_some_and(|raw| !raw.contains('\\'));
-        // escapes in the JSON text would shift the place, so the whole text is underlined then
-        let place = if plain {
-            let start = (span.start + 1 + inner.start).min(span.end);
-            start..(span.start + 1 + inner.end).clamp(start, span.end)
-        } else {
-            span.clone()
-        };
-        self.log.report(&place, Fault::Formula { error });
     }
 
     /// Names of all quantities: possible, and each used once.
@@ -430,7 +540,8 @@ impl<'a> ModelReader<'a> {
         let swept = conditions.quantities.iter().zip(&conditions.places);
         named.extend(swept.map(|(quantity, place)| (1, quantity.name.as_str(), place)));
         if let Some(Maker::Equations(equations)) = maker {
-            named.extend(equations.iter().map(|(m, _)| (2, m.key.as_str(), &m.key_span)));
+            let written = equations.iter().filter_map(|(_, member, _)| *member);
+            named.extend(written.map(|m| (2, m.key.as_str(), &m.key_span)));
         }
         for (kind, name, place) in named {
             if let Err(error) = formula::check_name(name) {
@@ -546,10 +657,10 @@ impl<'a> ModelReader<'a> {
             let known = !unknown_units.contains(name);
             scope.define(name, if known { Typing::in_unit(unit) } else { Typing::ANY });
         }
-        for (member, _) in equations {
-            scope.announce(&member.key);
+        for (name, ..) in equations {
+            scope.announce(name);
         }
-        for (member, formula) in equations {
+        for (name, member, formula) in equations {
             let result = match formula {
                 Some(formula) if check_units => formula.check(&scope),
                 Some(formula) => formula.check_names(&scope),
@@ -557,11 +668,13 @@ impl<'a> ModelReader<'a> {
             };
             let typing = result.unwrap_or_else(|errors| {
                 for error in errors {
-                    self.report_formula(member, error);
+                    if let Some(member) = member {
+                        report_formula(self.log, member, error);
+                    }
                 }
                 Typing::ANY
             });
-            scope.define(&member.key, typing);
+            scope.define(name, typing);
         }
         scope
     }
@@ -649,31 +762,39 @@ fn celsius_as_kelvin(scope: &Scope, outputs: &[crate::model::Output]) -> Vec<War
         .collect()
 }
 
-/// The model that equations make. A formula that was found right records without an error.
-fn from_equations(
-    equations: &[Equation<'_>],
-    scope: &Scope,
-    inputs: Vec<InputQuantity>,
-    conditions: Vec<crate::model::Quantity>,
-    outputs: Vec<crate::model::Output>,
-) -> Model {
-    let recorder = Recorder::default();
-    let mut values: HashMap<String, Traced<'_>> =
-        recorded_values(&recorder, &inputs, &conditions).into_iter().collect();
-    for (member, formula) in equations {
-        let value = formula.as_ref().and_then(|formula| formula.record(scope, &values).ok());
-        values.insert(member.key.clone(), value.unwrap_or_else(|| Traced::constant(f64::NAN)));
+/// A formula's mistake at its place inside the JSON text.
+pub(super) fn report_formula(log: &Log, member: &Member, error: formula::FormulaError) {
+    let span = &member.value.span;
+    let inner = error.span();
+    let raw = log.source.text.get(span.start + 1..span.end.saturating_sub(1));
+    let plain = raw.is_some_and(|raw| !raw.contains('\\'));
+    // escapes in the JSON text would shift the place, so the whole text is underlined then
+    let place = if plain {
+        let start = (span.start + 1 + inner.start).min(span.end);
+        start..(span.start + 1 + inner.end).clamp(start, span.end)
+    } else {
+        span.clone()
+    };
+    log.report(&place, Fault::Formula { error });
+}
+
+/// Outputs that are columns of the data, as equations.
+fn of_columns<'a>(simulated: &[(String, String)]) -> impl Iterator<Item = Equation<'a>> {
+    simulated.iter().map(|(output, column)| (output.clone(), None, Formula::parse(column).ok()))
+}
+
+/// What is known of the names of a typed model.
+fn typed_scope(entry: &Entry, inputs: &Inputs, conditions: &Conditions) -> Scope {
+    let mut scope = condition_scope(conditions);
+    for input in &inputs.quantities {
+        let Quantity { name, unit } = Quantity::of(input);
+        scope.define(name, Typing::in_unit(unit));
     }
-    let results: Vec<Traced<'_>> = outputs
-        .iter()
-        .map(|output| {
-            let value = values.get(&output.quantity.name).copied();
-            let value = value.unwrap_or_else(|| Traced::constant(f64::NAN));
-            in_unit(value, &output.quantity.unit)
-        })
-        .collect();
-    let program = recorder.program(variables(&inputs, &conditions), &results);
-    Model { inputs, conditions, outputs, program }
+    for output in entry.typed.declaration.outputs {
+        let unit = Unit::parse(output.unit).ok();
+        scope.define(output.name, unit.map_or(Typing::ANY, |unit| Typing::in_unit(&unit)));
+    }
+    scope
 }
 
 fn condition_scope(conditions: &Conditions) -> Scope {

@@ -14,6 +14,17 @@ pub(super) struct Table {
     pub(super) source: Arc<Source>,
     pub(super) columns: Vec<String>,
     pub(super) rows: Vec<Vec<f64>>,
+    /// Where each row stands in the text.
+    lines: Vec<Range<usize>>,
+    semicolon: bool,
+}
+
+impl Table {
+    /// The place of a cell.
+    pub(super) fn place(&self, row: usize, column: usize) -> Place {
+        let span = self.lines.get(row).cloned().unwrap_or(0..0);
+        place_of_cell(&Place { source: self.source.clone(), span }, column, self.semicolon)
+    }
 }
 
 /// All faults of a table, with their places.
@@ -107,6 +118,7 @@ fn parse(source: &Arc<Source>) -> Result<Table, Faults> {
         faults.push((at_line(header_line), Fault::Table { reason }));
     }
     let mut rows = Vec::new();
+    let mut lines = Vec::new();
     for (number, record) in reader.records().enumerate() {
         let record = match record {
             Ok(record) => record,
@@ -141,13 +153,14 @@ fn parse(source: &Arc<Source>) -> Result<Table, Faults> {
             }
         }
         rows.push(row);
+        lines.push(place.span);
     }
     if rows.is_empty() && faults.is_empty() {
         let reason = "the table has a header but no rows".to_owned();
         faults.push((at_line(header_line), Fault::Table { reason }));
     }
     if faults.is_empty() {
-        Ok(Table { source: source.clone(), columns, rows })
+        Ok(Table { source: source.clone(), columns, rows, lines, semicolon })
     } else {
         Err(faults)
     }

@@ -1,0 +1,219 @@
+//! The candidate effects of a case and their prior probabilities.
+
+use super::conditions::NoConditions;
+use super::json::{Json, Member};
+use super::model_file::report_formula;
+use super::nearest;
+use super::object::Object;
+use super::problem::Log;
+use super::result_file::Results;
+use super::{Fault, inputs};
+use crate::model::formula::{self, Formula, FormulaError};
+use crate::model::{Effect, Sim};
+use crate::task::{Candidate, Prior, Warning};
+
+/// At most so many effects: their pairs are tried as well.
+const MOST_EFFECTS: usize = 200;
+
+/// Reads `effects` for a sim.
+pub(super) fn read(
+    log: &Log,
+    member: &Member,
+    sim: &Sim,
+    results: &Results<'_>,
+    warnings: &mut Vec<Warning>,
+) -> Option<Vec<Candidate>> {
+    let object = Object::new(log, "`effects`", &member.value, &member.key_span)?;
+    let found = object.members().len();
+    if found > MOST_EFFECTS {
+        object.report(Fault::TooMany { what: "effects", found, most: MOST_EFFECTS });
+        return None;
+    }
+    let mut reader = Reader { log, sim, results, warnings };
+    let read: Vec<Option<Candidate>> =
+        object.members().iter().map(|member| reader.effect(member)).collect();
+    read.into_iter().collect()
+}
+
+struct Reader<'a> {
+    log: &'a Log,
+    sim: &'a Sim,
+    results: &'a Results<'a>,
+    warnings: &'a mut Vec<Warning>,
+}
+
+impl Reader<'_> {
+    fn effect(&mut self, member: &Member) -> Option<Candidate> {
+        let object = Object::new(self.log, "an effect", &member.value, &member.key_span)?;
+        object.check_keys(&["parameters", "overrides", "about", "source"]);
+        let fault =
+            |reason: &str| Fault::Effect { name: member.key.clone(), reason: reason.to_owned() };
+        if member.key.is_empty() || member.key.contains(['/', '+']) {
+            let reason = "is no name for an effect: `/` and `+` join names in the answer";
+            self.log.report(&member.key_span, fault(reason));
+        }
+        let parameters = object.required("parameters");
+        let overrides = object.required("overrides");
+        let inputs = match parameters {
+            Some(of) if matches!(&of.value.value, Json::Object(members) if members.is_empty()) => {
+                let reason = "has no parameters; its size must be a quantity with a prior \
+                              distribution, or the data could not tell how large it is";
+                self.log.report(&of.value.span, fault(reason));
+                None
+            }
+            Some(of) => inputs::read(self.log, of, &NoConditions, &[], self.results),
+            None => None,
+        };
+        let overrides = Object::new(self.log, "`overrides`", &overrides?.value, &member.key_span)?;
+        if overrides.members().is_empty() {
+            overrides.report(fault("overrides nothing"));
+        }
+        let inputs = inputs?;
+        for (quantity, place) in inputs.quantities.iter().zip(&inputs.quantity_places) {
+            let name = &quantity.quantity.name;
+            if quantity.parts != 1 {
+                self.log.report(
+                    place,
+                    fault("has a parameter with components; give it one distribution"),
+                );
+            } else if let Err(error) = formula::check_name(name) {
+                let (name, reason) = (name.to_owned(), error.to_string());
+                self.log.report(place, Fault::BadName { name, reason });
+            }
+        }
+        let mut effect = Effect {
+            name: member.key.clone(),
+            parameters: inputs.quantities.iter().map(|input| input.quantity.clone()).collect(),
+            overrides: Vec::new(),
+        };
+        let known = self.sim.overridable();
+        for member in overrides.members() {
+            let name = &member.key;
+            if !known.contains(&name.as_str()) {
+                let near = nearest(name, known.iter().copied());
+                let reason = if self.sim.conditions.iter().any(|c| c.name == *name) {
+                    format!(
+                        "overrides the condition `{name}`, which is set and known; override a \
+                             quantity that is computed from it"
+                    )
+                } else {
+                    format!(
+                        "overrides `{name}`, which the sim does not have{}",
+                        match near {
+                            Some(near) => format!("; did you mean `{near}`?"),
+                            None => format!("; it has {}", known.join(", ")),
+                        }
+                    )
+                };
+                let fault = Fault::Effect { name: effect.name.clone(), reason };
+                self.log.report(&member.key_span, fault);
+                continue;
+            }
+            if let Some(formula) = self.formula(member, &effect) {
+                effect.overrides.push((name.clone(), formula));
+            }
+        }
+        if let Err(circular) = self.sim.program(&[&effect]) {
+            let reason = format!(
+                "overrides quantities that need each other: {}",
+                circular.names.join(" needs ")
+            );
+            let fault = Fault::Effect { name: effect.name.clone(), reason };
+            self.log.report(overrides.place(), fault);
+        }
+        let priors = inputs.rows.into_iter().next().unwrap_or_default();
+        (priors.len() == effect.parameters.len()).then(|| Candidate {
+            effect,
+            priors,
+            about: object.text("about").unwrap_or("").to_owned(),
+            source: object.text("source").unwrap_or("").to_owned(),
+        })
+    }
+
+    /// An override's formula: its names must be known; a dimension that does not fit is a warning.
+    fn formula(&mut self, member: &Member, effect: &Effect) -> Option<Formula> {
+        let Json::Text(text) = &member.value.value else {
+            let fault = Fault::WrongType {
+                what: format!("`{}`", member.key),
+                found: member.value.value.kind(),
+                expected: "a formula in quotes",
+            };
+            self.log.report(&member.value.span, fault);
+            return None;
+        };
+        let report = |error: FormulaError| report_formula(self.log, member, error);
+        let formula = Formula::parse(text).map_err(report).ok()?;
+        let scope = effect.scope(&self.sim.scope);
+        if let Err(errors) = formula.check_names(&scope) {
+            errors.into_iter().for_each(report);
+            return None;
+        }
+        let own = self.sim.scope.get(&member.key).and_then(|typing| typing.dimension);
+        let misfit = match formula.check(&scope) {
+            Err(errors) => errors.first().map(ToString::to_string),
+            Ok(typing) => match (typing.dimension, own) {
+                (Some(found), Some(own)) if found != own => Some(format!(
+                    "the formula gives {}, but `{}` is {}",
+                    found.describe(),
+                    member.key,
+                    own.describe()
+                )),
+                _ => None,
+            },
+        };
+        if let Some(misfit) = misfit {
+            let text = format!("effect `{}`, override of `{}`: {misfit}", effect.name, member.key);
+            self.warnings.push(Warning::new("effect-dimension", &effect.name, text));
+        }
+        Some(formula)
+    }
+}
+
+/// Reads `prior`: shares of probability that are scaled to sum to one.
+pub(super) fn prior(root: &Object<'_>) -> Option<Prior> {
+    let Some(member) = root.get("prior") else {
+        return Some(Prior::DEFAULT);
+    };
+    let object = Object::new(root.log, "`prior`", &member.value, &member.key_span)?;
+    object.check_keys(&["none", "one", "two", "three", "unexplained"]);
+    let mut clean = true;
+    let mut share = |key: &str, default: f64| {
+        let Some(value) = object.number(key) else {
+            clean &= object.get(key).is_none();
+            return default;
+        };
+        if !(0.0..=1.0).contains(&value) {
+            let place = object.get(key).map_or(object.place(), |member| &member.value.span);
+            root.log.report(place, Fault::NotProbability { key: key.to_owned(), found: value });
+            clean = false;
+        }
+        value
+    };
+    let default = Prior::DEFAULT;
+    let mut prior = Prior {
+        none: share("none", default.none),
+        one: share("one", default.one),
+        two: share("two", default.two),
+        three: share("three", default.three),
+        unexplained: share("unexplained", default.unexplained),
+    };
+    if !clean {
+        return None;
+    }
+    let sum = prior.none + prior.one + prior.two + prior.three + prior.unexplained;
+    if !(0.999..=1.001).contains(&sum) {
+        let reason = format!(
+            "the prior probabilities of none, one, two, three and unexplained sum to {sum}, but must \
+             sum to 1; those that are not given are {}, {}, {}, {} and {}",
+            default.none, default.one, default.two, default.three, default.unexplained
+        );
+        root.log.report(&member.value.span, Fault::Prior { reason });
+        return None;
+    }
+    for share in
+        [&mut prior.none, &mut prior.one, &mut prior.two, &mut prior.three, &mut prior.unexplained]
+    {
+        *share /= sum;
+    }
+    Some(prior)
+}

@@ -1,0 +1,133 @@
+//! The hypothesis "unexplained": the sim plus a random discrepancy that no candidate makes.
+//!
+//! The discrepancy is one term of a small grammar ([`grammar`]), all of equal weight; its amplitude
+//! is log-uniform from 3 to 300 standard uncertainties. Each term is a Gaussian process, so that its
+//! evidence is exact.
+
+mod features;
+mod fitted;
+mod form;
+mod grammar;
+
+pub(crate) use features::{Axes, Site, sites};
+pub(crate) use form::{Form, forms};
+pub(crate) use grammar::{Of, Term};
+
+use nalgebra::DVector;
+
+use super::evidence::ln_add;
+use super::likelihood::HALF_LN_TWO_PI;
+use super::setup::Setup;
+
+/// The lengths over which a smooth discrepancy varies, as shares of the range of what it is a
+/// function of.
+pub(crate) const LENGTHS: [f64; 6] = [0.05, 0.12, 0.29, 0.7, 1.7, 4.0];
+
+/// Amplitudes in standard uncertainties (root mean square over the values that are touched).
+const AMPLITUDES: [f64; 2] = [3.0, 300.0];
+
+/// Points of the integral over the logarithm of the amplitude.
+const AMPLITUDE_STEPS: usize = 48;
+
+/// The amplitudes of the integral: midpoints, equally probable.
+pub(crate) fn amplitudes() -> impl Iterator<Item = f64> {
+    let [lower, upper] = AMPLITUDES;
+    (0..AMPLITUDE_STEPS).map(move |step| {
+        let share = (step as f64 + 0.5) / AMPLITUDE_STEPS as f64;
+        lower * (upper / lower).powf(share)
+    })
+}
+
+/// The forms of a discrepancy for a design, ready for any data of it.
+#[derive(Debug)]
+pub(crate) struct Discrepancy {
+    pub(crate) axes: Axes,
+    pub(crate) forms: Vec<Form>,
+}
+
+/// What data say of the discrepancy.
+#[derive(Clone, Debug)]
+pub(crate) struct Unexplained {
+    /// Logarithm of the evidence.
+    pub(crate) ln_evidence: f64,
+    /// Forms with amplitudes and posterior weights (of all; those that weigh little are left out),
+    /// heaviest first.
+    pub(crate) kinds: Vec<Weighted>,
+}
+
+/// A form with an amplitude.
+#[derive(Clone, Debug)]
+pub(crate) struct Weighted {
+    /// Place of the form.
+    pub(crate) form: usize,
+    /// In standard uncertainties.
+    pub(crate) amplitude: f64,
+    /// Posterior weight among all.
+    pub(crate) weight: f64,
+    /// Variances of the noise by value, where they were estimated.
+    pub(crate) variances: Option<std::sync::Arc<Vec<f64>>>,
+}
+
+impl Discrepancy {
+    pub(crate) fn new(setup: &Setup<'_>) -> Self {
+        let axes = Axes::new(setup.case, &setup.data);
+        let forms = forms(setup, &axes);
+        Self { axes, forms }
+    }
+
+    /// The evidence of the data that a setup holds.
+    pub(crate) fn evidence(&self, setup: &Setup<'_>) -> Unexplained {
+        if setup.linear.fitted {
+            return fitted::evidence(self, setup);
+        }
+        let residuals = by_rows(&setup.data.nominal_residuals());
+        let whitened = setup.linear.whiten_blocks(&residuals);
+        let base = ln_normal(setup, &whitened);
+        let whitened = DVector::from_column_slice(&whitened);
+        let mut parts: Vec<(usize, f64, f64)> = Vec::new();
+        let ln_amplitude = -(AMPLITUDE_STEPS as f64).ln();
+        for (place, form) in self.forms.iter().enumerate() {
+            let scores = &form.projector * &whitened;
+            for amplitude in amplitudes() {
+                let a = amplitude * amplitude;
+                let mut ln = base + form.ln_weight + ln_amplitude;
+                for (eigenvalue, score) in form.eigenvalues.iter().zip(scores.iter()) {
+                    let growth = 1.0 + a * eigenvalue;
+                    ln += 0.5 * (a * score * score / growth - growth.ln());
+                }
+                parts.push((place, amplitude, ln));
+            }
+        }
+        weigh(parts.into_iter().map(|(form, amplitude, ln)| (form, amplitude, ln, None)).collect())
+    }
+}
+
+/// Normalizes kinds given with the logarithms of their evidence.
+fn weigh(mut parts: Vec<(usize, f64, f64, Option<std::sync::Arc<Vec<f64>>>)>) -> Unexplained {
+    let ln_evidence = parts.iter().fold(f64::NEG_INFINITY, |sum, part| ln_add(sum, part.2));
+    parts.retain(|part| part.2 > ln_evidence - 7.0);
+    parts.sort_by(|a, b| b.2.total_cmp(&a.2));
+    let kinds = parts
+        .into_iter()
+        .map(|(form, amplitude, ln, variances)| Weighted {
+            form,
+            amplitude,
+            weight: (ln - ln_evidence).exp(),
+            variances,
+        })
+        .collect();
+    Unexplained { ln_evidence, kinds }
+}
+
+/// Values of outputs as one list, row by row, outputs fastest.
+pub(crate) fn by_rows(values: &[Vec<f64>]) -> Vec<f64> {
+    let rows = values.first().map_or(0, Vec::len);
+    (0..rows).flat_map(|row| values.iter().map(move |output| output[row])).collect()
+}
+
+/// The logarithm of the density of residuals, whitened by the blocks, without any discrepancy.
+pub(crate) fn ln_normal(setup: &Setup<'_>, whitened: &[f64]) -> f64 {
+    let projected = setup.linear.project(whitened);
+    let square = super::covariance::dot(whitened, whitened) - projected.norm_squared();
+    -0.5 * square - setup.linear.half_ln_det - whitened.len() as f64 * HALF_LN_TWO_PI
+}

@@ -1,0 +1,181 @@
+//! The posterior probabilities of all hypotheses.
+
+use rayon::prelude::*;
+
+use super::discrepancy::{Discrepancy, Unexplained};
+use super::evidence::{Evidence, ln_add};
+use super::likelihood::Likelihood;
+use super::setup::Setup;
+use crate::distribution::StreamKey;
+
+/// A hypothesis that effects explain the data: none of them, or one or more together.
+#[derive(Debug)]
+pub(crate) struct Hypothesis {
+    /// Places of the candidates that act.
+    pub(crate) effects: Vec<usize>,
+    /// Prior probability.
+    pub(crate) prior: f64,
+    /// Its evidence.
+    pub(crate) evidence: Evidence,
+    /// Posterior probability.
+    pub(crate) probability: f64,
+}
+
+/// All hypotheses with their probabilities.
+#[derive(Debug)]
+pub(crate) struct Posterior {
+    pub(crate) hypotheses: Vec<Hypothesis>,
+    pub(crate) unexplained: Unexplained,
+    /// Prior probability of "unexplained".
+    pub(crate) prior: f64,
+    /// Posterior probability of "unexplained".
+    pub(crate) probability: f64,
+}
+
+/// How much is computed.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Effort {
+    /// Starts of the search for modes.
+    pub(crate) starts: usize,
+    /// The standard error of a probability that is good enough.
+    pub(crate) error: f64,
+    /// Refinements at most.
+    pub(crate) rounds: usize,
+}
+
+impl Effort {
+    pub(crate) const FULL: Self = Self { starts: 16, error: 0.01, rounds: 24 };
+    pub(crate) const QUICK: Self = Self { starts: 8, error: 0.02, rounds: 8 };
+}
+
+/// Seeds for a pair: the modes of its parts beside each other.
+fn seeds(setup: &Setup<'_>, effects: &[usize], singles: &[Hypothesis]) -> Vec<Vec<f64>> {
+    let shared = setup.roles.len();
+    let unknowns =
+        shared + effects.iter().map(|&e| setup.case.candidates[e].priors.len()).sum::<usize>();
+    let of = |effect: usize| {
+        singles
+            .iter()
+            .find(|single| single.effects == [effect])
+            .map(|single| &single.evidence.modes)
+    };
+    let mut seeds = Vec::new();
+    for &one in effects {
+        for mode in of(one).into_iter().flatten().take(2) {
+            let mut seed = vec![0.0; unknowns];
+            seed[..shared].copy_from_slice(&mode.scores[..shared]);
+            let own = setup.parameters(effects, one);
+            seed[own].copy_from_slice(&mode.scores[shared..]);
+            for &other in effects.iter().filter(|other| **other != one) {
+                let places = setup.parameters(effects, other);
+                for mode in of(other).into_iter().flatten().take(2) {
+                    let mut both = seed.clone();
+                    both[places.clone()].copy_from_slice(&mode.scores[shared..]);
+                    seeds.push(both);
+                }
+            }
+            seeds.push(seed);
+        }
+    }
+    seeds
+}
+
+/// Weighs all hypotheses against the data of a setup.
+pub(crate) fn posterior(
+    setup: &Setup<'_>,
+    discrepancy: &Discrepancy,
+    seed: u64,
+    effort: Effort,
+    progress: &(dyn Fn(f64) + Sync),
+) -> Posterior {
+    let count = setup.case.candidates.len();
+    let prior = setup.case.prior;
+    let mut wanted: Vec<Vec<usize>> = vec![Vec::new()];
+    wanted.extend((0..count).map(|effect| vec![effect]));
+    let begin = |effects: Vec<usize>, singles: &[Hypothesis]| {
+        let likelihood = setup.likelihood(&effects);
+        let name: Vec<&str> =
+            effects.iter().map(|&e| setup.case.candidates[e].effect.name.as_str()).collect();
+        let key = StreamKey::new(seed, &format!("gap/{}", name.join("+")));
+        let seeds = seeds(setup, &effects, singles);
+        let starts = effort.starts;
+        let evidence = Evidence::begin(&likelihood, key, &seeds, starts);
+        let share = |of: f64, count: usize| if count == 0 { 0.0 } else { of / count as f64 };
+        let prior = match effects.len() {
+            0 => prior.none,
+            1 => share(prior.one, count),
+            2 => share(prior.two, count * count.saturating_sub(1) / 2),
+            _ => share(prior.three, count * count.saturating_sub(1) * count.saturating_sub(2) / 6),
+        };
+        Hypothesis { effects, prior, evidence, probability: 0.0 }
+    };
+    let mut hypotheses: Vec<Hypothesis> =
+        wanted.into_par_iter().map(|effects| begin(effects, &[])).collect();
+    progress(0.2);
+    let unexplained = discrepancy.evidence(setup);
+    progress(0.3);
+    if prior.two > 0.0 {
+        let pairs: Vec<Vec<usize>> =
+            (0..count).flat_map(|a| (a + 1..count).map(move |b| vec![a, b])).collect();
+        let of_pairs: Vec<Hypothesis> =
+            pairs.into_par_iter().map(|effects| begin(effects, &hypotheses)).collect();
+        hypotheses.extend(of_pairs);
+    }
+    progress(0.6);
+    let mut posterior =
+        Posterior { hypotheses, unexplained, prior: prior.unexplained, probability: 0.0 };
+    posterior.weigh();
+    for round in 0..effort.rounds {
+        let open: Vec<bool> = posterior
+            .hypotheses
+            .iter()
+            .map(|hypothesis| hypothesis.is_open(effort.error))
+            .collect();
+        if !open.iter().any(|open| *open) {
+            break;
+        }
+        posterior.hypotheses.par_iter_mut().zip(open).filter(|(_, open)| *open).for_each(
+            |(hypothesis, _)| {
+                let likelihood: Likelihood<'_> = setup.likelihood(&hypothesis.effects);
+                let columns = (2 + round / 2).min(8);
+                hypothesis.evidence.refine(&likelihood, columns);
+            },
+        );
+        posterior.weigh();
+        progress(0.6 + 0.4 * (round + 1) as f64 / effort.rounds as f64);
+    }
+    progress(1.0);
+    posterior
+}
+
+impl Hypothesis {
+    /// Whether its probability is not yet known well enough.
+    fn is_open(&self, error: f64) -> bool {
+        let p = self.probability;
+        if self.evidence.error == 0.0 || self.prior == 0.0 {
+            return false;
+        }
+        // what one more standard error, or a region that was missed by few draws, could change
+        let own = self.evidence.error.min(3.0);
+        let poor = self.evidence.effective < 60.0;
+        p * (1.0 - p) * own > error || (p > 0.02 && poor) || (poor && p * 20.0 > error)
+    }
+}
+
+impl Posterior {
+    /// Probabilities from priors and evidences.
+    fn weigh(&mut self) {
+        let ln = |prior: f64, evidence: f64| {
+            if prior > 0.0 { prior.ln() + evidence } else { f64::NEG_INFINITY }
+        };
+        let unexplained = ln(self.prior, self.unexplained.ln_evidence);
+        let total = self.hypotheses.iter().fold(unexplained, |sum, hypothesis| {
+            ln_add(sum, ln(hypothesis.prior, hypothesis.evidence.ln_evidence))
+        });
+        for hypothesis in &mut self.hypotheses {
+            let own = ln(hypothesis.prior, hypothesis.evidence.ln_evidence);
+            hypothesis.probability = (own - total).exp();
+        }
+        self.probability = (unexplained - total).exp();
+    }
+}
