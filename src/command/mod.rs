@@ -3,6 +3,7 @@
 mod check;
 mod diff;
 mod exit;
+mod gap;
 mod models;
 mod options;
 mod output;
@@ -39,6 +40,8 @@ enum Command {
     Verify(verify::Verify),
     /// Say what changed between two model files, and how much of the change of U each explains
     Diff(diff::Diff),
+    /// Diagnose where measured data depart from a model, and which effect is missing
+    Gap(gap::Gap),
     /// Print the JSON Schema of the files, for editors
     Schema(schema::Schema),
 }
@@ -52,6 +55,7 @@ pub fn main() -> ExitCode {
         Command::Models(command) => command.execute(),
         Command::Verify(command) => command.execute(),
         Command::Diff(command) => command.execute(),
+        Command::Gap(command) => command.execute(),
         Command::Schema(command) => command.execute(),
     };
     match result {

@@ -9,7 +9,7 @@ use super::model_file::{Found, ModelReader, read_file};
 use super::problem::Problems;
 use super::result_file::Results;
 use super::source::Source;
-use crate::task::{Case, Warning};
+use crate::task::{Case, Row, Warning};
 
 /// A case that was read and found right.
 #[derive(Debug)]
@@ -29,7 +29,17 @@ pub struct CaseFile {
 /// # Errors
 /// All mistakes of the file and its tables, in the order of their places.
 pub fn read(path: &Path) -> Result<CaseFile, Problems> {
-    read_file(path, &[], |reader| reader.case())
+    read_file(path, &[], None, |reader| reader.case())
+}
+
+/// What a case's sim has in the rows of a table of conditions, which stands in the current folder.
+///
+/// # Errors
+/// All mistakes of the file and its tables, in the order of their places.
+pub fn read_at(path: &Path, conditions: &Path) -> Result<Vec<Row>, Problems> {
+    read_file(path, &[], Some(conditions), |reader| {
+        reader.found().map(|found| found.file.task.rows)
+    })
 }
 
 impl ModelReader<'_> {

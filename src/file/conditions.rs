@@ -49,11 +49,11 @@ impl Conditions {
         unit: Unit,
         named: &Range<usize>,
     ) {
-        let Some(place) = table.columns.iter().position(|column| column == name) else { return };
+        let place = table.columns.iter().position(|column| column == name);
         self.places.push(named.clone());
         self.quantities.push(Quantity { name: name.to_owned(), unit, about: String::new() });
         for (row, data) in self.rows.iter_mut().zip(&table.rows) {
-            row.extend(data.get(place));
+            row.push(place.and_then(|place| data.get(place)).copied().unwrap_or(f64::NAN));
         }
     }
 

@@ -26,7 +26,7 @@ mod source;
 mod table;
 mod width;
 
-pub use case::{CaseFile, read as read_case};
+pub use case::{CaseFile, read as read_case, read_at as read_case_at};
 pub use fault::Fault;
 pub use model_file::{ModelFile, Override, Overrides, read, read_text};
 pub use nearest::nearest;

@@ -14,6 +14,7 @@ use super::outputs::{self, Outputs};
 use super::problem::{Log, Problems};
 use super::result_file::Results;
 use super::source::Source;
+use super::table::{self, Table};
 use super::{Fault, correlations, json, nearest, observations, settings};
 use crate::model::formula::{self, Formula, Scope, Typing};
 use crate::model::typed::{Entry, find};
@@ -98,13 +99,15 @@ impl Override {
 /// # Errors
 /// All mistakes of the file, in the order of their places.
 pub fn read(path: &Path, overrides: &[Override]) -> Result<ModelFile, Problems> {
-    read_file(path, overrides, |reader| reader.read())
+    read_file(path, overrides, None, |reader| reader.read())
 }
 
-/// Reads and checks a file; `read` makes what is wanted of it.
+/// Reads and checks a file; `read` makes what is wanted of it. `at` is a table of conditions in place
+/// of those of the data.
 pub(super) fn read_file<T>(
     path: &Path,
     overrides: &[Override],
+    at: Option<&Path>,
     read: impl FnOnce(&ModelReader<'_>) -> Option<T>,
 ) -> Result<T, Problems> {
     let name = path.display().to_string();
@@ -113,7 +116,7 @@ pub(super) fn read_file<T>(
         .map_err(|error| error.to_string())
         .and_then(|bytes| String::from_utf8(bytes).map_err(|_| "it is not UTF-8 text".to_owned()));
     match text {
-        Ok(text) => read_with(&name, &text, folder, overrides, read),
+        Ok(text) => read_with(&name, &text, folder, (overrides, at), read),
         Err(message) => {
             let log = Log::new(Source::new(name, ""));
             log.report(&(0..0), Fault::Unreadable { message });
@@ -133,14 +136,14 @@ pub fn read_text(
     folder: &Path,
     overrides: &[Override],
 ) -> Result<ModelFile, Problems> {
-    read_with(name, text, folder, overrides, |reader| reader.read())
+    read_with(name, text, folder, (overrides, None), |reader| reader.read())
 }
 
 fn read_with<T>(
     name: &str,
     text: &str,
     folder: &Path,
-    overrides: &[Override],
+    (overrides, at): (&[Override], Option<&Path>),
     read: impl FnOnce(&ModelReader<'_>) -> Option<T>,
 ) -> Result<T, Problems> {
     let source = Source::new(name, text);
@@ -150,7 +153,7 @@ fn read_with<T>(
             override_fields(&log, &mut node, overrides);
             let whole = 0..source.text.find('\n').unwrap_or(source.text.len());
             Object::new(&log, "a model file", &node, &whole)
-                .and_then(|root| read(&ModelReader { log: &log, root, folder, overrides }))
+                .and_then(|root| read(&ModelReader { log: &log, root, folder, overrides, at }))
         }
         Err((span, fault)) => {
             log.report(&span, fault);
@@ -245,6 +248,8 @@ pub(super) struct ModelReader<'a> {
     pub(super) log: &'a Log,
     pub(super) root: Object<'a>,
     pub(super) folder: &'a Path,
+    /// A table of conditions in place of those of the data.
+    at: Option<&'a Path>,
     overrides: &'a [Override],
 }
 
@@ -279,7 +284,15 @@ impl<'a> ModelReader<'a> {
         let unobserved = matches!(observations, Some(None));
         let mut observations = observations.flatten();
         let swept = root.get("conditions");
-        let table = observations.as_ref().map(|observations| &observations.table);
+        let at = self.at.map(|path| {
+            let name = path.display().to_string();
+            table::read(log, Path::new(""), &name, &(0..0)).map(|(table, _)| table)
+        });
+        if matches!(at, Some(None)) {
+            return None;
+        }
+        let at = at.flatten();
+        let table = at.as_ref().or(observations.as_ref().map(|observations| &observations.table));
         let mut conditions = match (swept, table) {
             // without the data nothing is known of the rows
             (Some(_), None) if unobserved => Conditions { unreadable: true, ..Conditions::none() },
@@ -289,7 +302,7 @@ impl<'a> ModelReader<'a> {
             (None, None) => Conditions::none(),
         };
         let simulated = match &observations {
-            Some(observations) => self.simulated(observations, &mut conditions),
+            Some(of) => self.simulated(of, table.unwrap_or(&of.table), &mut conditions),
             None => Vec::new(),
         };
         let maker = self.maker(&simulated);
@@ -413,6 +426,7 @@ impl<'a> ModelReader<'a> {
     fn simulated(
         &self,
         observations: &Observations,
+        table: &Table,
         conditions: &mut Conditions,
     ) -> Vec<(String, String)> {
         let mut simulated: Vec<(String, String)> = Vec::new();
@@ -434,12 +448,7 @@ impl<'a> ModelReader<'a> {
                     .and_then(|object| object.text("unit").and_then(|unit| Unit::parse(unit).ok())),
                 _ => None,
             };
-            conditions.add_column(
-                &observations.table,
-                name,
-                unit.unwrap_or_else(Unit::one),
-                &column.place,
-            );
+            conditions.add_column(table, name, unit.unwrap_or_else(Unit::one), &column.place);
             simulated.push((column.output.clone(), name.clone()));
         }
         simulated

@@ -19,6 +19,8 @@ pub(crate) struct Covariance {
     pub(crate) variances: Vec<f64>,
     /// The columns of L, whitened by the roots where the noise is known.
     pub(crate) basis: Vec<Vec<f64>>,
+    /// The columns of L in the outputs' units.
+    pub(crate) raw_basis: Vec<Vec<f64>>,
     /// Lower Cholesky root of I + L' inv(B) L.
     pub(crate) inner: DMatrix<f64>,
     /// Half the logarithm of the determinant of V.
@@ -81,7 +83,12 @@ impl Covariance {
         for (output, &place) in data.outputs.iter().enumerate() {
             let covariance = case.observed[place].as_ref();
             if let Some(matrix) = covariance.and_then(|o| o.simulation_covariance.as_ref()) {
-                basis.extend(roots_of(matrix).into_iter().map(|root| {
+                let matrix: Vec<Vec<f64>> = data
+                    .ids
+                    .iter()
+                    .map(|&i| data.ids.iter().map(|&j| matrix[i][j]).collect())
+                    .collect();
+                basis.extend(roots_of(&matrix).into_iter().map(|root| {
                     let mut column = vec![0.0; rows * outputs];
                     for (row, value) in root.into_iter().enumerate() {
                         column[row * outputs + output] = value;
@@ -98,6 +105,7 @@ impl Covariance {
             outputs,
             roots: Vec::new(),
             variances,
+            raw_basis: basis.clone(),
             basis,
             inner: DMatrix::zeros(0, 0),
             half_ln_det: 0.0,
@@ -237,6 +245,13 @@ fn invert_root(block: &mut [f64], order: usize) -> f64 {
         block[triangle(i) + i] = pivot;
     }
     half_ln_det
+}
+
+/// The lower Cholesky root of a lower triangle.
+pub(crate) fn root_of(matrix: &[f64], order: usize) -> Vec<f64> {
+    let mut root = matrix.to_vec();
+    super::likelihood::root_in_place(&mut root, order);
+    root
 }
 
 /// Sum of products.

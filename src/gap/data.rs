@@ -20,6 +20,8 @@ pub(crate) struct Data {
     pub(crate) points: Vec<Point>,
     /// The point of each row.
     pub(crate) point_of: Vec<usize>,
+    /// The row of the case that each row is.
+    pub(crate) ids: Vec<usize>,
 }
 
 /// Conditions at which there are one or more rows.
@@ -34,14 +36,21 @@ pub(crate) struct Point {
 }
 
 impl Data {
+    /// All rows of a case.
     pub(crate) fn new(case: &Case) -> Self {
+        Self::of(case, (0..case.task.rows.len()).collect())
+    }
+
+    /// Some rows of a case.
+    pub(crate) fn of(case: &Case, ids: Vec<usize>) -> Self {
         let outputs: Vec<usize> =
             (0..case.observed.len()).filter(|&output| case.observed[output].is_some()).collect();
         let observed: Vec<_> = case.observed.iter().flatten().collect();
         let mut points: Vec<Point> = Vec::new();
         let mut known: HashMap<Vec<u64>, usize> = HashMap::new();
-        let mut point_of = Vec::with_capacity(case.task.rows.len());
-        for (number, row) in case.task.rows.iter().enumerate() {
+        let mut point_of = Vec::with_capacity(ids.len());
+        for (number, &id) in ids.iter().enumerate() {
+            let row = &case.task.rows[id];
             let key = row.conditions.iter().map(|value| value.to_bits()).collect();
             let place = *known.entry(key).or_insert_with(|| {
                 let mut variables: Vec<f64> =
@@ -62,18 +71,21 @@ impl Data {
         }
         let in_quadrature = |of: &&crate::task::Observed| {
             let own = of.standard_uncertainties.as_ref()?;
-            Some(match &of.simulation_uncertainties {
-                Some(other) => own.iter().zip(other).map(|(a, b)| a.hypot(*b)).collect(),
-                None => own.clone(),
-            })
+            let other = of.simulation_uncertainties.as_ref();
+            let both = |&id: &usize| other.map_or(own[id], |other| own[id].hypot(other[id]));
+            Some(ids.iter().map(both).collect())
         };
         Self {
             turns: outputs.iter().map(|&output| case.sim.outputs[output].period).collect(),
-            values: observed.iter().map(|observed| observed.values.clone()).collect(),
+            values: observed
+                .iter()
+                .map(|observed| ids.iter().map(|&id| observed.values[id]).collect())
+                .collect(),
             uncertainties: observed.iter().map(in_quadrature).collect(),
             outputs,
             points,
             point_of,
+            ids,
         }
     }
 
@@ -128,7 +140,7 @@ impl Spread {
         let deviations = (0..variables)
             .map(|variable| {
                 let of = |point: &Point| {
-                    let row = point.rows.first().and_then(|&row| case.task.rows.get(row));
+                    let row = point.rows.first().and_then(|&row| case.task.rows.get(data.ids[row]));
                     row.and_then(|row| row.distributions.get(variable)).map_or(
                         0.0,
                         |distribution| {
@@ -149,12 +161,12 @@ impl Spread {
             Sharing::Row => Some((0..data.rows()).collect()),
             Sharing::Condition(place) => {
                 let mut levels: HashMap<u64, usize> = HashMap::new();
-                let level = |row: &crate::task::Row| {
+                let mut level = |row: &crate::task::Row| {
                     let value = row.conditions.get(place).copied().unwrap_or(0.0);
                     let next = levels.len();
                     *levels.entry(value.to_bits()).or_insert(next)
                 };
-                Some(case.task.rows.iter().map(level).collect())
+                Some(data.ids.iter().map(|&id| level(&case.task.rows[id])).collect())
             }
         });
         Self { deviations, shared: shared.collect() }

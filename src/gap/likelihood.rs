@@ -9,7 +9,7 @@ use super::data::Data;
 use super::latent::Role;
 use crate::model::{Place, Program, Schedule};
 use crate::number::{COLUMN, CodePath, Column, Kernel};
-use crate::task::Case;
+use crate::task::{Case, Row};
 
 /// Points with more conditions than this share one schedule: those of single points would not stay
 /// in the cache.
@@ -103,13 +103,18 @@ impl Evaluator {
         }
     }
 
-    fn workspace(&self) -> Vec<Column> {
+    /// Number of points.
+    pub(crate) fn points(&self) -> usize {
+        self.conditions.as_ref().map_or(self.schedules.len(), Vec::len)
+    }
+
+    pub(crate) fn workspace(&self) -> Vec<Column> {
         let most = self.schedules.iter().map(|schedule| schedule.registers).max();
         vec![Column::ZERO; most.unwrap_or(0)]
     }
 
     #[inline(always)]
-    fn set(&self, registers: &mut [Column], variable: usize, values: &Column) {
+    pub(crate) fn set(&self, registers: &mut [Column], variable: usize, values: &Column) {
         if let Some(Some(register)) = self.registers.get(variable) {
             registers[*register].0.copy_from_slice(&values.0);
         }
@@ -117,7 +122,7 @@ impl Evaluator {
 
     /// The outputs at a point into `out`.
     #[inline(always)]
-    fn at(&self, point: usize, registers: &mut [Column], out: &mut [Column]) {
+    pub(crate) fn at(&self, point: usize, registers: &mut [Column], out: &mut [Column]) {
         let schedule = match &self.conditions {
             None => &self.schedules[point],
             Some(conditions) => {
@@ -151,13 +156,17 @@ impl<'c> Likelihood<'c> {
         mixing: Option<Vec<Vec<f64>>>,
         ln_sizes: Vec<f64>,
     ) -> Self {
-        let rows: Vec<usize> =
-            data.points.iter().filter_map(|point| point.rows.first().copied()).collect();
+        let rows: Vec<usize> = data
+            .points
+            .iter()
+            .filter_map(|point| point.rows.first().map(|&row| data.ids[row]))
+            .collect();
+        let at: Vec<Row> = rows.iter().map(|&row| case.task.rows[row].clone()).collect();
         let evaluator = Evaluator::new(
             program,
-            rows.iter().map(|&row| case.task.rows[row].conditions.clone()).collect(),
+            at.iter().map(|row| row.conditions.clone()).collect(),
             case.task.variables.len(),
-            &fixed(case, &rows, &roles),
+            &fixed_at(&at, &roles),
             &data.outputs,
         );
         Self { data, covariance, roles, mixing, evaluator, ln_sizes }
@@ -202,15 +211,14 @@ impl<'c> Likelihood<'c> {
     }
 }
 
-/// For each input its values at the points where it is no unknown quantity.
-pub(crate) fn fixed(case: &Case, rows: &[usize], roles: &[Role]) -> Vec<Option<Vec<f64>>> {
-    (0..case.task.variables.len())
+/// For each input its values in the rows where it is no unknown quantity.
+pub(crate) fn fixed_at(rows: &[Row], roles: &[Role]) -> Vec<Option<Vec<f64>>> {
+    let inputs = rows.first().map_or(0, |row| row.distributions.len());
+    (0..inputs)
         .map(|v| {
-            let unknown = roles
-                .iter()
-                .any(|role| matches!(role, Role::Variable { place, .. } if *place == v));
-            let mean = |&row: &usize| case.task.rows[row].distributions[v].mean();
-            (!unknown).then(|| rows.iter().map(mean).collect())
+            let is_it = |role: &Role| matches!(role, Role::Variable { place, .. } if *place == v);
+            let mean = |row: &Row| row.distributions[v].mean();
+            (!roles.iter().any(is_it)).then(|| rows.iter().map(mean).collect())
         })
         .collect()
 }

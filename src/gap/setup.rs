@@ -38,16 +38,28 @@ pub(crate) struct Setup<'c> {
 
 impl<'c> Setup<'c> {
     pub(crate) fn new(case: &'c Case) -> Self {
-        Self::with_data(case, Data::new(case))
+        let data = Data::new(case);
+        let spread = Spread::new(case, &data);
+        let unknown_inputs = unknown_inputs(case, &data, &spread);
+        let ln_sizes = ln_sizes(&data);
+        let residuals = data.nominal_residuals();
+        let fitted = (0..residuals.len()).filter(|&output| data.uncertainties[output].is_none());
+        let noise: Vec<Role> =
+            fitted.flat_map(|output| noise(output, &residuals[output], &data, &ln_sizes)).collect();
+        Self::with_data_and_inputs(case, data, unknown_inputs, noise)
     }
 
-    /// With data of the same design.
-    pub(crate) fn with_data(case: &'c Case, data: Data) -> Self {
+    /// With other data of the case, and the unknown quantities of all of them.
+    pub(crate) fn with_data_and_inputs(
+        case: &'c Case,
+        data: Data,
+        unknown_inputs: Vec<usize>,
+        noise: Vec<Role>,
+    ) -> Self {
         let spread = Spread::new(case, &data);
         let varying: Vec<usize> = (0..case.task.variables.len())
             .filter(|&v| spread.deviations[v].iter().any(|deviation| *deviation > 0.0))
             .collect();
-        let unknown_inputs = unknown_inputs(case, &data, &spread, &varying);
         let others: Vec<usize> =
             varying.iter().copied().filter(|v| !unknown_inputs.contains(v)).collect();
         let covariance = Covariance::new(case, &data, &spread, &others);
@@ -57,12 +69,7 @@ impl<'c> Setup<'c> {
             .iter()
             .map(|&place| Role::Variable { place, maps: maps(case, &data, place) })
             .collect();
-        let residuals = data.nominal_residuals();
-        for (output, residuals) in residuals.iter().enumerate() {
-            if data.uncertainties[output].is_none() {
-                roles.extend(noise(output, residuals, &data, &ln_sizes));
-            }
-        }
+        roles.extend(noise);
         let mixing = correlated::matrix(case, &unknown_inputs)
             .and_then(|matrix| matrix.cholesky())
             .map(|root| {
@@ -109,6 +116,11 @@ impl<'c> Setup<'c> {
         )
     }
 
+    /// The unknown quantities of the noise.
+    pub(crate) fn noise_roles(&self) -> Vec<Role> {
+        self.roles.iter().filter(|role| role.is_noise()).cloned().collect()
+    }
+
     /// Places of an effect's parameters among the unknown quantities of a hypothesis.
     pub(crate) fn parameters(&self, effects: &[usize], effect: usize) -> std::ops::Range<usize> {
         let count = |e: &usize| self.case.candidates[*e].priors.len();
@@ -120,7 +132,7 @@ impl<'c> Setup<'c> {
 
 /// The prior of an input at every point, or once if it is the same at all.
 pub(crate) fn maps(case: &Case, data: &Data, variable: usize) -> Vec<Map> {
-    let of = |row: usize| &case.task.rows[row].distributions[variable];
+    let of = |row: usize| &case.task.rows[data.ids[row]].distributions[variable];
     let rows: Vec<usize> =
         data.points.iter().filter_map(|point| point.rows.first().copied()).collect();
     let first = rows.first().map(|&row| of(row));
@@ -132,7 +144,7 @@ pub(crate) fn maps(case: &Case, data: &Data, variable: usize) -> Vec<Map> {
 }
 
 /// Shared inputs that matter, those that matter most first.
-fn unknown_inputs(case: &Case, data: &Data, spread: &Spread, varying: &[usize]) -> Vec<usize> {
+fn unknown_inputs(case: &Case, data: &Data, spread: &Spread) -> Vec<usize> {
     let residuals = data.nominal_residuals();
     let scales: Vec<f64> = residuals
         .iter()
@@ -155,10 +167,10 @@ fn unknown_inputs(case: &Case, data: &Data, spread: &Spread, varying: &[usize]) 
         }
         sum.sqrt()
     };
-    let mut ranked: Vec<(f64, usize)> = varying
-        .iter()
-        .filter(|&&v| spread.shared[v].is_none())
-        .map(|&v| (influence(v), v))
+    let mut ranked: Vec<(f64, usize)> = (0..case.task.variables.len())
+        .filter(|&v| spread.shared[v].is_none())
+        .filter(|&v| spread.deviations[v].iter().any(|deviation| *deviation > 0.0))
+        .map(|v| (influence(v), v))
         .filter(|(influence, _)| *influence > NEGLIGIBLE || !influence.is_finite())
         .collect();
     ranked.sort_by(|a, b| b.0.total_cmp(&a.0));

@@ -1,6 +1,7 @@
 //! Reports: what an evaluation looks like, one file for each format.
 
 mod csv;
+pub mod gap;
 mod json;
 pub mod number;
 mod samples;

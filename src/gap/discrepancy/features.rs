@@ -88,7 +88,7 @@ pub(crate) struct Site {
 impl Axes {
     pub(crate) fn new(case: &Case, data: &Data) -> Self {
         let conditions = (0..case.sim.conditions.len() - case.simulated).map(|condition| {
-            let values = case.task.rows.iter().map(|row| row.conditions[condition]);
+            let values = data.ids.iter().map(|&id| case.task.rows[id].conditions[condition]);
             Axis::spaced(values.collect())
         });
         let sims = (0..data.outputs.len()).map(|output| {
@@ -105,7 +105,7 @@ pub(crate) fn sites(case: &Case, data: &Data) -> Vec<Site> {
         .iter()
         .enumerate()
         .map(|(row, &point)| Site {
-            conditions: case.task.rows[row].conditions.clone(),
+            conditions: case.task.rows[data.ids[row]].conditions.clone(),
             nominal: data.points[point].nominal.clone(),
         })
         .collect()

@@ -47,12 +47,12 @@ impl Term {
 /// All terms for a case.
 pub(crate) fn terms(case: &Case, data: &Data) -> Vec<Term> {
     let conditions: Vec<usize> = (0..case.sim.conditions.len() - case.simulated)
-        .filter(|&condition| levels(case, condition) > 1)
+        .filter(|&condition| levels(case, data, condition) > 1)
         .collect();
     let mut of = vec![Of::Constant];
     of.extend(conditions.iter().map(|&condition| Of::Condition(condition)));
     let few = |condition: &&usize| {
-        let levels = levels(case, **condition);
+        let levels = levels(case, data, **condition);
         levels <= MOST_LEVELS && levels < data.rows()
     };
     of.extend(conditions.iter().filter(few).map(|&condition| Of::Level(condition)));
@@ -93,12 +93,11 @@ pub(crate) fn terms(case: &Case, data: &Data) -> Vec<Term> {
 }
 
 /// Number of distinct values of a condition.
-pub(crate) fn levels(case: &Case, condition: usize) -> usize {
-    let mut values: Vec<u64> = case
-        .task
-        .rows
+pub(crate) fn levels(case: &Case, data: &Data, condition: usize) -> usize {
+    let mut values: Vec<u64> = data
+        .ids
         .iter()
-        .filter_map(|row| row.conditions.get(condition))
+        .filter_map(|&id| case.task.rows[id].conditions.get(condition))
         .map(|value| value.to_bits())
         .collect();
     values.sort_unstable();

@@ -9,9 +9,11 @@ mod fitted;
 mod form;
 mod grammar;
 
-pub(crate) use features::{Axes, Site, sites};
+pub(crate) use features::{Axes, Coordinates, Site, sites};
 pub(crate) use form::{Form, forms};
 pub(crate) use grammar::{Of, Term};
+
+use std::sync::Arc;
 
 use nalgebra::DVector;
 
@@ -60,12 +62,12 @@ pub(crate) struct Unexplained {
 pub(crate) struct Weighted {
     /// Place of the form.
     pub(crate) form: usize,
-    /// In standard uncertainties.
-    pub(crate) amplitude: f64,
+    /// What the form's features are multiplied by.
+    pub(crate) multiplier: f64,
     /// Posterior weight among all.
     pub(crate) weight: f64,
     /// Variances of the noise by value, where they were estimated.
-    pub(crate) variances: Option<std::sync::Arc<Vec<f64>>>,
+    pub(crate) variances: Option<Arc<Vec<f64>>>,
 }
 
 impl Discrepancy {
@@ -84,7 +86,7 @@ impl Discrepancy {
         let whitened = setup.linear.whiten_blocks(&residuals);
         let base = ln_normal(setup, &whitened);
         let whitened = DVector::from_column_slice(&whitened);
-        let mut parts: Vec<(usize, f64, f64)> = Vec::new();
+        let mut parts: Vec<(f64, Weighted)> = Vec::new();
         let ln_amplitude = -(AMPLITUDE_STEPS as f64).ln();
         for (place, form) in self.forms.iter().enumerate() {
             let scores = &form.projector * &whitened;
@@ -95,28 +97,23 @@ impl Discrepancy {
                     let growth = 1.0 + a * eigenvalue;
                     ln += 0.5 * (a * score * score / growth - growth.ln());
                 }
-                parts.push((place, amplitude, ln));
+                let kind =
+                    Weighted { form: place, multiplier: amplitude, weight: 0.0, variances: None };
+                parts.push((ln, kind));
             }
         }
-        weigh(parts.into_iter().map(|(form, amplitude, ln)| (form, amplitude, ln, None)).collect())
+        weigh(parts)
     }
 }
 
 /// Normalizes kinds given with the logarithms of their evidence.
-fn weigh(mut parts: Vec<(usize, f64, f64, Option<std::sync::Arc<Vec<f64>>>)>) -> Unexplained {
-    let ln_evidence = parts.iter().fold(f64::NEG_INFINITY, |sum, part| ln_add(sum, part.2));
-    parts.retain(|part| part.2 > ln_evidence - 7.0);
-    parts.sort_by(|a, b| b.2.total_cmp(&a.2));
-    let kinds = parts
-        .into_iter()
-        .map(|(form, amplitude, ln, variances)| Weighted {
-            form,
-            amplitude,
-            weight: (ln - ln_evidence).exp(),
-            variances,
-        })
-        .collect();
-    Unexplained { ln_evidence, kinds }
+fn weigh(mut parts: Vec<(f64, Weighted)>) -> Unexplained {
+    let ln_evidence = parts.iter().fold(f64::NEG_INFINITY, |sum, (ln, _)| ln_add(sum, *ln));
+    parts.retain(|(ln, _)| *ln > ln_evidence - 7.0);
+    parts.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let weighted =
+        |(ln, kind): (f64, Weighted)| Weighted { weight: (ln - ln_evidence).exp(), ..kind };
+    Unexplained { ln_evidence, kinds: parts.into_iter().map(weighted).collect() }
 }
 
 /// Values of outputs as one list, row by row, outputs fastest.
