@@ -4,6 +4,7 @@ mod check;
 mod diff;
 mod exit;
 mod gap;
+mod gap_check;
 mod models;
 mod options;
 mod output;
@@ -42,6 +43,8 @@ enum Command {
     Diff(diff::Diff),
     /// Diagnose where measured data depart from a model, and which effect is missing
     Gap(gap::Gap),
+    /// Check that diagnosis blindly at a case's own design: how far its answers can be trusted
+    GapCheck(gap_check::GapCheck),
     /// Print the JSON Schema of the files, for editors
     Schema(schema::Schema),
 }
@@ -56,6 +59,7 @@ pub fn main() -> ExitCode {
         Command::Verify(command) => command.execute(),
         Command::Diff(command) => command.execute(),
         Command::Gap(command) => command.execute(),
+        Command::GapCheck(command) => command.execute(),
         Command::Schema(command) => command.execute(),
     };
     match result {

@@ -15,6 +15,15 @@ pub(super) fn examples(count: u64, quiet: bool) -> ProgressBar {
     bar
 }
 
+/// A bar that counts diagnoses, hidden where standard error is no terminal or nothing is to be shown.
+pub(super) fn draws(count: u64, quiet: bool) -> ProgressBar {
+    let bar = bar(Some(count), quiet);
+    if let Ok(style) = ProgressStyle::with_template("{bar:30} {pos} of {len} draws, {eta} left") {
+        bar.set_style(style);
+    }
+    bar
+}
+
 /// A bar on standard error, hidden where that is no terminal or nothing is to be shown; a count
 /// where it is not known how many trials there will be.
 pub(super) fn bar(trials: Option<u64>, quiet: bool) -> ProgressBar {

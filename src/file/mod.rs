@@ -24,6 +24,7 @@ mod settings;
 mod shapes;
 mod source;
 mod table;
+mod variant;
 mod width;
 
 pub use case::{CaseFile, read as read_case, read_at as read_case_at};
@@ -32,3 +33,4 @@ pub use model_file::{ModelFile, Override, Overrides, read, read_text};
 pub use nearest::nearest;
 pub use problem::{Problem, Problems};
 pub use source::Source;
+pub use variant::NotCopied;

@@ -70,7 +70,7 @@ fn read_file(path: &Path, name: &str) -> Result<(Table, Vec<u8>), Faults> {
     Ok((parse(&source)?, bytes))
 }
 
-fn parse(source: &Arc<Source>) -> Result<Table, Faults> {
+pub(super) fn parse(source: &Arc<Source>) -> Result<Table, Faults> {
     let starts: Vec<usize> = std::iter::once(0)
         .chain(source.text.match_indices('\n').map(|(newline, _)| newline + 1))
         .collect();

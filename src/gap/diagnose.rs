@@ -32,6 +32,65 @@ pub struct Options {
     pub seed: u64,
 }
 
+/// The hypotheses of a case weighed against its data.
+pub(crate) struct Weighed<'c> {
+    pub(crate) setup: Setup<'c>,
+    pub(crate) discrepancy: Discrepancy,
+    pub(crate) posterior: Posterior,
+    /// Place of the most probable hypothesis that is not "unexplained".
+    pub(crate) best: usize,
+    /// Whether it is more probable than "unexplained".
+    pub(crate) explained: bool,
+    /// What the verdict adds to the sim.
+    pub(crate) correction: Correction,
+    /// Variances of the noise by value.
+    pub(crate) variances: Vec<f64>,
+}
+
+impl<'c> Weighed<'c> {
+    pub(crate) fn new(
+        case: &'c Case,
+        seed: u64,
+        effort: Effort,
+        progress: &(dyn Fn(f64) + Sync),
+    ) -> Self {
+        let setup = Setup::new(case);
+        let discrepancy = Discrepancy::new(&setup);
+        let posterior = posterior::posterior(&setup, &discrepancy, seed, effort, progress);
+        let best = (0..posterior.hypotheses.len())
+            .max_by(|&a, &b| {
+                posterior.hypotheses[a].probability.total_cmp(&posterior.hypotheses[b].probability)
+            })
+            .unwrap_or(0);
+        let explained = posterior.hypotheses[best].probability >= posterior.probability;
+        let correction = if explained {
+            Correction::Effects(posterior.hypotheses[best].effects.clone())
+        } else {
+            Correction::Unexplained
+        };
+        let variances = noise_variances(&setup, &posterior, best, explained);
+        Self { setup, discrepancy, posterior, best, explained, correction, variances }
+    }
+
+    /// The verdict and what these data cannot tell from it, as places of hypotheses.
+    pub(crate) fn group(&self) -> Vec<usize> {
+        let modes = best_predictions(&self.setup, &self.posterior);
+        group(&self.setup, &self.posterior, self.best, self.explained, &modes, &self.variances)
+    }
+
+    pub(crate) fn verdict(&self, group: &[usize]) -> Verdict {
+        verdict(&self.setup, &self.posterior, self.best, self.explained, group)
+    }
+}
+
+/// Coverage probability of the intervals of a case.
+pub(crate) fn coverage(case: &Case) -> f64 {
+    match case.task.settings.coverage {
+        Coverage::Probability(p) => p,
+        _ => 0.95,
+    }
+}
+
 /// Diagnoses a case; `at` are rows of conditions to predict at. `progress` is told the share that is
 /// done.
 pub fn diagnose(
@@ -41,31 +100,14 @@ pub fn diagnose(
     progress: &(dyn Fn(f64) + Sync),
 ) -> Diagnosis {
     let seed = options.seed;
-    let setup = Setup::new(case);
-    let discrepancy = Discrepancy::new(&setup);
-    progress(0.1);
-    let posterior = posterior::posterior(&setup, &discrepancy, seed, Effort::FULL, &|share| {
-        progress(0.1 + 0.5 * share);
-    });
-    let best = (0..posterior.hypotheses.len())
-        .max_by(|&a, &b| {
-            posterior.hypotheses[a].probability.total_cmp(&posterior.hypotheses[b].probability)
-        })
-        .unwrap_or(0);
-    let explained = posterior.hypotheses[best].probability >= posterior.probability;
-    let correction = if explained {
-        Correction::Effects(posterior.hypotheses[best].effects.clone())
-    } else {
-        Correction::Unexplained
-    };
-    let variances = noise_variances(&setup, &posterior, best, explained);
+    let weighed = Weighed::new(case, seed, Effort::FULL, &|share| progress(0.6 * share));
+    let group = weighed.group();
+    let verdict = weighed.verdict(&group);
+    let Weighed { setup, discrepancy, posterior, best, explained, correction, variances } = weighed;
     let with_rows = plus_rows(&setup, &variances);
     let regions = scan::regions(&setup, &with_rows, seed);
     progress(0.7);
-    let probability = match case.task.settings.coverage {
-        Coverage::Probability(p) => p,
-        _ => 0.95,
-    };
+    let probability = coverage(case);
     let (shrinkage, rows) = shrink::shrinkage(
         &setup,
         &discrepancy,
@@ -76,9 +118,6 @@ pub fn diagnose(
         seed,
     );
     progress(0.85);
-    let modes = best_predictions(&setup, &posterior);
-    let group = group(&setup, &posterior, best, explained, &modes, &variances);
-    let verdict = verdict(&setup, &posterior, best, explained, &group);
     let next = rival(&posterior, best, &group)
         .filter(|_| explained)
         .and_then(|rival| next::best(&setup, &posterior, best, rival, &variances, seed));
@@ -332,7 +371,11 @@ fn verdict(
 }
 
 /// All hypotheses, most probable first.
-fn hypotheses(setup: &Setup<'_>, posterior: &Posterior, probability: f64) -> Vec<Hypothesis> {
+pub(crate) fn hypotheses(
+    setup: &Setup<'_>,
+    posterior: &Posterior,
+    probability: f64,
+) -> Vec<Hypothesis> {
     let mut all: Vec<Hypothesis> = posterior
         .hypotheses
         .iter()

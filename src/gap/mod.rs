@@ -2,6 +2,8 @@
 //! explain, where, which effect is missing, and how far the gap shrinks once it is added.
 #![allow(missing_docs, dead_code)]
 
+mod answer;
+pub mod check;
 mod correlated;
 mod covariance;
 mod data;
@@ -20,6 +22,7 @@ mod search;
 mod setup;
 mod shrink;
 
+pub use answer::{Answer, answer, noise, nominal};
 pub use diagnose::{Options, diagnose};
 pub use diagnosis::{
     Diagnosis, Gap, Hypothesis, Kind, Named, NextMeasurement, Noise, Note, Parameter, Predicted,

@@ -41,11 +41,13 @@ pub(crate) struct Effort {
     pub(crate) error: f64,
     /// Refinements at most.
     pub(crate) rounds: usize,
+    /// The effective number of draws of hypotheses that are reported in detail.
+    pub(crate) effective: f64,
 }
 
 impl Effort {
-    pub(crate) const FULL: Self = Self { starts: 16, error: 0.01, rounds: 24 };
-    pub(crate) const QUICK: Self = Self { starts: 8, error: 0.02, rounds: 8 };
+    pub(crate) const FULL: Self = Self { starts: 16, error: 0.005, rounds: 24, effective: 1000.0 };
+    pub(crate) const QUICK: Self = Self { starts: 8, error: 0.015, rounds: 10, effective: 300.0 };
 }
 
 /// Seeds for a pair: the modes of its parts beside each other.
@@ -143,6 +145,20 @@ pub(crate) fn posterior(
         );
         posterior.weigh();
         progress(0.6 + 0.4 * (round + 1) as f64 / effort.rounds as f64);
+    }
+    // what is reported in detail deserves smooth intervals
+    for _ in 0..effort.rounds {
+        let worth = |h: &Hypothesis| {
+            h.probability > 0.05 && !h.effects.is_empty() && h.evidence.effective < effort.effective
+        };
+        if !posterior.hypotheses.iter().any(worth) {
+            break;
+        }
+        posterior.hypotheses.par_iter_mut().filter(|h| worth(h)).for_each(|hypothesis| {
+            let likelihood = setup.likelihood(&hypothesis.effects);
+            hypothesis.evidence.refine(&likelihood, 4);
+        });
+        posterior.weigh();
     }
     progress(1.0);
     posterior

@@ -127,7 +127,7 @@ pub(crate) fn shrinkage(
             shrunk(of(&before), of(&after), mean(&noise) * floor2)
         })
         .collect();
-    let claimed = claimed(setup, &fitted, &before, variances, correction);
+    let claimed = claimed(setup, &fitted, variances, correction);
     let within = |squares: &[f64], variance: &dyn Fn(&ValueGap) -> f64| {
         let held = of_rows
             .iter()
@@ -172,20 +172,28 @@ fn shrunk(before2: f64, after2: f64, floor2: f64) -> Shrunk {
     }
 }
 
-/// The posterior expectation of the removed fraction of the gap without noise.
-fn claimed(
+/// The posterior expectation of the fraction of the gap that a correction removes.
+pub(crate) fn claim(
     setup: &Setup<'_>,
-    fitted: &Normals,
-    before: &[f64],
-    variances: &[f64],
+    discrepancy: &Discrepancy,
+    posterior: &Posterior,
     correction: &Correction,
+    variances: &[f64],
 ) -> f64 {
+    let rows: Vec<Row> =
+        setup.data.ids.iter().map(|&id| setup.case.task.rows[id].clone()).collect();
+    let fitted = in_sample(setup, discrepancy, posterior, correction, &rows);
+    claimed(setup, &fitted, variances, correction)
+}
+
+/// The posterior expectation of the removed fraction of the gap without noise.
+fn claimed(setup: &Setup<'_>, fitted: &Normals, variances: &[f64], correction: &Correction) -> f64 {
     if matches!(correction, Correction::Effects(effects) if effects.is_empty()) {
         return 0.0;
     }
     let outputs = setup.data.outputs.len();
     let (mut left, mut gap) = (0.0, 0.0);
-    for value in 0..before.len() {
+    for value in 0..variances.len() {
         let (mean, variance) = fitted[value / outputs][value % outputs];
         let nominal =
             setup.data.points[setup.data.point_of[value / outputs]].nominal[value % outputs];
@@ -365,7 +373,8 @@ fn fold(
     }
 }
 
-/// Rows in blocks along the condition with the most levels, or in their order.
+/// Rows in blocks of whole levels of the condition with the most levels, or in their order. Levels
+/// take turns, so that what is left out lies between conditions that are not.
 fn blocks(setup: &Setup<'_>) -> Vec<Vec<usize>> {
     let rows = setup.data.rows();
     let conditions = setup.case.sim.conditions.len() - setup.case.simulated;
@@ -382,16 +391,12 @@ fn blocks(setup: &Setup<'_>) -> Vec<Vec<usize>> {
         (0..conditions).max_by_key(|&condition| (levels(condition).len(), conditions - condition));
     let Some(condition) = widest.filter(|&condition| levels(condition).len() > 1) else {
         let count = BLOCKS.min(rows);
-        return (0..count)
-            .map(|b| (0..rows).filter(|row| row * count / rows == b).collect())
-            .collect();
+        return (0..count).map(|b| (0..rows).filter(|row| row % count == b).collect()).collect();
     };
     let levels = levels(condition);
     let count = BLOCKS.min(levels.len());
-    let block_of = |row: usize| {
-        let place = levels.partition_point(|level| *level < value(row, condition));
-        place * count / levels.len()
-    };
+    let block_of =
+        |row: usize| levels.partition_point(|level| *level < value(row, condition)) % count;
     let mut blocks = vec![Vec::new(); count];
     for row in 0..rows {
         blocks[block_of(row)].push(row);

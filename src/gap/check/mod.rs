@@ -1,0 +1,8 @@
+//! The blind check of the diagnosis: truths are drawn, sealed, diagnosed from the data alone, and
+//! only then compared.
+
+mod score;
+mod truth;
+
+pub use score::{Checked, Confusion, Reliability, Report, SmallestEffect, score};
+pub use truth::{Truth, TruthKind, truth};
