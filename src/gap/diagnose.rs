@@ -431,7 +431,7 @@ pub(crate) fn parameters(
             let variance: f64 = weighted.iter().map(|(x, w)| w * (x - mean).powi(2)).sum();
             let estimate = central.get(place).map_or(mean, |score| map.value(*score));
             weighted.sort_by(|a, b| a.0.total_cmp(&b.0));
-            let [lower, upper] = shortest(&weighted, probability);
+            let [lower, upper] = equal_tails(&weighted, probability);
             parameters.push(Parameter {
                 name: format!("{}/{}", candidate.name, quantity.name),
                 unit: quantity.unit.text().to_owned(),
@@ -479,34 +479,30 @@ fn central_draw(setup: &Setup<'_>, hypothesis: &posterior::Hypothesis) -> Vec<f6
     nearest.map_or(mode, |nearest| draws[nearest].clone())
 }
 
-/// The shortest interval that holds a share of the weight; values are in order.
-fn shortest(weighted: &[(f64, f64)], share: f64) -> [f64; 2] {
-    let mut best = [f64::NAN, f64::NAN];
-    let mut shortest = f64::INFINITY;
-    let mut sum = 0.0;
-    let mut last = 0;
-    for (first, (lower, weight)) in weighted.iter().enumerate() {
-        while sum < share && last < weighted.len() {
-            sum += weighted[last].1;
-            last += 1;
+/// The interval with equal tails; values are in order, with weights that sum to one. Half of each
+/// value's weight lies on either side of it.
+fn equal_tails(weighted: &[(f64, f64)], share: f64) -> [f64; 2] {
+    let tail = 0.5 * (1.0 - share);
+    [quantile(weighted, tail), quantile(weighted, 1.0 - tail)]
+}
+
+fn quantile(weighted: &[(f64, f64)], p: f64) -> f64 {
+    let mut before = 0.0;
+    let mut last: Option<(f64, f64)> = None;
+    for &(value, weight) in weighted {
+        let middle = before + 0.5 * weight;
+        if middle >= p {
+            return match last {
+                Some((lower, at)) if middle > at => {
+                    lower + (value - lower) * (p - at) / (middle - at)
+                }
+                _ => value,
+            };
         }
-        if sum < share {
-            break;
-        }
-        let upper = weighted[last.saturating_sub(1).max(first)].0;
-        if upper - lower < shortest {
-            shortest = upper - lower;
-            best = [*lower, upper];
-        }
-        sum -= weight;
+        before += weight;
+        last = Some((value, middle));
     }
-    if best[0].is_nan() {
-        let ends = (weighted.first(), weighted.last());
-        if let (Some(first), Some(last)) = ends {
-            best = [first.0, last.0];
-        }
-    }
-    best
+    last.map_or(f64::NAN, |(value, _)| value)
 }
 
 /// Corrected predictions, averaged over the hypotheses by their probabilities.

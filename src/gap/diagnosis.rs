@@ -140,7 +140,7 @@ pub struct Parameter {
     pub estimate: f64,
     /// Standard deviation of the posterior.
     pub standard_uncertainty: f64,
-    /// Shortest coverage interval that holds the estimate.
+    /// Coverage interval with equal tails, widened to hold the estimate where it would not.
     pub interval: [f64; 2],
 }
 

@@ -2,8 +2,10 @@
 //! that is unknown, by adaptive multiple importance sampling (Cornuet, Marin, Mira, Robert 2012,
 //! Scandinavian Journal of Statistics 39, 798).
 
+use super::latent::bounded_from_normal;
 use super::likelihood::Likelihood;
-use super::mixture::{Mixture, standard_normals};
+use super::mixture::{Mixture, ln_priors, standard_normals};
+use super::roam::roam;
 use super::search::{self, Mode};
 use crate::distribution::StreamKey;
 use crate::number::{COLUMN, Column};
@@ -62,7 +64,7 @@ impl Evidence {
         points.extend_from_slice(seeds);
         points.extend(evidence.screened(likelihood, starts));
         evidence.modes = search::modes(likelihood, &points, 10);
-        let mixture = Mixture::at_modes(unknowns, &evidence.modes);
+        let mixture = Mixture::at_modes(&likelihood.bounded(), &evidence.modes);
         evidence.draw(likelihood, mixture, 2);
         evidence
     }
@@ -72,12 +74,16 @@ impl Evidence {
         if self.unknowns == 0 || starts == 0 {
             return Vec::new();
         }
+        let bounded = likelihood.bounded();
         let mut drawn: Vec<(f64, Vec<f64>)> = Vec::new();
         for block in 0..SCREENED {
             let mut stream = self.key.block(u64::MAX - block as u64);
             let mut scores = vec![Column::ZERO; self.unknowns];
-            for column in &mut scores {
+            for (column, bounded) in scores.iter_mut().zip(&bounded) {
                 standard_normals(&mut stream, column);
+                if *bounded {
+                    column.0 = column.0.map(bounded_from_normal);
+                }
             }
             let likelihoods = likelihood.log_likelihood(&scores, COLUMN);
             drawn.extend(
@@ -112,6 +118,26 @@ impl Evidence {
         self.draw(likelihood, mixture, columns);
     }
 
+    /// Lets walkers roam from what was drawn, and draws from a mixture fitted to where they went.
+    pub(crate) fn roam(&mut self, likelihood: &Likelihood<'_>, generations: usize) {
+        if self.unknowns == 0 || self.effective == 0.0 {
+            return;
+        }
+        let drawn = super::predict::resampled(self, COLUMN);
+        let mut start = vec![Column::ZERO; self.unknowns];
+        for (lane, draw) in drawn.iter().enumerate() {
+            for (column, score) in start.iter_mut().zip(draw) {
+                column.0[lane] = *score;
+            }
+        }
+        let key = StreamKey::new(u64::from(self.columns.len() as u32), "gap/roam");
+        let visited = roam(likelihood, start, generations, key);
+        let count = if self.unknowns > 2 { 12 } else { 6 };
+        if let Some(mixture) = Mixture::fitted(&likelihood.bounded(), &visited, count) {
+            self.draw(likelihood, mixture, 4);
+        }
+    }
+
     /// Number of draws.
     pub(crate) fn draws(&self) -> usize {
         self.ln_targets.len()
@@ -140,10 +166,9 @@ impl Evidence {
                 }
             }
             self.ln_proposals.extend(sums);
-            for (lane, ln) in likelihoods.into_iter().enumerate() {
-                let squares: f64 = scores.iter().map(|c| c.0[lane] * c.0[lane]).sum();
-                self.ln_targets.push(ln - 0.5 * squares);
-            }
+            let priors = ln_priors(&likelihood.bounded(), &scores);
+            self.ln_targets
+                .extend(likelihoods.into_iter().zip(priors).map(|(ln, prior)| ln + prior));
             self.columns.push(scores);
         }
         self.weigh();

@@ -1,8 +1,10 @@
-//! The unknown quantities of a hypothesis, each as a standard normal score.
+//! The unknown quantities of a hypothesis, each as a score of zero mean and unit variance.
 //!
-//! A value is the quantile of its prior distribution at the probability of its score, so that the
-//! prior of all scores together is the standard normal one, whatever the distributions are.
+//! A rectangular or log-uniform quantity is linear (or its logarithm is) in a score that is
+//! rectangular itself, so that ridges of the posterior stay straight; every other quantity is the
+//! quantile of its prior at the probability of a standard normal score.
 
+use super::likelihood::HALF_LN_TWO_PI;
 use crate::distribution::{Distribution, special};
 
 /// How a score becomes a value.
@@ -48,14 +50,23 @@ impl Map {
         }
     }
 
+    /// Whether the score is rectangular, within [`EDGE`] of 0, and not standard normal.
+    pub(crate) fn is_bounded(&self) -> bool {
+        matches!(self, Self::Uniform { .. } | Self::LogUniform { .. })
+    }
+
+    /// The score that a standard normal one stands for.
+    pub(crate) fn from_normal(&self, normal: f64) -> f64 {
+        if self.is_bounded() { bounded_from_normal(normal) } else { normal }
+    }
+
     /// The value of a score.
     pub(crate) fn value(&self, score: f64) -> f64 {
+        let share = 0.5 + score / (2.0 * EDGE);
         match self {
             Self::Normal { mean, deviation } => mean + deviation * score,
-            Self::Uniform { lower, width } => lower + width * special::normal::cdf(score),
-            Self::LogUniform { ln_lower, ln_ratio } => {
-                (ln_lower + ln_ratio * special::normal::cdf(score)).exp()
-            }
+            Self::Uniform { lower, width } => lower + width * share,
+            Self::LogUniform { ln_lower, ln_ratio } => (ln_lower + ln_ratio * share).exp(),
             Self::Other(distribution) if score > 0.0 => {
                 distribution.quantile_upper(special::normal::sf(score).max(f64::MIN_POSITIVE))
             }
@@ -66,7 +77,43 @@ impl Map {
     }
 }
 
+/// Where rectangular scores end: they have unit variance.
+pub(crate) const EDGE: f64 = 1.732_050_807_568_877_2;
+
+/// The logarithm of the density of a rectangular score, times the root of two pi as that of a normal
+/// one is given everywhere.
+pub(crate) const LN_BOUNDED: f64 = HALF_LN_TWO_PI - 1.242_453_324_894_000_3;
+
+/// The rectangular score at the probability of a standard normal one.
+pub(crate) fn bounded_from_normal(normal: f64) -> f64 {
+    EDGE * (2.0 * special::normal::cdf(normal) - 1.0)
+}
+
+/// The logarithm of the prior density of a score, times the root of two pi.
+pub(crate) fn ln_prior(bounded: bool, score: f64) -> f64 {
+    if !bounded {
+        -0.5 * score * score
+    } else if score.abs() <= EDGE {
+        LN_BOUNDED
+    } else {
+        f64::NEG_INFINITY
+    }
+}
+
 impl Role {
+    /// Its prior, at the first point of the data.
+    fn map(&self) -> Option<&Map> {
+        match self {
+            Self::Variable { maps, .. } => maps.first(),
+            Self::Noise { map, .. } | Self::Power { map, .. } => Some(map),
+        }
+    }
+
+    /// Whether its score is rectangular.
+    pub(crate) fn is_bounded(&self) -> bool {
+        self.map().is_some_and(Map::is_bounded)
+    }
+
     /// Whether it belongs to the noise and not to the sim.
     pub(crate) fn is_noise(&self) -> bool {
         !matches!(self, Self::Variable { .. })

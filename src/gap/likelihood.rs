@@ -172,6 +172,11 @@ impl<'c> Likelihood<'c> {
         Self { data, covariance, roles, mixing, evaluator, ln_sizes }
     }
 
+    /// For each unknown quantity whether its score is rectangular.
+    pub(crate) fn bounded(&self) -> Vec<bool> {
+        self.roles.iter().map(Role::is_bounded).collect()
+    }
+
     /// Number of unknown quantities.
     pub(crate) fn unknowns(&self) -> usize {
         self.roles.len()

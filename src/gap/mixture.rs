@@ -3,6 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::covariance::triangle;
+use super::latent::{bounded_from_normal, ln_prior};
 use super::search::Mode;
 use crate::distribution::{Normal, Stream};
 use crate::number::{COLUMN, Column};
@@ -14,10 +15,12 @@ const DOF: usize = 6;
 /// The share of the prior itself among the components: no region is left out altogether.
 const DEFENCE: f64 = 0.04;
 
-/// A mixture of t distributions and the standard normal one.
+/// A mixture of t distributions and the prior.
 #[derive(Clone, Debug)]
 pub(crate) struct Mixture {
     unknowns: usize,
+    /// For each unknown quantity whether its prior is rectangular.
+    bounded: Vec<bool>,
     components: Vec<Component>,
 }
 
@@ -78,7 +81,8 @@ impl Component {
 impl Mixture {
     /// A component at each mode, with a share as its neighbourhood has of the posterior in the
     /// Gaussian approximation.
-    pub(crate) fn at_modes(unknowns: usize, modes: &[Mode]) -> Self {
+    pub(crate) fn at_modes(bounded: &[bool], modes: &[Mode]) -> Self {
+        let unknowns = bounded.len();
         let best = modes.iter().map(|mode| mode.cost).fold(f64::INFINITY, f64::min);
         let mut components = Vec::new();
         for mode in modes {
@@ -87,9 +91,75 @@ impl Mixture {
             let share = (0.7 * (best - mode.cost) + half_ln_det).max(-600.0).exp();
             components.extend(Component::new(share, mode.scores.clone(), &inverse));
         }
-        let mut mixture = Self { unknowns, components };
+        let mut mixture = Self { unknowns, bounded: bounded.to_vec(), components };
         mixture.normalize();
         mixture
+    }
+
+    /// A mixture of about `count` components fitted to points of equal weight.
+    pub(crate) fn fitted(bounded: &[bool], columns: &[Vec<Column>], count: usize) -> Option<Self> {
+        let d = bounded.len();
+        let points: Vec<Vec<f64>> = columns
+            .iter()
+            .flat_map(|column| {
+                (0..COLUMN).map(move |lane| column.iter().map(|c| c.0[lane]).collect::<Vec<f64>>())
+            })
+            .collect();
+        let n = points.len() as f64;
+        let mean: Vec<f64> =
+            (0..d).map(|i| points.iter().map(|point| point[i]).sum::<f64>() / n).collect();
+        let covariance = DMatrix::from_fn(d, d, |i, j| {
+            let products = points.iter().map(|point| (point[i] - mean[i]) * (point[j] - mean[j]));
+            products.sum::<f64>() / n + if i == j { 1e-12 } else { 0.0 }
+        });
+        let whole = Component::new(1.0, mean, &covariance)?;
+        let distance = |a: &[f64], b: &[f64]| -> f64 {
+            (0..d)
+                .map(|i| {
+                    let y: f64 =
+                        (0..=i).map(|j| whole.inverse[triangle(i) + j] * (a[j] - b[j])).sum();
+                    y * y
+                })
+                .sum()
+        };
+        // centres as far from each other as points are, then the mean of what is nearest to each
+        let mut centres = vec![whole.mean.clone()];
+        let mut nearest: Vec<f64> =
+            points.iter().map(|point| distance(point, &centres[0])).collect();
+        while centres.len() < count {
+            let far = (0..points.len()).max_by(|&a, &b| nearest[a].total_cmp(&nearest[b]))?;
+            centres.push(points[far].clone());
+            for (nearest, point) in nearest.iter_mut().zip(&points) {
+                *nearest = nearest.min(distance(point, &points[far]));
+            }
+        }
+        for _ in 0..3 {
+            let mut sums = vec![(0.0, vec![0.0; d]); count];
+            for point in &points {
+                let own = (0..count).min_by(|&a, &b| {
+                    distance(point, &centres[a]).total_cmp(&distance(point, &centres[b]))
+                })?;
+                sums[own].0 += 1.0;
+                sums[own].1.iter_mut().zip(point).for_each(|(sum, x)| *sum += x);
+            }
+            for (centre, (weight, sum)) in centres.iter_mut().zip(sums) {
+                if weight > 0.0 {
+                    *centre = sum.into_iter().map(|sum| sum / weight).collect();
+                }
+            }
+        }
+        let shrink = (count as f64).powf(-2.0 / d.max(1) as f64);
+        let components = centres
+            .into_iter()
+            .filter_map(|centre| Component::new(1.0, centre, &(&covariance * shrink)))
+            .collect();
+        let mut mixture = Self { unknowns: d, bounded: bounded.to_vec(), components };
+        mixture.normalize();
+        let weights = vec![1.0 / n; points.len()];
+        for _ in 0..6 {
+            mixture = mixture.adapted(columns, &weights);
+        }
+        (!mixture.components.is_empty()).then_some(mixture)
     }
 
     fn normalize(&mut self) {
@@ -121,7 +191,9 @@ impl Mixture {
             match component {
                 None => {
                     for i in 0..d {
-                        scores[i].0[lane] = normals[i].0[lane];
+                        let normal = normals[i].0[lane];
+                        scores[i].0[lane] =
+                            if self.bounded[i] { bounded_from_normal(normal) } else { normal };
                     }
                 }
                 Some(component) => {
@@ -145,14 +217,9 @@ impl Mixture {
     pub(crate) fn ln_density(&self, scores: &[Column]) -> [f64; COLUMN] {
         let half = 0.5 * (DOF + self.unknowns) as f64;
         let constant = self.unknowns as f64 * super::likelihood::HALF_LN_TWO_PI;
-        let mut squares = [0.0; COLUMN];
-        for column in scores {
-            for lane in 0..COLUMN {
-                squares[lane] += column.0[lane] * column.0[lane];
-            }
-        }
+        let ln_priors = ln_priors(&self.bounded, scores);
         let prior = if self.components.is_empty() { 1.0 } else { DEFENCE };
-        let mut terms: Vec<[f64; COLUMN]> = vec![squares.map(|s| prior.ln() - 0.5 * s)];
+        let mut terms: Vec<[f64; COLUMN]> = vec![ln_priors.map(|ln| prior.ln() + ln)];
         let mut distances = Column::ZERO;
         for component in &self.components {
             component.distances(scores, &mut distances);
@@ -238,10 +305,21 @@ impl Mixture {
                 None => components.push(Component { share: shares[k], ..old.clone() }),
             }
         }
-        let mut mixture = Self { unknowns: d, components };
+        let mut mixture = Self { unknowns: d, bounded: self.bounded.clone(), components };
         mixture.normalize();
         mixture
     }
+}
+
+/// The logarithm of the prior density at a column of points, without the constant of normal scores.
+pub(crate) fn ln_priors(bounded: &[bool], scores: &[Column]) -> [f64; COLUMN] {
+    let mut sums = [0.0; COLUMN];
+    for (bounded, column) in bounded.iter().zip(scores) {
+        for (sum, score) in sums.iter_mut().zip(&column.0) {
+            *sum += ln_prior(*bounded, *score);
+        }
+    }
+    sums
 }
 
 /// Fills a column with standard normal draws.

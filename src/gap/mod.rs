@@ -17,6 +17,7 @@ mod mixture;
 mod next;
 mod posterior;
 mod predict;
+mod roam;
 mod scan;
 mod search;
 mod setup;

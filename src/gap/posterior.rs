@@ -1,12 +1,15 @@
 //! The posterior probabilities of all hypotheses.
 
+use std::sync::Arc;
+
 use rayon::prelude::*;
 
-use super::discrepancy::{Discrepancy, Unexplained};
+use super::covariance::dot;
+use super::discrepancy::{Base, Discrepancy, Unexplained, by_rows};
 use super::evidence::{Evidence, ln_add};
 use super::likelihood::Likelihood;
 use super::setup::Setup;
-use crate::distribution::StreamKey;
+use crate::distribution::{StreamKey, special};
 
 /// A hypothesis that effects explain the data: none of them, or one or more together.
 #[derive(Debug)]
@@ -39,6 +42,8 @@ pub(crate) struct Effort {
     pub(crate) starts: usize,
     /// The standard error of a probability that is good enough.
     pub(crate) error: f64,
+    /// Generations of walkers.
+    pub(crate) generations: usize,
     /// Refinements at most.
     pub(crate) rounds: usize,
     /// The effective number of draws of hypotheses that are reported in detail.
@@ -46,9 +51,14 @@ pub(crate) struct Effort {
 }
 
 impl Effort {
-    pub(crate) const FULL: Self = Self { starts: 16, error: 0.005, rounds: 24, effective: 1000.0 };
-    pub(crate) const QUICK: Self = Self { starts: 8, error: 0.015, rounds: 10, effective: 300.0 };
+    pub(crate) const FULL: Self =
+        Self { starts: 16, error: 0.005, generations: 240, rounds: 24, effective: 1000.0 };
+    pub(crate) const QUICK: Self =
+        Self { starts: 8, error: 0.015, generations: 120, rounds: 12, effective: 400.0 };
 }
+
+/// Hypotheses above this probability are looked at from end to end.
+const LEADING: f64 = 0.01;
 
 /// Seeds for a pair: the modes of its parts beside each other.
 fn seeds(setup: &Setup<'_>, effects: &[usize], singles: &[Hypothesis]) -> Vec<Vec<f64>> {
@@ -114,7 +124,8 @@ pub(crate) fn posterior(
     let mut hypotheses: Vec<Hypothesis> =
         wanted.into_par_iter().map(|effects| begin(effects, &[])).collect();
     progress(0.2);
-    let unexplained = discrepancy.evidence(setup);
+    let residuals = by_rows(&setup.data.nominal_residuals());
+    let unexplained = discrepancy.evidence(setup, &residuals);
     progress(0.3);
     if prior.two > 0.0 {
         let pairs: Vec<Vec<usize>> =
@@ -126,6 +137,13 @@ pub(crate) fn posterior(
     progress(0.6);
     let mut posterior =
         Posterior { hypotheses, unexplained, prior: prior.unexplained, probability: 0.0 };
+    posterior.weigh();
+    // the leading hypotheses are looked at from end to end
+    let leads = |h: &&mut Hypothesis| h.probability > LEADING && !h.effects.is_empty();
+    posterior.hypotheses.par_iter_mut().filter(|h| leads(&h)).for_each(|hypothesis| {
+        let likelihood = setup.likelihood(&hypothesis.effects);
+        hypothesis.evidence.roam(&likelihood, effort.generations);
+    });
     posterior.weigh();
     for round in 0..effort.rounds {
         let open: Vec<bool> = posterior
@@ -146,6 +164,7 @@ pub(crate) fn posterior(
         posterior.weigh();
         progress(0.6 + 0.4 * (round + 1) as f64 / effort.rounds as f64);
     }
+    posterior.guard(setup, discrepancy);
     // what is reported in detail deserves smooth intervals
     for _ in 0..effort.rounds {
         let worth = |h: &Hypothesis| {
@@ -178,7 +197,63 @@ impl Hypothesis {
     }
 }
 
+/// Share of "unexplained" in which an effect of the catalogue acts as well.
+const BESIDE_AN_EFFECT: f64 = 0.2;
+
+/// Hypotheses that are tried with a discrepancy beside them, at most.
+const MOST_GUARDED: usize = 4;
+
+/// A hypothesis is tried with a discrepancy beside it if its most probable point leaves residuals as
+/// large as these with less than this probability.
+const DOUBTFUL: f64 = 0.02;
+
 impl Posterior {
+    /// The posterior predictive check: where the leading hypotheses fit badly, each is tried with a
+    /// discrepancy beside it, which counts as "unexplained". Without it the least bad name would
+    /// win, however badly it fits.
+    fn guard(&mut self, setup: &Setup<'_>, discrepancy: &Discrepancy) {
+        let mut leading: Vec<usize> = (0..self.hypotheses.len())
+            .filter(|&h| {
+                let hypothesis = &self.hypotheses[h];
+                !hypothesis.effects.is_empty() && hypothesis.probability > 1e-3
+            })
+            .collect();
+        leading.sort_by(|&a, &b| {
+            self.hypotheses[b].probability.total_cmp(&self.hypotheses[a].probability)
+        });
+        leading.truncate(MOST_GUARDED);
+        let count = setup.case.candidates.len();
+        let all = count + count * count.saturating_sub(1) / 2;
+        let ln_share = (BESIDE_AN_EFFECT / all.max(1) as f64).ln();
+        let others: Vec<(f64, Arc<Base>, Unexplained)> = leading
+            .into_iter()
+            .filter_map(|h| {
+                let hypothesis = &self.hypotheses[h];
+                let mode = hypothesis.evidence.modes.first()?;
+                let base = Base::at(setup, &hypothesis.effects, mode)?;
+                let residuals = base.residuals(setup);
+                if !setup.linear.fitted {
+                    let whitened = setup.linear.whiten_blocks(&residuals);
+                    let projected = setup.linear.project(&whitened);
+                    let chi2 = dot(&whitened, &whitened) - projected.norm_squared();
+                    let dof = 0.5 * whitened.len() as f64;
+                    if special::gamma::ln_sf(0.5 * chi2, dof) > DOUBTFUL.ln() {
+                        return None;
+                    }
+                }
+                let own = discrepancy.evidence(setup, &residuals);
+                let ln = ln_share + mode.ln_occam(setup.roles.len());
+                Some((ln, Arc::new(base), own))
+            })
+            .collect();
+        let alone = std::mem::replace(
+            &mut self.unexplained,
+            Unexplained { ln_evidence: f64::NEG_INFINITY, kinds: Vec::new() },
+        );
+        self.unexplained = alone.joined(others, 1.0 - BESIDE_AN_EFFECT);
+        self.weigh();
+    }
+
     /// Probabilities from priors and evidences.
     fn weigh(&mut self) {
         let ln = |prior: f64, evidence: f64| {

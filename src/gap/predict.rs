@@ -53,8 +53,14 @@ pub(crate) fn values(
         .iter()
         .map(|role| match role {
             Role::Variable { place, .. } if *place < setup.case.task.variables.len() => {
-                let maps: Vec<Map> =
-                    rows.iter().map(|row| Map::of(&row.distributions[*place])).collect();
+                // as in the data, where correlated quantities have normal scores
+                let of = |row: &Row| match Map::of(&row.distributions[*place]) {
+                    bounded if bounded.is_bounded() && !role.is_bounded() => {
+                        Map::Other(row.distributions[*place].clone())
+                    }
+                    map => map,
+                };
+                let maps: Vec<Map> = rows.iter().map(of).collect();
                 Role::Variable { place: *place, maps }
             }
             other => other.clone(),
@@ -169,8 +175,9 @@ pub(crate) fn unexplained(
     rows: &[Row],
 ) -> Normals {
     let outputs = setup.data.outputs.len();
-    let residuals = super::discrepancy::by_rows(&setup.data.nominal_residuals());
-    let nominals: Vec<_> = rows.iter().map(|row| nominal(setup, row)).collect();
+    let plain = super::discrepancy::by_rows(&setup.data.nominal_residuals());
+    let nominals: Vec<(Vec<f64>, Vec<Vec<f64>>)> =
+        rows.iter().map(|row| nominal(setup, row)).collect();
     let sites: Vec<Site> = rows
         .iter()
         .zip(&nominals)
@@ -187,6 +194,17 @@ pub(crate) fn unexplained(
     for kind in kinds {
         let form = &discrepancy.forms[kind.form];
         let share = kind.weight / total;
+        // the sim, or the effects that act beside the discrepancy
+        let (residuals, sims) = match &kind.base {
+            None => (plain.clone(), nominals.iter().flat_map(|(sim, _)| sim.clone()).collect()),
+            Some(base) => {
+                let residuals = base.residuals(setup);
+                let there_too = values(setup, &base.effects, &[base.scores.clone()], rows);
+                let first = |draws: Vec<f64>| draws.first().copied();
+                let sims: Vec<f64> = there_too.into_iter().flatten().filter_map(first).collect();
+                (residuals, sims)
+            }
+        };
         let variances = kind.variances.as_deref().unwrap_or(&setup.linear.variances);
         let coordinates = Coordinates::new(&form.term, &discrepancy.axes, &sites, outputs);
         let roots = coordinates.roots(&form.term, form.length, &form.nodes);
@@ -198,7 +216,7 @@ pub(crate) fn unexplained(
             let deviation = row.distributions[v].standard_deviation();
             gradients[output][v] * if deviation.is_finite() { deviation } else { 0.0 }
         };
-        let mut design = DMatrix::zeros(residuals.len(), order);
+        let mut design = DMatrix::zeros(plain.len(), order);
         for (row, &id) in setup.data.ids.iter().enumerate() {
             let point = &setup.data.points[setup.data.point_of[row]];
             for output in 0..outputs {
@@ -216,13 +234,13 @@ pub(crate) fn unexplained(
         }
         let white = DVector::from_iterator(
             residuals.len(),
-            residuals.iter().zip(variances).map(|(r, v)| r / v.sqrt()),
+            residuals.iter().zip(variances.iter()).map(|(r, v)| r / v.sqrt()),
         );
         let precision = design.tr_mul(&design) + DMatrix::identity(order, order);
         let Some(root) = precision.cholesky() else { continue };
         let coefficients = root.solve(&design.tr_mul(&white));
         let lower = root.l();
-        for (row, (nominal, gradients)) in nominals.iter().enumerate() {
+        for (row, (_, gradients)) in nominals.iter().enumerate() {
             for output in 0..outputs {
                 let value = row * outputs + output;
                 let mut features = DVector::zeros(order);
@@ -232,7 +250,7 @@ pub(crate) fn unexplained(
                 for j in 0..m {
                     features[shared.len() + j] = kind.multiplier * there[(value, j)];
                 }
-                let mean = nominal[output] + features.dot(&coefficients);
+                let mean = sims[value] + features.dot(&coefficients);
                 let half = lower.solve_lower_triangular(&features);
                 // what the nodes do not determine of the function is left at its prior variance
                 let variance = half.map_or(0.0, |half| half.norm_squared());

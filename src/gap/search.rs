@@ -3,6 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::covariance::{Covariance, triangle};
+use super::latent::EDGE;
 use super::likelihood::{HALF_LN_TWO_PI, Likelihood, Visitor};
 use crate::number::{COLUMN, Column};
 
@@ -10,7 +11,7 @@ use crate::number::{COLUMN, Column};
 /// rounding error about 1e-11 over it.
 const STEP: f64 = 1e-5;
 
-/// Scores are kept within this of 0; the prior probability beyond is below 1e-15.
+/// Normal scores are kept within this of 0; the prior probability beyond is below 1e-15.
 const FARTHEST: f64 = 8.0;
 
 const MOST_STEPS: usize = 30;
@@ -23,10 +24,24 @@ const DEPTH: f64 = 14.0;
 pub(crate) struct Mode {
     /// The scores.
     pub(crate) scores: Vec<f64>,
-    /// Minus the logarithm of prior density times likelihood, without the prior's constant.
+    /// Minus the logarithm of prior density times likelihood, without the prior's constant; here the
+    /// prior of every score is taken as normal.
     pub(crate) cost: f64,
     /// Expected information of data and prior together.
     pub(crate) information: DMatrix<f64>,
+}
+
+impl Mode {
+    /// The logarithm of the share of the prior of the quantities after the first `shared` ones that
+    /// the data leave, in the Gaussian approximation.
+    pub(crate) fn ln_occam(&self, shared: usize) -> f64 {
+        let own: f64 = self.scores.iter().skip(shared).map(|score| score * score).sum();
+        let ln_det = |matrix: DMatrix<f64>| {
+            matrix.cholesky().map_or(0.0, |root| 2.0 * root.l().diagonal().map(f64::ln).sum())
+        };
+        let first = self.information.view((0, 0), (shared, shared)).into_owned();
+        -0.5 * (own + ln_det(self.information.clone()) - ln_det(first))
+    }
 }
 
 /// The cost at a point with its gradient and information.
@@ -46,6 +61,8 @@ struct Walker {
 
 /// The modes that are reached from `starts`, best first, at most `most` of them.
 pub(crate) fn modes(likelihood: &Likelihood<'_>, starts: &[Vec<f64>], most: usize) -> Vec<Mode> {
+    let farthest: Vec<f64> =
+        likelihood.bounded().iter().map(|b| if *b { EDGE } else { FARTHEST }).collect();
     let locals = locals(likelihood, starts);
     let mut walkers: Vec<Walker> = starts
         .iter()
@@ -65,7 +82,8 @@ pub(crate) fn modes(likelihood: &Likelihood<'_>, starts: &[Vec<f64>], most: usiz
         if active.is_empty() {
             break;
         }
-        let proposals: Vec<Vec<f64>> = active.iter().map(|&w| walkers[w].proposal()).collect();
+        let proposals: Vec<Vec<f64>> =
+            active.iter().map(|&w| walkers[w].proposal(&farthest)).collect();
         for ((&w, proposal), local) in
             active.iter().zip(&proposals).zip(self::locals(likelihood, &proposals))
         {
@@ -107,7 +125,7 @@ fn merge(walkers: &mut Vec<Walker>) {
 }
 
 impl Walker {
-    fn proposal(&self) -> Vec<f64> {
+    fn proposal(&self, farthest: &[f64]) -> Vec<f64> {
         let Local { gradient, information, .. } = &self.local;
         let mut damped = information.clone();
         for i in 0..damped.nrows() {
@@ -115,8 +133,8 @@ impl Walker {
         }
         let step = damped.cholesky().map(|root| root.solve(gradient));
         let step = step.unwrap_or_else(|| gradient.clone());
-        let to = |(score, step): (&f64, &f64)| (score - step).clamp(-FARTHEST, FARTHEST);
-        self.scores.iter().zip(step.iter()).map(to).collect()
+        let to = |((score, step), most): ((&f64, &f64), &f64)| (score - step).clamp(-most, *most);
+        self.scores.iter().zip(step.iter()).zip(farthest).map(to).collect()
     }
 
     fn decide(&mut self, proposal: &[f64], local: Local) {

@@ -133,13 +133,20 @@ impl<'c> Setup<'c> {
 /// The prior of an input at every point, or once if it is the same at all.
 pub(crate) fn maps(case: &Case, data: &Data, variable: usize) -> Vec<Map> {
     let of = |row: usize| &case.task.rows[data.ids[row]].distributions[variable];
+    // normal scores are what declared correlations join
+    let correlated =
+        case.task.correlations.iter().any(|c| c.first == variable || c.second == variable);
+    let map = |row: usize| match Map::of(of(row)) {
+        bounded if bounded.is_bounded() && correlated => Map::Other(of(row).clone()),
+        map => map,
+    };
     let rows: Vec<usize> =
         data.points.iter().filter_map(|point| point.rows.first().copied()).collect();
     let first = rows.first().map(|&row| of(row));
     if rows.iter().all(|&row| Some(of(row)) == first) {
-        first.map(Map::of).into_iter().collect()
+        rows.first().map(|&row| map(row)).into_iter().collect()
     } else {
-        rows.iter().map(|&row| Map::of(of(row))).collect()
+        rows.iter().map(|&row| map(row)).collect()
     }
 }
 

@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use super::data::Data;
 use super::diagnosis::{RowGap, Shrinkage, Shrunk, ValueGap};
-use super::discrepancy::{Discrepancy, Weighted, by_rows};
+use super::discrepancy::{Base, Discrepancy, Weighted, by_rows};
 use super::evidence::Evidence;
 use super::likelihood::HALF_LN_TWO_PI;
 use super::posterior::Posterior;
@@ -365,7 +365,28 @@ fn fold(
         }
         Correction::Unexplained => {
             let discrepancy = Discrepancy::new(&part);
-            let found = discrepancy.evidence(&part);
+            // an effect that acts beside the discrepancy is fitted anew as well
+            let base = posterior.unexplained.kinds.first().and_then(|kind| kind.base.as_ref());
+            let base = base.and_then(|base| {
+                let seeds: Vec<Vec<f64>> = posterior
+                    .hypotheses
+                    .iter()
+                    .filter(|h| h.effects == base.effects)
+                    .flat_map(|h| h.evidence.modes.iter().map(|mode| mode.scores.clone()))
+                    .collect();
+                let likelihood = part.likelihood(&base.effects);
+                let key = StreamKey::new(seed, "gap/without a block");
+                let evidence = Evidence::begin(&likelihood, key, &seeds, 0);
+                Base::at(&part, &base.effects, evidence.modes.first()?)
+            });
+            let residuals = match &base {
+                Some(base) => base.residuals(&part),
+                None => by_rows(&part.data.nominal_residuals()),
+            };
+            let mut found = discrepancy.evidence(&part, &residuals);
+            if let Some(base) = base {
+                found = found.beside(base);
+            }
             let predicted = predict::unexplained(&part, &discrepancy, top(&found.kinds), &rows);
             let density = Density::Normal(predicted.iter().flatten().copied().collect());
             Fold { predicted, density, base: Density::of(&none) }

@@ -85,7 +85,7 @@ pub fn truth(case: &Case, noise: &[Vec<f64>], seed: u64, number: u64) -> (Truth,
     for candidate in &chosen {
         for (quantity, prior) in candidate.effect.parameters.iter().zip(&candidate.priors) {
             let name = format!("{}/{}", candidate.effect.name, quantity.name);
-            parameters.push((name, Map::of(prior).value(scores.next())));
+            parameters.push((name, drawn(&Map::of(prior), scores.next())));
         }
     }
     let inputs = inputs(case, &data, &spread, &mut scores);
@@ -111,6 +111,11 @@ pub fn truth(case: &Case, noise: &[Vec<f64>], seed: u64, number: u64) -> (Truth,
     let names = chosen.iter().map(|candidate| candidate.effect.name.clone()).collect();
     let gap = (squares / count.max(1) as f64).sqrt();
     (Truth { kind, effects: names, parameters, values, gap }, measured)
+}
+
+/// The value at the probability of a standard normal score.
+fn drawn(map: &Map, normal: f64) -> f64 {
+    map.value(map.from_normal(normal))
 }
 
 /// The hypothesis that is true.
@@ -159,7 +164,7 @@ fn inputs(case: &Case, data: &Data, spread: &Spread, scores: &mut Scores) -> Vec
         };
         for (row, score) in own.into_iter().enumerate() {
             let map = if maps.len() > 1 { &maps[data.point_of[row]] } else { &maps[0] };
-            inputs[row][v] = map.value(score);
+            inputs[row][v] = drawn(map, score);
         }
     }
     inputs

@@ -8,9 +8,9 @@ use std::sync::Arc;
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
-use super::{AMPLITUDES, Discrepancy, Form, Unexplained, Weighted, by_rows, weigh};
+use super::{AMPLITUDES, Discrepancy, Form, Unexplained, Weighted, weigh};
 use crate::gap::covariance::triangle;
-use crate::gap::latent::Role;
+use crate::gap::latent::{EDGE, Role, ln_prior};
 use crate::gap::likelihood::{HALF_LN_TWO_PI, root_in_place};
 use crate::gap::setup::Setup;
 
@@ -22,15 +22,18 @@ const STEP: f64 = 2e-3;
 
 const MOST_STEPS: usize = 12;
 
-pub(crate) fn evidence(discrepancy: &Discrepancy, setup: &Setup<'_>) -> Unexplained {
-    let residuals = by_rows(&setup.data.nominal_residuals());
+pub(crate) fn evidence(
+    discrepancy: &Discrepancy,
+    setup: &Setup<'_>,
+    residuals: &[f64],
+) -> Unexplained {
     let noise: Vec<&Role> = setup.roles.iter().filter(|role| role.is_noise()).collect();
     let parts = discrepancy
         .forms
         .par_iter()
         .enumerate()
         .map(|(place, form)| {
-            let problem = Problem::new(setup, form, &noise, &residuals);
+            let problem = Problem::new(setup, form, &noise, residuals);
             let mut scores = vec![0.0; noise.len()];
             let mut parts = Vec::with_capacity(STEPS);
             // from the largest amplitude on, where the noise is least
@@ -42,7 +45,10 @@ pub(crate) fn evidence(discrepancy: &Discrepancy, setup: &Setup<'_>) -> Unexplai
                 let multiplier = amplitude * problem.scale(&variances);
                 let ln = ln + form.ln_weight - (STEPS as f64).ln();
                 let variances = Some(Arc::new(variances));
-                parts.push((ln, Weighted { form: place, multiplier, weight: 0.0, variances }));
+                parts.push((
+                    ln,
+                    Weighted { form: place, multiplier, weight: 0.0, base: None, variances },
+                ));
             }
             parts
         })
@@ -142,7 +148,8 @@ impl<'p> Problem<'p> {
             products[i] = sum / inner[triangle(i) + i];
             ln += 0.5 * products[i] * products[i];
         }
-        ln - 0.5 * scores.iter().map(|score| score * score).sum::<f64>()
+        let priors = self.noise.iter().zip(scores);
+        ln + priors.map(|(role, score)| ln_prior(role.is_bounded(), *score)).sum::<f64>()
     }
 
     /// The integral over the scores of the noise; `scores` are where to start, and become the most
@@ -192,7 +199,7 @@ impl<'p> Problem<'p> {
                 let next: Vec<f64> = scores
                     .iter()
                     .zip(step.iter())
-                    .map(|(score, step)| (score + step.clamp(-1.0, 1.0)).clamp(-8.0, 8.0))
+                    .map(|(score, step)| (score + step.clamp(-1.0, 1.0)).clamp(-EDGE, EDGE))
                     .collect();
                 let there = at(&next);
                 if there >= here {

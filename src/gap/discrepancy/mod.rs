@@ -19,7 +19,10 @@ use nalgebra::DVector;
 
 use super::evidence::ln_add;
 use super::likelihood::HALF_LN_TWO_PI;
+use super::predict;
+use super::search::Mode;
 use super::setup::Setup;
+use crate::task::Row;
 
 /// The lengths over which a smooth discrepancy varies, as shares of the range of what it is a
 /// function of.
@@ -66,8 +69,71 @@ pub(crate) struct Weighted {
     pub(crate) multiplier: f64,
     /// Posterior weight among all.
     pub(crate) weight: f64,
+    /// The effects that act beside the discrepancy, if any.
+    pub(crate) base: Option<Arc<Base>>,
     /// Variances of the noise by value, where they were estimated.
     pub(crate) variances: Option<Arc<Vec<f64>>>,
+}
+
+/// Effects that a discrepancy comes on top of.
+#[derive(Clone, Debug)]
+pub(crate) struct Base {
+    /// Places of the candidates.
+    pub(crate) effects: Vec<usize>,
+    /// Scores of all unknown quantities, those of the inputs and the noise at 0.
+    pub(crate) scores: Vec<f64>,
+    /// What is said of the data, row by row.
+    pub(crate) values: Vec<f64>,
+}
+
+impl Base {
+    /// The effects of a hypothesis at one of its modes, the inputs at their estimates.
+    pub(crate) fn at(setup: &Setup<'_>, effects: &[usize], mode: &Mode) -> Option<Self> {
+        let mut scores = mode.scores.clone();
+        scores.iter_mut().take(setup.roles.len()).for_each(|score| *score = 0.0);
+        let rows: Vec<Row> =
+            setup.data.ids.iter().map(|&id| setup.case.task.rows[id].clone()).collect();
+        let values = predict::values(setup, effects, &[scores.clone()], &rows);
+        let first = |draws: Vec<f64>| draws.first().copied();
+        let values: Option<Vec<f64>> = values.into_iter().flatten().map(first).collect();
+        Some(Self { effects: effects.to_vec(), scores, values: values? })
+    }
+
+    /// What is left of the data of a setup, row by row.
+    pub(crate) fn residuals(&self, setup: &Setup<'_>) -> Vec<f64> {
+        let outputs = setup.data.outputs.len();
+        let of = |(value, sim): (usize, &f64)| {
+            setup.data.residual(value % outputs, value / outputs, *sim)
+        };
+        self.values.iter().enumerate().map(of).collect()
+    }
+}
+
+impl Unexplained {
+    /// The same beside effects.
+    pub(crate) fn beside(mut self, base: Base) -> Self {
+        let base = Arc::new(base);
+        for kind in &mut self.kinds {
+            kind.base = Some(base.clone());
+        }
+        self
+    }
+
+    /// Adds other forms, whose evidence has this prior share; those here have the rest.
+    pub(crate) fn joined(self, others: Vec<(f64, Arc<Base>, Self)>, rest: f64) -> Self {
+        let mut parts: Vec<(f64, Weighted)> = Vec::new();
+        let mut add = |ln: f64, base: Option<&Arc<Base>>, kinds: Vec<Weighted>| {
+            for kind in kinds {
+                let own = ln + kind.weight.max(f64::MIN_POSITIVE).ln();
+                parts.push((own, Weighted { base: base.cloned(), ..kind }));
+            }
+        };
+        add(rest.ln() + self.ln_evidence, None, self.kinds);
+        for (ln_share, base, other) in others {
+            add(ln_share + other.ln_evidence, Some(&base), other.kinds);
+        }
+        weigh(parts)
+    }
 }
 
 impl Discrepancy {
@@ -77,13 +143,12 @@ impl Discrepancy {
         Self { axes, forms }
     }
 
-    /// The evidence of the data that a setup holds.
-    pub(crate) fn evidence(&self, setup: &Setup<'_>) -> Unexplained {
+    /// The evidence of residuals (row by row, outputs fastest) of a setup's data.
+    pub(crate) fn evidence(&self, setup: &Setup<'_>, residuals: &[f64]) -> Unexplained {
         if setup.linear.fitted {
-            return fitted::evidence(self, setup);
+            return fitted::evidence(self, setup, residuals);
         }
-        let residuals = by_rows(&setup.data.nominal_residuals());
-        let whitened = setup.linear.whiten_blocks(&residuals);
+        let whitened = setup.linear.whiten_blocks(residuals);
         let base = ln_normal(setup, &whitened);
         let whitened = DVector::from_column_slice(&whitened);
         let mut parts: Vec<(f64, Weighted)> = Vec::new();
@@ -97,8 +162,13 @@ impl Discrepancy {
                     let growth = 1.0 + a * eigenvalue;
                     ln += 0.5 * (a * score * score / growth - growth.ln());
                 }
-                let kind =
-                    Weighted { form: place, multiplier: amplitude, weight: 0.0, variances: None };
+                let kind = Weighted {
+                    form: place,
+                    multiplier: amplitude,
+                    weight: 0.0,
+                    variances: None,
+                    base: None,
+                };
                 parts.push((ln, kind));
             }
         }
