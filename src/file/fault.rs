@@ -120,6 +120,8 @@ pub enum Fault {
     SavedCelsius { name: String, found: String, saved: String },
     /// A declared coefficient between inputs whose saved results have one.
     SavedCorrelation { first: String, second: String },
+    /// A model file with several rows of conditions, to be compared with a saved result.
+    SeveralRows { rows: usize },
     /// The evaluation met numbers that it cannot go on with.
     Evaluation { message: String },
     /// An override of the command line that does not fit.
@@ -179,6 +181,7 @@ impl Fault {
             Self::SavedEntry { .. } => "bad-result",
             Self::SavedCelsius { .. } => "celsius-result",
             Self::SavedCorrelation { .. } => "correlated-results",
+            Self::SeveralRows { .. } => "several-rows",
             Self::Evaluation { .. } => "evaluation",
             Self::Override { .. } => "bad-override",
         }
@@ -388,6 +391,11 @@ impl fmt::Display for Fault {
                 f,
                 "the correlation of `{first}` and `{second}` follows from the saved results that \
                  they come from; take the declared coefficient out"
+            ),
+            Self::SeveralRows { rows } => write!(
+                f,
+                "this file has {rows} rows of conditions, but a saved result is one row; compare it \
+                 with a file of that row alone"
             ),
             Self::Evaluation { message } => f.write_str(message),
             Self::Override { text, reason } => write!(f, "`--set {text}`: {reason}"),

@@ -5,6 +5,7 @@
 
 mod conditions;
 mod correlations;
+mod either;
 mod fault;
 mod inputs;
 mod json;
@@ -16,6 +17,7 @@ mod outputs;
 mod paired;
 mod problem;
 mod result_file;
+mod results;
 mod samples;
 mod settings;
 mod shapes;
@@ -23,8 +25,10 @@ mod source;
 mod table;
 mod width;
 
+pub use either::{ModelOrResult, read_either, read_either_text};
 pub use fault::Fault;
 pub use model_file::{ModelFile, Override, Overrides, read, read_text};
 pub use nearest::nearest;
 pub use problem::{Problem, Problems};
+pub use result_file::{ResultFile, SavedOutput, read_result};
 pub use source::Source;

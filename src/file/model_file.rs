@@ -11,7 +11,7 @@ use super::json::{Json, Member, Node};
 use super::object::Object;
 use super::outputs::{self, Outputs};
 use super::problem::{Log, Problems};
-use super::result_file::Results;
+use super::results::Results;
 use super::source::Source;
 use super::{Fault, correlations, json, nearest, settings};
 use crate::model::formula::{self, Formula, Scope, Typing};
@@ -102,10 +102,7 @@ impl Override {
 pub fn read(path: &Path, overrides: &[Override]) -> Result<ModelFile, Problems> {
     let name = path.display().to_string();
     let folder = path.parent().unwrap_or_else(|| Path::new(""));
-    let text = std::fs::read(path)
-        .map_err(|error| error.to_string())
-        .and_then(|bytes| String::from_utf8(bytes).map_err(|_| "it is not UTF-8 text".to_owned()));
-    match text {
+    match text_of(path) {
         Ok(text) => read_text(&name, &text, folder, overrides),
         Err(message) => {
             let log = Log::new(Source::new(name, ""));
@@ -113,6 +110,12 @@ pub fn read(path: &Path, overrides: &[Override]) -> Result<ModelFile, Problems> 
             Err(log.into_problems())
         }
     }
+}
+
+/// A file's text, or why there is none.
+pub(super) fn text_of(path: &Path) -> Result<String, String> {
+    let bytes = std::fs::read(path).map_err(|error| error.to_string())?;
+    String::from_utf8(bytes).map_err(|_| "it is not UTF-8 text".to_owned())
 }
 
 /// Reads and checks a model file's text; `name` is used in messages, and tables are looked for in

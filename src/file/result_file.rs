@@ -1,8 +1,5 @@
-//! Saved results as inputs: the files that `gumption run --save` writes, read and checked.
+//! Result files: what `gumption run --save` writes, read and checked.
 
-use std::cell::RefCell;
-use std::collections::HashMap;
-use std::path::Path;
 use std::sync::Arc;
 
 use sha2::{Digest, Sha256};
@@ -10,10 +7,9 @@ use sha2::{Digest, Sha256};
 use super::Fault;
 use super::conditions::unit;
 use super::json::{self, Json, Node};
-use super::nearest::nearest;
 use super::object::Object;
 use super::problem::{Log, Problems};
-use super::source::{Place, Source};
+use super::source::Source;
 use crate::distribution::{
     Constant, Distribution, Origin, Root, RootCorrelation, RootName, Saved, SavedResult, Scores,
 };
@@ -22,153 +18,67 @@ use crate::unit::Unit;
 /// At most so many quantiles of an output.
 const MOST_QUANTILES: u64 = 1_000_001;
 
+/// A result file that was read and found right.
+#[derive(Clone, Debug)]
+pub struct ResultFile {
+    /// The title of the model that was evaluated.
+    pub title: String,
+    /// The coverage probability of its intervals; `None` if the file does not say.
+    pub coverage_probability: Option<f64>,
+    /// The outputs, in order.
+    pub outputs: Vec<SavedOutput>,
+    /// The inputs that the outputs go back to.
+    pub inputs: Vec<Root>,
+    /// Correlation coefficients between inputs.
+    pub input_correlations: Vec<RootCorrelation>,
+    /// SHA-256 of the model file that was evaluated, in hexadecimal.
+    pub model: Arc<str>,
+    /// The file's text.
+    pub source: Arc<Source>,
+}
+
 /// An output of a result file.
 #[derive(Clone, Debug)]
-struct SavedOutput {
-    name: String,
-    unit: Unit,
-    distribution: Distribution,
-}
-
-/// The result files that a model file names, each read once.
-#[derive(Debug)]
-pub(super) struct Results<'a> {
-    pub(super) folder: &'a Path,
-    read: RefCell<HashMap<String, Option<Arc<Vec<SavedOutput>>>>>,
-    /// The content of the files, by name.
-    pub(super) files: RefCell<Vec<(String, Vec<u8>)>>,
-}
-
-impl<'a> Results<'a> {
-    /// Paths are relative to `folder`.
-    pub(super) fn new(folder: &'a Path) -> Self {
-        Self { folder, read: RefCell::default(), files: RefCell::default() }
-    }
-
-    /// The unit of the result that an input names, for an input without a unit of its own.
-    pub(super) fn unit(&self, input: &Object<'_>) -> Option<Unit> {
-        Some(self.output(input)?.unit)
-    }
-
-    /// The distribution of the result that an input names, in `unit`. A component is a difference,
-    /// for which degrees Celsius and kelvins are the same.
-    pub(super) fn distribution(
-        &self,
-        input: &Object<'_>,
-        name: &str,
-        unit: &Unit,
-        component: bool,
-    ) -> Option<Distribution> {
-        let output = self.output(input)?;
-        let place = input.get("unit").or_else(|| input.get("output"));
-        let place = place.map_or(input.place(), |member| &member.value.span);
-        let factor = Unit::conversion_factor(&output.unit, unit).ok();
-        let Some(factor) = factor.filter(|f| f.is_finite() && *f > 0.0) else {
-            let fault = Fault::WrongDimension {
-                name: name.to_owned(),
-                found: unit.to_string(),
-                found_as: unit.dimension().describe(),
-                expected: output.unit.to_string(),
-                expected_as: output.unit.dimension().describe(),
-            };
-            input.log.report(place, fault);
-            return None;
-        };
-        if output.unit.is_celsius() != unit.is_celsius() && !component {
-            let (found, saved) = (unit.to_string(), output.unit.to_string());
-            input.log.report(place, Fault::SavedCelsius { name: output.name, found, saved });
-            return None;
-        }
-        if factor == 1.0 {
-            return Some(output.distribution);
-        }
-        let converted = match &output.distribution {
-            Distribution::SavedResult(saved) => saved.scaled(factor).map(Distribution::from),
-            other => other.moved_to(factor * other.mean()),
-        };
-        let fault = |error| Fault::Distribution { name: name.to_owned(), error };
-        input.log.value(place, converted.map_err(fault))
-    }
-
-    /// The output that `file` and `output` of an input name.
-    fn output(&self, input: &Object<'_>) -> Option<SavedOutput> {
-        let (file, output) = (input.required("file"), input.required("output"));
-        let (file, output) = (file?, output?);
-        let (name, wanted) = (input.text("file")?, input.text("output")?);
-        let known = self.read.borrow().get(name).cloned();
-        let outputs = match known {
-            Some(outputs) => outputs?,
-            None => {
-                let outputs = self.load(input.log, name, &file.value).map(Arc::new);
-                self.read.borrow_mut().insert(name.to_owned(), outputs.clone());
-                outputs?
-            }
-        };
-        let found = outputs.iter().find(|output| output.name == wanted).cloned();
-        if found.is_none() {
-            let names = outputs.iter().map(|output| output.name.as_str());
-            let fault = Fault::NoSuchResult {
-                file: name.to_owned(),
-                name: wanted.to_owned(),
-                nearest: nearest(wanted, names.clone()).map(str::to_owned),
-                known: names.map(str::to_owned).collect(),
-            };
-            input.log.report(&output.value.span, fault);
-        }
-        found
-    }
-
-    /// Reads a file; its mistakes are reported with their places in it.
-    fn load(&self, log: &Log, name: &str, place: &Node) -> Option<Vec<SavedOutput>> {
-        let unreadable = |message: String| {
-            let message = format!("`{name}`: {message}");
-            log.report(&place.span, Fault::Unreadable { message });
-            None
-        };
-        let bytes = match std::fs::read(self.folder.join(name)) {
-            Ok(bytes) => bytes,
-            Err(error) => return unreadable(error.to_string()),
-        };
-        let Ok(text) = std::str::from_utf8(&bytes) else {
-            return unreadable("it is not UTF-8 text".to_owned());
-        };
-        match parse(name, text, &sha256(&bytes)) {
-            Ok(outputs) => {
-                self.files.borrow_mut().push((name.to_owned(), bytes));
-                Some(outputs)
-            }
-            Err(Problems(problems)) => {
-                for problem in problems {
-                    let place = Place { source: problem.source, span: problem.span };
-                    log.report_at(place, problem.fault);
-                }
-                None
-            }
-        }
-    }
+pub struct SavedOutput {
+    /// Its name.
+    pub name: String,
+    /// Its unit.
+    pub unit: Unit,
+    /// What is known of it: a saved result, or a constant.
+    pub distribution: Distribution,
+    /// The coverage factor k of its expanded uncertainty; `None` where that is not defined.
+    pub coverage_factor: Option<f64>,
+    /// Sensitivity coefficients to the file's inputs, in output unit per input unit; `None` where
+    /// they are not finite.
+    pub sensitivities: Option<Vec<f64>>,
 }
 
 fn sha256(bytes: &[u8]) -> String {
     Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
-/// Reads the text of a result file; `hash` is its SHA-256.
-fn parse(name: &str, text: &str, hash: &str) -> Result<Vec<SavedOutput>, Problems> {
+/// Reads and checks the text of a result file; `name` is used in messages.
+///
+/// # Errors
+/// All mistakes of the text, in the order of their places.
+pub fn read_result(name: &str, text: &str) -> Result<ResultFile, Problems> {
     let source = Source::new(name, text);
     let log = Log::new(source.clone());
-    let outputs = match json::parse(&source) {
+    // results are told apart by their content
+    let hash = sha256(text.as_bytes());
+    let result = match json::parse(&source) {
         Ok(node) => {
             let whole = 0..source.text.find('\n').unwrap_or(source.text.len());
             Object::new(&log, "a result file", &node, &whole)
-                .and_then(|root| Reader { log: &log, root, hash }.outputs())
+                .and_then(|root| Reader { log: &log, root, hash: &hash }.read())
         }
         Err((span, fault)) => {
             log.report(&span, fault);
             None
         }
     };
-    match outputs {
-        Some(outputs) if log.is_clean() => Ok(outputs),
+    match result {
+        Some(result) if log.is_clean() => Ok(result),
         _ => Err(log.into_problems()),
     }
 }
@@ -189,7 +99,7 @@ struct Common {
 }
 
 impl<'a> Reader<'a> {
-    fn outputs(&self) -> Option<Vec<SavedOutput>> {
+    fn read(&self) -> Option<ResultFile> {
         let root = &self.root;
         if root.truth("result") != Some(true) {
             if self.log.is_clean() {
@@ -220,7 +130,17 @@ impl<'a> Reader<'a> {
                 self.output(&member.key, &object, &common)
             })
             .collect();
-        self.log.is_clean().then_some(found)
+        let title = root.text("title").unwrap_or("").to_owned();
+        let coverage_probability = root.number("coverage_probability");
+        self.log.is_clean().then(|| ResultFile {
+            title,
+            coverage_probability,
+            outputs: found,
+            inputs: common.roots,
+            input_correlations: common.correlations.to_vec(),
+            model: common.model,
+            source: self.log.source.clone(),
+        })
     }
 
     fn common(&self) -> Option<Common> {
@@ -364,14 +284,20 @@ impl<'a> Reader<'a> {
         let made = if constant {
             Constant::new(estimate).map(Distribution::from)
         } else {
-            let origin = self.origin(name, unit.text(), &saved, sensitivities, common);
+            let origin = self.origin(name, unit.text(), &saved, sensitivities.as_deref(), common);
             SavedResult::new(saved, common.scores, &quantiles, origin).map(Distribution::from)
         };
         let made = made.map_err(|error| {
             let place = object.get(error.parameter()).map_or(place, |member| &member.value.span);
             self.log.report(place, Fault::Distribution { name: name.to_owned(), error });
         });
-        Some(SavedOutput { name: name.to_owned(), unit, distribution: made.ok()? })
+        Some(SavedOutput {
+            name: name.to_owned(),
+            unit,
+            distribution: made.ok()?,
+            coverage_factor: optional(object, "coverage_factor"),
+            sensitivities,
+        })
     }
 
     /// The sensitivity coefficients in the order of `inputs`; inside, `None` for null.
@@ -395,17 +321,17 @@ impl<'a> Reader<'a> {
         name: &str,
         unit: &str,
         saved: &Saved,
-        sensitivities: Option<Vec<f64>>,
+        sensitivities: Option<&[f64]>,
         common: &Common,
     ) -> Origin {
         let linear = sensitivities.is_some();
         let roots = match sensitivities {
             Some(sensitivities) => {
-                let weights = common.roots.iter().zip(sensitivities).filter(|(_, c)| *c != 0.0);
+                let weights = common.roots.iter().zip(sensitivities).filter(|(_, c)| **c != 0.0);
                 let weight = |root: &Root, c: f64| {
                     c * root.standard_uncertainty / saved.standard_uncertainty
                 };
-                weights.map(|(root, c)| (root.clone(), weight(root, c))).collect()
+                weights.map(|(root, &c)| (root.clone(), weight(root, c))).collect()
             }
             None => {
                 let root = Root {
@@ -446,6 +372,12 @@ fn positive(object: &Object<'_>, key: &str) -> Option<f64> {
     let place = object.get(key).map_or(object.place(), |member| &member.value.span);
     object.log.report(place, Fault::NotPositive { key: key.to_owned(), found });
     None
+}
+
+/// A number above zero; `None` for null or nothing.
+fn optional(object: &Object<'_>, key: &str) -> Option<f64> {
+    object.get(key).filter(|member| member.value.value != Json::Null)?;
+    positive(object, key)
 }
 
 /// A number above zero; null or nothing for infinite.
