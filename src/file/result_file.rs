@@ -18,6 +18,9 @@ use crate::unit::Unit;
 /// At most so many quantiles of an output.
 const MOST_QUANTILES: u64 = 1_000_001;
 
+/// At most so many trials behind a result.
+const MOST_TRIALS: u64 = 1_000_000_000_000;
+
 /// A result file that was read and found right.
 #[derive(Clone, Debug)]
 pub struct ResultFile {
@@ -109,7 +112,7 @@ impl<'a> Reader<'a> {
             }
             return None;
         }
-        let format = root.required("format")?;
+        let format = root.needed("format")?;
         if format.value.number() != Some(1.0) {
             let found = match &format.value.value {
                 Json::Number(text) | Json::Text(text) => text.clone(),
@@ -118,7 +121,10 @@ impl<'a> Reader<'a> {
             self.log.report(&format.value.span, Fault::UnknownFormat { found });
             return None;
         }
-        let member = root.required("outputs")?;
+        let member = root.needed("outputs")?;
+        root.text("gumption");
+        let title = root.text("title").unwrap_or("").to_owned();
+        let coverage_probability = self.coverage_probability();
         let common = self.common()?;
         let object = Object::new(self.log, "`outputs`", &member.value, &member.key_span)?;
         let found: Vec<SavedOutput> = object
@@ -130,8 +136,6 @@ impl<'a> Reader<'a> {
                 self.output(&member.key, &object, &common)
             })
             .collect();
-        let title = root.text("title").unwrap_or("").to_owned();
-        let coverage_probability = root.number("coverage_probability");
         self.log.is_clean().then(|| ResultFile {
             title,
             coverage_probability,
@@ -143,16 +147,34 @@ impl<'a> Reader<'a> {
         })
     }
 
+    fn coverage_probability(&self) -> Option<f64> {
+        let key = "coverage_probability";
+        let found = self.root.number(key)?;
+        if found <= 0.0 || found >= 1.0 {
+            let place = self.root.get(key).map_or(self.root.place(), |member| &member.value.span);
+            self.log.report(place, Fault::NotProbability { key: key.to_owned(), found });
+        }
+        Some(found)
+    }
+
     fn common(&self) -> Option<Common> {
         let root = &self.root;
-        let origin = root.required("provenance")?;
+        let origin = root.needed("provenance")?;
         let origin = Object::new(self.log, "`provenance`", &origin.value, &origin.key_span)?;
-        origin.required("model_sha256")?;
+        origin.needed("model_sha256")?;
         let model: Arc<str> = origin.text("model_sha256")?.into();
-        let scores = root.required("scores")?;
+        origin.whole("seed", 0, u64::MAX);
+        origin.whole("trials", 0, MOST_TRIALS);
+        if let Some(files) = origin.get("files") {
+            let files = Object::new(self.log, "`files`", &files.value, &files.key_span)?;
+            for member in files.members() {
+                files.text(&member.key);
+            }
+        }
+        let scores = root.needed("scores")?;
         let scores = Object::new(self.log, "`scores`", &scores.value, &scores.key_span)?;
         for key in ["from", "step", "count"] {
-            scores.required(key);
+            scores.needed(key);
         }
         let step = scores.number("step");
         if let (Some(step), Some(member)) = (step.filter(|s| *s <= 0.0), scores.get("step")) {
@@ -173,13 +195,13 @@ impl<'a> Reader<'a> {
     }
 
     fn roots(&self) -> Option<Vec<Root>> {
-        self.root.required("inputs")?;
+        self.root.needed("inputs")?;
         let list = self.root.list("inputs")?;
         let mut roots = Vec::with_capacity(list.len());
         for node in list {
             let object = Object::new(self.log, "an input of a result file", node, &node.span)?;
             for key in ["model_sha256", "name", "estimate", "standard_uncertainty"] {
-                object.required(key);
+                object.needed(key);
             }
             let name = RootName {
                 model: object.text("model_sha256")?.into(),
@@ -257,15 +279,22 @@ impl<'a> Reader<'a> {
 
     fn output(&self, name: &str, object: &Object<'a>, common: &Common) -> Option<SavedOutput> {
         for key in ["unit", "estimate", "standard_uncertainty", "quantiles"] {
-            object.required(key);
+            object.needed(key);
         }
         let unit = unit(object, "unit");
         let estimate = object.number("estimate");
         let u = object.number("standard_uncertainty");
-        let dof = match object.text("dof_status") {
-            Some("undefined") => f64::NAN,
-            _ => or_infinite(object, "dof"),
-        };
+        let dof = or_infinite(object, "dof");
+        let dof = if self.is_undefined(object) { f64::NAN } else { dof };
+        // for people and other programs; here they are only checked
+        if object.get("expanded_uncertainty").is_some_and(|m| m.value.value != Json::Null) {
+            object.number("expanded_uncertainty");
+        }
+        for (key, nullable) in
+            [("interval", true), ("symmetric_interval", false), ("shortest_interval", false)]
+        {
+            self.check_interval(object, key, nullable);
+        }
         let quantiles = object.numbers("quantiles");
         let (unit, estimate, u, quantiles) = (unit?, estimate?, u?, quantiles?);
         let place = object.get("quantiles").map_or(object.place(), |member| &member.value.span);
@@ -300,10 +329,37 @@ impl<'a> Reader<'a> {
         })
     }
 
+    /// Whether the degrees of freedom are said to be undefined.
+    fn is_undefined(&self, object: &Object<'a>) -> bool {
+        const ALLOWED: [&str; 3] = ["finite", "infinite", "undefined"];
+        let status = object.text("dof_status");
+        if let (Some(member), Some(found)) = (object.get("dof_status"), status)
+            && !ALLOWED.contains(&found)
+        {
+            let (key, found) = ("dof_status".to_owned(), found.to_owned());
+            let allowed = ALLOWED.map(str::to_owned).to_vec();
+            self.log.report(&member.value.span, Fault::NotOneOf { key, found, allowed });
+        }
+        status == Some("undefined")
+    }
+
+    fn check_interval(&self, object: &Object<'a>, key: &str, nullable: bool) {
+        let Some(member) = object.get(key) else {
+            return;
+        };
+        if nullable && member.value.value == Json::Null {
+            return;
+        }
+        if object.numbers(key).is_some_and(|ends| ends.len() != 2) {
+            let reason = "two ends of an interval are needed here";
+            self.log.report(&member.value.span, Fault::SavedEntry { reason });
+        }
+    }
+
     /// The sensitivity coefficients in the order of `inputs`; inside, `None` for null.
     #[allow(clippy::option_option)]
     fn sensitivities(&self, object: &Object<'a>, inputs: usize) -> Option<Option<Vec<f64>>> {
-        let member = object.required("sensitivities")?;
+        let member = object.needed("sensitivities")?;
         if member.value.value == Json::Null {
             return Some(None);
         }
