@@ -18,6 +18,9 @@ use crate::unit::Unit;
 /// At most so many quantiles of an output.
 const MOST_QUANTILES: u64 = 1_000_001;
 
+/// At most so many ranks of an output.
+const MOST_RANKS: usize = 1_000_000;
+
 /// At most so many trials behind a result.
 const MOST_TRIALS: u64 = 1_000_000_000_000;
 
@@ -127,6 +130,7 @@ impl<'a> Reader<'a> {
         let coverage_probability = self.coverage_probability();
         let common = self.common()?;
         let object = Object::new(self.log, "`outputs`", &member.value, &member.key_span)?;
+        self.check_ranks(&object);
         let found: Vec<SavedOutput> = object
             .members()
             .iter()
@@ -145,6 +149,45 @@ impl<'a> Reader<'a> {
             model: common.model,
             source: self.log.source.clone(),
         })
+    }
+
+    /// Whether all outputs that have ranks have as many.
+    fn check_ranks(&self, outputs: &Object<'a>) {
+        let mut first = None;
+        for member in outputs.members() {
+            let Json::Object(members) = &member.value.value else {
+                continue;
+            };
+            let Some(ranks) = members.iter().find(|member| member.key == "ranks") else {
+                continue;
+            };
+            if let Json::List(list) = &ranks.value.value
+                && *first.get_or_insert(list.len()) != list.len()
+            {
+                let reason = "all outputs of a file have as many ranks, those of the same trials";
+                self.log.report(&ranks.value.span, Fault::SavedEntry { reason });
+            }
+        }
+    }
+
+    /// The ranks of an output: each whole number from 1 to their count once, here counted from 0.
+    fn ranks(&self, object: &Object<'a>) -> Option<Arc<[u32]>> {
+        let member = object.get("ranks")?;
+        let list = object.numbers("ranks")?;
+        let mut seen = vec![false; list.len()];
+        let ranks = list.iter().map(|&rank| {
+            let place = rank - 1.0;
+            let fits = rank.fract() == 0.0 && place >= 0.0 && place < list.len() as f64;
+            let seen = seen.get_mut(place as usize).filter(|_| fits)?;
+            (!std::mem::replace(seen, true)).then_some(place as u32)
+        });
+        let ranks: Option<Vec<u32>> = ranks.collect();
+        if ranks.is_none() || list.len() < 2 || list.len() > MOST_RANKS {
+            let reason = "ranks are each whole number from 1 to their count once, two to a million";
+            self.log.report(&member.value.span, Fault::SavedEntry { reason });
+            return None;
+        }
+        ranks.map(Arc::from)
     }
 
     fn coverage_probability(&self) -> Option<f64> {
@@ -300,6 +343,7 @@ impl<'a> Reader<'a> {
         let place = object.get("quantiles").map_or(object.place(), |member| &member.value.span);
         let constant = u == 0.0 && quantiles.windows(2).all(|pair| pair[0] == pair[1]);
         let sensitivities = self.sensitivities(object, common.roots.len())?;
+        let ranks = self.ranks(object);
         let saved = Saved {
             estimate,
             standard_uncertainty: u,
@@ -314,6 +358,7 @@ impl<'a> Reader<'a> {
             Constant::new(estimate).map(Distribution::from)
         } else {
             let origin = self.origin(name, unit.text(), &saved, sensitivities.as_deref(), common);
+            let origin = Origin { ranks, ..origin };
             SavedResult::new(saved, common.scores, &quantiles, origin).map(Distribution::from)
         };
         let made = made.map_err(|error| {
@@ -415,6 +460,7 @@ impl<'a> Reader<'a> {
             correlations: common.correlations.clone(),
             siblings: common.siblings.iter().filter_map(sibling).collect(),
             model: common.model.clone(),
+            ranks: None,
         }
     }
 }

@@ -141,6 +141,16 @@ fn output() -> Node {
     )
     .with("items", numbers())
     .with("minItems", 2u64);
+    let ranks = described(
+        "array",
+        "Ranks of the output, from 1, in a few of the trials that stand for all; entry i of all \
+         outputs is of the same trial. So outputs of one file are drawn together. Not where there \
+         is one output alone, nor of one that does not vary.",
+    )
+    .with("items", described("integer", "A rank.").with("minimum", 1u64))
+    .with("minItems", 2u64)
+    .with("maxItems", 1_000_000u64)
+    .with("uniqueItems", true);
     let properties = vec![
         ("unit", reference("unit")),
         ("estimate", described("number", "The estimate.")),
@@ -166,6 +176,7 @@ fn output() -> Node {
         ("shortest_interval", interval("Shortest coverage interval of the trials.", false)),
         ("sensitivities", sensitivities),
         ("quantiles", quantiles),
+        ("ranks", ranks),
     ];
     let required = ["unit", "estimate", "standard_uncertainty", "sensitivities", "quantiles"];
     open("What was found for an output, in its unit.", properties, &required)

@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 use super::{schema, validator};
 use crate::distribution::Scores;
 use crate::file::{self, read_result};
-use crate::propagate::{Control, evaluate, linear, origins, quantiles};
+use crate::propagate::{Control, evaluate, joint_ranks, linear, origins, quantiles};
 use crate::report::{Provenance, Report, saved};
 
 /// What is written for outputs of all kinds: with degrees of freedom, without sensitivities, known
@@ -28,12 +28,13 @@ fn written() -> Value {
     let evaluation = evaluate(task, &control).unwrap();
     let scores: Vec<f64> = Scores::WRITTEN.values().collect();
     let quantiles = quantiles(task, &evaluation, 0, &scores, &control).unwrap().unwrap();
+    let ranks = joint_ranks(task, &evaluation, 0, &control).unwrap().unwrap();
     let gums: Vec<_> = evaluation.rows[0].outputs.iter().map(linear).collect();
     let origins = origins(task, &task.rows[0], &gums, "m");
     let files = vec![("x.csv".to_owned(), "0".to_owned())];
     let provenance = Provenance { model_sha256: "m".to_owned(), files };
     let report = Report { task, evaluation: &evaluation, warnings: &[], provenance: &provenance };
-    serde_json::from_str(&saved(&report, &origins, &quantiles)).unwrap()
+    serde_json::from_str(&saved(&report, &origins, &quantiles, &ranks)).unwrap()
 }
 
 /// The places of the objects of a definition in a file.
@@ -70,6 +71,9 @@ fn what_is_written_is_valid() {
         for place in objects(definition, &file) {
             let object = file.pointer(&place).unwrap().as_object().unwrap();
             let written: Vec<String> = object.keys().cloned().collect();
+            let mut known = known.clone();
+            // what does not vary has no ranks
+            known.retain(|key| key != "ranks" || place != "/outputs/fixed");
             assert_eq!(written, known, "{place}");
         }
     }
@@ -117,6 +121,9 @@ fn the_reader_reads_the_same_keys() {
         ("/outputs/x/dof_status", json!("unknown")),
         ("/outputs/x/interval", json!([1])),
         ("/outputs/x/quantiles", json!([1])),
+        ("/outputs/x/ranks", json!([1])),
+        ("/outputs/x/ranks", json!([1, 1])),
+        ("/outputs/x/ranks", json!([0, 1])),
         ("/outputs/x/standard_uncertainty", json!(-1)),
         ("/outputs/x/coverage_factor", json!(0)),
         ("/output_correlations", json!([["x", "square"]])),
