@@ -2,7 +2,7 @@
 
 use super::evaluation::{Evaluation, OutputEvaluation, RowEvaluation};
 use super::gum::{BudgetLine, Dof, Gum};
-use super::monte_carlo::Adaptive;
+use super::monte_carlo::{Adaptive, MonteCarlo};
 use crate::task::{Task, Trials, Warning};
 
 /// A difference of the two standard uncertainties below this is not worth a note.
@@ -16,7 +16,9 @@ const CANCELLED: f64 = 0.005;
 /// for an output, at the first row that it concerns.
 pub fn warnings(task: &Task, evaluation: &Evaluation) -> Vec<Warning> {
     let mut found: Vec<Warning> = Vec::new();
-    let needed = 1e4 / (1.0 - evaluation.coverage_probability);
+    // without the digits that 1 - p has lost
+    let needed = format!("{:.5e}", 1e4 / (1.0 - evaluation.coverage_probability));
+    let needed: f64 = needed.parse().unwrap_or(f64::INFINITY);
     if let Trials::Fixed(trials @ 1..) = task.settings.trials
         && (trials as f64) < needed * (1.0 - 1e-9)
     {
@@ -139,6 +141,7 @@ fn of_output(
     let Some(monte_carlo) = &output.monte_carlo else {
         return;
     };
+    of_extremes(name, &at, monte_carlo, found);
     let spread = monte_carlo.standard_uncertainty.unwrap_or(gum.standard_uncertainty);
     of_results(name, &at, row, (gum, spread), found);
     if let Some(Adaptive { converged: false, tolerance, .. }) = monte_carlo.adaptive {
@@ -172,6 +175,19 @@ fn of_output(
             );
             push(found, Warning::new("few-dof", name, text));
         }
+    }
+}
+
+/// Intervals from the least to the greatest trial.
+fn of_extremes(name: &str, at: &str, figures: &MonteCarlo, found: &mut Vec<Warning>) {
+    if figures.errors.symmetric_interval.iter().any(|error| error.is_nan()) {
+        let text = format!(
+            "`{name}`{at}: {} trials are so few for this coverage probability that the Monte Carlo \
+             interval is that of the extreme ones, which has no numerical standard error; clause 8 \
+             is left undecided",
+            figures.trials
+        );
+        push(found, Warning::new("interval-of-extremes", name, text));
     }
 }
 
