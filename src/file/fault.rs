@@ -5,6 +5,7 @@ use std::fmt;
 use super::shapes::KINDS;
 use crate::distribution::Invalid;
 use crate::model::formula::FormulaError;
+use crate::number::Shortest;
 use crate::unit::UnitError;
 
 /// A mistake, without its place.
@@ -319,10 +320,11 @@ impl fmt::Display for Fault {
                  coverage probability `p`"
             ),
             Self::NotProbability { key, found } => {
+                let found = Shortest(*found);
                 write!(f, "`{key}` is {found}, but must be a probability between 0 and 1")
             }
             Self::NotPositive { key, found } => {
-                write!(f, "`{key}` is {found}, but must be above zero")
+                write!(f, "`{key}` is {}, but must be above zero", Shortest(*found))
             }
             Self::NotWhole { key, found, least, most } => {
                 write!(f, "`{key}` is {found}, but must be a whole number from {least} to {most}")
@@ -333,7 +335,7 @@ impl fmt::Display for Fault {
                  evaluation by the law of propagation alone"
             ),
             Self::OutOfRange { key, found, range } => {
-                write!(f, "`{key}` is {found}, but must be {range}")
+                write!(f, "`{key}` is {}, but must be {range}", Shortest(*found))
             }
             Self::NotOneOf { key, found, allowed } => {
                 write!(f, "`{key}` is `{found}`, but must be one of {}", list(allowed))

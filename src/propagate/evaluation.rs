@@ -12,6 +12,7 @@ use super::monte_carlo::{self, MonteCarlo, Request, Rule, Undefined};
 use super::validate::{Validation, validate};
 use crate::distribution::{Correlation, CorrelationError, Joint};
 use crate::model::{Program, Tolerance};
+use crate::number::Shortest;
 use crate::task::{Row, Settings, Task, Trials};
 
 /// The evaluation of a whole task.
@@ -125,7 +126,8 @@ impl fmt::Display for EvaluationError {
                 if let Some(operation) = operation {
                     write!(f, "; the first is {operation}")?;
                 }
-                let at: Vec<String> = inputs.iter().map(|(n, v)| format!("{n} = {v}")).collect();
+                let at = inputs.iter().map(|(name, v)| format!("{name} = {}", Shortest(*v)));
+                let at: Vec<String> = at.collect();
                 if at.is_empty() { Ok(()) } else { write!(f, ", at {}", at.join(", ")) }
             }
             Self::Threads(error) => write!(f, "cannot start threads: {error}"),

@@ -3,6 +3,7 @@
 use super::evaluation::{Evaluation, OutputEvaluation, RowEvaluation};
 use super::gum::{BudgetLine, Dof, Gum};
 use super::monte_carlo::{Adaptive, MonteCarlo};
+use crate::number::Shortest;
 use crate::task::{Task, Trials, Warning};
 
 /// A difference of the two standard uncertainties below this is not worth a note.
@@ -114,7 +115,10 @@ fn of_output(
             .conditions
             .iter()
             .zip(&row.conditions)
-            .map(|(c, value)| format!("{} = {value} {}", c.name, c.unit).trim_end().to_owned())
+            .map(|(c, &value)| {
+                let text = format!("{} = {} {}", c.name, Shortest(value), c.unit);
+                text.trim_end().to_owned()
+            })
             .collect();
         format!(" at {}", values.join(", "))
     };
