@@ -85,6 +85,16 @@ fn may_depend(a: &SavedResult, b: &SavedResult) -> bool {
     models(a).iter().any(|model| of_b.contains(model))
 }
 
+/// The pairs of variables whose dependence comes from saved results.
+pub(super) fn pairs(inputs: &Inputs) -> Vec<(usize, usize)> {
+    let row = inputs.rows.first().map_or(&[][..], Vec::as_slice);
+    let saved = row.iter().enumerate().filter_map(|(q, d)| Some((q, d.saved()?)));
+    let saved: Vec<(usize, &SavedResult)> = saved.collect();
+    let before = |place: usize| saved.iter().take(place);
+    let all = saved.iter().enumerate().flat_map(|(place, b)| before(place).map(move |a| (a, b)));
+    all.filter(|((_, a), (_, b))| a.is_linked(b)).map(|((a, _), (b, _))| (*a, *b)).collect()
+}
+
 /// Whether the dependence of two variables comes from saved results.
 pub(super) fn is_linked(row: &[Distribution], first: usize, second: usize) -> bool {
     let saved = |q: usize| row.get(q).and_then(Distribution::saved);

@@ -21,6 +21,7 @@ mod results;
 mod samples;
 mod settings;
 mod shapes;
+mod sharing;
 mod source;
 mod table;
 mod width;

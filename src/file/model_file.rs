@@ -268,7 +268,12 @@ impl<'a> ModelReader<'a> {
         let mut files = std::mem::take(&mut conditions.files);
         files.extend(inputs.files.iter().cloned());
         files.extend(results.files.take());
-        let (correlations, notes) = correlations::read(root, &inputs, self.folder, &mut files);
+        let swept_over = correlations::Rows {
+            conditions: conditions.quantities.iter().map(|c| c.name.clone()).collect(),
+            rows: &conditions.rows,
+        };
+        let (correlations, notes) =
+            correlations::read(root, &inputs, &swept_over, self.folder, &mut files);
         let mut warnings = inputs.warnings.clone();
         warnings.extend(notes);
         let Outputs { mut outputs, places, unit_places, without_unit } = outputs;
