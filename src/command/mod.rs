@@ -39,7 +39,7 @@ enum Command {
     Models(models::Models),
     /// Recompute the published examples on this machine, or compare its code paths
     Verify(verify::Verify),
-    /// Say what changed between two model files, and how much of the change of U each explains
+    /// Say what changed between two model files or saved results, and what it did to U
     Diff(diff::Diff),
     /// Diagnose where measured data depart from a model, and which effect is missing
     Gap(gap::Gap),

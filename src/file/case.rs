@@ -7,7 +7,7 @@ use super::Fault;
 use super::effects;
 use super::model_file::{Found, ModelReader, read_file};
 use super::problem::Problems;
-use super::result_file::Results;
+use super::results::Results;
 use super::source::Source;
 use crate::task::{Case, Row, Warning};
 

@@ -11,7 +11,7 @@ use super::links;
 use super::nearest::nearest;
 use super::object::Object;
 use super::problem::Log;
-use super::table;
+use super::{sharing, table};
 use crate::distribution::{Correlation, CorrelationError, Distribution, Joint};
 use crate::task::Warning;
 
@@ -21,6 +21,7 @@ use crate::task::Warning;
 pub(super) fn read(
     root: &Object<'_>,
     inputs: &Inputs,
+    rows: &Rows<'_>,
     folder: &Path,
     files: &mut Vec<(String, Vec<u8>)>,
 ) -> (Vec<Correlation>, Vec<Warning>) {
@@ -30,7 +31,7 @@ pub(super) fn read(
     let shown = inputs.variables.iter().enumerate().filter(|(_, variable)| variable.shown);
     let by_name = shown.map(|(place, variable)| (variable.name.as_str(), place)).collect();
     let mut reader =
-        Reader { log: root.log, inputs, by_name, found, pairs: HashSet::new(), places };
+        Reader { log: root.log, inputs, rows, by_name, found, pairs: HashSet::new(), places };
     if let Some(list) = root.list("correlations") {
         for node in list {
             reader.triple(node);
@@ -39,13 +40,24 @@ pub(super) fn read(
     if let Some(member) = root.get("correlation_matrix") {
         reader.matrix(root.log, member, folder, files);
     }
-    reader.check(root);
+    if reader.are_shared_alike(root) {
+        reader.check(root);
+    }
     (reader.found, warnings)
+}
+
+/// The rows of conditions.
+pub(super) struct Rows<'a> {
+    /// Names of the conditions.
+    pub(super) conditions: Vec<String>,
+    /// Their values in every row.
+    pub(super) rows: &'a [Vec<f64>],
 }
 
 struct Reader<'a> {
     log: &'a Log,
     inputs: &'a Inputs,
+    rows: &'a Rows<'a>,
     by_name: HashMap<&'a str, usize>,
     found: Vec<Correlation>,
     pairs: HashSet<(usize, usize)>,
@@ -190,6 +202,28 @@ impl Reader<'_> {
                 }
             }
         }
+    }
+
+    /// Whether correlated quantities have their values in common over the same rows.
+    fn are_shared_alike(&self, root: &Object<'_>) -> bool {
+        let coefficients = self.found.iter().zip(&self.places);
+        let linked = links::pairs(self.inputs);
+        let declared = coefficients
+            .map(|(c, place)| ((c.first, c.second), c.coefficient, place))
+            .filter(|(pair, r, _)| *r != 0.0 && !linked.contains(pair))
+            .map(|(pair, _, place)| (pair, place, false));
+        let place = |pair: (usize, usize)| self.inputs.places.get(pair.1).unwrap_or(root.place());
+        let of_results = linked.iter().map(|&pair| (pair, place(pair), true));
+        let Rows { conditions, rows } = self.rows;
+        let mut alike = true;
+        for (pair, place, linked) in declared.chain(of_results) {
+            let reason = sharing::contradiction(self.inputs, pair, linked, conditions, rows);
+            if let Some(reason) = reason {
+                self.log.report(place, Fault::Correlation { reason });
+                alike = false;
+            }
+        }
+        alike
     }
 
     /// Whether the quantities can have these coefficients.

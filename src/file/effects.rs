@@ -6,7 +6,7 @@ use super::model_file::report_formula;
 use super::nearest;
 use super::object::Object;
 use super::problem::Log;
-use super::result_file::Results;
+use super::results::Results;
 use super::{Fault, inputs};
 use crate::model::formula::{self, Formula, FormulaError};
 use crate::model::{Effect, Sim};

@@ -5,6 +5,7 @@ use std::fmt;
 use super::shapes::KINDS;
 use crate::distribution::Invalid;
 use crate::model::formula::FormulaError;
+use crate::number::Shortest;
 use crate::unit::UnitError;
 
 /// A mistake, without its place.
@@ -120,6 +121,8 @@ pub enum Fault {
     SavedCelsius { name: String, found: String, saved: String },
     /// A declared coefficient between inputs whose saved results have one.
     SavedCorrelation { first: String, second: String },
+    /// A model file with several rows of conditions, to be compared with a saved result.
+    SeveralRows { rows: usize },
     /// The evaluation met numbers that it cannot go on with.
     Evaluation { message: String },
     /// An effect that cannot act on the sim.
@@ -185,6 +188,7 @@ impl Fault {
             Self::SavedEntry { .. } => "bad-result",
             Self::SavedCelsius { .. } => "celsius-result",
             Self::SavedCorrelation { .. } => "correlated-results",
+            Self::SeveralRows { .. } => "several-rows",
             Self::Evaluation { .. } => "evaluation",
             Self::Effect { .. } => "bad-effect",
             Self::Observation { .. } => "bad-observations",
@@ -325,10 +329,11 @@ impl fmt::Display for Fault {
                  coverage probability `p`"
             ),
             Self::NotProbability { key, found } => {
+                let found = Shortest(*found);
                 write!(f, "`{key}` is {found}, but must be a probability between 0 and 1")
             }
             Self::NotPositive { key, found } => {
-                write!(f, "`{key}` is {found}, but must be above zero")
+                write!(f, "`{key}` is {}, but must be above zero", Shortest(*found))
             }
             Self::NotWhole { key, found, least, most } => {
                 write!(f, "`{key}` is {found}, but must be a whole number from {least} to {most}")
@@ -339,7 +344,7 @@ impl fmt::Display for Fault {
                  evaluation by the law of propagation alone"
             ),
             Self::OutOfRange { key, found, range } => {
-                write!(f, "`{key}` is {found}, but must be {range}")
+                write!(f, "`{key}` is {}, but must be {range}", Shortest(*found))
             }
             Self::NotOneOf { key, found, allowed } => {
                 write!(f, "`{key}` is `{found}`, but must be one of {}", list(allowed))
@@ -400,6 +405,11 @@ impl fmt::Display for Fault {
                 f,
                 "the correlation of `{first}` and `{second}` follows from the saved results that \
                  they come from; take the declared coefficient out"
+            ),
+            Self::SeveralRows { rows } => write!(
+                f,
+                "this file has {rows} rows of conditions, but a saved result is one row; compare it \
+                 with a file of that row alone"
             ),
             Self::Evaluation { message } => f.write_str(message),
             Self::Override { text, reason } => write!(f, "`--set {text}`: {reason}"),

@@ -12,7 +12,7 @@ use super::object::Object;
 use super::observations::Observations;
 use super::outputs::{self, Outputs};
 use super::problem::{Log, Problems};
-use super::result_file::Results;
+use super::results::Results;
 use super::source::Source;
 use super::table::{self, Table};
 use super::{Fault, correlations, json, nearest, observations, settings};
@@ -112,10 +112,7 @@ pub(super) fn read_file<T>(
 ) -> Result<T, Problems> {
     let name = path.display().to_string();
     let folder = path.parent().unwrap_or_else(|| Path::new(""));
-    let text = std::fs::read(path)
-        .map_err(|error| error.to_string())
-        .and_then(|bytes| String::from_utf8(bytes).map_err(|_| "it is not UTF-8 text".to_owned()));
-    match text {
+    match text_of(path) {
         Ok(text) => read_with(&name, &text, folder, (overrides, at), read),
         Err(message) => {
             let log = Log::new(Source::new(name, ""));
@@ -123,6 +120,12 @@ pub(super) fn read_file<T>(
             Err(log.into_problems())
         }
     }
+}
+
+/// A file's text, or why there is none.
+pub(super) fn text_of(path: &Path) -> Result<String, String> {
+    let bytes = std::fs::read(path).map_err(|error| error.to_string())?;
+    String::from_utf8(bytes).map_err(|_| "it is not UTF-8 text".to_owned())
 }
 
 /// Reads and checks a model file's text; `name` is used in messages, and tables are looked for in
@@ -325,7 +328,12 @@ impl<'a> ModelReader<'a> {
         }
         files.extend(inputs.files.iter().cloned());
         files.extend(results.files.take());
-        let (correlations, notes) = correlations::read(root, &inputs, self.folder, &mut files);
+        let swept_over = correlations::Rows {
+            conditions: conditions.quantities.iter().map(|c| c.name.clone()).collect(),
+            rows: &conditions.rows,
+        };
+        let (correlations, notes) =
+            correlations::read(root, &inputs, &swept_over, self.folder, &mut files);
         let mut warnings = inputs.warnings.clone();
         warnings.extend(notes);
         let Outputs { mut outputs, places, unit_places, without_unit } = outputs;

@@ -1,5 +1,6 @@
 //! The evaluation of a task: both methods, every row, side by side.
 
+use std::collections::BTreeSet;
 use std::fmt;
 use std::sync::Arc;
 
@@ -9,8 +10,9 @@ use super::Control;
 use super::gum::{self, Gum, GumRow};
 use super::monte_carlo::{self, MonteCarlo, Request, Rule, Undefined};
 use super::validate::{Validation, validate};
-use crate::distribution::{CorrelationError, Joint};
+use crate::distribution::{Correlation, CorrelationError, Joint};
 use crate::model::{Program, Tolerance};
+use crate::number::Shortest;
 use crate::task::{Row, Settings, Task, Trials};
 
 /// The evaluation of a whole task.
@@ -45,6 +47,19 @@ pub struct RowEvaluation {
     pub correlations: Vec<f64>,
     /// Trials that were left out because an output was not finite.
     pub undefined: Option<Undefined>,
+    /// The variables that are outputs of saved results, drawn as they varied together there.
+    pub together: Vec<Together>,
+    /// Coefficients that the copula of the trials does not give as they are, and what it gives.
+    pub copula_changes: Vec<(Correlation, f64)>,
+}
+
+/// Variables that are outputs of one saved result and drawn from its trials.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Together {
+    /// The variables, in order.
+    pub variables: Vec<usize>,
+    /// How many trials the result holds.
+    pub trials: usize,
 }
 
 /// One output by both methods.
@@ -111,7 +126,8 @@ impl fmt::Display for EvaluationError {
                 if let Some(operation) = operation {
                     write!(f, "; the first is {operation}")?;
                 }
-                let at: Vec<String> = inputs.iter().map(|(n, v)| format!("{n} = {v}")).collect();
+                let at = inputs.iter().map(|(name, v)| format!("{name} = {}", Shortest(*v)));
+                let at: Vec<String> = at.collect();
                 if at.is_empty() { Ok(()) } else { write!(f, ", at {}", at.join(", ")) }
             }
             Self::Threads(error) => write!(f, "cannot start threads: {error}"),
@@ -225,6 +241,12 @@ fn evaluate_row(
         outputs: Vec::with_capacity(gums.len()),
         correlations,
         undefined: None,
+        together: joint
+            .together()
+            .iter()
+            .map(|set| Together { variables: set.members.clone(), trials: set.trials() })
+            .collect(),
+        copula_changes: joint.changes.clone(),
     };
     let mut figures: Vec<Option<MonteCarlo>> = vec![None; gums.len()];
     let mut stopped = false;
@@ -307,18 +329,10 @@ fn run(
     finished
 }
 
-/// The variables that a copula draws in some row.
+/// The variables that a copula draws in some row, in order.
 fn drawn_by_copula(joints: &[Arc<Joint>]) -> Vec<usize> {
-    let mut variables: Vec<usize> = Vec::new();
-    for joint in joints {
-        let new = |v: &&usize| variables.binary_search(v).is_err();
-        let added: Vec<usize> = joint.copula.iter().filter(new).copied().collect();
-        if !added.is_empty() {
-            variables.extend(added);
-            variables.sort_unstable();
-        }
-    }
-    variables
+    let all: BTreeSet<usize> = joints.iter().flat_map(|joint| joint.copula.clone()).collect();
+    all.into_iter().collect()
 }
 
 /// For each output, the variables that it depends on.

@@ -1,5 +1,7 @@
 //! The schema and the reader know the same keys; ready files and worked examples are valid.
 
+mod result_file;
+
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 

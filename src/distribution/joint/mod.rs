@@ -3,6 +3,8 @@
 //! - Quantities that declared coefficients link are drawn from joint standard normals: normal ones
 //!   exactly, all others through a Gaussian copula fitted to their coefficients ([`copula`],
 //!   [`profile`]).
+//! - Outputs of one saved result are drawn as they varied in its trials ([`together`]), unless a
+//!   coefficient links one of them to another quantity.
 //! - Paired readings are drawn from a multivariate t distribution ([`paired`]).
 //!
 //! Contradictory coefficients are refused, never changed: only what lies within the rounding of
@@ -16,6 +18,7 @@ pub(crate) mod paired;
 mod profile;
 #[cfg(test)]
 mod tests;
+mod together;
 
 use std::sync::Arc;
 
@@ -24,6 +27,7 @@ pub use error::CorrelationError;
 use error::unit;
 use matrix::Symmetric;
 use profile::{Profile, Table};
+use together::{Together, together};
 
 use super::{Distribution, Rectangular, Stream, StreamKey, StudentT, normal};
 use crate::number::Column;
@@ -78,6 +82,8 @@ pub(crate) type Shared = Result<Arc<Joint>, CorrelationError>;
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Joint {
     groups: Vec<Group>,
+    /// Outputs of saved results.
+    together: Vec<Together>,
     /// Whether some matrix was positive semi-definite only up to the rounding of its coefficients.
     pub(crate) rounded: bool,
     /// The quantities that are drawn through a Gaussian copula, in order. Normal ones that share a
@@ -85,6 +91,8 @@ pub(crate) struct Joint {
     pub(crate) copula: Vec<usize>,
     /// The largest change of a coefficient, within its rounding, that a copula needed.
     pub(crate) adjusted: f64,
+    /// The coefficients that a copula does not give as they are: wanted, and drawn.
+    pub(crate) changes: Vec<(Correlation, f64)>,
 }
 
 impl Joint {
@@ -128,8 +136,18 @@ impl Joint {
                 dof: members.first().map(|&m| distributions[m].drawn_dof()),
             });
         }
-        for members in connected(&active) {
-            joint.add_correlated(&members, distributions, &active, profiles)?;
+        let linked = connected(&active);
+        joint.together = together(distributions);
+        // a link to another quantity takes all of them out
+        joint.together.retain(|set| {
+            let other = |m: &usize| !set.members.contains(m);
+            !linked.iter().any(|ms| ms.iter().any(|m| !other(m)) && ms.iter().any(other))
+        });
+        for members in linked {
+            let inside = |set: &Together| members.iter().all(|m| set.members.contains(m));
+            if !joint.together.iter().any(inside) {
+                joint.add_correlated(&members, distributions, &active, profiles)?;
+            }
         }
         joint.copula.sort_unstable();
         Ok(joint)
@@ -239,6 +257,8 @@ impl Joint {
                 let change = (coefficient - nearest).abs();
                 if change <= 0.5 * unit(decimals) {
                     self.adjusted = self.adjusted.max(change);
+                    let (first, second) = (members[i], members[j]);
+                    self.changes.push((Correlation { first, second, coefficient }, nearest));
                     found = pair.fit(nearest);
                 }
             }
@@ -280,14 +300,27 @@ impl Joint {
             });
         }
         self.adjusted = self.adjusted.max(change);
+        self.changes.retain(|(c, _)| !members.contains(&c.first));
+        self.changes.extend(wanted.pairs().map(|(i, j)| {
+            let (first, second) = (members[i], members[j]);
+            (Correlation { first, second, coefficient: wanted.get(i, j) }, drawn.get(i, j))
+        }));
         Ok(repaired)
+    }
+
+    /// The sets of outputs of saved results that are drawn together.
+    pub(crate) fn together(&self) -> &[Together] {
+        &self.together
     }
 
     /// The same draw with quantities counted among `kept` only (in order); no group has members
     /// outside it.
     pub(crate) fn restricted(mut self, kept: &[usize]) -> Self {
-        for member in self.groups.iter_mut().flat_map(|group| &mut group.members) {
-            member.place = kept.binary_search(&member.place).unwrap_or(member.place);
+        let of_groups = self.groups.iter_mut().flat_map(|group| &mut group.members);
+        let of_groups = of_groups.map(|member| &mut member.place);
+        let of_results = self.together.iter_mut().flat_map(|set| &mut set.members);
+        for place in of_groups.chain(of_results) {
+            *place = kept.binary_search(place).unwrap_or(*place);
         }
         self
     }
@@ -481,6 +514,9 @@ impl<'a> Draws<'a> {
         for member in joint.groups.iter().flat_map(|g| &g.members) {
             in_group[member.place] = true;
         }
+        for &place in joint.together.iter().flat_map(|set| &set.members) {
+            in_group[place] = true;
+        }
         let streams = keys.iter().map(|key| key.block(block)).collect();
         Self { distributions, joint, in_group, streams }
     }
@@ -496,6 +532,11 @@ impl<'a> Draws<'a> {
         for group in &self.joint.groups {
             if group.members.iter().any(|m| used[m.place]) {
                 self.group(group, registers, register);
+            }
+        }
+        for set in &self.joint.together {
+            if set.members.iter().any(|&m| used[m]) {
+                set.draw(self.distributions, &mut self.streams, registers, register);
             }
         }
     }
