@@ -25,6 +25,9 @@ const WORTH_A_NAME: f64 = 0.01;
 /// A rival with less than this probability needs no measurement to be refuted.
 const RIVAL: f64 = 1e-4;
 
+/// Rows of the data that are handed back, at most; of longer records every so many-th.
+const MOST_ROWS: usize = 2000;
+
 /// How a diagnosis is made.
 #[derive(Clone, Copy, Debug)]
 pub struct Options {
@@ -122,6 +125,8 @@ pub fn diagnose(
         .filter(|_| explained)
         .and_then(|rival| next::best(&setup, &posterior, best, rival, &variances, seed));
     progress(0.95);
+    let step = rows.len().div_ceil(MOST_ROWS).max(1);
+    let rows = rows.into_iter().step_by(step).collect();
     let hypotheses = hypotheses(&setup, &posterior, probability);
     let prediction = at.map(|at| prediction(&setup, &discrepancy, &posterior, at));
     let gap = gap(&setup, verdict.kind);

@@ -53,12 +53,27 @@ pub(crate) struct Effort {
 impl Effort {
     pub(crate) const FULL: Self =
         Self { starts: 16, error: 0.005, generations: 240, rounds: 24, effective: 1000.0 };
+    /// Less where every draw costs a pass over much data: there the posterior is narrow and nearly
+    /// normal, so that few draws serve as well.
+    fn for_values(self, values: usize) -> Self {
+        if values <= MANY_VALUES {
+            return self;
+        }
+        Self { starts: 0, generations: 0, rounds: 3, effective: 60.0, error: 0.03 }
+    }
+
     pub(crate) const QUICK: Self =
         Self { starts: 8, error: 0.015, generations: 120, rounds: 12, effective: 400.0 };
 }
 
 /// Hypotheses above this probability are looked at from end to end.
 const LEADING: f64 = 0.01;
+
+/// With more values than this, modes are searched in a part of the data first.
+const MANY_VALUES: usize = 20_000;
+
+/// Values of that part.
+const PART: usize = 2000;
 
 /// Seeds for a pair: the modes of its parts beside each other.
 fn seeds(setup: &Setup<'_>, effects: &[usize], singles: &[Hypothesis]) -> Vec<Vec<f64>> {
@@ -101,6 +116,8 @@ pub(crate) fn posterior(
     progress: &(dyn Fn(f64) + Sync),
 ) -> Posterior {
     let count = setup.case.candidates.len();
+    let effort = effort.for_values(setup.data.len());
+    let part = (setup.data.len() > MANY_VALUES).then(|| setup.thinned(PART));
     let prior = setup.case.prior;
     let mut wanted: Vec<Vec<usize>> = vec![Vec::new()];
     wanted.extend((0..count).map(|effect| vec![effect]));
@@ -109,7 +126,11 @@ pub(crate) fn posterior(
         let name: Vec<&str> =
             effects.iter().map(|&e| setup.case.candidates[e].effect.name.as_str()).collect();
         let key = StreamKey::new(seed, &format!("gap/{}", name.join("+")));
-        let seeds = seeds(setup, &effects, singles);
+        let mut seeds = seeds(setup, &effects, singles);
+        if let Some(part) = &part {
+            let found = Evidence::begin(&part.likelihood(&effects), key, &seeds, 16);
+            seeds = found.modes.into_iter().take(3).map(|mode| mode.scores).collect();
+        }
         let starts = effort.starts;
         let evidence = Evidence::begin(&likelihood, key, &seeds, starts);
         let share = |of: f64, count: usize| if count == 0 { 0.0 } else { of / count as f64 };

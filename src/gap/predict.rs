@@ -210,7 +210,8 @@ pub(crate) fn unexplained(
         let roots = coordinates.roots(&form.term, form.length, &form.nodes);
         let there = coordinates.features(&roots, rows.len() * outputs) * form.scale;
         // coefficients: one for each shared input, then those of the discrepancy
-        let m = form.features.ncols();
+        let features = form.features(setup, &discrepancy.axes);
+        let m = features.ncols();
         let order = shared.len() + m;
         let effect = |gradients: &[Vec<f64>], row: &Row, output: usize, v: usize| {
             let deviation = row.distributions[v].standard_deviation();
@@ -228,7 +229,7 @@ pub(crate) fn unexplained(
                 }
                 for j in 0..m {
                     design[(value, shared.len() + j)] =
-                        kind.multiplier * form.features[(value, j)] * weight;
+                        kind.multiplier * features[(value, j)] * weight;
                 }
             }
         }

@@ -116,6 +116,14 @@ impl<'c> Setup<'c> {
         )
     }
 
+    /// About so many values, evenly spread over the rows.
+    pub(crate) fn thinned(&self, values: usize) -> Self {
+        let step = (self.data.len() / values.max(1)).max(1);
+        let ids = self.data.ids.iter().step_by(step).copied().collect();
+        let data = Data::of(self.case, ids);
+        Self::with_data_and_inputs(self.case, data, self.unknown_inputs.clone(), self.noise_roles())
+    }
+
     /// The unknown quantities of the noise.
     pub(crate) fn noise_roles(&self) -> Vec<Role> {
         self.roles.iter().filter(|role| role.is_noise()).cloned().collect()

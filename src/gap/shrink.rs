@@ -343,9 +343,10 @@ fn fold(
             .map(|h| h.evidence.modes.iter().map(|mode| mode.scores.clone()).collect())
             .unwrap_or_default();
         let key = StreamKey::new(seed, "gap/without a block");
-        let mut evidence = Evidence::begin(&likelihood, key, &seeds, 4);
+        let many = part.data.len() > 20_000;
+        let mut evidence = Evidence::begin(&likelihood, key, &seeds, if many { 0 } else { 4 });
         for _ in 0..6 {
-            if evidence.effective > 150.0 {
+            if evidence.effective > 150.0 || many && evidence.effective > 30.0 {
                 break;
             }
             evidence.refine(&likelihood, 2);

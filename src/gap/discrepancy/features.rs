@@ -9,6 +9,9 @@ use crate::task::Case;
 /// Distinct coordinates beyond which the covariance is taken from nodes (Nystroem).
 const MOST_COORDINATES: usize = 160;
 
+/// So many nodes where there are more coordinates: a third of the shortest length apart.
+const NODES: usize = 64;
+
 /// Eigenvalues below this share of the largest are left out.
 const LEAST_EIGENVALUE: f64 = 1e-9;
 
@@ -197,9 +200,7 @@ impl Nodes {
                     .find(|o| o.is_ne())
                     .unwrap_or(std::cmp::Ordering::Equal)
             });
-            (0..MOST_COORDINATES)
-                .map(|k| sorted[k * (sorted.len() - 1) / (MOST_COORDINATES - 1)].clone())
-                .collect()
+            (0..NODES).map(|k| sorted[k * (sorted.len() - 1) / (NODES - 1)].clone()).collect()
         };
         let matrix = DMatrix::from_fn(places.len(), places.len(), |i, j| {
             covariance(term, length, &places[i], &places[j])

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
-use super::{AMPLITUDES, Discrepancy, Form, Unexplained, Weighted, weigh};
+use super::{AMPLITUDES, Discrepancy, Unexplained, Weighted, weigh};
 use crate::gap::covariance::triangle;
 use crate::gap::latent::{EDGE, Role, ln_prior};
 use crate::gap::likelihood::{HALF_LN_TWO_PI, root_in_place};
@@ -33,7 +33,8 @@ pub(crate) fn evidence(
         .par_iter()
         .enumerate()
         .map(|(place, form)| {
-            let problem = Problem::new(setup, form, &noise, residuals);
+            let features = form.features(setup, &discrepancy.axes);
+            let problem = Problem::new(setup, &features, &noise, residuals);
             let mut scores = vec![0.0; noise.len()];
             let mut parts = Vec::with_capacity(STEPS);
             // from the largest amplitude on, where the noise is least
@@ -69,13 +70,13 @@ struct Problem<'p> {
 impl<'p> Problem<'p> {
     fn new(
         setup: &'p Setup<'p>,
-        form: &'p Form,
+        features: &'p DMatrix<f64>,
         noise: &'p [&'p Role],
         residuals: &'p [f64],
     ) -> Self {
-        let own: Vec<f64> = form.features.row_iter().map(|row| row.norm_squared()).collect();
+        let own: Vec<f64> = features.row_iter().map(|row| row.norm_squared()).collect();
         let touched = own.iter().filter(|own| **own > 0.0).count();
-        Self { setup, noise, residuals, features: &form.features, own, touched }
+        Self { setup, noise, residuals, features, own, touched }
     }
 
     /// Variance of the noise by value.

@@ -16,6 +16,7 @@ pub(crate) use grammar::{Of, Term};
 use std::sync::Arc;
 
 use nalgebra::DVector;
+use rayon::prelude::*;
 
 use super::evidence::ln_add;
 use super::likelihood::HALF_LN_TWO_PI;
@@ -151,14 +152,14 @@ impl Discrepancy {
         let whitened = setup.linear.whiten_blocks(residuals);
         let base = ln_normal(setup, &whitened);
         let whitened = DVector::from_column_slice(&whitened);
-        let mut parts: Vec<(f64, Weighted)> = Vec::new();
         let ln_amplitude = -(AMPLITUDE_STEPS as f64).ln();
-        for (place, form) in self.forms.iter().enumerate() {
-            let scores = &form.projector * &whitened;
+        let of_form = |(place, form): (usize, &Form)| {
+            let (eigenvalues, scores) = form.scores(setup, &self.axes, &whitened);
+            let mut parts: Vec<(f64, Weighted)> = Vec::with_capacity(AMPLITUDE_STEPS);
             for amplitude in amplitudes() {
                 let a = amplitude * amplitude;
                 let mut ln = base + form.ln_weight + ln_amplitude;
-                for (eigenvalue, score) in form.eigenvalues.iter().zip(scores.iter()) {
+                for (eigenvalue, score) in eigenvalues.iter().zip(scores.iter()) {
                     let growth = 1.0 + a * eigenvalue;
                     ln += 0.5 * (a * score * score / growth - growth.ln());
                 }
@@ -171,8 +172,10 @@ impl Discrepancy {
                 };
                 parts.push((ln, kind));
             }
-        }
-        weigh(parts)
+            parts
+        };
+        let parts: Vec<_> = self.forms.par_iter().enumerate().map(of_form).collect();
+        weigh(parts.into_iter().flatten().collect())
     }
 }
 
