@@ -1,6 +1,9 @@
 //! The candidate effects of a case and their prior probabilities.
 
+use std::ops::Range;
+
 use super::conditions::NoConditions;
+use super::inputs::Inputs;
 use super::json::{Json, Member};
 use super::model_file::report_formula;
 use super::nearest;
@@ -9,11 +12,18 @@ use super::problem::Log;
 use super::results::Results;
 use super::{Fault, inputs};
 use crate::model::formula::{self, Formula, FormulaError};
-use crate::model::{Effect, Sim};
+use crate::model::{Circular, Effect, Sim};
 use crate::task::{Candidate, Prior, Warning};
 
 /// At most so many effects: their pairs are tried as well.
 const MOST_EFFECTS: usize = 200;
+
+/// A candidate, and where the file names it.
+#[derive(Clone, Debug)]
+pub(super) struct Placed {
+    pub(super) candidate: Candidate,
+    pub(super) place: Range<usize>,
+}
 
 /// Reads `effects` for a sim.
 pub(super) fn read(
@@ -22,17 +32,66 @@ pub(super) fn read(
     sim: &Sim,
     results: &Results<'_>,
     warnings: &mut Vec<Warning>,
-) -> Option<Vec<Candidate>> {
+) -> Option<Vec<Placed>> {
     let object = Object::new(log, "`effects`", &member.value, &member.key_span)?;
-    let found = object.members().len();
-    if found > MOST_EFFECTS {
-        object.report(Fault::TooMany { what: "effects", found, most: MOST_EFFECTS });
-        return None;
-    }
-    let mut reader = Reader { log, sim, results, warnings };
-    let read: Vec<Option<Candidate>> =
-        object.members().iter().map(|member| reader.effect(member)).collect();
+    let read: Vec<Option<Placed>> = object
+        .members()
+        .iter()
+        .take(MOST_EFFECTS + 1)
+        .map(|member| read_one(log, member, sim, results, warnings))
+        .collect();
     read.into_iter().collect()
+}
+
+/// Reads one effect for a sim.
+pub(super) fn read_one(
+    log: &Log,
+    member: &Member,
+    sim: &Sim,
+    results: &Results<'_>,
+    warnings: &mut Vec<Warning>,
+) -> Option<Placed> {
+    let candidate = Reader { log, sim, results, warnings }.effect(member)?;
+    Some(Placed { candidate, place: member.key_span.clone() })
+}
+
+/// What the effects have in common: not too many, and no pair that needs each other.
+pub(super) fn check_together(log: &Log, placed: &[Placed], sim: &Sim) {
+    if let Some(excess) = placed.get(MOST_EFFECTS) {
+        let found = placed.len();
+        log.report(&excess.place, Fault::TooMany { what: "effects", found, most: MOST_EFFECTS });
+        return;
+    }
+    // only overrides of what outputs are computed from can need each other
+    let inner: Vec<&Placed> = placed
+        .iter()
+        .filter(|placed| {
+            let overrides = placed.candidate.effect.overrides.iter();
+            overrides.clone().any(|(name, formula)| {
+                !sim.is_output(name) && formula.names().any(|(used, _)| used != name)
+            })
+        })
+        .collect();
+    for (number, second) in inner.iter().enumerate() {
+        for first in inner.iter().take(number) {
+            let (one, other) = (&first.candidate.effect, &second.candidate.effect);
+            if let Err(circular) = sim.program(&[one, other]) {
+                let reason = format!(
+                    "and the effect `{}` together override quantities that need each other: {}",
+                    one.name,
+                    in_a_circle(&circular)
+                );
+                let fault = Fault::Effect { name: other.name.clone(), reason };
+                log.report(&second.place, fault);
+            }
+        }
+    }
+}
+
+/// "`a` needs `b` needs `a`"
+fn in_a_circle(circular: &Circular) -> String {
+    let names = circular.names.iter().chain(circular.names.first());
+    names.map(|name| format!("`{name}`")).collect::<Vec<_>>().join(" needs ")
 }
 
 struct Reader<'a> {
@@ -69,18 +128,7 @@ impl Reader<'_> {
             overrides.report(fault("overrides nothing"));
         }
         let inputs = inputs?;
-        for (quantity, place) in inputs.quantities.iter().zip(&inputs.quantity_places) {
-            let name = &quantity.quantity.name;
-            if quantity.parts != 1 {
-                self.log.report(
-                    place,
-                    fault("has a parameter with components; give it one distribution"),
-                );
-            } else if let Err(error) = formula::check_name(name) {
-                let (name, reason) = (name.to_owned(), error.to_string());
-                self.log.report(place, Fault::BadName { name, reason });
-            }
-        }
+        self.parameters(parameters, &inputs, fault);
         let mut effect = Effect {
             name: member.key.clone(),
             parameters: inputs.quantities.iter().map(|input| input.quantity.clone()).collect(),
@@ -114,10 +162,8 @@ impl Reader<'_> {
             }
         }
         if let Err(circular) = self.sim.program(&[&effect]) {
-            let reason = format!(
-                "overrides quantities that need each other: {}",
-                circular.names.join(" needs ")
-            );
+            let reason =
+                format!("overrides quantities that need each other: {}", in_a_circle(&circular));
             let fault = Fault::Effect { name: effect.name.clone(), reason };
             self.log.report(overrides.place(), fault);
         }
@@ -128,6 +174,44 @@ impl Reader<'_> {
             about: object.text("about").unwrap_or("").to_owned(),
             source: object.text("source").unwrap_or("").to_owned(),
         })
+    }
+
+    /// What parameters must be beyond inputs: one unknown value each, and not all of them known.
+    fn parameters(&self, written: Option<&Member>, inputs: &Inputs, fault: impl Fn(&str) -> Fault) {
+        for (quantity, place) in inputs.quantities.iter().zip(&inputs.quantity_places) {
+            let name = &quantity.quantity.name;
+            if quantity.parts != 1 {
+                let reason = "has a parameter with components; give it one distribution";
+                self.log.report(place, fault(reason));
+            } else if let Err(error) = formula::check_name(name) {
+                let (name, reason) = (name.to_owned(), error.to_string());
+                self.log.report(place, Fault::BadName { name, reason });
+            }
+        }
+        let written: &[Member] = match written.map(|member| &member.value.value) {
+            Some(Json::Object(members)) => members,
+            _ => &[],
+        };
+        for parameter in written {
+            let Json::Object(fields) = &parameter.value.value else { continue };
+            for field in fields {
+                if ["per", "type", "group", "evidence", "paired"].contains(&field.key.as_str()) {
+                    let reason = format!(
+                        "has a parameter with the key `{}`; a parameter is one unknown value for \
+                         all rows, and has `unit`, `about` and a distribution",
+                        field.key
+                    );
+                    self.log.report(&field.key_span, fault(&reason));
+                }
+            }
+        }
+        let priors = inputs.rows.first().map_or(&[][..], Vec::as_slice);
+        let known = !priors.is_empty() && priors.iter().all(|prior| prior.constant().is_some());
+        if let (true, Some(place)) = (known, inputs.quantity_places.first()) {
+            let reason = "has only constant parameters; its size must be a quantity with a prior \
+                          distribution, or the data could not tell how large it is";
+            self.log.report(place, fault(reason));
+        }
     }
 
     /// An override's formula: its names must be known; a dimension that does not fit is a warning.

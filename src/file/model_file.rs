@@ -142,7 +142,7 @@ pub fn read_text(
     read_with(name, text, folder, (overrides, None), |reader| reader.read())
 }
 
-fn read_with<T>(
+pub(super) fn read_with<T>(
     name: &str,
     text: &str,
     folder: &Path,
@@ -214,7 +214,7 @@ fn override_fields(log: &Log, root: &mut Node, overrides: &[Override]) {
     }
 }
 
-const KEYS: [&str; 20] = [
+const KEYS: [&str; 21] = [
     "format",
     "title",
     "source",
@@ -235,6 +235,7 @@ const KEYS: [&str; 20] = [
     "observations",
     "effects",
     "catalogue",
+    "prior",
 ];
 
 /// What was found in a file.
@@ -245,6 +246,8 @@ pub(super) struct Found {
     pub(super) observed: Vec<Option<Observed>>,
     /// How many of the last conditions are columns of somebody else's simulation.
     pub(super) simulated: usize,
+    /// The table of the data.
+    pub(super) data: Option<Table>,
 }
 
 pub(super) struct ModelReader<'a> {
@@ -273,9 +276,7 @@ impl<'a> ModelReader<'a> {
 
     pub(super) fn found(&self) -> Option<Found> {
         let Self { log, root, .. } = self;
-        let mut keys = KEYS.to_vec();
-        keys.push("prior");
-        root.check_keys(&keys);
+        root.check_keys(&KEYS);
         self.format();
         let title = root.text("title").unwrap_or("").to_owned();
         root.text("source");
@@ -415,7 +416,8 @@ impl<'a> ModelReader<'a> {
             Task { title, model, variables: inputs.variables, correlations, rows, swept, settings };
         let source = log.source.clone();
         let file = ModelFile { task, warnings, source, files, output_places: places };
-        Some(Found { file, sim, observed, simulated: simulated.len() })
+        let data = observations.map(|observations| observations.table);
+        Some(Found { file, sim, observed, simulated: simulated.len(), data })
     }
 
     fn format(&self) {
@@ -441,8 +443,30 @@ impl<'a> ModelReader<'a> {
         let outputs = self.root.get("outputs").map(|member| &member.value);
         for column in &observations.columns {
             let Some(name) = &column.simulated else { continue };
-            if let Some((_, earlier)) = simulated.iter().find(|(_, known)| known == name) {
-                let reason = format!("the column `{name}` already is `{earlier}`'s simulation");
+            let output = &column.output;
+            let reason = if let Some((_, earlier)) =
+                simulated.iter().find(|(_, known)| known == name)
+            {
+                Some(format!("the column `{name}` already is `{earlier}`'s simulation"))
+            } else if conditions.quantities.iter().any(|condition| condition.name == *name) {
+                Some(format!(
+                    "the column `{name}` is a condition already; as a simulation of `{output}` it can \
+                     be read by its name, so take it out of `conditions`"
+                ))
+            } else if self.root.get("model").is_some() {
+                Some(format!(
+                    "`{output}` cannot come both from the typed model and from the column `{name}`; \
+                     take `model` or `sim` out"
+                ))
+            } else if self.has_equation(output) {
+                Some(format!(
+                    "`{output}` cannot come both from its equation and from the column `{name}`; take \
+                     one of them out"
+                ))
+            } else {
+                None
+            };
+            if let Some(reason) = reason {
                 self.log.report(&column.place, Fault::Observation { reason });
                 continue;
             }
@@ -460,6 +484,14 @@ impl<'a> ModelReader<'a> {
             simulated.push((column.output.clone(), name.clone()));
         }
         simulated
+    }
+
+    /// Whether an equation computes the quantity.
+    fn has_equation(&self, name: &str) -> bool {
+        match self.root.get("equations").map(|member| &member.value.value) {
+            Some(Json::Object(members)) => members.iter().any(|member| member.key == name),
+            _ => false,
+        }
     }
 
     /// What was measured of each output of the sim.
