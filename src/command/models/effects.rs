@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::{one_line, plain_table, render, wrapped};
+use super::{one_line, plain_table, render, wrapped, wrapped_to};
 use crate::command::Failure;
 use crate::file::{self, Listing, nearest};
 
@@ -43,7 +43,8 @@ pub(super) fn page(listing: &Listing) -> String {
         }
         let _ = writeln!(text, "{}", render(&parameters));
         for (name, formula) in &effect.overrides {
-            let _ = writeln!(text, "    {name} becomes {formula}");
+            let lines = wrapped_to(&format!("{name} becomes {formula}"), 92);
+            let _ = writeln!(text, "    {}", lines.replace('\n', "\n        "));
         }
         let _ = writeln!(text, "\n{}\n", wrapped(&format!("Source: {}", effect.source)));
     }

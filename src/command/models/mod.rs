@@ -109,11 +109,16 @@ fn one_line(text: &str) -> String {
 
 /// On lines of at most 100 characters.
 fn wrapped(paragraph: &str) -> String {
+    wrapped_to(paragraph, 100)
+}
+
+/// On lines of at most so many characters, unless a word is longer.
+fn wrapped_to(paragraph: &str, longest: usize) -> String {
     let mut text = String::new();
     let mut width = 0;
     for word in one_line(paragraph).split(' ') {
         let length = word.chars().count();
-        if width > 0 && width + 1 + length > 100 {
+        if width > 0 && width + 1 + length > longest {
             text.push('\n');
             width = 0;
         } else if width > 0 {

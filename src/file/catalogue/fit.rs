@@ -41,34 +41,33 @@ impl Misfit {
             self.overrides.iter().map(|name| kind_in_words(name).unwrap_or(called(name))).collect();
         let overrides = overrides.join(", ");
         let mut reason = "of the catalogue does not fit this sim".to_owned();
+        let mut needs = Vec::new();
+        if !self.reads.is_empty() {
+            needs.push(format!("needs {}", all(&self.reads)));
+        }
         if !self.missing.is_empty() {
             reason.push_str(&format!(", which has no {}", all(&self.missing)));
+            needs.push(format!("changes {overrides}"));
         } else if let Some(prior) = &self.unsized_prior {
             reason.push_str(&format!(": its prior is {prior}, which the data do not give"));
         } else {
-            reason.push_str(", which has none of the quantities that it changes");
+            reason.push_str(&format!(", which has none of what it changes: {overrides}"));
         }
-        let condition = self
-            .overrides
-            .iter()
-            .flat_map(|name| shipped.alternatives(name))
-            .find(|name| sim.conditions.iter().any(|condition| condition.name == *name));
-        if let Some(condition) = condition.filter(|_| !self.acts) {
+        let conditions = &sim.conditions;
+        let known = |name: &&str| conditions.iter().any(|condition| condition.name == *name);
+        let targets = self.overrides.iter().flat_map(|name| shipped.alternatives(name));
+        if let Some(condition) = targets.into_iter().find(known).filter(|_| !self.acts) {
             reason.push_str(&format!(
                 "; the condition `{condition}` is set and known: make it a quantity that is \
                  computed from the condition, or an input whose mean is the condition"
             ));
         }
-        let bench = match self.bench.as_str() {
-            ANY_BENCH => "on any bench".to_owned(),
-            bench => format!("on the bench `{bench}`"),
-        };
-        match self.reads.is_empty() {
-            true => reason.push_str(&format!("; {bench} it changes {overrides}")),
-            false => {
-                let reads = all(&self.reads);
-                reason.push_str(&format!("; {bench} it needs {reads} and changes {overrides}"));
-            }
+        if !needs.is_empty() {
+            let bench = match self.bench.as_str() {
+                ANY_BENCH => "it".to_owned(),
+                bench => format!("on the bench `{bench}` it"),
+            };
+            reason.push_str(&format!("; {bench} {}", needs.join(" and ")));
         }
         reason
     }

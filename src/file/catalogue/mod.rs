@@ -137,11 +137,12 @@ pub fn catalogue() -> Listing {
     Listing::of(&Catalogue::shipped())
 }
 
-/// Adds the effects that a case asks for after its own.
+/// Adds the effects that a case asks for after its own. Without a sim, because the model has mistakes,
+/// only their names are checked.
 pub(super) fn read(
     log: &Log,
     root: &Object<'_>,
-    sim: &Read<'_>,
+    sim: Option<Read<'_>>,
     results: &Results<'_>,
     own: &mut Vec<Placed>,
     warnings: &mut Vec<Warning>,
@@ -170,7 +171,7 @@ pub(super) fn read(
                           the own effect another name, or take one of them out";
             log.report(&node.span, fault(reason.to_owned()));
             clean = false;
-        } else {
+        } else if let Some(sim) = &sim {
             match one(&shipped, name, sim, results, warnings) {
                 Ok(candidate) => own.push(Placed { candidate, place: node.span.clone() }),
                 Err(reason) => {
@@ -193,7 +194,7 @@ fn one(
 ) -> Result<crate::task::Candidate, String> {
     let member = chosen(shipped, name, sim).map_err(|misfit| misfit.reason(shipped, sim.sim))?;
     let log = Log::new(shipped.source.clone());
-    let read = effects::read_one(&log, &member, sim.sim, results, warnings);
+    let read = effects::read_one(&log, &member, Some(sim.sim), results, warnings);
     match read.filter(|_| log.is_clean()) {
         Some(placed) => Ok(placed.candidate),
         None => {

@@ -495,7 +495,9 @@ fn an_effect_that_does_not_fit_says_what_it_needs() {
         Ok(_) => panic!("{name} was taken"),
     };
     let text = says(&CHAIN, "lateral-mode");
-    for needed in ["`lateral-mode`", "changes `a_x`, `a_y`, `a_z`", "`alpha` or `tilt`", "`f`"] {
+    for needed in
+        ["`lateral-mode`", "what it changes: `a_x`, `a_y`, `a_z`", "`alpha` or `tilt`", "`f`"]
+    {
         assert!(text.contains(needed), "{text}");
     }
     let text = says(&TABLE, "time-delay");
