@@ -8,7 +8,7 @@ use super::model_file::{Found, ModelReader, read_file, read_with};
 use super::problem::Problems;
 use super::results::Results;
 use super::source::Source;
-use super::{Fault, catalogue, soundness};
+use super::{Fault, catalogue, prior, soundness};
 use crate::model::Sim;
 use crate::task::{Case, Observed, Row, Task, Warning};
 
@@ -79,6 +79,12 @@ pub(super) struct Read<'a> {
     pub(super) observed: &'a [Option<Observed>],
 }
 
+impl Found {
+    fn for_effects(&self) -> Read<'_> {
+        Read { sim: &self.sim, task: &self.file.task, observed: &self.observed }
+    }
+}
+
 impl ModelReader<'_> {
     fn checked(&self) -> Option<()> {
         if KEYS.iter().any(|key| self.root.get(key).is_some()) {
@@ -91,28 +97,31 @@ impl ModelReader<'_> {
     /// The case, unless the file has mistakes.
     fn case(&self) -> Option<CaseFile> {
         let found = self.found();
-        let prior = effects::prior(&self.root);
+        let prior = prior::read(&self.root);
         if self.root.get("observations").is_none() {
             let what = "a case of the gap diagnosis";
             self.root.report(Fault::MissingKey { key: "observations", what });
         }
-        let Found { file, sim, observed, simulated, data } = found?;
-        let mut warnings = file.warnings;
         let results = Results::new(self.folder);
+        let mut warnings = Vec::new();
+        let sim = found.as_ref().map(|found| &found.sim);
         let own = match self.root.get("effects") {
-            Some(member) => effects::read(self.log, member, &sim, &results, &mut warnings),
+            Some(member) => effects::read(self.log, member, sim, &results, &mut warnings),
             None => Some(Vec::new()),
         };
         let complete = own.is_some();
         let mut placed = own.unwrap_or_default();
-        let read = Read { sim: &sim, task: &file.task, observed: &observed };
+        let read = found.as_ref().map(Found::for_effects);
         let shipped =
-            catalogue::read(self.log, &self.root, &read, &results, &mut placed, &mut warnings);
-        effects::check_together(self.log, &placed, &sim);
-        if let Some(data) = &data {
+            catalogue::read(self.log, &self.root, read, &results, &mut placed, &mut warnings);
+        let read = read?;
+        effects::check_together(self.log, &placed, read.sim);
+        if let Some(data) = found.as_ref().and_then(|found| found.data.as_ref()) {
             soundness::check(self.log, &read, &placed, data);
         }
         shipped.filter(|()| complete)?;
+        let Found { file, sim, observed, simulated, .. } = found?;
+        warnings.splice(0..0, file.warnings);
         let candidates = placed.into_iter().map(|placed| placed.candidate).collect();
         let case = Case { task: file.task, sim, observed, simulated, candidates, prior: prior? };
         Some(CaseFile { case, warnings, source: file.source, files: file.files })

@@ -1,4 +1,4 @@
-//! The candidate effects of a case and their prior probabilities.
+//! The candidate effects of a case.
 
 use std::ops::Range;
 
@@ -13,7 +13,7 @@ use super::results::Results;
 use super::{Fault, inputs};
 use crate::model::formula::{self, Formula, FormulaError};
 use crate::model::{Circular, Effect, Sim};
-use crate::task::{Candidate, Prior, Warning};
+use crate::task::{Candidate, Warning};
 
 /// At most so many effects: their pairs are tried as well.
 const MOST_EFFECTS: usize = 200;
@@ -25,11 +25,12 @@ pub(super) struct Placed {
     pub(super) place: Range<usize>,
 }
 
-/// Reads `effects` for a sim.
+/// Reads `effects` for a sim. Without one, because the model has mistakes, what does not depend on it
+/// is checked, and nothing is given.
 pub(super) fn read(
     log: &Log,
     member: &Member,
-    sim: &Sim,
+    sim: Option<&Sim>,
     results: &Results<'_>,
     warnings: &mut Vec<Warning>,
 ) -> Option<Vec<Placed>> {
@@ -43,11 +44,11 @@ pub(super) fn read(
     read.into_iter().collect()
 }
 
-/// Reads one effect for a sim.
+/// Reads one effect for a sim, as [`read`] does.
 pub(super) fn read_one(
     log: &Log,
     member: &Member,
-    sim: &Sim,
+    sim: Option<&Sim>,
     results: &Results<'_>,
     warnings: &mut Vec<Warning>,
 ) -> Option<Placed> {
@@ -62,13 +63,15 @@ pub(super) fn check_together(log: &Log, placed: &[Placed], sim: &Sim) {
         log.report(&excess.place, Fault::TooMany { what: "effects", found, most: MOST_EFFECTS });
         return;
     }
-    // only overrides of what outputs are computed from can need each other
+    // only overrides that act before the outputs, and read other quantities, can need each other
     let inner: Vec<&Placed> = placed
         .iter()
         .filter(|placed| {
-            let overrides = placed.candidate.effect.overrides.iter();
-            overrides.clone().any(|(name, formula)| {
-                !sim.is_output(name) && formula.names().any(|(used, _)| used != name)
+            let effect = &placed.candidate.effect;
+            effect.overrides.iter().any(|(name, formula)| {
+                let own =
+                    |used: &str| used == name || effect.parameters.iter().any(|p| p.name == used);
+                !sim.is_output(name) && formula.names().any(|(used, _)| !own(used))
             })
         })
         .collect();
@@ -96,7 +99,7 @@ fn in_a_circle(circular: &Circular) -> String {
 
 struct Reader<'a> {
     log: &'a Log,
-    sim: &'a Sim,
+    sim: Option<&'a Sim>,
     results: &'a Results<'a>,
     warnings: &'a mut Vec<Warning>,
 }
@@ -108,7 +111,7 @@ impl Reader<'_> {
         let fault =
             |reason: &str| Fault::Effect { name: member.key.clone(), reason: reason.to_owned() };
         if member.key.is_empty() || member.key.contains(['/', '+']) {
-            let reason = "is no name for an effect: `/` and `+` join names in the answer";
+            let reason = "cannot be called so: a name is not empty, and `/` and `+` join names in the answer";
             self.log.report(&member.key_span, fault(reason));
         }
         let parameters = object.required("parameters");
@@ -134,34 +137,14 @@ impl Reader<'_> {
             parameters: inputs.quantities.iter().map(|input| input.quantity.clone()).collect(),
             overrides: Vec::new(),
         };
-        let known = self.sim.overridable();
         for member in overrides.members() {
-            let name = &member.key;
-            if !known.contains(&name.as_str()) {
-                let near = nearest(name, known.iter().copied());
-                let reason = if self.sim.conditions.iter().any(|c| c.name == *name) {
-                    format!(
-                        "overrides the condition `{name}`, which is set and known; override a \
-                             quantity that is computed from it"
-                    )
-                } else {
-                    format!(
-                        "overrides `{name}`, which the sim does not have{}",
-                        match near {
-                            Some(near) => format!("; did you mean `{near}`?"),
-                            None => format!("; it has {}", known.join(", ")),
-                        }
-                    )
-                };
-                let fault = Fault::Effect { name: effect.name.clone(), reason };
-                self.log.report(&member.key_span, fault);
-                continue;
-            }
-            if let Some(formula) = self.formula(member, &effect) {
-                effect.overrides.push((name.clone(), formula));
+            if self.can_override(&effect, member)
+                && let Some(formula) = self.formula(member, &effect)
+            {
+                effect.overrides.push((member.key.clone(), formula));
             }
         }
-        if let Err(circular) = self.sim.program(&[&effect]) {
+        if let Err(circular) = self.sim?.program(&[&effect]) {
             let reason =
                 format!("overrides quantities that need each other: {}", in_a_circle(&circular));
             let fault = Fault::Effect { name: effect.name.clone(), reason };
@@ -214,6 +197,30 @@ impl Reader<'_> {
         }
     }
 
+    /// Whether the sim has the quantity of an override, and it is none that is known.
+    fn can_override(&self, effect: &Effect, member: &Member) -> bool {
+        let Some(sim) = self.sim else { return true };
+        let (name, known) = (&member.key, sim.overridable());
+        if known.contains(&name.as_str()) {
+            return true;
+        }
+        let reason = if sim.conditions.iter().any(|condition| condition.name == *name) {
+            format!(
+                "overrides the condition `{name}`, which is set and known; override a quantity that \
+                 is computed from it"
+            )
+        } else {
+            let hint = match nearest(name, known.iter().copied()) {
+                Some(near) => format!("; did you mean `{near}`?"),
+                None => format!("; it has {}", known.join(", ")),
+            };
+            format!("overrides `{name}`, which the sim does not have{hint}")
+        };
+        let fault = Fault::Effect { name: effect.name.clone(), reason };
+        self.log.report(&member.key_span, fault);
+        false
+    }
+
     /// An override's formula: its names must be known; a dimension that does not fit is a warning.
     fn formula(&mut self, member: &Member, effect: &Effect) -> Option<Formula> {
         let Json::Text(text) = &member.value.value else {
@@ -227,12 +234,13 @@ impl Reader<'_> {
         };
         let report = |error: FormulaError| report_formula(self.log, member, error);
         let formula = Formula::parse(text).map_err(report).ok()?;
-        let scope = effect.scope(&self.sim.scope);
+        let sim = self.sim?;
+        let scope = effect.scope(&sim.scope);
         if let Err(errors) = formula.check_names(&scope) {
             errors.into_iter().for_each(report);
             return None;
         }
-        let own = self.sim.scope.get(&member.key).and_then(|typing| typing.dimension);
+        let own = sim.scope.get(&member.key).and_then(|typing| typing.dimension);
         let misfit = match formula.check(&scope) {
             Err(errors) => errors.first().map(ToString::to_string),
             Ok(typing) => match (typing.dimension, own) {
@@ -251,53 +259,4 @@ impl Reader<'_> {
         }
         Some(formula)
     }
-}
-
-/// Reads `prior`: shares of probability that are scaled to sum to one.
-pub(super) fn prior(root: &Object<'_>) -> Option<Prior> {
-    let Some(member) = root.get("prior") else {
-        return Some(Prior::DEFAULT);
-    };
-    let object = Object::new(root.log, "`prior`", &member.value, &member.key_span)?;
-    object.check_keys(&["none", "one", "two", "three", "unexplained"]);
-    let mut clean = true;
-    let mut share = |key: &str, default: f64| {
-        let Some(value) = object.number(key) else {
-            clean &= object.get(key).is_none();
-            return default;
-        };
-        if !(0.0..=1.0).contains(&value) {
-            let place = object.get(key).map_or(object.place(), |member| &member.value.span);
-            root.log.report(place, Fault::NotProbability { key: key.to_owned(), found: value });
-            clean = false;
-        }
-        value
-    };
-    let default = Prior::DEFAULT;
-    let mut prior = Prior {
-        none: share("none", default.none),
-        one: share("one", default.one),
-        two: share("two", default.two),
-        three: share("three", default.three),
-        unexplained: share("unexplained", default.unexplained),
-    };
-    if !clean {
-        return None;
-    }
-    let sum = prior.none + prior.one + prior.two + prior.three + prior.unexplained;
-    if !(0.999..=1.001).contains(&sum) {
-        let reason = format!(
-            "the prior probabilities of none, one, two, three and unexplained sum to {sum}, but must \
-             sum to 1; those that are not given are {}, {}, {}, {} and {}",
-            default.none, default.one, default.two, default.three, default.unexplained
-        );
-        root.log.report(&member.value.span, Fault::Prior { reason });
-        return None;
-    }
-    for share in
-        [&mut prior.none, &mut prior.one, &mut prior.two, &mut prior.three, &mut prior.unexplained]
-    {
-        *share /= sum;
-    }
-    Some(prior)
 }

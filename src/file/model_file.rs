@@ -312,9 +312,11 @@ impl<'a> ModelReader<'a> {
         let maker = self.maker(&simulated);
         let results = Results::new(self.folder);
         let set = ConditionSet { conditions: &conditions, check_units };
-        let inputs = match root.required("inputs") {
+        let inputs = match root.get("inputs") {
             Some(member) => inputs::read(log, member, &set, self.overrides, &results),
-            None => None,
+            // somebody else's simulation needs none
+            None if self.names_simulation() => Some(Inputs::none(conditions.rows.len())),
+            None => root.required("inputs").and(None),
         };
         let outputs = root.required("outputs").and_then(|member| outputs::read(log, member));
         let (inputs, outputs) = (inputs?, outputs.unwrap_or_default());
@@ -432,68 +434,6 @@ impl<'a> ModelReader<'a> {
         }
     }
 
-    /// Columns of somebody else's simulation: each becomes a condition, and the output is that.
-    fn simulated(
-        &self,
-        observations: &Observations,
-        table: &Table,
-        conditions: &mut Conditions,
-    ) -> Vec<(String, String)> {
-        let mut simulated: Vec<(String, String)> = Vec::new();
-        let outputs = self.root.get("outputs").map(|member| &member.value);
-        for column in &observations.columns {
-            let Some(name) = &column.simulated else { continue };
-            let output = &column.output;
-            let reason = if let Some((_, earlier)) =
-                simulated.iter().find(|(_, known)| known == name)
-            {
-                Some(format!("the column `{name}` already is `{earlier}`'s simulation"))
-            } else if conditions.quantities.iter().any(|condition| condition.name == *name) {
-                Some(format!(
-                    "the column `{name}` is a condition already; as a simulation of `{output}` it can \
-                     be read by its name, so take it out of `conditions`"
-                ))
-            } else if self.root.get("model").is_some() {
-                Some(format!(
-                    "`{output}` cannot come both from the typed model and from the column `{name}`; \
-                     take `model` or `sim` out"
-                ))
-            } else if self.has_equation(output) {
-                Some(format!(
-                    "`{output}` cannot come both from its equation and from the column `{name}`; take \
-                     one of them out"
-                ))
-            } else {
-                None
-            };
-            if let Some(reason) = reason {
-                self.log.report(&column.place, Fault::Observation { reason });
-                continue;
-            }
-            let unit = match outputs.map(|node| &node.value) {
-                Some(Json::Object(members)) => members
-                    .iter()
-                    .find(|member| member.key == column.output)
-                    .and_then(|member| {
-                        Object::new(self.log, "an output", &member.value, &member.key_span)
-                    })
-                    .and_then(|object| object.text("unit").and_then(|unit| Unit::parse(unit).ok())),
-                _ => None,
-            };
-            conditions.add_column(table, name, unit.unwrap_or_else(Unit::one), &column.place);
-            simulated.push((column.output.clone(), name.clone()));
-        }
-        simulated
-    }
-
-    /// Whether an equation computes the quantity.
-    fn has_equation(&self, name: &str) -> bool {
-        match self.root.get("equations").map(|member| &member.value.value) {
-            Some(Json::Object(members)) => members.iter().any(|member| member.key == name),
-            _ => false,
-        }
-    }
-
     /// What was measured of each output of the sim.
     fn observed(
         &self,
@@ -567,7 +507,9 @@ impl<'a> ModelReader<'a> {
                 Some(Maker::Equations(of_columns(simulated).collect()))
             }
             (None, None) => {
-                self.root.report(Fault::NoModel);
+                if !self.names_simulation() {
+                    self.root.report(Fault::NoModel);
+                }
                 None
             }
         }
