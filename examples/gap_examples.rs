@@ -213,7 +213,7 @@ fn signal(seed: u64) -> String {
 }
 
 /// The tables: path in `models/gap` and content.
-pub fn tables() -> Vec<(&'static str, String)> {
+pub(crate) fn tables() -> Vec<(&'static str, String)> {
     let low = [5.0, 10.0, 20.0, 40.0, 60.0, 70.0, 80.0, 90.0, 100.0, 125.0, 160.0, 315.0, 1000.0];
     let high = [5.0, 20.0, 80.0, 315.0, 630.0, 1000.0, 1600.0, 2000.0, 2500.0, 3000.0];
     let none = Phasor { re: 0.0, im: 0.0 };

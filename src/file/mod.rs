@@ -34,12 +34,12 @@ mod table;
 mod variant;
 mod width;
 
-pub use either::{ModelOrResult, read_either, read_either_text};
 pub use case::{
     CaseFile, check, check_text, read as read_case, read_at as read_case_at,
     read_text as read_case_text,
 };
 pub use catalogue::{Listed, ListedParameter, Listing, catalogue};
+pub use either::{ModelOrResult, read_either, read_either_text};
 pub use fault::Fault;
 pub use model_file::{ModelFile, Override, Overrides, read, read_text};
 pub use nearest::nearest;

@@ -88,7 +88,7 @@ pub(super) fn fit(
     shipped: &Catalogue,
     entry: &Entry,
     sim: &Read<'_>,
-) -> Result<(usize, Member), Misfit> {
+) -> Result<(usize, Member), Box<Misfit>> {
     let parameters = expanded(entry.object("parameters"), sim);
     let own: Vec<&str> = parameters.iter().map(|member| member.key.as_str()).collect();
     let overrides = expanded(entry.object("overrides"), sim);
@@ -124,7 +124,7 @@ pub(super) fn fit(
     }
     if kept.is_empty() || !misfit.missing.is_empty() || misfit.unsized_prior.is_some() {
         misfit.acts = !kept.is_empty();
-        return Err(misfit);
+        return Err(Box::new(misfit));
     }
     let count = kept.len();
     let members = entry.members.iter().map(|member| {

@@ -21,7 +21,7 @@ use super::effects::{self, Placed};
 use super::json::{self, Json, Member, Node};
 use super::object::Object;
 use super::problem::Log;
-use super::result_file::Results;
+use super::results::Results;
 use super::source::Source;
 use super::{Fault, nearest};
 use crate::task::Warning;
@@ -207,9 +207,9 @@ fn one(
 
 /// Of the entries of that name, the one that acts on most quantities of the sim; those of a bench
 /// come before those of any.
-fn chosen(shipped: &Catalogue, name: &str, sim: &Read<'_>) -> Result<Member, Misfit> {
+fn chosen(shipped: &Catalogue, name: &str, sim: &Read<'_>) -> Result<Member, Box<Misfit>> {
     let mut best: Option<(bool, usize, Member)> = None;
-    let mut nearest: Option<Misfit> = None;
+    let mut nearest: Option<Box<Misfit>> = None;
     for entry in shipped.entries.iter().filter(|entry| entry.name == name) {
         let special = entry.bench != ANY_BENCH;
         match fit::fit(shipped, entry, sim) {
