@@ -78,14 +78,17 @@ pub(super) fn read(
     data: Option<&Table>,
 ) -> Option<Conditions> {
     let object = Object::new(log, "`conditions`", &member.value, &member.key_span)?;
-    match object.get("file") {
-        Some(file) if matches!(file.value.value, Json::Text(_)) => {
-            from_table(&object, file, folder)
+    let file = object.get("file").filter(|file| matches!(file.value.value, Json::Text(_)));
+    match (file, data) {
+        (Some(file), Some(_)) => {
+            let reason = "the conditions of observations are columns of their table; in place of \
+                          `file` give the columns by their names, with units";
+            log.report(&file.key_span, Fault::Observation { reason: reason.to_owned() });
+            None
         }
-        _ => match data {
-            Some(data) if is_without_values(&object) => columns_of(&object, data),
-            _ => grid(&object),
-        },
+        (Some(file), None) => from_table(&object, file, folder),
+        (None, Some(data)) => columns_of(&object, data),
+        (None, None) => grid(&object),
     }
 }
 
@@ -103,14 +106,6 @@ fn parse_unit(log: &Log, text: &str, span: &Range<usize>) -> Option<Unit> {
     log.value(span, parsed.map_err(|error| Fault::Unit { unit: text.to_owned(), error }))
 }
 
-/// Whether some condition has no values of its own.
-fn is_without_values(object: &Object<'_>) -> bool {
-    object.members().iter().any(|member| match &member.value.value {
-        Json::Object(members) => !members.iter().any(|member| member.key == "values"),
-        _ => false,
-    })
-}
-
 /// The conditions in the rows of the data.
 fn columns_of(object: &Object<'_>, data: &Table) -> Option<Conditions> {
     let log = object.log;
@@ -122,6 +117,14 @@ fn columns_of(object: &Object<'_>, data: &Table) -> Option<Conditions> {
             continue;
         };
         condition.check_keys(&["unit", "values", "about"]);
+        if let Some(values) = condition.get("values") {
+            let reason = format!(
+                "the condition `{}` has values of its own, but with observations it is the column of \
+                 that name; take `values` out",
+                member.key
+            );
+            log.report(&values.key_span, Fault::Observation { reason });
+        }
         let place = data.columns.iter().position(|column| *column == member.key);
         if place.is_none() {
             let near = super::nearest(&member.key, data.columns.iter().map(String::as_str));

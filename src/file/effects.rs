@@ -1,6 +1,9 @@
-//! The candidate effects of a case and their prior probabilities.
+//! The candidate effects of a case.
+
+use std::ops::Range;
 
 use super::conditions::NoConditions;
+use super::inputs::Inputs;
 use super::json::{Json, Member};
 use super::model_file::report_formula;
 use super::nearest;
@@ -9,35 +12,94 @@ use super::problem::Log;
 use super::results::Results;
 use super::{Fault, inputs};
 use crate::model::formula::{self, Formula, FormulaError};
-use crate::model::{Effect, Sim};
-use crate::task::{Candidate, Prior, Warning};
+use crate::model::{Circular, Effect, Sim};
+use crate::task::{Candidate, Warning};
 
 /// At most so many effects: their pairs are tried as well.
 const MOST_EFFECTS: usize = 200;
 
-/// Reads `effects` for a sim.
+/// A candidate, and where the file names it.
+#[derive(Clone, Debug)]
+pub(super) struct Placed {
+    pub(super) candidate: Candidate,
+    pub(super) place: Range<usize>,
+}
+
+/// Reads `effects` for a sim. Without one, because the model has mistakes, what does not depend on it
+/// is checked, and nothing is given.
 pub(super) fn read(
     log: &Log,
     member: &Member,
-    sim: &Sim,
+    sim: Option<&Sim>,
     results: &Results<'_>,
     warnings: &mut Vec<Warning>,
-) -> Option<Vec<Candidate>> {
+) -> Option<Vec<Placed>> {
     let object = Object::new(log, "`effects`", &member.value, &member.key_span)?;
-    let found = object.members().len();
-    if found > MOST_EFFECTS {
-        object.report(Fault::TooMany { what: "effects", found, most: MOST_EFFECTS });
-        return None;
-    }
-    let mut reader = Reader { log, sim, results, warnings };
-    let read: Vec<Option<Candidate>> =
-        object.members().iter().map(|member| reader.effect(member)).collect();
+    let read: Vec<Option<Placed>> = object
+        .members()
+        .iter()
+        .take(MOST_EFFECTS + 1)
+        .map(|member| read_one(log, member, sim, results, warnings))
+        .collect();
     read.into_iter().collect()
+}
+
+/// Reads one effect for a sim, as [`read`] does.
+pub(super) fn read_one(
+    log: &Log,
+    member: &Member,
+    sim: Option<&Sim>,
+    results: &Results<'_>,
+    warnings: &mut Vec<Warning>,
+) -> Option<Placed> {
+    let candidate = Reader { log, sim, results, warnings }.effect(member)?;
+    Some(Placed { candidate, place: member.key_span.clone() })
+}
+
+/// What the effects have in common: not too many, and no pair that needs each other.
+pub(super) fn check_together(log: &Log, placed: &[Placed], sim: &Sim) {
+    if let Some(excess) = placed.get(MOST_EFFECTS) {
+        let found = placed.len();
+        log.report(&excess.place, Fault::TooMany { what: "effects", found, most: MOST_EFFECTS });
+        return;
+    }
+    // only overrides that act before the outputs, and read other quantities, can need each other
+    let inner: Vec<&Placed> = placed
+        .iter()
+        .filter(|placed| {
+            let effect = &placed.candidate.effect;
+            effect.overrides.iter().any(|(name, formula)| {
+                let own =
+                    |used: &str| used == name || effect.parameters.iter().any(|p| p.name == used);
+                !sim.is_output(name) && formula.names().any(|(used, _)| !own(used))
+            })
+        })
+        .collect();
+    for (number, second) in inner.iter().enumerate() {
+        for first in inner.iter().take(number) {
+            let (one, other) = (&first.candidate.effect, &second.candidate.effect);
+            if let Err(circular) = sim.program(&[one, other]) {
+                let reason = format!(
+                    "and the effect `{}` together override quantities that need each other: {}",
+                    one.name,
+                    in_a_circle(&circular)
+                );
+                let fault = Fault::Effect { name: other.name.clone(), reason };
+                log.report(&second.place, fault);
+            }
+        }
+    }
+}
+
+/// "`a` needs `b` needs `a`"
+fn in_a_circle(circular: &Circular) -> String {
+    let names = circular.names.iter().chain(circular.names.first());
+    names.map(|name| format!("`{name}`")).collect::<Vec<_>>().join(" needs ")
 }
 
 struct Reader<'a> {
     log: &'a Log,
-    sim: &'a Sim,
+    sim: Option<&'a Sim>,
     results: &'a Results<'a>,
     warnings: &'a mut Vec<Warning>,
 }
@@ -49,7 +111,7 @@ impl Reader<'_> {
         let fault =
             |reason: &str| Fault::Effect { name: member.key.clone(), reason: reason.to_owned() };
         if member.key.is_empty() || member.key.contains(['/', '+']) {
-            let reason = "is no name for an effect: `/` and `+` join names in the answer";
+            let reason = "cannot be called so: a name is not empty, and `/` and `+` join names in the answer";
             self.log.report(&member.key_span, fault(reason));
         }
         let parameters = object.required("parameters");
@@ -69,55 +131,22 @@ impl Reader<'_> {
             overrides.report(fault("overrides nothing"));
         }
         let inputs = inputs?;
-        for (quantity, place) in inputs.quantities.iter().zip(&inputs.quantity_places) {
-            let name = &quantity.quantity.name;
-            if quantity.parts != 1 {
-                self.log.report(
-                    place,
-                    fault("has a parameter with components; give it one distribution"),
-                );
-            } else if let Err(error) = formula::check_name(name) {
-                let (name, reason) = (name.to_owned(), error.to_string());
-                self.log.report(place, Fault::BadName { name, reason });
-            }
-        }
+        self.parameters(parameters, &inputs, fault);
         let mut effect = Effect {
             name: member.key.clone(),
             parameters: inputs.quantities.iter().map(|input| input.quantity.clone()).collect(),
             overrides: Vec::new(),
         };
-        let known = self.sim.overridable();
         for member in overrides.members() {
-            let name = &member.key;
-            if !known.contains(&name.as_str()) {
-                let near = nearest(name, known.iter().copied());
-                let reason = if self.sim.conditions.iter().any(|c| c.name == *name) {
-                    format!(
-                        "overrides the condition `{name}`, which is set and known; override a \
-                             quantity that is computed from it"
-                    )
-                } else {
-                    format!(
-                        "overrides `{name}`, which the sim does not have{}",
-                        match near {
-                            Some(near) => format!("; did you mean `{near}`?"),
-                            None => format!("; it has {}", known.join(", ")),
-                        }
-                    )
-                };
-                let fault = Fault::Effect { name: effect.name.clone(), reason };
-                self.log.report(&member.key_span, fault);
-                continue;
-            }
-            if let Some(formula) = self.formula(member, &effect) {
-                effect.overrides.push((name.clone(), formula));
+            if self.can_override(&effect, member)
+                && let Some(formula) = self.formula(member, &effect)
+            {
+                effect.overrides.push((member.key.clone(), formula));
             }
         }
-        if let Err(circular) = self.sim.program(&[&effect]) {
-            let reason = format!(
-                "overrides quantities that need each other: {}",
-                circular.names.join(" needs ")
-            );
+        if let Err(circular) = self.sim?.program(&[&effect]) {
+            let reason =
+                format!("overrides quantities that need each other: {}", in_a_circle(&circular));
             let fault = Fault::Effect { name: effect.name.clone(), reason };
             self.log.report(overrides.place(), fault);
         }
@@ -128,6 +157,68 @@ impl Reader<'_> {
             about: object.text("about").unwrap_or("").to_owned(),
             source: object.text("source").unwrap_or("").to_owned(),
         })
+    }
+
+    /// What parameters must be beyond inputs: one unknown value each, and not all of them known.
+    fn parameters(&self, written: Option<&Member>, inputs: &Inputs, fault: impl Fn(&str) -> Fault) {
+        for (quantity, place) in inputs.quantities.iter().zip(&inputs.quantity_places) {
+            let name = &quantity.quantity.name;
+            if quantity.parts != 1 {
+                let reason = "has a parameter with components; give it one distribution";
+                self.log.report(place, fault(reason));
+            } else if let Err(error) = formula::check_name(name) {
+                let (name, reason) = (name.to_owned(), error.to_string());
+                self.log.report(place, Fault::BadName { name, reason });
+            }
+        }
+        let written: &[Member] = match written.map(|member| &member.value.value) {
+            Some(Json::Object(members)) => members,
+            _ => &[],
+        };
+        for parameter in written {
+            let Json::Object(fields) = &parameter.value.value else { continue };
+            for field in fields {
+                if ["per", "type", "group", "evidence", "paired"].contains(&field.key.as_str()) {
+                    let reason = format!(
+                        "has a parameter with the key `{}`; a parameter is one unknown value for \
+                         all rows, and has `unit`, `about` and a distribution",
+                        field.key
+                    );
+                    self.log.report(&field.key_span, fault(&reason));
+                }
+            }
+        }
+        let priors = inputs.rows.first().map_or(&[][..], Vec::as_slice);
+        let known = !priors.is_empty() && priors.iter().all(|prior| prior.constant().is_some());
+        if let (true, Some(place)) = (known, inputs.quantity_places.first()) {
+            let reason = "has only constant parameters; its size must be a quantity with a prior \
+                          distribution, or the data could not tell how large it is";
+            self.log.report(place, fault(reason));
+        }
+    }
+
+    /// Whether the sim has the quantity of an override, and it is none that is known.
+    fn can_override(&self, effect: &Effect, member: &Member) -> bool {
+        let Some(sim) = self.sim else { return true };
+        let (name, known) = (&member.key, sim.overridable());
+        if known.contains(&name.as_str()) {
+            return true;
+        }
+        let reason = if sim.conditions.iter().any(|condition| condition.name == *name) {
+            format!(
+                "overrides the condition `{name}`, which is set and known; override a quantity that \
+                 is computed from it"
+            )
+        } else {
+            let hint = match nearest(name, known.iter().copied()) {
+                Some(near) => format!("; did you mean `{near}`?"),
+                None => format!("; it has {}", known.join(", ")),
+            };
+            format!("overrides `{name}`, which the sim does not have{hint}")
+        };
+        let fault = Fault::Effect { name: effect.name.clone(), reason };
+        self.log.report(&member.key_span, fault);
+        false
     }
 
     /// An override's formula: its names must be known; a dimension that does not fit is a warning.
@@ -143,12 +234,13 @@ impl Reader<'_> {
         };
         let report = |error: FormulaError| report_formula(self.log, member, error);
         let formula = Formula::parse(text).map_err(report).ok()?;
-        let scope = effect.scope(&self.sim.scope);
+        let sim = self.sim?;
+        let scope = effect.scope(&sim.scope);
         if let Err(errors) = formula.check_names(&scope) {
             errors.into_iter().for_each(report);
             return None;
         }
-        let own = self.sim.scope.get(&member.key).and_then(|typing| typing.dimension);
+        let own = sim.scope.get(&member.key).and_then(|typing| typing.dimension);
         let misfit = match formula.check(&scope) {
             Err(errors) => errors.first().map(ToString::to_string),
             Ok(typing) => match (typing.dimension, own) {
@@ -167,53 +259,4 @@ impl Reader<'_> {
         }
         Some(formula)
     }
-}
-
-/// Reads `prior`: shares of probability that are scaled to sum to one.
-pub(super) fn prior(root: &Object<'_>) -> Option<Prior> {
-    let Some(member) = root.get("prior") else {
-        return Some(Prior::DEFAULT);
-    };
-    let object = Object::new(root.log, "`prior`", &member.value, &member.key_span)?;
-    object.check_keys(&["none", "one", "two", "three", "unexplained"]);
-    let mut clean = true;
-    let mut share = |key: &str, default: f64| {
-        let Some(value) = object.number(key) else {
-            clean &= object.get(key).is_none();
-            return default;
-        };
-        if !(0.0..=1.0).contains(&value) {
-            let place = object.get(key).map_or(object.place(), |member| &member.value.span);
-            root.log.report(place, Fault::NotProbability { key: key.to_owned(), found: value });
-            clean = false;
-        }
-        value
-    };
-    let default = Prior::DEFAULT;
-    let mut prior = Prior {
-        none: share("none", default.none),
-        one: share("one", default.one),
-        two: share("two", default.two),
-        three: share("three", default.three),
-        unexplained: share("unexplained", default.unexplained),
-    };
-    if !clean {
-        return None;
-    }
-    let sum = prior.none + prior.one + prior.two + prior.three + prior.unexplained;
-    if !(0.999..=1.001).contains(&sum) {
-        let reason = format!(
-            "the prior probabilities of none, one, two, three and unexplained sum to {sum}, but must \
-             sum to 1; those that are not given are {}, {}, {}, {} and {}",
-            default.none, default.one, default.two, default.three, default.unexplained
-        );
-        root.log.report(&member.value.span, Fault::Prior { reason });
-        return None;
-    }
-    for share in
-        [&mut prior.none, &mut prior.one, &mut prior.two, &mut prior.three, &mut prior.unexplained]
-    {
-        *share /= sum;
-    }
-    Some(prior)
 }

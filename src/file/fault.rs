@@ -125,6 +125,8 @@ pub enum Fault {
     SeveralRows { rows: usize },
     /// The evaluation met numbers that it cannot go on with.
     Evaluation { message: String },
+    /// The catalogue has no effect of that name.
+    UnknownEffect { name: String, nearest: Option<String> },
     /// An effect that cannot act on the sim.
     Effect { name: String, reason: String },
     /// Observations that say nothing about the sim, or contradict themselves.
@@ -190,6 +192,7 @@ impl Fault {
             Self::SavedCorrelation { .. } => "correlated-results",
             Self::SeveralRows { .. } => "several-rows",
             Self::Evaluation { .. } => "evaluation",
+            Self::UnknownEffect { .. } => "unknown-effect",
             Self::Effect { .. } => "bad-effect",
             Self::Observation { .. } => "bad-observations",
             Self::Prior { .. } => "bad-prior",
@@ -204,6 +207,7 @@ impl Fault {
             | Self::UnknownModel { nearest, .. }
             | Self::UnknownInput { nearest, .. }
             | Self::UnknownOutput { nearest, .. }
+            | Self::UnknownEffect { nearest, .. }
             | Self::NoSuchInput { nearest, .. }
             | Self::NoSuchResult { nearest, .. }
             | Self::UnknownDistribution { nearest, .. } => nearest.clone(),
@@ -380,6 +384,11 @@ impl fmt::Display for Fault {
             ),
             Self::Table { reason } | Self::Observation { reason } | Self::Prior { reason } => {
                 f.write_str(reason)
+            }
+            Self::UnknownEffect { name, nearest } => {
+                let known = "those that `gumption models --effects` lists";
+                let hint = hint(nearest.as_ref(), known);
+                write!(f, "the catalogue has no effect `{name}`{hint}")
             }
             Self::Effect { name, reason } => write!(f, "the effect `{name}` {reason}"),
             Self::Correlation { reason } => f.write_str(reason),

@@ -59,6 +59,13 @@ pub(super) struct Inputs {
     pub(super) paired: Vec<usize>,
 }
 
+impl Inputs {
+    /// No inputs, in so many rows.
+    pub(super) fn none(rows: usize) -> Self {
+        Self { rows: vec![Vec::new(); rows], ..Self::default() }
+    }
+}
+
 /// Where a quantity's estimate comes from.
 enum Source {
     Own,
@@ -80,7 +87,7 @@ pub(super) fn read(
         object.report(Fault::TooMany { what: "inputs", found, most: MOST_VARIABLES });
         return None;
     }
-    let mut inputs = Inputs { rows: vec![Vec::new(); conditions.rows()], ..Inputs::default() };
+    let mut inputs = Inputs::none(conditions.rows());
     for member in object.members() {
         let Some(object) = Object::new(log, "an input", &member.value, &member.key_span) else {
             continue;

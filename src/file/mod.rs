@@ -4,6 +4,7 @@
 //! text that is not JSON stops it.
 
 mod case;
+mod catalogue;
 mod conditions;
 mod correlations;
 mod effects;
@@ -18,6 +19,7 @@ mod object;
 mod observations;
 mod outputs;
 mod paired;
+mod prior;
 mod problem;
 mod result_file;
 mod results;
@@ -25,12 +27,18 @@ mod samples;
 mod settings;
 mod shapes;
 mod sharing;
+mod simulated;
+mod soundness;
 mod source;
 mod table;
 mod variant;
 mod width;
 
-pub use case::{CaseFile, read as read_case, read_at as read_case_at};
+pub use case::{
+    CaseFile, check, check_text, read as read_case, read_at as read_case_at,
+    read_text as read_case_text,
+};
+pub use catalogue::{Listed, ListedParameter, Listing, catalogue};
 pub use either::{ModelOrResult, read_either, read_either_text};
 pub use fault::Fault;
 pub use model_file::{ModelFile, Override, Overrides, read, read_text};

@@ -142,7 +142,7 @@ pub fn read_text(
     read_with(name, text, folder, (overrides, None), |reader| reader.read())
 }
 
-fn read_with<T>(
+pub(super) fn read_with<T>(
     name: &str,
     text: &str,
     folder: &Path,
@@ -214,7 +214,7 @@ fn override_fields(log: &Log, root: &mut Node, overrides: &[Override]) {
     }
 }
 
-const KEYS: [&str; 20] = [
+const KEYS: [&str; 21] = [
     "format",
     "title",
     "source",
@@ -235,6 +235,7 @@ const KEYS: [&str; 20] = [
     "observations",
     "effects",
     "catalogue",
+    "prior",
 ];
 
 /// What was found in a file.
@@ -245,6 +246,8 @@ pub(super) struct Found {
     pub(super) observed: Vec<Option<Observed>>,
     /// How many of the last conditions are columns of somebody else's simulation.
     pub(super) simulated: usize,
+    /// The table of the data.
+    pub(super) data: Option<Table>,
 }
 
 pub(super) struct ModelReader<'a> {
@@ -273,9 +276,7 @@ impl<'a> ModelReader<'a> {
 
     pub(super) fn found(&self) -> Option<Found> {
         let Self { log, root, .. } = self;
-        let mut keys = KEYS.to_vec();
-        keys.push("prior");
-        root.check_keys(&keys);
+        root.check_keys(&KEYS);
         self.format();
         let title = root.text("title").unwrap_or("").to_owned();
         root.text("source");
@@ -311,9 +312,11 @@ impl<'a> ModelReader<'a> {
         let maker = self.maker(&simulated);
         let results = Results::new(self.folder);
         let set = ConditionSet { conditions: &conditions, check_units };
-        let inputs = match root.required("inputs") {
+        let inputs = match root.get("inputs") {
             Some(member) => inputs::read(log, member, &set, self.overrides, &results),
-            None => None,
+            // somebody else's simulation needs none
+            None if self.names_simulation() => Some(Inputs::none(conditions.rows.len())),
+            None => root.required("inputs").and(None),
         };
         let outputs = root.required("outputs").and_then(|member| outputs::read(log, member));
         let (inputs, outputs) = (inputs?, outputs.unwrap_or_default());
@@ -415,7 +418,8 @@ impl<'a> ModelReader<'a> {
             Task { title, model, variables: inputs.variables, correlations, rows, swept, settings };
         let source = log.source.clone();
         let file = ModelFile { task, warnings, source, files, output_places: places };
-        Some(Found { file, sim, observed, simulated: simulated.len() })
+        let data = observations.map(|observations| observations.table);
+        Some(Found { file, sim, observed, simulated: simulated.len(), data })
     }
 
     fn format(&self) {
@@ -428,38 +432,6 @@ impl<'a> ModelReader<'a> {
             };
             self.log.report(&member.value.span, Fault::UnknownFormat { found });
         }
-    }
-
-    /// Columns of somebody else's simulation: each becomes a condition, and the output is that.
-    fn simulated(
-        &self,
-        observations: &Observations,
-        table: &Table,
-        conditions: &mut Conditions,
-    ) -> Vec<(String, String)> {
-        let mut simulated: Vec<(String, String)> = Vec::new();
-        let outputs = self.root.get("outputs").map(|member| &member.value);
-        for column in &observations.columns {
-            let Some(name) = &column.simulated else { continue };
-            if let Some((_, earlier)) = simulated.iter().find(|(_, known)| known == name) {
-                let reason = format!("the column `{name}` already is `{earlier}`'s simulation");
-                self.log.report(&column.place, Fault::Observation { reason });
-                continue;
-            }
-            let unit = match outputs.map(|node| &node.value) {
-                Some(Json::Object(members)) => members
-                    .iter()
-                    .find(|member| member.key == column.output)
-                    .and_then(|member| {
-                        Object::new(self.log, "an output", &member.value, &member.key_span)
-                    })
-                    .and_then(|object| object.text("unit").and_then(|unit| Unit::parse(unit).ok())),
-                _ => None,
-            };
-            conditions.add_column(table, name, unit.unwrap_or_else(Unit::one), &column.place);
-            simulated.push((column.output.clone(), name.clone()));
-        }
-        simulated
     }
 
     /// What was measured of each output of the sim.
@@ -535,7 +507,9 @@ impl<'a> ModelReader<'a> {
                 Some(Maker::Equations(of_columns(simulated).collect()))
             }
             (None, None) => {
-                self.root.report(Fault::NoModel);
+                if !self.names_simulation() {
+                    self.root.report(Fault::NoModel);
+                }
                 None
             }
         }

@@ -3,6 +3,8 @@
 use std::ops::Range;
 use std::path::Path;
 
+use nalgebra::DMatrix;
+
 use super::Fault;
 use super::json::{Json, Member};
 use super::nearest;
@@ -49,7 +51,31 @@ pub(super) fn read(log: &Log, member: &Member, folder: &Path) -> Option<Observat
         return None;
     }
     let read = read.into_iter().collect::<Option<Vec<_>>>()?;
+    once_each(log, columns.members());
     Some(Observations { table, columns: read, files })
+}
+
+/// A column of the data says one thing: it holds measured values, uncertainties or a simulation of
+/// one output.
+fn once_each(log: &Log, outputs: &[Member]) {
+    let mut known: Vec<(&str, &str, &str)> = Vec::new();
+    for output in outputs {
+        let Json::Object(fields) = &output.value.value else { continue };
+        for field in fields.iter().filter(|field| field.key != "sim_covariance") {
+            let Json::Text(column) = &field.value.value else { continue };
+            let earlier = known.iter().find(|(name, ..)| name == column);
+            // a standard uncertainty may be common to several outputs
+            let shared = |key: &str| key.ends_with("standard_uncertainty") && key == field.key;
+            if let Some((_, of, key)) = earlier.filter(|(_, _, key)| !shared(key)) {
+                let reason = format!(
+                    "the column `{column}` is `{key}` of `{of}` already, and cannot be `{}` of `{}`",
+                    field.key, output.key
+                );
+                log.report(&field.value.span, Fault::Observation { reason });
+            }
+            known.push((column, &output.key, &field.key));
+        }
+    }
 }
 
 struct Reader<'a> {
@@ -78,10 +104,16 @@ impl Reader<'_> {
         let simulation = self.uncertainties(&object, "sim_standard_uncertainty");
         let covariance = self.covariance(&object, files);
         for key in ["sim_standard_uncertainty", "sim_covariance"] {
-            if let (None, Some(member)) = (simulated, object.get(key)) {
+            if let (None, Some(member)) = (object.get("sim"), object.get(key)) {
                 let reason = format!("`{key}` belongs to the column that `sim` names");
                 self.log.report(&member.key_span, Fault::Observation { reason });
             }
+        }
+        if object.get("sim_standard_uncertainty").is_some()
+            && let Some(member) = object.get("sim_covariance")
+        {
+            let (first, second) = ("sim_standard_uncertainty", "sim_covariance");
+            self.log.report(&member.key_span, Fault::Exclusive { first, second });
         }
         Some(Column {
             output: member.key.clone(),
@@ -183,6 +215,25 @@ impl Reader<'_> {
             self.log.report(&member.value.span, Fault::Observation { reason });
             return None;
         }
+        if !is_covariance(&matrix.rows) {
+            let reason = format!(
+                "the matrix `{name}` is no covariance matrix: with some weights the variance of the \
+                 rows' weighted sum would be negative"
+            );
+            self.log.report(&member.value.span, Fault::Observation { reason });
+            return None;
+        }
         Some(Some(matrix.rows))
     }
+}
+
+/// Whether a symmetric matrix is positive semi-definite, but for the rounding of its numbers.
+fn is_covariance(rows: &[Vec<f64>]) -> bool {
+    let size = rows.len();
+    let value = |i: usize, j: usize| rows.get(i).and_then(|row| row.get(j)).copied().unwrap_or(0.0);
+    let largest = (0..size).map(|i| value(i, i)).fold(0.0, f64::max);
+    let slack = 1e-8 * largest;
+    let matrix =
+        DMatrix::from_fn(size, size, |i, j| value(i, j) + if i == j { slack } else { 0.0 });
+    largest > 0.0 && matrix.cholesky().is_some()
 }

@@ -3,6 +3,7 @@
 //! A schema cannot say everything: units, formulas and names that belong together are checked by
 //! [`file`](crate::file). What it refuses, reading refuses too.
 
+mod case;
 mod model_file;
 mod node;
 mod result_file;
@@ -27,6 +28,7 @@ pub fn text() -> String {
 
 fn schema() -> Node {
     let mut definitions = model_file::definitions();
+    definitions.extend(case::definitions());
     definitions.extend(result_file::definitions());
     definitions.extend(shapes::definitions());
     definitions.extend(values::definitions());
@@ -37,8 +39,9 @@ fn schema() -> Node {
             "description",
             Node::from(
                 "Files of gumption, format 1. Model files: a measurement with what is known about \
-                 its inputs, to be evaluated by the GUM and by Monte Carlo. Result files: what an \
-                 evaluation found, to be the input of another one.",
+                 its inputs, to be evaluated by the GUM and by Monte Carlo; with observations a case \
+                 of the gap diagnosis. Result files: what an evaluation found, to be the input of \
+                 another one.",
             ),
         ),
         ("if", with_key("result")),

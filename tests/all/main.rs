@@ -5,10 +5,12 @@
 
 mod adaptive;
 mod cases;
+mod catalogue;
 mod commands;
 mod diff;
 mod errors;
 mod formulas;
+mod gap_examples;
 mod intervals;
 mod mutations;
 mod reproducible;
