@@ -333,16 +333,27 @@ fn group(
     group
 }
 
-/// The most probable hypothesis that is another than the best one: a look-alike if there is one.
+/// The hypothesis to tell the best one from: the most probable one that is not the best with more
+/// effects added, since an addition that the data leave open makes no difference to be measured; a
+/// look-alike first.
 fn rival(posterior: &Posterior, best: usize, group: &[usize]) -> Option<usize> {
-    if let Some(&alike) = group.get(1) {
-        return Some(alike);
-    }
-    (0..posterior.hypotheses.len())
-        .filter(|&place| place != best && posterior.hypotheses[place].probability > RIVAL)
-        .max_by(|&a, &b| {
-            posterior.hypotheses[a].probability.total_cmp(&posterior.hypotheses[b].probability)
-        })
+    let own = &posterior.hypotheses.get(best)?.effects;
+    let adds = |place: usize| {
+        let effects = &posterior.hypotheses[place].effects;
+        own.iter().all(|effect| effects.contains(effect))
+    };
+    let probability = |place: usize| posterior.hypotheses[place].probability;
+    let others = || {
+        (0..posterior.hypotheses.len())
+            .filter(|&place| place != best && probability(place) > RIVAL)
+            .map(|place| (place, group.contains(&place), adds(place)))
+    };
+    let most = |among: &mut dyn Iterator<Item = usize>| {
+        among.max_by(|&a, &b| probability(a).total_cmp(&probability(b)))
+    };
+    most(&mut others().filter(|(_, alike, adds)| *alike && !adds).map(|(place, ..)| place))
+        .or_else(|| most(&mut others().filter(|(.., adds)| !adds).map(|(place, ..)| place)))
+        .or_else(|| most(&mut others().map(|(place, ..)| place)))
 }
 
 fn names(setup: &Setup<'_>, effects: &[usize]) -> Vec<String> {
@@ -391,6 +402,13 @@ pub(crate) fn hypotheses(
             log_evidence: hypothesis.evidence.ln_evidence,
             error: hypothesis.evidence.error,
             effective: hypothesis.evidence.effective,
+            best_log_likelihood: hypothesis
+                .evidence
+                .modes
+                .iter()
+                .map(super::search::Mode::ln_likelihood)
+                .fold(f64::NEG_INFINITY, f64::max),
+            fitted: hypothesis.evidence.unknowns() - setup.roles.len(),
             parameters: parameters(setup, hypothesis, probability),
         })
         .collect();
@@ -401,6 +419,8 @@ pub(crate) fn hypotheses(
         log_evidence: posterior.unexplained.ln_evidence,
         error: 0.0,
         effective: 0.0,
+        best_log_likelihood: f64::NEG_INFINITY,
+        fitted: 0,
         parameters: Vec::new(),
     });
     all.sort_by(|a, b| b.probability.total_cmp(&a.probability));

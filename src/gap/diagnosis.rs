@@ -125,6 +125,10 @@ pub struct Hypothesis {
     pub error: f64,
     /// Effective number of draws.
     pub effective: f64,
+    /// Largest logarithm of the likelihood that was found: what a best fit would rank by.
+    pub best_log_likelihood: f64,
+    /// Number of parameters of the effects.
+    pub fitted: usize,
     /// The effects' parameters.
     pub parameters: Vec<Parameter>,
 }

@@ -138,6 +138,11 @@ impl Evidence {
         }
     }
 
+    /// Number of unknown quantities.
+    pub(crate) fn unknowns(&self) -> usize {
+        self.unknowns
+    }
+
     /// Number of draws.
     pub(crate) fn draws(&self) -> usize {
         self.ln_targets.len()

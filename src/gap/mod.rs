@@ -29,3 +29,6 @@ pub use diagnosis::{
     Diagnosis, Gap, Hypothesis, Kind, Named, NextMeasurement, Noise, Note, Parameter, Predicted,
     Region, RowGap, Shrinkage, Shrunk, ValueGap, Verdict,
 };
+
+#[cfg(test)]
+mod tests;

@@ -144,7 +144,7 @@ fn rough(own: &[Vec<f64>], other: &[Vec<f64>], noise: &[f64]) -> f64 {
 /// The expectation of the gain in the logarithm of the odds of the verdict against its rival, if the
 /// verdict is true: the relative entropy of their predictive densities. Each draw of the verdict is
 /// measured once and left out of its own density.
-fn expected(own: &[Vec<f64>], other: &[Vec<f64>], noise: &[f64], seed: u64) -> f64 {
+pub(crate) fn expected(own: &[Vec<f64>], other: &[Vec<f64>], noise: &[f64], seed: u64) -> f64 {
     let draws = own.first().map_or(0, Vec::len);
     let outputs = own.len();
     let mut stream = StreamKey::new(seed, "gap/next").block(0);

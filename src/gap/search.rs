@@ -32,6 +32,11 @@ pub(crate) struct Mode {
 }
 
 impl Mode {
+    /// The logarithm of the likelihood there.
+    pub(crate) fn ln_likelihood(&self) -> f64 {
+        -self.cost + 0.5 * self.scores.iter().map(|score| score * score).sum::<f64>()
+    }
+
     /// The logarithm of the share of the prior of the quantities after the first `shared` ones that
     /// the data leave, in the Gaussian approximation.
     pub(crate) fn ln_occam(&self, shared: usize) -> f64 {

@@ -5,4 +5,6 @@ mod score;
 mod truth;
 
 pub use score::{Checked, Confusion, Reliability, Report, SmallestEffect, score};
+#[cfg(test)]
+pub(crate) use truth::truth_with;
 pub use truth::{Truth, TruthKind, truth};

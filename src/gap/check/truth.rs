@@ -77,6 +77,28 @@ impl Scores {
 pub fn truth(case: &Case, noise: &[Vec<f64>], seed: u64, number: u64) -> (Truth, Vec<Vec<f64>>) {
     let mut scores = Scores::new(seed, number);
     let (kind, effects) = choose(case, &mut scores);
+    make(case, noise, kind, &effects, scores)
+}
+
+/// Data that certain effects make.
+#[cfg(test)]
+pub(crate) fn truth_with(
+    case: &Case,
+    noise: &[Vec<f64>],
+    effects: &[usize],
+    seed: u64,
+    number: u64,
+) -> (Truth, Vec<Vec<f64>>) {
+    make(case, noise, TruthKind::Catalogue, effects, Scores::new(seed, number))
+}
+
+fn make(
+    case: &Case,
+    noise: &[Vec<f64>],
+    kind: TruthKind,
+    effects: &[usize],
+    mut scores: Scores,
+) -> (Truth, Vec<Vec<f64>>) {
     let data = Data::new(case);
     let spread = Spread::new(case, &data);
     let chosen: Vec<_> = effects.iter().map(|&e| &case.candidates[e]).collect();
