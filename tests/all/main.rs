@@ -9,6 +9,7 @@ mod commands;
 mod diff;
 mod errors;
 mod formulas;
+mod gap;
 mod intervals;
 mod mutations;
 mod reproducible;

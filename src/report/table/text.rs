@@ -8,7 +8,7 @@ const NAME_WIDTH: usize = 32;
 
 /// One line of printable characters: everything that a terminal would obey becomes a space, and so
 /// do line breaks.
-pub(super) fn plain(text: &str) -> String {
+pub(crate) fn plain(text: &str) -> String {
     text.split(|c: char| c.is_control() || c.is_whitespace() || is_invisible(c))
         .filter(|word| !word.is_empty())
         .collect::<Vec<_>>()
