@@ -60,7 +60,8 @@ fn said(diagnosis: &Diagnosis) -> String {
 fn blind(folder: &Path) -> Result<String, Box<dyn Error>> {
     let mut rows = String::new();
     let mut kinds: Vec<(String, usize, usize)> = Vec::new();
-    let (mut ln, mut brier, mut held, mut intervals, mut count) = (0.0, 0.0, 0usize, 0usize, 0usize);
+    let (mut ln, mut brier, mut held, mut intervals, mut count) =
+        (0.0, 0.0, 0usize, 0usize, 0usize);
     for case in cases(folder)? {
         let diagnosis = diagnosed(&case)?;
         let truth = truth(&case)?;
@@ -151,9 +152,9 @@ fn real(folder: &Path) -> Result<String, Box<dyn Error>> {
         let truth = truth(&case)?;
         let wanted = match truth["effects"].as_array() {
             None => "unexplained".to_owned(),
-            Some(names) => {
-                label(&names.iter().filter_map(|n| n.as_str().map(str::to_owned)).collect::<Vec<_>>())
-            }
+            Some(names) => label(
+                &names.iter().filter_map(|n| n.as_str().map(str::to_owned)).collect::<Vec<_>>(),
+            ),
         };
         let values = diagnosis.rows.iter().map(|row| row.outputs.len()).sum::<usize>() as f64;
         let named: Vec<&Hypothesis> =

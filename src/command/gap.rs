@@ -4,10 +4,11 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
-use super::{Exit, Failure, options, output};
-use crate::file;
-use crate::gap;
-use crate::report;
+use super::{Exit, Failure, options, output, progress, run};
+use crate::file::{self, CaseFile};
+use crate::gap::{self, Diagnosis};
+use crate::report::{self, Provenance};
+use crate::task::Row;
 
 /// Diagnose where measured data depart from a sim, and which effect is missing.
 #[derive(Debug, Args)]
@@ -23,7 +24,7 @@ pub(super) struct Gap {
     /// Seed of the random numbers
     #[arg(long, value_name = "N")]
     seed: Option<u64>,
-    /// Number of threads; all of them unless told
+    /// Number of threads; all of the machine's unless given
     #[arg(long, value_name = "N", value_parser = options::threads)]
     threads: Option<usize>,
     /// Write the answer to this file instead of standard output
@@ -37,26 +38,79 @@ pub(super) struct Gap {
 /// The format of the answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum Format {
-    /// A page of text for people
+    /// A page of text with plots, for people
     Table,
+    /// A page with figures for a browser and for print, in one file
+    Html,
     /// The whole answer for programs
     Json,
+    /// One line for each hypothesis: prior, posterior probability, evidence
+    Csv,
 }
 
 impl Gap {
     pub(super) fn execute(&self) -> Result<Exit, Failure> {
+        let whole = progress::whole_on_interrupt();
         let file = file::read_case(&self.case)?;
         let at = match &self.predict {
             Some(path) => Some(file::read_case_at(&self.case, path)?),
             None => None,
         };
-        let seed = self.seed.unwrap_or(file.case.task.settings.seed);
-        let diagnosis = gap::diagnose(&file.case, at.as_deref(), gap::Options { seed }, &|_| {});
+        if !self.quiet {
+            run::say(&file.warnings);
+        }
+        let diagnosis = self.diagnose(&file, at.as_deref())?;
         let answer = match self.format {
-            Format::Table => report::gap::json(&diagnosis),
+            Format::Table => report::gap::table(&diagnosis),
+            Format::Html => report::gap::html(&diagnosis, &self.provenance(&file)?),
             Format::Json => report::gap::json(&diagnosis),
+            Format::Csv => report::gap::csv(&diagnosis),
         };
-        output::write(&answer, self.output.as_deref())?;
+        // a page on standard output has the notes itself
+        if !self.quiet && (self.format != Format::Table || self.output.is_some()) {
+            say(&diagnosis);
+        }
+        match &self.output {
+            Some(path) => {
+                let _writing = whole.lock();
+                output::write_file(&answer, path)?;
+            }
+            None => output::write(&answer, None)?,
+        }
         Ok(Exit::Done)
+    }
+
+    /// The digests of all files that the answer rests on.
+    fn provenance(&self, file: &CaseFile) -> Result<Provenance, Failure> {
+        let mut files = file.files.clone();
+        if let Some(path) = &self.predict {
+            let name = path.display().to_string();
+            let read = std::fs::read(path);
+            let bytes = read.map_err(|e| Failure::System(format!("cannot read `{name}`: {e}")))?;
+            files.push((name, bytes));
+        }
+        Ok(run::provenance(&file.source.text, &files))
+    }
+
+    fn diagnose(&self, file: &CaseFile, at: Option<&[Row]>) -> Result<Diagnosis, Failure> {
+        let seed = self.seed.unwrap_or(file.case.task.settings.seed);
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(self.threads.unwrap_or(0))
+            .build()
+            .map_err(|error| Failure::System(format!("cannot start threads: {error}")))?;
+        let bar = progress::share(self.quiet);
+        let told = |share: f64| progress::tell(&bar, share);
+        let diagnosis =
+            pool.install(|| gap::diagnose(&file.case, at, gap::Options { seed }, &told));
+        bar.finish_and_clear();
+        Ok(diagnosis)
+    }
+}
+
+/// What to bear in mind, on standard error.
+#[allow(clippy::print_stderr)]
+fn say(diagnosis: &Diagnosis) {
+    for note in &diagnosis.notes {
+        anstream::eprintln!("note: {}", note.text);
     }
 }

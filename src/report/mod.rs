@@ -2,8 +2,12 @@
 
 mod csv;
 pub mod gap;
+#[cfg(feature = "cli")]
+mod html;
 mod json;
 pub mod number;
+#[cfg(feature = "cli")]
+mod plot;
 mod samples;
 mod saved;
 mod subtotals;
@@ -17,7 +21,7 @@ pub use saved::saved;
 #[cfg(feature = "cli")]
 pub use table::{Column, Style, table};
 #[cfg(feature = "cli")]
-pub(crate) use table::{Grid, WIDTH, wrapped};
+pub(crate) use table::{Grid, WIDTH, plain, wrapped};
 
 use crate::propagate::Evaluation;
 use crate::task::{Task, Warning};

@@ -10,6 +10,7 @@ mod commands;
 mod diff;
 mod errors;
 mod formulas;
+mod gap;
 mod gap_examples;
 mod intervals;
 mod mutations;

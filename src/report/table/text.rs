@@ -20,7 +20,7 @@ fn one_line(text: &str) -> String {
 
 /// A user's text on one line of printable characters. What is too long to be read is cut, with an
 /// ellipsis.
-pub(super) fn plain(text: &str) -> String {
+pub(crate) fn plain(text: &str) -> String {
     let text = one_line(text);
     match text.char_indices().nth(LONGEST) {
         Some((end, _)) => text.get(..end).unwrap_or_default().trim_end().to_owned() + "…",
