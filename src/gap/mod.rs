@@ -1,6 +1,5 @@
 //! The sim-to-real gap: whether measured data depart from a sim by more than its uncertainties
 //! explain, where, which effect is missing, and how far the gap shrinks once it is added.
-#![allow(missing_docs, dead_code)]
 
 mod answer;
 pub mod check;

@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use super::diagnosis::NextMeasurement;
 use super::likelihood::HALF_LN_TWO_PI;
 use super::posterior::Posterior;
-use super::predict::{self, Values};
+use super::predict;
 use super::setup::Setup;
 use crate::distribution::StreamKey;
 use crate::gap::mixture::standard_normals;

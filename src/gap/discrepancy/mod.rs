@@ -9,9 +9,8 @@ mod fitted;
 mod form;
 mod grammar;
 
-pub(crate) use features::{Axes, Coordinates, Site, sites};
+pub(crate) use features::{Axes, Coordinates, Site};
 pub(crate) use form::{Form, forms};
-pub(crate) use grammar::{Of, Term};
 
 use std::sync::Arc;
 

@@ -73,7 +73,7 @@ fn heading(task: &Task, evaluation: &Evaluation) -> String {
             line += &format!("; as many Monte Carlo trials{each} as are needed, seed {seed}");
         }
     }
-    let mut heading = wrapped(&text::plain(&task.title)) + &wrapped(&line);
+    let mut heading = wrapped(&plain(&task.title)) + &wrapped(&line);
     if let [row] = evaluation.rows.as_slice()
         && task.swept
     {
