@@ -146,7 +146,7 @@ fn a_wrong_case_writes_nothing() {
 #[cfg(unix)]
 fn long_case() -> String {
     let mut effects = String::new();
-    for number in 0..24 {
+    for number in 0..60 {
         let parameters = r#"{"p": {"unit": "", "distribution": "normal", "mean": 0, "std": 1},
             "q": {"unit": "", "distribution": "log-uniform", "lower": 1, "upper": 1000}}"#;
         let override_ = format!("shown + p*sin(load/q + {number})");

@@ -78,12 +78,12 @@ pub(super) fn draw(diagnosis: &Diagnosis, output: usize) -> Option<Drawing> {
         "Full dots lie further from zero than twice their own standard uncertainty."
     };
     let scale = if divided {
-        " over their standard uncertainties, which differ too much between the rows for one scale"
+        ", over their standard uncertainties, which differ too much between the rows for one scale"
     } else {
         ""
     };
     let caption = format!(
-        "Residuals of {}, measured less predicted,{scale}, before (left) and after the correction \
+        "Residuals of {}, measured less predicted{scale}, before (left) and after the correction \
          (right, each predicted by a fit without its own block of conditions). Band: two standard \
          uncertainties of the residuals on either side of zero, those of the noise and of the inputs \
          on the left, of the noise and of what was fitted on the right. The two sides have scales of \

@@ -23,6 +23,7 @@ fn page(diagnosis: &Diagnosis) -> (String, String) {
             assert!(!attribute.value().contains("NaN"), "{attribute:?}");
         }
     }
+    assert!(!text(document.root_element()).contains(",,"), "{body}");
     // nothing is loaded from elsewhere; the only address is the name of the drawings' language
     assert_eq!(page.matches("http").count(), 1 + all().filter(|e| e.has_tag_name(SVG)).count());
     assert!(!page.contains("<script") && !page.contains("url(") && !page.contains("@import"));
