@@ -143,11 +143,6 @@ impl Evidence {
         self.unknowns
     }
 
-    /// Number of draws.
-    pub(crate) fn draws(&self) -> usize {
-        self.ln_targets.len()
-    }
-
     fn draw(&mut self, likelihood: &Likelihood<'_>, mixture: Mixture, columns: usize) {
         let first = self.columns.len();
         let ln_count = (columns as f64).ln();

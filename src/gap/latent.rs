@@ -56,7 +56,7 @@ impl Map {
     }
 
     /// The score that a standard normal one stands for.
-    pub(crate) fn from_normal(&self, normal: f64) -> f64 {
+    pub(crate) fn score_of(&self, normal: f64) -> f64 {
         if self.is_bounded() { bounded_from_normal(normal) } else { normal }
     }
 

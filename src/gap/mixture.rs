@@ -164,7 +164,7 @@ impl Mixture {
 
     fn normalize(&mut self) {
         let sum: f64 = self.components.iter().map(|component| component.share).sum();
-        if !(sum > 0.0) {
+        if sum <= 0.0 || sum.is_nan() {
             self.components.clear();
         }
         for component in &mut self.components {

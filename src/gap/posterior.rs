@@ -161,7 +161,7 @@ pub(crate) fn posterior(
     posterior.weigh();
     // the leading hypotheses are looked at from end to end
     let leads = |h: &&mut Hypothesis| h.probability > LEADING && !h.effects.is_empty();
-    posterior.hypotheses.par_iter_mut().filter(|h| leads(&h)).for_each(|hypothesis| {
+    posterior.hypotheses.par_iter_mut().filter(leads).for_each(|hypothesis| {
         let likelihood = setup.likelihood(&hypothesis.effects);
         hypothesis.evidence.roam(&likelihood, effort.generations);
     });

@@ -199,7 +199,8 @@ pub(crate) fn unexplained(
             None => (plain.clone(), nominals.iter().flat_map(|(sim, _)| sim.clone()).collect()),
             Some(base) => {
                 let residuals = base.residuals(setup);
-                let there_too = values(setup, &base.effects, &[base.scores.clone()], rows);
+                let there_too =
+                    values(setup, &base.effects, std::slice::from_ref(&base.scores), rows);
                 let first = |draws: Vec<f64>| draws.first().copied();
                 let sims: Vec<f64> = there_too.into_iter().flatten().filter_map(first).collect();
                 (residuals, sims)

@@ -216,7 +216,7 @@ fn ln_sizes(data: &Data) -> Vec<f64> {
             .map(size)
             .filter(|size| *size > 1e-9 * most)
             .fold(f64::INFINITY, f64::min);
-        if !(most > 0.0) || !least.is_finite() {
+        if most <= 0.0 || !least.is_finite() {
             continue;
         }
         let ln = |row: usize| size(data.point_of[row]).max(least).ln();

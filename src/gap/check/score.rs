@@ -3,7 +3,6 @@
 use serde::Serialize;
 
 use super::truth::{Truth, TruthKind};
-use crate::distribution::special;
 use crate::gap::Answer;
 use crate::gap::diagnosis::Kind;
 use crate::task::Case;
@@ -406,17 +405,9 @@ fn inverse(sizes: &[(f64, f64)], ln_gap: f64) -> Option<f64> {
         yy += (y - my).powi(2);
     }
     let coefficient = xy / (xx * yy).sqrt();
-    if !(coefficient.abs() > 0.7) {
+    if coefficient.is_nan() || coefficient.abs() <= 0.7 {
         return None;
     }
     let value = (mx + (ln_gap - my) * xx / xy).exp();
     value.is_finite().then_some(value)
-}
-
-/// Probability of at least this many false alarms if each has the given probability: for tests.
-pub(crate) fn binomial_tail(count: usize, of: usize, p: f64) -> f64 {
-    if count == 0 {
-        return 1.0;
-    }
-    special::beta::cdf(p, count as f64, (of - count + 1) as f64)
 }

@@ -137,7 +137,7 @@ fn make(
 
 /// The value at the probability of a standard normal score.
 fn drawn(map: &Map, normal: f64) -> f64 {
-    map.value(map.from_normal(normal))
+    map.value(map.score_of(normal))
 }
 
 /// The hypothesis that is true.

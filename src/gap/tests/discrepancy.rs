@@ -21,7 +21,8 @@ fn weights_are_those_of_dense_covariances() {
         let form = &discrepancy.forms[form];
         let features = form.features(&setup, &discrepancy.axes).into_owned() * multiplier;
         let covariance = DMatrix::from_fn(12, 12, |i, j| {
-            let gradient = |value: usize| if value % 2 == 0 { 1.0 } else { (value / 2) as f64 };
+            let gradient =
+                |value: usize| if value.is_multiple_of(2) { 1.0 } else { (value / 2) as f64 };
             let noise = if i == j { u[i / 2] * u[i / 2] } else { 0.0 };
             noise + 0.09 * gradient(i) * gradient(j)
         });

@@ -21,7 +21,8 @@ fn blocks_and_low_rank_are_the_dense_covariance() {
     let u = [0.1, 0.1, 0.12, 0.1, 0.2, 0.1];
     let covariance = DMatrix::from_fn(12, 12, |i, j| {
         // dy/da = 1, dz/da = x, the same draw in both outputs of a row
-        let gradient = |value: usize| if value % 2 == 0 { 1.0 } else { (value / 2) as f64 };
+        let gradient =
+            |value: usize| if value.is_multiple_of(2) { 1.0 } else { (value / 2) as f64 };
         let noise = if i == j { f64::powi(u[i / 2], 2) } else { 0.0 };
         let shared = if i / 2 == j / 2 { 0.09 * gradient(i) * gradient(j) } else { 0.0 };
         noise + shared
