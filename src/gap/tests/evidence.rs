@@ -19,9 +19,9 @@ fn exact(effects: &[usize]) -> f64 {
     let u = [0.1f64, 0.1, 0.12, 0.1, 0.2, 0.1];
     let x = |value: usize| (value / 2) as f64;
     let mut columns: Vec<Vec<f64>> =
-        vec![(0..12).map(|v| 0.3 * if v.is_multiple_of(2) { 1.0 } else { x(v) }).collect()];
+        vec![(0..12usize).map(|v| 0.3 * if v.is_multiple_of(2) { 1.0 } else { x(v) }).collect()];
     if effects.contains(&0) {
-        columns.push((0..12).map(|v| if v.is_multiple_of(2) { 0.4 } else { 0.0 }).collect());
+        columns.push((0..12usize).map(|v| if v.is_multiple_of(2) { 0.4 } else { 0.0 }).collect());
     }
     if effects.contains(&1) {
         let sign = |v: usize| if v.is_multiple_of(2) { 1.0 } else { -1.0 };
