@@ -9,9 +9,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use clap::{Args, ValueEnum};
 use rayon::prelude::*;
 
-use super::{Exit, Failure, options, output, progress};
+use super::{Exit, Failure, options, output, progress, run};
 use crate::file::{self, CaseFile};
-use crate::gap::check::{Checked, Truth, score, truth};
+use crate::gap::check::{Checked, Report, Truth, score, truth};
 use crate::gap::{self, Answer};
 use crate::report;
 
@@ -29,7 +29,7 @@ pub(super) struct GapCheck {
     /// Seed of the random numbers
     #[arg(long, value_name = "N")]
     seed: Option<u64>,
-    /// Number of threads; all of them unless told
+    /// Number of threads; all of the machine's unless given
     #[arg(long, value_name = "N", value_parser = options::threads)]
     threads: Option<usize>,
     /// Keep the drawn cases and, in its folder `sealed`, their truths
@@ -48,6 +48,8 @@ pub(super) struct GapCheck {
 enum Format {
     /// A page of text for people
     Table,
+    /// A page with figures for a browser and for print, in one file
+    Html,
     /// The whole answer for programs
     Json,
 }
@@ -62,9 +64,8 @@ fn draws(text: &str) -> Result<u64, String> {
 impl GapCheck {
     pub(super) fn execute(&self) -> Result<Exit, Failure> {
         let file = file::read_case(&self.case)?;
-        if let Some(threads) = self.threads {
-            // an earlier pool stays as it is; there is none in a fresh process
-            let _ = rayon::ThreadPoolBuilder::new().num_threads(threads).build_global();
+        if !self.quiet {
+            run::say(&file.warnings);
         }
         let seed = self.seed.unwrap_or(file.case.task.settings.seed);
         let kept;
@@ -78,10 +79,39 @@ impl GapCheck {
             }
         };
         let stop = progress::stop_flag();
-        let noise = gap::noise(&file.case, seed);
-        self.write(&file, &noise, folder, seed)?;
-        let Some(answers) = self.diagnose(folder, seed, &stop)? else {
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(self.threads.unwrap_or(0))
+            .build()
+            .map_err(|error| Failure::System(format!("cannot start threads: {error}")))?;
+        let Some(scores) = pool.install(|| self.scores(&file, folder, seed, &stop))? else {
             return Ok(Exit::Interrupted);
+        };
+        let design = report::gap::check::Design::of(&file.case);
+        let answer = match self.format {
+            Format::Table => report::gap::check::table(&design, &scores),
+            Format::Html => {
+                let provenance = run::provenance(&file.source.text, &file.files);
+                report::gap::check::html(&design, &scores, &provenance)
+            }
+            Format::Json => report::gap::check_json(&design.title, &scores),
+        };
+        output::write(&answer, self.output.as_deref())?;
+        Ok(Exit::Done)
+    }
+
+    /// The three steps in turn: truths and data, diagnoses, comparison; `None` if they were
+    /// interrupted.
+    fn scores(
+        &self,
+        file: &CaseFile,
+        folder: &Path,
+        seed: u64,
+        stop: &AtomicBool,
+    ) -> Result<Option<Report>, Failure> {
+        let noise = gap::noise(&file.case, seed);
+        self.write(file, &noise, folder, seed)?;
+        let Some(answers) = self.diagnose(folder, seed, stop)? else {
+            return Ok(None);
         };
         let sim = gap::nominal(&file.case);
         let checked = answers
@@ -92,13 +122,7 @@ impl GapCheck {
                 Ok(Checked::new(&sealed, answer, &sim, &noise))
             })
             .collect::<Result<Vec<_>, Failure>>()?;
-        let scores = score(&file.case, checked, seed);
-        let title = &file.case.task.title;
-        let answer = match self.format {
-            Format::Table | Format::Json => report::gap::check_json(title, &scores),
-        };
-        output::write(&answer, self.output.as_deref())?;
-        Ok(Exit::Done)
+        Ok(Some(score(&file.case, checked, seed)))
     }
 
     /// Draws the truths: each case in a folder of its own, its truth in the folder `sealed`.

@@ -11,6 +11,7 @@ mod diff;
 mod errors;
 mod formulas;
 mod gap;
+mod gap_check;
 mod gap_examples;
 mod intervals;
 mod mutations;

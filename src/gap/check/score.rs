@@ -73,6 +73,13 @@ pub struct Reliability {
     pub count: usize,
 }
 
+impl Reliability {
+    /// The 95 % interval of the share (Wilson).
+    pub fn interval(&self) -> [f64; 2] {
+        wilson((self.fraction * self.count as f64).round() as usize, self.count)
+    }
+}
+
 /// The size of an effect's parameter at which it is found with 90 % probability.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SmallestEffect {
@@ -127,6 +134,18 @@ pub struct Report {
     pub smallest: Vec<SmallestEffect>,
     /// Every draw.
     pub checked: Vec<Checked>,
+}
+
+impl Report {
+    /// Number of gap-free data sets in which a gap was found.
+    pub fn alarms(&self) -> usize {
+        self.checked.iter().filter(|one| one.truth == "none" && one.said != "none").count()
+    }
+
+    /// The 95 % interval of the share of false alarms (Wilson).
+    pub fn false_alarms_interval(&self) -> [f64; 2] {
+        wilson(self.alarms(), self.gap_free)
+    }
 }
 
 /// The label of a list of effects.

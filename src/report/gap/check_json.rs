@@ -38,13 +38,18 @@ struct Smallest<'r> {
     gap_at_90_percent: Option<f64>,
 }
 
+impl<'r> Smallest<'r> {
+    fn of(effect: &'r SmallestEffect) -> Self {
+        Self {
+            unit: &effect.unit,
+            value_at_90_percent: effect.value_at_90_percent,
+            gap_at_90_percent: effect.gap_at_90_percent,
+        }
+    }
+}
+
 /// The scores as JSON, keys in a fixed order. It ends in a newline.
 pub fn check_json(title: &str, report: &Report) -> String {
-    let smallest = |effect: &SmallestEffect| Smallest {
-        unit: "",
-        value_at_90_percent: effect.value_at_90_percent,
-        gap_at_90_percent: effect.gap_at_90_percent,
-    };
     let answer = Answer {
         title,
         draws: report.draws,
@@ -75,9 +80,7 @@ pub fn check_json(title: &str, report: &Report) -> String {
         smallest_effect: report
             .smallest
             .iter()
-            .map(|effect| {
-                (effect.parameter.as_str(), Smallest { unit: &effect.unit, ..smallest(effect) })
-            })
+            .map(|effect| (effect.parameter.as_str(), Smallest::of(effect)))
             .collect(),
         cases: &report.checked,
         version: env!("CARGO_PKG_VERSION"),

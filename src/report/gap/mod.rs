@@ -1,5 +1,7 @@
 //! Reports of the gap diagnosis, one file for each format.
 
+#[cfg(feature = "cli")]
+pub mod check;
 mod check_json;
 mod csv;
 #[cfg(feature = "cli")]

@@ -46,7 +46,7 @@ fn heading(diagnosis: &Diagnosis) -> String {
 }
 
 /// The title of a section, underlined.
-fn section(title: &str) -> String {
+pub(super) fn section(title: &str) -> String {
     format!("{title}\n{}\n", "═".repeat(title.chars().count()))
 }
 
@@ -88,7 +88,8 @@ fn predictions(diagnosis: &Diagnosis, rows: &[Predicted]) -> String {
     tables.join("\n")
 }
 
-fn grid(sheet: &Sheet) -> Grid {
+/// A table for a page of text.
+pub(super) fn grid(sheet: &Sheet) -> Grid {
     let mut grid = Grid::default();
     for column in &sheet.columns {
         let cells = column.cells.iter().cloned();

@@ -10,20 +10,20 @@ mod where_map;
 use maud::{Markup, html};
 
 use super::sheet::{Column, Sheet};
-use super::{sheets, words};
+use super::{digits, sheets, words};
 use crate::gap::Diagnosis;
 use crate::report::html::{figure, page};
 use crate::report::number::align;
 use crate::report::{Provenance, plain};
 
 /// Width of all figures in pixels.
-const WIDTH: f64 = 720.0;
+pub(super) const WIDTH: f64 = 720.0;
 
 /// A figure with what is written below it.
 #[derive(Debug)]
-struct Drawing {
-    svg: String,
-    caption: String,
+pub(super) struct Drawing {
+    pub(super) svg: String,
+    pub(super) caption: String,
 }
 
 /// The diagnosis as one HTML file with figures that needs nothing else: it loads nothing and runs
@@ -36,6 +36,10 @@ pub fn html(diagnosis: &Diagnosis, provenance: &Provenance) -> String {
     };
     let outputs = 0..diagnosis.outputs.len();
     let title = words::title(diagnosis);
+    let settings = [
+        ("seed", diagnosis.seed.to_string()),
+        ("coverage probability", digits::percent(diagnosis.probability)),
+    ];
     let body = html! {
         h1 { (title) }
         p.settings { (words::settings(diagnosis)) }
@@ -86,13 +90,13 @@ pub fn html(diagnosis: &Diagnosis, provenance: &Provenance) -> String {
             ul { @for note in notes { li { (note) } } }
         }
         h2 { "To repeat this" }
-        (repeat(diagnosis, provenance))
+        (repeat(&settings, provenance))
     };
     page(&title, &body)
 }
 
 /// A table; numbers are padded so that their decimal points stand under each other.
-fn table(sheet: &Sheet) -> Markup {
+pub(super) fn table(sheet: &Sheet) -> Markup {
     let class = |column: &Column| column.numbers.then_some("number");
     let columns: Vec<Vec<String>> = sheet
         .columns
@@ -130,17 +134,16 @@ fn padded(cells: &[String]) -> Vec<String> {
     align(cells).into_iter().map(|cell| cell.replace(' ', "\u{2007}")).collect()
 }
 
-/// Everything that is needed to get the same answer again.
-fn repeat(diagnosis: &Diagnosis, provenance: &Provenance) -> Markup {
+/// Everything that is needed to get the same answer again; `settings` are those of the command, with
+/// their names.
+pub(super) fn repeat(settings: &[(&str, String)], provenance: &Provenance) -> Markup {
     html! {
         div.table {
             table {
                 tbody {
                     tr { td { "program" } td { "gumption " (env!("CARGO_PKG_VERSION")) } }
-                    tr { td { "seed" } td { (diagnosis.seed) } }
-                    tr {
-                        td { "coverage probability" }
-                        td { (super::digits::percent(diagnosis.probability)) }
+                    @for (name, value) in settings {
+                        tr { td { (name) } td { (value) } }
                     }
                     tr {
                         td { "case file, SHA-256" }

@@ -5,9 +5,13 @@ use roxmltree::{Document, Node};
 use super::super::html;
 use super::*;
 
-/// A page and its body, which is well-formed XML.
+/// A page and its body.
 fn page(diagnosis: &Diagnosis) -> (String, String) {
-    let page = html(diagnosis, &provenance());
+    with_body(html(diagnosis, &provenance()))
+}
+
+/// A page and its body, which is well-formed XML, loads nothing and runs nothing.
+pub(super) fn with_body(page: String) -> (String, String) {
     assert!(page.starts_with("<!DOCTYPE html>") && page.ends_with("</html>\n"), "{page}");
     let from = page.find("<body>").unwrap();
     let to = page.find("</body>").unwrap() + "</body>".len();
@@ -30,14 +34,14 @@ fn page(diagnosis: &Diagnosis) -> (String, String) {
     (page, body)
 }
 
-const SVG: (&str, &str) = ("http://www.w3.org/2000/svg", "svg");
+pub(super) const SVG: (&str, &str) = ("http://www.w3.org/2000/svg", "svg");
 
-fn parsed(body: &str) -> Document<'_> {
+pub(super) fn parsed(body: &str) -> Document<'_> {
     Document::parse(body).unwrap_or_else(|error| panic!("{error}:\n{body}"))
 }
 
 /// The text in an element, with single spaces.
-fn text(node: Node<'_, '_>) -> String {
+pub(super) fn text(node: Node<'_, '_>) -> String {
     let parts = node.descendants().filter(Node::is_text).filter_map(|n| n.text());
     let words = parts.flat_map(str::split_whitespace);
     words.collect::<Vec<_>>().join(" ")
@@ -92,28 +96,27 @@ fn drawings_have_the_numbers_of_the_tables() {
     assert_eq!(captions.count(), drawings.len());
 }
 
-/// Every drawing stays within its frame.
 #[test]
 fn nothing_is_drawn_outside() {
     for diagnosis in [diagnosis(), many(), hostile(), unexplained()] {
-        let (_, body) = page(&diagnosis);
-        let document = parsed(&body);
-        for drawing in document.descendants().filter(|node| node.has_tag_name(SVG)) {
-            let size: Vec<f64> = drawing
-                .attribute("viewBox")
-                .unwrap()
-                .split(' ')
-                .map(|n| n.parse().unwrap())
-                .collect();
-            let inside = |key: &str, most: f64| {
-                let values = drawing.descendants().filter_map(|node| node.attribute(key));
-                for value in values.filter_map(|value| value.parse::<f64>().ok()) {
-                    assert!((0.0..=most).contains(&value), "{key} = {value} of {most}");
-                }
-            };
-            ["x", "x1", "x2", "cx"].iter().for_each(|key| inside(key, size[2]));
-            ["y", "y1", "y2", "cy"].iter().for_each(|key| inside(key, size[3]));
-        }
+        assert_inside(&page(&diagnosis).1);
+    }
+}
+
+/// Every drawing of a body stays within its frame.
+pub(super) fn assert_inside(body: &str) {
+    let document = parsed(body);
+    for drawing in document.descendants().filter(|node| node.has_tag_name(SVG)) {
+        let size: Vec<f64> =
+            drawing.attribute("viewBox").unwrap().split(' ').map(|n| n.parse().unwrap()).collect();
+        let inside = |key: &str, most: f64| {
+            let values = drawing.descendants().filter_map(|node| node.attribute(key));
+            for value in values.filter_map(|value| value.parse::<f64>().ok()) {
+                assert!((0.0..=most).contains(&value), "{key} = {value} of {most}");
+            }
+        };
+        ["x", "x1", "x2", "cx"].iter().for_each(|key| inside(key, size[2]));
+        ["y", "y1", "y2", "cy"].iter().for_each(|key| inside(key, size[3]));
     }
 }
 

@@ -1,5 +1,6 @@
 //! What reports of a diagnosis look like, and that their numbers are those of the JSON answer.
 
+mod check;
 mod csv;
 mod html;
 mod table;
