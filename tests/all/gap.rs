@@ -124,7 +124,7 @@ fn the_page_says_what_it_rests_on() {
 
 #[test]
 fn warnings_go_to_standard_error_unless_quiet() {
-    let (_folder, path) = case(&CASE.replace("shown + d", "shown + d/load*12"));
+    let (_folder, path) = case(&CASE.replace("shown + d", "shown + 12*d/(load + 1)"));
     let (_, said) = diagnosed(&path, &["--format", "csv"]);
     assert!(said.starts_with("note: effect `shift`"), "{said}");
     let (_, said) = diagnosed(&path, &["--format", "csv", "--quiet"]);
