@@ -6,6 +6,7 @@ use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
 
 use super::Failure;
+use crate::file::bytes;
 use crate::report::Column;
 use crate::task::Trials;
 
@@ -97,9 +98,8 @@ pub(super) fn replacement(text: &str) -> Result<crate::file::Override, String> {
 
 /// A model file's text: from a path, or from standard input for `-`.
 pub(super) fn standard_input() -> Result<String, Failure> {
-    let mut bytes = Vec::new();
-    std::io::Read::read_to_end(&mut std::io::stdin(), &mut bytes)
-        .map_err(|error| Failure::System(format!("cannot read standard input: {error}")))?;
+    let bytes = bytes::of(std::io::stdin(), bytes::MOST)
+        .map_err(|message| Failure::Argument(format!("cannot read standard input: {message}")))?;
     String::from_utf8(bytes)
         .map_err(|_| Failure::Argument("standard input is not UTF-8 text".to_owned()))
 }

@@ -1,5 +1,6 @@
 //! `gumption run`
 
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -85,19 +86,19 @@ impl Run {
             warnings: &warnings,
             provenance: &provenance,
         };
-        let answer = match self.answer.format {
+        let answer = |out: &mut dyn Write| match self.answer.format {
             Format::Table => {
                 let style = Style { columns: self.columns.clone(), ..Style::default() };
-                report::table(&report, &style)
+                report::write_table(&report, &style, out)
             }
-            Format::Json => report::json(&report),
-            Format::Csv => report::csv(&report),
+            Format::Json => report::write_json(&report, out),
+            Format::Csv => report::write_csv(&report, out),
         };
         if !self.answer.quiet {
             say(&warnings);
         }
         if evaluation.stopped || stop.load(Ordering::Relaxed) {
-            output::write(&answer, None)?;
+            output::write_with(None, answer)?;
             return Ok(Exit::Interrupted);
         }
         let control = self.control(&stop);
@@ -111,7 +112,7 @@ impl Run {
         if stop.load(Ordering::Relaxed) {
             return Ok(Exit::Interrupted);
         }
-        output::write(&answer, self.answer.output.as_deref())?;
+        output::write_with(self.answer.output.as_deref(), answer)?;
         Ok(if self.fail && is_refuted(&evaluation) { Exit::No } else { Exit::Done })
     }
 

@@ -1,6 +1,7 @@
 //! What can be wrong with a user's file: the facts, and the sentence that is said about them.
 
 use std::fmt;
+use std::sync::Arc;
 
 use super::shapes::KINDS;
 use crate::distribution::Invalid;
@@ -45,7 +46,7 @@ pub enum Fault {
     /// The typed model has no such input.
     UnknownInput { name: String, model: String, nearest: Option<String>, known: Vec<String> },
     /// The typed model has no such output, or no equation defines it.
-    UnknownOutput { name: String, nearest: Option<String>, known: Vec<String> },
+    UnknownOutput { name: String, nearest: Option<String>, known: Arc<[String]> },
     /// The typed model needs an input that is not there.
     MissingInput { name: String, model: String, unit: String },
     /// A name that cannot be used.
@@ -120,6 +121,8 @@ pub enum Fault {
     SavedCelsius { name: String, found: String, saved: String },
     /// A declared coefficient between inputs whose saved results have one.
     SavedCorrelation { first: String, second: String },
+    /// More mistakes than are listed.
+    MoreMistakes { most: usize },
     /// The evaluation met numbers that it cannot go on with.
     Evaluation { message: String },
     /// An override of the command line that does not fit.
@@ -174,6 +177,7 @@ impl Fault {
             Self::Table { .. } => "bad-table",
             Self::Correlation { .. } => "bad-correlation",
             Self::TooMany { .. } => "too-many",
+            Self::MoreMistakes { .. } => "more-mistakes",
             Self::NotResult { .. } => "not-a-result",
             Self::NoSuchResult { .. } => "no-such-result",
             Self::SavedEntry { .. } => "bad-result",
@@ -389,6 +393,9 @@ impl fmt::Display for Fault {
                 "the correlation of `{first}` and `{second}` follows from the saved results that \
                  they come from; take the declared coefficient out"
             ),
+            Self::MoreMistakes { most } => {
+                write!(f, "there are more mistakes; the first {most} are listed")
+            }
             Self::Evaluation { message } => f.write_str(message),
             Self::Override { text, reason } => write!(f, "`--set {text}`: {reason}"),
         }

@@ -1,7 +1,7 @@
 //! The dependence of inputs that come from saved results.
 
 use super::inputs::Inputs;
-use crate::distribution::{Correlation, Distribution, SavedResult};
+use crate::distribution::{Correlation, SavedResult};
 use crate::task::Warning;
 
 /// How many pairs a note names.
@@ -11,11 +11,8 @@ const NAMED: usize = 6;
 /// inputs, and notes on what is kept and what cannot be.
 pub(super) fn links(inputs: &Inputs) -> (Vec<Correlation>, Vec<Warning>) {
     let (mut found, mut warnings) = (Vec::new(), Vec::new());
-    let Some(row) = inputs.rows.first() else {
-        return (found, warnings);
-    };
-    let saved: Vec<(usize, &SavedResult)> =
-        row.iter().enumerate().filter_map(|(q, d)| Some((q, d.saved()?))).collect();
+    let saved = |q: usize| Some((q, inputs.known.get(q, 0)?.saved()?));
+    let saved: Vec<(usize, &SavedResult)> = (0..inputs.variables.len()).filter_map(saved).collect();
     let name = |q: usize| inputs.variables.get(q).map_or("", |variable| variable.name.as_str());
     let mut kept = Vec::new();
     for (place, &(second, b)) in saved.iter().enumerate() {
@@ -68,7 +65,7 @@ fn may_depend(a: &SavedResult, b: &SavedResult) -> bool {
 }
 
 /// Whether the dependence of two variables comes from saved results.
-pub(super) fn is_linked(row: &[Distribution], first: usize, second: usize) -> bool {
-    let saved = |q: usize| row.get(q).and_then(Distribution::saved);
+pub(super) fn is_linked(inputs: &Inputs, first: usize, second: usize) -> bool {
+    let saved = |q: usize| inputs.known.get(q, 0).and_then(|d| d.saved());
     saved(first).zip(saved(second)).is_some_and(|(a, b)| a.is_linked(b))
 }

@@ -3,11 +3,13 @@
 //! Reading goes on after a mistake, so that all of a file's mistakes are reported at once; only
 //! text that is not JSON stops it.
 
+pub(crate) mod bytes;
 mod conditions;
 mod correlations;
 mod fault;
 mod inputs;
 mod json;
+mod known;
 mod links;
 mod model_file;
 mod nearest;
@@ -19,6 +21,7 @@ mod result_file;
 mod samples;
 mod settings;
 mod shapes;
+mod size;
 mod source;
 mod table;
 mod width;

@@ -5,6 +5,7 @@ use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
 
+use super::bytes;
 use super::conditions::{self, Conditions};
 use super::inputs::{self, Inputs};
 use super::json::{Json, Member, Node};
@@ -12,8 +13,10 @@ use super::object::Object;
 use super::outputs::{self, Outputs};
 use super::problem::{Log, Problems};
 use super::result_file::Results;
+use super::size::Size;
 use super::source::Source;
 use super::{Fault, correlations, json, nearest, settings};
+use crate::distribution::Fits;
 use crate::model::formula::{self, Formula, Scope, Typing};
 use crate::model::typed::{Entry, find};
 use crate::model::{
@@ -102,8 +105,7 @@ impl Override {
 pub fn read(path: &Path, overrides: &[Override]) -> Result<ModelFile, Problems> {
     let name = path.display().to_string();
     let folder = path.parent().unwrap_or_else(|| Path::new(""));
-    let text = std::fs::read(path)
-        .map_err(|error| error.to_string())
+    let text = bytes::of_file(path, bytes::MOST)
         .and_then(|bytes| String::from_utf8(bytes).map_err(|_| "it is not UTF-8 text".to_owned()));
     match text {
         Ok(text) => read_text(&name, &text, folder, overrides),
@@ -258,6 +260,12 @@ impl<'a> ModelReader<'a> {
         let outputs = root.required("outputs").and_then(|member| outputs::read(log, member));
         let (inputs, outputs) = (inputs?, outputs.unwrap_or_default());
         self.names(&inputs, &conditions, &maker);
+        let (rows, outputs_found) = (conditions.rows.len(), outputs.outputs.len());
+        let size = Size { rows, outputs: outputs_found, variables: inputs.variables.len() };
+        if let (Some(fault), Some(member)) = (size.fault(), root.get("outputs")) {
+            log.report(&member.key_span, fault);
+            return None;
+        }
         if conditions.unreadable {
             // without the names of the conditions nothing can be said about formulas
             return None;
@@ -265,7 +273,10 @@ impl<'a> ModelReader<'a> {
         let mut files = std::mem::take(&mut conditions.files);
         files.extend(inputs.files.iter().cloned());
         files.extend(results.files.take());
-        let (correlations, notes) = correlations::read(root, &inputs, self.folder, &mut files);
+        let fits = Fits::default();
+        let found = (conditions.rows.len(), &fits);
+        let (correlations, notes) =
+            correlations::read(root, &inputs, self.folder, &mut files, found);
         let mut warnings = inputs.warnings.clone();
         warnings.extend(notes);
         let Outputs { mut outputs, places, unit_places, without_unit } = outputs;
@@ -325,15 +336,24 @@ impl<'a> ModelReader<'a> {
                 )
             }
         };
+        let known = inputs.known.rows(conditions.rows.len());
         let rows = conditions
             .rows
             .into_iter()
-            .zip(inputs.rows)
+            .zip(known)
             .map(|(conditions, distributions)| Row { conditions, distributions })
             .collect();
         let swept = swept.is_some();
-        let task =
-            Task { title, model, variables: inputs.variables, correlations, rows, swept, settings };
+        let task = Task {
+            title,
+            model,
+            variables: inputs.variables,
+            correlations,
+            rows,
+            swept,
+            settings,
+            fits,
+        };
         Some(ModelFile { task, warnings, source: log.source.clone(), files, output_places: places })
     }
 
@@ -368,7 +388,7 @@ impl<'a> ModelReader<'a> {
             (None, Some(member)) => {
                 let object = Object::new(self.log, "`equations`", &member.value, &member.key_span)?;
                 let mut equations = Vec::new();
-                for member in object.members() {
+                for member in object.members().iter().take_while(|_| !self.log.is_full()) {
                     let formula = match &member.value.value {
                         Json::Text(text) => Formula::parse(text)
                             .map_err(|error| self.report_formula(member, error))
@@ -499,7 +519,7 @@ impl<'a> ModelReader<'a> {
                 self.log.report(place, Fault::MissingInput { name, model: model.clone(), unit });
             }
         }
-        let known: Vec<String> = declaration.outputs.iter().map(|o| o.name.to_owned()).collect();
+        let known: Arc<[String]> = declaration.outputs.iter().map(|o| o.name.to_owned()).collect();
         for ((output, place), unit_place) in outputs.iter().zip(output_places).zip(unit_places) {
             let name = &output.quantity.name;
             match entry.typed.output(name) {
@@ -511,9 +531,10 @@ impl<'a> ModelReader<'a> {
         }
     }
 
-    fn unknown_output(&self, name: &str, known: &[String], place: &Range<usize>) {
+    fn unknown_output(&self, name: &str, known: &Arc<[String]>, place: &Range<usize>) {
         let nearest = nearest(name, known.iter().map(String::as_str)).map(str::to_owned);
-        let fault = Fault::UnknownOutput { name: name.to_owned(), nearest, known: known.to_vec() };
+        let fault =
+            Fault::UnknownOutput { name: name.to_owned(), nearest, known: Arc::clone(known) };
         self.log.report(place, fault);
     }
 
@@ -549,7 +570,7 @@ impl<'a> ModelReader<'a> {
         for (member, _) in equations {
             scope.announce(&member.key);
         }
-        for (member, formula) in equations {
+        for (member, formula) in equations.iter().take_while(|_| !self.log.is_full()) {
             let result = match formula {
                 Some(formula) if check_units => formula.check(&scope),
                 Some(formula) => formula.check_names(&scope),
@@ -574,7 +595,7 @@ impl<'a> ModelReader<'a> {
         unknown_units: &HashSet<&str>,
         check_units: bool,
     ) {
-        let known: Vec<String> = scope.names().map(str::to_owned).collect();
+        let known: Arc<[String]> = scope.names().map(str::to_owned).collect();
         for ((output, place), unit_place) in outputs.iter().zip(places).zip(unit_places) {
             let name = &output.quantity.name;
             let Some(typing) = scope.get(name) else {

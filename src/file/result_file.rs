@@ -7,13 +7,13 @@ use std::sync::Arc;
 
 use sha2::{Digest, Sha256};
 
-use super::Fault;
 use super::conditions::unit;
 use super::json::{self, Json, Node};
 use super::nearest::nearest;
 use super::object::Object;
 use super::problem::{Log, Problems};
 use super::source::{Place, Source};
+use super::{Fault, bytes};
 use crate::distribution::{
     Constant, Distribution, Origin, Root, RootCorrelation, RootName, Saved, SavedResult, Scores,
 };
@@ -125,9 +125,9 @@ impl<'a> Results<'a> {
             log.report(&place.span, Fault::Unreadable { message });
             None
         };
-        let bytes = match std::fs::read(self.folder.join(name)) {
+        let bytes = match bytes::of_file(&self.folder.join(name), bytes::MOST) {
             Ok(bytes) => bytes,
-            Err(error) => return unreadable(error.to_string()),
+            Err(message) => return unreadable(message),
         };
         let Ok(text) = std::str::from_utf8(&bytes) else {
             return unreadable("it is not UTF-8 text".to_owned());

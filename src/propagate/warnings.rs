@@ -67,7 +67,7 @@ fn copula(task: &Task, evaluation: &Evaluation, found: &mut Vec<Warning>) {
     found.push(Warning::new("gaussian-copula", "", text));
     if evaluation.copula_adjusted > 0.0 {
         let of_results =
-            task.rows.iter().flat_map(|row| &row.distributions).any(|d| d.saved().is_some());
+            task.rows.iter().flat_map(|row| row.distributions.iter()).any(|d| d.saved().is_some());
         let text = if of_results {
             format!(
                 "a Gaussian copula gives the correlation coefficients of these saved results only \

@@ -16,6 +16,7 @@ mod interval;
 mod moments;
 mod order;
 mod partition;
+mod products;
 mod quantiles;
 mod repeat;
 mod run;
