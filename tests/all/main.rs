@@ -14,5 +14,6 @@ mod mutations;
 mod reproducible;
 mod results;
 mod schema;
+mod sizes;
 mod support;
 mod verify;
