@@ -8,7 +8,7 @@ use clap::{Args, ValueEnum};
 use super::Failure;
 use crate::file::bytes;
 use crate::report::Column;
-use crate::task::Trials;
+use crate::task::{StoppingRule, Trials};
 
 /// The format of an answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -80,6 +80,12 @@ pub(super) fn memory(text: &str) -> Result<usize, String> {
 pub(super) fn columns() -> impl TypedValueParser<Value = Column> {
     PossibleValuesParser::new(Column::ALL.map(Column::name))
         .try_map(|name| Column::named(&name).ok_or("there is no such column"))
+}
+
+/// When an adaptive run stops.
+pub(super) fn rule() -> impl TypedValueParser<Value = StoppingRule> {
+    PossibleValuesParser::new(StoppingRule::ALL.map(StoppingRule::name))
+        .try_map(|name| StoppingRule::named(&name).ok_or("there is no such rule"))
 }
 
 /// A coverage probability.

@@ -3,6 +3,7 @@
 use std::fmt;
 use std::sync::Arc;
 
+use super::nearest::nearest;
 use super::shapes::KINDS;
 use crate::distribution::Invalid;
 use crate::model::formula::FormulaError;
@@ -198,6 +199,9 @@ impl Fault {
             | Self::NoSuchInput { nearest, .. }
             | Self::NoSuchResult { nearest, .. }
             | Self::UnknownDistribution { nearest, .. } => nearest.clone(),
+            Self::NotOneOf { found, allowed, .. } => {
+                nearest(found, allowed.iter().map(String::as_str)).map(str::to_owned)
+            }
             Self::Unit { error, .. } => error.suggestions().first().map(|s| (*s).to_owned()),
             Self::Formula { error } => error.suggestion(),
             _ => None,

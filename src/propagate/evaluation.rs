@@ -8,7 +8,7 @@ use rayon::prelude::*;
 
 use super::Control;
 use super::gum::{self, Gum};
-use super::monte_carlo::{self, MonteCarlo, Request, Rule, Undefined};
+use super::monte_carlo::{self, MonteCarlo, Request, Search, Undefined};
 use super::validate::{Validation, validate};
 use crate::distribution::{BLOCK, CorrelationError, Joint};
 use crate::model::{Program, Tolerance};
@@ -319,7 +319,8 @@ fn run(
     }
     let gum: Vec<f64> =
         gums.iter().map(|gum| gum.as_ref().map_or(0.0, |g| g.standard_uncertainty)).collect();
-    let rule = Rule {
+    let search = Search {
+        rule: settings.rule,
         probability,
         digits: settings.digits,
         strictness: if settings.for_validation { 5.0 } else { 1.0 },
@@ -327,7 +328,7 @@ fn run(
         drawn_dof,
         gum: &gum,
     };
-    let (count, ends) = monte_carlo::find_trials(trials, rule, control);
+    let (count, ends) = monte_carlo::find_trials(trials, search, control);
     let request = Request { trials: count, probability, drawn_dof };
     // a search that was stopped still hands back the figures of the trials that it made
     let stopped = control.is_stopped();

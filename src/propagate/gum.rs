@@ -63,7 +63,8 @@ impl Gum {
 pub(crate) struct GumRow {
     /// Estimates of the outputs, on their own branch for phases.
     pub(crate) estimates: Vec<f64>,
-    /// The evaluations; `None` where an estimate or a sensitivity coefficient is not finite.
+    /// The evaluations; `None` where an estimate, a sensitivity coefficient or the standard
+    /// uncertainty is not finite.
     pub(crate) outputs: Vec<Option<Gum>>,
     /// For each output its sensitivity coefficients.
     gradients: Vec<Vec<f64>>,
@@ -108,7 +109,7 @@ impl<'a> Rows<'a> {
                 if !estimate.is_finite() || !slopes.iter().all(|c| c.is_finite()) {
                     return None;
                 }
-                Some(self.output(row, estimate, slopes, &linked))
+                self.output(row, estimate, slopes, &linked)
             })
             .collect();
         let links = Arc::clone(&linked.correlations);
@@ -208,8 +209,9 @@ impl Linked {
 }
 
 impl Rows<'_> {
-    /// The evaluation of one output from its estimate and its sensitivity coefficients.
-    fn output(&self, row: &Row, estimate: f64, slopes: &[f64], linked: &Linked) -> Gum {
+    /// The evaluation of one output from its estimate and its sensitivity coefficients; `None` where
+    /// the standard uncertainty is not finite.
+    fn output(&self, row: &Row, estimate: f64, slopes: &[f64], linked: &Linked) -> Option<Gum> {
         let settings = &self.task.settings;
         let lines: Vec<BudgetLine> = row
             .distributions
@@ -222,6 +224,9 @@ impl Rows<'_> {
             .collect();
         // contributions relative to the largest, so that no square over- or underflows
         let largest = lines.iter().map(|line| line.contribution).fold(0.0, f64::max);
+        if !largest.is_finite() {
+            return None;
+        }
         let signed = |i: usize| lines[i].relative(largest);
         let mut variance: f64 = (0..lines.len()).map(|i| signed(i).powi(2)).sum();
         for c in linked.correlations.iter() {
@@ -231,7 +236,7 @@ impl Rows<'_> {
         let variance = f64::max(variance, 0.0);
         let standard_uncertainty = largest * variance.sqrt();
         let dof = effective_dof(&lines, &row.distributions, linked, standard_uncertainty);
-        Gum {
+        let gum = Gum {
             estimate,
             standard_uncertainty,
             dof,
@@ -242,7 +247,8 @@ impl Rows<'_> {
             links: Arc::clone(&linked.correlations),
             largest,
             variance,
-        }
+        };
+        standard_uncertainty.is_finite().then_some(gum)
     }
 }
 

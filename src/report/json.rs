@@ -245,6 +245,7 @@ enum Asked {
 
 #[derive(Serialize)]
 struct AdaptiveSide {
+    rule: &'static str,
     block_trials: u64,
     blocks: u64,
     tolerance: f64,
@@ -403,6 +404,7 @@ impl MonteCarloSide {
             excess_kurtosis: figures.excess_kurtosis,
             numerical_standard_error: ErrorSide::from(figures.errors),
             adaptive: figures.adaptive.map(|end| AdaptiveSide {
+                rule: end.rule.name(),
                 block_trials: end.block_trials,
                 blocks: end.blocks,
                 tolerance: end.tolerance,

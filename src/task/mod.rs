@@ -6,7 +6,7 @@ mod settings;
 mod warning;
 
 pub use coverage::Coverage;
-pub use settings::{Settings, Trials};
+pub use settings::{Settings, StoppingRule, Trials};
 pub use warning::Warning;
 
 use std::sync::Arc;

@@ -9,6 +9,7 @@ mod commands;
 mod diff;
 mod errors;
 mod formulas;
+mod fuzz;
 mod intervals;
 mod mutations;
 mod reproducible;

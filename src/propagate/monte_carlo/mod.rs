@@ -24,7 +24,7 @@ mod sorting;
 mod windows;
 
 pub use adaptive::Adaptive;
-pub(crate) use adaptive::{Rule, find_trials};
+pub(crate) use adaptive::{FIRST_STAGE, Search, find_trials};
 pub(crate) use block::Trials;
 pub(crate) use hash::hash_trials;
 pub(crate) use quantiles::quantiles;

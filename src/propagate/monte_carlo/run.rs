@@ -39,7 +39,7 @@ pub struct MonteCarlo {
     pub trials: u64,
     /// Mean of the trials.
     pub estimate: f64,
-    /// Standard deviation of the trials; `None` if the distribution has none.
+    /// Standard deviation of the trials; `None` if the distribution has none, or of a single trial.
     pub standard_uncertainty: Option<f64>,
     /// Median of the trials.
     pub median: f64,
@@ -395,10 +395,12 @@ impl MonteCarlo {
         errors: NumericalError,
     ) -> Self {
         let spread = moments.std > 0.0;
+        // a single trial does not scatter
+        let several = moments.trials > 1.0;
         Self {
             trials: moments.trials as u64,
             estimate: moments.mean,
-            standard_uncertainty: (drawn_dof > 2.0).then_some(moments.std),
+            standard_uncertainty: (drawn_dof > 2.0 && several).then_some(moments.std),
             median,
             symmetric_interval: intervals.0,
             shortest_interval: intervals.1,
@@ -425,9 +427,10 @@ impl NumericalError {
             let exists = drawn_dof > order && moments.std > 0.0;
             moments.shape_errors.filter(|_| exists).map(|errors| errors[which])
         };
+        let several = moments.trials > 1.0;
         Self {
-            estimate: (drawn_dof > 2.0).then(|| moments.mean_error()),
-            standard_uncertainty: (drawn_dof > 4.0).then(|| moments.std_error()),
+            estimate: (drawn_dof > 2.0 && several).then(|| moments.mean_error()),
+            standard_uncertainty: (drawn_dof > 4.0 && several).then(|| moments.std_error()),
             median,
             symmetric_interval: [low, high],
             shortest_interval,
