@@ -55,6 +55,7 @@ pub mod command;
 pub mod diff;
 pub mod distribution;
 pub mod file;
+pub mod gap;
 pub mod model;
 pub mod number;
 pub mod propagate;

@@ -52,12 +52,12 @@ impl From<&Problem> for Mistake {
 impl Check {
     pub(super) fn execute(&self) -> Result<Exit, Failure> {
         let result = if self.file == Path::new("-") {
-            file::read_text("<stdin>", &options::standard_input()?, Path::new(""), &[])
+            file::check_text("<stdin>", &options::standard_input()?, Path::new(""))
         } else {
-            file::read(&self.file, &[])
+            file::check(&self.file)
         };
         let found = match result {
-            Ok(_) => Problems(Vec::new()),
+            Ok(()) => Problems(Vec::new()),
             Err(found) => found,
         };
         let right = found.0.is_empty();

@@ -3,6 +3,8 @@
 mod check;
 mod diff;
 mod exit;
+mod gap;
+mod gap_check;
 mod models;
 mod options;
 mod output;
@@ -37,8 +39,12 @@ enum Command {
     Models(models::Models),
     /// Recompute the published examples on this machine, or compare its code paths
     Verify(verify::Verify),
-    /// Say what changed between two model files, and how much of the change of U each explains
+    /// Say what changed between two model files or saved results, and what it did to U
     Diff(diff::Diff),
+    /// Diagnose where measured data depart from a model, and which effect is missing
+    Gap(gap::Gap),
+    /// Check that diagnosis blindly at a case's own design: how far its answers can be trusted
+    GapCheck(gap_check::GapCheck),
     /// Print the JSON Schema of the files, for editors
     Schema(schema::Schema),
 }
@@ -52,6 +58,8 @@ pub fn main() -> ExitCode {
         Command::Models(command) => command.execute(),
         Command::Verify(command) => command.execute(),
         Command::Diff(command) => command.execute(),
+        Command::Gap(command) => command.execute(),
+        Command::GapCheck(command) => command.execute(),
         Command::Schema(command) => command.execute(),
     };
     match result {

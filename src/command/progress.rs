@@ -1,8 +1,8 @@
 //! Progress on the terminal, and Ctrl-C.
 
 use std::io::IsTerminal;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
@@ -10,6 +10,15 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 pub(super) fn examples(count: u64, quiet: bool) -> ProgressBar {
     let bar = bar(Some(count), quiet);
     if let Ok(style) = ProgressStyle::with_template("{bar:30} {pos} of {len} examples") {
+        bar.set_style(style);
+    }
+    bar
+}
+
+/// A bar that counts diagnoses, hidden where standard error is no terminal or nothing is to be shown.
+pub(super) fn draws(count: u64, quiet: bool) -> ProgressBar {
+    let bar = bar(Some(count), quiet);
+    if let Ok(style) = ProgressStyle::with_template("{bar:30} {pos} of {len} draws, {eta} left") {
         bar.set_style(style);
     }
     bar
@@ -32,6 +41,38 @@ pub(super) fn bar(trials: Option<u64>, quiet: bool) -> ProgressBar {
         bar.set_style(style);
     }
     bar
+}
+
+/// Parts of the bar of a share.
+const PARTS: u64 = 1000;
+
+/// A bar of the share that is done, hidden where standard error is no terminal or nothing is to be
+/// shown.
+pub(super) fn share(quiet: bool) -> ProgressBar {
+    let bar = bar(Some(PARTS), quiet);
+    if let Ok(style) = ProgressStyle::with_template("{bar:30} {percent:>3} %  {elapsed}") {
+        bar.set_style(style);
+    }
+    bar
+}
+
+/// Moves a bar of a share; it never goes back.
+pub(super) fn tell(bar: &ProgressBar, share: f64) {
+    let position = (share.clamp(0.0, 1.0) * PARTS as f64) as u64;
+    bar.set_position(position.max(bar.position()));
+}
+
+/// Lets Ctrl-C end the process at once with 130, but not while the lock is held: a file that is being
+/// written becomes whole first.
+pub(super) fn whole_on_interrupt() -> Arc<Mutex<()>> {
+    let lock = Arc::new(Mutex::new(()));
+    let held = lock.clone();
+    // without a handler Ctrl-C ends the process, which is all right as well
+    let _ = ctrlc::set_handler(move || {
+        let _whole = held.lock();
+        std::process::exit(130);
+    });
+    lock
 }
 
 /// A flag that the first Ctrl-C sets; a second one ends the process at once.

@@ -87,7 +87,7 @@ impl Run {
         save::check(&task, self.save.as_deref(), self.samples.as_ref())?;
         let stop = progress::stop_flag();
         let (evaluation, warnings) = self.evaluate(&file, &task, &stop)?;
-        let provenance = provenance(&text, &file);
+        let provenance = provenance(&text, &file.files);
         let report = Report {
             task: &task,
             evaluation: &evaluation,
@@ -198,13 +198,14 @@ fn failure(file: &ModelFile, error: EvaluationError) -> Failure {
     }
 }
 
-fn provenance(text: &str, file: &ModelFile) -> Provenance {
+/// The digests of a file and of the tables that it reads.
+pub(super) fn provenance(text: &str, files: &[(String, Vec<u8>)]) -> Provenance {
     let digest = |bytes: &[u8]| {
         Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect::<String>()
     };
     Provenance {
         model_sha256: digest(text.as_bytes()),
-        files: file.files.iter().map(|(name, bytes)| (name.clone(), digest(bytes))).collect(),
+        files: files.iter().map(|(name, bytes)| (name.clone(), digest(bytes))).collect(),
     }
 }
 

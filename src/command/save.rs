@@ -4,7 +4,9 @@ use std::path::{Path, PathBuf};
 
 use super::{Failure, output};
 use crate::distribution::Scores;
-use crate::propagate::{Control, EvaluationError, for_each_block, linear, origins, quantiles};
+use crate::propagate::{
+    Control, EvaluationError, for_each_block, joint_ranks, linear, origins, quantiles,
+};
 use crate::report::{self, Report, Samples};
 use crate::task::{Task, Trials};
 
@@ -80,9 +82,12 @@ impl Saver<'_> {
         let Some(quantiles) = quantiles(task, evaluation, 0, &scores, self.control)? else {
             return Ok(());
         };
+        let Some(ranks) = joint_ranks(task, evaluation, 0, self.control)? else {
+            return Ok(());
+        };
         let gums: Vec<_> = evaluated.outputs.iter().map(linear).collect();
         let origins = origins(task, row, &gums, &provenance.model_sha256);
-        output::write_file(&report::saved(self.report, &origins, &quantiles), path)
+        output::write_file(&report::saved(self.report, &origins, &quantiles, &ranks), path)
     }
 
     /// The trials, block by block; nothing is left if the run is stopped meanwhile.

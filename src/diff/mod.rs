@@ -18,16 +18,29 @@
 //! with the means of both files' values. These parts sum to U_B - U_A exactly, whatever the order
 //! of the inputs in the files.
 //!
+//! # Model files and saved results
+//!
 //! Where the model changed, inputs that only the first file has lose their uncertainty before, and
 //! inputs that only the second has get theirs after; the average is taken of changing the model
 //! first and of changing it last.
+//!
+//! A saved result does not tell its equations, but its sensitivity coefficients: u^2 is a sum of
+//! contributions c u and of their correlation terms ([`compare_saved`]). An input's part is then
+//! that of its whole contribution, whether its uncertainty moved or its sensitivity coefficient,
+//! and that of its degrees of freedom. A model file that is compared with a saved result is
+//! evaluated and taken in the same way.
 
 mod attribution;
 mod changes;
+mod contributions;
+mod linear;
 mod mixture;
+mod saved;
 
 #[cfg(test)]
 mod tests;
+
+pub use saved::{Evaluated, compare_saved};
 
 use crate::file::ModelFile;
 use crate::propagate::gum::{self, Gum};
@@ -83,6 +96,8 @@ pub enum Due {
     Coverage,
     /// The equations or the typed model.
     Model,
+    /// What the inputs of saved results do not account for.
+    Rest,
 }
 
 /// A part of the change.
@@ -113,11 +128,14 @@ pub struct State {
     /// Standard uncertainty.
     pub standard_uncertainty: f64,
     /// Name of the distribution.
-    pub distribution: &'static str,
+    pub distribution: String,
     /// Degrees of freedom.
     pub dof: f64,
     /// Unit of estimate and standard uncertainty.
     pub unit: String,
+    /// Sensitivity coefficient of the output to it, output unit per input unit, where the equations
+    /// are not known.
+    pub sensitivity: Option<f64>,
 }
 
 /// One of the two files.
@@ -290,22 +308,17 @@ fn list(
     let scale = [1.0, factor];
     let u = [0, 1].map(|i| gums[i].map_or(f64::NAN, |gum| gum.standard_uncertainty * scale[i]));
     let k = gums.map(|gum| gum.and_then(|gum| gum.coverage_factor).unwrap_or(f64::NAN));
-    let change = |cause: Option<&Cause>| {
-        let [of_variance, of_factor] = attributed.of(cause);
-        let sum = u[0] + u[1];
-        let of_u = if sum == 0.0 { 0.0 } else { of_variance / sum };
-        let change = 0.5 * (k[0] + k[1]) * of_u + 0.5 * sum * of_factor;
-        change.is_finite().then_some(change)
-    };
+    let change = |cause: Option<&Cause>| change_of_expanded(u, k, attributed.of(cause));
     let state = |side: usize, name: &str| {
         let place = tasks[side].variables.iter().position(|v| v.name == name)?;
         let distribution = rows[side].distributions.get(place)?;
         Some(State {
             estimate: distribution.mean(),
             standard_uncertainty: distribution.standard_uncertainty(),
-            distribution: distribution.name(),
+            distribution: distribution.name().to_owned(),
             dof: distribution.dof(),
             unit: tasks[side].variables.get(place)?.unit.text().to_owned(),
+            sensitivity: None,
         })
     };
     let mut parts: Vec<Part> = Vec::new();
@@ -340,6 +353,15 @@ fn list(
     }
     share_out(&mut parts, rounding);
     parts
+}
+
+/// The part of the change of U = k u that belongs to parts of the changes of u^2 and k; `None` if
+/// one is not finite.
+fn change_of_expanded(u: [f64; 2], k: [f64; 2], [of_variance, of_factor]: [f64; 2]) -> Option<f64> {
+    let sum = u[0] + u[1];
+    let of_u = if sum == 0.0 { 0.0 } else { of_variance / sum };
+    let change = 0.5 * (k[0] + k[1]) * of_u + 0.5 * sum * of_factor;
+    change.is_finite().then_some(change)
 }
 
 /// Shares of the sum of all changes, which is the change of U but for rounding.

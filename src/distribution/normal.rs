@@ -94,6 +94,13 @@ impl Shape for Normal {
     }
 }
 
+impl Normal {
+    /// Fills a column with draws of the standard normal distribution.
+    pub(crate) fn standard_draw(stream: &mut Stream, out: &mut Column) {
+        draw(0.0, 1.0, stream, out);
+    }
+}
+
 /// Box-Muller: a pair of uniforms gives two independent normals (JCGM 101, C.4). The cosines fill
 /// the first half of the column, the sines the second.
 #[inline(always)]

@@ -96,6 +96,9 @@ pub struct Origin {
     pub siblings: Vec<(String, f64)>,
     /// SHA-256 of the model file that was saved.
     pub model: Arc<str>,
+    /// Its ranks, from 0, in some of the trials; entry i of all outputs of the file is of the same
+    /// trial. `None` if the file has none.
+    pub ranks: Option<Arc<[u32]>>,
 }
 
 impl Origin {
@@ -228,6 +231,18 @@ impl SavedResult {
         let cell = (place as usize).min(last);
         let [start, rise] = self.cells[cell];
         start + rise * (place - cell as f64)
+    }
+
+    /// The value at `share` (from 0 to 1) of the stretch of probability of the rank `rank`, counted
+    /// from 0, of `count` ones.
+    pub(super) fn in_rank(&self, rank: u32, share: f64, count: u32) -> f64 {
+        let (rank, count) = (f64::from(rank), f64::from(count));
+        // the tail on the near side keeps its digits
+        self.at(if rank < 0.5 * count {
+            special::normal::quantile((rank + share) / count)
+        } else {
+            special::normal::quantile_upper((count - rank - share) / count)
+        })
     }
 
     /// Whether the two results depend on each other: outputs of one file, or results that go back

@@ -3,7 +3,7 @@
 use std::fmt;
 
 use super::stream::Stream;
-use crate::number::Column;
+use crate::number::{Column, Shortest};
 
 /// A probability distribution of one quantity.
 ///
@@ -156,15 +156,16 @@ impl fmt::Display for Invalid {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::NotFinite { parameter, value } => {
-                write!(f, "{parameter} is {value}, but must be a finite number")
+                write!(f, "{parameter} is {}, but must be a finite number", Shortest(*value))
             }
             Self::NotPositive { parameter, value } => {
-                write!(f, "{parameter} is {value}, but must be above zero")
+                write!(f, "{parameter} is {}, but must be above zero", Shortest(*value))
             }
             Self::OutOfRange { parameter, value, range } => {
-                write!(f, "{parameter} is {value}, but must be {range}")
+                write!(f, "{parameter} is {}, but must be {range}", Shortest(*value))
             }
             Self::LimitsReversed { lower, upper } => {
+                let (lower, upper) = (Shortest(*lower), Shortest(*upper));
                 write!(f, "the lower limit {lower} is not below the upper limit {upper}")
             }
             Self::TooFewReadings { count } => {
@@ -189,10 +190,14 @@ impl fmt::Display for Invalid {
                  joint distribution to have a covariance; at least {} are needed (JCGM 102, 5.3)",
                 together + 3
             ),
-            Self::WidthLost { parameter, value, estimate } => write!(
-                f,
-                "{parameter} is {value}, which is lost in the rounding of the estimate {estimate}"
-            ),
+            Self::WidthLost { parameter, value, estimate } => {
+                let (value, estimate) = (Shortest(*value), Shortest(*estimate));
+                write!(
+                    f,
+                    "{parameter} is {value}, which is lost in the rounding of the estimate \
+                     {estimate}"
+                )
+            }
         }
     }
 }

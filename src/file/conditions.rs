@@ -1,5 +1,6 @@
 //! The conditions of a measurement: a grid of values, or the rows of a table.
 
+use std::collections::HashMap;
 use std::ops::Range;
 use std::path::Path;
 
@@ -7,8 +8,9 @@ use super::Fault;
 use super::json::{Json, Member};
 use super::object::Object;
 use super::problem::Log;
-use super::table;
+use super::table::{self, Table};
 use crate::model::Quantity;
+use crate::model::formula::{Formula, FormulaError, Scope};
 use crate::unit::Unit;
 
 /// At most so many rows: a sweep of a million.
@@ -33,16 +35,60 @@ impl Conditions {
     pub(super) fn none() -> Self {
         Self { rows: vec![Vec::new()], ..Self::default() }
     }
+
+    /// The rows of a table, without any condition.
+    pub(super) fn rows_of(table: &Table) -> Self {
+        Self { rows: vec![Vec::new(); table.rows.len()], ..Self::default() }
+    }
+
+    /// A column of the data as a condition.
+    pub(super) fn add_column(
+        &mut self,
+        table: &Table,
+        name: &str,
+        unit: Unit,
+        named: &Range<usize>,
+    ) {
+        let place = table.columns.iter().position(|column| column == name);
+        self.places.push(named.clone());
+        self.quantities.push(Quantity { name: name.to_owned(), unit, about: String::new() });
+        for (row, data) in self.rows.iter_mut().zip(&table.rows) {
+            row.push(place.and_then(|place| data.get(place)).copied().unwrap_or(f64::NAN));
+        }
+    }
+
+    /// A condition with its unit, without values.
+    fn add(&mut self, member: &Member, condition: &Object<'_>) {
+        self.places.push(member.key_span.clone());
+        let unit = unit(condition, "unit").unwrap_or_else(|| {
+            self.without_unit.push(member.key.clone());
+            Unit::one()
+        });
+        let about = condition.text("about").unwrap_or("").to_owned();
+        self.quantities.push(Quantity { name: member.key.clone(), unit, about });
+    }
 }
 
-/// Reads `conditions`; paths are relative to `folder`.
-pub(super) fn read(log: &Log, member: &Member, folder: &Path) -> Option<Conditions> {
+/// Reads `conditions`; paths are relative to `folder`. Conditions without values are columns of
+/// `data`, whose rows are then those of the conditions.
+pub(super) fn read(
+    log: &Log,
+    member: &Member,
+    folder: &Path,
+    data: Option<&Table>,
+) -> Option<Conditions> {
     let object = Object::new(log, "`conditions`", &member.value, &member.key_span)?;
-    match object.get("file") {
-        Some(file) if matches!(file.value.value, Json::Text(_)) => {
-            from_table(&object, file, folder)
+    let file = object.get("file").filter(|file| matches!(file.value.value, Json::Text(_)));
+    match (file, data) {
+        (Some(file), Some(_)) => {
+            let reason = "the conditions of observations are columns of their table; in place of \
+                          `file` give the columns by their names, with units";
+            log.report(&file.key_span, Fault::Observation { reason: reason.to_owned() });
+            None
         }
-        _ => grid(&object),
+        (Some(file), None) => from_table(&object, file, folder),
+        (None, Some(data)) => columns_of(&object, data),
+        (None, None) => grid(&object),
     }
 }
 
@@ -60,6 +106,53 @@ fn parse_unit(log: &Log, text: &str, span: &Range<usize>) -> Option<Unit> {
     log.value(span, parsed.map_err(|error| Fault::Unit { unit: text.to_owned(), error }))
 }
 
+/// The conditions in the rows of the data.
+fn columns_of(object: &Object<'_>, data: &Table) -> Option<Conditions> {
+    let log = object.log;
+    let mut conditions = Conditions::default();
+    let mut places = Vec::new();
+    for member in object.members() {
+        let Some(condition) = Object::new(log, "a condition", &member.value, &member.key_span)
+        else {
+            continue;
+        };
+        condition.check_keys(&["unit", "values", "about"]);
+        if let Some(values) = condition.get("values") {
+            let reason = format!(
+                "the condition `{}` has values of its own, but with observations it is the column of \
+                 that name; take `values` out",
+                member.key
+            );
+            log.report(&values.key_span, Fault::Observation { reason });
+        }
+        let place = data.columns.iter().position(|column| *column == member.key);
+        if place.is_none() {
+            let near = super::nearest(&member.key, data.columns.iter().map(String::as_str));
+            let reason = format!(
+                "`{}` has no column `{}` for this condition{}",
+                data.source.name,
+                member.key,
+                match near {
+                    Some(near) => format!("; did you mean `{near}`?"),
+                    None => format!("; its columns are {}", data.columns.join(", ")),
+                }
+            );
+            log.report(&member.key_span, Fault::Table { reason });
+        }
+        places.push(place);
+        conditions.add(member, &condition);
+    }
+    conditions.rows = data
+        .rows
+        .iter()
+        .map(|row| {
+            let value = |place: &Option<usize>| place.and_then(|place| row.get(place)).copied();
+            places.iter().map(|place| value(place).unwrap_or(1.0)).collect()
+        })
+        .collect();
+    Some(conditions)
+}
+
 fn grid(object: &Object<'_>) -> Option<Conditions> {
     let log = object.log;
     let mut conditions = Conditions::default();
@@ -70,7 +163,6 @@ fn grid(object: &Object<'_>) -> Option<Conditions> {
             continue;
         };
         condition.check_keys(&["unit", "values", "about"]);
-        let unit = unit(&condition, "unit");
         let values = if condition.get("values").is_some() {
             condition.numbers("values")
         } else {
@@ -80,15 +172,7 @@ fn grid(object: &Object<'_>) -> Option<Conditions> {
         if values.as_ref().is_some_and(Vec::is_empty) {
             condition.report(Fault::NoValues { name: member.key.clone() });
         }
-        conditions.places.push(member.key_span.clone());
-        conditions.quantities.push(Quantity {
-            name: member.key.clone(),
-            unit: unit.unwrap_or_else(|| {
-                conditions.without_unit.push(member.key.clone());
-                Unit::one()
-            }),
-            about: condition.text("about").unwrap_or("").to_owned(),
-        });
+        conditions.add(member, &condition);
         // one value in the place of none, so that the inputs are checked all the same
         axes.push(values.filter(|values| !values.is_empty()).unwrap_or_else(|| vec![1.0]));
     }
@@ -169,4 +253,33 @@ fn from_table(object: &Object<'_>, file: &Member, folder: &Path) -> Option<Condi
     let places = vec![file.value.span.clone(); table.columns.len()];
     let (rows, files) = (table.rows, vec![(name.to_owned(), bytes)]);
     Some(Conditions { quantities, places, rows, files, without_unit, unreadable: false })
+}
+
+/// What parameters of effects see of the conditions: nothing.
+#[derive(Debug)]
+pub(super) struct NoConditions;
+
+impl super::inputs::Conditions for NoConditions {
+    fn rows(&self) -> usize {
+        1
+    }
+
+    fn check(&self, formula: &Formula, _: &Unit) -> Result<(), Vec<Fault>> {
+        let faults = |errors: Vec<FormulaError>| {
+            errors.into_iter().map(|error| Fault::Formula { error }).collect::<Vec<_>>()
+        };
+        formula.check_names(&Scope::new()).map(|_| ()).map_err(faults)
+    }
+
+    fn value(&self, formula: &Formula, _: usize) -> f64 {
+        formula.evaluate(&Scope::new(), &HashMap::<String, f64>::new()).unwrap_or(f64::NAN)
+    }
+
+    fn place(&self, _: &str) -> Option<usize> {
+        None
+    }
+
+    fn names(&self) -> Vec<String> {
+        Vec::new()
+    }
 }

@@ -12,19 +12,20 @@ use super::links;
 use super::nearest::nearest;
 use super::object::Object;
 use super::problem::Log;
-use super::table;
+use super::{sharing, table};
 use crate::distribution::{Correlation, CorrelationError, Distribution, Fits};
 use crate::task::Warning;
 
 /// Reads `correlations` and `correlation_matrix` of the root object and checks that the quantities
-/// can have them in each of the rows; the joint draws are kept in `fits`. Those of saved results come with them, with notes. Tables that were
-/// read are added to `files`.
+/// can have them in each of the rows; the joint draws are kept in `fits`. Those of saved results come
+/// with them, with notes. Tables that were read are added to `files`.
 pub(super) fn read(
     root: &Object<'_>,
     inputs: &Inputs,
+    rows: &Rows<'_>,
     folder: &Path,
     files: &mut Vec<(String, Vec<u8>)>,
-    (rows, fits): (usize, &Fits),
+    fits: &Fits,
 ) -> (Vec<Correlation>, Vec<Warning>) {
     let (found, warnings) = links::links(inputs);
     let place = |c: &Correlation| inputs.places.get(c.second).unwrap_or(root.place()).clone();
@@ -32,7 +33,7 @@ pub(super) fn read(
     let shown = inputs.variables.iter().enumerate().filter(|(_, variable)| variable.shown);
     let by_name = shown.map(|(place, variable)| (variable.name.as_str(), place)).collect();
     let mut reader =
-        Reader { log: root.log, inputs, by_name, found, pairs: HashSet::new(), places };
+        Reader { log: root.log, inputs, rows, by_name, found, pairs: HashSet::new(), places };
     if let Some(list) = root.list("correlations") {
         for node in list.iter().take_while(|_| !root.log.is_full()) {
             reader.triple(node);
@@ -41,13 +42,24 @@ pub(super) fn read(
     if let Some(member) = root.get("correlation_matrix") {
         reader.matrix(root.log, member, folder, files);
     }
-    reader.check(root, rows, fits);
+    if reader.are_shared_alike(root) {
+        reader.check(root, fits);
+    }
     (reader.found, warnings)
+}
+
+/// The rows of conditions.
+pub(super) struct Rows<'a> {
+    /// Names of the conditions.
+    pub(super) conditions: Vec<String>,
+    /// Their values in every row.
+    pub(super) rows: &'a [Vec<f64>],
 }
 
 struct Reader<'a> {
     log: &'a Log,
     inputs: &'a Inputs,
+    rows: &'a Rows<'a>,
     by_name: HashMap<&'a str, usize>,
     found: Vec<Correlation>,
     pairs: HashSet<(usize, usize)>,
@@ -194,14 +206,37 @@ impl Reader<'_> {
         }
     }
 
+    /// Whether correlated quantities have their values in common over the same rows.
+    fn are_shared_alike(&self, root: &Object<'_>) -> bool {
+        let coefficients = self.found.iter().zip(&self.places);
+        let linked = links::pairs(self.inputs);
+        let by_results: HashSet<(usize, usize)> = linked.iter().copied().collect();
+        let declared = coefficients
+            .map(|(c, place)| ((c.first, c.second), c.coefficient, place))
+            .filter(|(pair, r, _)| *r != 0.0 && !by_results.contains(pair))
+            .map(|(pair, _, place)| (pair, place, false));
+        let place = |pair: (usize, usize)| self.inputs.places.get(pair.1).unwrap_or(root.place());
+        let of_results = linked.iter().map(|&pair| (pair, place(pair), true));
+        let Rows { conditions, rows } = self.rows;
+        let mut alike = true;
+        for (pair, place, linked) in declared.chain(of_results) {
+            let reason = sharing::contradiction(self.inputs, pair, linked, conditions, rows);
+            if let Some(reason) = reason {
+                self.log.report(place, Fault::Correlation { reason });
+                alike = false;
+            }
+        }
+        alike
+    }
+
     /// Whether the quantities can have these coefficients.
-    fn check(&self, root: &Object<'_>, rows: usize, fits: &Fits) {
+    fn check(&self, root: &Object<'_>, fits: &Fits) {
         let mut seen: Vec<CorrelationError> = Vec::new();
         if !self.inputs.known.is_complete(self.inputs.variables.len()) {
             return;
         }
         let mut before: Option<Arc<[Arc<Distribution>]>> = None;
-        for row in self.inputs.known.rows(rows) {
+        for row in self.inputs.known.rows(self.rows.rows.len()) {
             if before.as_ref().is_some_and(|before| Arc::ptr_eq(before, &row)) {
                 continue;
             }

@@ -7,6 +7,7 @@ use super::nearest::nearest;
 use super::shapes::KINDS;
 use crate::distribution::Invalid;
 use crate::model::formula::FormulaError;
+use crate::number::Shortest;
 use crate::unit::UnitError;
 
 /// A mistake, without its place.
@@ -124,8 +125,18 @@ pub enum Fault {
     SavedCorrelation { first: String, second: String },
     /// More mistakes than are listed.
     MoreMistakes { most: usize },
+    /// A model file with several rows of conditions, to be compared with a saved result.
+    SeveralRows { rows: usize },
     /// The evaluation met numbers that it cannot go on with.
     Evaluation { message: String },
+    /// The catalogue has no effect of that name.
+    UnknownEffect { name: String, nearest: Option<String> },
+    /// An effect that cannot act on the sim.
+    Effect { name: String, reason: String },
+    /// Observations that say nothing about the sim, or contradict themselves.
+    Observation { reason: String },
+    /// Prior probabilities that do not sum to one.
+    Prior { reason: String },
     /// An override of the command line that does not fit.
     Override { text: String, reason: String },
 }
@@ -184,7 +195,12 @@ impl Fault {
             Self::SavedEntry { .. } => "bad-result",
             Self::SavedCelsius { .. } => "celsius-result",
             Self::SavedCorrelation { .. } => "correlated-results",
+            Self::SeveralRows { .. } => "several-rows",
             Self::Evaluation { .. } => "evaluation",
+            Self::UnknownEffect { .. } => "unknown-effect",
+            Self::Effect { .. } => "bad-effect",
+            Self::Observation { .. } => "bad-observations",
+            Self::Prior { .. } => "bad-prior",
             Self::Override { .. } => "bad-override",
         }
     }
@@ -196,6 +212,7 @@ impl Fault {
             | Self::UnknownModel { nearest, .. }
             | Self::UnknownInput { nearest, .. }
             | Self::UnknownOutput { nearest, .. }
+            | Self::UnknownEffect { nearest, .. }
             | Self::NoSuchInput { nearest, .. }
             | Self::NoSuchResult { nearest, .. }
             | Self::UnknownDistribution { nearest, .. } => nearest.clone(),
@@ -324,10 +341,11 @@ impl fmt::Display for Fault {
                  coverage probability `p`"
             ),
             Self::NotProbability { key, found } => {
+                let found = Shortest(*found);
                 write!(f, "`{key}` is {found}, but must be a probability between 0 and 1")
             }
             Self::NotPositive { key, found } => {
-                write!(f, "`{key}` is {found}, but must be above zero")
+                write!(f, "`{key}` is {}, but must be above zero", Shortest(*found))
             }
             Self::NotWhole { key, found, least, most } => {
                 write!(f, "`{key}` is {found}, but must be a whole number from {least} to {most}")
@@ -338,7 +356,7 @@ impl fmt::Display for Fault {
                  evaluation by the law of propagation alone"
             ),
             Self::OutOfRange { key, found, range } => {
-                write!(f, "`{key}` is {found}, but must be {range}")
+                write!(f, "`{key}` is {}, but must be {range}", Shortest(*found))
             }
             Self::NotOneOf { key, found, allowed } => {
                 write!(f, "`{key}` is `{found}`, but must be one of {}", list(allowed))
@@ -372,7 +390,15 @@ impl fmt::Display for Fault {
                 "`{found}` is not a finite number; a file of samples has one on each line, and `#` \
                  before words"
             ),
-            Self::Table { reason } => f.write_str(reason),
+            Self::Table { reason } | Self::Observation { reason } | Self::Prior { reason } => {
+                f.write_str(reason)
+            }
+            Self::UnknownEffect { name, nearest } => {
+                let known = "those that `gumption models --effects` lists";
+                let hint = hint(nearest.as_ref(), known);
+                write!(f, "the catalogue has no effect `{name}`{hint}")
+            }
+            Self::Effect { name, reason } => write!(f, "the effect `{name}` {reason}"),
             Self::Correlation { reason } => f.write_str(reason),
             Self::TooMany { what, found, most } => {
                 write!(f, "there are {found} {what}; this version takes {most} at most")
@@ -400,6 +426,11 @@ impl fmt::Display for Fault {
             Self::MoreMistakes { most } => {
                 write!(f, "there are more mistakes; the first {most} are listed")
             }
+            Self::SeveralRows { rows } => write!(
+                f,
+                "this file has {rows} rows of conditions, but a saved result is one row; compare it \
+                 with a file of that row alone"
+            ),
             Self::Evaluation { message } => f.write_str(message),
             Self::Override { text, reason } => write!(f, "`--set {text}`: {reason}"),
         }

@@ -12,7 +12,7 @@ use super::model_file::Override;
 use super::object::Object;
 use super::paired;
 use super::problem::Log;
-use super::result_file::Results;
+use super::results::Results;
 use super::samples;
 use super::shapes::{self, Estimate, Fields, Kind};
 use crate::distribution::{Constant, Distribution, Evaluation, Samples};

@@ -46,6 +46,16 @@ impl Known {
         }
     }
 
+    /// Whether a variable is not a constant in every row.
+    pub(super) fn varies(&self, variable: usize) -> bool {
+        let varies = |distribution: &Arc<Distribution>| distribution.constant().is_none();
+        match self.variables.get(variable) {
+            Some(Some(OfVariable::Always(distribution))) => varies(distribution),
+            Some(Some(OfVariable::InRow(distributions))) => distributions.iter().any(varies),
+            _ => false,
+        }
+    }
+
     /// Changes what is known about a variable, in every row.
     pub(super) fn change(&mut self, variable: usize, change: impl Fn(&mut Distribution)) {
         match self.variables.get_mut(variable) {

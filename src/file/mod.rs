@@ -4,8 +4,12 @@
 //! text that is not JSON stops it.
 
 pub(crate) mod bytes;
+mod case;
+mod catalogue;
 mod conditions;
 mod correlations;
+mod effects;
+mod either;
 mod fault;
 mod inputs;
 mod json;
@@ -14,20 +18,35 @@ mod links;
 mod model_file;
 mod nearest;
 mod object;
+mod observations;
 mod outputs;
 mod paired;
+mod prior;
 mod problem;
 mod result_file;
+mod results;
 mod samples;
 mod settings;
 mod shapes;
+mod sharing;
+mod simulated;
 mod size;
+mod soundness;
 mod source;
 mod table;
+mod variant;
 mod width;
 
+pub use case::{
+    CaseFile, check, check_text, read as read_case, read_at as read_case_at,
+    read_text as read_case_text,
+};
+pub use catalogue::{Listed, ListedParameter, Listing, catalogue};
+pub use either::{ModelOrResult, read_either, read_either_text};
 pub use fault::Fault;
 pub use model_file::{ModelFile, Override, Overrides, read, read_text};
 pub use nearest::nearest;
 pub use problem::{Problem, Problems};
+pub use result_file::{ResultFile, SavedOutput, read_result};
 pub use source::Source;
+pub use variant::NotCopied;

@@ -10,20 +10,19 @@ use super::conditions::{self, Conditions};
 use super::inputs::{self, Inputs};
 use super::json::{Json, Member, Node};
 use super::object::Object;
+use super::observations::Observations;
 use super::outputs::{self, Outputs};
 use super::problem::{Log, Problems};
-use super::result_file::Results;
+use super::results::Results;
 use super::size::Size;
 use super::source::Source;
-use super::{Fault, correlations, json, nearest, settings};
+use super::table::{self, Table};
+use super::{Fault, correlations, json, nearest, observations, settings};
 use crate::distribution::Fits;
 use crate::model::formula::{self, Formula, Scope, Typing};
 use crate::model::typed::{Entry, find};
-use crate::model::{
-    InputQuantity, Model, Recorder, Traced, in_unit, recorded_values, typed, variables,
-};
-use crate::number::Number;
-use crate::task::{Row, Task, Warning};
+use crate::model::{InputQuantity, Maker as SimMaker, Sim, typed};
+use crate::task::{Observed, Row, Task, Warning};
 use crate::unit::{Dimension, Unit};
 
 /// A model file that was read and found right.
@@ -103,18 +102,33 @@ impl Override {
 /// # Errors
 /// All mistakes of the file, in the order of their places.
 pub fn read(path: &Path, overrides: &[Override]) -> Result<ModelFile, Problems> {
+    read_file(path, overrides, None, |reader| reader.read())
+}
+
+/// Reads and checks a file; `read` makes what is wanted of it. `at` is a table of conditions in place
+/// of those of the data.
+pub(super) fn read_file<T>(
+    path: &Path,
+    overrides: &[Override],
+    at: Option<&Path>,
+    read: impl FnOnce(&ModelReader<'_>) -> Option<T>,
+) -> Result<T, Problems> {
     let name = path.display().to_string();
     let folder = path.parent().unwrap_or_else(|| Path::new(""));
-    let text = bytes::of_file(path, bytes::MOST)
-        .and_then(|bytes| String::from_utf8(bytes).map_err(|_| "it is not UTF-8 text".to_owned()));
-    match text {
-        Ok(text) => read_text(&name, &text, folder, overrides),
+    match text_of(path) {
+        Ok(text) => read_with(&name, &text, folder, (overrides, at), read),
         Err(message) => {
             let log = Log::new(Source::new(name, ""));
             log.report(&(0..0), Fault::Unreadable { message });
             Err(log.into_problems())
         }
     }
+}
+
+/// A file's text, or why there is none.
+pub(super) fn text_of(path: &Path) -> Result<String, String> {
+    let bytes = bytes::of_file(path, bytes::MOST)?;
+    String::from_utf8(bytes).map_err(|_| "it is not UTF-8 text".to_owned())
 }
 
 /// Reads and checks a model file's text; `name` is used in messages, and tables are looked for in
@@ -128,6 +142,16 @@ pub fn read_text(
     folder: &Path,
     overrides: &[Override],
 ) -> Result<ModelFile, Problems> {
+    read_with(name, text, folder, (overrides, None), |reader| reader.read())
+}
+
+pub(super) fn read_with<T>(
+    name: &str,
+    text: &str,
+    folder: &Path,
+    (overrides, at): (&[Override], Option<&Path>),
+    read: impl FnOnce(&ModelReader<'_>) -> Option<T>,
+) -> Result<T, Problems> {
     let source = Source::new(name, text);
     let log = Log::new(source.clone());
     let file = match json::parse(&source) {
@@ -135,7 +159,7 @@ pub fn read_text(
             override_fields(&log, &mut node, overrides);
             let whole = 0..source.text.find('\n').unwrap_or(source.text.len());
             Object::new(&log, "a model file", &node, &whole)
-                .and_then(|root| ModelReader { log: &log, root, folder, overrides }.read())
+                .and_then(|root| read(&ModelReader { log: &log, root, folder, overrides, at }))
         }
         Err((span, fault)) => {
             log.report(&span, fault);
@@ -193,7 +217,7 @@ fn override_fields(log: &Log, root: &mut Node, overrides: &[Override]) {
     }
 }
 
-const KEYS: [&str; 20] = [
+const KEYS: [&str; 21] = [
     "format",
     "title",
     "source",
@@ -214,17 +238,33 @@ const KEYS: [&str; 20] = [
     "observations",
     "effects",
     "catalogue",
+    "prior",
 ];
 
-struct ModelReader<'a> {
-    log: &'a Log,
-    root: Object<'a>,
-    folder: &'a Path,
+/// What was found in a file.
+pub(super) struct Found {
+    pub(super) file: ModelFile,
+    pub(super) sim: Sim,
+    /// What was measured of each output.
+    pub(super) observed: Vec<Option<Observed>>,
+    /// How many of the last conditions are columns of somebody else's simulation.
+    pub(super) simulated: usize,
+    /// The table of the data.
+    pub(super) data: Option<Table>,
+}
+
+pub(super) struct ModelReader<'a> {
+    pub(super) log: &'a Log,
+    pub(super) root: Object<'a>,
+    pub(super) folder: &'a Path,
+    /// A table of conditions in place of those of the data.
+    at: Option<&'a Path>,
     overrides: &'a [Override],
 }
 
-/// An equation with its formula, if that could be read.
-type Equation<'a> = (&'a Member, Option<Formula>);
+/// An equation: the quantity, where it stands unless it is a column of the data, and its formula if
+/// that could be read.
+type Equation<'a> = (String, Option<&'a Member>, Option<Formula>);
 
 /// What computes the outputs.
 enum Maker<'a> {
@@ -234,28 +274,52 @@ enum Maker<'a> {
 
 impl<'a> ModelReader<'a> {
     fn read(&self) -> Option<ModelFile> {
+        self.found().map(|found| found.file)
+    }
+
+    pub(super) fn found(&self) -> Option<Found> {
         let Self { log, root, .. } = self;
-        let mut keys = KEYS.to_vec();
-        keys.push("prior");
-        root.check_keys(&keys);
+        root.check_keys(&KEYS);
         self.format();
         let title = root.text("title").unwrap_or("").to_owned();
         root.text("source");
         let check_units = root.truth("check_units").unwrap_or(true);
         let settings = settings::read(root);
 
+        let observations =
+            root.get("observations").map(|m| observations::read(log, m, self.folder));
+        let unobserved = matches!(observations, Some(None));
+        let mut observations = observations.flatten();
         let swept = root.get("conditions");
-        let mut conditions = match swept {
-            Some(member) => conditions::read(log, member, self.folder)
+        let at = self.at.map(|path| {
+            let name = path.display().to_string();
+            table::read(log, Path::new(""), &name, &(0..0)).map(|(table, _)| table)
+        });
+        if matches!(at, Some(None)) {
+            return None;
+        }
+        let at = at.flatten();
+        let table = at.as_ref().or(observations.as_ref().map(|observations| &observations.table));
+        let mut conditions = match (swept, table) {
+            // without the data nothing is known of the rows
+            (Some(_), None) if unobserved => Conditions { unreadable: true, ..Conditions::none() },
+            (Some(member), table) => conditions::read(log, member, self.folder, table)
                 .unwrap_or_else(|| Conditions { unreadable: true, ..Conditions::none() }),
-            None => Conditions::none(),
+            (None, Some(table)) => Conditions::rows_of(table),
+            (None, None) => Conditions::none(),
         };
-        let maker = self.maker();
+        let simulated = match &observations {
+            Some(of) => self.simulated(of, table.unwrap_or(&of.table), &mut conditions),
+            None => Vec::new(),
+        };
+        let maker = self.maker(&simulated);
         let results = Results::new(self.folder);
         let set = ConditionSet { conditions: &conditions, check_units };
-        let inputs = match root.required("inputs") {
+        let inputs = match root.get("inputs") {
             Some(member) => inputs::read(log, member, &set, self.overrides, &results),
-            None => None,
+            // somebody else's simulation needs none
+            None if self.names_simulation() => Some(Inputs::default()),
+            None => root.required("inputs").and(None),
         };
         let outputs = root.required("outputs").and_then(|member| outputs::read(log, member));
         let (inputs, outputs) = (inputs?, outputs.unwrap_or_default());
@@ -271,12 +335,18 @@ impl<'a> ModelReader<'a> {
             return None;
         }
         let mut files = std::mem::take(&mut conditions.files);
+        if let Some(observations) = &mut observations {
+            files.append(&mut observations.files);
+        }
         files.extend(inputs.files.iter().cloned());
         files.extend(results.files.take());
+        let swept_over = correlations::Rows {
+            conditions: conditions.quantities.iter().map(|c| c.name.clone()).collect(),
+            rows: &conditions.rows,
+        };
         let fits = Fits::default();
-        let found = (conditions.rows.len(), &fits);
         let (correlations, notes) =
-            correlations::read(root, &inputs, self.folder, &mut files, found);
+            correlations::read(root, &inputs, &swept_over, self.folder, &mut files, &fits);
         let mut warnings = inputs.warnings.clone();
         warnings.extend(notes);
         let Outputs { mut outputs, places, unit_places, without_unit } = outputs;
@@ -286,7 +356,7 @@ impl<'a> ModelReader<'a> {
                 .flatten()
                 .map(String::as_str)
                 .collect();
-        let model = match maker? {
+        let sim = match maker? {
             Maker::Typed(entry, place) => {
                 for output in &mut outputs {
                     if let Some((_, declared)) = entry.typed.output(&output.quantity.name) {
@@ -306,7 +376,13 @@ impl<'a> ModelReader<'a> {
                 if !log.is_clean() {
                     return None;
                 }
-                entry.typed.model_with(inputs.quantities, conditions.quantities.clone(), outputs)
+                Sim {
+                    scope: typed_scope(&entry, &inputs, &conditions),
+                    inputs: inputs.quantities,
+                    conditions: conditions.quantities.clone(),
+                    outputs,
+                    maker: SimMaker::Typed(entry.typed),
+                }
             }
             Maker::Equations(equations) => {
                 let scope = self.check_equations(
@@ -327,13 +403,16 @@ impl<'a> ModelReader<'a> {
                 if !log.is_clean() {
                     return None;
                 }
-                from_equations(
-                    &equations,
-                    &scope,
-                    inputs.quantities,
-                    conditions.quantities.clone(),
+                let equations = equations.into_iter();
+                Sim {
+                    scope,
+                    inputs: inputs.quantities,
+                    conditions: conditions.quantities.clone(),
                     outputs,
-                )
+                    maker: SimMaker::Equations(
+                        equations.filter_map(|(name, _, formula)| Some((name, formula?))).collect(),
+                    ),
+                }
             }
         };
         let known = inputs.known.rows(conditions.rows.len());
@@ -343,10 +422,11 @@ impl<'a> ModelReader<'a> {
             .zip(known)
             .map(|(conditions, distributions)| Row { conditions, distributions })
             .collect();
-        let swept = swept.is_some();
+        let observed = self.observed(observations.as_ref(), &sim)?;
+        let swept = swept.is_some() || observations.is_some();
         let task = Task {
             title,
-            model,
+            model: sim.model(),
             variables: inputs.variables,
             correlations,
             rows,
@@ -354,7 +434,10 @@ impl<'a> ModelReader<'a> {
             settings,
             fits,
         };
-        Some(ModelFile { task, warnings, source: log.source.clone(), files, output_places: places })
+        let source = log.source.clone();
+        let file = ModelFile { task, warnings, source, files, output_places: places };
+        let data = observations.map(|observations| observations.table);
+        Some(Found { file, sim, observed, simulated: simulated.len(), data })
     }
 
     fn format(&self) {
@@ -369,7 +452,33 @@ impl<'a> ModelReader<'a> {
         }
     }
 
-    fn maker(&self) -> Option<Maker<'a>> {
+    /// What was measured of each output of the sim.
+    fn observed(
+        &self,
+        observations: Option<&Observations>,
+        sim: &Sim,
+    ) -> Option<Vec<Option<Observed>>> {
+        let Some(observations) = observations else {
+            return Some(vec![None; sim.outputs.len()]);
+        };
+        let mut clean = true;
+        for column in &observations.columns {
+            if !sim.is_output(&column.output) {
+                let known: Arc<[String]> =
+                    sim.outputs.iter().map(|output| output.quantity.name.clone()).collect();
+                self.unknown_output(&column.output, &known, &column.place);
+                clean = false;
+            }
+        }
+        let of = |output: &crate::model::Output| {
+            let named = |column: &&observations::Column| column.output == output.quantity.name;
+            observations.columns.iter().find(named).map(|column| column.observed.clone())
+        };
+        clean.then(|| sim.outputs.iter().map(of).collect())
+    }
+
+    /// What computes the outputs; `simulated` are outputs with the column that holds them.
+    fn maker(&self, simulated: &[(String, String)]) -> Option<Maker<'a>> {
         match (self.root.get("model"), self.root.get("equations")) {
             (Some(member), None) => {
                 let name = self.root.text("model")?;
@@ -391,7 +500,7 @@ impl<'a> ModelReader<'a> {
                 for member in object.members().iter().take_while(|_| !self.log.is_full()) {
                     let formula = match &member.value.value {
                         Json::Text(text) => Formula::parse(text)
-                            .map_err(|error| self.report_formula(member, error))
+                            .map_err(|error| report_formula(self.log, member, error))
                             .ok(),
                         other => {
                             let fault = Fault::WrongType {
@@ -403,35 +512,25 @@ impl<'a> ModelReader<'a> {
                             None
                         }
                     };
-                    equations.push((member, formula));
+                    equations.push((member.key.clone(), Some(member), formula));
                 }
+                equations.extend(of_columns(simulated));
                 Some(Maker::Equations(equations))
             }
             (Some(_), Some(second)) => {
                 self.log.report(&second.key_span, Fault::TwoModels);
                 None
             }
+            (None, None) if !simulated.is_empty() => {
+                Some(Maker::Equations(of_columns(simulated).collect()))
+            }
             (None, None) => {
-                self.root.report(Fault::NoModel);
+                if !self.names_simulation() {
+                    self.root.report(Fault::NoModel);
+                }
                 None
             }
         }
-    }
-
-    /// A formula's mistake at its place inside the JSON text.
-    fn report_formula(&self, member: &Member, error: formula::FormulaError) {
-        let span = &member.value.span;
-        let inner = error.span();
-        let raw = self.log.source.text.get(span.start + 1..span.end.saturating_sub(1));
-        let plain = raw.is_some_and(|raw| !raw.contains('\\'));
-        // escapes in the JSON text would shift the place, so the whole text is underlined then
-        let place = if plain {
-            let start = (span.start + 1 + inner.start).min(span.end);
-            start..(span.start + 1 + inner.end).clamp(start, span.end)
-        } else {
-            span.clone()
-        };
-        self.log.report(&place, Fault::Formula { error });
     }
 
     /// Names of all quantities: possible, and each used once.
@@ -450,7 +549,8 @@ impl<'a> ModelReader<'a> {
         let swept = conditions.quantities.iter().zip(&conditions.places);
         named.extend(swept.map(|(quantity, place)| (1, quantity.name.as_str(), place)));
         if let Some(Maker::Equations(equations)) = maker {
-            named.extend(equations.iter().map(|(m, _)| (2, m.key.as_str(), &m.key_span)));
+            let written = equations.iter().filter_map(|(_, member, _)| *member);
+            named.extend(written.map(|m| (2, m.key.as_str(), &m.key_span)));
         }
         for (kind, name, place) in named {
             if let Err(error) = formula::check_name(name) {
@@ -567,10 +667,10 @@ impl<'a> ModelReader<'a> {
             let known = !unknown_units.contains(name);
             scope.define(name, if known { Typing::in_unit(unit) } else { Typing::ANY });
         }
-        for (member, _) in equations {
-            scope.announce(&member.key);
+        for (name, ..) in equations {
+            scope.announce(name);
         }
-        for (member, formula) in equations.iter().take_while(|_| !self.log.is_full()) {
+        for (name, member, formula) in equations.iter().take_while(|_| !self.log.is_full()) {
             let result = match formula {
                 Some(formula) if check_units => formula.check(&scope),
                 Some(formula) => formula.check_names(&scope),
@@ -578,11 +678,13 @@ impl<'a> ModelReader<'a> {
             };
             let typing = result.unwrap_or_else(|errors| {
                 for error in errors {
-                    self.report_formula(member, error);
+                    if let Some(member) = member {
+                        report_formula(self.log, member, error);
+                    }
                 }
                 Typing::ANY
             });
-            scope.define(&member.key, typing);
+            scope.define(name, typing);
         }
         scope
     }
@@ -670,31 +772,39 @@ fn celsius_as_kelvin(scope: &Scope, outputs: &[crate::model::Output]) -> Vec<War
         .collect()
 }
 
-/// The model that equations make. A formula that was found right records without an error.
-fn from_equations(
-    equations: &[Equation<'_>],
-    scope: &Scope,
-    inputs: Vec<InputQuantity>,
-    conditions: Vec<crate::model::Quantity>,
-    outputs: Vec<crate::model::Output>,
-) -> Model {
-    let recorder = Recorder::default();
-    let mut values: HashMap<String, Traced<'_>> =
-        recorded_values(&recorder, &inputs, &conditions).into_iter().collect();
-    for (member, formula) in equations {
-        let value = formula.as_ref().and_then(|formula| formula.record(scope, &values).ok());
-        values.insert(member.key.clone(), value.unwrap_or_else(|| Traced::constant(f64::NAN)));
+/// A formula's mistake at its place inside the JSON text.
+pub(super) fn report_formula(log: &Log, member: &Member, error: formula::FormulaError) {
+    let span = &member.value.span;
+    let inner = error.span();
+    let raw = log.source.text.get(span.start + 1..span.end.saturating_sub(1));
+    let plain = raw.is_some_and(|raw| !raw.contains('\\'));
+    // escapes in the JSON text would shift the place, so the whole text is underlined then
+    let place = if plain {
+        let start = (span.start + 1 + inner.start).min(span.end);
+        start..(span.start + 1 + inner.end).clamp(start, span.end)
+    } else {
+        span.clone()
+    };
+    log.report(&place, Fault::Formula { error });
+}
+
+/// Outputs that are columns of the data, as equations.
+fn of_columns<'a>(simulated: &[(String, String)]) -> impl Iterator<Item = Equation<'a>> {
+    simulated.iter().map(|(output, column)| (output.clone(), None, Formula::parse(column).ok()))
+}
+
+/// What is known of the names of a typed model.
+fn typed_scope(entry: &Entry, inputs: &Inputs, conditions: &Conditions) -> Scope {
+    let mut scope = condition_scope(conditions);
+    for input in &inputs.quantities {
+        let Quantity { name, unit } = Quantity::of(input);
+        scope.define(name, Typing::in_unit(unit));
     }
-    let results: Vec<Traced<'_>> = outputs
-        .iter()
-        .map(|output| {
-            let value = values.get(&output.quantity.name).copied();
-            let value = value.unwrap_or_else(|| Traced::constant(f64::NAN));
-            in_unit(value, &output.quantity.unit)
-        })
-        .collect();
-    let program = recorder.program(variables(&inputs, &conditions), &results);
-    Model { inputs, conditions, outputs, program }
+    for output in entry.typed.declaration.outputs {
+        let unit = Unit::parse(output.unit).ok();
+        scope.define(output.name, unit.map_or(Typing::ANY, |unit| Typing::in_unit(&unit)));
+    }
+    scope
 }
 
 fn condition_scope(conditions: &Conditions) -> Scope {

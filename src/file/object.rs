@@ -91,6 +91,16 @@ impl<'a> Object<'a> {
         member
     }
 
+    /// The member, or its absence reported, in an object that may have keys beside the known ones, so
+    /// that none of them is a misspelt one.
+    pub(crate) fn needed(&self, key: &'static str) -> Option<&'a Member> {
+        let member = self.get(key);
+        if member.is_none() {
+            self.report(Fault::MissingKey { key, what: self.what });
+        }
+        member
+    }
+
     fn wrong_type(&self, member: &Member, expected: &'static str) {
         self.log.report(
             &member.value.span,

@@ -1,19 +1,15 @@
-//! Saved results as inputs: the files that `gumption run --save` writes, read and checked.
+//! Result files: what `gumption run --save` writes, read and checked.
 
-use std::cell::RefCell;
-use std::collections::HashMap;
-use std::path::Path;
 use std::sync::Arc;
 
 use sha2::{Digest, Sha256};
 
+use super::Fault;
 use super::conditions::unit;
 use super::json::{self, Json, Node};
-use super::nearest::nearest;
 use super::object::Object;
 use super::problem::{Log, Problems};
-use super::source::{Place, Source};
-use super::{Fault, bytes};
+use super::source::Source;
 use crate::distribution::{
     Constant, Distribution, Origin, Root, RootCorrelation, RootName, Saved, SavedResult, Scores,
 };
@@ -22,153 +18,73 @@ use crate::unit::Unit;
 /// At most so many quantiles of an output.
 const MOST_QUANTILES: u64 = 1_000_001;
 
+/// At most so many ranks of an output.
+const MOST_RANKS: usize = 1_000_000;
+
+/// At most so many trials behind a result.
+const MOST_TRIALS: u64 = 1_000_000_000_000;
+
+/// A result file that was read and found right.
+#[derive(Clone, Debug)]
+pub struct ResultFile {
+    /// The title of the model that was evaluated.
+    pub title: String,
+    /// The coverage probability of its intervals; `None` if the file does not say.
+    pub coverage_probability: Option<f64>,
+    /// The outputs, in order.
+    pub outputs: Vec<SavedOutput>,
+    /// The inputs that the outputs go back to.
+    pub inputs: Vec<Root>,
+    /// Correlation coefficients between inputs.
+    pub input_correlations: Vec<RootCorrelation>,
+    /// SHA-256 of the model file that was evaluated, in hexadecimal.
+    pub model: Arc<str>,
+    /// The file's text.
+    pub source: Arc<Source>,
+}
+
 /// An output of a result file.
 #[derive(Clone, Debug)]
-struct SavedOutput {
-    name: String,
-    unit: Unit,
-    distribution: Distribution,
-}
-
-/// The result files that a model file names, each read once.
-#[derive(Debug)]
-pub(super) struct Results<'a> {
-    pub(super) folder: &'a Path,
-    read: RefCell<HashMap<String, Option<Arc<Vec<SavedOutput>>>>>,
-    /// The content of the files, by name.
-    pub(super) files: RefCell<Vec<(String, Vec<u8>)>>,
-}
-
-impl<'a> Results<'a> {
-    /// Paths are relative to `folder`.
-    pub(super) fn new(folder: &'a Path) -> Self {
-        Self { folder, read: RefCell::default(), files: RefCell::default() }
-    }
-
-    /// The unit of the result that an input names, for an input without a unit of its own.
-    pub(super) fn unit(&self, input: &Object<'_>) -> Option<Unit> {
-        Some(self.output(input)?.unit)
-    }
-
-    /// The distribution of the result that an input names, in `unit`. A component is a difference,
-    /// for which degrees Celsius and kelvins are the same.
-    pub(super) fn distribution(
-        &self,
-        input: &Object<'_>,
-        name: &str,
-        unit: &Unit,
-        component: bool,
-    ) -> Option<Distribution> {
-        let output = self.output(input)?;
-        let place = input.get("unit").or_else(|| input.get("output"));
-        let place = place.map_or(input.place(), |member| &member.value.span);
-        let factor = Unit::conversion_factor(&output.unit, unit).ok();
-        let Some(factor) = factor.filter(|f| f.is_finite() && *f > 0.0) else {
-            let fault = Fault::WrongDimension {
-                name: name.to_owned(),
-                found: unit.to_string(),
-                found_as: unit.dimension().describe(),
-                expected: output.unit.to_string(),
-                expected_as: output.unit.dimension().describe(),
-            };
-            input.log.report(place, fault);
-            return None;
-        };
-        if output.unit.is_celsius() != unit.is_celsius() && !component {
-            let (found, saved) = (unit.to_string(), output.unit.to_string());
-            input.log.report(place, Fault::SavedCelsius { name: output.name, found, saved });
-            return None;
-        }
-        if factor == 1.0 {
-            return Some(output.distribution);
-        }
-        let converted = match &output.distribution {
-            Distribution::SavedResult(saved) => saved.scaled(factor).map(Distribution::from),
-            other => other.moved_to(factor * other.mean()),
-        };
-        let fault = |error| Fault::Distribution { name: name.to_owned(), error };
-        input.log.value(place, converted.map_err(fault))
-    }
-
-    /// The output that `file` and `output` of an input name.
-    fn output(&self, input: &Object<'_>) -> Option<SavedOutput> {
-        let (file, output) = (input.required("file"), input.required("output"));
-        let (file, output) = (file?, output?);
-        let (name, wanted) = (input.text("file")?, input.text("output")?);
-        let known = self.read.borrow().get(name).cloned();
-        let outputs = match known {
-            Some(outputs) => outputs?,
-            None => {
-                let outputs = self.load(input.log, name, &file.value).map(Arc::new);
-                self.read.borrow_mut().insert(name.to_owned(), outputs.clone());
-                outputs?
-            }
-        };
-        let found = outputs.iter().find(|output| output.name == wanted).cloned();
-        if found.is_none() {
-            let names = outputs.iter().map(|output| output.name.as_str());
-            let fault = Fault::NoSuchResult {
-                file: name.to_owned(),
-                name: wanted.to_owned(),
-                nearest: nearest(wanted, names.clone()).map(str::to_owned),
-                known: names.map(str::to_owned).collect(),
-            };
-            input.log.report(&output.value.span, fault);
-        }
-        found
-    }
-
-    /// Reads a file; its mistakes are reported with their places in it.
-    fn load(&self, log: &Log, name: &str, place: &Node) -> Option<Vec<SavedOutput>> {
-        let unreadable = |message: String| {
-            let message = format!("`{name}`: {message}");
-            log.report(&place.span, Fault::Unreadable { message });
-            None
-        };
-        let bytes = match bytes::of_file(&self.folder.join(name), bytes::MOST) {
-            Ok(bytes) => bytes,
-            Err(message) => return unreadable(message),
-        };
-        let Ok(text) = std::str::from_utf8(&bytes) else {
-            return unreadable("it is not UTF-8 text".to_owned());
-        };
-        match parse(name, text, &sha256(&bytes)) {
-            Ok(outputs) => {
-                self.files.borrow_mut().push((name.to_owned(), bytes));
-                Some(outputs)
-            }
-            Err(Problems(problems)) => {
-                for problem in problems {
-                    let place = Place { source: problem.source, span: problem.span };
-                    log.report_at(place, problem.fault);
-                }
-                None
-            }
-        }
-    }
+pub struct SavedOutput {
+    /// Its name.
+    pub name: String,
+    /// Its unit.
+    pub unit: Unit,
+    /// What is known of it: a saved result, or a constant.
+    pub distribution: Distribution,
+    /// The coverage factor k of its expanded uncertainty; `None` where that is not defined.
+    pub coverage_factor: Option<f64>,
+    /// Sensitivity coefficients to the file's inputs, in output unit per input unit; `None` where
+    /// they are not finite.
+    pub sensitivities: Option<Vec<f64>>,
 }
 
 fn sha256(bytes: &[u8]) -> String {
     Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
-/// Reads the text of a result file; `hash` is its SHA-256.
-fn parse(name: &str, text: &str, hash: &str) -> Result<Vec<SavedOutput>, Problems> {
+/// Reads and checks the text of a result file; `name` is used in messages.
+///
+/// # Errors
+/// All mistakes of the text, in the order of their places.
+pub fn read_result(name: &str, text: &str) -> Result<ResultFile, Problems> {
     let source = Source::new(name, text);
     let log = Log::new(source.clone());
-    let outputs = match json::parse(&source) {
+    // results are told apart by their content
+    let hash = sha256(text.as_bytes());
+    let result = match json::parse(&source) {
         Ok(node) => {
             let whole = 0..source.text.find('\n').unwrap_or(source.text.len());
             Object::new(&log, "a result file", &node, &whole)
-                .and_then(|root| Reader { log: &log, root, hash }.outputs())
+                .and_then(|root| Reader { log: &log, root, hash: &hash }.read())
         }
         Err((span, fault)) => {
             log.report(&span, fault);
             None
         }
     };
-    match outputs {
-        Some(outputs) if log.is_clean() => Ok(outputs),
+    match result {
+        Some(result) if log.is_clean() => Ok(result),
         _ => Err(log.into_problems()),
     }
 }
@@ -189,7 +105,7 @@ struct Common {
 }
 
 impl<'a> Reader<'a> {
-    fn outputs(&self) -> Option<Vec<SavedOutput>> {
+    fn read(&self) -> Option<ResultFile> {
         let root = &self.root;
         if root.truth("result") != Some(true) {
             if self.log.is_clean() {
@@ -199,7 +115,7 @@ impl<'a> Reader<'a> {
             }
             return None;
         }
-        let format = root.required("format")?;
+        let format = root.needed("format")?;
         if format.value.number() != Some(1.0) {
             let found = match &format.value.value {
                 Json::Number(text) | Json::Text(text) => text.clone(),
@@ -208,9 +124,13 @@ impl<'a> Reader<'a> {
             self.log.report(&format.value.span, Fault::UnknownFormat { found });
             return None;
         }
-        let member = root.required("outputs")?;
+        let member = root.needed("outputs")?;
+        root.text("gumption");
+        let title = root.text("title").unwrap_or("").to_owned();
+        let coverage_probability = self.coverage_probability();
         let common = self.common()?;
         let object = Object::new(self.log, "`outputs`", &member.value, &member.key_span)?;
+        self.check_ranks(&object);
         let found: Vec<SavedOutput> = object
             .members()
             .iter()
@@ -220,19 +140,84 @@ impl<'a> Reader<'a> {
                 self.output(&member.key, &object, &common)
             })
             .collect();
-        self.log.is_clean().then_some(found)
+        self.log.is_clean().then(|| ResultFile {
+            title,
+            coverage_probability,
+            outputs: found,
+            inputs: common.roots,
+            input_correlations: common.correlations.to_vec(),
+            model: common.model,
+            source: self.log.source.clone(),
+        })
+    }
+
+    /// Whether all outputs that have ranks have as many.
+    fn check_ranks(&self, outputs: &Object<'a>) {
+        let mut first = None;
+        for member in outputs.members() {
+            let Json::Object(members) = &member.value.value else {
+                continue;
+            };
+            let Some(ranks) = members.iter().find(|member| member.key == "ranks") else {
+                continue;
+            };
+            if let Json::List(list) = &ranks.value.value
+                && *first.get_or_insert(list.len()) != list.len()
+            {
+                let reason = "all outputs of a file have as many ranks, those of the same trials";
+                self.log.report(&ranks.value.span, Fault::SavedEntry { reason });
+            }
+        }
+    }
+
+    /// The ranks of an output: each whole number from 1 to their count once, here counted from 0.
+    fn ranks(&self, object: &Object<'a>) -> Option<Arc<[u32]>> {
+        let member = object.get("ranks")?;
+        let list = object.numbers("ranks")?;
+        let mut seen = vec![false; list.len()];
+        let ranks = list.iter().map(|&rank| {
+            let place = rank - 1.0;
+            let fits = rank.fract() == 0.0 && place >= 0.0 && place < list.len() as f64;
+            let seen = seen.get_mut(place as usize).filter(|_| fits)?;
+            (!std::mem::replace(seen, true)).then_some(place as u32)
+        });
+        let ranks: Option<Vec<u32>> = ranks.collect();
+        if ranks.is_none() || list.len() < 2 || list.len() > MOST_RANKS {
+            let reason = "ranks are each whole number from 1 to their count once, two to a million";
+            self.log.report(&member.value.span, Fault::SavedEntry { reason });
+            return None;
+        }
+        ranks.map(Arc::from)
+    }
+
+    fn coverage_probability(&self) -> Option<f64> {
+        let key = "coverage_probability";
+        let found = self.root.number(key)?;
+        if found <= 0.0 || found >= 1.0 {
+            let place = self.root.get(key).map_or(self.root.place(), |member| &member.value.span);
+            self.log.report(place, Fault::NotProbability { key: key.to_owned(), found });
+        }
+        Some(found)
     }
 
     fn common(&self) -> Option<Common> {
         let root = &self.root;
-        let origin = root.required("provenance")?;
+        let origin = root.needed("provenance")?;
         let origin = Object::new(self.log, "`provenance`", &origin.value, &origin.key_span)?;
-        origin.required("model_sha256")?;
+        origin.needed("model_sha256")?;
         let model: Arc<str> = origin.text("model_sha256")?.into();
-        let scores = root.required("scores")?;
+        origin.whole("seed", 0, u64::MAX);
+        origin.whole("trials", 0, MOST_TRIALS);
+        if let Some(files) = origin.get("files") {
+            let files = Object::new(self.log, "`files`", &files.value, &files.key_span)?;
+            for member in files.members() {
+                files.text(&member.key);
+            }
+        }
+        let scores = root.needed("scores")?;
         let scores = Object::new(self.log, "`scores`", &scores.value, &scores.key_span)?;
         for key in ["from", "step", "count"] {
-            scores.required(key);
+            scores.needed(key);
         }
         let step = scores.number("step");
         if let (Some(step), Some(member)) = (step.filter(|s| *s <= 0.0), scores.get("step")) {
@@ -253,13 +238,13 @@ impl<'a> Reader<'a> {
     }
 
     fn roots(&self) -> Option<Vec<Root>> {
-        self.root.required("inputs")?;
+        self.root.needed("inputs")?;
         let list = self.root.list("inputs")?;
         let mut roots = Vec::with_capacity(list.len());
         for node in list {
             let object = Object::new(self.log, "an input of a result file", node, &node.span)?;
             for key in ["model_sha256", "name", "estimate", "standard_uncertainty"] {
-                object.required(key);
+                object.needed(key);
             }
             let name = RootName {
                 model: object.text("model_sha256")?.into(),
@@ -337,20 +322,28 @@ impl<'a> Reader<'a> {
 
     fn output(&self, name: &str, object: &Object<'a>, common: &Common) -> Option<SavedOutput> {
         for key in ["unit", "estimate", "standard_uncertainty", "quantiles"] {
-            object.required(key);
+            object.needed(key);
         }
         let unit = unit(object, "unit");
         let estimate = object.number("estimate");
         let u = object.number("standard_uncertainty");
-        let dof = match object.text("dof_status") {
-            Some("undefined") => f64::NAN,
-            _ => or_infinite(object, "dof"),
-        };
+        let dof = or_infinite(object, "dof");
+        let dof = if self.is_undefined(object) { f64::NAN } else { dof };
+        // for people and other programs; here they are only checked
+        if object.get("expanded_uncertainty").is_some_and(|m| m.value.value != Json::Null) {
+            object.number("expanded_uncertainty");
+        }
+        for (key, nullable) in
+            [("interval", true), ("symmetric_interval", false), ("shortest_interval", false)]
+        {
+            self.check_interval(object, key, nullable);
+        }
         let quantiles = object.numbers("quantiles");
         let (unit, estimate, u, quantiles) = (unit?, estimate?, u?, quantiles?);
         let place = object.get("quantiles").map_or(object.place(), |member| &member.value.span);
         let constant = u == 0.0 && quantiles.windows(2).all(|pair| pair[0] == pair[1]);
         let sensitivities = self.sensitivities(object, common.roots.len())?;
+        let ranks = self.ranks(object);
         let saved = Saved {
             estimate,
             standard_uncertainty: u,
@@ -364,20 +357,54 @@ impl<'a> Reader<'a> {
         let made = if constant {
             Constant::new(estimate).map(Distribution::from)
         } else {
-            let origin = self.origin(name, unit.text(), &saved, sensitivities, common);
+            let origin = self.origin(name, unit.text(), &saved, sensitivities.as_deref(), common);
+            let origin = Origin { ranks, ..origin };
             SavedResult::new(saved, common.scores, &quantiles, origin).map(Distribution::from)
         };
         let made = made.map_err(|error| {
             let place = object.get(error.parameter()).map_or(place, |member| &member.value.span);
             self.log.report(place, Fault::Distribution { name: name.to_owned(), error });
         });
-        Some(SavedOutput { name: name.to_owned(), unit, distribution: made.ok()? })
+        Some(SavedOutput {
+            name: name.to_owned(),
+            unit,
+            distribution: made.ok()?,
+            coverage_factor: optional(object, "coverage_factor"),
+            sensitivities,
+        })
+    }
+
+    /// Whether the degrees of freedom are said to be undefined.
+    fn is_undefined(&self, object: &Object<'a>) -> bool {
+        const ALLOWED: [&str; 3] = ["finite", "infinite", "undefined"];
+        let status = object.text("dof_status");
+        if let (Some(member), Some(found)) = (object.get("dof_status"), status)
+            && !ALLOWED.contains(&found)
+        {
+            let (key, found) = ("dof_status".to_owned(), found.to_owned());
+            let allowed = ALLOWED.map(str::to_owned).to_vec();
+            self.log.report(&member.value.span, Fault::NotOneOf { key, found, allowed });
+        }
+        status == Some("undefined")
+    }
+
+    fn check_interval(&self, object: &Object<'a>, key: &str, nullable: bool) {
+        let Some(member) = object.get(key) else {
+            return;
+        };
+        if nullable && member.value.value == Json::Null {
+            return;
+        }
+        if object.numbers(key).is_some_and(|ends| ends.len() != 2) {
+            let reason = "two ends of an interval are needed here";
+            self.log.report(&member.value.span, Fault::SavedEntry { reason });
+        }
     }
 
     /// The sensitivity coefficients in the order of `inputs`; inside, `None` for null.
     #[allow(clippy::option_option)]
     fn sensitivities(&self, object: &Object<'a>, inputs: usize) -> Option<Option<Vec<f64>>> {
-        let member = object.required("sensitivities")?;
+        let member = object.needed("sensitivities")?;
         if member.value.value == Json::Null {
             return Some(None);
         }
@@ -395,17 +422,17 @@ impl<'a> Reader<'a> {
         name: &str,
         unit: &str,
         saved: &Saved,
-        sensitivities: Option<Vec<f64>>,
+        sensitivities: Option<&[f64]>,
         common: &Common,
     ) -> Origin {
         let linear = sensitivities.is_some();
         let roots = match sensitivities {
             Some(sensitivities) => {
-                let weights = common.roots.iter().zip(sensitivities).filter(|(_, c)| *c != 0.0);
+                let weights = common.roots.iter().zip(sensitivities).filter(|(_, c)| **c != 0.0);
                 let weight = |root: &Root, c: f64| {
                     c * root.standard_uncertainty / saved.standard_uncertainty
                 };
-                weights.map(|(root, c)| (root.clone(), weight(root, c))).collect()
+                weights.map(|(root, &c)| (root.clone(), weight(root, c))).collect()
             }
             None => {
                 let root = Root {
@@ -433,6 +460,7 @@ impl<'a> Reader<'a> {
             correlations: common.correlations.clone(),
             siblings: common.siblings.iter().filter_map(sibling).collect(),
             model: common.model.clone(),
+            ranks: None,
         }
     }
 }
@@ -446,6 +474,12 @@ fn positive(object: &Object<'_>, key: &str) -> Option<f64> {
     let place = object.get(key).map_or(object.place(), |member| &member.value.span);
     object.log.report(place, Fault::NotPositive { key: key.to_owned(), found });
     None
+}
+
+/// A number above zero; `None` for null or nothing.
+fn optional(object: &Object<'_>, key: &str) -> Option<f64> {
+    object.get(key).filter(|member| member.value.value != Json::Null)?;
+    positive(object, key)
 }
 
 /// A number above zero; null or nothing for infinite.

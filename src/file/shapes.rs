@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::Fault;
 use super::nearest::nearest;
 use super::object::Object;
-use super::result_file::Results;
+use super::results::Results;
 use super::width::Width;
 use crate::distribution::{
     Arcsine, Beta, Constant, CurvilinearTrapezoid, Distribution, Exponential, Gamma, Invalid,

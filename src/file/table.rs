@@ -21,6 +21,17 @@ pub(super) struct Table {
     pub(super) source: Arc<Source>,
     pub(super) columns: Vec<String>,
     pub(super) rows: Vec<Vec<f64>>,
+    /// Where each row stands in the text.
+    lines: Vec<Range<usize>>,
+    semicolon: bool,
+}
+
+impl Table {
+    /// The place of a cell.
+    pub(super) fn place(&self, row: usize, column: usize) -> Place {
+        let span = self.lines.get(row).cloned().unwrap_or(0..0);
+        place_of_cell(&Place { source: self.source.clone(), span }, column, self.semicolon)
+    }
 }
 
 /// All faults of a table, with their places.
@@ -66,7 +77,7 @@ fn read_file(path: &Path, name: &str) -> Result<(Table, Vec<u8>), Faults> {
     Ok((parse(&source)?, bytes))
 }
 
-fn parse(source: &Arc<Source>) -> Result<Table, Faults> {
+pub(super) fn parse(source: &Arc<Source>) -> Result<Table, Faults> {
     let starts: Vec<usize> = std::iter::once(0)
         .chain(source.text.match_indices('\n').map(|(newline, _)| newline + 1))
         .collect();
@@ -123,6 +134,7 @@ fn parse(source: &Arc<Source>) -> Result<Table, Faults> {
         faults.push((at_line(header_line), Fault::Table { reason }));
     }
     let mut rows = Vec::new();
+    let mut lines = Vec::new();
     for (number, record) in reader.records().enumerate() {
         if faults.len() >= MOST_FAULTS {
             break;
@@ -160,13 +172,14 @@ fn parse(source: &Arc<Source>) -> Result<Table, Faults> {
             }
         }
         rows.push(row);
+        lines.push(place.span);
     }
     if rows.is_empty() && faults.is_empty() {
         let reason = "the table has a header but no rows".to_owned();
         faults.push((at_line(header_line), Fault::Table { reason }));
     }
     if faults.is_empty() {
-        Ok(Table { source: source.clone(), columns, rows })
+        Ok(Table { source: source.clone(), columns, rows, lines, semicolon })
     } else {
         Err(faults)
     }

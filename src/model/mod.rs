@@ -6,11 +6,13 @@
 pub mod formula;
 mod program;
 mod schedule;
+mod sim;
 mod trace;
 pub mod typed;
 
 pub use program::Program;
 pub(crate) use schedule::{Place, Schedule};
+pub use sim::{Circular, Effect, Maker, Sim};
 pub use trace::{Recorder, Traced};
 
 use crate::unit::Unit;

@@ -4,7 +4,7 @@
 //! sensitivity coefficients, trials) is the same for both. Operations stand in an order in which
 //! each comes after its operands; equal operations on equal operands stand only once.
 
-use crate::number::{Binary, Dual, Number, Unary};
+use crate::number::{Binary, Dual, Number, Shortest, Unary};
 
 /// How many inputs one evaluation with dual numbers differentiates by.
 const GRADIENT_CHUNK: usize = 8;
@@ -178,11 +178,11 @@ impl Program {
             }
             match *node {
                 Node::Unary(operation, x) if values[x].is_finite() => {
-                    return Some(format!("{} of {}", operation.name(), values[x]));
+                    return Some(format!("{} of {}", operation.name(), Shortest(values[x])));
                 }
                 Node::Binary(operation, x, y) if values[x].is_finite() && values[y].is_finite() => {
                     let name = operation.name();
-                    let (x, y) = (values[x], values[y]);
+                    let (x, y) = (Shortest(values[x]), Shortest(values[y]));
                     return Some(if operation.is_infix() {
                         format!("{x} {name} {y}")
                     } else {

@@ -37,6 +37,16 @@ impl Schedule {
     /// `bound[v]` is the value of variable `v` where it is the same in all trials; the other
     /// variables arrive in registers 0, 1, 2, … in their order.
     pub(crate) fn new(program: &Program, bound: &[Option<f64>]) -> Self {
+        Self::with_variables(program, bound, false)
+    }
+
+    /// The same; the registers of the variables are never written to, so that one set of values can
+    /// be used again.
+    pub(crate) fn keeping_variables(program: &Program, bound: &[Option<f64>]) -> Self {
+        Self::with_variables(program, bound, true)
+    }
+
+    fn with_variables(program: &Program, bound: &[Option<f64>], keep: bool) -> Self {
         let folded = fold(program, bound);
         let needed = needed(program, &folded);
         let mut register_of_variable = vec![usize::MAX; program.variables];
@@ -61,6 +71,13 @@ impl Schedule {
         let mut last_use = last_uses(program, &folded, &needed);
         for &output in &program.outputs {
             last_use[output] = usize::MAX;
+        }
+        if keep {
+            for (last, node) in last_use.iter_mut().zip(&program.nodes) {
+                if matches!(node, Node::Variable(_)) {
+                    *last = usize::MAX;
+                }
+            }
         }
         let partner = sine_partners(program, &folded, &needed);
 

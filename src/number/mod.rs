@@ -16,6 +16,7 @@ pub(crate) mod elementary;
 mod operation;
 mod path;
 mod scalar;
+mod shortest;
 
 pub use column::{COLUMN, Column};
 pub(crate) use column::{Operand, apply_binary, apply_sin_cos, apply_unary};
@@ -23,6 +24,7 @@ pub use dual::Dual;
 pub use operation::{Binary, Unary};
 pub use path::CodePath;
 pub(crate) use path::Kernel;
+pub use shortest::Shortest;
 
 use std::fmt::Debug;
 use std::ops::{Add, Div, Mul, Neg, Sub};

@@ -5,6 +5,12 @@ use super::monte_carlo::{self, Trials};
 use super::{Control, Evaluation, EvaluationError, gum};
 use crate::task::Task;
 
+/// Trials that stand for all, at most.
+const MOST_ROWS: usize = 1 << 15;
+
+/// Their ranks in all outputs together, at most: some megabytes of a result file.
+const MOST_RANKS: usize = 1 << 20;
+
 /// How many trials the run of a row made, undefined ones included; 0 without trials.
 fn made(evaluation: &Evaluation, row: usize) -> u64 {
     let Some(row) = evaluation.rows.get(row) else {
@@ -39,6 +45,26 @@ pub fn quantiles(
     in_pool(task, control, || {
         let trials = trials(task, row)?.filter(|_| count > 0);
         Ok(trials.and_then(|trials| monte_carlo::quantiles(&trials, count, scores, control)))
+    })?
+}
+
+/// How the outputs of a row vary together: for each its ranks, from 1, in a few of the run's trials
+/// that stand for all of them. Entry i of all outputs is of the same trial; an output that does not
+/// vary has none. `None` without trials, or if stopped.
+///
+/// # Errors
+/// Threads that cannot be started.
+pub fn joint_ranks(
+    task: &Task,
+    evaluation: &Evaluation,
+    row: usize,
+    control: &Control<'_>,
+) -> Result<Option<Vec<Vec<u32>>>, EvaluationError> {
+    let count = made(evaluation, row);
+    let rows = (MOST_RANKS / task.model.outputs.len().max(1)).min(MOST_ROWS);
+    in_pool(task, control, || {
+        let trials = trials(task, row)?.filter(|_| count > 0);
+        Ok(trials.and_then(|trials| monte_carlo::joint_ranks(&trials, count, rows, control)))
     })?
 }
 

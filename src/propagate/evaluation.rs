@@ -10,9 +10,9 @@ use super::Control;
 use super::gum::{self, Gum};
 use super::monte_carlo::{self, MonteCarlo, Request, Search, Undefined};
 use super::validate::{Validation, validate};
-use crate::distribution::{BLOCK, CorrelationError, Joint};
+use crate::distribution::{BLOCK, Correlation, CorrelationError, Joint};
 use crate::model::{Program, Tolerance};
-use crate::number::Column;
+use crate::number::{Column, Shortest};
 use crate::task::{Row, Settings, Task, Trials};
 
 /// The evaluation of a whole task.
@@ -47,6 +47,19 @@ pub struct RowEvaluation {
     pub correlations: Vec<f64>,
     /// Trials that were left out because an output was not finite.
     pub undefined: Option<Undefined>,
+    /// The variables that are outputs of saved results, drawn as they varied together there.
+    pub together: Vec<Together>,
+    /// Coefficients that the copula of the trials does not give as they are, and what it gives.
+    pub copula_changes: Arc<Vec<(Correlation, f64)>>,
+}
+
+/// Variables that are outputs of one saved result and drawn from its trials.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Together {
+    /// The variables, in order.
+    pub variables: Vec<usize>,
+    /// How many trials the result holds.
+    pub trials: usize,
 }
 
 /// One output by both methods.
@@ -113,7 +126,8 @@ impl fmt::Display for EvaluationError {
                 if let Some(operation) = operation {
                     write!(f, "; the first is {operation}")?;
                 }
-                let at: Vec<String> = inputs.iter().map(|(n, v)| format!("{n} = {v}")).collect();
+                let at = inputs.iter().map(|(name, v)| format!("{name} = {}", Shortest(*v)));
+                let at: Vec<String> = at.collect();
                 if at.is_empty() { Ok(()) } else { write!(f, ", at {}", at.join(", ")) }
             }
             Self::Threads(error) => write!(f, "cannot start threads: {error}"),
@@ -255,6 +269,12 @@ fn evaluate_row(
         outputs: Vec::with_capacity(gums.len()),
         correlations: Vec::new(),
         undefined: None,
+        together: joint
+            .together()
+            .iter()
+            .map(|set| Together { variables: set.members.clone(), trials: set.trials() })
+            .collect(),
+        copula_changes: Arc::clone(&joint.changes),
     };
     let mut figures: Vec<Option<MonteCarlo>> = vec![None; gums.len()];
     let mut stopped = false;

@@ -333,7 +333,7 @@ fn joint_variance(
 
 /// The coverage factor k_p (JCGM 100, G.3.3 and G.4.1): the t factor at the integer part of the
 /// effective degrees of freedom (below 1 at the real value), or at the real value if asked for.
-fn coverage_factor(coverage: Coverage, dof: Dof, real: bool) -> Option<f64> {
+pub(crate) fn coverage_factor(coverage: Coverage, dof: Dof, real: bool) -> Option<f64> {
     if let Coverage::Factor { factor, fixed: true } = coverage {
         return Some(factor);
     }

@@ -13,10 +13,11 @@ mod origins;
 pub mod validate;
 mod warnings;
 
-pub use again::{for_each_block, quantiles};
+pub use again::{for_each_block, joint_ranks, quantiles};
 pub use control::Control;
 pub use evaluation::{
-    Conformity, Evaluation, EvaluationError, OutputEvaluation, RowEvaluation, evaluate, trial_hash,
+    Conformity, Evaluation, EvaluationError, OutputEvaluation, RowEvaluation, Together, evaluate,
+    trial_hash,
 };
 pub use origins::{Origins, linear, origins};
 pub use warnings::warnings;

@@ -15,7 +15,8 @@ pub struct Validation {
     /// Modulus of the difference of the upper ends.
     pub d_high: f64,
     /// Whether both differences are within the tolerance; `None` where the trials do not decide it
-    /// (a difference nearer to the tolerance than two numerical standard errors).
+    /// (a difference nearer to the tolerance than two numerical standard errors, or trials so few
+    /// that an end of the interval is the extreme one).
     pub gum_valid: Option<bool>,
 }
 
@@ -54,9 +55,53 @@ pub fn validate(gum: &Gum, monte_carlo: &MonteCarlo, digits: u32) -> Option<Vali
         (!open).then_some(d <= tolerance)
     });
     let gum_valid = match verdicts {
+        // an end that is the extreme trial has no error, and such an interval decides nothing
+        _ if low_error.is_nan() || high_error.is_nan() => None,
         [Some(false), _] | [_, Some(false)] => Some(false),
         [Some(true), Some(true)] => Some(true),
         _ => None,
     };
     Some(Validation { digits: digits.clamp(1, 15), tolerance, d_low, d_high, gum_valid })
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use crate::file;
+    use crate::propagate::{Control, evaluate, warnings};
+    use crate::task::{Coverage, Trials};
+
+    /// y = x1 + x2, rectangular both: the GUM interval is not valid, which many trials tell. With so
+    /// few that the ends are the extreme ones (q = M of JCGM 101, 7.7.2) nothing is said, by any way
+    /// of finding them.
+    #[test]
+    fn too_few_trials_decide_nothing() {
+        let text = r#"{"inputs": {
+            "x_1": {"distribution": "rectangular", "mean": 0, "half_width": 1},
+            "x_2": {"distribution": "rectangular", "mean": 0, "half_width": 0.1}},
+            "equations": {"y": "x_1 + x_2"}, "outputs": {"y": {}}}"#;
+        let mut file = file::read_text("m.json", text, Path::new(""), &[]).unwrap();
+        let mut verdict = |trials: u64, p: f64, memory: usize| {
+            file.task.settings.trials = Trials::Fixed(trials);
+            file.task.settings.coverage = Coverage::Probability(p);
+            let control = Control { memory, ..Control::default() };
+            let evaluation = evaluate(&file.task, &control).unwrap();
+            let output = &evaluation.rows[0].outputs[0];
+            let figures = output.monte_carlo.as_ref().unwrap();
+            let errors = figures.errors.symmetric_interval.map(f64::is_finite);
+            let note = warnings(&file.task, &evaluation);
+            let noted = note.iter().any(|w| w.code == "interval-of-extremes");
+            assert_eq!(errors.contains(&false), noted);
+            assert_eq!(figures.errors.shortest_interval[0].is_finite(), !noted);
+            (output.validation.unwrap().gum_valid, noted)
+        };
+        for memory in [64 << 20, 1 << 20] {
+            assert_eq!(verdict(2, 0.95, memory), (None, true));
+            assert_eq!(verdict(50, 0.95, memory), (None, true));
+            assert_eq!(verdict(100_000, 0.999_999_999, memory), (None, true));
+            assert_eq!(verdict(400_000, 0.999_999_999, memory), (None, true));
+            assert_eq!(verdict(100_000, 0.95, memory), (Some(false), false));
+        }
+    }
 }

@@ -1,18 +1,27 @@
 //! What a user should know about an evaluation that is given all the same.
 
+use std::collections::HashMap;
+
 use super::evaluation::{Evaluation, OutputEvaluation, RowEvaluation};
-use super::gum::Dof;
-use super::monte_carlo::Adaptive;
+use super::gum::{BudgetLine, Dof, Gum};
+use super::monte_carlo::{Adaptive, MonteCarlo};
+use crate::number::Shortest;
 use crate::task::{Task, Trials, Warning};
 
 /// A difference of the two standard uncertainties below this is not worth a note.
 const NOTEWORTHY: f64 = 0.01;
 
+/// Outputs of saved results that cancel are worth a note from this share of the standard uncertainty
+/// on.
+const CANCELLED: f64 = 0.005;
+
 /// The warnings and notes of an evaluation, in the order of rows and outputs; each code stands once
 /// for an output, at the first row that it concerns.
 pub fn warnings(task: &Task, evaluation: &Evaluation) -> Vec<Warning> {
     let mut found: Vec<Warning> = Vec::new();
-    let needed = 1e4 / (1.0 - evaluation.coverage_probability);
+    // without the digits that 1 - p has lost
+    let needed = format!("{:.5e}", 1e4 / (1.0 - evaluation.coverage_probability));
+    let needed: f64 = needed.parse().unwrap_or(f64::INFINITY);
     if let Trials::Fixed(trials @ 1..) = task.settings.trials
         && (trials as f64) < needed * (1.0 - 1e-9)
     {
@@ -108,7 +117,10 @@ fn of_output(
             .conditions
             .iter()
             .zip(&row.conditions)
-            .map(|(c, value)| format!("{} = {value} {}", c.name, c.unit).trim_end().to_owned())
+            .map(|(c, &value)| {
+                let text = format!("{} = {} {}", c.name, Shortest(value), c.unit);
+                text.trim_end().to_owned()
+            })
             .collect();
         format!(" at {}", values.join(", "))
     };
@@ -135,6 +147,9 @@ fn of_output(
     let Some(monte_carlo) = &output.monte_carlo else {
         return;
     };
+    of_extremes(name, &at, monte_carlo, found);
+    let spread = monte_carlo.standard_uncertainty.unwrap_or(gum.standard_uncertainty);
+    of_results(name, &at, row, (gum, spread), found);
     if let Some(Adaptive { converged: false, tolerance, .. }) = monte_carlo.adaptive {
         let text = format!(
             "`{name}`{at}: after {} trials the figures are not yet stable to the tolerance \
@@ -166,5 +181,71 @@ fn of_output(
             );
             push(found, Warning::new("few-dof", name, text));
         }
+    }
+}
+
+/// Intervals from the least to the greatest trial.
+fn of_extremes(name: &str, at: &str, figures: &MonteCarlo, found: &mut Vec<Warning>) {
+    if figures.errors.symmetric_interval.iter().any(|error| error.is_nan()) {
+        let text = format!(
+            "`{name}`{at}: {} trials are so few for this coverage probability that the Monte Carlo \
+             interval is that of the extreme ones, which has no numerical standard error; clause 8 \
+             is left undecided",
+            figures.trials
+        );
+        push(found, Warning::new("interval-of-extremes", name, text));
+    }
+}
+
+/// Where outputs of saved results nearly cancel, so that what is known of how they vary together
+/// does not do; and what a copula that does not give their coefficients makes of it.
+fn of_results(
+    name: &str,
+    at: &str,
+    row: &RowEvaluation,
+    (gum, spread): (&Gum, f64),
+    found: &mut Vec<Warning>,
+) {
+    if row.together.is_empty() && row.copula_changes.is_empty() {
+        return;
+    }
+    let lines: HashMap<usize, BudgetLine> =
+        gum.budget().map(|line| (line.variable, line)).collect();
+    let line = |v: usize| lines.get(&v);
+    for set in &row.together {
+        let contributions = set.variables.iter().filter_map(|&v| line(v)).map(|l| l.contribution);
+        let largest = contributions.fold(0.0, f64::max);
+        // ranks of so many trials leave less than this of what should cancel
+        let left = largest / (set.trials as f64).sqrt();
+        if 0.5 * left.powi(2) > CANCELLED * spread.powi(2) {
+            let text = format!(
+                "`{name}`{at}: outputs of a saved result nearly cancel, and the {} trials that the \
+                 result holds tell how they vary together to about {left:.1e} only, of a standard \
+                 uncertainty of {spread:.1e} in the trials here; evaluate the whole in one model",
+                set.trials
+            );
+            push(found, Warning::new("result-cancellation", name, text));
+        }
+    }
+    let change: f64 = row
+        .copula_changes
+        .iter()
+        .filter_map(|(c, drawn)| {
+            let (a, b) = (line(c.first)?, line(c.second)?);
+            let signed = |l: &BudgetLine| l.contribution.copysign(l.sensitivity);
+            Some(2.0 * (drawn - c.coefficient) * signed(a) * signed(b))
+        })
+        .sum();
+    let variance = gum.standard_uncertainty.powi(2);
+    let drawn = (variance + change).max(0.0).sqrt();
+    let relative = drawn / gum.standard_uncertainty - 1.0;
+    if relative.abs() > NOTEWORTHY {
+        let text = format!(
+            "`{name}`{at}: with the correlation coefficients that the Gaussian copula gives in place \
+             of those of the inputs, its standard uncertainty in the trials is about {drawn:.2e}, \
+             not {:.2e}",
+            gum.standard_uncertainty
+        );
+        push(found, Warning::new("copula-effect", name, text));
     }
 }

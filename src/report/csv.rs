@@ -104,7 +104,7 @@ fn cells(output: &OutputEvaluation) -> [String; 16] {
 }
 
 /// Shortest text that reads back as the same number.
-fn number(value: Option<f64>) -> String {
+pub(super) fn number(value: Option<f64>) -> String {
     match value {
         Some(value) if value.is_finite() => {
             let text = format!("{value:?}");
@@ -114,7 +114,7 @@ fn number(value: Option<f64>) -> String {
     }
 }
 
-fn text(text: &str) -> String {
+pub(super) fn text(text: &str) -> String {
     let formula = text.starts_with(['=', '+', '-', '@', '\t', '\r', '\n']);
     if formula { format!("'{text}") } else { text.to_owned() }
 }

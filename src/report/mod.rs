@@ -1,8 +1,13 @@
 //! Reports: what an evaluation looks like, one file for each format.
 
 mod csv;
+pub mod gap;
+#[cfg(feature = "cli")]
+mod html;
 mod json;
 pub mod number;
+#[cfg(feature = "cli")]
+mod plot;
 mod samples;
 mod saved;
 mod subtotals;
@@ -16,7 +21,7 @@ pub use saved::saved;
 #[cfg(feature = "cli")]
 pub use table::{Column, Style, table, write_table};
 #[cfg(feature = "cli")]
-pub(crate) use table::{Grid, WIDTH, wrapped};
+pub(crate) use table::{Grid, WIDTH, plain, wrapped};
 
 use crate::propagate::Evaluation;
 use crate::task::{Task, Warning};

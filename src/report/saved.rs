@@ -14,15 +14,20 @@ use crate::propagate::{Origins, OutputEvaluation, RowEvaluation};
 use crate::task::Task;
 
 /// The result file of an evaluation's first row. `quantiles` are those of each output's trials over
-/// [`Scores::WRITTEN`]. Numbers are in the shortest text that reads back as the same number, `null`
+/// [`Scores::WRITTEN`], `ranks` those of each output in trials that stand for all of them. Numbers are in the shortest text that reads back as the same number, `null`
 /// is for what is infinite or not defined.
 ///
 /// The same evaluation gives the same bytes always.
-pub fn saved(report: &Report<'_>, origins: &Origins, quantiles: &[Vec<f64>]) -> String {
+pub fn saved(
+    report: &Report<'_>,
+    origins: &Origins,
+    quantiles: &[Vec<f64>],
+    ranks: &[Vec<u32>],
+) -> String {
     let Some(row) = report.evaluation.rows.first() else {
         return String::new();
     };
-    let file = File::of(report, row, origins, quantiles);
+    let file = File::of(report, row, origins, quantiles, ranks);
     let mut bytes = Vec::new();
     let mut serializer = Serializer::with_formatter(&mut bytes, Layout::default());
     // writing to memory does not fail, and all keys are text
@@ -76,6 +81,9 @@ struct Output<'a> {
     shortest_interval: [f64; 2],
     sensitivities: Option<&'a [f64]>,
     quantiles: &'a [f64],
+    /// Entry i of all outputs is of the same trial.
+    #[serde(skip_serializing_if = "<[u32]>::is_empty")]
+    ranks: &'a [u32],
 }
 
 #[derive(Serialize)]
@@ -105,6 +113,7 @@ impl<'a> File<'a> {
         row: &'a RowEvaluation,
         origins: &'a Origins,
         quantiles: &'a [Vec<f64>],
+        ranks: &'a [Vec<u32>],
     ) -> Self {
         let Report { task, evaluation, provenance, .. } = *report;
         let names: Vec<&str> =
@@ -112,7 +121,12 @@ impl<'a> File<'a> {
         let pairs = (0..names.len()).flat_map(|i| (i + 1..names.len()).map(move |j| (i, j)));
         let found = row.outputs.iter().enumerate().filter_map(|(place, output)| {
             let sensitivities = origins.sensitivities.get(place)?.as_deref();
-            let side = Output::of(task, place, output, sensitivities, quantiles.get(place)?)?;
+            // a single output varies with no other
+            let ranks =
+                ranks.get(place).filter(|_| ranks.iter().filter(|r| !r.is_empty()).count() > 1);
+            let ranks = ranks.map_or(&[][..], Vec::as_slice);
+            let tables = (quantiles.get(place)?.as_slice(), ranks);
+            let side = Output::of(task, place, output, sensitivities, tables)?;
             Some((*names.get(place)?, side))
         });
         let place = |name: &RootName| origins.roots.iter().position(|root| root.name == *name);
@@ -165,7 +179,7 @@ impl<'a> Output<'a> {
         place: usize,
         output: &OutputEvaluation,
         sensitivities: Option<&'a [f64]>,
-        quantiles: &'a [f64],
+        (quantiles, ranks): (&'a [f64], &'a [u32]),
     ) -> Option<Self> {
         let figures: &MonteCarlo = output.monte_carlo.as_ref()?;
         // without sensitivities, the figures of the trials
@@ -192,6 +206,7 @@ impl<'a> Output<'a> {
             shortest_interval: figures.shortest_interval,
             sensitivities,
             quantiles,
+            ranks,
         })
     }
 }

@@ -3,8 +3,10 @@
 //! A schema cannot say everything: units, formulas and names that belong together are checked by
 //! [`file`](crate::file). What it refuses, reading refuses too.
 
+mod case;
 mod model_file;
 mod node;
+mod result_file;
 mod shapes;
 mod values;
 
@@ -26,6 +28,8 @@ pub fn text() -> String {
 
 fn schema() -> Node {
     let mut definitions = model_file::definitions();
+    definitions.extend(case::definitions());
+    definitions.extend(result_file::definitions());
     definitions.extend(shapes::definitions());
     definitions.extend(values::definitions());
     object([
@@ -34,14 +38,22 @@ fn schema() -> Node {
         (
             "description",
             Node::from(
-                "Model files of gumption, format 1: a measurement with what is known about its \
-                 inputs, to be evaluated by the GUM and by Monte Carlo.",
+                "Files of gumption, format 1. Model files: a measurement with what is known about \
+                 its inputs, to be evaluated by the GUM and by Monte Carlo; with observations a case \
+                 of the gap diagnosis. Result files: what an evaluation found, to be the input of \
+                 another one.",
             ),
         ),
-        // other kinds of files get definitions beside this one
-        ("$ref", Node::from("#/$defs/model")),
+        ("if", with_key("result")),
+        ("then", reference("result")),
+        ("else", reference("model")),
         ("$defs", object(definitions)),
     ])
+}
+
+/// An object with a key of this name.
+fn with_key(key: &str) -> Node {
+    object([("type", Node::from("object")), ("required", node::texts([key]))])
 }
 
 /// An object that has these properties and no others; keys that begin with `$` belong to editors.

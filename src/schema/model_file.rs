@@ -82,20 +82,24 @@ fn root() -> Node {
                 .with("minimum", 0.0)
                 .with("maximum", 1.0),
         ),
-        ("observations", described("object", "Measured data (gap cases).")),
-        ("effects", described("object", "Candidate effects beside the model (gap cases).")),
-        (
-            "catalogue",
-            described("array", "Names of ready-made effects (gap cases).")
-                .with("items", object([("type", Node::from("string"))])),
-        ),
-        ("prior", described("object", "Prior probabilities of the effects (gap cases).")),
+        ("observations", reference("observations")),
+        ("effects", reference("effects")),
+        ("catalogue", reference("catalogue")),
+        ("prior", reference("prior")),
     ];
-    let either = ["equations", "model"].map(|key| object([("required", texts([key]))])).to_vec();
-    let both = texts(["coverage_probability", "coverage_factor"]);
-    closed("A model file.", properties, &["inputs", "outputs"])
-        .with("oneOf", either)
-        .with("not", object([("required", both)]))
+    // an output may also come from a column of the observations
+    let makers = ["equations", "model", "observations"];
+    let either = makers.map(|key| object([("required", texts([key]))])).to_vec();
+    let both = [["coverage_probability", "coverage_factor"], ["equations", "model"]];
+    let both = both.map(|keys| object([("required", texts(keys))])).to_vec();
+    let without_inputs = vec![
+        object([("required", texts(["inputs"]))]),
+        object([("required", texts(["observations"]))]),
+    ];
+    closed("A model file.", properties, &["outputs"])
+        .with("anyOf", either)
+        .with("allOf", vec![object([("anyOf", Node::List(without_inputs))])])
+        .with("not", object([("anyOf", Node::List(both))]))
         .with("dependentRequired", object([("coverage_factor_fixed", texts(["coverage_factor"]))]))
         .with("examples", vec![example()])
 }

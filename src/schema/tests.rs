@@ -1,5 +1,7 @@
 //! The schema and the reader know the same keys; ready files and worked examples are valid.
 
+mod result_file;
+
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
@@ -41,7 +43,11 @@ fn ready_files_and_worked_examples_are_valid() {
         let name = path.file_name().unwrap().to_string_lossy();
         path.is_dir() && !name.starts_with("wrong-")
     });
-    let files: Vec<PathBuf> = ready.chain(cases.map(|path| path.join("model.json"))).collect();
+    let gaps = entries("models/gap").into_iter().filter(|path| path.is_dir());
+    let files: Vec<PathBuf> = ready
+        .chain(cases.map(|path| path.join("model.json")))
+        .chain(gaps.map(|path| path.join("case.json")))
+        .collect();
     assert!(files.len() > 100);
     let mut mistakes = Vec::new();
     for path in files {
@@ -105,6 +111,24 @@ fn wrong_files_are_not_valid() {
         ("monte_carlo", json!({"trials": "many"})),
         ("conditions", json!({"file": "x.csv", "unit": {}})),
         ("format", json!(2)),
+        ("observations", json!({"file": "x.csv"})),
+        ("observations", json!({"file": "x.csv", "columns": {}})),
+        ("observations", json!({"file": "x.csv", "columns": {"y": {"sim": "s"}}})),
+        (
+            "observations",
+            json!({"file": "x.csv", "columns": {"y": {"value": "y", "sim_covariance": "c.csv"}}}),
+        ),
+        ("effects", json!({"e": {"parameters": {}, "overrides": {"y": "y"}}})),
+        ("effects", json!({"e": {"overrides": {"y": "y"}}})),
+        (
+            "effects",
+            json!({"a/b": {"parameters": {"d": {"distribution": "normal", "mean": 0,
+            "std": 1}}, "overrides": {"y": "y"}}}),
+        ),
+        ("catalogue", json!(["warp"])),
+        ("catalogue", json!(["offset", "offset"])),
+        ("prior", json!({"none": -0.1})),
+        ("prior", json!({"nothing": 1})),
     ];
     for (key, value) in roots {
         let mut file = right.clone();
@@ -140,13 +164,26 @@ fn what_the_contract_allows_is_valid() {
         "monte_carlo": {"trials": "adaptive", "max_trials": 1e6, "digits": 1, "seed": 0},
         "check_units": false, "allow_undefined": 0.01
     });
-    let mistakes: Vec<String> = validator.iter_errors(&file).map(|e| e.to_string()).collect();
-    assert!(mistakes.is_empty(), "{mistakes:?}");
+    let case = json!({
+        "conditions": {"f": {"unit": "Hz"}},
+        "outputs": {"y": {}, "z": {}},
+        "observations": {"file": "d.csv", "columns": {
+            "y": {"value": "y", "standard_uncertainty": "u", "sim": "s", "sim_covariance": "c.csv"},
+            "z": {"value": "z", "sim": "t", "sim_standard_uncertainty": "v"}}},
+        "effects": {"low pass": {"about": "", "source": "", "overrides": {"y": "y/d"}, "parameters": {
+            "d": {"distribution": "log-uniform", "lower": 1, "upper": 2}}}},
+        "catalogue": ["offset"], "prior": {"none": 0.5, "one": 0.5, "two": 0, "unexplained": 0}
+    });
+    for file in [file, case] {
+        let mistakes: Vec<String> = validator.iter_errors(&file).map(|e| e.to_string()).collect();
+        assert!(mistakes.is_empty(), "{mistakes:?}");
+    }
 }
 
 /// The keys that the reader knows where `file` has the key `unknown`; none if it stops before.
 fn known_to_reader(file: &Value) -> Option<BTreeSet<String>> {
-    let Err(problems) = file::read_text("x", &file.to_string(), Path::new(""), &[]) else {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/errors");
+    let Err(problems) = file::check_text("x", &file.to_string(), &folder) else {
         panic!("an unknown key was taken: {file}");
     };
     problems.0.iter().find_map(|problem| match &problem.fault {
@@ -197,6 +234,19 @@ fn the_reader_knows_the_same_keys() {
     let part = json!({"name": "a", "distribution": "normal", "std": 1});
     let sum = json!({"mean": 1, "components": [part], "unknown": 1});
     assert!(same("input-of-components", file_with(&["inputs", "x"], sum)));
+
+    let data = |column: Value| json!({"file": "gap.csv", "columns": {"y": column}});
+    let observed = data(json!({"value": "y", "unknown": 1}));
+    assert!(same("observed-output", file_with(&["observations"], observed)));
+    let observations = json!({"file": "gap.csv", "unknown": 1});
+    assert!(same("observations", file_with(&["observations"], observations)));
+    let case = |key: &str, value: Value| {
+        let mut file = file_with(&["observations"], data(json!({"value": "y"})));
+        file[key] = value;
+        file
+    };
+    assert!(same("effect", case("effects", json!({"e": {"unknown": 1}}))));
+    assert!(same("prior", case("prior", json!({"unknown": 1}))));
 
     let mut read = 0;
     for shape in &SHAPES {

@@ -1,10 +1,12 @@
 //! What is to be evaluated: a model, what is known about its inputs in every row of conditions,
 //! and the settings of the evaluation. Files and typed measurements both become a [`Task`].
 
+mod case;
 mod coverage;
 mod settings;
 mod warning;
 
+pub use case::{Candidate, Case, Observed, Prior};
 pub use coverage::Coverage;
 pub use settings::{Settings, StoppingRule, Trials};
 pub use warning::Warning;

@@ -119,3 +119,78 @@ fn standard_input_and_files() {
     assert_eq!(answer["changes"], Value::Array(Vec::new()));
     assert_eq!(answer["outputs"]["power"]["inputs"][0]["share_of_change"], Value::Null);
 }
+
+/// Saves the result of each file beside it.
+fn saved(paths: &[PathBuf; 2]) -> [PathBuf; 2] {
+    paths.each_ref().map(|path| {
+        let result = path.with_extension("result.json");
+        let (path, to) = (path.to_str().unwrap(), result.to_str().unwrap());
+        output(&["run", path, "--trials", "1000", "--save", to, "--quiet"]);
+        result
+    })
+}
+
+/// Where only standard uncertainties change, saved results tell the same as their model files: the
+/// same U, inputs and shares, to the rounding of another order of sums. One with the other, too.
+#[test]
+fn saved_results_tell_the_same() {
+    let (_folder, paths) = files(&[("0.01}", "0.02}"), ("0.1}", "0.3}")]);
+    let results = saved(&paths);
+    let of_models = json(&paths);
+    let mixed =
+        [[&results[0], &paths[1]], [&paths[0], &results[1]]].map(|pair| pair.map(Clone::clone));
+    for pair in [results, mixed[0].clone(), mixed[1].clone()] {
+        let answer = json(&pair);
+        assert_eq!(answer["changes"], Value::Array(Vec::new()));
+        let [one, other] = [&answer, &of_models].map(|answer| &answer["outputs"]["power"]);
+        assert_eq!(one["U"], other["U"]);
+        let lines = [one, other].map(|power| power["inputs"].as_array().unwrap());
+        assert_eq!(lines[0].len(), lines[1].len());
+        for (one, other) in lines[0].iter().zip(lines[1]) {
+            for key in ["input", "what"] {
+                assert_eq!(one[key], other[key]);
+            }
+            for side in ["from", "to"] {
+                for key in ["estimate", "standard_uncertainty", "distribution", "dof", "unit"] {
+                    assert_eq!(one[side][key], other[side][key], "{one}");
+                }
+            }
+            for key in ["change_of_U", "share_of_change"] {
+                let [a, b] = [one, other].map(|line| line[key].as_f64().unwrap());
+                assert!((a - b).abs() < 1e-12, "{one} {other}");
+            }
+        }
+        let sum = |key: &str| lines[0].iter().map(|line| line[key].as_f64().unwrap()).sum::<f64>();
+        let [before, after] = [0, 1].map(|i| one["U"][i].as_f64().unwrap());
+        assert!((sum("share_of_change") - 1.0).abs() < 1e-12);
+        assert!((sum("change_of_U") / (after - before) - 1.0).abs() < 1e-12);
+    }
+}
+
+/// A moved estimate acts through sensitivity coefficients, which a saved result tells without the
+/// reason.
+#[test]
+fn the_page_of_saved_results() {
+    let (folder, paths) = files(&[("0.01}", "0.02}"), ("\"mean\": 100", "\"mean\": 50")]);
+    saved(&paths);
+    let names = ["a.result.json", "b.result.json"];
+    let run = gumption().current_dir(folder.path()).arg("diff").args(names).assert().success();
+    let page = String::from_utf8(run.get_output().stdout.clone()).unwrap();
+    insta::assert_snapshot!(page, @r"
+    from a.result.json to b.result.json
+
+    output `power`: other sensitivity coefficients to `voltage`, `resistance`, `drift`; what that does
+    to U is counted with these inputs
+
+    power: U from 1.99 to 7.93 mW (+298.1 %)
+    what changed  from                                 to                                  change  share
+                                                                                             of U   in %
+    ────────────────────────────────────────────────────────────────────────────────────────────────────
+    voltage       5.000 V, u 0.010, normal,            5.000 V, u 0.020, normal,             5.80   97.7
+                  sensitivity 100.0                    sensitivity 200.0
+    resistance    100.000 ohm, u 0.058, rectangular,   50.000 ohm, u 0.058, rectangular,     0.12    2.0
+                  sensitivity -2.500                   sensitivity -10.00
+    drift         0.0000 V, u 0.0012, rectangular,     0.0000 V, u 0.0012, rectangular,      0.02    0.3
+                  sensitivity 100.0                    sensitivity 200.0
+    ");
+}

@@ -5,11 +5,14 @@
 
 mod adaptive;
 mod cases;
+mod catalogue;
 mod commands;
 mod diff;
 mod errors;
 mod formulas;
 mod fuzz;
+mod gap;
+mod gap_examples;
 mod intervals;
 mod mutations;
 mod reproducible;

@@ -1,10 +1,10 @@
 //! Damaged files: whatever they say, reading and evaluating them ends with an answer or with
 //! mistakes that have places, never with a panic.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
-use gumption::file::{ModelFile, Problems, read_text};
+use gumption::file::{ModelFile, Problems, check_text, read_text};
 use gumption::propagate::{Control, evaluate, warnings};
 use gumption::report;
 use gumption::task::Trials;
@@ -24,6 +24,22 @@ fn seeds() -> &'static [String] {
         paths.sort();
         paths.extend(model_files());
         paths.iter().filter_map(|path| std::fs::read_to_string(path).ok()).collect()
+    })
+}
+
+/// Cases of the gap diagnosis to damage, with the folders of their data.
+fn cases() -> &'static [(String, PathBuf)] {
+    static CASES: OnceLock<Vec<(String, PathBuf)>> = OnceLock::new();
+    CASES.get_or_init(|| {
+        let folders = std::fs::read_dir(root().join("models/gap")).expect("the gap cases");
+        let mut folders: Vec<PathBuf> =
+            folders.map(|entry| entry.expect("an entry").path()).collect();
+        folders.sort();
+        let read = |folder: PathBuf| {
+            let text = std::fs::read_to_string(folder.join("case.json")).ok()?;
+            Some((text, folder))
+        };
+        folders.into_iter().filter_map(read).collect()
     })
 }
 
@@ -107,6 +123,16 @@ const PIECES: &[&str] = &[
     "\"coverage_factor\": 8,",
     "\"coverage_probability\": 1e-300,",
     "\"coverage_probability\": 0.9999999999999999,",
+    "\"observations\"",
+    "\"columns\"",
+    "\"sim\"",
+    "\"effects\"",
+    "\"parameters\"",
+    "\"overrides\"",
+    "\"catalogue\": [\"offset\", \"low-pass\", \"amplitude-nonlinearity\"],",
+    "\"prior\": {\"none\": 1, \"one\": 0, \"two\": 0, \"unexplained\": 0},",
+    "\"f\"",
+    "\"a_x\"",
 ];
 
 /// The text in tokens: quoted texts, numbers and words, single signs, white space.
@@ -300,6 +326,25 @@ proptest! {
             damage.apply(&mut tokens);
         }
         feed(&tokens.concat());
+    }
+
+    /// Reading a case tries all of its effects at all of its data.
+    #[test]
+    fn damaged_cases_are_answered(
+        case in any::<Index>(),
+        damages in prop::collection::vec(damage(), 1..4),
+    ) {
+        let (text, folder) = case.get(cases());
+        let mut tokens = tokens(text);
+        for damage in &damages {
+            damage.apply(&mut tokens);
+        }
+        let text = tokens.concat();
+        for checked in [check_text("damaged", &text, folder), check_text("damaged", &text, Path::new("no"))] {
+            if let Err(problems) = checked {
+                check_places(&problems);
+            }
+        }
     }
 
     #[test]

@@ -20,3 +20,21 @@ fn the_schema_is_printed_and_written() {
     gumption().args(["schema", "--output"]).arg(&file).assert().success().stdout("");
     assert_eq!(std::fs::read_to_string(file).unwrap(), printed);
 }
+
+/// What `run --save` writes is valid, and so is the model file that it comes from.
+#[test]
+fn saved_results_are_valid() {
+    let schema: Value = serde_json::from_str(&output(&["schema"])).unwrap();
+    let validator = jsonschema::draft202012::new(&schema).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("r.json");
+    let model = "models/inclined_plane.json";
+    let to = file.to_str().unwrap();
+    output(&["run", model, "--trials", "20000", "--save", to, "--quiet"]);
+    for path in [file, crate::support::root().join(model)] {
+        let text = std::fs::read_to_string(path).unwrap();
+        let value: Value = serde_json::from_str(&text).unwrap();
+        let mistakes: Vec<String> = validator.iter_errors(&value).map(|e| e.to_string()).collect();
+        assert!(mistakes.is_empty(), "{mistakes:?}");
+    }
+}

@@ -7,13 +7,13 @@ use std::path::{Path, PathBuf};
 use clap::{Args, ValueEnum};
 
 use super::{Exit, Failure, options, output};
-use crate::diff;
-use crate::file::{self, ModelFile, Problems};
+use crate::diff::{self, Evaluated};
+use crate::file::{self, ModelOrResult, Problems};
 
-/// Compare two model files.
+/// Compare two model files, two saved results, or one with the other.
 #[derive(Debug, Args)]
 pub(super) struct Diff {
-    /// The first model file; - for standard input
+    /// The first file, a model or what `run --save` wrote; - for standard input
     a: PathBuf,
     /// The second one
     b: PathBuf,
@@ -51,8 +51,13 @@ impl Diff {
                 return Err(Problems(found.flat_map(|problems| problems.0).collect()).into());
             }
         };
-        let difference = diff::compare(&first, &second);
-        let names = [&first, &second].map(|file| file.source.name.as_str());
+        let difference = match (&first, &second) {
+            (ModelOrResult::Model(first), ModelOrResult::Model(second)) => {
+                diff::compare(first, second)
+            }
+            (first, second) => diff::compare_saved(evaluated(first), evaluated(second))?,
+        };
+        let names = [&first, &second].map(ModelOrResult::name);
         let answer = match self.format {
             Format::Table => page::table(names, &difference),
             Format::Json => page::json(names, &difference),
@@ -62,10 +67,17 @@ impl Diff {
     }
 }
 
-fn read(path: &Path) -> Result<Result<ModelFile, Problems>, Failure> {
+fn evaluated(file: &ModelOrResult) -> Evaluated<'_> {
+    match file {
+        ModelOrResult::Model(file) => Evaluated::Model(file),
+        ModelOrResult::Result(file) => Evaluated::Result(file),
+    }
+}
+
+fn read(path: &Path) -> Result<Result<ModelOrResult, Problems>, Failure> {
     Ok(if path == Path::new("-") {
-        file::read_text("<stdin>", &options::standard_input()?, Path::new(""), &[])
+        file::read_either_text("<stdin>", &options::standard_input()?, Path::new(""))
     } else {
-        file::read(path, &[])
+        file::read_either(path)
     })
 }

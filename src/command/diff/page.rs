@@ -58,9 +58,11 @@ struct Line<'a> {
 struct Known<'a> {
     estimate: f64,
     standard_uncertainty: f64,
-    distribution: &'static str,
+    distribution: &'a str,
     dof: Option<f64>,
     unit: &'a str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    sensitivity: Option<f64>,
 }
 
 impl<'a> From<&'a State> for Known<'a> {
@@ -68,9 +70,10 @@ impl<'a> From<&'a State> for Known<'a> {
         Self {
             estimate: state.estimate,
             standard_uncertainty: state.standard_uncertainty,
-            distribution: state.distribution,
+            distribution: &state.distribution,
             dof: state.dof.is_finite().then_some(state.dof),
             unit: &state.unit,
+            sensitivity: state.sensitivity,
         }
     }
 }
@@ -82,6 +85,7 @@ fn due(part: &Part) -> (Option<&str>, Option<&'static str>) {
         Due::Correlations => (None, Some("correlations")),
         Due::Coverage => (None, Some("coverage")),
         Due::Model => (None, Some("model")),
+        Due::Rest => (None, Some("other")),
     }
 }
 
@@ -229,5 +233,14 @@ fn known(part: &Part, side: usize) -> String {
     } else {
         String::new()
     };
-    format!("{estimate} {unit}").trim_end().to_owned() + &format!(", u {u}, {distribution}{dof}")
+    // where it moved, as it is then a reason
+    let sensitivities = part.states.each_ref().map(|s| s.as_ref().and_then(|s| s.sensitivity));
+    let sensitivity = match (state.sensitivity, sensitivities) {
+        (Some(c), [Some(from), Some(to)]) if from != to => {
+            format!(", sensitivity {}", significant(c, 4))
+        }
+        _ => String::new(),
+    };
+    format!("{estimate} {unit}").trim_end().to_owned()
+        + &format!(", u {u}, {distribution}{dof}{sensitivity}")
 }

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::together::Together;
 use super::{Group, Joint, paired};
 use crate::distribution::{Distribution, Stream, StreamKey, normal};
 use crate::number::Column;
@@ -13,6 +14,8 @@ pub(crate) struct Varying {
     joint: Arc<Joint>,
     /// The members of the joint draw's groups as the row has them.
     members: Vec<Vec<Member>>,
+    /// Outputs of saved results.
+    together: Vec<Together>,
     in_group: Vec<bool>,
 }
 
@@ -40,7 +43,13 @@ impl Varying {
             members.collect()
         });
         let members = members.collect();
-        Self { distributions, joint: Arc::clone(joint), members, in_group }
+        let together: Vec<Together> = joint.together.iter().map(|set| set.among(varying)).collect();
+        for &place in together.iter().flat_map(|set| &set.members) {
+            if let Some(is) = in_group.get_mut(place) {
+                *is = true;
+            }
+        }
+        Self { distributions, joint: Arc::clone(joint), members, together, in_group }
     }
 
     /// All of these quantities.
@@ -82,6 +91,11 @@ impl<'a> Draws<'a> {
         for (group, members) in varying.joint.groups.iter().zip(&varying.members) {
             if members.iter().any(|m| used[m.place]) {
                 self.group(group, members, registers, register);
+            }
+        }
+        for set in &varying.together {
+            if set.members.iter().any(|&m| used[m]) {
+                set.draw(&varying.distributions, &mut self.streams, registers, register);
             }
         }
     }

@@ -34,6 +34,8 @@ pub(super) struct Fitted {
     pub(super) normals: Symmetric,
     /// The largest change of a coefficient that was needed.
     pub(super) adjusted: f64,
+    /// The coefficients that the copula does not give as they are: wanted, and drawn.
+    pub(super) changes: Vec<(Correlation, f64)>,
 }
 
 /// Pairs of shapes with the fits made for them: members of equal shapes are frequent.
@@ -95,6 +97,7 @@ impl Fit<'_> {
         let Self { members, distributions, decimals, .. } = *self;
         let mut pairs = Pairs::new(self.profiles);
         let mut adjusted: f64 = 0.0;
+        let mut changes = Vec::new();
         let mut fitted = Symmetric::identity(wanted.size());
         for (i, j) in wanted.pairs() {
             let coefficient = wanted.get(i, j);
@@ -109,6 +112,8 @@ impl Fit<'_> {
                 let change = (coefficient - nearest).abs();
                 if change <= 0.5 * unit(decimals) {
                     adjusted = adjusted.max(change);
+                    let (first, second) = (members[i], members[j]);
+                    changes.push((Correlation { first, second, coefficient }, nearest));
                     found = pairs.fit(i, j, nearest);
                 }
             }
@@ -120,7 +125,7 @@ impl Fit<'_> {
             fitted.set(i, j, r);
         }
         if fitted.is_semidefinite() {
-            return Ok(Fitted { normals: fitted, adjusted });
+            return Ok(Fitted { normals: fitted, adjusted, changes });
         }
         let repaired = fitted.nearest_correlation();
         let mut drawn = wanted.clone();
@@ -141,6 +146,11 @@ impl Fit<'_> {
                 decimals,
             });
         }
-        Ok(Fitted { normals: repaired, adjusted: adjusted.max(change) })
+        let changes = wanted.pairs().map(|(i, j)| {
+            let (first, second) = (members[i], members[j]);
+            (Correlation { first, second, coefficient: wanted.get(i, j) }, drawn.get(i, j))
+        });
+        let (changes, adjusted) = (changes.collect(), adjusted.max(change));
+        Ok(Fitted { normals: repaired, adjusted, changes })
     }
 }

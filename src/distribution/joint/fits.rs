@@ -86,7 +86,8 @@ fn linked(named: &[usize], distributions: &[Arc<Distribution>]) -> Linked {
     let is_paired = |d: &Distribution| matches!(d, Distribution::Readings(r) if r.together() > 1);
     let mut places = named.to_vec();
     let all = distributions.iter().enumerate();
-    places.extend(all.filter(|(_, d)| is_paired(d)).map(|(place, _)| place));
+    let has_ranks = |d: &Distribution| d.saved().is_some_and(|s| s.origin().ranks.is_some());
+    places.extend(all.filter(|(_, d)| is_paired(d) || has_ranks(d)).map(|(place, _)| place));
     places.sort_unstable();
     places.dedup();
     let shape = |q: usize| Some((q, Standard::of(distributions.get(q)?)));

@@ -3,6 +3,8 @@
 //! - Quantities that declared coefficients link are drawn from joint standard normals: normal ones
 //!   exactly, all others through a Gaussian copula fitted to their coefficients ([`copula`],
 //!   [`profile`]).
+//! - Outputs of one saved result are drawn as they varied in its trials ([`together`]), unless a
+//!   coefficient links one of them to another quantity.
 //! - Paired readings are drawn from a multivariate t distribution ([`paired`]).
 //!
 //! Contradictory coefficients are refused, never changed: only what lies within the rounding of
@@ -25,6 +27,7 @@ mod profiles;
 mod standard;
 #[cfg(test)]
 mod tests;
+mod together;
 
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -35,6 +38,7 @@ use matrix::Symmetric;
 use profile::Table;
 use profiles::{Profiled, Profiles};
 use standard::Standard;
+use together::{Together, together};
 
 use super::Distribution;
 
@@ -104,6 +108,8 @@ struct Group {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Joint {
     groups: Vec<Group>,
+    /// Outputs of saved results.
+    together: Vec<Together>,
     /// Whether some matrix was positive semi-definite only up to the rounding of its coefficients.
     pub(crate) rounded: bool,
     /// The quantities that are drawn through a Gaussian copula, in order. Normal ones that share a
@@ -111,6 +117,8 @@ pub(crate) struct Joint {
     pub(crate) copula: Vec<usize>,
     /// The largest change of a coefficient, within its rounding, that a copula needed.
     pub(crate) adjusted: f64,
+    /// The coefficients that a copula does not give as they are: wanted, and drawn.
+    pub(crate) changes: Arc<Vec<(Correlation, f64)>>,
 }
 
 impl Joint {
@@ -155,8 +163,18 @@ impl Joint {
                 dof: members.first().map(|&m| distributions[m].drawn_dof()),
             });
         }
-        for members in links::connected(&active) {
-            joint.add_correlated(&members, distributions, &active, profiles)?;
+        let linked = links::connected(&active);
+        joint.together = together(distributions);
+        // a link to another quantity takes all of them out
+        joint.together.retain(|set| {
+            let other = |m: &usize| !set.members.contains(m);
+            !linked.iter().any(|ms| ms.iter().any(|m| !other(m)) && ms.iter().any(other))
+        });
+        for members in linked {
+            let inside = |set: &Together| members.iter().all(|m| set.members.contains(m));
+            if !joint.together.iter().any(inside) {
+                joint.add_correlated(&members, distributions, &active, profiles)?;
+            }
         }
         joint.copula.sort_unstable();
         Ok(joint)
@@ -204,12 +222,18 @@ impl Joint {
                 }
             }
             let fit = fit::Fit { members, distributions, profiles: &shaped, decimals };
-            let fit::Fitted { normals, adjusted } = fit.fit(&wanted)?;
+            let fit::Fitted { normals, adjusted, changes } = fit.fit(&wanted)?;
             wanted = normals;
             self.adjusted = self.adjusted.max(adjusted);
+            Arc::make_mut(&mut self.changes).extend(changes);
             self.copula.extend(members);
         }
         self.groups.push(Group { members: drawn, factor: wanted.factor(), dof: None });
         Ok(())
+    }
+
+    /// The sets of outputs of saved results that are drawn together.
+    pub(crate) fn together(&self) -> &[Together] {
+        &self.together
     }
 }

@@ -16,7 +16,6 @@ const TERMS: u32 = 1000;
 ///
 /// Shapes 0.05 to 1e6; relative error below 1e-13 for results above 1e-100, and also for the
 /// smallest results some 1e-16 times their logarithm. 0 for x <= 0 and 1 for x >= 1.
-#[cfg(test)]
 pub(crate) fn cdf(x: f64, a: f64, b: f64) -> f64 {
     if !is_shape(a) || !is_shape(b) || x.is_nan() {
         f64::NAN

@@ -94,6 +94,48 @@ fn between(p: f64, q: f64, shape: f64) -> f64 {
     }
 }
 
+/// The natural logarithm of Q(a, x), also where Q is smaller than any double.
+///
+/// Shapes 0.5 to 1e7; relative error of Q below 1e-9, which is enough to rank tails. By the power
+/// series below a + 1 and by the continued fraction above (DLMF 8.7.1 and 8.9.2).
+pub(crate) fn ln_sf(x: f64, shape: f64) -> f64 {
+    if !is_shape(shape) || x.is_nan() {
+        return f64::NAN;
+    }
+    if x <= 0.0 {
+        return 0.0;
+    }
+    let ln_weight = shape * libm::log(x) - x - libm::lgamma(shape);
+    if x < shape + 1.0 {
+        let (mut term, mut sum) = (1.0 / shape, 1.0 / shape);
+        let mut denominator = shape;
+        while term > 1e-17 * sum {
+            denominator += 1.0;
+            term *= x / denominator;
+            sum += term;
+        }
+        return libm::log1p(-(libm::exp(ln_weight) * sum).min(1.0));
+    }
+    // the modified method of Lentz
+    let mut b = x + 1.0 - shape;
+    let mut c = 1e300;
+    let mut d = 1.0 / b;
+    let mut fraction = d;
+    for i in 1..100_000 {
+        let i = f64::from(i);
+        let a = -i * (i - shape);
+        b += 2.0;
+        d = 1.0 / (a * d + b);
+        c = b + a / c;
+        let step = c * d;
+        fraction *= step;
+        if (step - 1.0).abs() < 1e-12 {
+            break;
+        }
+    }
+    ln_weight + libm::log(fraction)
+}
+
 fn is_shape(shape: f64) -> bool {
     (f64::MIN_POSITIVE..f64::INFINITY).contains(&shape)
 }

@@ -128,6 +128,26 @@ impl Typed {
         Ok(self.model_with(inputs, Vec::new(), outputs))
     }
 
+    /// The declared outputs in SI units from the values of the inputs in SI units. A declared input
+    /// without a value takes its default (or 0).
+    pub(crate) fn record_with<'r>(
+        &self,
+        value: impl Fn(&str) -> Option<Traced<'r>>,
+    ) -> Vec<Traced<'r>> {
+        let values: Vec<Traced<'r>> = self
+            .declaration
+            .inputs
+            .iter()
+            .map(|declared| {
+                value(declared.name).unwrap_or_else(|| {
+                    let factor = Unit::parse(declared.unit).map_or(1.0, |unit| unit.factor());
+                    Traced::constant(declared.default.unwrap_or(0.0) * factor)
+                })
+            })
+            .collect();
+        (self.record)(&values)
+    }
+
     /// The model whose variables are the parts of `inputs`, then `conditions`, and whose results are
     /// `outputs`, each in its own unit. A declared input that is in neither list takes its default
     /// (or 0); an output that is not declared is not a number.
@@ -139,19 +159,9 @@ impl Typed {
     ) -> Model {
         let recorder = Recorder::default();
         let given = recorded_values(&recorder, &inputs, &conditions);
-        let values: Vec<Traced<'_>> = self
-            .declaration
-            .inputs
-            .iter()
-            .map(|declared| {
-                let known = given.iter().find(|(name, _)| name == declared.name);
-                known.map(|(_, value)| *value).unwrap_or_else(|| {
-                    let factor = Unit::parse(declared.unit).map_or(1.0, |unit| unit.factor());
-                    Traced::constant(declared.default.unwrap_or(0.0) * factor)
-                })
-            })
-            .collect();
-        let results = (self.record)(&values);
+        let results = self.record_with(|name| {
+            given.iter().find(|(known, _)| known == name).map(|(_, value)| *value)
+        });
         let results: Vec<Traced<'_>> = outputs
             .iter()
             .map(|output| {

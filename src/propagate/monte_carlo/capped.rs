@@ -8,7 +8,7 @@ use rayon::prelude::*;
 
 use super::block::Trials;
 use super::fold::{Plan, drop_undefined};
-use super::interval::{Ranks, rank_spread};
+use super::interval::{Ranks, is_extreme, rank_spread};
 use super::moments::{Moments, Sums, correlations};
 use super::partition::{Leaf, Partition, Tally};
 use super::products::{self, Products, waves};
@@ -297,7 +297,12 @@ impl Search {
         if let (true, Some((shortest, exact))) = (complete, shortest) {
             let [a, b, c, d, e, f, g, _, i, lower, upper] = values;
             let median = if lower == upper { lower } else { 0.5 * lower + 0.5 * upper };
-            let errors = [(c - a) / 2.0, (f - d) / 2.0, (i - g) / 2.0];
+            let Ranks { q, r } = self.ranks;
+            let of_end = |rank: u64, width: f64| {
+                if is_extreme(self.trials, rank) { f64::NAN } else { width / 2.0 }
+            };
+            let upper_rank = (r + q).min(self.trials);
+            let errors = [of_end(r, c - a), of_end(upper_rank, f - d), (i - g) / 2.0];
             self.found = Some(Found { at: [b, e, median], errors, shortest, exact });
         } else {
             // everything that this search still needs is wanted again in the next pass

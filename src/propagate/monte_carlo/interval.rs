@@ -54,10 +54,19 @@ pub(crate) fn rank_spread(trials: u64, rank: u64) -> u64 {
     ((m * p * (1.0 - p)).sqrt().round() as u64).max(1)
 }
 
+/// Whether the order statistic of a rank is the least or the greatest of all: what lies beyond it, and
+/// so how far it scatters, the trials do not tell.
+pub(crate) fn is_extreme(trials: u64, rank: u64) -> bool {
+    rank <= 1 || rank >= trials
+}
+
 /// The numerical standard error of the order statistic of rank `rank`: half the distance between
 /// the order statistics one standard deviation of the rank below and above. It needs no density and
-/// holds for any distribution.
+/// holds for any distribution. Not a number for the least and the greatest trial.
 pub(crate) fn quantile_error(order: &Order, rank: u64) -> Option<f64> {
+    if is_extreme(order.trials, rank) {
+        return Some(f64::NAN);
+    }
     let spread = rank_spread(order.trials, rank);
     let below = rank.saturating_sub(spread).max(1);
     let above = (rank + spread).min(order.trials);
@@ -105,5 +114,19 @@ mod tests {
         let order = order(vec![3.0, 1.0, 2.0]);
         assert_eq!(symmetric(&order, 0.95), Some([1.0, 3.0]));
         assert_eq!(shortest(&order, 0.95), Some([1.0, 3.0]));
+    }
+
+    /// Of 20 trials (q = 19, r = 1) the ends of the interval are the extremes, of 51 (q = 48, r = 2)
+    /// they are not.
+    #[test]
+    fn extremes_have_no_error() {
+        for (trials, r, known) in [(3, 1, false), (20, 1, false), (51, 2, true)] {
+            let order = order((1..=trials).map(f64::from).collect());
+            let ranks = Ranks::new(trials as u64, 0.95);
+            assert_eq!(ranks.r, r);
+            for rank in [ranks.r, ranks.r + ranks.q] {
+                assert_eq!(quantile_error(&order, rank).unwrap().is_finite(), known, "{trials}");
+            }
+        }
     }
 }

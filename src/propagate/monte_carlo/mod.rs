@@ -21,6 +21,7 @@ mod quantiles;
 mod repeat;
 mod run;
 mod sorting;
+mod together;
 mod windows;
 
 pub use adaptive::Adaptive;
@@ -31,3 +32,4 @@ pub(crate) use quantiles::quantiles;
 pub(crate) use repeat::repeat;
 pub(crate) use run::{Finished, Request, run};
 pub use run::{MonteCarlo, NumericalError, Undefined};
+pub(crate) use together::joint_ranks;

@@ -8,7 +8,7 @@ use super::adaptive::Adaptive;
 use super::block::{Trials, Workspace};
 use super::capped;
 use super::fold::{FoldKernel, Folded, Plan, drop_undefined};
-use super::interval::{Ranks, quantile_error, shortest, symmetric};
+use super::interval::{Ranks, is_extreme, quantile_error, shortest, symmetric};
 use super::moments::{Moments, Reference, Sums, correlations};
 use super::order::Order;
 use super::products::{Products, waves};
@@ -68,9 +68,10 @@ pub struct NumericalError {
     pub estimate: Option<f64>,
     /// Of the standard uncertainty; `None` if the distribution has no fourth moment.
     pub standard_uncertainty: Option<f64>,
-    /// Of the median.
+    /// Of the median; not a number of two trials.
     pub median: f64,
-    /// Of the ends of the symmetric interval.
+    /// Of the ends of the symmetric interval; not a number where they are the least and the greatest
+    /// trial, because there are too few.
     pub symmetric_interval: [f64; 2],
     /// Of the ends of the shortest interval, which settles only with the cube root of the trials;
     /// not a number with too few trials to tell.
@@ -378,6 +379,9 @@ fn figures(
         quantile_error(&order, upper)?,
         quantile_error(&order, order.trials.div_ceil(2))?,
     ];
+    // with so few trials the shortest interval, too, is that of the extremes
+    let few = is_extreme(order.trials, ranks.r);
+    let shortest_error = if few { [f64::NAN; 2] } else { shortest_error };
     let errors = NumericalError::new(&moments, drawn_dof, quantile_errors, shortest_error);
     let intervals = (symmetric_interval, shortest_interval, true);
     Some(MonteCarlo::new(&moments, drawn_dof, median, intervals, errors))

@@ -112,7 +112,9 @@ fn lines(gum: Option<&Gum>, figures: &MonteCarlo, digits: u32) -> Vec<Line> {
             || MISSING.to_owned(),
             |value| justified(value, own_place, error.unwrap_or(f64::NAN)),
         ),
-        error: error.map_or_else(|| MISSING.to_owned(), |error| significant(error, 1)),
+        error: error
+            .filter(|error| !error.is_nan())
+            .map_or_else(|| MISSING.to_owned(), |error| significant(error, 1)),
     };
     let ends = |[low, high]: [f64; 2]| (Some(low), Some(high));
     let (gum_low, gum_high) = gum.and_then(Gum::interval).map_or((None, None), ends);
@@ -161,6 +163,13 @@ fn verdict(output: &Quantity, figures: &OutputEvaluation, monte_carlo: &MonteCar
     };
     let Validation { digits, tolerance, d_low, d_high, gum_valid } = *validation;
     let [low_error, high_error] = monte_carlo.errors.symmetric_interval;
+    if low_error.is_nan() || high_error.is_nan() {
+        return format!(
+            "JCGM 101, clause 8: undecided whether the GUM interval is valid here: {} trials are so \
+             few that the ends of the Monte Carlo interval are the extreme ones.",
+            text::grouped(monte_carlo.trials)
+        );
+    }
     let low = difference(d_low, low_error);
     let high = in_unit(&difference(d_high, high_error), &output.unit);
     let tolerance = in_unit(&significant(tolerance, 1), &output.unit);

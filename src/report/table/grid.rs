@@ -107,7 +107,7 @@ impl Grid {
     }
 
     /// The width that nothing wraps at.
-    pub(super) fn natural_width(&self) -> usize {
+    pub(crate) fn natural_width(&self) -> usize {
         let gaps = self.columns.len().saturating_sub(1) * usize::from(GAP);
         self.columns.iter().map(Column::width).sum::<usize>() + gaps
     }

@@ -10,7 +10,7 @@ mod text;
 
 pub use columns::Column;
 pub(crate) use grid::Grid;
-pub(crate) use text::wrapped;
+pub(crate) use text::{plain, wrapped};
 
 use std::io::{self, Write};
 
@@ -90,7 +90,7 @@ fn heading(task: &Task, evaluation: &Evaluation) -> String {
             line += &format!("; as many Monte Carlo trials{each} as are needed, seed {seed}");
         }
     }
-    let mut heading = wrapped(&task.title) + &wrapped(&line);
+    let mut heading = wrapped(&plain(&task.title)) + &wrapped(&line);
     if let [row] = evaluation.rows.as_slice()
         && task.swept
     {
@@ -143,12 +143,12 @@ fn section(
 
 /// Name, unit and words of an output, underlined.
 fn title(quantity: &Quantity) -> String {
-    let mut line = text::plain(&quantity.name);
+    let mut line = plain(&quantity.name);
     if has_name(&quantity.unit) {
-        line += &format!(" in {}", text::plain(quantity.unit.text()));
+        line += &format!(" in {}", plain(quantity.unit.text()));
     }
     if !quantity.about.trim().is_empty() {
-        line += &format!(": {}", text::plain(&quantity.about));
+        line += &format!(": {}", plain(&quantity.about));
     }
     let line = wrapped(&line);
     let width = line.lines().map(|line| line.chars().count()).max().unwrap_or(0);
@@ -187,7 +187,7 @@ fn conditions_text(conditions: &[Quantity], values: &[f64]) -> String {
         .zip(values)
         .map(|(condition, &value)| {
             let value = in_unit(&super::number::exact(value), &condition.unit);
-            format!("{} = {value}", text::plain(&condition.name))
+            format!("{} = {value}", plain(&condition.name))
         })
         .collect();
     parts.join(", ")
@@ -195,11 +195,7 @@ fn conditions_text(conditions: &[Quantity], values: &[f64]) -> String {
 
 /// A number with its unit, if that has a name.
 fn in_unit(number: &str, unit: &Unit) -> String {
-    if has_name(unit) {
-        format!("{number} {}", text::plain(unit.text()))
-    } else {
-        number.to_owned()
-    }
+    if has_name(unit) { format!("{number} {}", plain(unit.text())) } else { number.to_owned() }
 }
 
 fn has_name(unit: &Unit) -> bool {

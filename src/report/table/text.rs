@@ -6,23 +6,36 @@ use super::grid::Grid;
 /// Names in a list of definitions get this many characters before they wrap.
 const NAME_WIDTH: usize = 32;
 
+/// Characters of a text that the page shows at most: twenty lines.
+const LONGEST: usize = 2000;
+
 /// One line of printable characters: everything that a terminal would obey becomes a space, and so
 /// do line breaks.
-pub(super) fn plain(text: &str) -> String {
+fn one_line(text: &str) -> String {
     text.split(|c: char| c.is_control() || c.is_whitespace() || is_invisible(c))
         .filter(|word| !word.is_empty())
         .collect::<Vec<_>>()
         .join(" ")
 }
 
-/// Marks that change the direction of the text around them.
+/// A user's text on one line of printable characters. What is too long to be read is cut, with an
+/// ellipsis.
+pub(crate) fn plain(text: &str) -> String {
+    let text = one_line(text);
+    match text.char_indices().nth(LONGEST) {
+        Some((end, _)) => text.get(..end).unwrap_or_default().trim_end().to_owned() + "…",
+        None => text,
+    }
+}
+
+/// Marks that change the direction of the text around them, and characters without a width.
 fn is_invisible(c: char) -> bool {
-    matches!(c, '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{2069}')
+    matches!(c, '\u{ad}' | '\u{feff}' | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{2069}')
 }
 
 /// A paragraph within the width of the page, ending in a newline; nothing for an empty text.
 pub(crate) fn wrapped(text: &str) -> String {
-    let text = plain(text);
+    let text = one_line(text);
     if text.is_empty() {
         return String::new();
     }

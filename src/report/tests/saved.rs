@@ -4,9 +4,12 @@ use std::path::Path;
 
 use crate::distribution::Scores;
 use crate::file::{self, Fault, ModelFile, Problem};
+use crate::number::CodePath;
 use crate::propagate::gum::{Dof, Gum};
 use crate::propagate::monte_carlo::MonteCarlo;
-use crate::propagate::{Control, Evaluation, evaluate, linear, origins, quantiles};
+use crate::propagate::{
+    Control, Evaluation, evaluate, joint_ranks, linear, origins, quantiles, trial_hash, warnings,
+};
 use crate::report::{Provenance, Report, saved};
 use crate::task::Trials;
 
@@ -54,12 +57,14 @@ impl Run {
         let task = &self.file.task;
         let scores: Vec<f64> = Scores::WRITTEN.values().collect();
         let quantiles = quantiles(task, &self.evaluation, 0, &scores, &Control::default());
+        let ranks = joint_ranks(task, &self.evaluation, 0, &Control::default());
         let gums: Vec<_> = self.evaluation.rows[0].outputs.iter().map(linear).collect();
         let origins = origins(task, &task.rows[0], &gums, model);
         let provenance = Provenance { model_sha256: model.to_owned(), files: Vec::new() };
         let report =
             Report { task, evaluation: &self.evaluation, warnings: &[], provenance: &provenance };
-        std::fs::write(path, saved(&report, &origins, &quantiles.unwrap().unwrap())).unwrap();
+        let (quantiles, ranks) = (quantiles.unwrap().unwrap(), ranks.unwrap().unwrap());
+        std::fs::write(path, saved(&report, &origins, &quantiles, &ranks)).unwrap();
     }
 }
 
@@ -88,6 +93,37 @@ fn direct() -> Run {
     let text = calibration().replacen(r#""square": ""#, r#""d": "a - b", "square": ""#, 1);
     let text = text.replace(r#""square": {}"#, r#""d": {"unit": "mV"}"#);
     Run::new(&text, Path::new(""), 1)
+}
+
+/// How far trials drawn from a saved result may be from those of the direct run: by the scatter of
+/// both runs, and by that of the trials that the result holds. By measurement over seeds this is 0.3
+/// of the scatter of as many random trials, which is that of the direct run times sqrt(M/32768).
+struct Scatter {
+    kept: f64,
+}
+
+impl Default for Scatter {
+    fn default() -> Self {
+        Self { kept: 0.3 * (TRIALS as f64 / 32_768.0).sqrt() }
+    }
+}
+
+impl Scatter {
+    /// The differences of u and of both ends of the symmetric interval, in standard deviations; five
+    /// are a false failure rate of 6e-7 each.
+    fn off(&self, direct: &MonteCarlo, saved: &MonteCarlo) -> [f64; 3] {
+        let of = |a: f64, b: f64, errors: [f64; 2]| {
+            (a - b).abs() / errors[0].hypot(errors[1]).hypot(self.kept * errors[0])
+        };
+        let both = [direct, saved];
+        let u = both.map(|figures| figures.standard_uncertainty.unwrap());
+        let of_u = both.map(|figures| figures.errors.standard_uncertainty.unwrap());
+        let [low, high] = [0, 1].map(|end| {
+            let errors = both.map(|figures| figures.errors.symmetric_interval[end]);
+            of(direct.symmetric_interval[end], saved.symmetric_interval[end], errors)
+        });
+        [of(u[0], u[1], of_u), low, high]
+    }
 }
 
 fn close(a: f64, b: f64, tolerance: f64) {
@@ -131,10 +167,9 @@ fn a_result_is_drawn_as_it_was() {
     }
 }
 
-/// U of the difference of two outputs of one saved result is the direct run's: by the law of
-/// propagation to rounding, degrees of freedom included; in the trials within 5 standard errors of
-/// each of the two runs and 1 % for the coefficient, which is that of 4e5 trials: a relative
-/// standard error of 2/sqrt(M) = 0.3 % of 1 - r, half of that of the difference.
+/// The difference of two outputs of one saved result is the direct run's: by the law of propagation to
+/// rounding, degrees of freedom included; u and the ends of the interval of the trials as far as the
+/// two runs scatter, and the trials that the result holds ([`Scatter`]).
 #[test]
 fn a_difference_of_two_outputs_is_as_if_computed_directly() {
     let folder = tempfile::tempdir().unwrap();
@@ -146,10 +181,8 @@ fn a_difference_of_two_outputs_is_as_if_computed_directly() {
     close(is.expanded_uncertainty().unwrap(), was.expanded_uncertainty().unwrap(), 1e-9);
     let (Dof::Finite(a), Dof::Finite(b)) = (was.dof, is.dof) else { panic!() };
     close(b, a, 1e-9);
-    let (was, is) = (direct.trials(3), saved.trials(0));
-    let (u, v) = (was.standard_uncertainty.unwrap(), is.standard_uncertainty.unwrap());
-    let errors = [was, is].map(|figures| figures.errors.standard_uncertainty.unwrap());
-    assert!((u - v).abs() < 0.01 * u + 5.0 * (errors[0] + errors[1]), "{u} {v}");
+    let off = Scatter::default().off(direct.trials(3), saved.trials(0));
+    assert!(off.iter().all(|off| *off < 5.0), "{off:?}");
     // the note says so
     assert!(saved.file.warnings.iter().any(|w| w.code == "result-correlation"));
 }
@@ -283,19 +316,32 @@ fn the_file_is_a_function_of_the_evaluation() {
     }
 }
 
+/// The text of a result file as it was written before it held ranks.
+fn without_ranks(text: &str) -> String {
+    let mut parts = text.split("\"ranks\": [");
+    let mut left = parts.next().unwrap().to_owned();
+    for part in parts {
+        left.truncate(left.trim_end().trim_end_matches(',').len());
+        left += part.split_once(']').unwrap().1;
+    }
+    left
+}
+
 /// All outputs of a file at once, one a function of others' inputs, two of no normal shape, and a
 /// linear combination of two others, so that their correlation matrix is singular. By the law of
-/// propagation they cancel. A Gaussian copula cannot do that with these shapes: the run says so, and
-/// its coefficients are off by less than 0.02, so what is left of c - a - b has a variance below
-/// 2 x 0.02 (u_a u_c + u_b u_c + u_a u_b), a standard deviation of 0.036.
+/// propagation they cancel. What is left of c - a - b in the trials is below 1/sqrt(32768) of the
+/// largest of them, u(c) = 0.129, as the note of such cases says; of d - 5 exp(5) a = exp(5 x) - ...
+/// it is its own scatter: with x = 1 + w, exp(5) (exp(5 w) - 5 w), whose standard deviation over w
+/// from -0.1 to 0.1 is exp(5) 0.0388 = 5.753 (by integration).
 #[test]
 fn dependent_outputs_are_drawn_together() {
     let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("c.json");
     let text = r#"{"inputs": {"x": {"distribution": "rectangular", "mean": 1, "half_width": 0.1},
         "z": {"distribution": "rectangular", "mean": 2, "half_width": 0.2}},
         "equations": {"a": "x", "b": "z", "c": "x + z", "d": "exp(5*x)"},
         "outputs": {"a": {}, "b": {}, "c": {}, "d": {}}}"#;
-    Run::new(text, folder.path(), 1).save(&folder.path().join("c.json"), "c");
+    Run::new(text, folder.path(), 1).save(&path, "c");
     let inputs: Vec<String> = ["a", "b", "c", "d"]
         .map(|name| {
             format!(
@@ -314,6 +360,123 @@ fn dependent_outputs_are_drawn_together() {
         run.gum(1).standard_uncertainty < 1e-6 * run.gum(1).budget().nth(3).unwrap().contribution
     );
     let left = run.trials(0).standard_uncertainty.unwrap();
+    assert!(left < 0.129 / 32_768_f64.sqrt(), "{left}");
+    let left = run.trials(1).standard_uncertainty.unwrap();
+    close(left, 5.753, 0.02);
+    let notes = warnings(&run.file.task, &run.evaluation);
+    let of = |code: &str| -> Vec<&str> {
+        notes.iter().filter(|w| w.code == code).map(|w| w.place.as_str()).collect()
+    };
+    assert_eq!(of("result-cancellation"), ["e"]);
+    assert!(of("gaussian-copula").is_empty());
+
+    // without ranks it is the Gaussian copula that joins them, and it cannot do that with these
+    // shapes: the run says so. Its coefficients are off by less than 0.02, so what is left of
+    // c - a - b has a variance below 2 x 0.02 (u_a u_c + u_b u_c + u_a u_b), 0.036 in u
+    std::fs::write(&path, without_ranks(&std::fs::read_to_string(&path).unwrap())).unwrap();
+    let run = Run::new(&text, folder.path(), 2);
+    let left = run.trials(0).standard_uncertainty.unwrap();
     assert!(left < 0.036, "{left}");
     assert!(run.evaluation.copula_adjusted > 0.0 && run.evaluation.copula_adjusted < 0.02);
+    let notes = warnings(&run.file.task, &run.evaluation);
+    let effect = notes.iter().find(|w| w.code == "copula-effect" && w.place == "e").unwrap();
+    assert!(effect.text.contains(&format!("{left:.0e}")[..1]), "{} {left}", effect.text);
+    assert!(run.file.warnings.iter().any(|w| w.code == "result-without-ranks"));
+}
+
+/// Functions of two outputs of one saved result, strongly nonlinear ones of broad inputs among them,
+/// against the direct run.
+#[test]
+fn functions_of_two_outputs_are_as_if_computed_directly() {
+    let folder = tempfile::tempdir().unwrap();
+    let inputs = r#"{"check_units": false, "inputs": {
+        "x": {"distribution": "normal", "mean": 1, "std": 0.3},
+        "t": {"distribution": "rectangular", "mean": 2, "half_width": 1.5}},"#;
+    let (v, w) = (r#""v": "x*x*t""#, r#""w": "exp(x)/t""#);
+    let functions = r#""difference": "v - w", "ratio": "v/w", "product": "v*w""#;
+    let outputs = r#""outputs": {"difference": {}, "ratio": {}, "product": {}}}"#;
+    let direct = format!(r#"{inputs} "equations": {{{v}, {w}, {functions}}}, {outputs}"#);
+    let direct = Run::new(&direct, folder.path(), 1);
+    let saved =
+        format!(r#"{inputs} "equations": {{{v}, {w}}}, "outputs": {{"v": {{}}, "w": {{}}}}}}"#);
+    Run::new(&saved, folder.path(), 2).save(&folder.path().join("c.json"), "c");
+    let text = format!(
+        r#"{{"inputs": {{"v": {{"distribution": "result", "file": "c.json", "output": "v"}},
+            "w": {{"distribution": "result", "file": "c.json", "output": "w"}}}},
+            "equations": {{{functions}}}, {outputs}"#
+    );
+    let run = Run::new(&text, folder.path(), 3);
+    let off = |run: &Run, output: usize| {
+        Scatter::default().off(direct.trials(output), run.trials(output))
+    };
+    for output in 0..3 {
+        let off = off(&run, output);
+        assert!(off.iter().all(|off| *off < 5.0), "{output}: {off:?}");
+    }
+    // a Gaussian copula with the same coefficient is far off in each
+    let path = folder.path().join("c.json");
+    std::fs::write(&path, without_ranks(&std::fs::read_to_string(&path).unwrap())).unwrap();
+    let run = Run::new(&text, folder.path(), 3);
+    for output in 0..3 {
+        let off = off(&run, output);
+        assert!(off.iter().any(|off| *off > 10.0), "{output}: {off:?}");
+    }
+}
+
+/// An output that two inputs name has one value; every output keeps its distribution; and a declared
+/// correlation with another input is drawn as it is without ranks, for all that it links.
+#[test]
+fn inputs_of_one_result_and_others() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("c.json");
+    let saved = Run::new(&calibration(), folder.path(), 1);
+    saved.save(&path, "c");
+    let with = |correlations: &str| {
+        format!(
+            r#"{{{correlations} "check_units": false, "inputs": {{
+            "a": {{"distribution": "result", "file": "c.json", "output": "a"}},
+            "again": {{"unit": "V", "distribution": "result", "file": "c.json", "output": "a"}},
+            "skew": {{"distribution": "result", "file": "c.json", "output": "skew"}},
+            "n": {{"unit": "V", "distribution": "normal", "mean": 0, "std": 1}}}},
+            "equations": {{"a_1": "a", "s_1": "skew", "zero": "a - again", "all": "a + skew + n"}},
+            "outputs": {{"a_1": {{"unit": "mV"}}, "s_1": {{}}, "zero": {{}}, "all": {{}}}}}}"#
+        )
+    };
+    let run = Run::new(&with(""), folder.path(), 2);
+    for (output, of) in [(0, 0), (1, 2)] {
+        let (was, is) = (saved.trials(of), run.trials(output));
+        for end in 0..2 {
+            let difference = was.symmetric_interval[end] - is.symmetric_interval[end];
+            assert!(difference.abs() < 5.0 * is.errors.symmetric_interval[end]);
+        }
+    }
+    // the same table in two units, to rounding
+    assert!(run.trials(2).standard_uncertainty.unwrap() < 1e-15);
+    assert_eq!(run.evaluation.rows[0].together[0].variables, [0, 1, 2]);
+
+    let linked = with(r#""correlations": [["skew", "n", 0.5]],"#);
+    let first = Run::new(&linked, folder.path(), 2);
+    assert!(first.evaluation.rows[0].together.is_empty());
+    std::fs::write(&path, without_ranks(&std::fs::read_to_string(&path).unwrap())).unwrap();
+    let second = Run::new(&linked, folder.path(), 2);
+    assert_eq!(first.evaluation.rows[0].correlations, second.evaluation.rows[0].correlations);
+    for output in 0..4 {
+        assert_eq!(first.trials(output), second.trials(output));
+    }
+}
+
+/// The trials that a result holds are drawn as the same bits on any number of threads.
+#[test]
+fn what_is_drawn_together_is_reproducible() {
+    let folder = tempfile::tempdir().unwrap();
+    Run::new(&calibration(), folder.path(), 1).save(&folder.path().join("c.json"), "c");
+    let file = file::read_text("m", &difference("c.json", "c.json"), folder.path(), &[]).unwrap();
+    let hash = |threads: usize, path: CodePath| {
+        let control = Control { threads, path, ..Control::default() };
+        trial_hash(&file.task, 20_000, &control).unwrap()
+    };
+    let first = hash(1, CodePath::Baseline);
+    for path in CodePath::available() {
+        assert_eq!(hash(2, path), first, "{path:?}");
+    }
 }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::*;
 use crate::distribution::{Distribution, Evaluation as Kind, Rectangular};
 use crate::propagate::gum::Dof;
-use crate::report::{Style, table};
+use crate::report::{Column, Style, table};
 use crate::task::Coverage;
 
 fn page(case: &Case) -> String {
@@ -466,6 +466,30 @@ fn long_names_and_texts_keep_the_page_in_bounds() {
     let page = page(&case);
     assert!(page.chars().all(|c| c == '\n' || !c.is_control()));
     assert!(page.starts_with("[31mred title and more"));
+}
+
+/// Texts far beyond what anybody reads, in one word or in many, are cut after twenty lines; the
+/// answer for programs has them whole.
+#[test]
+fn endless_texts_are_cut() {
+    for text in ["x".repeat(70_000), "word ".repeat(20_000)] {
+        let mut case = Case::new(correlated(2000));
+        case.task.title.clone_from(&text);
+        for variable in &mut case.task.variables {
+            variable.about.clone_from(&text);
+            variable.group = Some(text.clone());
+        }
+        for output in &mut case.task.model.outputs {
+            output.quantity.about.clone_from(&text);
+        }
+        let style = Style { columns: Column::ALL.to_vec(), ..Style::default() };
+        let page = table(&case.report(), &style);
+        assert!(page.lines().all(|line| line.chars().count() <= 100), "{page}");
+        let title: Vec<&str> = page.lines().take_while(|line| !line.contains("coverage")).collect();
+        assert!((20..=21).contains(&title.len()), "{title:?}");
+        assert!(title.last().is_some_and(|line| line.ends_with('…')), "{title:?}");
+        assert_eq!(case.json()["title"], text);
+    }
 }
 
 #[test]

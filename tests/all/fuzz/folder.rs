@@ -6,7 +6,7 @@ use std::path::Path;
 use std::sync::OnceLock;
 
 use gumption::file::read_text;
-use gumption::propagate::{Control, evaluate, linear, origins, quantiles};
+use gumption::propagate::{Control, evaluate, joint_ranks, linear, origins, quantiles};
 use gumption::report;
 
 use super::random::Random;
@@ -39,6 +39,8 @@ fn result() -> &'static str {
         let scores: Vec<f64> = gumption::distribution::Scores::WRITTEN.values().collect();
         let quantiles = quantiles(&file.task, &evaluation, 0, &scores, &control);
         let quantiles = quantiles.expect("threads").expect("trials");
+        let ranks = joint_ranks(&file.task, &evaluation, 0, &control);
+        let ranks = ranks.expect("threads").expect("trials");
         let gums: Vec<_> = evaluation.rows[0].outputs.iter().map(linear).collect();
         let origins = origins(&file.task, &file.task.rows[0], &gums, &provenance.model_sha256);
         let whole = report::Report {
@@ -47,7 +49,7 @@ fn result() -> &'static str {
             warnings: &[],
             provenance: &provenance,
         };
-        report::saved(&whole, &origins, &quantiles)
+        report::saved(&whole, &origins, &quantiles, &ranks)
     })
 }
 

@@ -183,6 +183,16 @@ fn a_power_of_one_half_is_the_square_root() {
     assert_eq!(undefined("x^-3"), None);
 }
 
+/// What is undefined is named in short texts, however large or small its numbers.
+#[test]
+fn undefined_operations_are_named_in_short() {
+    let scope = Scope::from_iter(["x", "y", "z"].map(|name| (name, Typing::NUMBER)));
+    let undefined = |text: &str| program(text, &scope).first_undefined(&[1e308, -2.5e-9, 1.0]);
+    assert_eq!(undefined("x*10").as_deref(), Some("1e308 * 10"));
+    assert_eq!(undefined("sqrt(y)").as_deref(), Some("sqrt of -2.5e-9"));
+    assert_eq!(undefined("x + (1.7e308 - z)").as_deref(), Some("1e308 + 1.7e308"));
+}
+
 /// The inclined plane as formulas is the typed measurement: the same program, so the same bits.
 #[test]
 fn formulas_of_the_inclined_plane_are_the_typed_model() {

@@ -1,27 +1,51 @@
 //! `gumption models`
 
+mod effects;
+
 use std::fmt::Write;
 
 use clap::Args;
 use comfy_table::{ContentArrangement, Table, presets};
 
+use super::options::Format;
 use super::{Exit, Failure, output};
 use crate::file::nearest;
 use crate::model::typed::{self, Entry};
 
-/// List the typed models or describe one.
+/// List the typed models or describe one, or list the ready-made effects of the gap diagnosis.
 #[derive(Debug, Args)]
 pub(super) struct Models {
-    /// A model to describe
+    /// A model to describe; with --effects the effect
     name: Option<String>,
     /// Print a model file of it, ready to fill in
     #[arg(long, requires = "name")]
     template: bool,
+    /// List the effects that a gap case can name in its `catalogue`
+    #[arg(long, conflicts_with = "template")]
+    effects: bool,
+    /// Format of the answer; json with --effects only
+    #[arg(long, value_enum, default_value = "table")]
+    format: Format,
 }
 
 impl Models {
     pub(super) fn execute(&self) -> Result<Exit, Failure> {
         let text = match &self.name {
+            name if self.effects => {
+                let listing = effects::named(name.as_deref())?;
+                match self.format {
+                    Format::Table => effects::page(&listing),
+                    Format::Json => effects::json(&listing)?,
+                    Format::Csv => {
+                        let message = "`models --effects` answers as table or json";
+                        return Err(Failure::Argument(message.into()));
+                    }
+                }
+            }
+            _ if self.format != Format::Table => {
+                let message = "`models` answers as table; in json with --effects only";
+                return Err(Failure::Argument(message.into()));
+            }
             None => list(&typed::all()),
             Some(name) => match typed::find(name) {
                 Some(entry) if self.template => entry.example.to_owned(),
@@ -85,11 +109,16 @@ fn one_line(text: &str) -> String {
 
 /// On lines of at most 100 characters.
 fn wrapped(paragraph: &str) -> String {
+    wrapped_to(paragraph, 100)
+}
+
+/// On lines of at most so many characters, unless a word is longer.
+fn wrapped_to(paragraph: &str, longest: usize) -> String {
     let mut text = String::new();
     let mut width = 0;
     for word in one_line(paragraph).split(' ') {
         let length = word.chars().count();
-        if width > 0 && width + 1 + length > 100 {
+        if width > 0 && width + 1 + length > longest {
             text.push('\n');
             width = 0;
         } else if width > 0 {

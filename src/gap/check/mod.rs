@@ -1,0 +1,10 @@
+//! The blind check of the diagnosis: truths are drawn, sealed, diagnosed from the data alone, and
+//! only then compared.
+
+mod score;
+mod truth;
+
+pub use score::{Checked, Confusion, Reliability, Report, SmallestEffect, score};
+#[cfg(test)]
+pub(crate) use truth::truth_with;
+pub use truth::{Truth, TruthKind, truth};

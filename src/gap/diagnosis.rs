@@ -1,0 +1,251 @@
+//! What a diagnosis says.
+
+/// The answer of the gap diagnosis.
+#[derive(Clone, Debug)]
+pub struct Diagnosis {
+    /// Title of the case.
+    pub title: String,
+    /// The observed outputs with their units.
+    pub outputs: Vec<Named>,
+    /// The conditions with their units.
+    pub conditions: Vec<Named>,
+    /// Whether there is a gap.
+    pub gap: Gap,
+    /// Where it lies, most surprising region first.
+    pub regions: Vec<Region>,
+    /// The hypothesis of highest posterior probability.
+    pub verdict: Verdict,
+    /// All hypotheses, most probable first.
+    pub hypotheses: Vec<Hypothesis>,
+    /// How far the gap shrinks.
+    pub shrinkage: Shrinkage,
+    /// What to measure next to separate the verdict from its rival.
+    pub next: Option<NextMeasurement>,
+    /// Corrected predictions at conditions that were asked for.
+    pub prediction: Option<Vec<Predicted>>,
+    /// The data row by row, before and after.
+    pub rows: Vec<RowGap>,
+    /// Estimated noise of outputs without stated uncertainties.
+    pub noise: Vec<Noise>,
+    /// What to bear in mind.
+    pub notes: Vec<Note>,
+    /// Coverage probability of all intervals.
+    pub probability: f64,
+    /// Seed of the random numbers.
+    pub seed: u64,
+}
+
+/// A quantity's name and unit.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Named {
+    /// Name.
+    pub name: String,
+    /// Unit as written; empty for a plain number.
+    pub unit: String,
+}
+
+/// Whether the data depart from the sim by more than the stated uncertainties explain.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Gap {
+    /// Whether the verdict is another than "none".
+    pub present: bool,
+    /// The probability of residuals as large as these without a gap, by the chi-square test of all
+    /// residuals together; `None` where the noise is estimated from them and there are no repeats.
+    pub p_value: Option<f64>,
+    /// Squared length of the residuals in the metric of their covariance.
+    pub chi2: f64,
+    /// Degrees of freedom.
+    pub dof: f64,
+}
+
+/// A region of the conditions that departs from the rest.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Region {
+    /// Place of the output; `None` for all of them together.
+    pub output: Option<usize>,
+    /// Place of the condition and its least and largest value, in its unit; `None` for all of them.
+    pub range: Option<(usize, [f64; 2])>,
+    /// The probability that data without a gap have a region as surprising anywhere.
+    pub p_value: f64,
+    /// Share of the excess of squared residuals that lies here.
+    pub share_of_gap: f64,
+    /// Mean of the residuals over their standard uncertainties.
+    pub mean_z: f64,
+}
+
+/// What kind of answer the verdict is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// There is no gap.
+    None,
+    /// Effects of the catalogue explain the gap.
+    Explained,
+    /// There is a gap that no effect of the catalogue explains.
+    Unexplained,
+}
+
+impl Kind {
+    /// The word that files have.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::None => "none",
+            Self::Explained => "explained",
+            Self::Unexplained => "unexplained",
+        }
+    }
+}
+
+/// The most probable hypothesis and those that these data cannot tell from it.
+#[derive(Clone, Debug)]
+pub struct Verdict {
+    /// What kind of answer it is.
+    pub kind: Kind,
+    /// The effects named.
+    pub effects: Vec<String>,
+    /// Posterior probability of exactly these.
+    pub probability: f64,
+    /// The verdict and its look-alikes, each a list of effects.
+    pub group: Vec<Vec<String>>,
+    /// The sum of their probabilities.
+    pub group_probability: f64,
+}
+
+/// A hypothesis with its posterior probability.
+#[derive(Clone, Debug)]
+pub struct Hypothesis {
+    /// The effects that act; `None` for "unexplained".
+    pub effects: Option<Vec<String>>,
+    /// Prior probability.
+    pub prior: f64,
+    /// Posterior probability.
+    pub probability: f64,
+    /// Natural logarithm of the evidence (density of the data in the outputs' units).
+    pub log_evidence: f64,
+    /// Its standard error.
+    pub error: f64,
+    /// Effective number of draws.
+    pub effective: f64,
+    /// Largest logarithm of the likelihood that was found: what a best fit would rank by.
+    pub best_log_likelihood: f64,
+    /// Number of parameters of the effects.
+    pub fitted: usize,
+    /// The effects' parameters.
+    pub parameters: Vec<Parameter>,
+}
+
+/// A parameter of an effect after the data.
+#[derive(Clone, Debug)]
+pub struct Parameter {
+    /// `effect/parameter`.
+    pub name: String,
+    /// Unit.
+    pub unit: String,
+    /// Its value in the draw whose prediction is nearest to the mean prediction.
+    pub estimate: f64,
+    /// Standard deviation of the posterior.
+    pub standard_uncertainty: f64,
+    /// Coverage interval with equal tails, widened to hold the estimate where it would not.
+    pub interval: [f64; 2],
+}
+
+/// How far the gap shrinks with the verdict's correction, on data that were not used to fit it.
+#[derive(Clone, Debug)]
+pub struct Shrinkage {
+    /// All outputs together, in standard uncertainties of the data.
+    pub all: Shrunk,
+    /// Each output, in its unit.
+    pub outputs: Vec<Shrunk>,
+    /// Coverage interval of the root mean square gap after.
+    pub rms_after_interval: [f64; 2],
+    /// Posterior expectation of the fraction removed, at the case's conditions.
+    pub claimed_fraction: f64,
+    /// Whether the gap is large enough (3 standard uncertainties) for a fraction to mean something.
+    pub meaningful: bool,
+    /// Chi-square per degree of freedom before and after.
+    pub chi2_per_dof: [f64; 2],
+    /// Share of values with |En| at most 1, before and after.
+    pub within: [f64; 2],
+    /// Gain in the logarithm of the predictive density of data that were left out.
+    pub log_density_gain: f64,
+    /// How many blocks of conditions were left out in turn.
+    pub blocks: usize,
+}
+
+/// Root mean squares before and after a correction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Shrunk {
+    /// Of the residuals against the sim.
+    pub rms_before: f64,
+    /// Of the residuals against the corrected sim, fitted without the block of each value.
+    pub rms_after: f64,
+    /// Of the noise alone.
+    pub noise_floor: f64,
+    /// Fraction of the removable gap that was removed.
+    pub removed_fraction: f64,
+}
+
+/// The measurement that would separate two groups of hypotheses best.
+#[derive(Clone, Debug)]
+pub struct NextMeasurement {
+    /// The verdict's group and its rival.
+    pub separates: [Vec<String>; 2],
+    /// Values of the conditions, in their units.
+    pub conditions: Vec<f64>,
+    /// By how much the logarithm of the odds is expected to rise if the verdict is true.
+    pub expected_log_odds: f64,
+}
+
+/// A corrected prediction.
+#[derive(Clone, Debug)]
+pub struct Predicted {
+    /// Values of the conditions, in their units.
+    pub conditions: Vec<f64>,
+    /// For each observed output value and standard uncertainty, in its unit.
+    pub outputs: Vec<(f64, f64)>,
+}
+
+/// One row of the data.
+#[derive(Clone, Debug)]
+pub struct RowGap {
+    /// Values of the conditions, in their units.
+    pub conditions: Vec<f64>,
+    /// For each observed output.
+    pub outputs: Vec<ValueGap>,
+}
+
+/// One measured value beside the sim, before and after the correction, in the output's unit.
+#[derive(Clone, Copy, Debug)]
+pub struct ValueGap {
+    /// Measured value.
+    pub measured: f64,
+    /// Its standard uncertainty (noise).
+    pub u: f64,
+    /// Measured value less the sim.
+    pub before: f64,
+    /// Standard uncertainty of that residual: noise and inputs.
+    pub u_before: f64,
+    /// Measured value less the corrected sim that was fitted without its block.
+    pub after: f64,
+    /// Standard uncertainty of that residual: noise and what was fitted.
+    pub u_after: f64,
+}
+
+/// Estimated noise of an output.
+#[derive(Clone, Debug)]
+pub struct Noise {
+    /// Place of the output.
+    pub output: usize,
+    /// Standard deviation at the sim's typical size, in the output's unit.
+    pub standard_uncertainty: f64,
+    /// Power of the sim's size that it grows with: 0 constant, 1 proportional.
+    pub power: f64,
+}
+
+/// Something to bear in mind when the answer is read.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Note {
+    /// Short fixed name.
+    pub code: &'static str,
+    /// The sentence.
+    pub text: String,
+}

@@ -1,0 +1,34 @@
+//! The sim-to-real gap: whether measured data depart from a sim by more than its uncertainties
+//! explain, where, which effect is missing, and how far the gap shrinks once it is added.
+#![allow(clippy::needless_range_loop)] // lanes and small matrices read best by their places
+
+mod answer;
+pub mod check;
+mod correlated;
+mod covariance;
+mod data;
+mod diagnose;
+mod diagnosis;
+mod discrepancy;
+mod evidence;
+mod latent;
+mod likelihood;
+mod mixture;
+mod next;
+mod posterior;
+mod predict;
+mod roam;
+mod scan;
+mod search;
+mod setup;
+mod shrink;
+
+pub use answer::{Answer, answer, noise, nominal};
+pub use diagnose::{Options, diagnose};
+pub use diagnosis::{
+    Diagnosis, Gap, Hypothesis, Kind, Named, NextMeasurement, Noise, Note, Parameter, Predicted,
+    Region, RowGap, Shrinkage, Shrunk, ValueGap, Verdict,
+};
+
+#[cfg(test)]
+mod tests;

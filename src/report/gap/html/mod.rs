@@ -1,0 +1,157 @@
+//! The page for a browser and for print.
+
+mod bars;
+mod intervals;
+mod predictions;
+mod residuals;
+mod shrinkage;
+mod where_map;
+
+use maud::{Markup, html};
+
+use super::sheet::{Column, Sheet};
+use super::{sheets, words};
+use crate::gap::Diagnosis;
+use crate::report::html::{figure, page};
+use crate::report::number::align;
+use crate::report::{Provenance, plain};
+
+/// Width of all figures in pixels.
+const WIDTH: f64 = 720.0;
+
+/// A figure with what is written below it.
+#[derive(Debug)]
+struct Drawing {
+    svg: String,
+    caption: String,
+}
+
+/// The diagnosis as one HTML file with figures that needs nothing else: it loads nothing and runs
+/// nothing, reads in light and dark and prints on A4.
+pub fn html(diagnosis: &Diagnosis, provenance: &Provenance) -> String {
+    let mut number = 0;
+    let mut drawn = |drawing: Drawing| {
+        number += 1;
+        figure(number, drawing.svg, &drawing.caption)
+    };
+    let outputs = 0..diagnosis.outputs.len();
+    let title = words::title(diagnosis);
+    let body = html! {
+        h1 { (title) }
+        p.settings { (words::settings(diagnosis)) }
+        div.verdict {
+            p { strong { (words::verdict(diagnosis)) } }
+            @if let Some(said) = words::look_alikes(diagnosis) { p { (said) } }
+        }
+        h2 { "Is there a gap?" }
+        p { (words::gap(diagnosis)) }
+        h2 { "Where?" }
+        @match sheets::regions(diagnosis) {
+            Some(sheet) => { (table(&sheet)) p { (words::REGIONS) } }
+            None => p { (words::NO_REGION) }
+        }
+        @if let Some(drawing) = where_map::draw(diagnosis) { (drawn(drawing)) }
+        h2 { "Which effect?" }
+        (table(&sheets::hypotheses(diagnosis)))
+        @if let Some(said) = sheets::left_out(diagnosis) { p { (said) } }
+        (drawn(bars::draw(diagnosis)))
+        @if let Some(sheet) = sheets::parameters(diagnosis) {
+            h2 { "Parameters of the verdict" }
+            (table(&sheet))
+            @if let Some(drawing) = intervals::draw(diagnosis) { (drawn(drawing)) }
+        }
+        h2 { "How far does it shrink?" }
+        (table(&sheets::shrinkage(diagnosis)))
+        @for said in words::shrinkage(diagnosis) { p { (said) } }
+        @for said in words::noise(diagnosis) { p { (said) } }
+        @if let Some(drawing) = shrinkage::draw(diagnosis) { (drawn(drawing)) }
+        @for output in outputs.clone() {
+            @if let Some(drawing) = residuals::draw(diagnosis, output) { (drawn(drawing)) }
+        }
+        h2 { "What to measure next" }
+        p { (words::next(diagnosis)) }
+        @if let Some(rows) = &diagnosis.prediction {
+            h2 { "Corrected prediction" }
+            @for output in outputs {
+                h3 { (words::axis(&diagnosis.outputs[output])) }
+                (table(&sheets::prediction(diagnosis, rows, output, false)))
+                @if let Some(drawing) = predictions::draw(diagnosis, rows, output) {
+                    (drawn(drawing))
+                }
+            }
+        }
+        @let notes = words::notes(diagnosis);
+        @if !notes.is_empty() {
+            h2 { "Notes" }
+            ul { @for note in notes { li { (note) } } }
+        }
+        h2 { "To repeat this" }
+        (repeat(diagnosis, provenance))
+    };
+    page(&title, &body)
+}
+
+/// A table; numbers are padded so that their decimal points stand under each other.
+fn table(sheet: &Sheet) -> Markup {
+    let class = |column: &Column| column.numbers.then_some("number");
+    let columns: Vec<Vec<String>> = sheet
+        .columns
+        .iter()
+        .map(|column| if column.numbers { padded(&column.cells) } else { column.cells.clone() })
+        .collect();
+    html! {
+        div.table {
+            table {
+                thead {
+                    tr {
+                        @for column in &sheet.columns {
+                            th class=[class(column)] { (column.header.replace('\n', " ").trim()) }
+                        }
+                    }
+                }
+                tbody {
+                    @for row in 0..sheet.rows() {
+                        tr {
+                            @for (column, cells) in sheet.columns.iter().zip(&columns) {
+                                td class=[class(column)] {
+                                    (cells.get(row).map_or("", String::as_str))
+                                }
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Numbers padded with spaces of the width of a digit.
+fn padded(cells: &[String]) -> Vec<String> {
+    align(cells).into_iter().map(|cell| cell.replace(' ', "\u{2007}")).collect()
+}
+
+/// Everything that is needed to get the same answer again.
+fn repeat(diagnosis: &Diagnosis, provenance: &Provenance) -> Markup {
+    html! {
+        div.table {
+            table {
+                tbody {
+                    tr { td { "program" } td { "gumption " (env!("CARGO_PKG_VERSION")) } }
+                    tr { td { "seed" } td { (diagnosis.seed) } }
+                    tr {
+                        td { "coverage probability" }
+                        td { (super::digits::percent(diagnosis.probability)) }
+                    }
+                    tr {
+                        td { "case file, SHA-256" }
+                        td { code { (provenance.model_sha256) } }
+                    }
+                    @for (name, digest) in &provenance.files {
+                        tr { td { (plain(name)) ", SHA-256" } td { code { (digest) } } }
+                    }
+                }
+            }
+        }
+        p { "The same program, files and seed give the same figures on any number of threads." }
+    }
+}

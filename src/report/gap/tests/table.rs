@@ -1,0 +1,93 @@
+//! Pages for a terminal.
+
+use super::super::table;
+use super::*;
+
+fn page(diagnosis: &Diagnosis) -> String {
+    let page = table(diagnosis);
+    let widest = page.lines().map(|line| line.chars().count()).max().unwrap_or(0);
+    assert!(widest <= 100, "{widest} columns:\n{page}");
+    assert!(page.lines().all(|line| !line.ends_with(' ')), "{page}");
+    assert!(page.chars().all(|c| c == '\n' || !c.is_control()), "{page}");
+    page
+}
+
+#[test]
+fn numbers_are_those_of_the_json() {
+    let diagnosis = diagnosis();
+    let page = page(&diagnosis);
+    let answer = json(&diagnosis);
+    // a line's cells that are numbers, behind its name
+    let cells = |name: &str| -> Vec<String> {
+        let line = page
+            .lines()
+            .find(|line| line.strip_prefix(name).is_some_and(|rest| rest.starts_with("  ")));
+        let rest = line.unwrap_or_else(|| panic!("{name} in {page}")).strip_prefix(name).unwrap();
+        // a range of conditions has numbers in its words, parted by single spaces
+        let cells = rest.split("  ").map(str::trim).filter(|cell| cell.parse::<f64>().is_ok());
+        cells.map(str::to_owned).collect()
+    };
+    assert_agreement(&answer, &cells);
+    let running = page.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert_sentences(&answer, &running);
+    assert!(page.contains("\na_x in m/s^2\n    f    tilt   estimate "), "{page}");
+    assert!(page.contains("\n  400      35  1561           13\n"), "{page}");
+}
+
+#[test]
+fn long_and_hostile_names_stay_on_the_page() {
+    let page = page(&hostile());
+    assert!(page.contains("alert('&amp;')"), "{page}");
+    assert!(!page.contains('\u{202e}'));
+}
+
+#[test]
+fn what_is_hardly_there_has_a_page() {
+    let text = page(&bare());
+    assert!(text.contains("There is no gap"), "{text}");
+    assert!(text.contains("so there is no test"), "{text}");
+    assert!(!text.contains("NaN") && !text.contains("inf"), "{text}");
+    let text = page(&unexplained());
+    assert!(
+        text.contains("none of the candidate effects explains it (probability 0.990)"),
+        "{text}"
+    );
+    assert!(!text.contains("Parameters of the verdict"), "{text}");
+    page(&many());
+}
+
+#[test]
+fn a_small_gap_has_no_fraction() {
+    let mut small = diagnosis();
+    small.shrinkage.meaningful = false;
+    let text = page(&small);
+    let line = text.lines().find(|line| line.starts_with("rms residual, all")).unwrap();
+    assert!(line.ends_with(" -"), "{line}");
+    assert!(text.contains("below 3 standard uncertainties"), "{text}");
+    assert!(!text.contains("the fraction removed is expected"), "{text}");
+}
+
+#[test]
+fn plot_of_the_residuals() {
+    let page = page(&diagnosis());
+    let plot = page.split_once("\na_x: residual ").unwrap().1;
+    let plot = plot.split_once("ratio: residual").unwrap().0;
+    insta::assert_snapshot!(plot, @"
+    / u against f in Hz; x before, o after, * both, ┄ ±2; compressed far from zero
+           │                                                                                  x
+        10 ┤                                                                         x
+           │                                                                x        x
+           │            *                *                          x       o        o
+         2 ┤┄┄┄*┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄*┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄*┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄
+           │                     *                         x                o
+         0 ┤                             *                                                    o
+           │            x                                  o
+        -2 ┤┄┄┄┄┄┄┄┄┄┄┄┄o┄┄┄┄┄┄┄┄*┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄x┄┄┄┄┄┄┄┄x┄┄┄┄┄┄┄┄o┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄o┄┄┄┄┄┄┄┄┄┄┄┄
+           │   *                                  o        o                                  o
+           │
+       -10 ┤
+           │
+           └───┬────────┬────────┬──────────┬────────┬────────┬──────────┬────────┬────────┬──────
+              0.5       1        2          5       10       20         50       100      200
+    ");
+}

@@ -1,0 +1,38 @@
+//! Pages for a browser and for print: one file each, without scripts and without anything from
+//! elsewhere.
+
+use maud::{DOCTYPE, Markup, PreEscaped, html};
+
+/// How pages look, in light and dark and on A4.
+const STYLE: &str = include_str!("style.css");
+
+/// Nothing but the page's own style is loaded or run, whatever names a user chose.
+const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'";
+
+/// A whole page.
+pub(super) fn page(title: &str, body: &Markup) -> String {
+    let page = html! {
+        (DOCTYPE)
+        html lang="en" {
+            head {
+                meta charset="utf-8";
+                meta http-equiv="Content-Security-Policy" content=(POLICY);
+                meta name="viewport" content="width=device-width, initial-scale=1";
+                title { (title) }
+                style { (PreEscaped(STYLE)) }
+            }
+            body { (body) }
+        }
+    };
+    page.into_string() + "\n"
+}
+
+/// A figure with its number and caption; the drawing is an `svg` element.
+pub(super) fn figure(number: usize, drawing: String, caption: &str) -> Markup {
+    html! {
+        figure {
+            (PreEscaped(drawing))
+            figcaption { b { "Figure " (number) "." } " " (caption) }
+        }
+    }
+}

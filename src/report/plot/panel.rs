@@ -1,0 +1,102 @@
+//! A panel of a figure: two axes with a grid between them.
+
+use std::ops::Range;
+
+use plotters::backend::SVGBackend;
+use plotters::chart::{ChartBuilder, ChartContext};
+use plotters::coord::cartesian::Cartesian2d;
+use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, ValueFormatter};
+use plotters::style::Color;
+
+use super::axis::Axis;
+use super::ink::{FAINT, INK, WEAK};
+use super::svg::{Area, Drawn, FONT, px, text_style};
+
+/// Space for the marks of an axis and its label, in pixels.
+const BELOW: f64 = 38.0;
+const LEFT: f64 = 60.0;
+
+/// An axis as the plotting library wants it.
+#[derive(Clone, Debug)]
+pub(crate) struct Marked {
+    ends: [f64; 2],
+    marks: Vec<(f64, String)>,
+}
+
+impl Marked {
+    fn new(axis: &Axis, most: usize) -> Self {
+        Self { ends: axis.ends(), marks: axis.marks(most) }
+    }
+}
+
+impl Ranged for Marked {
+    type FormatOption = NoDefaultFormatting;
+    type ValueType = f64;
+
+    fn map(&self, value: &f64, (first, last): (i32, i32)) -> i32 {
+        let [from, to] = self.ends;
+        let share = ((value - from) / (to - from)).clamp(-0.5, 1.5);
+        first + (share * f64::from(last - first)).round() as i32
+    }
+
+    fn key_points<Hint: KeyPointHint>(&self, hint: Hint) -> Vec<f64> {
+        if hint.weight().allow_light_points() {
+            return Vec::new();
+        }
+        self.marks.iter().map(|(place, _)| *place).collect()
+    }
+
+    fn range(&self) -> Range<f64> {
+        self.ends[0]..self.ends[1]
+    }
+}
+
+impl ValueFormatter<f64> for Marked {
+    fn format_ext(&self, value: &f64) -> String {
+        let found = self.marks.iter().find(|(place, _)| place == value);
+        found.map(|(_, text)| text.clone()).unwrap_or_default()
+    }
+}
+
+/// A panel that was drawn; positions on it are those of the axes.
+pub(crate) type Chart<'a> = ChartContext<'a, SVGBackend<'a>, Cartesian2d<Marked, Marked>>;
+
+/// A panel to be drawn.
+#[derive(Clone, Debug)]
+pub(crate) struct Panel<'a> {
+    /// The horizontal axis and its label.
+    pub(crate) x: (&'a Axis, String),
+    /// The vertical axis and its label.
+    pub(crate) y: (&'a Axis, String),
+    /// How many marks the axes have at most.
+    pub(crate) marks: [usize; 2],
+    /// A line above it.
+    pub(crate) title: String,
+}
+
+impl Panel<'_> {
+    /// Draws axes and grid.
+    pub(crate) fn draw<'a>(&self, area: &Area<'a>) -> Drawn<Chart<'a>> {
+        let mut builder = ChartBuilder::on(area);
+        builder.margin_top(px(8.0)).margin_right(px(12.0)).margin_left(px(6.0));
+        builder.x_label_area_size(px(BELOW)).y_label_area_size(px(LEFT));
+        if !self.title.is_empty() {
+            builder.caption(&self.title, text_style(FONT, INK, true));
+        }
+        let mut chart = builder.build_cartesian_2d(
+            Marked::new(self.x.0, self.marks[0]),
+            Marked::new(self.y.0, self.marks[1]),
+        )?;
+        chart
+            .configure_mesh()
+            .axis_style(WEAK.stroke_width(px(0.75).unsigned_abs()))
+            .bold_line_style(FAINT.stroke_width(px(0.75).unsigned_abs()))
+            .label_style(text_style(FONT - 1.0, INK, false))
+            .axis_desc_style(text_style(FONT, INK, false))
+            .x_desc(&self.x.1)
+            .y_desc(&self.y.1)
+            .set_all_tick_mark_size(px(4.0))
+            .draw()?;
+        Ok(chart)
+    }
+}

@@ -1,0 +1,98 @@
+//! Rows of marks above one horizontal axis: bars and intervals with their names on the left.
+
+use plotters::element::PathElement;
+use plotters::style::{Color, RGBColor, ShapeStyle};
+
+use super::axis::Axis;
+use super::ink::{FAINT, INK, WEAK};
+use super::svg::{Anchor, Area, Drawn, FONT, Write, px, shortened, write};
+
+/// Space that the axis with its marks and label takes, in pixels.
+pub(crate) const STRIP_AXIS: f64 = 40.0;
+
+/// A horizontal axis between two places, in pixels.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Strip<'a> {
+    /// The axis.
+    pub(crate) axis: &'a Axis,
+    /// Where it begins and ends.
+    pub(crate) from: f64,
+    pub(crate) to: f64,
+}
+
+impl Strip<'_> {
+    /// Where a value stands, in pixels; values beyond an end stand on it.
+    pub(crate) fn x(&self, value: f64) -> f64 {
+        let [first, last] = self.axis.ends();
+        let share = (self.axis.position(value) - first) / (last - first);
+        self.from + share.clamp(0.0, 1.0) * (self.to - self.from)
+    }
+
+    /// Grid lines from the top to the axis, the axis, its marks and its label.
+    pub(crate) fn draw(&self, area: &Area<'_>, top: f64, bottom: f64, label: &str) -> Drawn {
+        let [first, last] = self.axis.ends();
+        for (position, text) in self.axis.marks(7) {
+            let x = self.from + (position - first) / (last - first) * (self.to - self.from);
+            line(area, [(x, top), (x, bottom)], stroke(FAINT, 0.75))?;
+            line(area, [(x, bottom), (x, bottom + 4.0)], stroke(WEAK, 0.75))?;
+            write(area, &text, centred((x, bottom + 13.0), FONT - 1.0))?;
+        }
+        line(area, [(self.from, bottom), (self.to, bottom)], stroke(WEAK, 0.75))?;
+        let middle = 0.5 * (self.from + self.to);
+        write(area, label, centred((middle, bottom + 30.0), FONT))
+    }
+
+    /// A name on the left of a row.
+    pub(crate) fn name(&self, area: &Area<'_>, name: &str, y: f64) -> Drawn {
+        let room = self.from - 14.0;
+        let at = (self.from - 8.0, y);
+        let how = Write { anchor: Anchor::End, ..centred(at, FONT) };
+        write(area, &shortened(name, room, FONT), how)
+    }
+
+    /// A text to the right of a value.
+    pub(crate) fn beside(&self, area: &Area<'_>, text: &str, value: f64, y: f64) -> Drawn {
+        let at = (self.x(value) + 7.0, y);
+        write(area, text, Write { anchor: Anchor::Start, ..centred(at, FONT - 1.0) })
+    }
+
+    /// An interval with its ends.
+    pub(crate) fn interval(
+        &self,
+        area: &Area<'_>,
+        [low, high]: [f64; 2],
+        y: f64,
+        colour: RGBColor,
+    ) -> Drawn {
+        let (from, to) = (self.x(low), self.x(high));
+        line(area, [(from, y), (to, y)], stroke(colour, 1.75))?;
+        for x in [from, to] {
+            line(area, [(x, y - 4.0), (x, y + 4.0)], stroke(colour, 1.75))?;
+        }
+        Ok(())
+    }
+}
+
+/// Text centred about a place, in ink.
+pub(crate) fn centred(at: (f64, f64), size: f64) -> Write {
+    Write { at, anchor: Anchor::Middle, size, colour: INK, bold: false }
+}
+
+/// A line of a colour and a width in pixels.
+pub(crate) fn stroke(colour: RGBColor, width: f64) -> ShapeStyle {
+    colour.stroke_width(px(width).unsigned_abs())
+}
+
+/// A line of a faded colour and a width in pixels.
+pub(crate) fn faded(colour: RGBColor, share: f64, width: f64) -> ShapeStyle {
+    colour.mix(share).stroke_width(px(width).unsigned_abs())
+}
+
+/// A line through places in pixels.
+pub(crate) fn line<const N: usize>(
+    area: &Area<'_>,
+    places: [(f64, f64); N],
+    style: ShapeStyle,
+) -> Drawn {
+    area.draw(&PathElement::new(places.map(|(x, y)| (px(x), px(y))).to_vec(), style))
+}

@@ -1,0 +1,92 @@
+//! Figures as SVG texts that stand in a page.
+
+use plotters::backend::SVGBackend;
+use plotters::coord::Shift;
+use plotters::drawing::{DrawingArea, DrawingAreaErrorKind, IntoDrawingArea};
+use plotters::element::Text;
+use plotters::style::text_anchor::{HPos, Pos, VPos};
+use plotters::style::{Color, FontStyle, IntoFont, RGBColor, TextStyle};
+
+/// Units of the drawing in a pixel of the page: positions are whole numbers of units.
+pub(crate) const SCALE: i32 = 4;
+
+/// Size of the text in pixels.
+pub(crate) const FONT: f64 = 12.0;
+
+/// How much smaller than asked for the backend writes.
+const FONT_FACTOR: f64 = 1.24;
+
+/// What is drawn on.
+pub(crate) type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
+
+/// Drawing to memory cannot fail, but the plotting library may refuse a degenerate axis.
+pub(crate) type Drawn<T = ()> = Result<T, DrawingAreaErrorKind<std::io::Error>>;
+
+/// Pixels of the page in units of the drawing.
+pub(crate) fn px(pixels: f64) -> i32 {
+    (pixels * f64::from(SCALE)).round() as i32
+}
+
+/// A figure of a size in pixels, as the text of an `svg` element.
+pub(crate) fn svg(width: f64, height: f64, draw: impl FnOnce(&Area<'_>) -> Drawn) -> String {
+    let mut text = String::new();
+    let size = (px(width).unsigned_abs(), px(height).unsigned_abs());
+    {
+        let area = SVGBackend::with_string(&mut text, size).into_drawing_area();
+        let drawn = draw(&area).and_then(|()| area.present());
+        debug_assert!(drawn.is_ok(), "{drawn:?}");
+    }
+    // the page gives the size, the drawing its proportions
+    let size = format!("width=\"{}\" height=\"{}\" ", size.0, size.1);
+    text.replacen(&size, &format!("width=\"{width}\" height=\"{height}\" "), 1)
+}
+
+/// Which part of a text stands at its place.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Anchor {
+    Start,
+    Middle,
+    End,
+}
+
+/// Where a text stands and how it looks.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Write {
+    /// Where the anchor is, in pixels.
+    pub(crate) at: (f64, f64),
+    /// Which part of the text stands there.
+    pub(crate) anchor: Anchor,
+    /// Size in pixels.
+    pub(crate) size: f64,
+    /// Colour.
+    pub(crate) colour: RGBColor,
+    /// Whether it is bold.
+    pub(crate) bold: bool,
+}
+
+/// Writes a text, centred vertically about its place.
+pub(crate) fn write(area: &Area<'_>, text: &str, how: Write) -> Drawn {
+    let anchor = match how.anchor {
+        Anchor::Start => HPos::Left,
+        Anchor::Middle => HPos::Center,
+        Anchor::End => HPos::Right,
+    };
+    let style = text_style(how.size, how.colour, how.bold).pos(Pos::new(anchor, VPos::Center));
+    area.draw(&Text::new(text.to_owned(), (px(how.at.0), px(how.at.1)), style))
+}
+
+/// The style of a text of a size in pixels.
+pub(crate) fn text_style(size: f64, colour: RGBColor, bold: bool) -> TextStyle<'static> {
+    let style = if bold { FontStyle::Bold } else { FontStyle::Normal };
+    let font = ("sans-serif", size * f64::from(SCALE) * FONT_FACTOR, style).into_font();
+    TextStyle { color: colour.to_backend_color(), ..TextStyle::from(font) }
+}
+
+/// A text that has room in a width in pixels, by the usual width of letters.
+pub(crate) fn shortened(text: &str, width: f64, size: f64) -> String {
+    let most = (width / (0.58 * size)).floor().max(2.0) as usize;
+    if text.chars().count() <= most {
+        return text.to_owned();
+    }
+    text.chars().take(most - 1).chain(['…']).collect()
+}

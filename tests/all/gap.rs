@@ -1,0 +1,186 @@
+//! `gumption gap` as a user runs it.
+
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+
+use serde_json::Value;
+use tempfile::TempDir;
+
+use crate::support::gumption;
+
+/// A scale whose gain error grows with the load, and two effects that it may have.
+const CASE: &str = r#"{
+  "title": "A scale over its loads",
+  "inputs": {"zero": {"unit": "g", "distribution": "normal", "mean": 0, "std": 0.02}},
+  "conditions": {"load": {"unit": "g"}},
+  "equations": {"shown": "load + zero"},
+  "outputs": {"shown": {"unit": "g"}},
+  "observations": {
+    "file": "data.csv",
+    "columns": {"shown": {"value": "shown", "standard_uncertainty": "u"}}
+  },
+  "effects": {
+    "gain": {
+      "parameters": {"k": {"unit": "%", "distribution": "normal", "mean": 0, "std": 0.5}},
+      "overrides": {"shown": "shown*(1 + k)"}
+    },
+    "shift": {
+      "parameters": {"d": {"unit": "g", "distribution": "normal", "mean": 0, "std": 0.5}},
+      "overrides": {"shown": "shown + d"}
+    }
+  }
+}"#;
+
+/// The case with its data in a folder of its own: 0.3 % too much, and a fixed pattern for noise.
+fn case(text: &str) -> (TempDir, PathBuf) {
+    let folder = tempfile::tempdir().unwrap();
+    let mut data = "load,shown,u\n".to_owned();
+    for row in 0..16_u32 {
+        let load = 12.5 * f64::from(row);
+        let noise = 0.02 * (f64::from(row * 7 % 16) - 7.5) / 4.6;
+        writeln!(data, "{load},{:.5},0.02", 1.003 * load + noise).unwrap();
+    }
+    std::fs::write(folder.path().join("data.csv"), data).unwrap();
+    let path = folder.path().join("case.json");
+    std::fs::write(&path, text).unwrap();
+    (folder, path)
+}
+
+/// Standard output and standard error of a diagnosis that must succeed.
+fn diagnosed(path: &Path, arguments: &[&str]) -> (String, String) {
+    let assert = gumption().arg("gap").arg(path).args(arguments).assert().success();
+    let ended = assert.get_output();
+    [&ended.stdout, &ended.stderr].map(|bytes| String::from_utf8(bytes.clone()).unwrap()).into()
+}
+
+#[test]
+fn every_format_says_the_same() {
+    let (_folder, path) = case(CASE);
+    let (json, _) = diagnosed(&path, &["--format", "json"]);
+    let answer: Value = serde_json::from_str(&json).unwrap();
+    assert_eq!(answer["verdict"]["kind"], "explained");
+    assert_eq!(answer["verdict"]["effects"], serde_json::json!(["gain"]));
+    let probability = answer["verdict"]["probability"].as_f64().unwrap();
+    let sentence = format!("There is a gap, and gain explains it (probability {probability:.3}).");
+    let (page, said) = diagnosed(&path, &[]);
+    assert!(page.contains(&sentence), "{page}");
+    assert!(page.lines().all(|line| line.chars().count() <= 100), "{page}");
+    assert_eq!(said, "", "the page has the notes itself");
+    let (html, _) = diagnosed(&path, &["--format", "html"]);
+    assert!(html.contains(&sentence) && html.contains("</html>"), "{html}");
+    let (csv, _) = diagnosed(&path, &["--format", "csv"]);
+    let first: Vec<&str> = csv.lines().nth(1).unwrap().split(',').collect();
+    assert_eq!(first[..2], ["explained", "gain"]);
+    assert_eq!(first[3].parse::<f64>().unwrap(), probability);
+    assert_eq!(csv.lines().count(), 1 + answer["hypotheses"].as_array().unwrap().len());
+}
+
+#[test]
+fn the_same_bytes_on_any_number_of_threads() {
+    let (folder, path) = case(CASE);
+    let at = folder.path().join("at.csv");
+    std::fs::write(&at, "load\n5\n500\n").unwrap();
+    for format in ["json", "table", "html", "csv"] {
+        let run = |threads: &str| {
+            let at = at.to_str().unwrap();
+            diagnosed(&path, &["--format", format, "--threads", threads, "--predict", at]).0
+        };
+        assert_eq!(run("1"), run("2"), "{format}");
+    }
+}
+
+#[test]
+fn the_file_is_what_would_be_printed() {
+    let (folder, path) = case(CASE);
+    for format in ["table", "html"] {
+        let file = folder.path().join(format);
+        let (printed, _) = diagnosed(&path, &["--format", format]);
+        let name = file.to_str().unwrap();
+        let (nothing, _) = diagnosed(&path, &["--format", format, "--output", name]);
+        assert_eq!(nothing, "");
+        assert_eq!(std::fs::read_to_string(&file).unwrap(), printed);
+    }
+    let names = std::fs::read_dir(folder.path()).unwrap();
+    assert_eq!(names.count(), 4, "nothing else is left in the folder");
+}
+
+#[test]
+fn the_page_says_what_it_rests_on() {
+    use sha2::{Digest, Sha256};
+
+    let (folder, path) = case(CASE);
+    let at = folder.path().join("at.csv");
+    std::fs::write(&at, "load\n5\n500\n").unwrap();
+    let arguments = ["--format", "html", "--seed", "77", "--predict", at.to_str().unwrap()];
+    let (html, _) = diagnosed(&path, &arguments);
+    for file in [&path, &folder.path().join("data.csv"), &at] {
+        let digest = Sha256::digest(std::fs::read(file).unwrap());
+        let digest: String = digest.iter().map(|byte| format!("{byte:02x}")).collect();
+        assert!(html.contains(&digest), "{}", file.display());
+    }
+    assert!(html.contains("seed 77"), "{html}");
+    assert!(html.contains("Corrected prediction"), "{html}");
+}
+
+#[test]
+fn warnings_go_to_standard_error_unless_quiet() {
+    let (_folder, path) = case(&CASE.replace("shown + d", "shown + d/load*12"));
+    let (_, said) = diagnosed(&path, &["--format", "csv"]);
+    assert!(said.starts_with("note: effect `shift`"), "{said}");
+    let (_, said) = diagnosed(&path, &["--format", "csv", "--quiet"]);
+    assert_eq!(said, "");
+}
+
+#[test]
+fn a_wrong_case_writes_nothing() {
+    let (folder, path) = case(&CASE.replace("shown*(1 + k)", "shwon*(1 + k)"));
+    let file = folder.path().join("answer.html");
+    let arguments = ["--format", "html", "--output", file.to_str().unwrap()];
+    let assert = gumption().arg("gap").arg(&path).args(arguments).assert().code(2);
+    let said = String::from_utf8(assert.get_output().stderr.clone()).unwrap();
+    assert!(said.contains("shwon"), "{said}");
+    assert!(!file.exists());
+}
+
+/// Many effects, so that the diagnosis takes a while, and a warning when it has begun.
+#[cfg(unix)]
+fn long_case() -> String {
+    let mut effects = String::new();
+    for number in 0..60 {
+        let parameters = r#"{"p": {"unit": "", "distribution": "normal", "mean": 0, "std": 1},
+            "q": {"unit": "", "distribution": "log-uniform", "lower": 1, "upper": 1000}}"#;
+        let override_ = format!("shown + p*sin(load/q + {number})");
+        let effect = format!(
+            "{{\"parameters\": {parameters}, \"overrides\": {{\"shown\": \"{override_}\"}}}}"
+        );
+        write!(effects, "\"wave-{number}\": {effect},").unwrap();
+    }
+    CASE.replace("\"effects\": {", &format!("\"effects\": {{{effects}"))
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interrupt_leaves_no_file() {
+    use std::io::{BufRead, BufReader};
+    use std::process::Stdio;
+
+    let (folder, path) = case(&long_case());
+    let file = folder.path().join("answer.html");
+    let mut child = crate::support::command()
+        .arg("gap")
+        .arg(&path)
+        .args(["--format", "html", "--output", file.to_str().unwrap()])
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    // the first warning is said when the case has been read and the diagnosis is about to begin
+    let mut said = String::new();
+    BufReader::new(child.stderr.take().unwrap()).read_line(&mut said).unwrap();
+    assert!(said.starts_with("note: effect"), "{said}");
+    let id = child.id().to_string();
+    let killed = std::process::Command::new("kill").args(["-INT", &id]).status();
+    assert!(killed.unwrap().success());
+    assert_eq!(child.wait().unwrap().code(), Some(130));
+    let names = std::fs::read_dir(folder.path()).unwrap();
+    assert_eq!(names.count(), 2, "the case and its data are all there is");
+}
