@@ -6,8 +6,9 @@ use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
 
 use super::Failure;
+use crate::file::bytes;
 use crate::report::Column;
-use crate::task::Trials;
+use crate::task::{StoppingRule, Trials};
 
 /// The format of an answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -81,6 +82,12 @@ pub(super) fn columns() -> impl TypedValueParser<Value = Column> {
         .try_map(|name| Column::named(&name).ok_or("there is no such column"))
 }
 
+/// When an adaptive run stops.
+pub(super) fn rule() -> impl TypedValueParser<Value = StoppingRule> {
+    PossibleValuesParser::new(StoppingRule::ALL.map(StoppingRule::name))
+        .try_map(|name| StoppingRule::named(&name).ok_or("there is no such rule"))
+}
+
 /// A coverage probability.
 pub(super) fn probability(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
@@ -97,9 +104,8 @@ pub(super) fn replacement(text: &str) -> Result<crate::file::Override, String> {
 
 /// A model file's text: from a path, or from standard input for `-`.
 pub(super) fn standard_input() -> Result<String, Failure> {
-    let mut bytes = Vec::new();
-    std::io::Read::read_to_end(&mut std::io::stdin(), &mut bytes)
-        .map_err(|error| Failure::System(format!("cannot read standard input: {error}")))?;
+    let bytes = bytes::of(std::io::stdin(), bytes::MOST)
+        .map_err(|message| Failure::Argument(format!("cannot read standard input: {message}")))?;
     String::from_utf8(bytes)
         .map_err(|_| Failure::Argument("standard input is not UTF-8 text".to_owned()))
 }

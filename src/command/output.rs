@@ -1,17 +1,29 @@
 //! Giving the answer: to standard output, or to a file that is there whole or not at all.
 
-use std::io::{ErrorKind, Write};
+use std::io::{self, BufWriter, ErrorKind, Write};
 use std::path::Path;
 
 use super::Failure;
 
 /// Writes the answer. A reader that closed the pipe has had enough; that is no failure.
 pub(super) fn write(text: &str, file: Option<&Path>) -> Result<(), Failure> {
+    write_with(file, |out| out.write_all(text.as_bytes()))
+}
+
+/// Lets `write` write the answer piece by piece.
+pub(super) fn write_with(
+    file: Option<&Path>,
+    write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> Result<(), Failure> {
     match file {
-        Some(path) => write_file(text, path),
+        Some(path) => write_parts(path, |file| {
+            let mut out = BufWriter::new(file);
+            write(&mut out).and_then(|()| out.flush()).map_err(|error| failed(path, &error))?;
+            Ok(true)
+        }),
         None => {
-            let mut out = std::io::stdout().lock();
-            match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+            let mut out = BufWriter::new(io::stdout().lock());
+            match write(&mut out).and_then(|()| out.flush()) {
                 Err(error) if error.kind() != ErrorKind::BrokenPipe => {
                     Err(Failure::System(format!("cannot write the answer: {error}")))
                 }
@@ -38,7 +50,7 @@ pub(super) fn put(
     file.write_all(bytes).map_err(|error| failed(path, &error))
 }
 
-fn failed(path: &Path, error: &std::io::Error) -> Failure {
+fn failed(path: &Path, error: &io::Error) -> Failure {
     Failure::System(format!("cannot write `{}`: {error}", path.display()))
 }
 
@@ -48,7 +60,7 @@ pub(super) fn write_parts(
     path: &Path,
     write: impl FnOnce(&mut (dyn Write + Send)) -> Result<bool, Failure>,
 ) -> Result<(), Failure> {
-    let failed = |error: std::io::Error| failed(path, &error);
+    let failed = |error: io::Error| failed(path, &error);
     let folder = match path.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
         _ => Path::new("."),

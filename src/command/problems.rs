@@ -17,7 +17,7 @@ pub(super) fn render(problems: &Problems, colours: bool) -> String {
         problems.0.iter().take(MOST).map(|problem| one(problem, &renderer)).collect();
     if problems.0.len() > MOST {
         let more = problems.0.len() - MOST;
-        text.push_str(&format!("and {more} more; `check --format json` lists them all\n"));
+        text.push_str(&format!("and {more} more; `check --format json` lists them\n"));
     }
     text
 }

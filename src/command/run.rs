@@ -1,5 +1,6 @@
 //! `gumption run`
 
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -11,7 +12,7 @@ use super::{Exit, Failure, output, progress, save};
 use crate::file::{self, Fault, ModelFile, Override, Problem, Problems};
 use crate::propagate::{Control, Evaluation, EvaluationError, evaluate, warnings};
 use crate::report::{self, Column, Provenance, Report, Style};
-use crate::task::{Coverage, Task, Trials, Warning};
+use crate::task::{Coverage, StoppingRule, Task, Trials, Warning};
 
 /// Evaluate a model file.
 #[derive(Debug, Args)]
@@ -27,6 +28,10 @@ pub(super) struct Run {
     /// digits need (JCGM 101, 7.9)
     #[arg(long, value_name = "N|adaptive", value_parser = options::trials)]
     trials: Option<Trials>,
+    /// When an adaptive run stops: by JCGM 101, 7.9, or by Stein's two-stage rule, which meets the
+    /// tolerance more often; 7.9 unless the file says otherwise
+    #[arg(long, value_name = "7.9|stein", value_parser = options::rule())]
+    rule: Option<StoppingRule>,
     /// Make as many trials as the validation of the GUM interval needs (JCGM 101, 8.2)
     #[arg(long, conflicts_with = "trials")]
     validate: bool,
@@ -75,6 +80,10 @@ impl Run {
         let (text, file) = self.read()?;
         let mut task = file.task.clone();
         self.settings(&mut task);
+        if self.rule.is_some() && task.settings.trials != Trials::Adaptive {
+            let reason = "`--rule` is about adaptive runs; add `--trials adaptive`";
+            return Err(Failure::Argument(reason.to_owned()));
+        }
         save::check(&task, self.save.as_deref(), self.samples.as_ref())?;
         let stop = progress::stop_flag();
         let (evaluation, warnings) = self.evaluate(&file, &task, &stop)?;
@@ -85,19 +94,19 @@ impl Run {
             warnings: &warnings,
             provenance: &provenance,
         };
-        let answer = match self.answer.format {
+        let answer = |out: &mut dyn Write| match self.answer.format {
             Format::Table => {
                 let style = Style { columns: self.columns.clone(), ..Style::default() };
-                report::table(&report, &style)
+                report::write_table(&report, &style, out)
             }
-            Format::Json => report::json(&report),
-            Format::Csv => report::csv(&report),
+            Format::Json => report::write_json(&report, out),
+            Format::Csv => report::write_csv(&report, out),
         };
         if !self.answer.quiet {
             say(&warnings);
         }
         if evaluation.stopped || stop.load(Ordering::Relaxed) {
-            output::write(&answer, None)?;
+            output::write_with(None, answer)?;
             return Ok(Exit::Interrupted);
         }
         let control = self.control(&stop);
@@ -111,7 +120,7 @@ impl Run {
         if stop.load(Ordering::Relaxed) {
             return Ok(Exit::Interrupted);
         }
-        output::write(&answer, self.answer.output.as_deref())?;
+        output::write_with(self.answer.output.as_deref(), answer)?;
         Ok(if self.fail && is_refuted(&evaluation) { Exit::No } else { Exit::Done })
     }
 
@@ -137,6 +146,7 @@ impl Run {
             settings.trials = Trials::Adaptive;
             settings.for_validation = true;
         }
+        settings.rule = self.rule.unwrap_or(settings.rule);
         settings.max_trials = self.max_trials.unwrap_or(settings.max_trials);
         settings.seed = self.seed.unwrap_or(settings.seed);
         settings.digits = self.digits.unwrap_or(settings.digits);

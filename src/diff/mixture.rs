@@ -1,6 +1,7 @@
 //! Evaluations in which a part of what is known comes from one task and the rest from the other.
 
 use std::collections::HashMap;
+use std::sync::Arc;
 
 use super::Side;
 use crate::distribution::{Constant, Correlation, Distribution, Normal};
@@ -120,12 +121,12 @@ impl<'a> Mixture<'a> {
                 let side = usize::from(moved.contains(name));
                 match self.places[1 - own].get(name) {
                     // the state that this side has not: known exactly
-                    None if side != own => distribution.map(known),
+                    None if side != own => distribution.map(|d| Arc::new(known(d))),
                     Some(&other) if side != own => self.taken(1 - own, other, &variable.unit),
                     _ => distribution.cloned(),
                 }
             });
-        let distributions: Option<Vec<Distribution>> = distributions.collect();
+        let distributions: Option<Arc<[Arc<Distribution>]>> = distributions.collect();
         let Some(distributions) = distributions else {
             return vec![f64::NAN; 2 * self.outputs.len()];
         };
@@ -147,21 +148,22 @@ impl<'a> Mixture<'a> {
     }
 
     /// A variable of one side in the unit of the other.
-    fn taken(&self, side: usize, place: usize, unit: &Unit) -> Option<Distribution> {
+    fn taken(&self, side: usize, place: usize, unit: &Unit) -> Option<Arc<Distribution>> {
         let distribution = self.rows[side].distributions.get(place)?;
         let variable = self.tasks[side].variables.get(place)?;
         if variable.unit.text() == unit.text() {
-            return Some(distribution.clone());
+            return Some(Arc::clone(distribution));
         }
         // only estimate, uncertainty and degrees of freedom count here
         let factor = Unit::conversion_factor(&variable.unit, unit).ok()?;
         let mean = distribution.mean() * factor;
         let u = distribution.standard_uncertainty() * factor;
-        if u > 0.0 {
+        let taken = if u > 0.0 {
             Normal::with_dof(mean, u, distribution.dof()).ok().map(Distribution::from)
         } else {
             Constant::new(mean).ok().map(Distribution::from)
-        }
+        };
+        taken.map(Arc::new)
     }
 
     /// The coefficients of one side between variables of the model of another.

@@ -262,9 +262,10 @@ fn joint_normals_have_the_declared_correlations() {
     let keys: Vec<StreamKey> = ["a", "b", "c"].map(|n| StreamKey::new(3, n)).to_vec();
     let mut registers = vec![Column::ZERO; 3];
     let mut sums = [[0.0; 3]; 3];
+    let varying = Varying::all(&distributions, &joint);
     let blocks = 1000;
     for block in 0..blocks {
-        let mut draws = Draws::new(&distributions, &joint, &keys, block);
+        let mut draws = Draws::new(&varying, &keys, block);
         for _ in 0..BLOCK / crate::number::COLUMN {
             draws.column(&mut registers, &[0, 1, 2], &[true; 3]);
             #[allow(clippy::needless_range_loop)] // two indices each

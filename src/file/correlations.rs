@@ -3,6 +3,7 @@
 use std::collections::{HashMap, HashSet};
 use std::ops::Range;
 use std::path::Path;
+use std::sync::Arc;
 
 use super::Fault;
 use super::inputs::Inputs;
@@ -12,18 +13,19 @@ use super::nearest::nearest;
 use super::object::Object;
 use super::problem::Log;
 use super::{sharing, table};
-use crate::distribution::{Correlation, CorrelationError, Distribution, Joint};
+use crate::distribution::{Correlation, CorrelationError, Distribution, Fits};
 use crate::task::Warning;
 
 /// Reads `correlations` and `correlation_matrix` of the root object and checks that the quantities
-/// can have them in every row; those of saved results come with them, with notes. Tables that were
-/// read are added to `files`.
+/// can have them in each of the rows; the joint draws are kept in `fits`. Those of saved results come
+/// with them, with notes. Tables that were read are added to `files`.
 pub(super) fn read(
     root: &Object<'_>,
     inputs: &Inputs,
     rows: &Rows<'_>,
     folder: &Path,
     files: &mut Vec<(String, Vec<u8>)>,
+    fits: &Fits,
 ) -> (Vec<Correlation>, Vec<Warning>) {
     let (found, warnings) = links::links(inputs);
     let place = |c: &Correlation| inputs.places.get(c.second).unwrap_or(root.place()).clone();
@@ -33,7 +35,7 @@ pub(super) fn read(
     let mut reader =
         Reader { log: root.log, inputs, rows, by_name, found, pairs: HashSet::new(), places };
     if let Some(list) = root.list("correlations") {
-        for node in list {
+        for node in list.iter().take_while(|_| !root.log.is_full()) {
             reader.triple(node);
         }
     }
@@ -41,7 +43,7 @@ pub(super) fn read(
         reader.matrix(root.log, member, folder, files);
     }
     if reader.are_shared_alike(root) {
-        reader.check(root);
+        reader.check(root, fits);
     }
     (reader.found, warnings)
 }
@@ -108,7 +110,7 @@ impl Reader<'_> {
             format!("the correlation coefficient is {r}, but must be from -1 to 1")
         } else if a == b {
             format!("`{}` is correlated with itself", name(a))
-        } else if self.inputs.rows.first().is_some_and(|row| links::is_linked(row, a, b)) {
+        } else if links::is_linked(self.inputs, a, b) {
             let (first, second) = (name(a).to_owned(), name(b).to_owned());
             self.log.report(span, Fault::SavedCorrelation { first, second });
             return;
@@ -208,9 +210,10 @@ impl Reader<'_> {
     fn are_shared_alike(&self, root: &Object<'_>) -> bool {
         let coefficients = self.found.iter().zip(&self.places);
         let linked = links::pairs(self.inputs);
+        let by_results: HashSet<(usize, usize)> = linked.iter().copied().collect();
         let declared = coefficients
             .map(|(c, place)| ((c.first, c.second), c.coefficient, place))
-            .filter(|(pair, r, _)| *r != 0.0 && !linked.contains(pair))
+            .filter(|(pair, r, _)| *r != 0.0 && !by_results.contains(pair))
             .map(|(pair, _, place)| (pair, place, false));
         let place = |pair: (usize, usize)| self.inputs.places.get(pair.1).unwrap_or(root.place());
         let of_results = linked.iter().map(|&pair| (pair, place(pair), true));
@@ -227,11 +230,18 @@ impl Reader<'_> {
     }
 
     /// Whether the quantities can have these coefficients.
-    fn check(&self, root: &Object<'_>) {
+    fn check(&self, root: &Object<'_>, fits: &Fits) {
         let mut seen: Vec<CorrelationError> = Vec::new();
-        let complete = |row: &&Vec<Distribution>| row.len() == self.inputs.variables.len();
-        let rows = self.inputs.rows.iter().filter(complete).map(Vec::as_slice);
-        for joint in Joint::of_rows(rows, &self.found) {
+        if !self.inputs.known.is_complete(self.inputs.variables.len()) {
+            return;
+        }
+        let mut before: Option<Arc<[Arc<Distribution>]>> = None;
+        for row in self.inputs.known.rows(self.rows.rows.len()) {
+            if before.as_ref().is_some_and(|before| Arc::ptr_eq(before, &row)) {
+                continue;
+            }
+            let joint = fits.joint(&row, &self.found);
+            before = Some(row);
             let Err(error) = joint else {
                 continue;
             };

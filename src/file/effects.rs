@@ -11,6 +11,7 @@ use super::object::Object;
 use super::problem::Log;
 use super::results::Results;
 use super::{Fault, inputs};
+use crate::distribution::Distribution;
 use crate::model::formula::{self, Formula, FormulaError};
 use crate::model::{Circular, Effect, Sim};
 use crate::task::{Candidate, Warning};
@@ -150,7 +151,7 @@ impl Reader<'_> {
             let fault = Fault::Effect { name: effect.name.clone(), reason };
             self.log.report(overrides.place(), fault);
         }
-        let priors = inputs.rows.into_iter().next().unwrap_or_default();
+        let priors: Vec<Distribution> = priors(&inputs).cloned().collect();
         (priors.len() == effect.parameters.len()).then(|| Candidate {
             effect,
             priors,
@@ -188,8 +189,8 @@ impl Reader<'_> {
                 }
             }
         }
-        let priors = inputs.rows.first().map_or(&[][..], Vec::as_slice);
-        let known = !priors.is_empty() && priors.iter().all(|prior| prior.constant().is_some());
+        let mut priors = priors(inputs).peekable();
+        let known = priors.peek().is_some() && priors.all(|prior| prior.constant().is_some());
         if let (true, Some(place)) = (known, inputs.quantity_places.first()) {
             let reason = "has only constant parameters; its size must be a quantity with a prior \
                           distribution, or the data could not tell how large it is";
@@ -259,4 +260,9 @@ impl Reader<'_> {
         }
         Some(formula)
     }
+}
+
+/// What is known of the parameters beforehand.
+fn priors(inputs: &Inputs) -> impl Iterator<Item = &Distribution> {
+    (0..inputs.variables.len()).filter_map(|v| inputs.known.get(v, 0).map(|prior| &**prior))
 }

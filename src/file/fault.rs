@@ -1,7 +1,9 @@
 //! What can be wrong with a user's file: the facts, and the sentence that is said about them.
 
 use std::fmt;
+use std::sync::Arc;
 
+use super::nearest::nearest;
 use super::shapes::KINDS;
 use crate::distribution::Invalid;
 use crate::model::formula::FormulaError;
@@ -46,7 +48,7 @@ pub enum Fault {
     /// The typed model has no such input.
     UnknownInput { name: String, model: String, nearest: Option<String>, known: Vec<String> },
     /// The typed model has no such output, or no equation defines it.
-    UnknownOutput { name: String, nearest: Option<String>, known: Vec<String> },
+    UnknownOutput { name: String, nearest: Option<String>, known: Arc<[String]> },
     /// The typed model needs an input that is not there.
     MissingInput { name: String, model: String, unit: String },
     /// A name that cannot be used.
@@ -121,6 +123,8 @@ pub enum Fault {
     SavedCelsius { name: String, found: String, saved: String },
     /// A declared coefficient between inputs whose saved results have one.
     SavedCorrelation { first: String, second: String },
+    /// More mistakes than are listed.
+    MoreMistakes { most: usize },
     /// A model file with several rows of conditions, to be compared with a saved result.
     SeveralRows { rows: usize },
     /// The evaluation met numbers that it cannot go on with.
@@ -185,6 +189,7 @@ impl Fault {
             Self::Table { .. } => "bad-table",
             Self::Correlation { .. } => "bad-correlation",
             Self::TooMany { .. } => "too-many",
+            Self::MoreMistakes { .. } => "more-mistakes",
             Self::NotResult { .. } => "not-a-result",
             Self::NoSuchResult { .. } => "no-such-result",
             Self::SavedEntry { .. } => "bad-result",
@@ -211,6 +216,9 @@ impl Fault {
             | Self::NoSuchInput { nearest, .. }
             | Self::NoSuchResult { nearest, .. }
             | Self::UnknownDistribution { nearest, .. } => nearest.clone(),
+            Self::NotOneOf { found, allowed, .. } => {
+                nearest(found, allowed.iter().map(String::as_str)).map(str::to_owned)
+            }
             Self::Unit { error, .. } => error.suggestions().first().map(|s| (*s).to_owned()),
             Self::Formula { error } => error.suggestion(),
             _ => None,
@@ -415,6 +423,9 @@ impl fmt::Display for Fault {
                 "the correlation of `{first}` and `{second}` follows from the saved results that \
                  they come from; take the declared coefficient out"
             ),
+            Self::MoreMistakes { most } => {
+                write!(f, "there are more mistakes; the first {most} are listed")
+            }
             Self::SeveralRows { rows } => write!(
                 f,
                 "this file has {rows} rows of conditions, but a saved result is one row; compare it \

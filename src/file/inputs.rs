@@ -1,11 +1,13 @@
 //! The inputs of a file: quantities, their variables, and what is known about them in each row.
 
+use std::collections::HashSet;
 use std::ops::Range;
 use std::path::Path;
 
 use super::Fault;
 use super::conditions::unit;
 use super::json::{Json, Member};
+use super::known::Known;
 use super::model_file::Override;
 use super::object::Object;
 use super::paired;
@@ -48,8 +50,8 @@ pub(super) struct Inputs {
     pub(super) places: Vec<Range<usize>>,
     /// The key of each quantity.
     pub(super) quantity_places: Vec<Range<usize>>,
-    /// For each row, the distributions of the variables.
-    pub(super) rows: Vec<Vec<Distribution>>,
+    /// What is known about the variables in each row.
+    pub(super) known: Known,
     pub(super) warnings: Vec<Warning>,
     /// Quantities whose unit could not be read: they fit every dimension.
     pub(super) without_unit: Vec<String>,
@@ -57,13 +59,6 @@ pub(super) struct Inputs {
     pub(super) files: Vec<(String, Vec<u8>)>,
     /// The variables whose readings are said to be paired.
     pub(super) paired: Vec<usize>,
-}
-
-impl Inputs {
-    /// No inputs, in so many rows.
-    pub(super) fn none(rows: usize) -> Self {
-        Self { rows: vec![Vec::new(); rows], ..Self::default() }
-    }
 }
 
 /// Where a quantity's estimate comes from.
@@ -87,14 +82,23 @@ pub(super) fn read(
         object.report(Fault::TooMany { what: "inputs", found, most: MOST_VARIABLES });
         return None;
     }
-    let mut inputs = Inputs::none(conditions.rows());
+    let mut inputs = Inputs::default();
     for member in object.members() {
+        if log.is_full() {
+            break;
+        }
         let Some(object) = Object::new(log, "an input", &member.value, &member.key_span) else {
             continue;
         };
         let moved = overrides.iter().rev().find(|o| o.input == member.key && o.field.is_none());
         let (name, folder) = (&member.key, results.folder);
         Reader { object, name, conditions, moved, folder, results, inputs: &mut inputs }.input();
+    }
+    let found = inputs.variables.len();
+    if found > MOST_VARIABLES {
+        let what = "inputs and components";
+        object.report(Fault::TooMany { what, found, most: MOST_VARIABLES });
+        return None;
     }
     paired::apply(log, &mut inputs);
     Some(inputs)
@@ -196,6 +200,7 @@ impl<'a> Reader<'a, '_> {
         let mut known: Vec<&str> = COMMON.into_iter().chain(kind.fields.iter().copied()).collect();
         known.push("evidence");
         object.check_keys(&known);
+        let variable = self.inputs.variables.len();
         self.variable(self.name.to_owned(), &object, Some(kind), unit);
         let key = if kind.name == "constant" { "value" } else { "mean" };
         let Some(source) = self.source(key, unit) else {
@@ -214,15 +219,10 @@ impl<'a> Reader<'a, '_> {
         };
         let mut zero_width = Vec::new();
         let mut drawn: Vec<Distribution> = Vec::new();
-        for row in 0..self.conditions.rows() {
-            let same = !matches!(source, Source::Formula(_)) && row > 0;
-            let distribution = if same {
-                drawn.first().cloned()
-            } else {
-                self.estimate(&source, unit, row)
-                    .and_then(|estimate| fields(estimate).distribution(kind))
-            };
-            let Some(distribution) = distribution else {
+        let differs = matches!(source, Source::Formula(_));
+        for row in 0..if differs { self.conditions.rows() } else { 1 } {
+            let estimate = self.estimate(&source, unit, row);
+            let Some(distribution) = estimate.and_then(|e| fields(e).distribution(kind)) else {
                 return;
             };
             if !["constant", "result"].contains(&kind.name) && distribution.constant().is_some() {
@@ -230,17 +230,22 @@ impl<'a> Reader<'a, '_> {
             }
             drawn.push(distribution);
         }
+        let same_elsewhere = !differs && self.conditions.rows() > 1;
         if let Some(first) = zero_width.first() {
             let text = format!(
                 "the width of `{}` follows its estimate and becomes 0 in row {first}{}; it is a \
                  constant there",
                 self.name,
-                if zero_width.len() > 1 { " and others" } else { "" }
+                if zero_width.len() > 1 || same_elsewhere { " and others" } else { "" }
             );
             self.inputs.warnings.push(Warning::new("width-zero", self.name, text));
         }
-        for (row, distribution) in self.inputs.rows.iter_mut().zip(drawn) {
-            row.push(distribution);
+        match drawn.pop() {
+            Some(distribution) if !differs => self.inputs.known.always(variable, distribution),
+            last => {
+                drawn.extend(last);
+                self.inputs.known.in_rows(variable, drawn);
+            }
         }
     }
 
@@ -314,6 +319,7 @@ impl<'a> Reader<'a, '_> {
         let object = self.object;
         object.check_keys(&["unit", "mean", "components", "about", "type", "group", "per"]);
         // the estimate: a constant without a line of its own
+        let first = self.inputs.variables.len();
         self.variable(self.name.to_owned(), &object, None, unit);
         if let Some(base) = self.inputs.variables.last_mut() {
             base.shown = false;
@@ -346,23 +352,35 @@ impl<'a> Reader<'a, '_> {
                 Some(None) => return,
                 None => 0.0,
             };
-        for row in 0..self.conditions.rows() {
+        let differs = matches!(source, Source::Formula(_));
+        let mut drawn: Vec<Vec<Distribution>> = vec![Vec::new(); 1 + parts.len()];
+        for row in 0..if differs { self.conditions.rows() } else { 1 } {
             let total = match self.estimate(&source, unit, row) {
                 Some(Estimate::Own) => own_mean.unwrap_or(of_readings),
                 Some(Estimate::Given(value)) => value,
                 None => return,
             };
-            let drawn: Option<Vec<Distribution>> =
+            let of_parts: Option<Vec<Distribution>> =
                 parts.iter().map(|part| part.distribution(unit, total, self.results)).collect();
             let base = Constant::new(total - of_readings)
                 .map_err(|error| Fault::Distribution { name: self.name.to_owned(), error });
             let base = object.log.value(object.place(), base);
-            let (Some(drawn), Some(base), Some(out)) = (drawn, base, self.inputs.rows.get_mut(row))
-            else {
+            let (Some(of_parts), Some(base)) = (of_parts, base) else {
                 return;
             };
-            out.push(base.into());
-            out.extend(drawn);
+            let row = std::iter::once(base.into()).chain(of_parts);
+            drawn.iter_mut().zip(row).for_each(|(drawn, distribution)| drawn.push(distribution));
+        }
+        for (part, mut drawn) in drawn.into_iter().enumerate() {
+            match drawn.pop() {
+                Some(distribution) if !differs => {
+                    self.inputs.known.always(first + part, distribution);
+                }
+                last => {
+                    drawn.extend(last);
+                    self.inputs.known.in_rows(first + part, drawn);
+                }
+            }
         }
     }
 
@@ -370,13 +388,22 @@ impl<'a> Reader<'a, '_> {
     fn parts(&mut self, unit: &Unit) -> Option<Vec<Part<'a>>> {
         let object = self.object;
         let list = object.list("components")?;
+        if list.len() > MOST_VARIABLES {
+            let (what, found) = ("components", list.len());
+            object.report(Fault::TooMany { what, found, most: MOST_VARIABLES });
+            return None;
+        }
         let quantity = self.name;
         let fault = |reason: String| Fault::Component { name: quantity.to_owned(), reason };
         if list.is_empty() {
             object.report(Fault::NoValues { name: format!("{}/components", self.name) });
         }
         let mut parts: Vec<Part<'a>> = Vec::new();
+        let mut names: HashSet<String> = HashSet::new();
         for node in list {
+            if object.log.is_full() {
+                break;
+            }
             let Some(component) = Object::new(object.log, "a component", node, &node.span) else {
                 continue;
             };
@@ -389,7 +416,7 @@ impl<'a> Reader<'a, '_> {
             let full = format!("{}/{name}", self.name);
             if name.is_empty() || name.contains('/') {
                 component.report(fault(format!("cannot have the name `{name}`")));
-            } else if parts.iter().any(|part| part.full == full) {
+            } else if !names.insert(full.clone()) {
                 component.report(fault(format!("has the name `{name}` of another one")));
             } else if let Some(kind) = shapes::kind(&component) {
                 let mut known: Vec<&str> = vec!["name", "distribution", "about", "type", "group"];

@@ -1,11 +1,13 @@
 //! JSON with places: `serde_json` decides what is JSON, `jsonc-parser` says where everything
 //! stands.
 
+use std::fmt;
 use std::ops::Range;
 
 use jsonc_parser::ast;
 use jsonc_parser::common::Ranged;
 use jsonc_parser::{CollectOptions, ParseOptions, parse_to_ast};
+use serde::de::{Deserialize, Deserializer, MapAccess, SeqAccess, Visitor};
 
 use super::Fault;
 use super::source::Source;
@@ -66,7 +68,7 @@ pub(crate) fn parse(source: &Source) -> Result<Node, (Range<usize>, Fault)> {
     if source.text.trim().is_empty() {
         return Err((0..0, Fault::Empty));
     }
-    if let Err(error) = serde_json::from_str::<serde_json::Value>(&source.text) {
+    if let Err(error) = serde_json::from_str::<Checked>(&source.text) {
         return Err(syntax(source, &error));
     }
     let strict = ParseOptions {
@@ -87,6 +89,57 @@ pub(crate) fn parse(source: &Source) -> Result<Node, (Range<usize>, Fault)> {
         Ok(None) => Err((0..0, Fault::Empty)),
         // both parsers are strict, so this is not expected
         Err(error) => Err((0..0, Fault::NotJson { message: error.to_string() })),
+    }
+}
+
+/// JSON of which nothing is kept.
+struct Checked;
+
+impl<'de> Deserialize<'de> for Checked {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(Self)
+    }
+}
+
+impl<'de> Visitor<'de> for Checked {
+    type Value = Self;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a value")
+    }
+
+    fn visit_bool<E>(self, _: bool) -> Result<Self, E> {
+        Ok(self)
+    }
+
+    fn visit_i64<E>(self, _: i64) -> Result<Self, E> {
+        Ok(self)
+    }
+
+    fn visit_u64<E>(self, _: u64) -> Result<Self, E> {
+        Ok(self)
+    }
+
+    fn visit_f64<E>(self, _: f64) -> Result<Self, E> {
+        Ok(self)
+    }
+
+    fn visit_str<E>(self, _: &str) -> Result<Self, E> {
+        Ok(self)
+    }
+
+    fn visit_unit<E>(self) -> Result<Self, E> {
+        Ok(self)
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Self, A::Error> {
+        while list.next_element::<Self>()?.is_some() {}
+        Ok(self)
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Self, A::Error> {
+        while map.next_entry::<Self, Self>()?.is_some() {}
+        Ok(self)
     }
 }
 

@@ -1,7 +1,7 @@
 //! The dependence of inputs that come from saved results.
 
 use super::inputs::Inputs;
-use crate::distribution::{Correlation, Distribution, SavedResult};
+use crate::distribution::{Correlation, SavedResult};
 use crate::task::Warning;
 
 /// How many pairs a note names.
@@ -11,11 +11,8 @@ const NAMED: usize = 6;
 /// inputs, and notes on what is kept and what cannot be.
 pub(super) fn links(inputs: &Inputs) -> (Vec<Correlation>, Vec<Warning>) {
     let (mut found, mut warnings) = (Vec::new(), Vec::new());
-    let Some(row) = inputs.rows.first() else {
-        return (found, warnings);
-    };
-    let saved: Vec<(usize, &SavedResult)> =
-        row.iter().enumerate().filter_map(|(q, d)| Some((q, d.saved()?))).collect();
+    let saved = |q: usize| Some((q, inputs.known.get(q, 0)?.saved()?));
+    let saved: Vec<(usize, &SavedResult)> = (0..inputs.variables.len()).filter_map(saved).collect();
     let name = |q: usize| inputs.variables.get(q).map_or("", |variable| variable.name.as_str());
     let mut kept = Vec::new();
     let mut old = Vec::new();
@@ -87,16 +84,15 @@ fn may_depend(a: &SavedResult, b: &SavedResult) -> bool {
 
 /// The pairs of variables whose dependence comes from saved results.
 pub(super) fn pairs(inputs: &Inputs) -> Vec<(usize, usize)> {
-    let row = inputs.rows.first().map_or(&[][..], Vec::as_slice);
-    let saved = row.iter().enumerate().filter_map(|(q, d)| Some((q, d.saved()?)));
-    let saved: Vec<(usize, &SavedResult)> = saved.collect();
+    let saved = |q: usize| Some((q, inputs.known.get(q, 0)?.saved()?));
+    let saved: Vec<(usize, &SavedResult)> = (0..inputs.variables.len()).filter_map(saved).collect();
     let before = |place: usize| saved.iter().take(place);
     let all = saved.iter().enumerate().flat_map(|(place, b)| before(place).map(move |a| (a, b)));
     all.filter(|((_, a), (_, b))| a.is_linked(b)).map(|((a, _), (b, _))| (*a, *b)).collect()
 }
 
 /// Whether the dependence of two variables comes from saved results.
-pub(super) fn is_linked(row: &[Distribution], first: usize, second: usize) -> bool {
-    let saved = |q: usize| row.get(q).and_then(Distribution::saved);
+pub(super) fn is_linked(inputs: &Inputs, first: usize, second: usize) -> bool {
+    let saved = |q: usize| inputs.known.get(q, 0).and_then(|d| d.saved());
     saved(first).zip(saved(second)).is_some_and(|(a, b)| a.is_linked(b))
 }

@@ -3,6 +3,7 @@
 //! Reading goes on after a mistake, so that all of a file's mistakes are reported at once; only
 //! text that is not JSON stops it.
 
+pub(crate) mod bytes;
 mod case;
 mod catalogue;
 mod conditions;
@@ -12,6 +13,7 @@ mod either;
 mod fault;
 mod inputs;
 mod json;
+mod known;
 mod links;
 mod model_file;
 mod nearest;
@@ -28,6 +30,7 @@ mod settings;
 mod shapes;
 mod sharing;
 mod simulated;
+mod size;
 mod soundness;
 mod source;
 mod table;

@@ -5,6 +5,7 @@ use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
 
+use super::bytes;
 use super::conditions::{self, Conditions};
 use super::inputs::{self, Inputs};
 use super::json::{Json, Member, Node};
@@ -13,9 +14,11 @@ use super::observations::Observations;
 use super::outputs::{self, Outputs};
 use super::problem::{Log, Problems};
 use super::results::Results;
+use super::size::Size;
 use super::source::Source;
 use super::table::{self, Table};
 use super::{Fault, correlations, json, nearest, observations, settings};
+use crate::distribution::Fits;
 use crate::model::formula::{self, Formula, Scope, Typing};
 use crate::model::typed::{Entry, find};
 use crate::model::{InputQuantity, Maker as SimMaker, Sim, typed};
@@ -124,7 +127,7 @@ pub(super) fn read_file<T>(
 
 /// A file's text, or why there is none.
 pub(super) fn text_of(path: &Path) -> Result<String, String> {
-    let bytes = std::fs::read(path).map_err(|error| error.to_string())?;
+    let bytes = bytes::of_file(path, bytes::MOST)?;
     String::from_utf8(bytes).map_err(|_| "it is not UTF-8 text".to_owned())
 }
 
@@ -315,12 +318,18 @@ impl<'a> ModelReader<'a> {
         let inputs = match root.get("inputs") {
             Some(member) => inputs::read(log, member, &set, self.overrides, &results),
             // somebody else's simulation needs none
-            None if self.names_simulation() => Some(Inputs::none(conditions.rows.len())),
+            None if self.names_simulation() => Some(Inputs::default()),
             None => root.required("inputs").and(None),
         };
         let outputs = root.required("outputs").and_then(|member| outputs::read(log, member));
         let (inputs, outputs) = (inputs?, outputs.unwrap_or_default());
         self.names(&inputs, &conditions, &maker);
+        let (rows, outputs_found) = (conditions.rows.len(), outputs.outputs.len());
+        let size = Size { rows, outputs: outputs_found, variables: inputs.variables.len() };
+        if let (Some(fault), Some(member)) = (size.fault(), root.get("outputs")) {
+            log.report(&member.key_span, fault);
+            return None;
+        }
         if conditions.unreadable {
             // without the names of the conditions nothing can be said about formulas
             return None;
@@ -335,8 +344,9 @@ impl<'a> ModelReader<'a> {
             conditions: conditions.quantities.iter().map(|c| c.name.clone()).collect(),
             rows: &conditions.rows,
         };
+        let fits = Fits::default();
         let (correlations, notes) =
-            correlations::read(root, &inputs, &swept_over, self.folder, &mut files);
+            correlations::read(root, &inputs, &swept_over, self.folder, &mut files, &fits);
         let mut warnings = inputs.warnings.clone();
         warnings.extend(notes);
         let Outputs { mut outputs, places, unit_places, without_unit } = outputs;
@@ -405,17 +415,25 @@ impl<'a> ModelReader<'a> {
                 }
             }
         };
+        let known = inputs.known.rows(conditions.rows.len());
         let rows = conditions
             .rows
             .into_iter()
-            .zip(inputs.rows)
+            .zip(known)
             .map(|(conditions, distributions)| Row { conditions, distributions })
             .collect();
         let observed = self.observed(observations.as_ref(), &sim)?;
         let swept = swept.is_some() || observations.is_some();
-        let model = sim.model();
-        let task =
-            Task { title, model, variables: inputs.variables, correlations, rows, swept, settings };
+        let task = Task {
+            title,
+            model: sim.model(),
+            variables: inputs.variables,
+            correlations,
+            rows,
+            swept,
+            settings,
+            fits,
+        };
         let source = log.source.clone();
         let file = ModelFile { task, warnings, source, files, output_places: places };
         let data = observations.map(|observations| observations.table);
@@ -446,7 +464,7 @@ impl<'a> ModelReader<'a> {
         let mut clean = true;
         for column in &observations.columns {
             if !sim.is_output(&column.output) {
-                let known: Vec<String> =
+                let known: Arc<[String]> =
                     sim.outputs.iter().map(|output| output.quantity.name.clone()).collect();
                 self.unknown_output(&column.output, &known, &column.place);
                 clean = false;
@@ -479,7 +497,7 @@ impl<'a> ModelReader<'a> {
             (None, Some(member)) => {
                 let object = Object::new(self.log, "`equations`", &member.value, &member.key_span)?;
                 let mut equations = Vec::new();
-                for member in object.members() {
+                for member in object.members().iter().take_while(|_| !self.log.is_full()) {
                     let formula = match &member.value.value {
                         Json::Text(text) => Formula::parse(text)
                             .map_err(|error| report_formula(self.log, member, error))
@@ -601,7 +619,7 @@ impl<'a> ModelReader<'a> {
                 self.log.report(place, Fault::MissingInput { name, model: model.clone(), unit });
             }
         }
-        let known: Vec<String> = declaration.outputs.iter().map(|o| o.name.to_owned()).collect();
+        let known: Arc<[String]> = declaration.outputs.iter().map(|o| o.name.to_owned()).collect();
         for ((output, place), unit_place) in outputs.iter().zip(output_places).zip(unit_places) {
             let name = &output.quantity.name;
             match entry.typed.output(name) {
@@ -613,9 +631,10 @@ impl<'a> ModelReader<'a> {
         }
     }
 
-    fn unknown_output(&self, name: &str, known: &[String], place: &Range<usize>) {
+    fn unknown_output(&self, name: &str, known: &Arc<[String]>, place: &Range<usize>) {
         let nearest = nearest(name, known.iter().map(String::as_str)).map(str::to_owned);
-        let fault = Fault::UnknownOutput { name: name.to_owned(), nearest, known: known.to_vec() };
+        let fault =
+            Fault::UnknownOutput { name: name.to_owned(), nearest, known: Arc::clone(known) };
         self.log.report(place, fault);
     }
 
@@ -651,7 +670,7 @@ impl<'a> ModelReader<'a> {
         for (name, ..) in equations {
             scope.announce(name);
         }
-        for (name, member, formula) in equations {
+        for (name, member, formula) in equations.iter().take_while(|_| !self.log.is_full()) {
             let result = match formula {
                 Some(formula) if check_units => formula.check(&scope),
                 Some(formula) => formula.check_names(&scope),
@@ -678,7 +697,7 @@ impl<'a> ModelReader<'a> {
         unknown_units: &HashSet<&str>,
         check_units: bool,
     ) {
-        let known: Vec<String> = scope.names().map(str::to_owned).collect();
+        let known: Arc<[String]> = scope.names().map(str::to_owned).collect();
         for ((output, place), unit_place) in outputs.iter().zip(places).zip(unit_places) {
             let name = &output.quantity.name;
             let Some(typing) = scope.get(name) else {

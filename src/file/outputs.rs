@@ -29,7 +29,7 @@ pub(super) fn read(log: &Log, member: &Member) -> Option<Outputs> {
         object.report(Fault::NoValues { name: "outputs".into() });
     }
     let mut outputs = Outputs::default();
-    for member in object.members() {
+    for member in object.members().iter().take_while(|_| !log.is_full()) {
         let Some(object) = Object::new(log, "an output", &member.value, &member.key_span) else {
             continue;
         };

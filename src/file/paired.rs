@@ -8,14 +8,10 @@ use crate::distribution::{Distribution, Readings};
 /// Makes ensembles of the paired readings, all those of equal length one. The variables must be
 /// complete in every row; else a mistake has been reported already.
 pub(super) fn apply(log: &Log, inputs: &mut Inputs) {
-    let count = inputs.variables.len();
-    if inputs.rows.iter().any(|row| row.len() != count) {
+    if !inputs.known.is_complete(inputs.variables.len()) {
         return;
     }
-    let Some(row) = inputs.rows.first() else {
-        return;
-    };
-    let length = |v: usize| match row.get(v) {
+    let length = |v: usize| match inputs.known.get(v, 0).map(|d| &**d) {
         Some(Distribution::Readings(readings)) => readings.values().len(),
         _ => 0,
     };
@@ -34,14 +30,14 @@ pub(super) fn apply(log: &Log, inputs: &mut Inputs) {
             }
             continue;
         }
-        for row in &mut inputs.rows {
-            for &member in members {
-                if let Some(Distribution::Readings(readings)) = row.get_mut(member)
+        for &member in members {
+            inputs.known.change(member, |distribution| {
+                if let Distribution::Readings(readings) = distribution
                     && let Ok(paired) = readings.clone().paired(members.len())
                 {
                     *readings = paired;
                 }
-            }
+            });
         }
     }
 }
@@ -74,7 +70,7 @@ fn mistake(inputs: &Inputs, length: usize, members: &[usize]) -> Option<(usize, 
         );
         return Some((other, Fault::Correlation { reason }));
     }
-    let Some(Distribution::Readings(readings)) = inputs.rows.first()?.get(first) else {
+    let Distribution::Readings(readings) = &**inputs.known.get(first, 0)? else {
         return None;
     };
     let error = Readings::clone(readings).paired(members.len()).err()?;
@@ -132,12 +128,12 @@ mod tests {
     fn impedance_of_the_guide() {
         let (evaluation, _) = run(&voltage_and_current(), "", "V/I");
         let gum = gum(&evaluation);
-        assert!((gum.correlations[0].coefficient + 0.36).abs() < 5e-3);
+        assert!((gum.correlations().next().unwrap().coefficient + 0.36).abs() < 5e-3);
         assert!((gum.estimate - 254.26).abs() < 5e-3, "{}", gum.estimate);
         assert!((gum.standard_uncertainty - 0.236).abs() < 5e-4, "{}", gum.standard_uncertainty);
         assert!(matches!(gum.dof, Dof::Finite(dof) if (dof - 4.0).abs() < 1e-9), "{:?}", gum.dof);
-        let shares: f64 = gum.budget.iter().map(|line| line.share).sum();
-        assert!((shares + gum.correlations[0].share - 1.0).abs() < 1e-12);
+        let shares: f64 = gum.budget().map(|line| line.share).sum();
+        assert!((shares + gum.correlations().next().unwrap().share - 1.0).abs() < 1e-12);
         // n - N = 3 in the trials: no kurtosis, no standard error of the standard deviation
         assert_eq!(evaluation.rows[0].outputs[0].drawn_dof, 3.0);
     }
@@ -169,7 +165,7 @@ mod tests {
         );
         let (evaluation, said) = run(&inputs, "", "a + b + c");
         let pairs: Vec<[usize; 2]> =
-            gum(&evaluation).correlations.iter().map(|line| line.variables).collect();
+            gum(&evaluation).correlations().map(|line| line.variables).collect();
         // 2 is the constant that the component is added to
         assert_eq!(pairs, [[0, 1], [0, 3], [1, 3]]);
         assert!(said.iter().all(|warning| warning.code != "gaussian-copula"));

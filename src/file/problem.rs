@@ -1,6 +1,7 @@
 //! Mistakes with their places.
 
-use std::cell::RefCell;
+use std::borrow::Cow;
+use std::cell::{Cell, RefCell};
 use std::collections::HashMap;
 use std::fmt;
 use std::ops::Range;
@@ -8,6 +9,12 @@ use std::sync::Arc;
 
 use super::Fault;
 use super::source::{Place, Source};
+
+/// At most so many mistakes are collected: a table of a million faulty cells helps nobody.
+const MOST: usize = 1000;
+
+/// The longest part of a sentence between two quotation marks, in letters.
+const LONGEST: usize = 1000;
 
 /// A mistake in a user's file.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,13 +33,32 @@ impl Problem {
         self.source.position(self.span.start)
     }
 
-    /// The sentence about the mistake, on one line whatever the file's names have in them.
+    /// The sentence about the mistake, on one line whatever the file's names have in them; very long
+    /// quoted texts are cut.
     pub fn message(&self) -> String {
         let mut message = String::new();
-        for c in self.fault.to_string().chars() {
-            if c.is_control() { message.extend(c.escape_default()) } else { message.push(c) }
+        for (number, part) in self.fault.to_string().split('`').enumerate() {
+            if number > 0 {
+                message.push('`');
+            }
+            for c in shortened(part).chars() {
+                if c.is_control() { message.extend(c.escape_default()) } else { message.push(c) }
+            }
         }
         message
+    }
+}
+
+/// A part of a sentence without the middle of what is longer than anything that is said.
+fn shortened(part: &str) -> Cow<'_, str> {
+    let Some((cut, _)) = part.char_indices().nth(LONGEST) else {
+        return part.into();
+    };
+    let head = part.char_indices().nth(LONGEST / 2).map_or(cut, |(at, _)| at);
+    let tail = part.char_indices().nth_back(LONGEST / 4).map_or(cut, |(at, _)| at);
+    match (part.get(..head), part.get(tail..)) {
+        (Some(head), Some(tail)) => format!("{head}…{tail}").into(),
+        _ => part.into(),
     }
 }
 
@@ -66,13 +92,16 @@ impl std::error::Error for Problems {}
 pub(crate) struct Log {
     pub(crate) source: Arc<Source>,
     problems: RefCell<Vec<Problem>>,
+    /// Whether there are more than are collected.
+    more: Cell<bool>,
     /// The problems by where they begin.
     by_start: RefCell<HashMap<usize, Vec<usize>>>,
 }
 
 impl Log {
     pub(crate) fn new(source: Arc<Source>) -> Self {
-        Self { source, problems: RefCell::default(), by_start: RefCell::default() }
+        let (problems, by_start) = (RefCell::default(), RefCell::default());
+        Self { source, problems, more: Cell::new(false), by_start }
     }
 
     /// A mistake in the file itself.
@@ -87,9 +116,18 @@ impl Log {
         let mut by_start = self.by_start.borrow_mut();
         let same_start = by_start.entry(problem.span.start).or_default();
         if !same_start.iter().any(|&earlier| problems.get(earlier) == Some(&problem)) {
+            if problems.len() >= MOST {
+                self.more.set(true);
+                return;
+            }
             same_start.push(problems.len());
             problems.push(problem);
         }
+    }
+
+    /// Whether there are more mistakes than are collected, so that nothing more needs to be read.
+    pub(crate) fn is_full(&self) -> bool {
+        self.more.get()
     }
 
     /// The value, or the mistake reported at `span`.
@@ -107,6 +145,11 @@ impl Log {
         let own = self.source;
         problems.sort_by_key(|p| (!Arc::ptr_eq(&p.source, &own), p.span.start, p.span.end));
         without_consequences(&mut problems);
+        if self.more.get() {
+            let end = own.text.trim_end().len();
+            let fault = Fault::MoreMistakes { most: MOST };
+            problems.push(Problem { source: own, span: end..end, fault });
+        }
         Problems(problems)
     }
 }
@@ -133,4 +176,35 @@ fn without_consequences(problems: &mut Vec<Problem>) {
         number += 1;
         !explained.contains(&(number - 1))
     });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn very_long_names_are_cut_in_messages() {
+        let unit = format!("a{}b\nc", "ä".repeat(100_000));
+        let fault = Fault::NoSuchInput { name: unit, nearest: None };
+        let problem = Problem { source: Source::new("m", "{}"), span: 0..0, fault };
+        let message = problem.message();
+        assert!(message.starts_with("there is no input `aää") && message.len() < 2000, "{message}");
+        assert!(message.contains("ä…ä") && message.contains("äb\\nc`"), "{message}");
+    }
+
+    #[test]
+    fn more_mistakes_than_are_of_use_are_not_collected() {
+        let log = Log::new(Source::new("m", &"x".repeat(5000)));
+        for place in 0..2000 {
+            log.report(&(place..place + 1), Fault::NumberTooLarge);
+        }
+        assert!(log.is_full());
+        let problems = log.into_problems().0;
+        assert_eq!(problems.len(), MOST + 1);
+        let last = problems.last().unwrap();
+        assert_eq!(
+            (last.position(), &last.fault),
+            ((1, 5001), &Fault::MoreMistakes { most: MOST })
+        );
+    }
 }

@@ -5,13 +5,13 @@ use std::collections::HashMap;
 use std::path::Path;
 use std::sync::Arc;
 
-use super::Fault;
 use super::json::Node;
 use super::nearest::nearest;
 use super::object::Object;
 use super::problem::{Log, Problems};
 use super::result_file::{ResultFile, SavedOutput, read_result};
 use super::source::Place;
+use super::{Fault, bytes};
 use crate::distribution::Distribution;
 use crate::unit::Unit;
 
@@ -110,9 +110,9 @@ impl<'a> Results<'a> {
             log.report(&place.span, Fault::Unreadable { message });
             None
         };
-        let bytes = match std::fs::read(self.folder.join(name)) {
+        let bytes = match bytes::of_file(&self.folder.join(name), bytes::MOST) {
             Ok(bytes) => bytes,
-            Err(error) => return unreadable(error.to_string()),
+            Err(message) => return unreadable(message),
         };
         let Ok(text) = std::str::from_utf8(&bytes) else {
             return unreadable("it is not UTF-8 text".to_owned());

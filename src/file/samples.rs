@@ -3,9 +3,9 @@
 
 use std::path::Path;
 
-use super::Fault;
 use super::object::Object;
 use super::source::{Place, Source};
+use super::{Fault, bytes};
 use crate::distribution::Samples;
 
 /// At most so many faulty lines are reported; a file of something else has nothing but those.
@@ -54,7 +54,8 @@ fn from_file(
         let message = format!("`{file}`: {message}");
         object.log.report(place, Fault::Unreadable { message });
     };
-    let bytes = std::fs::read(folder.join(file)).map_err(|e| unreadable(e.to_string())).ok()?;
+    let bytes = bytes::of_file(&folder.join(file), bytes::MOST_OF_SAMPLES);
+    let bytes = bytes.map_err(&unreadable).ok()?;
     let Ok(text) = std::str::from_utf8(&bytes) else {
         unreadable("it is not UTF-8 text".to_owned());
         return None;

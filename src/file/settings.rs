@@ -3,7 +3,7 @@
 use super::Fault;
 use super::json::Json;
 use super::object::{Object, whole_number};
-use crate::task::{Coverage, Settings, Trials};
+use crate::task::{Coverage, Settings, StoppingRule, Trials};
 
 /// At most so many trials.
 pub(super) const MOST_TRIALS: u64 = 1_000_000_000_000;
@@ -31,9 +31,12 @@ pub(super) fn read(root: &Object<'_>) -> Settings {
     else {
         return settings;
     };
-    object.check_keys(&["trials", "seed", "digits", "max_trials"]);
+    object.check_keys(&["trials", "rule", "seed", "digits", "max_trials"]);
     if let Some(trials) = trials(&object) {
         settings.trials = trials;
+    }
+    if let Some(rule) = rule(&object) {
+        settings.rule = rule;
     }
     if let Some(seed) = object.whole("seed", 0, u64::MAX) {
         settings.seed = seed;
@@ -73,6 +76,21 @@ fn trials(object: &Object<'_>) -> Option<Trials> {
             None
         }
     }
+}
+
+/// When an adaptive run stops.
+fn rule(object: &Object<'_>) -> Option<StoppingRule> {
+    let name = object.text("rule")?;
+    let rule = StoppingRule::named(name);
+    if let (None, Some(member)) = (rule, object.get("rule")) {
+        let fault = Fault::NotOneOf {
+            key: "rule".into(),
+            found: name.to_owned(),
+            allowed: StoppingRule::ALL.map(|rule| rule.name().to_owned()).to_vec(),
+        };
+        object.log.report(&member.value.span, fault);
+    }
+    rule
 }
 
 fn coverage(root: &Object<'_>) -> Option<Coverage> {

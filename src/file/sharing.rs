@@ -28,10 +28,9 @@ fn is_same(a: &Sharing, b: &Sharing, rows: &[Vec<f64>]) -> bool {
     }
     let (a, b) = (keys(a, rows), keys(b, rows));
     let (mut forth, mut back) = (HashMap::new(), HashMap::new());
-    a.iter().zip(&b).all(|(a, b)| {
-        *forth.entry(a.clone()).or_insert_with(|| b.clone()) == *b
-            && *back.entry(b.clone()).or_insert_with(|| a.clone()) == *a
-    })
+    a.iter()
+        .zip(&b)
+        .all(|(a, b)| *forth.entry(a).or_insert(b) == b && *back.entry(b).or_insert(a) == a)
 }
 
 /// In which rows a variable has the same value, in words.
@@ -58,9 +57,7 @@ pub(super) fn contradiction(
     rows: &[Vec<f64>],
 ) -> Option<String> {
     let (a, b) = (inputs.variables.get(first)?, inputs.variables.get(second)?);
-    let varies = |place: usize| {
-        inputs.rows.iter().any(|row| row.get(place).is_some_and(|d| d.constant().is_none()))
-    };
+    let varies = |place: usize| inputs.known.varies(place);
     if is_same(&a.sharing, &b.sharing, rows) || !varies(first) || !varies(second) {
         return None;
     }

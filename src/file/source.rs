@@ -1,10 +1,10 @@
 //! A text that was read, with the name that messages use for it.
 
 use std::ops::Range;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// A file's text and name.
-#[derive(Debug, PartialEq, Eq)]
+#[derive(Debug)]
 pub struct Source {
     /// The name, as the user gave it.
     pub name: String,
@@ -12,7 +12,18 @@ pub struct Source {
     pub text: String,
     /// The byte at which each line begins.
     lines: Vec<usize>,
+    /// The byte and column that were asked for last: in a line of megabytes the next one is counted
+    /// from there.
+    last: Mutex<[usize; 2]>,
 }
+
+impl PartialEq for Source {
+    fn eq(&self, other: &Self) -> bool {
+        self.name == other.name && self.text == other.text
+    }
+}
+
+impl Eq for Source {}
 
 /// A place in a source: a half-open range of bytes.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -27,15 +38,19 @@ impl Source {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let after = text.match_indices('\n').map(|(at, _)| at + 1);
         let lines = std::iter::once(0).chain(after).collect();
-        Arc::new(Self { name: name.into(), text: text.to_owned(), lines })
+        Arc::new(Self { name: name.into(), text: text.to_owned(), lines, last: Mutex::default() })
     }
 
     /// Line and column of a byte, both counted from 1; the column counts characters.
     pub fn position(&self, byte: usize) -> (usize, usize) {
         let byte = byte.min(self.text.len());
         let line = self.lines.partition_point(|&start| start <= byte);
-        let before = self.text.get(self.line_start(line)..byte).unwrap_or("");
-        (line, before.chars().count() + 1)
+        let start = self.line_start(line);
+        let mut last = self.last.lock().unwrap_or_else(PoisonError::into_inner);
+        let [from, counted] = if (start..=byte).contains(&last[0]) { *last } else { [start, 0] };
+        let column = counted + self.text.get(from..byte).unwrap_or("").chars().count();
+        *last = [byte, column];
+        (line, column + 1)
     }
 
     /// The byte at which a line begins, lines counted from 1.
@@ -55,6 +70,10 @@ mod tests {
         assert_eq!(source.position("ä".len()), (1, 2));
         assert_eq!(source.position("äb\nc".len()), (2, 2));
         assert_eq!(source.position(1000), (3, 1));
+        assert_eq!(source.position("äb".len()), (1, 3));
+        assert_eq!(source.position("äb".len()), (1, 3));
+        assert_eq!(source.position("ä".len()), (1, 2));
+        assert_eq!(source.position("äb\ncd".len()), (2, 3));
         assert_eq!(source.line_start(2), "äb\n".len());
     }
 }

@@ -4,9 +4,16 @@ use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
 
-use super::Fault;
 use super::problem::Log;
 use super::source::{Place, Source};
+use super::{Fault, bytes};
+
+/// At most so many columns and rows.
+const MOST_COLUMNS: usize = 10_000;
+const MOST_ROWS: usize = 1_000_000;
+
+/// More faulty cells than are listed anyway.
+const MOST_FAULTS: usize = 2000;
 
 /// A table: column names and rows of numbers.
 #[derive(Clone, Debug)]
@@ -57,9 +64,9 @@ pub(super) fn read(
 /// Reads a table: a header row of names, `,` or `;` (then with decimal commas), lines that begin
 /// with `#` skipped. All faulty cells are returned.
 fn read_file(path: &Path, name: &str) -> Result<(Table, Vec<u8>), Faults> {
-    let bytes = std::fs::read(path).map_err(|error| {
+    let bytes = bytes::of_file(path, bytes::MOST).map_err(|message| {
         let place = Place { source: Source::new(name, ""), span: 0..0 };
-        vec![(place, Fault::Unreadable { message: error.to_string() })]
+        vec![(place, Fault::Unreadable { message })]
     })?;
     let Ok(text) = std::str::from_utf8(&bytes) else {
         let place = Place { source: Source::new(name, ""), span: 0..0 };
@@ -106,6 +113,15 @@ pub(super) fn parse(source: &Arc<Source>) -> Result<Table, Faults> {
             return Err(vec![(at_line(header_line), Fault::Table { reason: error.to_string() })]);
         }
     };
+    let too_many = |what, found, most| {
+        (found > most).then(|| vec![(at_line(header_line), Fault::TooMany { what, found, most })])
+    };
+    let lines = text.lines().filter(|line| !line.is_empty()).count();
+    let too_many = too_many("columns of a table", columns.len(), MOST_COLUMNS)
+        .or_else(|| too_many("rows of a table", lines - 1, MOST_ROWS));
+    if let Some(faults) = too_many {
+        return Err(faults);
+    }
     let mut faults = Vec::new();
     for (number, name) in columns.iter().enumerate() {
         let reason = if name.is_empty() {
@@ -120,6 +136,9 @@ pub(super) fn parse(source: &Arc<Source>) -> Result<Table, Faults> {
     let mut rows = Vec::new();
     let mut lines = Vec::new();
     for (number, record) in reader.records().enumerate() {
+        if faults.len() >= MOST_FAULTS {
+            break;
+        }
         let record = match record {
             Ok(record) => record,
             Err(error) => {

@@ -7,7 +7,6 @@ use super::evidence::Evidence;
 use super::latent::{Map, Role};
 use super::likelihood::{Evaluator, fixed_at};
 use super::setup::Setup;
-use crate::distribution::Distribution;
 use crate::model::Effect;
 use crate::number::{COLUMN, CodePath, Column, Kernel};
 use crate::task::Row;
@@ -56,7 +55,7 @@ pub(crate) fn values(
                 // as in the data, where correlated quantities have normal scores
                 let of = |row: &Row| match Map::of(&row.distributions[*place]) {
                     bounded if bounded.is_bounded() && !role.is_bounded() => {
-                        Map::Other(row.distributions[*place].clone())
+                        Map::Other((*row.distributions[*place]).clone())
                     }
                     map => map,
                 };
@@ -133,7 +132,7 @@ impl Kernel for Walk<'_> {
 /// Variances of the outputs in a row from inputs that act linearly: those that belong to the row
 /// alone, and those that are too small to be unknown quantities of their own.
 pub(crate) fn linear_variances(setup: &Setup<'_>, row: &Row) -> Vec<f64> {
-    let mut variables: Vec<f64> = row.distributions.iter().map(Distribution::mean).collect();
+    let mut variables: Vec<f64> = row.distributions.iter().map(|d| d.mean()).collect();
     variables.extend(&row.conditions);
     let (_, gradients) = setup.case.task.model.program.gradients(&variables);
     let of = |&output: &usize| {
@@ -153,7 +152,7 @@ pub(crate) fn linear_variances(setup: &Setup<'_>, row: &Row) -> Vec<f64> {
 
 /// What the sim says in a row at the inputs' estimates, with its derivatives.
 fn nominal(setup: &Setup<'_>, row: &Row) -> (Vec<f64>, Vec<Vec<f64>>) {
-    let mut variables: Vec<f64> = row.distributions.iter().map(Distribution::mean).collect();
+    let mut variables: Vec<f64> = row.distributions.iter().map(|d| d.mean()).collect();
     variables.extend(&row.conditions);
     let (values, gradients) = setup.case.task.model.program.gradients(&variables);
     let outputs = &setup.data.outputs;

@@ -5,6 +5,7 @@ use super::covariance::Covariance;
 use super::data::{Data, Spread};
 use super::latent::{Map, Role};
 use super::likelihood::Likelihood;
+use crate::distribution::Distribution;
 use crate::model::Effect;
 use crate::task::Case;
 
@@ -140,7 +141,8 @@ impl<'c> Setup<'c> {
 
 /// The prior of an input at every point, or once if it is the same at all.
 pub(crate) fn maps(case: &Case, data: &Data, variable: usize) -> Vec<Map> {
-    let of = |row: usize| &case.task.rows[data.ids[row]].distributions[variable];
+    let of =
+        |row: usize| -> &Distribution { &case.task.rows[data.ids[row]].distributions[variable] };
     // normal scores are what declared correlations join
     let correlated =
         case.task.correlations.iter().any(|c| c.first == variable || c.second == variable);

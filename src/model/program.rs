@@ -9,6 +9,9 @@ use crate::number::{Binary, Dual, Number, Shortest, Unary};
 /// How many inputs one evaluation with dual numbers differentiates by.
 const GRADIENT_CHUNK: usize = 8;
 
+/// Variables from which on the way back from the outputs is taken, if these are few.
+const MANY: usize = 512;
+
 /// One operation, or a leaf. Operands are places of earlier nodes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Node {
@@ -64,9 +67,21 @@ impl Program {
     /// The outputs and, for each output, its partial derivatives with respect to the variables
     /// (JCGM 100, 5.1.3), exact to rounding.
     pub fn gradients(&self, variables: &[f64]) -> (Vec<f64>, Vec<Vec<f64>>) {
+        let used = self.used_variables();
+        if used.len() >= MANY && used.len() >= GRADIENT_CHUNK * self.outputs.len() {
+            let (outputs, gradients) = self.gradients_backward(variables);
+            // where something is not finite, what it means is decided by dual numbers
+            if gradients.iter().flatten().all(|slope| slope.is_finite()) {
+                return (outputs, gradients);
+            }
+        }
+        self.gradients_forward(variables, &used)
+    }
+
+    /// With dual numbers, some variables at a time.
+    fn gradients_forward(&self, variables: &[f64], used: &[usize]) -> (Vec<f64>, Vec<Vec<f64>>) {
         let outputs = self.evaluate(variables);
         let mut gradients = vec![vec![0.0; self.variables]; self.outputs.len()];
-        let used = self.used_variables();
         for chunk in used.chunks(GRADIENT_CHUNK) {
             let mut duals: Vec<Dual<GRADIENT_CHUNK>> =
                 variables.iter().map(|&v| Dual::constant(v)).collect();
@@ -82,6 +97,44 @@ impl Program {
             }
         }
         (outputs, gradients)
+    }
+
+    /// From each output back to the variables: one pass over the operations for an output, however
+    /// many variables there are.
+    fn gradients_backward(&self, variables: &[f64]) -> (Vec<f64>, Vec<Vec<f64>>) {
+        let values: Vec<f64> = self.values(variables);
+        let gradients = self.outputs.iter().map(|&output| {
+            let mut gradient = vec![0.0; self.variables];
+            // what the output changes by with each operation's result
+            let mut slopes = vec![0.0; output + 1];
+            let mut needed = vec![false; output + 1];
+            (slopes[output], needed[output]) = (1.0, true);
+            for (place, node) in self.nodes[..=output].iter().enumerate().rev() {
+                if !needed[place] {
+                    continue;
+                }
+                let slope = slopes[place];
+                match *node {
+                    Node::Constant(_) => {}
+                    Node::Variable(v) => gradient[v] += slope,
+                    Node::Unary(operation, x) => {
+                        let [by_x] = Dual::<1>::variable(values[x], 0).unary(operation).gradient;
+                        slopes[x] += slope * by_x;
+                        needed[x] = true;
+                    }
+                    Node::Binary(operation, x, y) => {
+                        let [a, b] = [(x, 0), (y, 1)].map(|(x, i)| Dual::variable(values[x], i));
+                        let [by_x, by_y] = Dual::<2>::binary(a, operation, b).gradient;
+                        slopes[x] += slope * by_x;
+                        slopes[y] += slope * by_y;
+                        (needed[x], needed[y]) = (true, true);
+                    }
+                }
+            }
+            gradient
+        });
+        let gradients = gradients.collect();
+        (self.outputs.iter().map(|&output| values[output]).collect(), gradients)
     }
 
     /// The variables that some output depends on, in order.

@@ -139,6 +139,39 @@ mod tests {
         assert_eq!(program.first_undefined(&[1.0]).as_deref(), Some("sqrt of -1"));
     }
 
+    /// A model of many inputs and one output is differentiated from the output back, with the same
+    /// derivatives as forwards; where one is infinite or undefined, dual numbers decide. 1e-14 is
+    /// the rounding of three factors.
+    #[test]
+    fn gradients_of_many_inputs_are_those_of_few() {
+        let derivatives = |n: usize, at: &dyn Fn(usize) -> f64| {
+            let recorder = Recorder::default();
+            let x: Vec<_> = (0..n).map(|i| recorder.variable(i)).collect();
+            let term = |i: usize| match i % 4 {
+                0 => x[i] * x[(i + 1) % n].sin(),
+                1 => x[i].pow(Traced::constant(1.5)) / x[(i + 2) % n],
+                2 => x[i].sqrt() * Traced::constant(0.0) + x[i].max(x[(i + 3) % n]),
+                _ => x[i].atan2(x[(i + 4) % n]) + x[i] * x[i],
+            };
+            let sum = (0..n).fold(Traced::constant(0.0), |sum, i| sum + term(i));
+            let program = recorder.program(n, &[sum]);
+            let at: Vec<f64> = (0..n).map(at).collect();
+            program.gradients(&at).1[0].clone()
+        };
+        let at = |i: usize| 0.5 + (i % 20) as f64;
+        // 20 inputs and 600: those in the middle have the same neighbours
+        let (few, many) = (derivatives(20, &at), derivatives(600, &at));
+        for (i, slope) in few.iter().enumerate() {
+            assert!((slope - many[i + 300]).abs() <= 1e-14 * slope.abs(), "{i}");
+        }
+        let at = |i: usize| if i % 20 == 2 { 0.0 } else { 0.5 + (i % 20) as f64 };
+        let (few, many) = (derivatives(20, &at), derivatives(600, &at));
+        assert!(few[2].is_nan());
+        for (i, slope) in few.iter().enumerate() {
+            assert_eq!(slope.is_finite(), many[i + 300].is_finite(), "{i}");
+        }
+    }
+
     #[test]
     fn gradients_of_more_inputs_than_a_chunk() {
         let recorder = Recorder::default();

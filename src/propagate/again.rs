@@ -1,6 +1,6 @@
 //! A finished run's trials generated again: for what needs more of them than an evaluation keeps.
 
-use super::evaluation::{in_pool, joints};
+use super::evaluation::{in_pool, joint};
 use super::monte_carlo::{self, Trials};
 use super::{Control, Evaluation, EvaluationError, gum};
 use crate::task::Task;
@@ -22,11 +22,11 @@ fn made(evaluation: &Evaluation, row: usize) -> u64 {
 }
 
 fn trials(task: &Task, row: usize) -> Result<Option<Trials>, EvaluationError> {
-    let joints = joints(task)?;
-    Ok(task.rows.get(row).zip(joints.get(row)).map(|(row, joint)| {
-        let estimates = gum::evaluate(task, row).estimates;
-        Trials::new(task, row, &estimates, joint)
-    }))
+    let Some(row) = task.rows.get(row) else {
+        return Ok(None);
+    };
+    let estimates = gum::evaluate(task, row).estimates;
+    Ok(Some(Trials::new(task, row, &estimates, &joint(task, row)?)))
 }
 
 /// For each output of a row the quantiles of the run's trials at the probabilities Phi(score);
@@ -42,7 +42,7 @@ pub fn quantiles(
     control: &Control<'_>,
 ) -> Result<Option<Vec<Vec<f64>>>, EvaluationError> {
     let count = made(evaluation, row);
-    in_pool(control, || {
+    in_pool(task, control, || {
         let trials = trials(task, row)?.filter(|_| count > 0);
         Ok(trials.and_then(|trials| monte_carlo::quantiles(&trials, count, scores, control)))
     })?
@@ -62,7 +62,7 @@ pub fn joint_ranks(
 ) -> Result<Option<Vec<Vec<u32>>>, EvaluationError> {
     let count = made(evaluation, row);
     let rows = (MOST_RANKS / task.model.outputs.len().max(1)).min(MOST_ROWS);
-    in_pool(control, || {
+    in_pool(task, control, || {
         let trials = trials(task, row)?.filter(|_| count > 0);
         Ok(trials.and_then(|trials| monte_carlo::joint_ranks(&trials, count, rows, control)))
     })?
@@ -81,7 +81,7 @@ pub fn for_each_block<E: Send + From<EvaluationError>>(
     take: impl FnMut(&[Vec<f64>]) -> Result<(), E> + Send,
 ) -> Result<bool, E> {
     let count = made(evaluation, row);
-    in_pool(control, || match trials(task, row)? {
+    in_pool(task, control, || match trials(task, row)? {
         Some(trials) if count > 0 => monte_carlo::repeat(&trials, count, control, take),
         _ => Ok(true),
     })?

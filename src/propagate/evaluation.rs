@@ -2,17 +2,17 @@
 
 use std::collections::BTreeSet;
 use std::fmt;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use rayon::prelude::*;
 
 use super::Control;
-use super::gum::{self, Gum, GumRow};
-use super::monte_carlo::{self, MonteCarlo, Request, Rule, Undefined};
+use super::gum::{self, Gum};
+use super::monte_carlo::{self, MonteCarlo, Request, Search, Undefined};
 use super::validate::{Validation, validate};
-use crate::distribution::{Correlation, CorrelationError, Joint};
+use crate::distribution::{BLOCK, Correlation, CorrelationError, Joint};
 use crate::model::{Program, Tolerance};
-use crate::number::Shortest;
+use crate::number::{Column, Shortest};
 use crate::task::{Row, Settings, Task, Trials};
 
 /// The evaluation of a whole task.
@@ -50,7 +50,7 @@ pub struct RowEvaluation {
     /// The variables that are outputs of saved results, drawn as they varied together there.
     pub together: Vec<Together>,
     /// Coefficients that the copula of the trials does not give as they are, and what it gives.
-    pub copula_changes: Vec<(Correlation, f64)>,
+    pub copula_changes: Arc<Vec<(Correlation, f64)>>,
 }
 
 /// Variables that are outputs of one saved result and drawn from its trials.
@@ -145,13 +145,10 @@ impl EvaluationError {
     }
 }
 
-/// The joint draw of every row.
-pub(super) fn joints(task: &Task) -> Result<Vec<Arc<Joint>>, EvaluationError> {
-    let rows = task.rows.iter().map(|row| row.distributions.as_slice());
-    Joint::of_rows(rows, &task.correlations)
-        .into_iter()
-        .map(|joint| joint.map_err(|error| EvaluationError::correlation(task, error)))
-        .collect()
+/// The joint draw of a row.
+pub(super) fn joint(task: &Task, row: &Row) -> Result<Arc<Joint>, EvaluationError> {
+    let joint = task.fits.joint(&row.distributions, &task.correlations);
+    joint.map_err(|error| EvaluationError::correlation(task, error))
 }
 
 /// Evaluates every row of a task by the law of propagation and by the Monte Carlo method, on all
@@ -178,16 +175,29 @@ pub(super) fn joints(task: &Task) -> Result<Vec<Arc<Joint>>, EvaluationError> {
 /// # Errors
 /// Contradictory correlations; more undefined trials than the settings allow.
 pub fn evaluate(task: &Task, control: &Control<'_>) -> Result<Evaluation, EvaluationError> {
-    in_pool(control, || evaluate_rows(task, control))?
+    in_pool(task, control, || evaluate_rows(task, control))?
 }
 
-/// Runs `work` on the number of threads that the control asks for.
+/// Memory for the columns of all threads. Only models of tens of thousands of inputs or hundreds of
+/// outputs need so much on a machine of many cores.
+const MOST_COLUMNS: usize = 256 << 20;
+
+/// Runs `work` on the number of threads that the control asks for, or as many as have room for the
+/// columns of the task.
 pub(super) fn in_pool<R: Send>(
+    task: &Task,
     control: &Control<'_>,
     work: impl FnOnce() -> R + Send,
 ) -> Result<R, EvaluationError> {
+    let program = &task.model.program;
+    let columns = size_of::<Column>() * (program.variables() + program.operations())
+        + size_of::<[f64; BLOCK]>() * program.outputs();
+    let asked = match control.threads {
+        0 => std::thread::available_parallelism().map_or(1, usize::from),
+        threads => threads,
+    };
     let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(control.threads)
+        .num_threads(asked.min(MOST_COLUMNS / columns.max(1)).max(1))
         .build()
         .map_err(|error| EvaluationError::Threads(error.to_string()))?;
     Ok(pool.install(work))
@@ -198,60 +208,78 @@ const ROWS_AT_A_TIME: usize = 16;
 
 fn evaluate_rows(task: &Task, control: &Control<'_>) -> Result<Evaluation, EvaluationError> {
     let reaches = reach(&task.model.program, task.variables.len());
-    let joints = joints(task)?;
+    let gum = gum::Rows::of(task);
     // rows are evaluated at the same time and share the memory; how is a matter of the task alone,
     // so that no figure depends on the number of threads
     let memory = control.memory / task.rows.len().clamp(1, ROWS_AT_A_TIME);
     let control = &Control { memory, ..*control };
-    let rows: Vec<Result<(RowEvaluation, bool), EvaluationError>> = task
+    let notes = Mutex::new(Notes::default());
+    let rows: Vec<Result<RowEvaluation, EvaluationError>> = task
         .rows
         .par_iter()
-        .zip(&joints)
         .enumerate()
-        .map(|(number, (row, joint))| evaluate_row(task, (number, row, joint), &reaches, control))
+        .map(|(number, row)| evaluate_row(&gum, task, (number, row), &reaches, control, &notes))
         .collect();
-    let mut stopped = false;
-    let mut evaluated = Vec::with_capacity(rows.len());
-    for row in rows {
-        let (row, row_stopped) = row?;
-        stopped |= row_stopped;
-        evaluated.push(row);
-    }
+    // the first row that failed, whichever was ready first
+    let rows = rows.into_iter().collect::<Result<Vec<_>, _>>()?;
+    let notes = notes.into_inner().unwrap_or_else(PoisonError::into_inner);
     Ok(Evaluation {
         coverage_probability: task.settings.coverage.probability(),
         settings: task.settings,
-        rows: evaluated,
-        rounded_correlations: joints.iter().any(|joint| joint.rounded),
-        copula: drawn_by_copula(&joints),
-        copula_adjusted: joints.iter().map(|joint| joint.adjusted).fold(0.0, f64::max),
-        stopped,
+        rows,
+        rounded_correlations: notes.rounded,
+        copula: notes.copula.into_iter().collect(),
+        copula_adjusted: notes.adjusted,
+        stopped: notes.stopped,
     })
 }
 
+/// What the rows say of the whole.
+#[derive(Debug, Default)]
+struct Notes {
+    rounded: bool,
+    copula: BTreeSet<usize>,
+    adjusted: f64,
+    stopped: bool,
+}
+
+impl Notes {
+    fn add(&mut self, joint: &Joint, stopped: bool) {
+        self.rounded |= joint.rounded;
+        self.copula.extend(&joint.copula);
+        self.adjusted = self.adjusted.max(joint.adjusted);
+        self.stopped |= stopped;
+    }
+}
+
 fn evaluate_row(
+    gum: &gum::Rows<'_>,
     task: &Task,
-    (number, row, joint): (usize, &Row, &Joint),
+    (number, row): (usize, &Row),
     reaches: &[Vec<bool>],
     control: &Control<'_>,
-) -> Result<(RowEvaluation, bool), EvaluationError> {
-    let GumRow { estimates, outputs: gums, correlations } = gum::evaluate(task, row);
+    notes: &Mutex<Notes>,
+) -> Result<RowEvaluation, EvaluationError> {
+    let joint = joint(task, row)?;
+    let mut linear = gum.evaluate(row);
+    let gums = std::mem::take(&mut linear.outputs);
     let drawn_dof: Vec<f64> = reaches.iter().map(|reach| fewest_dof(reach, row)).collect();
     let mut result = RowEvaluation {
         conditions: row.conditions.clone(),
         outputs: Vec::with_capacity(gums.len()),
-        correlations,
+        correlations: Vec::new(),
         undefined: None,
         together: joint
             .together()
             .iter()
             .map(|set| Together { variables: set.members.clone(), trials: set.trials() })
             .collect(),
-        copula_changes: joint.changes.clone(),
+        copula_changes: Arc::clone(&joint.changes),
     };
     let mut figures: Vec<Option<MonteCarlo>> = vec![None; gums.len()];
     let mut stopped = false;
     if task.settings.trials != Trials::Fixed(0) {
-        let trials = monte_carlo::Trials::new(task, row, &estimates, joint);
+        let trials = monte_carlo::Trials::new(task, row, &linear.estimates, &joint);
         let finished = run(task, &trials, &gums, &drawn_dof, control);
         stopped = finished.stopped;
         if let Some(undefined) = finished.undefined {
@@ -265,6 +293,10 @@ fn evaluate_row(
             result.correlations = finished.correlations;
         }
     }
+    if figures.iter().all(Option::is_none) {
+        result.correlations = linear.correlations();
+    }
+    notes.lock().unwrap_or_else(PoisonError::into_inner).add(&joint, stopped);
     let evaluated = gums.into_iter().zip(figures).zip(drawn_dof).zip(&task.model.outputs);
     for (((gum, monte_carlo), drawn_dof), output) in evaluated {
         let conformity = output.tolerance.zip(monte_carlo.as_ref()).map(|(tolerance, figures)| {
@@ -288,7 +320,7 @@ fn evaluate_row(
             drawn_dof,
         });
     }
-    Ok((result, stopped))
+    Ok(result)
 }
 
 /// The Monte Carlo run of a row, of a fixed or an adaptive number of trials.
@@ -307,7 +339,8 @@ fn run(
     }
     let gum: Vec<f64> =
         gums.iter().map(|gum| gum.as_ref().map_or(0.0, |g| g.standard_uncertainty)).collect();
-    let rule = Rule {
+    let search = Search {
+        rule: settings.rule,
         probability,
         digits: settings.digits,
         strictness: if settings.for_validation { 5.0 } else { 1.0 },
@@ -315,7 +348,7 @@ fn run(
         drawn_dof,
         gum: &gum,
     };
-    let (count, ends) = monte_carlo::find_trials(trials, rule, control);
+    let (count, ends) = monte_carlo::find_trials(trials, search, control);
     let request = Request { trials: count, probability, drawn_dof };
     // a search that was stopped still hands back the figures of the trials that it made
     let stopped = control.is_stopped();
@@ -327,12 +360,6 @@ fn run(
         figures.adaptive = Some(end);
     }
     finished
-}
-
-/// The variables that a copula draws in some row, in order.
-fn drawn_by_copula(joints: &[Arc<Joint>]) -> Vec<usize> {
-    let all: BTreeSet<usize> = joints.iter().flat_map(|joint| joint.copula.clone()).collect();
-    all.into_iter().collect()
 }
 
 /// For each output, the variables that it depends on.
@@ -361,7 +388,7 @@ fn explain(task: &Task, number: usize, row: &Row, undefined: Undefined) -> Evalu
     let mut drawn = undefined.first.iter().copied();
     let mut inputs = Vec::new();
     let mut values = Vec::with_capacity(task.model.program.variables());
-    for (variable, distribution) in task.variables.iter().zip(&row.distributions) {
+    for (variable, distribution) in task.variables.iter().zip(row.distributions.iter()) {
         let value = distribution.constant().or_else(|| {
             let value = drawn.next()?;
             inputs.push((variable.name.clone(), value));
@@ -379,12 +406,13 @@ fn explain(task: &Task, number: usize, row: &Row, undefined: Undefined) -> Evalu
 /// # Errors
 /// Correlations that cannot be drawn.
 pub fn trial_hash(task: &Task, trials: u64, control: &Control<'_>) -> Result<u64, EvaluationError> {
-    in_pool(control, || {
-        let joints = joints(task)?;
-        Ok(task.rows.iter().zip(&joints).fold(0u64, |hash, (row, joint)| {
+    in_pool(task, control, || {
+        let mut hash = 0u64;
+        for row in &task.rows {
             let estimates = gum::evaluate(task, row).estimates;
-            let made = monte_carlo::Trials::new(task, row, &estimates, joint);
-            hash.rotate_left(1) ^ monte_carlo::hash_trials(&made, trials, control.path)
-        }))
+            let made = monte_carlo::Trials::new(task, row, &estimates, &joint(task, row)?);
+            hash = hash.rotate_left(1) ^ monte_carlo::hash_trials(&made, trials, control.path);
+        }
+        Ok(hash)
     })?
 }

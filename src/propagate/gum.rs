@@ -1,9 +1,13 @@
 //! The law of propagation of uncertainty (JCGM 100, clause 5) and the budget that follows from it.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
+use std::sync::{Arc, Mutex, PoisonError};
 
+use rayon::prelude::*;
+
+pub use super::budget::{BudgetLine, CorrelationLine};
 use crate::distribution::{Correlation, Distribution, RootName, paired, special};
-use crate::task::{Coverage, Row, Settings, Task};
+use crate::task::{Coverage, Row, Task};
 
 /// The degrees of freedom of a combined standard uncertainty.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -14,42 +18,6 @@ pub enum Dof {
     Infinite,
     /// The formula does not hold: correlated contributions have finite degrees of freedom.
     Undefined,
-}
-
-/// One input's line in the budget.
-#[derive(Clone, Debug, PartialEq)]
-pub struct BudgetLine {
-    /// Place of the variable in the task.
-    pub variable: usize,
-    /// Estimate x_i in the variable's unit.
-    pub estimate: f64,
-    /// Standard uncertainty u(x_i) in the variable's unit.
-    pub standard_uncertainty: f64,
-    /// Name of the distribution.
-    pub distribution: &'static str,
-    /// What the stated width was divided by to give u(x_i), if the distribution has one width.
-    pub divisor: Option<f64>,
-    /// Degrees of freedom of u(x_i); infinite unless it was estimated.
-    pub dof: f64,
-    /// Whether a normal distribution is drawn as a t for its few degrees of freedom.
-    pub drawn_as_t: bool,
-    /// Sensitivity coefficient c_i, output unit per input unit.
-    pub sensitivity: f64,
-    /// Contribution |c_i| u(x_i) in the output's unit.
-    pub contribution: f64,
-    /// Share of the combined variance.
-    pub share: f64,
-}
-
-/// The line of a correlation coefficient in the budget.
-#[derive(Clone, Debug, PartialEq)]
-pub struct CorrelationLine {
-    /// Places of the two variables.
-    pub variables: [usize; 2],
-    /// The declared coefficient.
-    pub coefficient: f64,
-    /// Share 2 c_i c_j u_i u_j r / u^2 of the combined variance; it may be negative.
-    pub share: f64,
 }
 
 /// The evaluation of one output by the law of propagation.
@@ -63,11 +31,18 @@ pub struct Gum {
     pub dof: Dof,
     /// Coverage factor k; `None` where the degrees of freedom are undefined.
     pub coverage_factor: Option<f64>,
-    /// One line for each variable.
-    pub budget: Vec<BudgetLine>,
-    /// One line for each declared coefficient that is not zero, then one for each pair of paired
-    /// readings.
-    pub correlations: Vec<CorrelationLine>,
+    /// Sensitivity coefficients of all variables.
+    pub(super) sensitivities: Box<[f64]>,
+    /// The variables' distributions.
+    pub(super) inputs: Arc<[Arc<Distribution>]>,
+    /// The variables that have a line in the budget.
+    pub(super) shown: Arc<[usize]>,
+    /// The coefficients that have one.
+    pub(super) links: Arc<[Correlation]>,
+    /// The largest contribution.
+    pub(super) largest: f64,
+    /// The combined variance in squares of that.
+    pub(super) variance: f64,
 }
 
 impl Gum {
@@ -84,68 +59,112 @@ impl Gum {
 }
 
 /// All outputs of one row by the law of propagation.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub(crate) struct GumRow {
     /// Estimates of the outputs, on their own branch for phases.
     pub(crate) estimates: Vec<f64>,
-    /// The evaluations; `None` where an estimate or a sensitivity coefficient is not finite.
+    /// The evaluations; `None` where an estimate, a sensitivity coefficient or the standard
+    /// uncertainty is not finite.
     pub(crate) outputs: Vec<Option<Gum>>,
-    /// Correlation coefficients of the outputs i < j.
-    pub(crate) correlations: Vec<f64>,
+    /// For each output its sensitivity coefficients.
+    gradients: Vec<Vec<f64>>,
+    uncertainties: Vec<f64>,
+    links: Arc<[Correlation]>,
+}
+
+/// The evaluation of the rows of a task.
+#[derive(Debug)]
+pub(crate) struct Rows<'a> {
+    task: &'a Task,
+    shown: Arc<[usize]>,
+    /// What links the variables of the row before, as it mostly is the same.
+    last: Mutex<Option<(Arc<[Arc<Distribution>]>, Arc<Linked>)>>,
 }
 
 /// Evaluates one row of a task.
 pub(crate) fn evaluate(task: &Task, row: &Row) -> GumRow {
-    let mut values: Vec<f64> = row.distributions.iter().map(Distribution::mean).collect();
-    values.extend(&row.conditions);
-    let (estimates, gradients) = task.model.program.gradients(&values);
-    let uncertainties: Vec<f64> =
-        row.distributions.iter().map(Distribution::standard_uncertainty).collect();
-    let linked = Linked::of(task, row);
-    let correlations = &linked.correlations;
+    Rows::of(task).evaluate(row)
+}
 
-    let outputs = estimates
-        .iter()
-        .zip(&gradients)
-        .map(|(&estimate, gradient)| {
-            let slopes = gradient.get(..uncertainties.len())?;
-            if !estimate.is_finite() || !slopes.iter().all(|c| c.is_finite()) {
-                return None;
-            }
-            let mut gum = output(&task.settings, row, estimate, slopes, &linked);
-            gum.budget.retain(|line| task.variables.get(line.variable).is_some_and(|v| v.shown));
-            Some(gum)
-        })
-        .collect();
-
-    let covariance = |a: &[f64], b: &[f64]| -> f64 {
-        let own: f64 =
-            (0..uncertainties.len()).map(|i| a[i] * b[i] * uncertainties[i].powi(2)).sum();
-        let joint: f64 = correlations
-            .iter()
-            .map(|c| {
-                let (i, j) = (c.first, c.second);
-                (a[i] * b[j] + a[j] * b[i]) * uncertainties[i] * uncertainties[j] * c.coefficient
-            })
-            .sum();
-        own + joint
-    };
-    let mut output_correlations = Vec::new();
-    for (i, a) in gradients.iter().enumerate() {
-        for b in &gradients[i + 1..] {
-            let scale = (covariance(a, a) * covariance(b, b)).sqrt();
-            output_correlations.push((covariance(a, b) / scale).clamp(-1.0, 1.0));
-        }
+impl<'a> Rows<'a> {
+    pub(crate) fn of(task: &'a Task) -> Self {
+        let shown = task.variables.iter().enumerate().filter(|(_, v)| v.shown).map(|(v, _)| v);
+        Self { task, shown: shown.collect(), last: Mutex::new(None) }
     }
-    GumRow { estimates, outputs, correlations: output_correlations }
+
+    /// Evaluates one row of the task.
+    pub(crate) fn evaluate(&self, row: &Row) -> GumRow {
+        let task = self.task;
+        let mut values: Vec<f64> = row.distributions.iter().map(|d| d.mean()).collect();
+        values.extend(&row.conditions);
+        let (estimates, gradients) = task.model.program.gradients(&values);
+        let uncertainties: Vec<f64> =
+            row.distributions.iter().map(|d| d.standard_uncertainty()).collect();
+        let linked = self.linked(row);
+        let outputs = estimates
+            .iter()
+            .zip(&gradients)
+            .map(|(&estimate, gradient)| {
+                let slopes = gradient.get(..uncertainties.len())?;
+                if !estimate.is_finite() || !slopes.iter().all(|c| c.is_finite()) {
+                    return None;
+                }
+                self.output(row, estimate, slopes, &linked)
+            })
+            .collect();
+        let links = Arc::clone(&linked.correlations);
+        GumRow { estimates, outputs, gradients, uncertainties, links }
+    }
+
+    fn linked(&self, row: &Row) -> Arc<Linked> {
+        let mut last = self.last.lock().unwrap_or_else(PoisonError::into_inner);
+        let before = last.as_ref();
+        if let Some((_, linked)) = before.filter(|(of, _)| Arc::ptr_eq(of, &row.distributions)) {
+            return Arc::clone(linked);
+        }
+        let mut linked = Arc::new(Linked::of(self.task, row));
+        // equal ones are kept once
+        if let Some((_, known)) = before.filter(|(_, known)| *known == linked) {
+            linked = Arc::clone(known);
+        }
+        *last = Some((Arc::clone(&row.distributions), Arc::clone(&linked)));
+        linked
+    }
+}
+
+impl GumRow {
+    /// Correlation coefficients of the outputs i < j.
+    pub(crate) fn correlations(&self) -> Vec<f64> {
+        let u = &self.uncertainties;
+        let covariance = |a: &[f64], b: &[f64]| -> f64 {
+            let own: f64 = (0..u.len()).map(|i| a[i] * b[i] * u[i].powi(2)).sum();
+            let joint = self.links.iter().map(|c| {
+                let (i, j) = (c.first, c.second);
+                (a[i] * b[j] + a[j] * b[i]) * u[i] * u[j] * c.coefficient
+            });
+            own + joint.sum::<f64>()
+        };
+        let variances: Vec<f64> = self.gradients.iter().map(|a| covariance(a, a)).collect();
+        let of_first = |i: usize| {
+            let (a, own) = (&self.gradients[i], variances[i]);
+            let others = self.gradients.iter().zip(&variances).skip(i + 1);
+            others
+                .map(|(b, other)| (covariance(a, b) / (own * other).sqrt()).clamp(-1.0, 1.0))
+                .collect::<Vec<f64>>()
+        };
+        (0..self.gradients.len()).into_par_iter().flat_map_iter(of_first).collect()
+    }
 }
 
 /// The coefficients that say something: not zero, between quantities that vary. Between saved
 /// results it is that of the law of propagation, so that what is computed from them is as if
 /// computed at once.
-fn effective(correlations: &[Correlation], distributions: &[Distribution]) -> Vec<Correlation> {
+fn effective(
+    correlations: &[Correlation],
+    distributions: &[Arc<Distribution>],
+) -> Vec<Correlation> {
     let varies = |q: usize| distributions.get(q).is_some_and(|d| d.standard_uncertainty() > 0.0);
-    let saved = |q: usize| distributions.get(q).and_then(Distribution::saved);
+    let saved = |q: usize| distributions.get(q).and_then(|d| d.saved());
     correlations
         .iter()
         .map(|c| {
@@ -158,11 +177,14 @@ fn effective(correlations: &[Correlation], distributions: &[Distribution]) -> Ve
 }
 
 /// What links the variables of a row.
+#[derive(Debug, PartialEq)]
 struct Linked {
     /// The declared coefficients, then those of paired readings.
-    correlations: Vec<Correlation>,
+    correlations: Arc<[Correlation]>,
     /// The sets of paired readings.
     ensembles: Vec<Vec<usize>>,
+    /// For each variable with paired readings the number of its set.
+    ensemble_of: HashMap<usize, usize>,
 }
 
 impl Linked {
@@ -170,75 +192,63 @@ impl Linked {
         let ensembles = paired::ensembles(&row.distributions);
         let mut correlations = effective(&task.correlations, &row.distributions);
         correlations.extend(ensembles.iter().flat_map(paired::Ensemble::correlations));
-        let ensembles = ensembles.into_iter().map(|ensemble| ensemble.members).collect();
-        Self { correlations, ensembles }
+        let ensembles: Vec<Vec<usize>> =
+            ensembles.into_iter().map(|ensemble| ensemble.members).collect();
+        let numbered = ensembles.iter().enumerate();
+        let ensemble_of =
+            numbered.flat_map(|(set, members)| members.iter().map(move |&m| (m, set)));
+        let ensemble_of = ensemble_of.collect();
+        Self { correlations: correlations.into(), ensembles, ensemble_of }
     }
 
     /// Whether the two variables have paired readings of the same ensemble.
     fn are_paired(&self, c: &Correlation) -> bool {
-        self.ensembles.iter().any(|set| set.contains(&c.first) && set.contains(&c.second))
+        let set = |variable: usize| self.ensemble_of.get(&variable);
+        set(c.first).is_some_and(|of_first| set(c.second) == Some(of_first))
     }
 }
 
-fn output(settings: &Settings, row: &Row, estimate: f64, slopes: &[f64], linked: &Linked) -> Gum {
-    let correlations = &linked.correlations;
-    let mut budget: Vec<BudgetLine> = row
-        .distributions
-        .iter()
-        .zip(slopes)
-        .enumerate()
-        .map(|(variable, (distribution, &sensitivity))| BudgetLine {
-            variable,
-            estimate: distribution.mean(),
-            standard_uncertainty: distribution.standard_uncertainty(),
-            distribution: distribution.name(),
-            divisor: distribution.divisor(),
-            dof: distribution.dof(),
-            drawn_as_t: matches!(distribution, Distribution::Normal(_))
-                && distribution.drawn_dof().is_finite(),
-            sensitivity,
-            contribution: (sensitivity * distribution.standard_uncertainty()).abs(),
-            share: 0.0,
-        })
-        .collect();
-    // contributions relative to the largest, so that no square over- or underflows
-    let largest = budget.iter().map(|line| line.contribution).fold(0.0, f64::max);
-    let signed = |i: usize| budget[i].contribution.copysign(slopes[i]) / largest;
-    let (mut variance, mut joint) = (0.0, Vec::new());
-    if largest > 0.0 {
-        variance = (0..budget.len()).map(|i| signed(i).powi(2)).sum();
-        for c in correlations {
-            let term = 2.0 * signed(c.first) * signed(c.second) * c.coefficient;
-            variance += term;
-            joint.push(term);
+impl Rows<'_> {
+    /// The evaluation of one output from its estimate and its sensitivity coefficients; `None` where
+    /// the standard uncertainty is not finite.
+    fn output(&self, row: &Row, estimate: f64, slopes: &[f64], linked: &Linked) -> Option<Gum> {
+        let settings = &self.task.settings;
+        let lines: Vec<BudgetLine> = row
+            .distributions
+            .iter()
+            .zip(slopes)
+            .enumerate()
+            .map(|(variable, (distribution, &slope))| {
+                BudgetLine::new(variable, distribution, slope)
+            })
+            .collect();
+        // contributions relative to the largest, so that no square over- or underflows
+        let largest = lines.iter().map(|line| line.contribution).fold(0.0, f64::max);
+        if !largest.is_finite() {
+            return None;
         }
-    }
-    // full negative correlation may leave a rounding error below zero
-    let variance = f64::max(variance, 0.0);
-    let standard_uncertainty = largest * variance.sqrt();
-    let dof = effective_dof(&budget, &row.distributions, linked, standard_uncertainty);
-    let share = |term: f64| if variance > 0.0 { term / variance } else { 0.0 };
-    let correlation_lines = correlations
-        .iter()
-        .enumerate()
-        .map(|(place, c)| CorrelationLine {
-            variables: [c.first, c.second],
-            coefficient: c.coefficient,
-            share: share(joint.get(place).copied().unwrap_or(0.0)),
-        })
-        .collect();
-    if largest > 0.0 {
-        for line in &mut budget {
-            line.share = share((line.contribution / largest).powi(2));
+        let signed = |i: usize| lines[i].relative(largest);
+        let mut variance: f64 = (0..lines.len()).map(|i| signed(i).powi(2)).sum();
+        for c in linked.correlations.iter() {
+            variance += 2.0 * signed(c.first) * signed(c.second) * c.coefficient;
         }
-    }
-    Gum {
-        estimate,
-        standard_uncertainty,
-        dof,
-        coverage_factor: coverage_factor(settings.coverage, dof, settings.real_dof),
-        budget,
-        correlations: correlation_lines,
+        // full negative correlation may leave a rounding error below zero
+        let variance = f64::max(variance, 0.0);
+        let standard_uncertainty = largest * variance.sqrt();
+        let dof = effective_dof(&lines, &row.distributions, linked, standard_uncertainty);
+        let gum = Gum {
+            estimate,
+            standard_uncertainty,
+            dof,
+            coverage_factor: coverage_factor(settings.coverage, dof, settings.real_dof),
+            sensitivities: slopes.into(),
+            inputs: Arc::clone(&row.distributions),
+            shown: Arc::clone(&self.shown),
+            links: Arc::clone(&linked.correlations),
+            largest,
+            variance,
+        };
+        standard_uncertainty.is_finite().then_some(gum)
     }
 }
 
@@ -248,12 +258,12 @@ fn output(settings: &Settings, row: &Row, estimate: f64, slopes: &[f64], linked:
 /// is the same as by their own degrees of freedom.
 fn effective_dof(
     budget: &[BudgetLine],
-    distributions: &[Distribution],
+    distributions: &[Arc<Distribution>],
     linked: &Linked,
     combined: f64,
 ) -> Dof {
     let contributes = |q: usize| budget.get(q).is_some_and(|line| line.contribution > 0.0);
-    let saved = |q: usize| distributions.get(q).and_then(Distribution::saved);
+    let saved = |q: usize| distributions.get(q).and_then(|d| d.saved());
     let estimated = |q: usize| {
         let own = budget.get(q).is_some_and(|line| !line.dof.is_infinite());
         let by_root = || saved(q).is_some_and(|saved| saved.origin().has_finite_dof());
@@ -274,8 +284,7 @@ fn effective_dof(
         return Dof::Undefined;
     }
     let by_roots = |q: usize| saved(q).filter(|saved| saved.origin().has_independent_roots());
-    let alone =
-        |q: usize| by_roots(q).is_none() && !linked.ensembles.iter().any(|set| set.contains(&q));
+    let alone = |q: usize| by_roots(q).is_none() && !linked.ensemble_of.contains_key(&q);
     let single: f64 = budget
         .iter()
         .enumerate()
@@ -285,9 +294,10 @@ fn effective_dof(
     let joint: f64 = linked
         .ensembles
         .iter()
-        .map(|set| {
+        .enumerate()
+        .map(|(number, set)| {
             let dof = set.first().and_then(|&q| budget.get(q)).map_or(f64::INFINITY, |l| l.dof);
-            (joint_variance(set, budget, linked, combined)).powi(2) / dof
+            joint_variance(number, set, budget, linked, combined).powi(2) / dof
         })
         .sum();
     let mut roots: BTreeMap<&RootName, (f64, f64)> = BTreeMap::new();
@@ -305,11 +315,18 @@ fn effective_dof(
 }
 
 /// The variance that a set of paired readings contributes, as a share of the combined one.
-fn joint_variance(set: &[usize], budget: &[BudgetLine], linked: &Linked, combined: f64) -> f64 {
+fn joint_variance(
+    number: usize,
+    set: &[usize],
+    budget: &[BudgetLine],
+    linked: &Linked,
+    combined: f64,
+) -> f64 {
     let signed =
         |q: usize| budget.get(q).map_or(0.0, |l| l.contribution.copysign(l.sensitivity) / combined);
     let own: f64 = set.iter().map(|&q| signed(q).powi(2)).sum();
-    let inside = linked.correlations.iter().filter(|c| set.contains(&c.first));
+    let is_inside = |c: &&Correlation| linked.ensemble_of.get(&c.first) == Some(&number);
+    let inside = linked.correlations.iter().filter(is_inside);
     let mixed: f64 = inside.map(|c| 2.0 * signed(c.first) * signed(c.second) * c.coefficient).sum();
     (own + mixed).max(0.0)
 }

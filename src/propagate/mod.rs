@@ -4,6 +4,7 @@
 //! JCGM 101, clause 8).
 
 mod again;
+mod budget;
 mod control;
 mod evaluation;
 pub mod gum;

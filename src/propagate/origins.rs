@@ -44,7 +44,7 @@ pub fn origins(task: &Task, row: &Row, outputs: &[Option<&Gum>], model: &str) ->
             roots.len() - 1
         })
     };
-    for (variable, distribution) in task.variables.iter().zip(&row.distributions) {
+    for (variable, distribution) in task.variables.iter().zip(row.distributions.iter()) {
         if distribution.constant().is_some() {
             parts.push(Vec::new());
         } else if let Some(saved) = distribution.saved() {
@@ -73,7 +73,7 @@ pub fn origins(task: &Task, row: &Row, outputs: &[Option<&Gum>], model: &str) ->
             }
         }
     }
-    for c in outputs.iter().flatten().next().map_or(&[][..], |gum| &gum.correlations) {
+    for c in outputs.iter().flatten().next().into_iter().flat_map(|gum| gum.correlations()) {
         let [first, second] = c.variables;
         let saved = |q: usize| row.distributions.get(q).and_then(|d| d.saved());
         let told = |(a, b): (&SavedResult, &SavedResult)| a.linear_coefficient(b).is_some();
@@ -112,7 +112,7 @@ pub fn origins(task: &Task, row: &Row, outputs: &[Option<&Gum>], model: &str) ->
 
 fn sensitivities(gum: &Gum, parts: &[Vec<(usize, f64)>], roots: &[Root]) -> Vec<f64> {
     let mut found = vec![0.0; roots.len()];
-    for line in &gum.budget {
+    for line in gum.budget() {
         for &(root, weight) in parts.get(line.variable).map_or(&[][..], Vec::as_slice) {
             let own = parts[line.variable].len() == 1 && weight == 1.0;
             let u = roots[root].standard_uncertainty;

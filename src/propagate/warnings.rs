@@ -1,5 +1,7 @@
 //! What a user should know about an evaluation that is given all the same.
 
+use std::collections::HashMap;
+
 use super::evaluation::{Evaluation, OutputEvaluation, RowEvaluation};
 use super::gum::{BudgetLine, Dof, Gum};
 use super::monte_carlo::{Adaptive, MonteCarlo};
@@ -74,7 +76,7 @@ fn copula(task: &Task, evaluation: &Evaluation, found: &mut Vec<Warning>) {
     found.push(Warning::new("gaussian-copula", "", text));
     if evaluation.copula_adjusted > 0.0 {
         let of_results =
-            task.rows.iter().flat_map(|row| &row.distributions).any(|d| d.saved().is_some());
+            task.rows.iter().flat_map(|row| row.distributions.iter()).any(|d| d.saved().is_some());
         let text = if of_results {
             format!(
                 "a Gaussian copula gives the correlation coefficients of these saved results only \
@@ -204,7 +206,12 @@ fn of_results(
     (gum, spread): (&Gum, f64),
     found: &mut Vec<Warning>,
 ) {
-    let line = |v: usize| gum.budget.iter().find(|line| line.variable == v);
+    if row.together.is_empty() && row.copula_changes.is_empty() {
+        return;
+    }
+    let lines: HashMap<usize, BudgetLine> =
+        gum.budget().map(|line| (line.variable, line)).collect();
+    let line = |v: usize| lines.get(&v);
     for set in &row.together {
         let contributions = set.variables.iter().filter_map(|&v| line(v)).map(|l| l.contribution);
         let largest = contributions.fold(0.0, f64::max);

@@ -1,5 +1,7 @@
 //! One line for each output and row of conditions, in full precision, for spreadsheets.
 
+use std::io::{self, Write};
+
 use super::Report;
 use crate::propagate::gum::Dof;
 use crate::propagate::{OutputEvaluation, RowEvaluation};
@@ -32,20 +34,30 @@ const COLUMNS: [&str; 18] = [
 ///
 /// A text that a spreadsheet would take for a formula gets an apostrophe in front.
 pub fn csv(report: &Report<'_>) -> String {
+    let mut bytes = Vec::new();
+    // writing to memory cannot fail, and all records have as many cells
+    let written = write_csv(report, &mut bytes);
+    debug_assert!(written.is_ok(), "{written:?}");
+    String::from_utf8(bytes).unwrap_or_default()
+}
+
+/// Writes what [`csv`] gives, line by line.
+///
+/// # Errors
+/// Those of the writer.
+pub fn write_csv(report: &Report<'_>, out: impl Write) -> io::Result<()> {
     let Report { task, evaluation, .. } = report;
-    let mut writer = csv::Writer::from_writer(Vec::new());
+    let mut writer = csv::Writer::from_writer(out);
     let conditions = task.model.conditions.iter().filter(|_| task.swept);
     let names = conditions.map(|condition| text(&condition.name));
     let header: Vec<String> = names.chain(COLUMNS.map(str::to_owned)).collect();
-    let mut written = writer.write_record(&header);
+    writer.write_record(&header)?;
     for row in &evaluation.rows {
         for record in records(task, row) {
-            written = written.and_then(|()| writer.write_record(&record));
+            writer.write_record(&record)?;
         }
     }
-    // writing to memory cannot fail, and all records have as many cells
-    debug_assert!(written.is_ok(), "{written:?}");
-    writer.into_inner().ok().and_then(|bytes| String::from_utf8(bytes).ok()).unwrap_or_default()
+    writer.flush()
 }
 
 fn records<'a>(task: &'a Task, row: &'a RowEvaluation) -> impl Iterator<Item = Vec<String>> + 'a {

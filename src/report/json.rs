@@ -1,5 +1,7 @@
 //! The answer for programs.
 
+use std::io::{self, Write};
+
 use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
 
@@ -7,7 +9,7 @@ use super::Report;
 use super::subtotals::Subtotals;
 use crate::propagate::gum::{BudgetLine, CorrelationLine, Dof, Gum};
 use crate::propagate::monte_carlo::{MonteCarlo, NumericalError};
-use crate::propagate::{OutputEvaluation, RowEvaluation, validate};
+use crate::propagate::{Evaluation, OutputEvaluation, RowEvaluation, validate};
 use crate::task::{Task, Trials, Warning};
 
 /// The answer as JSON, keys in a fixed order, numbers in the shortest text that reads back as the
@@ -15,10 +17,20 @@ use crate::task::{Task, Trials, Warning};
 ///
 /// The same evaluation gives the same bytes always.
 pub fn json(report: &Report<'_>) -> String {
-    // only a map with keys that are not text could fail
-    let mut text = serde_json::to_string_pretty(&Answer::of(report)).unwrap_or_default();
-    text.push('\n');
-    text
+    let mut bytes = Vec::new();
+    // writing to memory cannot fail, and no map has keys that are not text
+    let written = write_json(report, &mut bytes);
+    debug_assert!(written.is_ok(), "{written:?}");
+    String::from_utf8(bytes).unwrap_or_default()
+}
+
+/// Writes what [`json`] gives, piece by piece: it may be much larger than the evaluation.
+///
+/// # Errors
+/// Those of the writer.
+pub fn write_json(report: &Report<'_>, mut out: impl Write) -> io::Result<()> {
+    serde_json::to_writer_pretty(&mut out, &Answer::of(report))?;
+    out.write_all(b"\n")
 }
 
 #[derive(Serialize)]
@@ -38,7 +50,25 @@ struct Answer<'a> {
 #[serde(untagged)]
 enum Results<'a> {
     Single(Figures<'a>),
-    Swept { rows: Vec<Row<'a>> },
+    Swept { rows: Rows<'a> },
+}
+
+/// The rows of a sweep, made one by one.
+struct Rows<'a> {
+    task: &'a Task,
+    evaluation: &'a Evaluation,
+}
+
+impl Serialize for Rows<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let Self { task, evaluation } = *self;
+        serializer.collect_seq(evaluation.rows.iter().map(|row| {
+            let names = task.model.conditions.iter().map(|condition| condition.name.as_str());
+            let conditions = names.zip(row.conditions.iter().copied()).collect();
+            let figures = Figures::of(task, row, evaluation.stopped);
+            Row { conditions: Map(conditions), figures }
+        }))
+    }
 }
 
 #[derive(Serialize)]
@@ -48,10 +78,53 @@ struct Row<'a> {
     figures: Figures<'a>,
 }
 
-#[derive(Default, Serialize)]
+#[derive(Serialize)]
 struct Figures<'a> {
-    outputs: Map<&'a str, Output<'a>>,
-    output_correlations: Vec<(&'a str, &'a str, f64)>,
+    outputs: Outputs<'a>,
+    output_correlations: Pairs<'a>,
+}
+
+/// The outputs of a row, made one by one.
+struct Outputs<'a> {
+    task: &'a Task,
+    row: &'a RowEvaluation,
+    stopped: bool,
+}
+
+impl Serialize for Outputs<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let Self { task, row, stopped } = *self;
+        let outputs = task.model.outputs.iter().zip(&row.outputs);
+        serializer.collect_map(outputs.map(|(output, evaluation)| {
+            let side = Output {
+                unit: output.quantity.unit.text(),
+                gum: evaluation.gum.as_ref().map(|gum| GumSide::of(task, gum)),
+                monte_carlo: MonteCarloSide::of(task, row, evaluation, stopped),
+                validation: evaluation.validation.map(Validation::from),
+                conformity: evaluation.conformity.map(|conformity| ConformitySide {
+                    lower: conformity.tolerance.lower,
+                    upper: conformity.tolerance.upper,
+                    probability: conformity.probability,
+                    numerical_standard_error: conformity.numerical_standard_error,
+                }),
+            };
+            (&output.quantity.name, side)
+        }))
+    }
+}
+
+/// The correlation coefficients of the outputs i < j.
+struct Pairs<'a> {
+    task: &'a Task,
+    row: &'a RowEvaluation,
+}
+
+impl Serialize for Pairs<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let names = || self.task.model.outputs.iter().map(|output| &output.quantity.name);
+        let pairs = names().enumerate().flat_map(|(i, a)| names().skip(i + 1).map(move |b| (a, b)));
+        serializer.collect_seq(pairs.zip(&self.row.correlations).map(|((a, b), r)| (a, b, r)))
+    }
 }
 
 #[derive(Serialize)]
@@ -73,8 +146,23 @@ struct GumSide<'a> {
     coverage_factor: Option<f64>,
     expanded_uncertainty: Option<f64>,
     interval: Option<[f64; 2]>,
-    budget: Vec<Line<'a>>,
+    budget: Lines<'a>,
     subtotals: Vec<Subtotal<'a>>,
+}
+
+/// The lines of a budget, made one by one.
+struct Lines<'a> {
+    task: &'a Task,
+    gum: &'a Gum,
+}
+
+impl Serialize for Lines<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let Self { task, gum } = *self;
+        let inputs = gum.budget().filter_map(|line| InputLine::of(task, &line));
+        let coefficients = gum.correlations().filter_map(|line| CoefficientLine::of(task, &line));
+        serializer.collect_seq(inputs.map(Line::Input).chain(coefficients.map(Line::Coefficient)))
+    }
 }
 
 #[derive(Serialize)]
@@ -157,6 +245,7 @@ enum Asked {
 
 #[derive(Serialize)]
 struct AdaptiveSide {
+    rule: &'static str,
     block_trials: u64,
     blocks: u64,
     tolerance: f64,
@@ -201,17 +290,9 @@ struct Origin<'a> {
 impl<'a> Answer<'a> {
     fn of(report: &Report<'a>) -> Self {
         let Report { task, evaluation, warnings, provenance } = *report;
-        let figures = |row| Figures::of(task, row, evaluation.stopped);
-        let mut rows = evaluation.rows.iter();
-        let results = if task.swept {
-            let rows = rows.map(|row| {
-                let names = task.model.conditions.iter().map(|condition| condition.name.as_str());
-                let conditions = names.zip(row.conditions.iter().copied()).collect();
-                Row { conditions: Map(conditions), figures: figures(row) }
-            });
-            Results::Swept { rows: rows.collect() }
-        } else {
-            Results::Single(rows.next().map(figures).unwrap_or_default())
+        let results = match evaluation.rows.first() {
+            Some(row) if !task.swept => Results::Single(Figures::of(task, row, evaluation.stopped)),
+            _ => Results::Swept { rows: Rows { task, evaluation } },
         };
         let trials = match evaluation.settings.trials {
             Trials::Fixed(trials) => Asked::Number(trials),
@@ -236,39 +317,19 @@ impl<'a> Answer<'a> {
 }
 
 impl<'a> Figures<'a> {
-    fn of(task: &'a Task, row: &RowEvaluation, stopped: bool) -> Self {
-        let names = || task.model.outputs.iter().map(|output| output.quantity.name.as_str());
-        let outputs = task.model.outputs.iter().zip(&row.outputs).map(|(output, evaluation)| {
-            let side = Output {
-                unit: output.quantity.unit.text(),
-                gum: evaluation.gum.as_ref().map(|gum| GumSide::of(task, gum)),
-                monte_carlo: MonteCarloSide::of(task, row, evaluation, stopped),
-                validation: evaluation.validation.map(Validation::from),
-                conformity: evaluation.conformity.map(|conformity| ConformitySide {
-                    lower: conformity.tolerance.lower,
-                    upper: conformity.tolerance.upper,
-                    probability: conformity.probability,
-                    numerical_standard_error: conformity.numerical_standard_error,
-                }),
-            };
-            (output.quantity.name.as_str(), side)
-        });
-        let pairs = names().enumerate().flat_map(|(i, a)| names().skip(i + 1).map(move |b| (a, b)));
-        let correlations = pairs.zip(&row.correlations).map(|((a, b), &r)| (a, b, r)).collect();
-        Self { outputs: Map(outputs.collect()), output_correlations: correlations }
+    fn of(task: &'a Task, row: &'a RowEvaluation, stopped: bool) -> Self {
+        let outputs = Outputs { task, row, stopped };
+        Self { outputs, output_correlations: Pairs { task, row } }
     }
 }
 
 impl<'a> GumSide<'a> {
-    fn of(task: &'a Task, gum: &Gum) -> Self {
+    fn of(task: &'a Task, gum: &'a Gum) -> Self {
         let (dof, dof_status) = match gum.dof {
             Dof::Finite(dof) => (Some(dof), "finite"),
             Dof::Infinite => (None, "infinite"),
             Dof::Undefined => (None, "undefined"),
         };
-        let inputs = gum.budget.iter().filter_map(|line| InputLine::of(task, line));
-        let coefficients =
-            gum.correlations.iter().filter_map(|line| CoefficientLine::of(task, line));
         let Subtotals { groups, types } = Subtotals::of(task, gum);
         let groups = groups.into_iter().map(|(group, share)| Subtotal::Group { group, share });
         let types = types.map(|(kind, share)| Subtotal::Type { r#type: kind.letter(), share });
@@ -280,7 +341,7 @@ impl<'a> GumSide<'a> {
             coverage_factor: gum.coverage_factor,
             expanded_uncertainty: gum.expanded_uncertainty(),
             interval: gum.interval(),
-            budget: inputs.map(Line::Input).chain(coefficients.map(Line::Coefficient)).collect(),
+            budget: Lines { task, gum },
             subtotals: groups.chain(types).collect(),
         }
     }
@@ -343,6 +404,7 @@ impl MonteCarloSide {
             excess_kurtosis: figures.excess_kurtosis,
             numerical_standard_error: ErrorSide::from(figures.errors),
             adaptive: figures.adaptive.map(|end| AdaptiveSide {
+                rule: end.rule.name(),
                 block_trials: end.block_trials,
                 blocks: end.blocks,
                 tolerance: end.tolerance,

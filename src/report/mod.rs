@@ -14,12 +14,12 @@ mod subtotals;
 #[cfg(feature = "cli")]
 mod table;
 
-pub use csv::csv;
-pub use json::json;
+pub use csv::{csv, write_csv};
+pub use json::{json, write_json};
 pub use samples::Samples;
 pub use saved::saved;
 #[cfg(feature = "cli")]
-pub use table::{Column, Style, table};
+pub use table::{Column, Style, table, write_table};
 #[cfg(feature = "cli")]
 pub(crate) use table::{Grid, WIDTH, plain, wrapped};
 

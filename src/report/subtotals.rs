@@ -18,7 +18,7 @@ impl<'a> Subtotals<'a> {
     pub(super) fn of(task: &'a Task, gum: &Gum) -> Self {
         let mut groups: Vec<(Option<&str>, f64)> = Vec::new();
         let mut types = [(Evaluation::A, 0.0), (Evaluation::B, 0.0)];
-        for line in &gum.budget {
+        for line in gum.budget() {
             let Some(variable) = task.variables.get(line.variable) else { continue };
             let group = variable.group.as_deref();
             match groups.iter_mut().find(|(name, _)| *name == group) {

@@ -238,7 +238,7 @@ fn monte_carlo() -> Node {
             "description",
             Node::from(
                 "Number of trials, 1 000 000 unless given; 0 for the GUM alone, `adaptive` for as \
-                 many as the digits need (JCGM 101, 7.9).",
+                 many as the digits need.",
             ),
         ),
         (
@@ -252,6 +252,19 @@ fn monte_carlo() -> Node {
     ]);
     let properties = vec![
         ("trials", trials),
+        (
+            "rule",
+            object([
+                (
+                    "description",
+                    Node::from(
+                        "When an adaptive run stops: `7.9` (JCGM 101), which is the default, or \
+                         `stein`, the two-stage rule, which meets the tolerance more often.",
+                    ),
+                ),
+                ("enum", texts(["7.9", "stein"])),
+            ]),
+        ),
         ("seed", whole("Seed of the random streams; 1.", 0, u64::MAX)),
         ("digits", whole("Digits of the standard uncertainty that are held meaningful; 2.", 1, 15)),
         ("max_trials", whole("Largest number of an adaptive run; 1e9.", 20_000, 1_000_000_000_000)),

@@ -8,10 +8,12 @@ mod warning;
 
 pub use case::{Candidate, Case, Observed, Prior};
 pub use coverage::Coverage;
-pub use settings::{Settings, Trials};
+pub use settings::{Settings, StoppingRule, Trials};
 pub use warning::Warning;
 
-use crate::distribution::{Correlation, Distribution, Evaluation, Input};
+use std::sync::Arc;
+
+use crate::distribution::{Correlation, Distribution, Evaluation, Fits, Input};
 use crate::model::typed::{Measurement, Typed};
 use crate::model::{InputQuantity, Model, Output, Quantity};
 use crate::unit::Unit;
@@ -51,8 +53,8 @@ pub enum Sharing {
 pub struct Row {
     /// Values of the conditions, in their units.
     pub conditions: Vec<f64>,
-    /// The variables' distributions, in their units.
-    pub distributions: Vec<Distribution>,
+    /// The variables' distributions, in their units. Rows share what is the same in all of them.
+    pub distributions: Arc<[Arc<Distribution>]>,
 }
 
 /// A model with everything that its evaluation needs.
@@ -72,6 +74,8 @@ pub struct Task {
     pub swept: bool,
     /// How to evaluate.
     pub settings: Settings,
+    /// The joint draws found so far.
+    pub(crate) fits: Fits,
 }
 
 /// Why a typed measurement cannot be evaluated with the given inputs.
@@ -133,7 +137,7 @@ impl Task {
                 sharing: Sharing::All,
                 shown: true,
             });
-            distributions.push(input.distribution);
+            distributions.push(Arc::new(input.distribution));
         }
         let outputs: Vec<Output> = typed.model().map(|model| model.outputs).unwrap_or_default();
         Ok(Self {
@@ -141,9 +145,10 @@ impl Task {
             model: typed.model_with(quantities, Vec::new(), outputs),
             variables,
             correlations: Vec::new(),
-            rows: vec![Row { conditions: Vec::new(), distributions }],
+            rows: vec![Row { conditions: Vec::new(), distributions: distributions.into() }],
             swept: false,
             settings,
+            fits: Fits::default(),
         })
     }
 }

@@ -7,8 +7,37 @@ use super::Coverage;
 pub enum Trials {
     /// This many; 0 for an evaluation by the law of propagation alone.
     Fixed(u64),
-    /// As many as the figures need to be stable to [`Settings::digits`] (JCGM 101, 7.9).
+    /// As many as the figures need to be stable to [`Settings::digits`], by [`Settings::rule`].
     Adaptive,
+}
+
+/// When an adaptive run has made enough trials.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum StoppingRule {
+    /// When the figures of its blocks agree to the tolerance (JCGM 101, 7.9).
+    #[default]
+    Clause79,
+    /// When it has made as many as the scatter of its first blocks asks for (Stein's two-stage
+    /// rule; Wuebbeler, Harris, Cox, Elster, Metrologia 47 (2010) 317).
+    Stein,
+}
+
+impl StoppingRule {
+    /// All of them.
+    pub const ALL: [Self; 2] = [Self::Clause79, Self::Stein];
+
+    /// The name that files and the command line use.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Clause79 => "7.9",
+            Self::Stein => "stein",
+        }
+    }
+
+    /// The rule of that name.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|rule| rule.name() == name)
+    }
 }
 
 /// The settings of an evaluation.
@@ -18,6 +47,8 @@ pub struct Settings {
     pub coverage: Coverage,
     /// Monte Carlo trials.
     pub trials: Trials,
+    /// When an adaptive run stops.
+    pub rule: StoppingRule,
     /// The largest number of trials of an adaptive run.
     pub max_trials: u64,
     /// Whether an adaptive run goes to a fifth of the tolerance, as the validation of the GUM
@@ -39,6 +70,7 @@ impl Default for Settings {
         Self {
             coverage: Coverage::Probability(0.95),
             trials: Trials::Fixed(1_000_000),
+            rule: StoppingRule::default(),
             max_trials: 1_000_000_000,
             for_validation: false,
             seed: 1,

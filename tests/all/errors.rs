@@ -19,7 +19,7 @@ const COMMANDS: [(&str, &[&str]); 3] = [
 ];
 
 /// Mistakes that no file of a reasonable size and no command shows.
-const WITHOUT_EXAMPLE: [&str; 0] = [];
+const WITHOUT_EXAMPLE: [&str; 1] = ["more-mistakes"];
 
 fn folder() -> PathBuf {
     root().join("tests/errors")

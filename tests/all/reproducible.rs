@@ -187,8 +187,7 @@ fn the_code_path_and_the_number_of_threads_do_not_matter() {
     }
 }
 
-/// A shorter run's trials are the first of a longer one's, and the order in which blocks are made
-/// does not matter: each is made again here in a run of its own length.
+/// A shorter run's trials are the first of a longer one's, as far as their sum shows it.
 #[test]
 fn the_first_trials_of_a_longer_run_are_those_of_a_shorter_one() {
     let text = r#"{"inputs": {"x": {"distribution": "normal", "mean": 0, "std": 1}},

@@ -10,6 +10,14 @@ const LISTED: usize = 12;
 /// Why quantities with these correlations cannot be drawn.
 #[derive(Clone, Debug, PartialEq)]
 pub enum CorrelationError {
+    /// More quantities are linked with each other than can be served: their matrix has a number for
+    /// each pair.
+    TooMany {
+        /// How many there are.
+        count: usize,
+        /// How many there can be.
+        most: usize,
+    },
     /// The coefficients of these quantities contradict each other: their matrix is not positive
     /// semi-definite.
     Contradiction {
@@ -76,7 +84,7 @@ impl CorrelationError {
             Self::OutOfReach { declared, .. } => of(declared.first) && of(declared.second),
             Self::NoVariance { member, .. } => of(*member),
             Self::GivenByReadings { member, other, .. } => of(*member) && of(*other),
-            Self::Unpaired { .. } => false,
+            Self::TooMany { .. } | Self::Unpaired { .. } => false,
         }
     }
 
@@ -85,6 +93,10 @@ impl CorrelationError {
         let names =
             |members: &[usize]| members.iter().map(|&m| name(m)).collect::<Vec<_>>().join(", ");
         match self {
+            Self::TooMany { count, most } => format!(
+                "{count} quantities are correlated with each other; this version takes {most} at \
+                 most"
+            ),
             Self::Contradiction { members, eigenvalue, nearest, decimals } => format!(
                 "the correlation coefficients of {} contradict each other: no quantities can have \
                  them all (their matrix is not positive semi-definite, its lowest eigenvalue is \

@@ -1,7 +1,10 @@
-//! Small correlation matrices: factors, eigenvalues and the nearest possible matrix.
+//! Correlation matrices: factors, what is possible, and the nearest possible matrix.
 //!
 //! Sums, products, quotients and square roots in a fixed order, so that factors, and the draws
 //! that come from them, are the same bits on every machine.
+
+use super::Correlation;
+use super::eigen::eigen;
 
 /// Pivots of a correlation matrix from here on make its Cholesky factor well determined.
 const PIVOT: f64 = 1e-10;
@@ -9,11 +12,12 @@ const PIVOT: f64 = 1e-10;
 /// Eigenvalues above minus this, times the number of rows, are zero up to rounding.
 const ROUNDING: f64 = 1e-12;
 
-/// Sweeps of Jacobi's method at most; it converges quadratically, a dozen sweeps do.
-const SWEEPS: usize = 60;
-
-/// Projections of [`Symmetric::nearest_correlation`] at most, for up to 50 rows.
+/// Projections of [`Symmetric::nearest_correlation`] at most.
 const PROJECTIONS: usize = 400;
+
+/// Rows cubed times projections at most: about ten seconds. From 250 rows on the search may end
+/// before the nearest matrix is found, at a possible one near to it.
+const WORK: f64 = 4e8;
 
 /// A symmetric matrix.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,6 +29,18 @@ impl Symmetric {
     pub(super) fn identity(n: usize) -> Self {
         let row = |i: usize| (0..n).map(|j| if i == j { 1.0 } else { 0.0 }).collect();
         Self { rows: (0..n).map(row).collect() }
+    }
+
+    /// The coefficients among `members`, which are in order.
+    pub(super) fn of(members: &[usize], correlations: &[Correlation]) -> Self {
+        let mut matrix = Self::identity(members.len());
+        let place = |q: usize| members.binary_search(&q).ok();
+        for c in correlations {
+            if let (Some(i), Some(j)) = (place(c.first), place(c.second)) {
+                matrix.set(i, j, c.coefficient);
+            }
+        }
+        matrix
     }
 
     pub(super) fn size(&self) -> usize {
@@ -60,45 +76,69 @@ impl Symmetric {
 
     /// Whether no eigenvalue is negative by more than rounding.
     pub(super) fn is_semidefinite(&self) -> bool {
-        self.cholesky().is_some() || self.lowest_eigenvalue() >= -ROUNDING * self.size() as f64
+        self.regular_factor().is_some() || self.is_above(-ROUNDING * self.size() as f64)
+    }
+
+    /// Whether every eigenvalue is above `limit` < 0.
+    fn is_above(&self, limit: f64) -> bool {
+        let order: Vec<usize> = (0..self.size()).collect();
+        self.first_below(&order, limit).is_none()
+    }
+
+    /// The first place in the order at which the rows so far have an eigenvalue below `limit` < 0.
+    /// It is told without eigenvalues: as long as there is none, the matrix less `limit` on its
+    /// diagonal has a Cholesky factor.
+    pub(super) fn first_below(&self, order: &[usize], limit: f64) -> Option<usize> {
+        self.cholesky(order, -limit, 0.0).err()
     }
 
     pub(super) fn lowest_eigenvalue(&self) -> f64 {
-        self.eigen().0.into_iter().fold(f64::INFINITY, f64::min)
+        eigen(&self.rows).0.into_iter().fold(f64::INFINITY, f64::min)
     }
 
     /// A lower triangular factor with rows of length 1, of a positive semi-definite correlation
     /// matrix: Cholesky's or, for a nearly singular matrix, the triangular form of Q sqrt(D).
     pub(super) fn factor(&self) -> Vec<Vec<f64>> {
-        self.cholesky().unwrap_or_else(|| self.singular_factor())
+        self.regular_factor().unwrap_or_else(|| self.singular_factor())
     }
 
-    fn cholesky(&self) -> Option<Vec<Vec<f64>>> {
-        let mut factor: Vec<Vec<f64>> = Vec::with_capacity(self.size());
-        for (i, entries) in self.rows.iter().enumerate() {
-            let mut row = Vec::with_capacity(i + 1);
-            for (j, above) in factor.iter().enumerate() {
+    fn regular_factor(&self) -> Option<Vec<Vec<f64>>> {
+        let order: Vec<usize> = (0..self.size()).collect();
+        self.cholesky(&order, 0.0, PIVOT).ok()
+    }
+
+    /// Cholesky's factor of the rows in an order, with `shift` added to the diagonal; or the first
+    /// place at which a pivot is not above `least`.
+    fn cholesky(&self, order: &[usize], shift: f64, least: f64) -> Result<Vec<Vec<f64>>, usize> {
+        let mut factor: Vec<Vec<f64>> = Vec::with_capacity(order.len());
+        for (place, &i) in order.iter().enumerate() {
+            let entries = &self.rows[i];
+            let mut row = Vec::with_capacity(place + 1);
+            for (above, &j) in factor.iter().zip(order) {
                 let sum: f64 = row.iter().zip(above).map(|(a, b)| a * b).sum();
-                row.push((entries[j] - sum) / above[j]);
+                row.push((entries[j] - sum) / above[row.len()]);
             }
-            let pivot = entries[i] - row.iter().map(|a| a * a).sum::<f64>();
-            if pivot <= PIVOT || pivot.is_nan() {
-                return None;
+            let pivot = entries[i] + shift - row.iter().map(|a| a * a).sum::<f64>();
+            if pivot <= least || pivot.is_nan() {
+                return Err(place);
             }
             row.push(pivot.sqrt());
             factor.push(row);
         }
-        Some(factor)
+        Ok(factor)
     }
 
     /// Gram-Schmidt on the rows of Q sqrt(max(D, 0)).
     fn singular_factor(&self) -> Vec<Vec<f64>> {
-        let (values, vectors) = self.eigen();
-        let roots: Vec<f64> = values.iter().map(|e| e.max(0.0).sqrt()).collect();
+        let (values, vectors) = eigen(&self.rows);
+        // the root of an eigenvalue that is zero but for rounding would be no rounding any more
+        let zero = 4.0 * f64::EPSILON * self.size() as f64;
+        let root = |e: &f64| if *e > zero { e.sqrt() } else { 0.0 };
+        let roots: Vec<f64> = values.iter().map(root).collect();
         let mut basis: Vec<Vec<f64>> = Vec::new();
         let mut factor: Vec<Vec<f64>> = Vec::new();
-        for of_row in &vectors {
-            let mut rest: Vec<f64> = of_row.iter().zip(&roots).map(|(q, d)| q * d).collect();
+        for i in 0..self.size() {
+            let mut rest: Vec<f64> = vectors.iter().zip(&roots).map(|(q, d)| q[i] * d).collect();
             let mut row: Vec<f64> = vec![0.0; basis.len()];
             // twice is enough: the second pass takes away what the first one's rounding left
             for _ in 0..2 {
@@ -121,47 +161,13 @@ impl Symmetric {
         factor
     }
 
-    /// Eigenvalues and, column by column, eigenvectors, by the cyclic Jacobi method (Golub and Van
-    /// Loan, Matrix Computations, 8.5).
-    fn eigen(&self) -> (Vec<f64>, Vec<Vec<f64>>) {
-        let n = self.size();
-        let mut a = self.rows.clone();
-        let mut vectors = Self::identity(n).rows;
-        for _ in 0..SWEEPS {
-            let off: f64 = self.pairs().map(|(i, j)| a[i][j] * a[i][j]).sum();
-            if off <= 1e-32 {
-                break;
-            }
-            for (p, q) in self.pairs() {
-                if a[p][q] == 0.0 {
-                    continue;
-                }
-                let tau = (a[q][q] - a[p][p]) / (2.0 * a[p][q]);
-                let t = 1f64.copysign(tau) / (tau.abs() + (1.0 + tau * tau).sqrt());
-                let c = 1.0 / (1.0 + t * t).sqrt();
-                let s = t * c;
-                for row in a.iter_mut().chain(&mut vectors) {
-                    let (x, y) = (row[p], row[q]);
-                    row[p] = c * x - s * y;
-                    row[q] = s * x + c * y;
-                }
-                // the same for the rows; p < q
-                let (above, below) = a.split_at_mut(q);
-                for (x, y) in above[p].iter_mut().zip(&mut below[0]) {
-                    (*x, *y) = (c * *x - s * *y, s * *x + c * *y);
-                }
-            }
-        }
-        ((0..n).map(|i| a[i][i]).collect(), vectors)
-    }
-
     /// The correlation matrix nearest to this one in the root of the sum of squares, by alternating
     /// projections with Dykstra's correction (Higham, IMA Journal of Numerical Analysis 22, 2002,
     /// algorithm 3.3), and at last scaled to an exact diagonal of ones.
     pub(super) fn nearest_correlation(&self) -> Self {
         let n = self.size();
-        let work = (n as f64 / 50.0).max(1.0);
-        let projections = ((PROJECTIONS as f64 / (work * work * work)) as usize).max(20);
+        let affordable = WORK / (n as f64).powi(3).max(1.0);
+        let projections = (affordable as usize).clamp(1, PROJECTIONS);
         let mut near = self.clone();
         let mut correction = vec![vec![0.0; n]; n];
         let mut semidefinite = self.clone();
@@ -199,13 +205,14 @@ impl Symmetric {
 
     /// The nearest positive semi-definite matrix: negative eigenvalues become zero.
     fn clipped(&self) -> Self {
-        let (values, vectors) = self.eigen();
-        let n = self.size();
-        let mut clipped = Self { rows: vec![vec![0.0; n]; n] };
-        for i in 0..n {
-            for j in 0..=i {
-                let terms = values.iter().zip(vectors[i].iter().zip(&vectors[j]));
-                clipped.set(i, j, terms.map(|(e, (x, y))| e.max(0.0) * x * y).sum());
+        let (values, vectors) = eigen(&self.rows);
+        let mut clipped = self.clone();
+        let negative = values.iter().zip(&vectors).filter(|(value, _)| **value < 0.0);
+        for (value, vector) in negative {
+            for (row, x) in clipped.rows.iter_mut().zip(vector) {
+                for (entry, y) in row.iter_mut().zip(vector) {
+                    *entry -= value * (x * y);
+                }
             }
         }
         clipped

@@ -5,6 +5,8 @@
 //! multivariate t distribution of JCGM 102, 5.3: N quantities read n times have n - N degrees of
 //! freedom and the scale matrix S/n, with the divisor n - N in S.
 
+use std::sync::Arc;
+
 use super::Correlation;
 use super::error::CorrelationError;
 use super::matrix::Symmetric;
@@ -21,10 +23,10 @@ pub(crate) struct Ensemble {
 }
 
 /// The ensembles among these quantities, by the place of their first members.
-pub(crate) fn ensembles(distributions: &[Distribution]) -> Vec<Ensemble> {
+pub(crate) fn ensembles(distributions: &[Arc<Distribution>]) -> Vec<Ensemble> {
     let mut sets: Vec<Vec<(usize, &Readings)>> = Vec::new();
     for (place, distribution) in distributions.iter().enumerate() {
-        let Distribution::Readings(readings) = distribution else {
+        let Distribution::Readings(readings) = &**distribution else {
             continue;
         };
         if readings.together() < 2 {
@@ -54,10 +56,13 @@ impl Ensemble {
     }
 
     /// Whether every member has as many partners as it says.
-    pub(super) fn check(&self, distributions: &[Distribution]) -> Result<(), CorrelationError> {
+    pub(super) fn check(
+        &self,
+        distributions: &[Arc<Distribution>],
+    ) -> Result<(), CorrelationError> {
         let count = self.members.len();
         let wrong = self.members.iter().find(|&&member| {
-            !matches!(distributions.get(member),
+            !matches!(distributions.get(member).map(|d| &**d),
                 Some(Distribution::Readings(readings)) if readings.together() == count)
         });
         match wrong {

@@ -6,6 +6,8 @@
 //! middle, the cell is halved again for the integrals (kinks, steps of empirical distributions),
 //! and draws in that cell take the quantile function itself.
 
+use std::sync::Arc;
+
 use crate::distribution::{Distribution, SavedResult, special};
 use crate::number::COLUMN;
 
@@ -155,7 +157,7 @@ pub(super) struct Cell {
 /// function itself has to be taken.
 #[derive(Clone, Debug)]
 pub(super) struct Table {
-    distribution: Distribution,
+    distribution: Arc<Distribution>,
     mean: f64,
     cells: Vec<Option<Cell>>,
 }
@@ -198,12 +200,12 @@ pub(super) struct Profile {
 
 impl Profile {
     /// The profile of a distribution that has a variance, and its table for draws.
-    pub(super) fn of(distribution: &Distribution) -> (Self, Table) {
+    pub(super) fn of(distribution: &Arc<Distribution>) -> (Self, Table) {
         let mean =
             distribution.saved().map_or_else(|| distribution.mean(), SavedResult::drawn_mean);
         let std = distribution.standard_deviation();
         let (profile, cells) = Self::new(mean, std, |z| at_normal(distribution, z));
-        (profile, Table { distribution: distribution.clone(), mean, cells })
+        (profile, Table { distribution: Arc::clone(distribution), mean, cells })
     }
 
     /// The profile of a rising function of z with this mean and standard deviation, and the cells
@@ -374,7 +376,7 @@ mod tests {
     #[test]
     fn looked_up_values_are_the_quantiles() {
         for distribution in shapes() {
-            let table = Profile::of(&distribution).1;
+            let table = Profile::of(&Arc::new(distribution.clone())).1;
             let std = distribution.standard_deviation();
             let mut last = f64::NEG_INFINITY;
             for step in 0..160 {
@@ -402,7 +404,7 @@ mod tests {
     #[test]
     fn no_draw_is_infinite() {
         for distribution in shapes() {
-            let table = Profile::of(&distribution).1;
+            let table = Profile::of(&Arc::new(distribution.clone())).1;
             let mut z = [40.0; COLUMN];
             z[..4].copy_from_slice(&[-1e9, -40.0, 9.0, -9.0]);
             let mut out = [0.0; COLUMN];
@@ -417,7 +419,7 @@ mod tests {
     fn pieces_hold_the_variance() {
         for distribution in shapes() {
             let heavy = distribution.drawn_dof() < 2.5;
-            let variance = Profile::of(&distribution).0.variance;
+            let variance = Profile::of(&Arc::new(distribution.clone())).0.variance;
             let allowed = if heavy { 0.05 } else { 1e-8 };
             assert!((variance - 1.0).abs() < allowed, "{distribution:?}: {variance}");
         }

@@ -1,21 +1,27 @@
-use super::super::{BLOCK, Normal, Readings, Rectangular, StudentT, Triangular};
+use super::super::{BLOCK, Normal, Readings, Rectangular, StreamKey, StudentT, Triangular};
 use super::*;
-use crate::number::COLUMN;
+use crate::number::{COLUMN, Column};
 
 fn correlation(first: usize, second: usize, coefficient: f64) -> Correlation {
     Correlation { first, second, coefficient }
 }
 
 /// `blocks` blocks of draws of each quantity.
-fn draws(distributions: &[Distribution], joint: &Joint, seed: u64, blocks: u64) -> Vec<Vec<f64>> {
+fn draws(
+    distributions: &[Distribution],
+    joint: &Arc<Joint>,
+    seed: u64,
+    blocks: u64,
+) -> Vec<Vec<f64>> {
     let n = distributions.len();
     let keys: Vec<StreamKey> =
         (0..n).map(|i| StreamKey::new(seed, &format!("quantity {i}"))).collect();
     let register: Vec<usize> = (0..n).collect();
     let mut registers = vec![Column::ZERO; n];
     let mut values = vec![Vec::new(); n];
+    let varying = Varying::all(distributions, joint);
     for block in 0..blocks {
-        let mut draws = Draws::new(distributions, joint, &keys, block);
+        let mut draws = Draws::new(&varying, &keys, block);
         for _ in 0..BLOCK / COLUMN {
             draws.column(&mut registers, &register, &vec![true; n]);
             for (values, column) in values.iter_mut().zip(&registers) {
@@ -320,12 +326,60 @@ fn fully_correlated_readings_stay_together() {
 /// Rows share the fit when their linked quantities are the same.
 #[test]
 fn rows_share_fits() {
-    let row = |free: f64| vec![rectangular(), normal(), Normal::new(free, 1.0).unwrap().into()];
-    let rows = [row(1.0), row(2.0)];
-    let declared = [correlation(0, 1, 0.5)];
-    let joints = Joint::of_rows(rows.iter().map(Vec::as_slice), &declared);
-    let [Ok(a), Ok(b)] = joints.as_slice() else {
-        panic!("{joints:?}");
+    let shared = |shape: Distribution| Arc::new(shape);
+    let row = |at: f64| {
+        let shapes: [Distribution; 3] =
+            [Rectangular::new(at, 0.1 * at).unwrap().into(), t(at + 3.0), normal()];
+        shapes.map(shared)
     };
-    assert!(Arc::ptr_eq(a, b));
+    let fits = Fits::default();
+    let joint = |row: &[Arc<Distribution>], last: f64| {
+        let declared = [correlation(0, 2, 0.5), correlation(1, 2, last)];
+        fits.joint(row, &declared).unwrap()
+    };
+    let first = joint(&row(1.0), 0.0);
+    // place and width do not matter, nor does a quantity that nothing is said of
+    let mut moved = row(1.0);
+    moved[0] = shared(Rectangular::new(-3.0, 0.2).unwrap().into());
+    moved[2] = shared(Normal::new(7.0, 0.5).unwrap().into());
+    assert!(Arc::ptr_eq(&first, &joint(&moved, 0.0)));
+    // other degrees of freedom do, and other coefficients; what was found is kept
+    let second = joint(&row(2.0), 0.0);
+    assert!(!Arc::ptr_eq(&first, &second));
+    assert!(Arc::ptr_eq(&first, &joint(&row(1.0), 0.0)));
+    assert!(!Arc::ptr_eq(&first, &joint(&row(1.0), 0.1)));
+}
+
+/// Among many quantities one coefficient that is quite wrong is not taken for rounding, and the
+/// quantities at fault are named: with 0.3 to everybody else and 0.3 between those, two quantities
+/// can have coefficients from 2 0.3^2 n/(1 + 0.3 (n - 1)) - 1 on, n = 38 being the others. A matrix
+/// of rounded coefficients of rank 3 is accepted.
+#[test]
+fn many_quantities_may_have_rounded_coefficients_but_not_a_wrong_one() {
+    let n = 40;
+    let quantities: Vec<Distribution> = (0..n).map(|_| normal()).collect();
+    let all = |r: &dyn Fn(usize, usize) -> f64| -> Vec<Correlation> {
+        let pairs = (0..n).flat_map(|i| (i + 1..n).map(move |j| (i, j)));
+        pairs.map(|(i, j)| correlation(i, j, r(i, j))).collect()
+    };
+    let others = (n - 2) as f64;
+    let least = 2.0 * 0.09 * others / (1.0 + 0.3 * (others - 1.0)) - 1.0;
+    let with = |odd: f64| {
+        let coefficient = |i, j| if (i, j) == (0, 1) { odd } else { 0.3 };
+        Joint::new(&quantities, &all(&coefficient))
+    };
+    assert!(!with(least + 1e-3).unwrap().rounded);
+    let error = with(least - 0.1).unwrap_err();
+    let CorrelationError::Contradiction { members, nearest, .. } = &error else {
+        panic!("{error}");
+    };
+    assert!(members.starts_with(&[0, 1]) && members.len() > 10, "{members:?}");
+    assert_eq!((nearest[0].first, nearest[0].second), (0, 1));
+    let vector = |i: usize| [1.0, (i as f64).sin(), (1.7 * i as f64).cos()];
+    let product = |i, j| vector(i).iter().zip(vector(j)).map(|(a, b)| a * b).sum::<f64>();
+    let rounded = |i, j| {
+        let r: f64 = product(i, j) / (product(i, i) * product(j, j)).sqrt();
+        (100.0 * r).round() / 100.0
+    };
+    assert!(Joint::new(&quantities, &all(&rounded)).unwrap().rounded);
 }

@@ -23,7 +23,7 @@ pub(crate) struct Together {
 }
 
 /// The sets of inputs that are drawn together, by their first members.
-pub(super) fn together(distributions: &[Distribution]) -> Vec<Together> {
+pub(super) fn together(distributions: &[Arc<Distribution>]) -> Vec<Together> {
     let mut found: Vec<(&str, Vec<&str>, Together)> = Vec::new();
     for (place, distribution) in distributions.iter().enumerate() {
         let Some(origin) = distribution.saved().map(|saved| saved.origin()) else {
@@ -58,12 +58,18 @@ impl Together {
         self.ranks.first().map_or(0, |ranks| ranks.len())
     }
 
+    /// The same inputs counted among those at `varying` (in order) only; all of them are there.
+    pub(super) fn among(&self, varying: &[usize]) -> Self {
+        let place = |member: &usize| varying.binary_search(member).unwrap_or(*member);
+        Self { members: self.members.iter().map(place).collect(), ..self.clone() }
+    }
+
     /// Draws the next column of every member; `register[q]` is where it goes. A function of its own,
     /// compiled once, as tables are looked up and not computed side by side.
     #[inline(never)]
     pub(super) fn draw(
         &self,
-        distributions: &[Distribution],
+        distributions: &[Arc<Distribution>],
         streams: &mut [Stream],
         registers: &mut [Column],
         register: &[usize],

@@ -15,7 +15,7 @@ fn read(fields: &str, set: &[&str]) -> Result<Distribution, String> {
     );
     let overrides: Vec<Override> = set.iter().filter_map(|text| Override::parse(text)).collect();
     let file = read_text("m", &text, Path::new(""), &overrides).map_err(|p| p.to_string())?;
-    Ok(file.task.rows[0].distributions[0].clone())
+    Ok(file.task.rows[0].distributions[0].as_ref().clone())
 }
 
 /// Fields of an example of each shape, its estimate and standard uncertainty.

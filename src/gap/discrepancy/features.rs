@@ -12,6 +12,10 @@ const MOST_COORDINATES: usize = 160;
 /// So many nodes where there are more coordinates: a third of the shortest length apart.
 const NODES: usize = 64;
 
+/// Coordinates and nodes where the noise is estimated, so that every evaluation factors a matrix of
+/// that order.
+const FITTED_NODES: usize = 40;
+
 /// Eigenvalues below this share of the largest are left out.
 const LEAST_EIGENVALUE: f64 = 1e-9;
 
@@ -187,9 +191,11 @@ pub(crate) struct Nodes {
 }
 
 impl Nodes {
-    pub(crate) fn new(term: &Term, length: f64, coordinates: &Coordinates) -> Self {
+    pub(crate) fn new(term: &Term, length: f64, coordinates: &Coordinates, fitted: bool) -> Self {
         let all = &coordinates.distinct;
-        let places: Vec<Vec<f64>> = if all.len() <= MOST_COORDINATES {
+        let (most, nodes) =
+            if fitted { (FITTED_NODES, FITTED_NODES) } else { (MOST_COORDINATES, NODES) };
+        let places: Vec<Vec<f64>> = if all.len() <= most {
             all.clone()
         } else {
             let mut sorted = all.clone();

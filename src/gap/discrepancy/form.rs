@@ -57,7 +57,7 @@ pub(crate) fn forms(setup: &Setup<'_>, axes: &Axes) -> Vec<Form> {
         .map(|(term, length, ln_weight)| {
             let outputs = setup.data.outputs.len();
             let coordinates = Coordinates::new(term, axes, &sites, outputs);
-            let nodes = Nodes::new(term, length, &coordinates);
+            let nodes = Nodes::new(term, length, &coordinates, setup.linear.fitted);
             let roots = coordinates.roots(term, length, &nodes);
             let features = coordinates.features(&roots, setup.data.len());
             let touched: Vec<usize> = coordinates.touched().collect();

@@ -1,6 +1,8 @@
 //! One block of trials: the inputs drawn, the model evaluated, the outputs handed over.
 
-use crate::distribution::{BLOCK, Distribution, Draws, Joint, StreamKey};
+use std::sync::Arc;
+
+use crate::distribution::{BLOCK, Draws, Joint, StreamKey, Varying};
 use crate::model::{Place, Schedule};
 use crate::number::{COLUMN, CodePath, Column, Kernel};
 use crate::task::{Row, Sharing, Task};
@@ -10,9 +12,8 @@ use crate::task::{Row, Sharing, Task};
 pub(crate) struct Trials {
     schedule: Schedule,
     /// The variables that vary, in the order of their registers.
-    distributions: Vec<Distribution>,
+    varying: Varying,
     registers: Vec<usize>,
-    joint: Joint,
     keys: Vec<StreamKey>,
     /// For each output, the branch that phases are taken on: its middle and the length of a turn.
     branches: Vec<Option<(f64, f64)>>,
@@ -31,15 +32,12 @@ pub(crate) struct Workspace {
 impl Trials {
     /// A row of the task. `estimates` are the outputs' values at the estimates of the inputs, the
     /// middle of a phase's branch; `joint` is the joint draw of the row's distributions.
-    pub(crate) fn new(task: &Task, row: &Row, estimates: &[f64], joint: &Joint) -> Self {
-        let mut bound: Vec<Option<f64>> =
-            row.distributions.iter().map(Distribution::constant).collect();
+    pub(crate) fn new(task: &Task, row: &Row, estimates: &[f64], joint: &Arc<Joint>) -> Self {
+        let mut bound: Vec<Option<f64>> = row.distributions.iter().map(|d| d.constant()).collect();
         let varying: Vec<usize> =
             (0..row.distributions.len()).filter(|&v| bound[v].is_none()).collect();
         bound.extend(row.conditions.iter().map(|&value| Some(value)));
         let schedule = Schedule::new(&task.model.program, &bound);
-        let distributions: Vec<Distribution> =
-            varying.iter().map(|&v| row.distributions[v].clone()).collect();
         let keys = varying
             .iter()
             .map(|&v| StreamKey::new(task.settings.seed, &stream_name(task, row, v)))
@@ -60,9 +58,8 @@ impl Trials {
         let limits = limits.collect();
         Self {
             registers: (0..varying.len()).collect(),
-            joint: joint.clone().restricted(&varying),
+            varying: Varying::new(&row.distributions, &varying, joint),
             schedule,
-            distributions,
             keys,
             branches,
             limits,
@@ -93,8 +90,8 @@ impl Trials {
     /// constants left out, in trial `trial` of block `block`.
     pub(crate) fn inputs_of(&self, block: u64, trial: usize) -> Vec<f64> {
         let mut registers = vec![Column::ZERO; self.schedule.registers];
-        let all = vec![true; self.distributions.len()];
-        let mut draws = Draws::new(&self.distributions, &self.joint, &self.keys, block);
+        let all = vec![true; self.varying.len()];
+        let mut draws = Draws::new(&self.varying, &self.keys, block);
         for _ in 0..=trial / COLUMN {
             draws.column(&mut registers, &self.registers, &all);
         }
@@ -127,7 +124,7 @@ impl Kernel for BlockKernel<'_> {
         let Self { trials, block, workspace } = self;
         let Workspace { registers, outputs } = workspace;
         let schedule = &trials.schedule;
-        let mut draws = Draws::new(&trials.distributions, &trials.joint, &trials.keys, block);
+        let mut draws = Draws::new(&trials.varying, &trials.keys, block);
         for first in (0..BLOCK).step_by(COLUMN) {
             draws.column(registers, &trials.registers, &schedule.used);
             schedule.run(registers);

@@ -11,6 +11,7 @@ use super::fold::{Plan, drop_undefined};
 use super::interval::{Ranks, is_extreme, rank_spread};
 use super::moments::{Moments, Sums, correlations};
 use super::partition::{Leaf, Partition, Tally};
+use super::products::{self, Products, waves};
 use super::run::{Finished, MonteCarlo, NumericalError, Request, Undefined, trials_in};
 use crate::distribution::BLOCK;
 use crate::number::Kernel;
@@ -35,8 +36,9 @@ pub(super) struct Pass {
     pub(super) trials: u64,
     undefined: u64,
     first_undefined: Option<(u64, usize)>,
-    /// Sums of each chunk with its number and its trials.
+    /// Sums of each chunk with its number and its trials, without the products.
     sums: Vec<(u64, u64, Vec<Sums>)>,
+    products: Products,
     pub(super) tallies: Vec<Tally>,
 }
 
@@ -54,11 +56,10 @@ impl Kernel for SumKernel<'_> {
     #[inline(always)]
     fn run(self) {
         let Self { values, count, plans, sums } = self;
-        let after: Vec<_> =
-            values.iter().zip(plans).map(|(v, plan)| (&v[..count], plan.reference)).collect();
-        for (output, (plan, sums)) in plans.iter().zip(sums).enumerate() {
-            sums.add(&values[output][..count], plan.reference, &after[output + 1..]);
+        for ((plan, sums), values) in plans.iter().zip(sums.iter_mut()).zip(values) {
+            sums.add(&values[..count], plan.reference);
         }
+        products::add(values, count, plans, sums.iter_mut());
     }
 }
 
@@ -155,13 +156,13 @@ pub(super) fn pass(
         undefined: 0,
         first_undefined: None,
         sums: Vec::new(),
+        products: Products::default(),
         tallies: partitions.iter().map(Partition::tally).collect(),
     };
-    let chunks = blocks.div_ceil(CHUNK) as usize;
-    let mut found = (0..chunks)
-        .into_par_iter()
-        .with_min_len(16)
-        .fold(
+    let mut whole = empty();
+    whole.products = Products::new(if with_sums { plans.len() } else { 0 });
+    for wave in waves(blocks.div_ceil(CHUNK), if with_sums { plans.len() } else { 0 }) {
+        let wave = wave.into_par_iter().with_min_len(16).fold(
             || (empty(), trials.workspace()),
             |(mut pass, mut workspace), chunk| {
                 let chunk = chunk as u64;
@@ -198,23 +199,34 @@ pub(super) fn pass(
                 }
                 (pass, workspace)
             },
-        )
-        .map(|(pass, _)| pass)
-        .reduce(empty, |mut a, b| {
-            a.trials += b.trials;
-            a.undefined += b.undefined;
-            a.first_undefined = match (a.first_undefined, b.first_undefined) {
-                (Some(x), Some(y)) => Some(x.min(y)),
-                (x, y) => x.or(y),
-            };
-            a.sums.extend(b.sums);
-            for (tally, other) in a.tallies.iter_mut().zip(b.tallies) {
-                tally.merge(other);
-            }
+        );
+        let mut found = wave.map(|(pass, _)| pass).reduce(empty, |mut a, b| {
+            a.add(b);
             a
         });
-    found.sums.sort_by_key(|(chunk, ..)| *chunk);
-    (!control.is_stopped()).then_some(found)
+        found.sums.sort_by_key(|(chunk, ..)| *chunk);
+        for (_, _, sums) in &mut found.sums {
+            whole.products.take(sums.iter_mut());
+        }
+        whole.add(found);
+    }
+    (!control.is_stopped()).then_some(whole)
+}
+
+impl Pass {
+    /// Takes over what another part of the trials gave.
+    fn add(&mut self, other: Self) {
+        self.trials += other.trials;
+        self.undefined += other.undefined;
+        self.first_undefined = match (self.first_undefined, other.first_undefined) {
+            (Some(x), Some(y)) => Some(x.min(y)),
+            (x, y) => x.or(y),
+        };
+        self.sums.extend(other.sums);
+        for (tally, other) in self.tallies.iter_mut().zip(other.tallies) {
+            tally.merge(other);
+        }
+    }
 }
 
 /// One output's moments and total from its sums, chunk by chunk in order.
@@ -403,7 +415,7 @@ fn finish(
         first: trials.inputs_of(block, trial),
     });
     let totals: Vec<&Sums> = summaries.iter().map(|(_, total)| total).collect();
-    let correlations = correlations(whole.trials, &totals);
+    let correlations = correlations(whole.trials, &totals, &whole.products);
     let figures = searches.into_iter().zip(summaries).enumerate();
     let outputs: Vec<MonteCarlo> = figures
         .filter_map(|(output, (search, (moments, _)))| {

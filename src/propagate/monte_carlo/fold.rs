@@ -1,6 +1,7 @@
 //! Folding trials: a block's values become sums and the few values that intervals depend on.
 
 use super::moments::{Reference, Sums};
+use super::products;
 use super::sorting::sort;
 use super::windows::Windows;
 use crate::distribution::BLOCK;
@@ -99,15 +100,14 @@ impl Kernel for FoldKernel<'_> {
     fn run(self) {
         let Self { values, count, plans, folded } = self;
         folded.trials += count as u64;
-        let after: Vec<(&[f64], Reference)> =
-            values.iter().zip(plans).map(|(v, plan)| (&v[..count], plan.reference)).collect();
         for (output, (plan, out)) in plans.iter().zip(&mut folded.outputs).enumerate() {
             let block = &values[output][..count];
-            out.sums.add(block, plan.reference, &after[output + 1..]);
+            out.sums.add(block, plan.reference);
             out.below_median +=
                 block.iter().map(|&v| u64::from(v < plan.windows.median_low)).sum::<u64>();
             keep(block, &plan.windows, &mut out.kept);
         }
+        products::add(values, count, plans, folded.outputs.iter_mut().map(|out| &mut out.sums));
     }
 }
 

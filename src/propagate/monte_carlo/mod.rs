@@ -16,6 +16,7 @@ mod interval;
 mod moments;
 mod order;
 mod partition;
+mod products;
 mod quantiles;
 mod repeat;
 mod run;
@@ -24,7 +25,7 @@ mod together;
 mod windows;
 
 pub use adaptive::Adaptive;
-pub(crate) use adaptive::{Rule, find_trials};
+pub(crate) use adaptive::{FIRST_STAGE, Search, find_trials};
 pub(crate) use block::Trials;
 pub(crate) use hash::hash_trials;
 pub(crate) use quantiles::quantiles;

@@ -1,5 +1,7 @@
 //! Moments of the trials, added up in a fixed order about a pilot value.
 
+use super::products::Products;
+
 /// Where an output's values lie and how far they spread: the pilot's median and a width. Sums are
 /// taken of (value - middle)/scale, so that they neither cancel nor overflow.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -11,7 +13,7 @@ pub(crate) struct Reference {
 }
 
 /// Sums over trials of the powers 1 to 4 of one output, and of its products with the outputs after
-/// it, all about the reference.
+/// it ([`super::products`]), all about the reference.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Sums {
     /// How many values lie within the output's tolerance limits.
@@ -20,19 +22,13 @@ pub(crate) struct Sums {
     pub(crate) products: Vec<f64>,
 }
 
-const LANES: usize = 8;
+pub(super) const LANES: usize = 8;
 
 impl Sums {
-    /// Adds a block's values; `others` are the outputs after this one with their references. Every
-    /// lane adds its own trials, and the lanes are added in order, so the result does not depend on
-    /// the width of the machine's vectors.
+    /// Adds a block's values. Every lane adds its own trials, and the lanes are added in order, so
+    /// the result does not depend on the width of the machine's vectors.
     #[inline(always)]
-    pub(crate) fn add(
-        &mut self,
-        values: &[f64],
-        reference: Reference,
-        others: &[(&[f64], Reference)],
-    ) {
+    pub(crate) fn add(&mut self, values: &[f64], reference: Reference) {
         let [lower, upper] = reference.limits;
         self.inside += values.iter().map(|&v| u64::from((v >= lower) & (v <= upper))).sum::<u64>();
         let inverse = 1.0 / reference.scale;
@@ -60,35 +56,19 @@ impl Sums {
         for (sum, lane) in self.powers.iter_mut().zip(lanes) {
             *sum += pairwise(lane);
         }
-        self.products.resize(others.len(), 0.0);
-        for (sum, (other, about)) in self.products.iter_mut().zip(others) {
-            let other_inverse = 1.0 / about.scale;
-            let mut lane = [0.0; LANES];
-            for (a, b) in values.chunks(LANES).zip(other.chunks(LANES)) {
-                for i in 0..a.len().min(b.len()) {
-                    let d = (a[i] - reference.middle) * inverse;
-                    lane[i] += d * ((b[i] - about.middle) * other_inverse);
-                }
-            }
-            *sum += pairwise(lane);
-        }
     }
 
-    /// The sums of two sets of trials.
+    /// The sums of two sets of trials, but for the products, which are added up by themselves.
     pub(crate) fn merge(&mut self, other: &Self) {
         self.inside += other.inside;
         for (sum, term) in self.powers.iter_mut().zip(other.powers) {
-            *sum += term;
-        }
-        self.products.resize(self.products.len().max(other.products.len()), 0.0);
-        for (sum, term) in self.products.iter_mut().zip(&other.products) {
             *sum += term;
         }
     }
 }
 
 #[inline(always)]
-fn pairwise(lane: [f64; LANES]) -> f64 {
+pub(super) fn pairwise(lane: [f64; LANES]) -> f64 {
     let [a, b, c, d, e, f, g, h] = lane;
     ((a + e) + (c + g)) + ((b + f) + (d + h))
 }
@@ -180,10 +160,10 @@ pub(crate) fn shape_errors<'s>(
     (shapes.len() >= 4).then(|| [error(0), error(1)])
 }
 
-/// The correlation coefficients of all outputs i < j from their sums.
-pub(crate) fn correlations(trials: u64, totals: &[&Sums]) -> Vec<f64> {
+/// The correlation coefficients of all outputs i < j from their sums and the sums of products.
+pub(super) fn correlations(trials: u64, totals: &[&Sums], products: &Products) -> Vec<f64> {
     let pairs = totals.iter().enumerate().flat_map(|(i, a)| {
-        let others = totals[i + 1..].iter().zip(&a.products);
+        let others = totals[i + 1..].iter().zip(products.of(i));
         others.map(move |(b, &product)| correlation(trials, a, b, product))
     });
     pairs.collect()
@@ -208,9 +188,9 @@ mod tests {
         let values: Vec<f64> = (1..=1000).map(f64::from).collect();
         let reference = Reference { middle: 480.0, scale: 300.0, limits: [11.0, 20.0] };
         let mut sums = Sums::default();
-        sums.add(&values[..617], reference, &[]);
+        sums.add(&values[..617], reference);
         let mut rest = Sums::default();
-        rest.add(&values[617..], reference, &[]);
+        rest.add(&values[617..], reference);
         sums.merge(&rest);
         let m = Moments::new(1000, reference, &sums);
         assert!((m.mean - 500.5).abs() < 1e-10);
@@ -220,17 +200,5 @@ mod tests {
         assert!(m.skewness.abs() < 1e-12);
         let kurtosis = -1.2 * (1e6 + 1.0) / (1e6 - 1.0);
         assert!((m.excess_kurtosis - kurtosis).abs() < 1e-12);
-    }
-
-    #[test]
-    fn correlation_of_a_line_is_one() {
-        let a: Vec<f64> = (0..100).map(f64::from).collect();
-        let b: Vec<f64> = a.iter().map(|x| 5.0 - 3.0 * x).collect();
-        let about = |middle, scale| Reference { middle, scale, limits: [0.0, 0.0] };
-        let (ra, rb) = (about(50.0, 30.0), about(0.0, 90.0));
-        let (mut sa, mut sb) = (Sums::default(), Sums::default());
-        sa.add(&a, ra, &[(&b, rb)]);
-        sb.add(&b, rb, &[]);
-        assert!((correlation(100, &sa, &sb, sa.products[0]) + 1.0).abs() < 1e-14);
     }
 }

@@ -162,8 +162,12 @@ mod tests {
         let file = file::read_text("t", text, Path::new(""), &[]).unwrap();
         let row = &file.task.rows[0];
         let estimates = gum::evaluate(&file.task, row).estimates;
-        let trials =
-            Trials::new(&file.task, row, &estimates, &crate::distribution::Joint::default());
+        let trials = Trials::new(
+            &file.task,
+            row,
+            &estimates,
+            &std::sync::Arc::new(crate::distribution::Joint::default()),
+        );
         let scores: Vec<f64> = Scores::WRITTEN.values().collect();
         let control = Control { memory: 64 << 20, ..Control::default() };
         let count = 200_000;

@@ -1,5 +1,7 @@
 //! A Monte Carlo run of one row: pilot, main pass, figures.
 
+use std::ops::Range;
+
 use rayon::prelude::*;
 
 use super::adaptive::Adaptive;
@@ -9,6 +11,7 @@ use super::fold::{FoldKernel, Folded, Plan, drop_undefined};
 use super::interval::{Ranks, is_extreme, quantile_error, shortest, symmetric};
 use super::moments::{Moments, Reference, Sums, correlations};
 use super::order::Order;
+use super::products::{Products, waves};
 use super::sorting::sort;
 use super::windows::Windows;
 use crate::distribution::BLOCK;
@@ -16,6 +19,9 @@ use crate::propagate::Control;
 
 /// Blocks of the pilot; fewer trials than that are all kept.
 const PILOT_BLOCKS: u64 = 16;
+
+/// Outputs whose pilot values are held at a time: 64 MiB.
+const PILOT_OUTPUTS: usize = (64 << 20) / (8 * BLOCK * PILOT_BLOCKS as usize);
 
 /// Batches whose scatter gives the numerical standard error of the shortest interval.
 const BATCHES: usize = 32;
@@ -33,7 +39,7 @@ pub struct MonteCarlo {
     pub trials: u64,
     /// Mean of the trials.
     pub estimate: f64,
-    /// Standard deviation of the trials; `None` if the distribution has none.
+    /// Standard deviation of the trials; `None` if the distribution has none, or of a single trial.
     pub standard_uncertainty: Option<f64>,
     /// Median of the trials.
     pub median: f64,
@@ -123,8 +129,8 @@ pub(crate) fn run(trials: &Trials, request: Request<'_>, control: &Control<'_>) 
         if kept_bytes(&plans, request) > control.memory {
             return run_capped(trials, request, control, &plans);
         }
-        let chunks = fold_all(trials, request.trials, &plans, control);
-        if let Some(finished) = finish(trials, request, control, &plans, chunks) {
+        let (chunks, products) = fold_all(trials, request.trials, &plans, control);
+        if let Some(finished) = finish(trials, request, control, &plans, chunks, &products) {
             return finished;
         }
         // a tail came out short: wider windows, in the end everything, which cannot come out short
@@ -163,6 +169,27 @@ fn run_capped(
     })
 }
 
+/// The values of some outputs in the first blocks.
+fn pilot(
+    trials: &Trials,
+    request: Request<'_>,
+    control: &Control<'_>,
+    outputs: Range<usize>,
+) -> Vec<Vec<f64>> {
+    let blocks = request.trials.div_ceil(BLOCK as u64).min(PILOT_BLOCKS);
+    let mut workspace = trials.workspace();
+    let mut pilot: Vec<Vec<f64>> = vec![Vec::new(); outputs.len()];
+    for block in 0..blocks {
+        let count = trials_in(block, request.trials);
+        trials.block(control.path, block, &mut workspace);
+        let (count, _) = drop_undefined(&mut workspace.outputs, count);
+        for (values, out) in pilot.iter_mut().zip(workspace.outputs.iter().skip(outputs.start)) {
+            values.extend_from_slice(&out[..count]);
+        }
+    }
+    pilot
+}
+
 /// References and windows from the first blocks.
 pub(super) fn plans(
     trials: &Trials,
@@ -170,20 +197,10 @@ pub(super) fn plans(
     control: &Control<'_>,
     margin: f64,
 ) -> Vec<Plan> {
-    let blocks = request.trials.div_ceil(BLOCK as u64).min(PILOT_BLOCKS);
-    let mut workspace = trials.workspace();
-    let mut pilot: Vec<Vec<f64>> = vec![Vec::new(); trials.outputs()];
-    for block in 0..blocks {
-        let count = trials_in(block, request.trials);
-        trials.block(control.path, block, &mut workspace);
-        let (count, _) = drop_undefined(&mut workspace.outputs, count);
-        for (values, out) in pilot.iter_mut().zip(&workspace.outputs) {
-            values.extend_from_slice(&out[..count]);
-        }
-    }
-    pilot
-        .into_iter()
-        .enumerate()
+    let groups = (0..trials.outputs()).step_by(PILOT_OUTPUTS);
+    let groups = groups.map(|first| first..(first + PILOT_OUTPUTS).min(trials.outputs()));
+    groups
+        .flat_map(|group| group.clone().zip(pilot(trials, request, control, group)))
         .map(|(output, mut values)| {
             sort(&mut values);
             let reference = reference(&values, trials.limits(output));
@@ -218,8 +235,14 @@ pub(super) fn trials_in(block: u64, trials: u64) -> usize {
     trials.saturating_sub(block * BLOCK as u64).min(BLOCK as u64) as usize
 }
 
-/// Folds all trials, chunk by chunk on all threads; the chunks come back in order.
-fn fold_all(trials: &Trials, count: u64, plans: &[Plan], control: &Control<'_>) -> Vec<Folded> {
+/// Folds all trials, chunk by chunk on all threads; the chunks come back in order, with the sums of
+/// products of all together.
+fn fold_all(
+    trials: &Trials,
+    count: u64,
+    plans: &[Plan],
+    control: &Control<'_>,
+) -> (Vec<Folded>, Products) {
     let blocks = count.div_ceil(BLOCK as u64);
     let chunk = blocks.div_ceil(BATCHES as u64).clamp(1, LARGEST_CHUNK);
     let fold_chunk = |workspace: &mut Workspace, number: u64| {
@@ -244,10 +267,18 @@ fn fold_all(trials: &Trials, count: u64, plans: &[Plan], control: &Control<'_>) 
         }
         folded
     };
-    (0..blocks.div_ceil(chunk))
-        .into_par_iter()
-        .map_init(|| trials.workspace(), fold_chunk)
-        .collect()
+    let mut chunks: Vec<Folded> = Vec::new();
+    let mut products = Products::new(plans.len());
+    for wave in waves(blocks.div_ceil(chunk), plans.len()) {
+        let wave = wave.into_par_iter().map(|number| number as u64);
+        let wave = wave.map_init(|| trials.workspace(), fold_chunk);
+        let mut wave: Vec<Folded> = wave.collect();
+        for folded in &mut wave {
+            products.take(folded.outputs.iter_mut().map(|output| &mut output.sums));
+        }
+        chunks.extend(wave);
+    }
+    (chunks, products)
 }
 
 /// The figures from the folded chunks; `None` if a window missed a value that is needed.
@@ -257,6 +288,7 @@ fn finish(
     control: &Control<'_>,
     plans: &[Plan],
     mut chunks: Vec<Folded>,
+    products: &Products,
 ) -> Option<Finished> {
     let undefined = undefined(trials, &chunks);
     let stopped = control.is_stopped();
@@ -275,7 +307,7 @@ fn finish(
         })
         .collect();
     let totals: Vec<&Sums> = summaries.iter().map(|(_, total)| total).collect();
-    let correlations = correlations(count, &totals);
+    let correlations = correlations(count, &totals, products);
     let mut per_output: Vec<Vec<Batch>> = (0..plans.len()).map(|_| Vec::new()).collect();
     for chunk in &mut chunks {
         for (batches, output) in per_output.iter_mut().zip(&mut chunk.outputs) {
@@ -367,10 +399,12 @@ impl MonteCarlo {
         errors: NumericalError,
     ) -> Self {
         let spread = moments.std > 0.0;
+        // a single trial does not scatter
+        let several = moments.trials > 1.0;
         Self {
             trials: moments.trials as u64,
             estimate: moments.mean,
-            standard_uncertainty: (drawn_dof > 2.0).then_some(moments.std),
+            standard_uncertainty: (drawn_dof > 2.0 && several).then_some(moments.std),
             median,
             symmetric_interval: intervals.0,
             shortest_interval: intervals.1,
@@ -397,9 +431,10 @@ impl NumericalError {
             let exists = drawn_dof > order && moments.std > 0.0;
             moments.shape_errors.filter(|_| exists).map(|errors| errors[which])
         };
+        let several = moments.trials > 1.0;
         Self {
-            estimate: (drawn_dof > 2.0).then(|| moments.mean_error()),
-            standard_uncertainty: (drawn_dof > 4.0).then(|| moments.std_error()),
+            estimate: (drawn_dof > 2.0 && several).then(|| moments.mean_error()),
+            standard_uncertainty: (drawn_dof > 4.0 && several).then(|| moments.std_error()),
             median,
             symmetric_interval: [low, high],
             shortest_interval,

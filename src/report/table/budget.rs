@@ -4,7 +4,7 @@ use super::columns::{self, Column};
 use super::grid::Grid;
 use super::{WIDTH, coverage_text, has_name, in_unit, text};
 use crate::model::Quantity;
-use crate::propagate::gum::{BudgetLine, Dof, Gum};
+use crate::propagate::gum::{BudgetLine, CorrelationLine, Dof, Gum};
 use crate::report::number::{exact, place, rounded, significant, with_uncertainty};
 use crate::report::subtotals::Subtotals;
 use crate::task::{Settings, Task};
@@ -14,6 +14,9 @@ const SENSITIVITY_DIGITS: u32 = 4;
 
 /// Units and distributions up to this width stay in one line.
 const WORD: usize = 12;
+
+/// Correlation coefficients with a line each, at most; the shares of more are added up.
+const MOST_COEFFICIENTS: usize = 500;
 
 /// Degrees of freedom above this are written as a power of ten.
 const MANY: f64 = 1e7;
@@ -136,7 +139,7 @@ fn grid(fields: &[Field]) -> Grid {
 type Line = [String; 9];
 
 fn lines(task: &Task, output: &Quantity, gum: &Gum, digits: u32) -> Vec<Line> {
-    let inputs = gum.budget.iter().filter_map(|line| {
+    let inputs = gum.budget().filter_map(|line| {
         let variable = task.variables.get(line.variable)?;
         let (estimate, uncertainty) =
             with_uncertainty(line.estimate, line.standard_uncertainty, digits);
@@ -145,23 +148,14 @@ fn lines(task: &Task, output: &Quantity, gum: &Gum, digits: u32) -> Vec<Line> {
             estimate,
             uncertainty,
             text::plain(variable.unit.text()),
-            distribution(line),
+            distribution(&line),
             dof(line.dof),
             significant(line.sensitivity, SENSITIVITY_DIGITS),
             significant(line.contribution, digits),
             percent(line.share),
         ])
     });
-    let coefficients = gum.correlations.iter().filter_map(|line| {
-        let [a, b] = line.variables.map(|place| task.variables.get(place));
-        let mut cells = Line::default();
-        cells[0] = format!("r({}, {})", text::plain(&a?.name), text::plain(&b?.name));
-        cells[1] = exact(line.coefficient);
-        cells[4] = "correlation".to_owned();
-        cells[8] = percent(line.share);
-        Some(cells)
-    });
-    let mut lines: Vec<Line> = inputs.chain(coefficients).collect();
+    let mut lines: Vec<Line> = inputs.chain(coefficients(task, gum)).collect();
     let (estimate, combined) = with_uncertainty(gum.estimate, gum.standard_uncertainty, digits);
     let mut total = Line::default();
     total[0] = text::plain(&output.name);
@@ -174,6 +168,34 @@ fn lines(task: &Task, output: &Quantity, gum: &Gum, digits: u32) -> Vec<Line> {
     total[8] = percent(if gum.standard_uncertainty > 0.0 { 1.0 } else { 0.0 });
     lines.push(total);
     lines
+}
+
+/// The lines of the correlation coefficients; a single one if there are very many.
+fn coefficients(task: &Task, gum: &Gum) -> Vec<Line> {
+    let count = gum.correlations().count();
+    if count > MOST_COEFFICIENTS {
+        let mut cells = Line::default();
+        cells[0] = format!("{} coefficients", text::grouped(count as u64));
+        cells[4] = "correlation".to_owned();
+        cells[8] = percent(gum.correlations().map(|line| line.share).sum());
+        return vec![cells];
+    }
+    let line = |line: CorrelationLine| {
+        let [a, b] = line.variables.map(|place| task.variables.get(place));
+        let mut cells = Line::default();
+        cells[0] = format!("r({}, {})", text::plain(&a?.name), text::plain(&b?.name));
+        cells[1] = exact(line.coefficient);
+        cells[4] = "correlation".to_owned();
+        cells[8] = percent(line.share);
+        Some(cells)
+    };
+    gum.correlations().filter_map(line).collect()
+}
+
+/// How many lines the correlation coefficients have.
+pub(super) fn coefficient_lines(gum: &Gum) -> usize {
+    let count = gum.correlations().count();
+    if count > MOST_COEFFICIENTS { 1 } else { count }
 }
 
 fn distribution(line: &BudgetLine) -> String {
@@ -213,7 +235,7 @@ fn subtotals(task: &Task, gum: &Gum) -> Option<String> {
         sums.push(named.collect::<Vec<_>>().join(", "));
     }
     let both = types.iter().all(|(kind, _)| {
-        let mut lines = gum.budget.iter().filter(|line| line.contribution > 0.0);
+        let mut lines = gum.budget().filter(|line| line.contribution > 0.0);
         lines.any(|line| task.variables.get(line.variable).is_some_and(|v| v.evaluation == *kind))
     });
     if both {
@@ -223,8 +245,8 @@ fn subtotals(task: &Task, gum: &Gum) -> Option<String> {
     if sums.is_empty() {
         return None;
     }
-    if !gum.correlations.is_empty() {
-        sums.push(entry("correlations", gum.correlations.iter().map(|line| line.share).sum()));
+    if gum.is_correlated() {
+        sums.push(entry("correlations", gum.correlations().map(|line| line.share).sum()));
     }
     Some(format!("subtotals: {}", sums.join("; ")))
 }

@@ -1,6 +1,6 @@
 //! Columns of the budget that are shown on request.
 
-use super::budget::{Budget, Field, Layout};
+use super::budget::{Budget, Field, Layout, coefficient_lines};
 use super::text;
 use crate::propagate::gum::BudgetLine;
 use crate::report::number::{MISSING, exact, significant};
@@ -136,11 +136,11 @@ fn cells(
     total: String,
 ) -> Vec<String> {
     let Budget { task, gum, .. } = *budget;
-    let inputs = gum.budget.iter().filter_map(|line| {
+    let inputs = gum.budget().filter_map(|line| {
         let variable = task.variables.get(line.variable)?;
-        Some(of_input(line, variable))
+        Some(of_input(&line, variable))
     });
-    let coefficients = gum.correlations.iter().map(|_| String::new());
+    let coefficients = std::iter::repeat_n(String::new(), coefficient_lines(gum));
     inputs.chain(coefficients).chain([total]).collect()
 }
 

@@ -4,10 +4,11 @@ use super::grid::Grid;
 use super::{WIDTH, in_unit, text};
 use crate::model::Quantity;
 use crate::propagate::gum::Gum;
-use crate::propagate::monte_carlo::{Adaptive, MonteCarlo};
+use crate::propagate::monte_carlo::{Adaptive, FIRST_STAGE, MonteCarlo};
 use crate::propagate::validate::Validation;
 use crate::propagate::{Conformity, OutputEvaluation};
 use crate::report::number::{MISSING, coarser, justified, place, rounded, significant, to};
+use crate::task::StoppingRule;
 
 /// Decimal place of skewness and kurtosis.
 const SHAPE_PLACE: i32 = -2;
@@ -30,7 +31,7 @@ pub(super) fn table(output: &Quantity, figures: &OutputEvaluation, digits: u32) 
         page += &text::wrapped("the shortest interval is that of the trials within 1e-5 u");
     }
     if let Some(end) = &monte_carlo.adaptive {
-        page += &text::wrapped(&stability(output, end));
+        page += &text::wrapped(&stability(output, end, monte_carlo.trials));
     }
     page.push('\n');
     page += &text::wrapped(&verdict(output, figures, monte_carlo));
@@ -60,17 +61,34 @@ fn conformity_text(output: &Quantity, found: &Conformity) -> String {
     )
 }
 
-/// How the adaptive procedure ended.
-fn stability(output: &Quantity, end: &Adaptive) -> String {
-    let Adaptive { block_trials, blocks, tolerance, converged } = *end;
+/// How the adaptive procedure ended, after how many trials, and why.
+fn stability(output: &Quantity, end: &Adaptive, trials: u64) -> String {
+    let Adaptive { rule, block_trials, blocks, tolerance, converged } = *end;
     let tolerance = in_unit(&significant(tolerance, 1), &output.unit);
-    let made = format!("{blocks} blocks of {} trials", text::grouped(block_trials));
-    if converged {
-        format!(
-            "JCGM 101, 7.9: all figures of all outputs are stable after {made}, here to {tolerance}"
-        )
-    } else {
-        format!("JCGM 101, 7.9: not yet stable to {tolerance} after {made}")
+    let trials = text::grouped(trials);
+    let block = text::grouped(block_trials);
+    let made = format!("{trials} trials, {blocks} blocks of {block}");
+    let rule = match rule {
+        StoppingRule::Clause79 => "JCGM 101, 7.9",
+        StoppingRule::Stein => "Stein's two-stage rule",
+    };
+    match end.rule {
+        _ if blocks == 0 => format!(
+            "{rule}: {trials} trials are the most that may be made, and two blocks of {block} would \
+             be needed to say how far the figures scatter"
+        ),
+        StoppingRule::Clause79 if converged => format!(
+            "{rule}: all figures of all outputs are stable after {made}, here to {tolerance}"
+        ),
+        StoppingRule::Clause79 => format!("{rule}: not yet stable to {tolerance} after {made}"),
+        StoppingRule::Stein if converged => format!(
+            "{rule}: by the scatter of the first {FIRST_STAGE} blocks {made}, are enough for all \
+             figures of all outputs, here to {tolerance}, each with a probability of 95 %"
+        ),
+        StoppingRule::Stein => format!(
+            "{rule}: by the scatter of the first blocks more than {made}, would be needed, here for \
+             {tolerance}"
+        ),
     }
 }
 

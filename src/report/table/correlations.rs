@@ -9,12 +9,21 @@ use crate::task::Task;
 /// Decimal place of the coefficients (JCGM 100, 7.2.6).
 const PLACE: i32 = -3;
 
+/// Pairs of outputs on a page, at most: those of 45 outputs.
+const MOST_PAIRS: usize = 1000;
+
 /// The coefficients as the upper triangle of their matrix or, if that is too wide, as a list.
 pub(super) fn table(task: &Task, row: &RowEvaluation) -> Option<String> {
     let names: Vec<String> =
         task.model.outputs.iter().map(|output| text::plain(&output.quantity.name)).collect();
     if names.len() < 2 {
         return None;
+    }
+    let pairs = row.correlations.len();
+    if pairs > MOST_PAIRS {
+        let pairs = text::grouped(pairs as u64);
+        let text = format!("{pairs} correlation coefficients of the outputs: --format json");
+        return Some(text::wrapped(&text));
     }
     let trials = row.outputs.first()?.monte_carlo.as_ref().map(|figures| figures.trials);
     let coefficients: Vec<String> = row.correlations.iter().map(|&r| cell(r, trials)).collect();

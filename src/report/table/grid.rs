@@ -1,5 +1,7 @@
 //! Columns of texts and of numbers whose decimal points stand under each other.
 
+use std::ops::Range;
+
 use comfy_table::{
     Cell, CellAlignment, ColumnConstraint, ContentArrangement, ContentLineStyle, LineStyle, Row,
     Table, TableStyle, Width,
@@ -11,6 +13,10 @@ use crate::report::number::align;
 const GAP: u16 = 2;
 
 const LINE: char = '─';
+
+/// Rows below one header. Longer tables begin again with it, so that it stays in sight, and so that
+/// no more than this is laid out at a time.
+pub(super) const PAGE: usize = 1000;
 
 /// A table that is filled column by column.
 #[derive(Debug, Default)]
@@ -114,14 +120,27 @@ impl Grid {
 
     /// The table with its header, ending in a newline.
     pub(crate) fn render(&self, width: usize) -> String {
-        let lines = self.lines(width, true);
+        let rows = self.rows();
+        let pages = (0..rows.max(1)).step_by(PAGE).map(|first| first..(first + PAGE).min(rows));
+        let pages: Vec<String> = pages.map(|page| self.page(width, page)).collect();
+        pages.join("\n")
+    }
+
+    fn rows(&self) -> usize {
+        self.columns.iter().map(|column| column.cells.len()).max().unwrap_or(0)
+    }
+
+    /// Some rows with the header above them.
+    fn page(&self, width: usize, rows: Range<usize>) -> String {
+        let ends = rows.end == self.rows();
+        let lines = self.lines(width, true, rows);
         let header = self.columns.iter().map(|column| column.header.lines().count()).max();
         // the line below the header, over the whole table
         let rule = lines.get(header.unwrap_or(0).max(1)).cloned().unwrap_or_default();
         let mut text = String::new();
         let last = lines.len().saturating_sub(1);
         for (place, line) in lines.iter().enumerate() {
-            if self.footer && place == last {
+            if self.footer && ends && place == last {
                 text += &format!("{rule}\n");
             }
             text += &format!("{line}\n");
@@ -131,10 +150,13 @@ impl Grid {
 
     /// The table without a header, ending in a newline.
     pub(super) fn bare(&self, width: usize) -> String {
-        self.lines(width, false).into_iter().map(|line| line + "\n").collect()
+        let rows = self.rows();
+        let pages = (0..rows).step_by(PAGE).map(|first| first..(first + PAGE).min(rows));
+        let lines = pages.flat_map(|page| self.lines(width, false, page));
+        lines.map(|line| line + "\n").collect()
     }
 
-    fn lines(&self, width: usize, header: bool) -> Vec<String> {
+    fn lines(&self, width: usize, header: bool, rows: Range<usize>) -> Vec<String> {
         let mut table = Table::new();
         let mut style = TableStyle::new()
             .header_lines(ContentLineStyle::none())
@@ -150,14 +172,14 @@ impl Grid {
         table.load_style(style);
         let width = u16::try_from(width).unwrap_or(u16::MAX);
         table.set_content_arrangement(ContentArrangement::Dynamic).set_width(width);
-        let rows = self.columns.iter().map(|column| column.cells.len()).max().unwrap_or(0);
-        for place in 0..rows {
+        let all = self.rows();
+        for place in rows {
             let cells = self.columns.iter().map(|column| {
                 let text = column.cells.get(place).map(String::as_str).unwrap_or_default();
                 Cell::new(text).set_alignment(column.alignment)
             });
             let mut row = Row::from(cells.collect::<Vec<_>>());
-            if self.footer && place + 1 == rows {
+            if self.footer && place + 1 == all {
                 row.max_height(1);
             }
             table.add_row(row);

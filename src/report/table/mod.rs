@@ -12,6 +12,8 @@ pub use columns::Column;
 pub(crate) use grid::Grid;
 pub(crate) use text::{plain, wrapped};
 
+use std::io::{self, Write};
+
 use self::budget::Budget;
 use super::Report;
 use crate::model::{InputQuantity, Output, Quantity};
@@ -38,25 +40,40 @@ pub struct Style {
 ///
 /// Warnings are not part of the page; a run that was stopped is marked at its end.
 pub fn table(report: &Report<'_>, style: &Style) -> String {
+    let mut bytes = Vec::new();
+    let written = write_table(report, style, &mut bytes);
+    debug_assert!(written.is_ok(), "{written:?}");
+    String::from_utf8(bytes).unwrap_or_default()
+}
+
+/// Writes what [`table`] gives, part by part.
+///
+/// # Errors
+/// Those of the writer.
+pub fn write_table(report: &Report<'_>, style: &Style, mut out: impl Write) -> io::Result<()> {
     let Report { task, evaluation, .. } = *report;
     let digits = style.digits.unwrap_or(evaluation.settings.digits);
-    let mut page = vec![heading(task, evaluation)];
-    page.extend(legend(task));
+    out.write_all(heading(task, evaluation).as_bytes())?;
+    let mut below = |part: String| {
+        out.write_all(b"\n")?;
+        out.write_all(part.as_bytes())
+    };
+    legend(task).into_iter().try_for_each(&mut below)?;
     match evaluation.rows.as_slice() {
         [row] => {
             for (output, figures) in task.model.outputs.iter().zip(&row.outputs) {
-                page.push(section(task, evaluation, output, figures, digits, &style.columns));
+                below(section(task, evaluation, output, figures, digits, &style.columns))?;
             }
-            page.extend(correlations::table(task, row));
-            page.extend(left_out(row));
+            let whole = correlations::table(task, row).into_iter().chain(left_out(row));
+            whole.into_iter().try_for_each(&mut below)?;
         }
-        rows => page.push(sweep::tables(task, rows, digits)),
+        rows => sweep::tables(task, rows, digits).try_for_each(&mut below)?,
     }
     if evaluation.stopped {
         let trials = trials_made(evaluation);
-        page.push(format!("stopped after {} trials\n", text::grouped(trials)));
+        below(format!("stopped after {} trials\n", text::grouped(trials)))?;
     }
-    page.join("\n")
+    Ok(())
 }
 
 /// Title, coverage, trials; the conditions where there is one row of them.

@@ -1,6 +1,6 @@
 //! A sweep over conditions: one table for each output, one line for each row.
 
-use super::grid::Grid;
+use super::grid::{Grid, PAGE};
 use super::{WIDTH, conditions_text, has_name, text, title};
 use crate::model::{Output, Quantity};
 use crate::propagate::gum::Gum;
@@ -8,33 +8,58 @@ use crate::propagate::{OutputEvaluation, RowEvaluation};
 use crate::report::number::{MISSING, align, exact, justified, place, rounded, significant, to};
 use crate::task::Task;
 
-/// The tables of all outputs.
-pub(super) fn tables(task: &Task, rows: &[RowEvaluation], digits: u32) -> String {
+/// The tables of all outputs, part by part, an empty line apart.
+pub(super) fn tables<'a>(
+    task: &'a Task,
+    rows: &'a [RowEvaluation],
+    digits: u32,
+) -> impl Iterator<Item = String> + 'a {
     let conditions = &task.model.conditions;
     let varying: Vec<usize> = (0..conditions.len()).filter(|&place| varies(rows, place)).collect();
-    let outputs = &task.model.outputs;
-    let grids = |labels: &Labels<'_>, width: &str| -> Vec<Grid> {
-        (0..outputs.len()).map(|output| grid(task, rows, output, labels, width, digits)).collect()
-    };
-    let fits = |tables: &[Grid]| tables.iter().all(|grid| grid.natural_width() <= WIDTH);
-    let mut tables = grids(&Labels::Conditions(&varying), WIDE);
-    let mut parts = Vec::new();
-    parts.extend(fixed(conditions, rows, &varying));
-    if !fits(&tables) {
-        tables = grids(&Labels::Conditions(&varying), NARROW);
-    }
-    if !fits(&tables) {
-        tables = grids(&Labels::Numbers, WIDE);
-        parts.push(numbered(conditions, rows, &varying));
-    }
-    for (Output { quantity, .. }, grid) in outputs.iter().zip(&tables) {
-        parts.push(title(quantity) + "\n" + &grid.render(WIDTH));
-    }
-    parts.push(text::wrapped(
+    let made = |row: &RowEvaluation| row.outputs.iter().any(|o| o.monte_carlo.is_some());
+    let sweep = Sweep { task, rows, digits, has_trials: rows.iter().any(made) };
+    let [wide, narrow] =
+        [WIDE, NARROW].map(|uncertainty| Layout { labels: Labels::Conditions, uncertainty });
+    let numbers = Layout { labels: Labels::Numbers, uncertainty: WIDE };
+    let layouts = [wide, narrow];
+    let layout =
+        layouts.into_iter().find(|layout| sweep.fits(*layout, &varying)).unwrap_or(numbers);
+    let by_number = matches!(layout.labels, Labels::Numbers).then(|| varying.clone());
+    let by_number = by_number.into_iter().flat_map(|varying| numbered(conditions, rows, varying));
+    let fixed = fixed(conditions, rows, &varying);
+    let outputs = task.model.outputs.iter().enumerate();
+    let tables = outputs.flat_map(move |(output, Output { quantity, .. })| {
+        let mut above = title(quantity) + "\n";
+        let varying = varying.clone();
+        let pages = (0..rows.len()).step_by(PAGE);
+        pages.map(move |first| {
+            let grid = sweep.grid(output, layout, &varying, first);
+            std::mem::take(&mut above) + &grid.render(WIDTH)
+        })
+    });
+    let last = text::wrapped(
         "Budgets, shortest intervals, numerical standard errors and correlations of every row: \
          --format json.",
-    ));
-    parts.join("\n")
+    );
+    fixed.into_iter().chain(by_number).chain(tables).chain([last])
+}
+
+/// What the tables are made of.
+#[derive(Clone, Copy, Debug)]
+struct Sweep<'a> {
+    task: &'a Task,
+    rows: &'a [RowEvaluation],
+    digits: u32,
+    /// Whether there are trials in any row.
+    has_trials: bool,
+}
+
+/// How they are set.
+#[derive(Clone, Copy, Debug)]
+struct Layout {
+    labels: Labels,
+    /// The word below "standard" and "expanded".
+    uncertainty: &'static str,
 }
 
 /// The word below "standard" and "expanded", and its form for narrow columns.
@@ -42,9 +67,10 @@ const WIDE: &str = "uncertainty";
 const NARROW: &str = "uncer-\ntainty";
 
 /// What stands at the start of a line.
-enum Labels<'a> {
-    /// The conditions at these places.
-    Conditions(&'a [usize]),
+#[derive(Clone, Copy, Debug)]
+enum Labels {
+    /// The varying conditions.
+    Conditions,
     /// The number of the row.
     Numbers,
 }
@@ -63,18 +89,30 @@ fn fixed(conditions: &[Quantity], rows: &[RowEvaluation], varying: &[usize]) -> 
         .then(|| text::wrapped(&format!("at {}", conditions_text(&quantities, &values))))
 }
 
-/// The varying conditions of every row, by its number.
-fn numbered(conditions: &[Quantity], rows: &[RowEvaluation], varying: &[usize]) -> String {
-    let mut grid = Grid::default();
-    grid.numbers("row", (1..=rows.len()).map(|number| number.to_string()));
-    grid.text(
-        "conditions",
-        rows.iter().map(|row| {
-            let (quantities, values) = chosen(conditions, row, |place| varying.contains(&place));
-            conditions_text(&quantities, &values)
-        }),
-    );
-    grid.render(WIDTH)
+/// The varying conditions of every row, by its number, page by page.
+fn numbered<'a>(
+    conditions: &'a [Quantity],
+    rows: &'a [RowEvaluation],
+    varying: Vec<usize>,
+) -> impl Iterator<Item = String> + 'a {
+    rows.chunks(PAGE).enumerate().map(move |(page, rows)| {
+        let mut grid = Grid::default();
+        grid.numbers("row", numbers(page * PAGE, rows.len()));
+        grid.text(
+            "conditions",
+            rows.iter().map(|row| {
+                let (quantities, values) =
+                    chosen(conditions, row, |place| varying.contains(&place));
+                conditions_text(&quantities, &values)
+            }),
+        );
+        grid.render(WIDTH)
+    })
+}
+
+/// The numbers of so many rows behind the first ones.
+fn numbers(before: usize, count: usize) -> impl Iterator<Item = String> {
+    (before + 1..=before + count).map(|number| number.to_string())
 }
 
 fn chosen(
@@ -86,40 +124,48 @@ fn chosen(
     all.filter(|(place, _)| keep(*place)).map(|(_, condition)| condition).unzip()
 }
 
-fn grid(
-    task: &Task,
-    rows: &[RowEvaluation],
-    output: usize,
-    labels: &Labels<'_>,
-    uncertainty: &str,
-    digits: u32,
-) -> Grid {
-    let mut grid = Grid::default();
-    match labels {
-        Labels::Numbers => grid.numbers("row", (1..=rows.len()).map(|number| number.to_string())),
-        Labels::Conditions(places) => {
-            for &place in *places {
-                let Some(condition) = task.model.conditions.get(place) else { continue };
-                let values = rows.iter().map(|row| row.conditions.get(place).copied());
-                grid.numbers(&header(condition), values.map(|v| v.map_or_else(missing, exact)));
+impl Sweep<'_> {
+    /// Whether all tables fit the page.
+    fn fits(&self, layout: Layout, varying: &[usize]) -> bool {
+        (0..self.task.model.outputs.len()).all(|output| {
+            let mut pages = (0..self.rows.len()).step_by(PAGE);
+            pages.all(|first| self.grid(output, layout, varying, first).natural_width() <= WIDTH)
+        })
+    }
+
+    /// A page of the table of an output, which begins with the row at `first`: of a long sweep only
+    /// one is in memory.
+    fn grid(&self, output: usize, layout: Layout, varying: &[usize], first: usize) -> Grid {
+        let rows = self.rows.get(first..).unwrap_or_default();
+        let rows = &rows[..rows.len().min(PAGE)];
+        let mut grid = Grid::default();
+        match layout.labels {
+            Labels::Numbers => grid.numbers("row", numbers(first, rows.len())),
+            Labels::Conditions => {
+                for &place in varying {
+                    let Some(condition) = self.task.model.conditions.get(place) else { continue };
+                    let values = rows.iter().map(|row| row.conditions.get(place).copied());
+                    grid.numbers(&header(condition), values.map(|v| v.map_or_else(missing, exact)));
+                }
             }
         }
+        let lines: Vec<[String; 7]> =
+            rows.iter().map(|row| line(row.outputs.get(output), self.digits)).collect();
+        let column = |place: usize| lines.iter().map(move |line| line[place].clone());
+        let uncertainty = layout.uncertainty;
+        grid.numbers("estimate", column(0));
+        grid.numbers(&format!("standard\n{uncertainty}"), column(1));
+        grid.numbers(&format!("expanded\n{uncertainty}"), column(2));
+        grid.numbers("k", column(3));
+        if self.has_trials {
+            let ends = [4, 5].map(|place| align(&column(place).collect::<Vec<_>>()));
+            let [low, high] = ends;
+            let intervals = low.into_iter().zip(high).map(|(low, high)| format!("{low}  {high}"));
+            grid.text("Monte Carlo interval\n(symmetric) from, to", intervals);
+            grid.text("GUM\ninterval", column(6));
+        }
+        grid
     }
-    let lines: Vec<[String; 7]> =
-        rows.iter().map(|row| line(row.outputs.get(output), digits)).collect();
-    let column = |place: usize| lines.iter().map(move |line| line[place].clone());
-    grid.numbers("estimate", column(0));
-    grid.numbers(&format!("standard\n{uncertainty}"), column(1));
-    grid.numbers(&format!("expanded\n{uncertainty}"), column(2));
-    grid.numbers("k", column(3));
-    if rows.iter().any(|row| row.outputs.get(output).is_some_and(|o| o.monte_carlo.is_some())) {
-        let ends = [4, 5].map(|place| align(&column(place).collect::<Vec<_>>()));
-        let [low, high] = ends;
-        let intervals = low.into_iter().zip(high).map(|(low, high)| format!("{low}  {high}"));
-        grid.text("Monte Carlo interval\n(symmetric) from, to", intervals);
-        grid.text("GUM\ninterval", column(6));
-    }
-    grid
 }
 
 fn header(condition: &Quantity) -> String {

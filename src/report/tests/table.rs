@@ -1,7 +1,9 @@
 //! Pages for a terminal.
 
+use std::sync::Arc;
+
 use super::*;
-use crate::distribution::Evaluation as Kind;
+use crate::distribution::{Distribution, Evaluation as Kind, Rectangular};
 use crate::propagate::gum::Dof;
 use crate::report::{Column, Style, table};
 use crate::task::Coverage;
@@ -270,8 +272,8 @@ fn where_gum_is_not_valid() {
     // at tilt 0 the cosine is at its maximum: its distribution is lopsided
     let mut case = only_z(Case::new(plane_at(0.0, 100_000)));
     let mut task = plane_at(0.0, 100_000);
-    task.rows[0].distributions[1] =
-        crate::distribution::Rectangular::new(0.0, 10.0).unwrap().into();
+    let tilt: Distribution = Rectangular::new(0.0, 10.0).unwrap().into();
+    Arc::get_mut(&mut task.rows[0].distributions).unwrap()[1] = Arc::new(tilt);
     case.evaluation = only_z(Case::new(task)).evaluation;
     insta::assert_snapshot!(page(&case), @"
     inclined-plane

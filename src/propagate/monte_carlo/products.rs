@@ -1,0 +1,139 @@
+//! Sums of products of outputs: a number for each pair of them. Of many outputs they are added up in
+//! waves of chunks, always in the order of the chunks, so that few sets of them are held at a time
+//! and the size of the waves does not show in the figures.
+
+use std::ops::Range;
+
+use super::fold::Plan;
+use super::moments::{LANES, Sums, pairwise};
+use crate::distribution::BLOCK;
+
+/// Bytes for sums of products at a time.
+const MEMORY: usize = 256 << 20;
+
+/// Outputs in a tile: the values of two tiles stay in the second-level cache while all pairs of them
+/// are added up.
+const TILE: usize = 32;
+
+/// Adds the products of a block's values to the sums; `count` trials of the block count. Every pair
+/// is added up by itself, so the tiles do not show in the sums.
+#[inline(always)]
+pub(super) fn add<'s>(
+    values: &[[f64; BLOCK]],
+    count: usize,
+    plans: &[Plan],
+    sums: impl Iterator<Item = &'s mut Sums>,
+) {
+    let outputs = values.len().min(plans.len());
+    let mut products: Vec<&mut Vec<f64>> = sums.map(|sums| &mut sums.products).collect();
+    for (output, products) in products.iter_mut().enumerate() {
+        products.resize(outputs.saturating_sub(output + 1), 0.0);
+    }
+    for first in (0..outputs).step_by(TILE) {
+        for second in (first..outputs).step_by(TILE) {
+            for i in first..(first + TILE).min(outputs) {
+                let (a, about_a) = (&values[i][..count], plans[i].reference);
+                let inverse_a = 1.0 / about_a.scale;
+                for j in second.max(i + 1)..(second + TILE).min(outputs) {
+                    let (b, about_b) = (&values[j][..count], plans[j].reference);
+                    let inverse_b = 1.0 / about_b.scale;
+                    let mut lanes = [0.0; LANES];
+                    for (a, b) in a.chunks(LANES).zip(b.chunks(LANES)) {
+                        for l in 0..a.len().min(b.len()) {
+                            let d = (a[l] - about_a.middle) * inverse_a;
+                            lanes[l] += d * ((b[l] - about_b.middle) * inverse_b);
+                        }
+                    }
+                    products[i][j - i - 1] += pairwise(lanes);
+                }
+            }
+        }
+    }
+}
+
+/// The sums of products of all chunks so far; for each output those with the outputs after it.
+#[derive(Debug, Default)]
+pub(super) struct Products(Vec<Vec<f64>>);
+
+impl Products {
+    /// None yet of so many outputs.
+    pub(super) fn new(outputs: usize) -> Self {
+        Self((0..outputs).map(|output| vec![0.0; outputs - output - 1]).collect())
+    }
+
+    /// Takes over the products of the next chunk.
+    pub(super) fn take<'s>(&mut self, sums: impl Iterator<Item = &'s mut Sums>) {
+        for (totals, sums) in self.0.iter_mut().zip(sums) {
+            for (total, product) in totals.iter_mut().zip(std::mem::take(&mut sums.products)) {
+                *total += product;
+            }
+        }
+    }
+
+    /// The products of an output with those after it.
+    pub(super) fn of(&self, output: usize) -> &[f64] {
+        self.0.get(output).map_or(&[], Vec::as_slice)
+    }
+}
+
+/// The chunks 0 to `chunks` in waves.
+pub(super) fn waves(chunks: u64, outputs: usize) -> impl Iterator<Item = Range<usize>> {
+    let bytes = size_of::<f64>() * outputs * outputs.saturating_sub(1) / 2;
+    let wave = (MEMORY / bytes.max(1)).max(1);
+    let chunks = chunks as usize;
+    (0..chunks).step_by(wave).map(move |first| first..(first + wave).min(chunks))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::moments::{Reference, correlations};
+    use super::super::windows::Windows;
+    use super::*;
+
+    /// Outputs that are lines of each other, more than a tile of them: coefficients 1 and -1 but for
+    /// rounding.
+    #[test]
+    fn correlations_of_lines_are_one() {
+        let outputs = 2 * TILE + 5;
+        let slope =
+            |output: usize| (if output % 3 == 1 { -1.0 } else { 1.0 }) * output as f64 - 0.5;
+        let value = |output: usize, trial: usize| 5.0 + slope(output) * trial as f64;
+        let values: Vec<[f64; BLOCK]> =
+            (0..outputs).map(|o| std::array::from_fn(|trial| value(o, trial))).collect();
+        let plan = |o: usize| Plan {
+            reference: Reference {
+                middle: value(o, 40),
+                scale: 30.0 * slope(o).abs(),
+                limits: [0.0, 0.0],
+            },
+            windows: Windows::ALL,
+            kept: 1.0,
+        };
+        let plans: Vec<Plan> = (0..outputs).map(plan).collect();
+        let mut sums = vec![Sums::default(); outputs];
+        let mut products = Products::new(outputs);
+        for _ in 0..2 {
+            for ((sums, values), plan) in sums.iter_mut().zip(&values).zip(&plans) {
+                sums.add(&values[..100], plan.reference);
+            }
+            add(&values, 100, &plans, sums.iter_mut());
+            products.take(sums.iter_mut());
+        }
+        let found = correlations(200, &sums.iter().collect::<Vec<_>>(), &products);
+        let pairs = (0..outputs).flat_map(|i| (i + 1..outputs).map(move |j| (i, j)));
+        assert_eq!(found.len(), outputs * (outputs - 1) / 2);
+        for ((i, j), r) in pairs.zip(found) {
+            let sign = (slope(i) * slope(j)).signum();
+            assert!((r - sign).abs() < 1e-13, "{i}, {j}: {r}");
+        }
+    }
+
+    #[test]
+    fn few_outputs_are_one_wave() {
+        assert_eq!(waves(100_000, 3).collect::<Vec<_>>(), [0..100_000]);
+        assert_eq!(waves(5, 1).collect::<Vec<_>>(), [0..5]);
+        // 36 MB a chunk
+        assert_eq!(waves(10, 3000).collect::<Vec<_>>(), [0..7, 7..10]);
+        assert_eq!(waves(2, 100_000).collect::<Vec<_>>(), [0..1, 1..2]);
+    }
+}
