@@ -78,8 +78,11 @@ pub(crate) struct Rows<'a> {
     task: &'a Task,
     shown: Arc<[usize]>,
     /// What links the variables of the row before, as it mostly is the same.
-    last: Mutex<Option<(Arc<[Arc<Distribution>]>, Arc<Linked>)>>,
+    last: Mutex<Option<(Distributions, Arc<Linked>)>>,
 }
+
+/// What is known of the variables of a row.
+type Distributions = Arc<[Arc<Distribution>]>;
 
 /// Evaluates one row of a task.
 pub(crate) fn evaluate(task: &Task, row: &Row) -> GumRow {

@@ -206,7 +206,7 @@ impl Nodes {
                     .find(|o| o.is_ne())
                     .unwrap_or(std::cmp::Ordering::Equal)
             });
-            (0..NODES).map(|k| sorted[k * (sorted.len() - 1) / (NODES - 1)].clone()).collect()
+            (0..nodes).map(|k| sorted[k * (sorted.len() - 1) / (nodes - 1)].clone()).collect()
         };
         let matrix = DMatrix::from_fn(places.len(), places.len(), |i, j| {
             covariance(term, length, &places[i], &places[j])

@@ -119,8 +119,7 @@ fn report() -> Report {
 /// More labels than a figure has room for.
 fn crowded() -> Report {
     let pair = |number: usize, other: usize| {
-        let names = [format!("effect-{:02}", number), format!("effect-{:02}", number + other)];
-        names
+        [format!("effect-{number:02}"), format!("effect-{:02}", number + other)]
     };
     let mut checked = Vec::new();
     for number in 0..24 {
