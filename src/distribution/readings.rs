@@ -42,8 +42,8 @@ impl Readings {
         if scale > 0.0 {
             Ok(Self {
                 values,
-                mean: finite("values", origin + offset)?,
-                scale: finite("values", scale)?,
+                mean: finite("the mean of the values", origin + offset)?,
+                scale: finite("the scatter of the values", scale)?,
                 together: 1,
             })
         } else {

@@ -77,6 +77,8 @@ pub enum Fault {
     Exclusive { first: &'static str, second: &'static str },
     /// `expanded` without `k` or `p`.
     NoCoverage { name: String },
+    /// A key that says something about another one, which is not there.
+    OnlyWith { key: &'static str, with: &'static str },
     /// A probability outside 0 to 1.
     NotProbability { key: String, found: f64 },
     /// A number that is not a positive one.
@@ -171,6 +173,7 @@ impl Fault {
             Self::Distribution { .. } => "bad-distribution",
             Self::Exclusive { .. } => "exclusive-keys",
             Self::NoCoverage { .. } => "no-coverage",
+            Self::OnlyWith { .. } => "only-with",
             Self::NotProbability { .. } => "not-a-probability",
             Self::NotPositive { .. } => "not-positive",
             Self::NotWhole { .. } => "not-whole",
@@ -340,6 +343,9 @@ impl fmt::Display for Fault {
                 "`{name}` gives an expanded uncertainty, which needs its coverage factor `k` or its \
                  coverage probability `p`"
             ),
+            Self::OnlyWith { key, with } => {
+                write!(f, "`{key}` says something about `{with}`, which is not here")
+            }
             Self::NotProbability { key, found } => {
                 let found = Shortest(*found);
                 write!(f, "`{key}` is {found}, but must be a probability between 0 and 1")

@@ -200,6 +200,7 @@ impl<'a> Reader<'a, '_> {
         let mut known: Vec<&str> = COMMON.into_iter().chain(kind.fields.iter().copied()).collect();
         known.push("evidence");
         object.check_keys(&known);
+        self.evidence();
         let variable = self.inputs.variables.len();
         self.variable(self.name.to_owned(), &object, Some(kind), unit);
         let key = if kind.name == "constant" { "value" } else { "mean" };
@@ -246,6 +247,24 @@ impl<'a> Reader<'a, '_> {
                 drawn.extend(last);
                 self.inputs.known.in_rows(variable, drawn);
             }
+        }
+    }
+
+    /// Readings that the distribution is to be tested against: their form alone.
+    fn evidence(&self) {
+        let log = self.object.log;
+        let Some(member) = self.object.get("evidence") else {
+            return;
+        };
+        let object = Object::new(log, "`evidence`", &member.value, &member.key_span);
+        let Some(object) = object else {
+            return;
+        };
+        object.check_keys(&["values", "file"]);
+        object.numbers("values");
+        object.text("file");
+        if ["values", "file"].iter().all(|key| object.get(key).is_none()) {
+            object.report(Fault::NoValues { name: format!("{}/evidence", self.name) });
         }
     }
 

@@ -415,6 +415,9 @@ impl<'a> ModelReader<'a> {
                 }
             }
         };
+        if !inputs.known.is_complete(inputs.variables.len()) {
+            return None;
+        }
         let known = inputs.known.rows(conditions.rows.len());
         let rows = conditions
             .rows

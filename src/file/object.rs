@@ -80,12 +80,11 @@ impl<'a> Object<'a> {
         self.members.iter().find(|member| member.key == key)
     }
 
-    /// The member, or its absence reported.
+    /// The member, or its absence reported; if a misspelt key is reported where it stands, that is
+    /// left out in the end.
     pub(crate) fn required(&self, key: &'static str) -> Option<&'a Member> {
         let member = self.get(key);
-        // a misspelt key is reported where it stands, not as missing as well
-        let misspelt = || self.members.iter().any(|m| nearest(&m.key, [key]).is_some());
-        if member.is_none() && !misspelt() {
+        if member.is_none() {
             self.report(Fault::MissingKey { key, what: self.what });
         }
         member

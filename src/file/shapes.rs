@@ -65,6 +65,19 @@ pub(super) const KINDS: [Kind; 17] = [
     Kind { name: "result", aliases: &[], fields: &["file", "output"] },
 ];
 
+/// The distribution, if its standard uncertainty is a number: widths near the largest and the least
+/// doubles have squares beyond them.
+fn with_uncertainty(distribution: Distribution) -> Result<Distribution, Invalid> {
+    let (parameter, value) = ("the standard uncertainty", distribution.standard_uncertainty());
+    if !value.is_finite() {
+        Err(Invalid::NotFinite { parameter, value })
+    } else if value <= 0.0 && distribution.constant().is_none() {
+        Err(Invalid::NotPositive { parameter, value })
+    } else {
+        Ok(distribution)
+    }
+}
+
 /// The largest count of events; one more is still a whole number in double precision.
 const MOST_COUNT: u64 = 999_999_999_999_999;
 
@@ -77,9 +90,18 @@ impl Kind {
     }
 }
 
+/// Keys of inputs and components that do not belong to a shape.
+const KEYS: [&str; 9] =
+    ["name", "distribution", "about", "type", "group", "unit", "per", "evidence", "components"];
+
 /// The shape that an object names.
 pub(super) fn kind(object: &Object<'_>) -> Option<&'static Kind> {
-    let member = object.required("distribution")?;
+    let Some(member) = object.required("distribution") else {
+        // it may be misspelt; nothing else can be said of the keys
+        let fields = KINDS.iter().flat_map(|kind| kind.fields).copied();
+        object.check_keys(&KEYS.into_iter().chain(fields).collect::<Vec<_>>());
+        return None;
+    };
     let name = object.text("distribution")?;
     let found = KINDS.iter().find(|kind| kind.name == name || kind.aliases.contains(&name));
     if found.is_none() {
@@ -229,6 +251,12 @@ impl<'a> Fields<'a> {
         let mean = self.estimate("mean");
         let dof = self.dof();
         let mut divisor = 1.0;
+        for key in ["k", "p"] {
+            if let (Some(member), None) = (self.object.get(key), self.object.get("expanded")) {
+                let fault = Fault::OnlyWith { key, with: "expanded" };
+                self.object.log.report(&member.key_span, fault);
+            }
+        }
         let std = match (self.object.get("std"), self.object.get("expanded")) {
             (Some(_), Some(second)) => {
                 let fault = Fault::Exclusive { first: "std", second: "expanded" };
@@ -364,8 +392,8 @@ impl<'a> Fields<'a> {
     }
 
     fn made<S: Into<Distribution>>(&self, shape: Result<S, Invalid>) -> Option<Distribution> {
-        match shape {
-            Ok(shape) => Some(shape.into()),
+        match shape.map(S::into).and_then(with_uncertainty) {
+            Ok(distribution) => Some(distribution),
             Err(error) => {
                 let place = self.place_of(error.parameter());
                 let name = self.name.to_owned();

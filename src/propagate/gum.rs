@@ -29,7 +29,8 @@ pub struct Gum {
     pub standard_uncertainty: f64,
     /// Effective degrees of freedom.
     pub dof: Dof,
-    /// Coverage factor k; `None` where the degrees of freedom are undefined.
+    /// Coverage factor k; `None` where the degrees of freedom are undefined, or so few that it is
+    /// beyond all doubles.
     pub coverage_factor: Option<f64>,
     /// Sensitivity coefficients of all variables.
     pub(super) sensitivities: Box<[f64]>,
@@ -235,6 +236,9 @@ impl Rows<'_> {
         for c in linked.correlations.iter() {
             variance += 2.0 * signed(c.first) * signed(c.second) * c.coefficient;
         }
+        if variance.is_nan() {
+            return None;
+        }
         // full negative correlation may leave a rounding error below zero
         let variance = f64::max(variance, 0.0);
         let standard_uncertainty = largest * variance.sqrt();
@@ -348,7 +352,8 @@ pub(crate) fn coverage_factor(coverage: Coverage, dof: Dof, real: bool) -> Optio
             // a dof of 19 computed as 18.999999999 means 19
             let whole = (dof * (1.0 + 1e-9)).floor();
             let used = if real || whole < 1.0 { dof } else { whole };
-            Some(special::student::two_sided_factor(probability, used))
+            // at a thousandth of a degree of freedom it is beyond all doubles
+            Some(special::student::two_sided_factor(probability, used)).filter(|k| k.is_finite())
         }
     }
 }

@@ -159,7 +159,7 @@ fn field(shape: &str, key: &str) -> Node {
     let referenced = |name, about| referenced(name, about);
     match (shape, key) {
         ("exponential" | "lognormal", "mean") => {
-            referenced("positive", "The expectation of the quantity, above 0.")
+            referenced("positive-estimate", "The expectation of the quantity, above 0.")
         }
         (_, "mean" | "value") => reference("estimate"),
         (_, "std") => referenced("width", "Standard uncertainty."),
@@ -368,7 +368,10 @@ fn definition(holder: Holder, shape: &Shape) -> Node {
         Rule::Uncertainty => {
             let factor = vec![needs(&["k"]), needs(&["p"])];
             let expanded = needs(&["expanded"]).with("oneOf", factor);
-            definition.with("oneOf", vec![needs(&["std"]), expanded])
+            let needed = object(["k", "p"].map(|key| (key, texts(["expanded"]))));
+            definition
+                .with("oneOf", vec![needs(&["std"]), expanded])
+                .with("dependentRequired", needed)
         }
         Rule::Limits(_) => {
             let width = |key: &'static str| {

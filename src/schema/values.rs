@@ -50,6 +50,14 @@ pub(super) fn definitions() -> Vec<(String, Node)> {
             .with("examples", Node::List(vec![Node::from(9.81), Node::from("2*f_nominal")])),
         ),
         (
+            "positive-estimate",
+            number_or_text(
+                "The estimate, above 0, in the quantity's unit, or a formula of the conditions.",
+                number("The estimate.", Some(0.0), None),
+                text_of("A formula of conditions and constants, evaluated in SI units."),
+            ),
+        ),
+        (
             "width",
             number_or_text(
                 "A width above 0 in the quantity's unit, or a specification as data sheets have \

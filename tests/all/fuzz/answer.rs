@@ -2,6 +2,7 @@
 
 use std::path::Path;
 use std::process::Command;
+use std::sync::OnceLock;
 
 use gumption::diff;
 use gumption::file::{ModelFile, Problems, read_text};
@@ -18,6 +19,7 @@ use crate::support::command;
 pub(super) fn of(text: &str, folder: &Path) -> bool {
     match read_text("case", text, folder, &[]) {
         Ok(file) => {
+            in_schema(text);
             answered(file);
             true
         }
@@ -26,6 +28,27 @@ pub(super) fn of(text: &str, folder: &Path) -> bool {
             false
         }
     }
+}
+
+/// A file that is right is right by the schema as well.
+fn in_schema(text: &str) {
+    static SCHEMA: OnceLock<jsonschema::Validator> = OnceLock::new();
+    let schema = SCHEMA.get_or_init(|| {
+        let schema = serde_json::from_str(&gumption::schema::text()).expect("JSON");
+        jsonschema::validator_for(&schema).expect("a schema")
+    });
+    let file = serde_json::from_str(text).expect("JSON");
+    // what gap cases have beside is read by `gap`
+    let of_gaps = ["/effects", "/prior", "/observations", "/catalogue"];
+    let errors: Vec<String> = schema
+        .iter_errors(&file)
+        .filter(|error| {
+            let path = error.instance_path().to_string();
+            !of_gaps.iter().any(|key| path.starts_with(key))
+        })
+        .map(|error| format!("{} at {}", error, error.instance_path()))
+        .collect();
+    assert!(errors.is_empty(), "against the schema: {errors:?}");
 }
 
 /// Mistakes have places inside their text and a sentence of a reasonable length.

@@ -24,7 +24,7 @@ use tree::Tree;
 use crate::support::{model_files, root};
 
 /// Cases without a wish of the user: about a minute of a test build on two threads.
-const CASES: u64 = 40_000;
+const CASES: u64 = 80_000;
 
 /// Every so manieth case is given to the program itself, in a limited address space.
 const PROGRAM: u64 = 400;

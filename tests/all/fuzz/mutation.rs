@@ -213,6 +213,7 @@ fn scalar(random: &mut Random) -> Tree {
         0..=2 => Tree::raw(random.number()),
         3 => Tree::raw(random.pick(&["null", "true", "false", "{}", "[]", "[[]]", "{\"\": 1}"])),
         4 => Tree::text(random.pick(grammar::UNITS)),
+        5 => Tree::text(random.pick(grammar::NO_UNITS)),
         _ => Tree::text(random.pick(TEXTS)),
     }
 }
@@ -273,7 +274,7 @@ fn members(
 }
 
 fn unit(random: &mut Random, file: &mut Tree) {
-    let unit = random.pick(grammar::UNITS);
+    let unit = grammar::unit(random);
     let key = random.pick(&["inputs", "inputs", "outputs", "conditions"]);
     inside(random, file, key, |_, place| place.put("unit", Tree::text(unit)));
 }
@@ -293,7 +294,8 @@ fn formula(random: &mut Random, file: &mut Tree) {
 }
 
 fn input(random: &mut Random, file: &mut Tree) {
-    let input = grammar::input(random);
+    let swept = file.get_mut("conditions").is_some();
+    let input = grammar::input(random, swept);
     inside(random, file, "inputs", |_, place| *place = input);
 }
 

@@ -38,6 +38,11 @@ impl Random {
         list[self.below(list.len())]
     }
 
+    /// Mostly one of the right ones.
+    pub(super) fn mostly<'p>(&mut self, right: &[&'p str], wrong: &[&'p str]) -> &'p str {
+        if self.below(40) == 0 { self.pick(wrong) } else { self.pick(right) }
+    }
+
     /// Any double, as text.
     fn bits(&mut self) -> String {
         let number = f64::from_bits(self.next());
@@ -46,12 +51,15 @@ impl Random {
 
     /// A number as it may stand in a file: mostly plain, sometimes extreme.
     pub(super) fn number(&mut self) -> String {
+        if self.below(500) == 0 {
+            return self.pick(WRONG).to_owned();
+        }
         match self.below(20) {
-            0..=8 => format!("{}", (self.below(2001) as f64 - 1000.0) / 100.0),
-            9..=12 => self.between(0, 12).to_string(),
-            13 => format!("1e{}", self.between(0, 40) as i32 - 20),
-            14 => self.bits(),
-            15..=17 => self.pick(EXTREMES).to_owned(),
+            0..=10 => format!("{}", (self.below(2001) as f64 - 1000.0) / 100.0),
+            11..=13 => self.between(0, 12).to_string(),
+            14 => format!("1e{}", self.between(0, 40) as i32 - 20),
+            15 => self.bits(),
+            16..=17 => self.pick(EXTREMES).to_owned(),
             _ => format!("{:.4e}", (self.below(20_001) as f64 - 10_000.0) / 7.0),
         }
     }
@@ -69,6 +77,7 @@ impl Random {
     }
 }
 
+/// Numbers at the edge of what a double holds.
 const EXTREMES: &[&str] = &[
     "0",
     "-0",
@@ -83,15 +92,11 @@ const EXTREMES: &[&str] = &[
     "1.0000000000000002",
     "9007199254740993",
     "1e16",
-    "1e999",
-    "-1e999",
+    "1e-16",
+    "1E+5",
     "123456789012345678901234567890",
-    "NaN",
-    "-Infinity",
-    "01",
-    "1.",
-    ".5",
-    "+1",
-    "1e",
-    "0x10",
 ];
+
+/// Numbers that are none in JSON.
+const WRONG: &[&str] =
+    &["1e999", "-1e999", "NaN", "-Infinity", "01", "1.", ".5", "+1", "1e", "0x10"];
