@@ -270,7 +270,9 @@ impl Design {
             for from in 0..bins {
                 for to in from..bins {
                     let count = counts[to + 1] - counts[from];
-                    if count == 0 {
+                    // what is named once is not named again as a part of something larger
+                    let whole = axis.counts[to + 1] - axis.counts[from];
+                    if count == 0 || count < whole {
                         continue;
                     }
                     for (rest, ((all, up), low)) in rest_inner

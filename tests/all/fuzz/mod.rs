@@ -101,7 +101,7 @@ fn files_made_by_the_grammar_are_answered() {
                     // every case finds the folder as it was, so that its number is all that counts
                     folder.restore();
                     let text = case(&mut Random::of(seed, number), &folder);
-                    let program = number % PROGRAM == 0;
+                    let program = number.is_multiple_of(PROGRAM);
                     let work = || {
                         if program {
                             answer::of_program(&text, &folder);
