@@ -127,7 +127,7 @@ pub(crate) fn shrinkage(
             shrunk(of(&before), of(&after), mean(&noise) * floor2)
         })
         .collect();
-    let claimed = claimed(setup, &fitted, variances, correction);
+    let claimed = claimed(setup, &fitted, variances);
     let within = |squares: &[f64], variance: &dyn Fn(&ValueGap) -> f64| {
         let held = of_rows
             .iter()
@@ -183,14 +183,11 @@ pub(crate) fn claim(
     let rows: Vec<Row> =
         setup.data.ids.iter().map(|&id| setup.case.task.rows[id].clone()).collect();
     let fitted = in_sample(setup, discrepancy, posterior, correction, &rows);
-    claimed(setup, &fitted, variances, correction)
+    claimed(setup, &fitted, variances)
 }
 
 /// The posterior expectation of the removed fraction of the gap without noise.
-fn claimed(setup: &Setup<'_>, fitted: &Normals, variances: &[f64], correction: &Correction) -> f64 {
-    if matches!(correction, Correction::Effects(effects) if effects.is_empty()) {
-        return 0.0;
-    }
+fn claimed(setup: &Setup<'_>, fitted: &Normals, variances: &[f64]) -> f64 {
     let outputs = setup.data.outputs.len();
     let (mut left, mut gap) = (0.0, 0.0);
     for value in 0..variances.len() {
