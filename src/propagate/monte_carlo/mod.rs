@@ -25,7 +25,9 @@ mod together;
 mod windows;
 
 pub use adaptive::Adaptive;
-pub(crate) use adaptive::{FIRST_STAGE, Search, find_trials};
+#[cfg(feature = "cli")]
+pub(crate) use adaptive::FIRST_STAGE;
+pub(crate) use adaptive::{Search, find_trials};
 pub(crate) use block::Trials;
 pub(crate) use hash::hash_trials;
 pub(crate) use quantiles::quantiles;
