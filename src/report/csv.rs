@@ -41,7 +41,7 @@ pub fn csv(report: &Report<'_>) -> String {
     String::from_utf8(bytes).unwrap_or_default()
 }
 
-/// Writes what [`csv`] gives, line by line.
+/// Writes what [`csv()`] gives, line by line.
 ///
 /// # Errors
 /// Those of the writer.
