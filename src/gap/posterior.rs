@@ -6,6 +6,7 @@ use rayon::prelude::*;
 
 use super::covariance::dot;
 use super::discrepancy::{Base, Discrepancy, Unexplained, by_rows};
+use super::doubt;
 use super::evidence::{Evidence, ln_add};
 use super::likelihood::Likelihood;
 use super::setup::Setup;
@@ -163,6 +164,9 @@ pub(crate) fn posterior(
     let leads = |h: &&mut Hypothesis| h.probability > LEADING && !h.effects.is_empty();
     posterior.hypotheses.par_iter_mut().filter(leads).for_each(|hypothesis| {
         let likelihood = setup.likelihood(&hypothesis.effects);
+        if effort.generations > 0 {
+            hypothesis.evidence.along_ridges(&likelihood, setup.roles.len());
+        }
         hypothesis.evidence.roam(&likelihood, effort.generations);
     });
     posterior.weigh();
@@ -200,6 +204,7 @@ pub(crate) fn posterior(
         });
         posterior.weigh();
     }
+    posterior.doubt(seed);
     progress(1.0);
     posterior
 }
@@ -289,5 +294,25 @@ impl Posterior {
             hypothesis.probability = (own - total).exp();
         }
         self.probability = (unexplained - total).exp();
+    }
+
+    /// Averages the probabilities over the errors of the integrals.
+    fn doubt(&mut self, seed: u64) {
+        let known = |prior: f64, ln: f64, error: f64, effective: f64| {
+            let ln = if prior > 0.0 { prior.ln() + ln } else { f64::NEG_INFINITY };
+            doubt::Known { ln, error, effective }
+        };
+        let mut all: Vec<doubt::Known> = self
+            .hypotheses
+            .iter()
+            .map(|h| known(h.prior, h.evidence.ln_evidence, h.evidence.error, h.evidence.effective))
+            .collect();
+        all.push(known(self.prior, self.unexplained.ln_evidence, 0.0, 0.0));
+        let averaged = doubt::averaged(&all, seed);
+        let mut averaged = averaged.into_iter();
+        for (hypothesis, own) in self.hypotheses.iter_mut().zip(&mut averaged) {
+            hypothesis.probability = own;
+        }
+        self.probability = averaged.next().unwrap_or(0.0);
     }
 }
