@@ -147,7 +147,8 @@ pub(crate) fn posterior(
         wanted.into_par_iter().map(|effects| begin(effects, &[])).collect();
     progress(0.2);
     let residuals = by_rows(&setup.data.nominal_residuals());
-    let unexplained = discrepancy.evidence(setup, &residuals);
+    let unexplained =
+        discrepancy.evidence(setup, &residuals, floor(&hypotheses, prior.unexplained));
     progress(0.3);
     if prior.two > 0.0 {
         let pairs: Vec<Vec<usize>> =
@@ -223,6 +224,13 @@ impl Hypothesis {
     }
 }
 
+/// The evidence of "unexplained" that would make it as probable as the leading hypothesis.
+fn floor(hypotheses: &[Hypothesis], prior: f64) -> f64 {
+    let ln = |h: &Hypothesis| h.prior.max(f64::MIN_POSITIVE).ln() + h.evidence.ln_evidence;
+    let most = hypotheses.iter().map(ln).fold(f64::NEG_INFINITY, f64::max);
+    most - prior.max(f64::MIN_POSITIVE).ln()
+}
+
 /// Share of "unexplained" in which an effect of the catalogue acts as well.
 const BESIDE_AN_EFFECT: f64 = 0.2;
 
@@ -251,6 +259,7 @@ impl Posterior {
         let count = setup.case.candidates.len();
         let all = count + count * count.saturating_sub(1) / 2;
         let ln_share = (BESIDE_AN_EFFECT / all.max(1) as f64).ln();
+        let floor = floor(&self.hypotheses, self.prior);
         let others: Vec<(f64, Arc<Base>, Unexplained)> = leading
             .into_iter()
             .filter_map(|h| {
@@ -267,8 +276,8 @@ impl Posterior {
                         return None;
                     }
                 }
-                let own = discrepancy.evidence(setup, &residuals);
                 let ln = ln_share + mode.ln_occam(setup.roles.len());
+                let own = discrepancy.evidence(setup, &residuals, floor - ln);
                 Some((ln, Arc::new(base), own))
             })
             .collect();
