@@ -106,10 +106,9 @@ impl Normal {
 #[inline(always)]
 pub(super) fn draw(mean: f64, std: f64, stream: &mut Stream, out: &mut Column) {
     const HALF: usize = COLUMN / 2;
-    let mut radius = [0.0; HALF];
-    let mut turn = [0.0; HALF];
-    stream.uniform(&mut radius);
-    stream.uniform(&mut turn);
+    let mut uniforms = [0.0; COLUMN];
+    stream.uniform(&mut uniforms);
+    let (radius, turn) = uniforms.split_at(HALF);
     let (first, second) = out.0.split_at_mut(HALF);
     for i in 0..HALF {
         let r = (-2.0 * elementary::ln_uniform(radius[i])).sqrt();

@@ -265,7 +265,7 @@ fn joint_normals_have_the_declared_correlations() {
     let varying = Varying::all(&distributions, &joint);
     let blocks = 1000;
     for block in 0..blocks {
-        let mut draws = Draws::new(&varying, &keys, block);
+        let mut draws = Draws::new(&varying, &keys, crate::number::CodePath::best(), block);
         for _ in 0..BLOCK / crate::number::COLUMN {
             draws.column(&mut registers, &[0, 1, 2], &[true; 3]);
             #[allow(clippy::needless_range_loop)] // two indices each

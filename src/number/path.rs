@@ -11,7 +11,7 @@ pub enum CodePath {
     Baseline,
     /// x86-64 with AVX2.
     Avx2,
-    /// x86-64 with AVX-512 (F, DQ, VL, BW).
+    /// x86-64 with AVX-512 (F, DQ, VL, BW) and POPCNT.
     Avx512,
 }
 
@@ -58,6 +58,7 @@ impl CodePath {
                     && is_x86_feature_detected!("avx512dq")
                     && is_x86_feature_detected!("avx512vl")
                     && is_x86_feature_detected!("avx512bw")
+                    && is_x86_feature_detected!("popcnt")
             }
         }
     }
@@ -65,6 +66,11 @@ impl CodePath {
     #[cfg(not(target_arch = "x86_64"))]
     fn is_available(self) -> bool {
         self == Self::Baseline
+    }
+
+    /// This path, or the baseline where the machine does not have it.
+    pub(crate) fn or_baseline(self) -> Self {
+        if self.is_available() { self } else { Self::Baseline }
     }
 
     /// Runs the work on this path, or on the baseline where the machine does not have it.

@@ -279,8 +279,8 @@ fn evaluate_row(
     let mut figures: Vec<Option<MonteCarlo>> = vec![None; gums.len()];
     let mut stopped = false;
     if task.settings.trials != Trials::Fixed(0) {
-        let trials = monte_carlo::Trials::new(task, row, &linear.estimates, &joint);
-        let finished = run(task, &trials, &gums, &drawn_dof, control);
+        let mut trials = monte_carlo::Trials::new(task, row, &linear.estimates, &joint);
+        let finished = run(task, &mut trials, &gums, &drawn_dof, control);
         stopped = finished.stopped;
         if let Some(undefined) = finished.undefined {
             if undefined.count as f64 > task.settings.allowed_undefined * undefined.trials as f64 {
@@ -326,7 +326,7 @@ fn evaluate_row(
 /// The Monte Carlo run of a row, of a fixed or an adaptive number of trials.
 fn run(
     task: &Task,
-    trials: &monte_carlo::Trials,
+    trials: &mut monte_carlo::Trials,
     gums: &[Option<Gum>],
     drawn_dof: &[f64],
     control: &Control<'_>,

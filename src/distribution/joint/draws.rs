@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::together::Together;
 use super::{Group, Joint, paired};
 use crate::distribution::{Distribution, Stream, StreamKey, normal};
-use crate::number::Column;
+use crate::number::{CodePath, Column};
 
 /// The quantities of a row that vary, and the joint draw of those that are linked.
 #[derive(Debug)]
@@ -74,9 +74,14 @@ pub(crate) struct Draws<'a> {
 }
 
 impl<'a> Draws<'a> {
-    /// The draws of block `block`; `keys` are the streams of the quantities.
-    pub(crate) fn new(varying: &'a Varying, keys: &[StreamKey], block: u64) -> Self {
-        Self { varying, streams: keys.iter().map(|key| key.block(block)).collect() }
+    /// The draws of block `block` on a code path; `keys` are the streams of the quantities.
+    pub(crate) fn new(
+        varying: &'a Varying,
+        keys: &[StreamKey],
+        path: CodePath,
+        block: u64,
+    ) -> Self {
+        Self { varying, streams: keys.iter().map(|key| key.block_on(path, block)).collect() }
     }
 
     /// Draws the next column of every quantity that is `used`; `register[q]` is where it goes.

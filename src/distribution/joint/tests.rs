@@ -21,7 +21,7 @@ fn draws(
     let mut values = vec![Vec::new(); n];
     let varying = Varying::all(distributions, joint);
     for block in 0..blocks {
-        let mut draws = Draws::new(&varying, &keys, block);
+        let mut draws = Draws::new(&varying, &keys, crate::number::CodePath::best(), block);
         for _ in 0..BLOCK / COLUMN {
             draws.column(&mut registers, &register, &vec![true; n]);
             for (values, column) in values.iter_mut().zip(&registers) {

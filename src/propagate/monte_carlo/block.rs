@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use rayon::prelude::*;
+
 use crate::distribution::{BLOCK, Draws, Joint, StreamKey, Varying};
 use crate::model::{Place, Schedule};
 use crate::number::{COLUMN, CodePath, Column, Kernel};
@@ -19,6 +21,8 @@ pub(crate) struct Trials {
     branches: Vec<Option<(f64, f64)>>,
     /// For each output its tolerance limits, infinite where there are none.
     limits: Vec<[f64; 2]>,
+    /// The outputs' values in the first blocks, as far as they are held.
+    held: Vec<Box<[[f64; BLOCK]]>>,
 }
 
 /// Buffers of one thread, reused from block to block.
@@ -63,7 +67,22 @@ impl Trials {
             keys,
             branches,
             limits,
+            held: Vec::new(),
         }
+    }
+
+    /// Holds the values of the blocks before `end`, as far as `memory` (bytes) has room, so that they
+    /// need not be computed again.
+    pub(crate) fn hold(&mut self, path: CodePath, end: u64, memory: usize) {
+        let room = memory / (size_of::<[f64; BLOCK]>() * self.outputs().max(1));
+        let (first, end) = (self.held.len() as u64, end.min(room as u64));
+        let make = |workspace: &mut Workspace, block: u64| {
+            self.block(path, block, workspace);
+            workspace.outputs.clone().into_boxed_slice()
+        };
+        let blocks = (first..end).into_par_iter().map_init(|| self.workspace(), make);
+        let made: Vec<_> = blocks.collect();
+        self.held.extend(made);
     }
 
     pub(crate) fn workspace(&self) -> Workspace {
@@ -83,7 +102,12 @@ impl Trials {
 
     /// Fills the workspace's outputs with the trials of block `block`.
     pub(crate) fn block(&self, path: CodePath, block: u64, workspace: &mut Workspace) {
-        path.run(BlockKernel { trials: self, block, workspace });
+        if let Some(held) = usize::try_from(block).ok().and_then(|block| self.held.get(block)) {
+            workspace.outputs.copy_from_slice(held);
+            return;
+        }
+        let path = path.or_baseline();
+        path.run(BlockKernel { path, trials: self, block, workspace });
     }
 
     /// The drawn values of the varying variables, in the order of the task's variables with
@@ -91,7 +115,7 @@ impl Trials {
     pub(crate) fn inputs_of(&self, block: u64, trial: usize) -> Vec<f64> {
         let mut registers = vec![Column::ZERO; self.schedule.registers];
         let all = vec![true; self.varying.len()];
-        let mut draws = Draws::new(&self.varying, &self.keys, block);
+        let mut draws = Draws::new(&self.varying, &self.keys, CodePath::best(), block);
         for _ in 0..=trial / COLUMN {
             draws.column(&mut registers, &self.registers, &all);
         }
@@ -111,6 +135,7 @@ fn stream_name(task: &Task, row: &Row, variable: usize) -> String {
 }
 
 struct BlockKernel<'a> {
+    path: CodePath,
     trials: &'a Trials,
     block: u64,
     workspace: &'a mut Workspace,
@@ -121,10 +146,10 @@ impl Kernel for BlockKernel<'_> {
 
     #[inline(always)]
     fn run(self) {
-        let Self { trials, block, workspace } = self;
+        let Self { path, trials, block, workspace } = self;
         let Workspace { registers, outputs } = workspace;
         let schedule = &trials.schedule;
-        let mut draws = Draws::new(&trials.varying, &trials.keys, block);
+        let mut draws = Draws::new(&trials.varying, &trials.keys, path, block);
         for first in (0..BLOCK).step_by(COLUMN) {
             draws.column(registers, &trials.registers, &schedule.used);
             schedule.run(registers);

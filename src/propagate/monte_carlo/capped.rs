@@ -14,7 +14,7 @@ use super::partition::{Leaf, Partition, Tally};
 use super::products::{self, Products, waves};
 use super::run::{Finished, MonteCarlo, NumericalError, Request, Undefined, trials_in};
 use crate::distribution::BLOCK;
-use crate::number::Kernel;
+use crate::number::{CodePath, Kernel};
 use crate::propagate::Control;
 
 /// Up to so many trials the shortest interval is exactly that of the trials.
@@ -44,6 +44,7 @@ pub(super) struct Pass {
 
 /// Adds a block's moments.
 struct SumKernel<'a> {
+    path: CodePath,
     values: &'a [[f64; BLOCK]],
     count: usize,
     plans: &'a [Plan],
@@ -55,9 +56,9 @@ impl Kernel for SumKernel<'_> {
 
     #[inline(always)]
     fn run(self) {
-        let Self { values, count, plans, sums } = self;
+        let Self { path, values, count, plans, sums } = self;
         for ((plan, sums), values) in plans.iter().zip(sums.iter_mut()).zip(values) {
-            sums.add(&values[..count], plan.reference);
+            sums.add(path, &values[..count], plan.reference);
         }
         products::add(values, count, plans, sums.iter_mut());
     }
@@ -174,7 +175,8 @@ pub(super) fn pass(
                     }
                     trials.block(control.path, block, &mut workspace);
                     let wanted = trials_in(block, count);
-                    let (left, first) = drop_undefined(&mut workspace.outputs, wanted);
+                    let (left, first) =
+                        drop_undefined(control.path, &mut workspace.outputs, wanted);
                     if let Some(first) = first {
                         pass.undefined += (wanted - left) as u64;
                         let found = (block, first);
@@ -184,7 +186,8 @@ pub(super) fn pass(
                     let values = &workspace.outputs;
                     if with_sums {
                         let sums = &mut sums[..];
-                        control.path.run(SumKernel { values, count: left, plans, sums });
+                        let path = control.path.or_baseline();
+                        path.run(SumKernel { path, values, count: left, plans, sums });
                         control.advance(wanted as u64);
                     }
                     pass.trials += left as u64;

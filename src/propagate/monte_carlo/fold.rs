@@ -1,11 +1,13 @@
 //! Folding trials: a block's values become sums and the few values that intervals depend on.
+#![allow(unsafe_code)] // instructions of a path that the machine has
 
 use super::moments::{Reference, Sums};
 use super::products;
-use super::sorting::sort;
+#[cfg(target_arch = "x86_64")]
+use super::wide;
 use super::windows::Windows;
 use crate::distribution::BLOCK;
-use crate::number::Kernel;
+use crate::number::{CodePath, Kernel};
 
 /// What is left of a run of blocks.
 #[derive(Clone, Debug, Default)]
@@ -24,16 +26,10 @@ pub(crate) struct Folded {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct FoldedOutput {
     pub(crate) sums: Sums,
-    /// Kept values; sorted once the run of blocks is finished.
+    /// Kept values, in the order of the trials.
     pub(crate) kept: Vec<f64>,
     /// Number of values below the window about the median.
     pub(crate) below_median: u64,
-}
-
-impl FoldedOutput {
-    pub(crate) fn sort(&mut self) {
-        sort(&mut self.kept);
-    }
 }
 
 /// How one output is folded.
@@ -46,15 +42,23 @@ pub(crate) struct Plan {
 }
 
 impl Folded {
-    pub(crate) fn new(outputs: usize) -> Self {
-        Self { outputs: vec![FoldedOutput::default(); outputs], ..Self::default() }
+    /// For so many trials, with room for what the plans keep.
+    pub(crate) fn new(plans: &[Plan], trials: u64) -> Self {
+        let room = |plan: &Plan| (1.1 * plan.kept * trials as f64) as usize + 2 * BLOCK;
+        let output =
+            |plan| FoldedOutput { kept: Vec::with_capacity(room(plan)), ..Default::default() };
+        Self { outputs: plans.iter().map(output).collect(), ..Self::default() }
     }
 }
 
 /// Removes the trials of a block in which an output is not finite; returns how many trials are left
 /// of the first `count`, and the place of the first that was removed.
-pub(crate) fn drop_undefined(values: &mut [[f64; BLOCK]], count: usize) -> (usize, Option<usize>) {
-    if values.iter().all(|v| all_finite(&v[..count])) {
+pub(crate) fn drop_undefined(
+    path: CodePath,
+    values: &mut [[f64; BLOCK]],
+    count: usize,
+) -> (usize, Option<usize>) {
+    if values.iter().all(|v| path.run(AllFinite(&v[..count]))) {
         return (count, None);
     }
     let mut left = 0;
@@ -74,19 +78,30 @@ pub(crate) fn drop_undefined(values: &mut [[f64; BLOCK]], count: usize) -> (usiz
 
 /// Whether all values are finite, without a branch on each and in sums that do not wait for each
 /// other.
-fn all_finite(values: &[f64]) -> bool {
-    let mut sums = [0.0; 8];
-    for part in values.chunks(sums.len()) {
-        for (sum, value) in sums.iter_mut().zip(part) {
-            // 0 x is 0 for finite values and not a number otherwise
-            *sum += value * 0.0;
+struct AllFinite<'a>(&'a [f64]);
+
+impl Kernel for AllFinite<'_> {
+    type Output = bool;
+
+    #[inline(always)]
+    fn run(self) -> bool {
+        let mut sums = [0.0; 32];
+        let parts = self.0.chunks_exact(sums.len());
+        // 0 x is 0 for finite values and not a number otherwise
+        let rest: f64 = parts.remainder().iter().map(|value| value * 0.0).sum();
+        for part in parts {
+            for (sum, value) in sums.iter_mut().zip(part) {
+                *sum += value * 0.0;
+            }
         }
+        sums.iter().sum::<f64>() + rest == 0.0
     }
-    sums.iter().sum::<f64>() == 0.0
 }
 
 /// Folds the first `count` trials of a block.
 pub(crate) struct FoldKernel<'a> {
+    /// The path that it runs on, which the machine has.
+    pub(crate) path: CodePath,
     pub(crate) values: &'a [[f64; BLOCK]],
     pub(crate) count: usize,
     pub(crate) plans: &'a [Plan],
@@ -98,27 +113,37 @@ impl Kernel for FoldKernel<'_> {
 
     #[inline(always)]
     fn run(self) {
-        let Self { values, count, plans, folded } = self;
+        let Self { path, values, count, plans, folded } = self;
         folded.trials += count as u64;
         for (output, (plan, out)) in plans.iter().zip(&mut folded.outputs).enumerate() {
             let block = &values[output][..count];
-            out.sums.add(block, plan.reference);
-            out.below_median +=
-                block.iter().map(|&v| u64::from(v < plan.windows.median_low)).sum::<u64>();
-            keep(block, &plan.windows, &mut out.kept);
+            out.sums.add(path, block, plan.reference);
+            out.below_median += keep(path, block, &plan.windows, &mut out.kept);
         }
         products::add(values, count, plans, folded.outputs.iter_mut().map(|out| &mut out.sums));
     }
 }
 
-/// Appends the values that the windows keep, without a branch on each value.
+/// Appends the values that the windows keep, without a branch on each value; returns how many lie
+/// below the window about the median.
 #[inline(always)]
-fn keep(block: &[f64], windows: &Windows, kept: &mut Vec<f64>) {
+fn keep(path: CodePath, block: &[f64], windows: &Windows, kept: &mut Vec<f64>) -> u64 {
+    #[cfg(target_arch = "x86_64")]
+    if path == CodePath::Avx512 {
+        // SAFETY: a kernel runs on a path only where the machine has it.
+        return unsafe { wide::keep(block, windows, kept) };
+    }
+    let _ = path;
+    let mut wanted = [0u8; BLOCK];
+    for (wanted, &value) in wanted.iter_mut().zip(block) {
+        *wanted = u8::from(windows.keeps(value));
+    }
     let mut buffer = [0.0; BLOCK];
     let mut length = 0;
-    for &value in block {
-        buffer[length] = value;
-        length += usize::from(windows.keeps(value));
+    for (&value, &wanted) in block.iter().zip(&wanted) {
+        buffer[length % BLOCK] = value;
+        length += usize::from(wanted);
     }
     kept.extend_from_slice(&buffer[..length]);
+    block.iter().map(|&v| u64::from(v < windows.median_low)).sum()
 }

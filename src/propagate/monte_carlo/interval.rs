@@ -24,26 +24,19 @@ impl Ranks {
 }
 
 /// The probabilistically symmetric interval.
-pub(crate) fn symmetric(order: &Order, p: f64) -> Option<[f64; 2]> {
+pub(crate) fn symmetric(order: &mut Order, p: f64) -> Option<[f64; 2]> {
     let Ranks { q, r } = Ranks::new(order.trials, p);
     Some([order.get(r)?, order.get((r + q).min(order.trials))?])
 }
 
 /// The shortest interval that holds as many trials: the least y(r + q) - y(r) over all r (7.7.4).
 /// Of equally short ones that nearest to the symmetric one.
-pub(crate) fn shortest(order: &Order, p: f64) -> Option<[f64; 2]> {
+pub(crate) fn shortest(order: &mut Order, p: f64) -> Option<[f64; 2]> {
     let Ranks { q, r: symmetric } = Ranks::new(order.trials, p);
     if order.trials <= q {
         return Some([order.get(1)?, order.get(order.trials)?]);
     }
-    let count = order.trials - q;
-    let (lower, upper) = (order.slice(1, count)?, order.slice(q + 1, count)?);
-    let least = lower.iter().zip(upper).map(|(low, high)| high - low).fold(f64::INFINITY, f64::min);
-    let nearest = (1..=count)
-        .zip(lower.iter().zip(upper))
-        .filter(|(_, (low, high))| *high - *low <= least)
-        .min_by_key(|(r, _)| r.abs_diff(symmetric));
-    nearest.map(|(_, (&low, &high))| [low, high])
+    order.closest(q, order.trials - q, symmetric)
 }
 
 /// One standard deviation of the rank of a fixed value near the order statistic of rank `rank`:
@@ -63,7 +56,7 @@ pub(crate) fn is_extreme(trials: u64, rank: u64) -> bool {
 /// The numerical standard error of the order statistic of rank `rank`: half the distance between
 /// the order statistics one standard deviation of the rank below and above. It needs no density and
 /// holds for any distribution. Not a number for the least and the greatest trial.
-pub(crate) fn quantile_error(order: &Order, rank: u64) -> Option<f64> {
+pub(crate) fn quantile_error(order: &mut Order, rank: u64) -> Option<f64> {
     if is_extreme(order.trials, rank) {
         return Some(f64::NAN);
     }
@@ -93,27 +86,27 @@ mod tests {
 
     #[test]
     fn symmetric_ends_are_order_statistics() {
-        let order = order((1..=1000).rev().map(f64::from).collect());
-        assert_eq!(symmetric(&order, 0.95), Some([25.0, 975.0]));
+        let mut order = order((1..=1000).rev().map(f64::from).collect());
+        assert_eq!(symmetric(&mut order, 0.95), Some([25.0, 975.0]));
     }
 
     #[test]
     fn shortest_of_a_skew_set_starts_at_its_dense_end() {
-        let order = order((1..=1000).map(|i| f64::from(i).powi(2)).collect());
-        assert_eq!(shortest(&order, 0.95), Some([1.0, 951.0 * 951.0]));
+        let mut order = order((1..=1000).map(|i| f64::from(i).powi(2)).collect());
+        assert_eq!(shortest(&mut order, 0.95), Some([1.0, 951.0 * 951.0]));
     }
 
     #[test]
     fn of_equally_short_intervals_the_most_symmetric() {
-        let order = order((1..=1000).map(f64::from).collect());
-        assert_eq!(shortest(&order, 0.95), symmetric(&order, 0.95));
+        let mut order = order((1..=1000).map(f64::from).collect());
+        assert_eq!(shortest(&mut order, 0.95), symmetric(&mut order, 0.95));
     }
 
     #[test]
     fn few_trials_give_the_extremes() {
-        let order = order(vec![3.0, 1.0, 2.0]);
-        assert_eq!(symmetric(&order, 0.95), Some([1.0, 3.0]));
-        assert_eq!(shortest(&order, 0.95), Some([1.0, 3.0]));
+        let mut order = order(vec![3.0, 1.0, 2.0]);
+        assert_eq!(symmetric(&mut order, 0.95), Some([1.0, 3.0]));
+        assert_eq!(shortest(&mut order, 0.95), Some([1.0, 3.0]));
     }
 
     /// Of 20 trials (q = 19, r = 1) the ends of the interval are the extremes, of 51 (q = 48, r = 2)
@@ -121,11 +114,15 @@ mod tests {
     #[test]
     fn extremes_have_no_error() {
         for (trials, r, known) in [(3, 1, false), (20, 1, false), (51, 2, true)] {
-            let order = order((1..=trials).map(f64::from).collect());
+            let mut order = order((1..=trials).map(f64::from).collect());
             let ranks = Ranks::new(trials as u64, 0.95);
             assert_eq!(ranks.r, r);
             for rank in [ranks.r, ranks.r + ranks.q] {
-                assert_eq!(quantile_error(&order, rank).unwrap().is_finite(), known, "{trials}");
+                assert_eq!(
+                    quantile_error(&mut order, rank).unwrap().is_finite(),
+                    known,
+                    "{trials}"
+                );
             }
         }
     }

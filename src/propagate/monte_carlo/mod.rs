@@ -20,8 +20,11 @@ mod products;
 mod quantiles;
 mod repeat;
 mod run;
+mod shelves;
 mod sorting;
 mod together;
+#[cfg(target_arch = "x86_64")]
+mod wide;
 mod windows;
 
 pub use adaptive::Adaptive;

@@ -1,6 +1,10 @@
 //! Moments of the trials, added up in a fixed order about a pilot value.
+#![allow(unsafe_code)] // instructions of a path that the machine has
 
 use super::products::Products;
+#[cfg(target_arch = "x86_64")]
+use super::wide;
+use crate::number::CodePath;
 
 /// Where an output's values lie and how far they spread: the pilot's median and a width. Sums are
 /// taken of (value - middle)/scale, so that they neither cancel nor overflow.
@@ -28,32 +32,14 @@ impl Sums {
     /// Adds a block's values. Every lane adds its own trials, and the lanes are added in order, so
     /// the result does not depend on the width of the machine's vectors.
     #[inline(always)]
-    pub(crate) fn add(&mut self, values: &[f64], reference: Reference) {
+    pub(crate) fn add(&mut self, path: CodePath, values: &[f64], reference: Reference) {
         let [lower, upper] = reference.limits;
-        self.inside += values.iter().map(|&v| u64::from((v >= lower) & (v <= upper))).sum::<u64>();
-        let inverse = 1.0 / reference.scale;
-        let mut lanes = [[0.0; LANES]; 4];
-        let chunks = values.chunks_exact(LANES);
-        let rest = chunks.remainder();
-        for chunk in chunks {
-            for i in 0..LANES {
-                let d = (chunk[i] - reference.middle) * inverse;
-                let d2 = d * d;
-                lanes[0][i] += d;
-                lanes[1][i] += d2;
-                lanes[2][i] += d2 * d;
-                lanes[3][i] += d2 * d2;
-            }
-        }
-        for (i, &value) in rest.iter().enumerate() {
-            let d = (value - reference.middle) * inverse;
-            let d2 = d * d;
-            lanes[0][i] += d;
-            lanes[1][i] += d2;
-            lanes[2][i] += d2 * d;
-            lanes[3][i] += d2 * d2;
-        }
-        for (sum, lane) in self.powers.iter_mut().zip(lanes) {
+        self.inside += if lower == f64::NEG_INFINITY && upper == f64::INFINITY {
+            values.len() as u64
+        } else {
+            values.iter().map(|&v| u64::from((v >= lower) & (v <= upper))).sum::<u64>()
+        };
+        for (sum, lane) in self.powers.iter_mut().zip(powers(path, values, reference)) {
             *sum += pairwise(lane);
         }
     }
@@ -65,6 +51,30 @@ impl Sums {
             *sum += term;
         }
     }
+}
+
+/// For the powers 1 to 4 of the values' distances from the reference the sum in each lane.
+#[inline(always)]
+fn powers(path: CodePath, values: &[f64], reference: Reference) -> [[f64; LANES]; 4] {
+    #[cfg(target_arch = "x86_64")]
+    if path == CodePath::Avx512 {
+        // SAFETY: a kernel runs on a path only where the machine has it.
+        return unsafe { wide::powers(values, reference) };
+    }
+    let _ = path;
+    let inverse = 1.0 / reference.scale;
+    let mut lanes = [[0.0; LANES]; 4];
+    for chunk in values.chunks(LANES) {
+        for (i, &value) in chunk.iter().enumerate() {
+            let d = (value - reference.middle) * inverse;
+            let d2 = d * d;
+            lanes[0][i] += d;
+            lanes[1][i] += d2;
+            lanes[2][i] += d2 * d;
+            lanes[3][i] += d2 * d2;
+        }
+    }
+    lanes
 }
 
 #[inline(always)]
@@ -188,9 +198,9 @@ mod tests {
         let values: Vec<f64> = (1..=1000).map(f64::from).collect();
         let reference = Reference { middle: 480.0, scale: 300.0, limits: [11.0, 20.0] };
         let mut sums = Sums::default();
-        sums.add(&values[..617], reference);
+        sums.add(CodePath::Baseline, &values[..617], reference);
         let mut rest = Sums::default();
-        rest.add(&values[617..], reference);
+        rest.add(CodePath::Baseline, &values[617..], reference);
         sums.merge(&rest);
         let m = Moments::new(1000, reference, &sums);
         assert!((m.mean - 500.5).abs() < 1e-10);

@@ -89,6 +89,7 @@ mod tests {
     use super::super::moments::{Reference, correlations};
     use super::super::windows::Windows;
     use super::*;
+    use crate::number::CodePath;
 
     /// Outputs that are lines of each other, more than a tile of them: coefficients 1 and -1 but for
     /// rounding.
@@ -114,7 +115,7 @@ mod tests {
         let mut products = Products::new(outputs);
         for _ in 0..2 {
             for ((sums, values), plan) in sums.iter_mut().zip(&values).zip(&plans) {
-                sums.add(&values[..100], plan.reference);
+                sums.add(CodePath::Baseline, &values[..100], plan.reference);
             }
             add(&values, 100, &plans, sums.iter_mut());
             products.take(sums.iter_mut());

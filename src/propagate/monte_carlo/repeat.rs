@@ -29,7 +29,8 @@ pub(crate) fn repeat<E: Send>(
         }
         let make = |workspace: &mut Workspace, block: u64| -> Vec<Vec<f64>> {
             trials.block(control.path, block, workspace);
-            let (left, _) = drop_undefined(&mut workspace.outputs, trials_in(block, count));
+            let (left, _) =
+                drop_undefined(control.path, &mut workspace.outputs, trials_in(block, count));
             workspace.outputs.iter().map(|values| values[..left].to_vec()).collect()
         };
         let made: Vec<Vec<Vec<f64>>> = (first..(first + held).min(blocks))

@@ -182,7 +182,7 @@ fn pilot(
     for block in 0..blocks {
         let count = trials_in(block, request.trials);
         trials.block(control.path, block, &mut workspace);
-        let (count, _) = drop_undefined(&mut workspace.outputs, count);
+        let (count, _) = drop_undefined(control.path, &mut workspace.outputs, count);
         for (values, out) in pilot.iter_mut().zip(workspace.outputs.iter().skip(outputs.start)) {
             values.extend_from_slice(&out[..count]);
         }
@@ -245,25 +245,24 @@ fn fold_all(
 ) -> (Vec<Folded>, Products) {
     let blocks = count.div_ceil(BLOCK as u64);
     let chunk = blocks.div_ceil(BATCHES as u64).clamp(1, LARGEST_CHUNK);
+    let path = control.path.or_baseline();
     let fold_chunk = |workspace: &mut Workspace, number: u64| {
-        let mut folded = Folded::new(plans.len());
-        for block in number * chunk..((number + 1) * chunk).min(blocks) {
+        let own = number * chunk..((number + 1) * chunk).min(blocks);
+        let mut folded = Folded::new(plans, (own.end - own.start) * BLOCK as u64);
+        for block in own {
             if control.is_stopped() {
                 break;
             }
             trials.block(control.path, block, workspace);
             let values = &mut workspace.outputs;
             let wanted = trials_in(block, count);
-            let (count, first) = drop_undefined(values, wanted);
+            let (count, first) = drop_undefined(path, values, wanted);
             if let Some(first) = first {
                 folded.undefined += (wanted - count) as u64;
                 folded.first_undefined = folded.first_undefined.or(Some((block, first)));
             }
-            control.path.run(FoldKernel { values, count, plans, folded: &mut folded });
+            path.run(FoldKernel { path, values, count, plans, folded: &mut folded });
             control.advance(wanted as u64);
-        }
-        for output in &mut folded.outputs {
-            output.sort();
         }
         folded
     };
@@ -338,25 +337,18 @@ fn undefined(trials: &Trials, chunks: &[Folded]) -> Option<Undefined> {
     Some(Undefined { count, trials: defined + count, first: trials.inputs_of(block, trial) })
 }
 
-/// Kept values of some consecutive trials of one output, sorted.
+/// Kept values of some consecutive trials of one output.
 struct Batch {
     trials: u64,
     below_median: u64,
     kept: Vec<f64>,
 }
 
-impl Batch {
-    fn join(batches: Vec<Self>) -> Self {
-        let (trials, below_median) = batches
-            .iter()
-            .fold((0, 0), |(trials, below), b| (trials + b.trials, below + b.below_median));
-        let mut kept = Vec::with_capacity(batches.iter().map(|b| b.kept.len()).sum());
-        for batch in batches {
-            kept.extend(batch.kept);
-        }
-        sort(&mut kept);
-        Self { trials, below_median, kept }
-    }
+/// The order statistics of some batches together.
+fn order_of(batches: &[Batch], windows: &Windows) -> Order {
+    let sum = |of: fn(&Batch) -> u64| batches.iter().map(of).sum();
+    let kept: Vec<&[f64]> = batches.iter().map(|batch| batch.kept.as_slice()).collect();
+    Order::new(sum(|b| b.trials), &kept, sum(|b| b.below_median), windows)
 }
 
 fn figures(
@@ -366,18 +358,19 @@ fn figures(
     windows: &Windows,
     chunks: Vec<Batch>,
 ) -> Option<MonteCarlo> {
-    let (batches, shortest_error) = shortest_error(chunks, probability, windows);
-    let all = Batch::join(batches);
-    let order = Order::new(all.trials, all.kept, all.below_median, windows);
-    let symmetric_interval = symmetric(&order, probability)?;
-    let shortest_interval = shortest(&order, probability)?;
+    let shortest_error = shortest_error(&chunks, probability, windows);
+    let mut order = order_of(&chunks, windows);
+    drop(chunks);
+    let order = &mut order;
+    let symmetric_interval = symmetric(order, probability)?;
+    let shortest_interval = shortest(order, probability)?;
     let median = order.median()?;
     let ranks = Ranks::new(order.trials, probability);
     let upper = (ranks.r + ranks.q).min(order.trials);
     let quantile_errors = [
-        quantile_error(&order, ranks.r)?,
-        quantile_error(&order, upper)?,
-        quantile_error(&order, order.trials.div_ceil(2))?,
+        quantile_error(order, ranks.r)?,
+        quantile_error(order, upper)?,
+        quantile_error(order, order.trials.div_ceil(2))?,
     ];
     // with so few trials the shortest interval, too, is that of the extremes
     let few = is_extreme(order.trials, ranks.r);
@@ -447,41 +440,26 @@ impl NumericalError {
 
 /// The scatter of the shortest interval between batches of the trials, brought to the number of
 /// all trials by the cube-root law of such intervals (Kim and Pollard, Annals of Statistics 18,
-/// 1990). The batches are handed back.
-fn shortest_error(
-    chunks: Vec<Batch>,
-    probability: f64,
-    windows: &Windows,
-) -> (Vec<Batch>, [f64; 2]) {
-    let size = chunks.len().div_ceil(BATCHES).max(1);
-    let mut batches = Vec::with_capacity(BATCHES);
-    let mut chunks = chunks.into_iter().peekable();
-    while chunks.peek().is_some() {
-        batches.push(Batch::join(chunks.by_ref().take(size).collect()));
-    }
-    let total: u64 = batches.iter().map(|b| b.trials).sum();
-    let largest = batches.iter().map(|b| b.trials).max().unwrap_or(0);
+/// 1990).
+fn shortest_error(chunks: &[Batch], probability: f64, windows: &Windows) -> [f64; 2] {
+    let batches: Vec<&[Batch]> = chunks.chunks(chunks.len().div_ceil(BATCHES).max(1)).collect();
+    let trials = |batch: &[Batch]| batch.iter().map(|chunk| chunk.trials).sum::<u64>();
+    let total: u64 = batches.iter().map(|batch| trials(batch)).sum();
+    let largest = batches.iter().map(|batch| trials(batch)).max().unwrap_or(0);
     let ends: Vec<[f64; 2]> = batches
-        .iter_mut()
+        .into_par_iter()
         // a last batch of few trials would scatter more than the others
-        .filter(|batch| 2 * batch.trials > largest)
-        .filter_map(|batch| {
-            let kept = std::mem::take(&mut batch.kept);
-            let order = Order::new(batch.trials, kept, batch.below_median, windows);
-            let ends = shortest(&order, probability);
-            batch.kept = order.into_sorted();
-            ends
-        })
+        .filter(|batch| 2 * trials(batch) > largest)
+        .filter_map(|batch| shortest(&mut order_of(batch, windows), probability))
         .collect();
     let n = ends.len() as f64;
     if ends.len() < 4 {
-        return (batches, [f64::NAN; 2]);
+        return [f64::NAN; 2];
     }
     let law = (largest as f64 / total as f64).cbrt();
-    let error = [0, 1].map(|end| {
+    [0, 1].map(|end| {
         let mean = ends.iter().map(|e| e[end]).sum::<f64>() / n;
         let squares: f64 = ends.iter().map(|e| (e[end] - mean).powi(2)).sum();
         law * (squares / (n - 1.0)).sqrt()
-    });
-    (batches, error)
+    })
 }

@@ -9,6 +9,8 @@ pub(crate) struct Windows {
     pub(crate) median_low: f64,
     pub(crate) median_high: f64,
     pub(crate) high: f64,
+    /// The least and the greatest value of the pilot.
+    pub(crate) ends: [f64; 2],
 }
 
 /// How many standard deviations of a rank the windows are wider than they need to be on average.
@@ -22,6 +24,7 @@ impl Windows {
         median_low: f64::NEG_INFINITY,
         median_high: f64::INFINITY,
         high: f64::NEG_INFINITY,
+        ends: [f64::NEG_INFINITY, f64::INFINITY],
     };
 
     /// The windows for coverage probability `p`, from a sorted pilot, their margins times
@@ -42,6 +45,7 @@ impl Windows {
                 median_low: at(0.5, -1.0)?,
                 median_high: at(0.5, 1.0)?,
                 high: at(p, -1.0)?,
+                ends: [*sorted.first()?, *sorted.last()?],
             })
         })();
         match windows {

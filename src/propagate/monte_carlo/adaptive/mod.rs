@@ -24,6 +24,7 @@ mod watch;
 use watch::Watch;
 
 use super::block::Trials;
+use crate::distribution::BLOCK;
 use crate::distribution::special::student;
 use crate::propagate::Control;
 use crate::task::StoppingRule;
@@ -31,8 +32,12 @@ use crate::task::StoppingRule;
 /// Figures of an output that are watched: estimate, standard uncertainty, ends of the interval.
 const FIGURES: usize = 4;
 
-/// Blocks that are computed at a time, of which the last may turn out not to be needed.
-const WAVE: u64 = 32;
+/// Blocks that are computed at a time, of which the last may turn out not to be needed: this part of
+/// those that are there.
+const PART: u64 = 16;
+
+/// But no fewer and no more than so many.
+const WAVE: [u64; 2] = [4, 32];
 
 /// Blocks of the first stage of Stein's rule.
 pub(crate) const FIRST_STAGE: u64 = 10;
@@ -85,22 +90,16 @@ impl Search<'_> {
 }
 
 /// Finds how many trials are needed. Gives their number and, for each output, how the procedure
-/// ended.
+/// ended. `trials` hold what was computed of them, as far as the memory for kept values goes.
 pub(crate) fn find_trials(
-    trials: &Trials,
+    trials: &mut Trials,
     search: Search<'_>,
     control: &Control<'_>,
 ) -> (u64, Vec<Adaptive>) {
     let size = search.block_trials();
-    let mut blocks = Blocks {
-        trials,
-        search,
-        control,
-        size,
-        most: search.most / size,
-        made: 0,
-        watches: vec![Watch::default(); trials.outputs()],
-    };
+    let watches = vec![Watch::default(); trials.outputs()];
+    let mut blocks =
+        Blocks { trials, search, control, size, most: search.most / size, made: 0, watches };
     // of blocks larger than that the scatter cannot be told within the largest number of trials
     let (blocks_wanted, converged) = match search.rule {
         _ if blocks.most < 2 => (0, false),
@@ -120,7 +119,7 @@ pub(crate) fn find_trials(
 
 /// The blocks made so far.
 struct Blocks<'a> {
-    trials: &'a Trials,
+    trials: &'a mut Trials,
     search: Search<'a>,
     control: &'a Control<'a>,
     /// Trials in each.
@@ -135,6 +134,8 @@ impl Blocks<'_> {
     /// Makes some more blocks and looks at them one after the other until `enough` says so.
     fn make(&mut self, count: u64, enough: impl Fn(&Self) -> bool) -> bool {
         let numbers = self.made..self.made + count;
+        let end = (numbers.end * self.size).div_ceil(BLOCK as u64);
+        self.trials.hold(self.control.path, end, self.control.memory);
         let found = blocks::figures(self.trials, numbers, self.size, self.search, self.control);
         for figures in found {
             self.made += 1;
@@ -156,8 +157,7 @@ impl Blocks<'_> {
         };
         let mut stable = false;
         while !stable && self.made < self.most && !self.control.is_stopped() {
-            // small waves at first: one digit may need only a few blocks
-            let wave = WAVE.min(self.made.max(4)).min(self.most - self.made);
+            let wave = (self.made / PART).clamp(WAVE[0], WAVE[1]).min(self.most - self.made);
             stable = self.make(wave, is_stable);
         }
         (self.made, stable)

@@ -8,10 +8,24 @@
 //! spread by the finalizer of splitmix64 (Steele, Lea, Flood, 2014). All of it is integer
 //! arithmetic and therefore the same on every machine.
 
+#![allow(unsafe_code)] // instructions of a path that the machine has
+
+#[cfg(target_arch = "x86_64")]
+mod wide;
+
+use crate::number::CodePath;
+
 /// Trials in a block: the granularity of random access. A multiple of a column's length.
 pub(crate) const BLOCK: usize = 1024;
 
 const LANES: usize = 8;
+
+/// The bits of 1, whose mantissa the generator's bits become.
+const ONE: u64 = 0x3ff0_0000_0000_0000;
+
+/// 1 - 2^-53: brings the mantissa's [1, 2) to the middle of its cells on (0, 1).
+const SHIFT: f64 = 0.999_999_999_999_999_9;
+
 const GOLDEN: u64 = 0x9e37_79b9_7f4a_7c15;
 
 /// The identity of a random stream: the seed of the run and the name of the quantity.
@@ -25,7 +39,12 @@ impl StreamKey {
 
     /// The stream's numbers for one block.
     pub(crate) fn block(self, block: u64) -> Stream {
-        Stream::new(mix(self.0 ^ mix(block.wrapping_add(GOLDEN))))
+        self.block_on(CodePath::best(), block)
+    }
+
+    /// The same, computed on a code path.
+    pub(crate) fn block_on(self, path: CodePath, block: u64) -> Stream {
+        Stream::new(mix(self.0 ^ mix(block.wrapping_add(GOLDEN))), path)
     }
 }
 
@@ -48,11 +67,14 @@ fn mix(x: u64) -> u64 {
 #[derive(Clone, Debug)]
 pub(crate) struct Stream {
     state: [[u64; LANES]; 4],
+    /// A path that the machine has.
+    #[cfg_attr(not(target_arch = "x86_64"), allow(dead_code))]
+    path: CodePath,
 }
 
 impl Stream {
     #[inline(always)]
-    fn new(key: u64) -> Self {
+    fn new(key: u64, path: CodePath) -> Self {
         let mut state = [[0; LANES]; 4];
         let mut counter = key;
         for word in &mut state {
@@ -61,7 +83,7 @@ impl Stream {
                 *lane = mix(counter);
             }
         }
-        Self { state }
+        Self { state, path: path.or_baseline() }
     }
 
     #[inline(always)]
@@ -85,9 +107,14 @@ impl Stream {
     /// so 0 and 1 never occur and u and 1 - u are equally likely. `N` is a multiple of eight.
     #[inline(always)]
     pub(crate) fn uniform<const N: usize>(&mut self, out: &mut [f64; N]) {
-        const ONE: u64 = 0x3ff0_0000_0000_0000;
-        // 1 - 2^-53: brings the mantissa's [1, 2) to the middle of its cells on (0, 1)
-        const SHIFT: f64 = 0.999_999_999_999_999_9;
+        #[cfg(target_arch = "x86_64")]
+        match self.path {
+            // SAFETY: the machine has the stream's path.
+            CodePath::Avx512 => return unsafe { wide::fill_avx512(&mut self.state, out) },
+            // SAFETY: as above.
+            CodePath::Avx2 => return unsafe { wide::fill_avx2(&mut self.state, out) },
+            CodePath::Baseline => {}
+        }
         for chunk in out.chunks_exact_mut(LANES) {
             let bits = self.next();
             for i in 0..LANES {
@@ -109,8 +136,8 @@ mod tests {
 
     #[test]
     fn uniforms_stay_inside_the_open_interval() {
-        const ONE: u64 = 0x3ff0_0000_0000_0000;
         let shift = 1.0 - 2f64.powi(-53);
+        assert_eq!(shift, SHIFT);
         assert_eq!(f64::from_bits(ONE) - shift, 2f64.powi(-53));
         assert_eq!(f64::from_bits(ONE | ((1 << 52) - 1)) - shift, 1.0 - 2f64.powi(-53));
         for u in draw(1, "x", 0) {
@@ -131,7 +158,10 @@ mod tests {
     /// of the crate `rand_xoshiro`).
     #[test]
     fn lanes_follow_the_reference_generator() {
-        let mut stream = Stream { state: [[1; LANES], [2; LANES], [3; LANES], [4; LANES]] };
+        let mut stream = Stream {
+            state: [[1; LANES], [2; LANES], [3; LANES], [4; LANES]],
+            path: CodePath::Baseline,
+        };
         let reference: [u64; 5] = [
             41_943_041,
             58_720_359,
@@ -141,6 +171,21 @@ mod tests {
         ];
         for expected in reference {
             assert_eq!(stream.next(), [expected; LANES]);
+        }
+    }
+
+    #[test]
+    fn paths_give_the_same_numbers() {
+        let on = |path: CodePath| {
+            let mut stream = StreamKey::new(7, "x").block_on(path, 3);
+            let (mut first, mut second) = ([0.0; 64], [0.0; 128]);
+            stream.uniform(&mut first);
+            stream.uniform(&mut second);
+            [&first[..], &second[..]].concat()
+        };
+        let baseline = on(CodePath::Baseline);
+        for path in CodePath::available() {
+            assert_eq!(on(path), baseline, "{path:?}");
         }
     }
 
