@@ -1,6 +1,10 @@
 //! Reports: what an evaluation looks like, one file for each format.
 
 mod csv;
+#[cfg(feature = "cli")]
+mod document;
+#[cfg(feature = "cli")]
+mod evaluation;
 pub mod gap;
 #[cfg(feature = "cli")]
 mod html;
@@ -10,11 +14,15 @@ pub mod number;
 mod plot;
 mod samples;
 mod saved;
+#[cfg(feature = "cli")]
+mod sheet;
 mod subtotals;
 #[cfg(feature = "cli")]
 mod table;
 
 pub use csv::{csv, write_csv};
+#[cfg(feature = "cli")]
+pub use evaluation::{Shown, histograms, html, latex, markdown};
 pub use json::{json, write_json};
 pub use samples::Samples;
 pub use saved::saved;
