@@ -145,6 +145,13 @@ impl Run {
                  to a pipe",
             );
         }
+        let results = task.rows.len().saturating_mul(task.model.outputs.len());
+        if self.format == Page::Xlsx && results > report::MOST_RESULTS {
+            return refuse(
+                "there are more results than a worksheet has rows; take `--format csv`, or \
+                 evaluate fewer rows of conditions",
+            );
+        }
         if !self.histogram {
             return Ok(());
         }
@@ -265,7 +272,7 @@ fn write(
         Page::Markdown => out.write_all(report::markdown(report, shown).as_bytes()),
         Page::Latex => out.write_all(report::latex(report, shown).as_bytes()),
         Page::Html => out.write_all(report::html(report, shown).as_bytes()),
-        Page::Xlsx => Err(io::Error::other("not yet")),
+        Page::Xlsx => out.write_all(&report::xlsx(report, shown)?),
     }
 }
 

@@ -10,6 +10,7 @@ mod sim;
 mod trace;
 pub mod typed;
 
+pub(crate) use program::Node;
 pub use program::Program;
 pub(crate) use schedule::{Place, Schedule};
 pub use sim::{Circular, Effect, Maker, Sim};

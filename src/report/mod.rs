@@ -19,10 +19,12 @@ mod sheet;
 mod subtotals;
 #[cfg(feature = "cli")]
 mod table;
+#[cfg(feature = "cli")]
+mod workbook;
 
 pub use csv::{csv, write_csv};
 #[cfg(feature = "cli")]
-pub use evaluation::{Shown, histograms, html, latex, markdown};
+pub use evaluation::{MOST_RESULTS, Shown, histograms, html, latex, markdown, xlsx};
 pub use json::{json, write_json};
 pub use samples::Samples;
 pub use saved::saved;

@@ -58,6 +58,11 @@ impl Document {
         self.blocks.push(Block::Text(text.into()));
     }
 
+    /// Adds a paragraph of one sentence that is written without its capital and full stop.
+    pub(crate) fn sentence(&mut self, text: &str) {
+        self.text(sentence(text));
+    }
+
     /// Adds a table.
     pub(crate) fn table(&mut self, sheet: Sheet) {
         self.blocks.push(Block::Table(sheet));
@@ -66,5 +71,17 @@ impl Document {
     /// Adds a figure, if there is one.
     pub(crate) fn figure(&mut self, drawing: Option<Drawing>) {
         self.blocks.extend(drawing.map(Block::Figure));
+    }
+}
+
+/// A sentence with its capital and full stop. What begins with a name keeps it as it is.
+pub(crate) fn sentence(text: &str) -> String {
+    let (word, _) = text.split_once([' ', ':']).unwrap_or((text, ""));
+    let mut letters = text.chars();
+    match letters.next() {
+        Some(first) if word.chars().all(|c| c.is_ascii_lowercase()) => {
+            format!("{}{}.", first.to_ascii_uppercase(), letters.as_str())
+        }
+        _ => format!("{text}."),
     }
 }

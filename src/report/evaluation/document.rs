@@ -60,7 +60,7 @@ fn together(document: &mut Document, task: &Task, row: &RowEvaluation) {
         None => {}
     }
     if let Some(said) = table::left_out(row) {
-        document.text(said + ".");
+        document.sentence(&said);
     }
 }
 

@@ -6,8 +6,10 @@ mod repeat;
 mod results;
 mod sweep;
 mod terminal;
+mod workbook;
 
 pub use terminal::histograms;
+pub use workbook::{MOST_RESULTS, xlsx};
 
 use super::document as look;
 use super::{Column, Report};

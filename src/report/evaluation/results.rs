@@ -4,7 +4,7 @@ use super::{Shown, figures};
 use crate::model::Quantity;
 use crate::propagate::OutputEvaluation;
 use crate::report::Report;
-use crate::report::document::{Block, Document};
+use crate::report::document::{Block, Document, sentence};
 use crate::report::number::{place, to, with_uncertainty};
 use crate::report::sheet::Sheet;
 use crate::report::table::budget::{self, Budget};
@@ -32,9 +32,9 @@ pub(super) fn section(
         Some(gum) => {
             let budget = Budget { task, output: quantity, gum, digits };
             document.table(budget.sheet(shown.columns));
-            document.text(budget::legend(quantity, shown.columns) + ".");
+            document.sentence(&budget::legend(quantity, shown.columns));
             if let Some(said) = budget::subtotals(task, gum) {
-                document.text(said + ".");
+                document.sentence(&said);
             }
             document.figure(figures::shares(task, gum));
             document.table(conclusions(&evaluation.settings, quantity, found, digits));
@@ -46,10 +46,10 @@ pub(super) fn section(
     }
     if let Some(figures) = &found.monte_carlo {
         if !figures.shortest_exact {
-            document.text(comparison::NEARLY_SHORTEST.to_owned() + ".");
+            document.sentence(comparison::NEARLY_SHORTEST);
         }
         if let Some(end) = &figures.adaptive {
-            document.text(comparison::stability(quantity, end, figures.trials) + ".");
+            document.sentence(&comparison::stability(quantity, end, figures.trials));
         }
     }
     let histogram = shown.histogram(0, output);
@@ -67,7 +67,7 @@ fn verdict(settings: &Settings, output: &Quantity, found: &OutputEvaluation) -> 
             let gum = found.gum.as_ref();
             let interval =
                 gum.and_then(|gum| comparison::interval_text(output, gum, settings.digits));
-            said.extend(interval.map(|said| said + "."));
+            said.extend(interval.map(|said| sentence(&said)));
         }
     }
     said.extend(found.conformity.map(|c| comparison::conformity_text(output, &c)));

@@ -35,6 +35,7 @@ pub(in crate::report) fn latex(document: &Document) -> String {
     ];
     parts.extend(units.lines());
     parts.extend([
+        "\\sisetup{table-align-exponent=false}".to_owned(),
         "\\setlength{\\parindent}{0pt}".to_owned(),
         "\\setlength{\\parskip}{0.6ex plus 0.2ex}".to_owned(),
         "\\setlength{\\LTleft}{0pt}".to_owned(),
@@ -110,8 +111,8 @@ fn table(sheet: &Sheet, units: &mut unit::Declared) -> String {
         )
     } else {
         format!(
-            "{{{size}\n\\begin{{tabular}}{{{form}}}\n\\toprule\n{header}\n\\midrule\n{rows}\n\
-             \\bottomrule\n\\end{{tabular}}\\par}}"
+            "\\medskip\n{{{size}\n\\begin{{tabular}}{{{form}}}\n\\toprule\n{header}\n\\midrule\n{rows}\n\
+             \\bottomrule\n\\end{{tabular}}\\par}}\n\\medskip"
         )
     }
 }
@@ -120,7 +121,13 @@ fn table(sheet: &Sheet, units: &mut unit::Declared) -> String {
 fn width(column: &Column) -> usize {
     let lines = column.header.lines().chain(column.cells.iter().map(String::as_str));
     let longest = lines.map(|line| line.chars().count()).max().unwrap_or(0);
-    if column.kind == Kind::Text { longest.min(PARAGRAPH) } else { longest }
+    if column.kind != Kind::Text {
+        return longest;
+    }
+    // a word that is longer cannot be broken
+    let words = column.cells.iter().flat_map(|cell| cell.split_whitespace());
+    let word = words.map(|word| word.chars().count()).max().unwrap_or(0);
+    longest.min(PARAGRAPH.max(word))
 }
 
 /// The form of a column.
@@ -128,7 +135,7 @@ fn form(column: &Column, width: usize) -> String {
     match column.kind {
         Kind::Numbers => number_format(column),
         Kind::Units => "l".to_owned(),
-        Kind::Text if column.cells.iter().any(|cell| cell.chars().count() > PARAGRAPH) => {
+        Kind::Text if column.cells.iter().any(|cell| cell.chars().count() > width) => {
             let millimetres = (LETTER * width as f64).round();
             format!(">{{\\raggedright\\arraybackslash}}p{{{millimetres}mm}}")
         }
@@ -197,6 +204,7 @@ mod tests {
         sheet.text("a_b", ["100 %", "x_1 & y", "", "", ""].map(str::to_owned));
         let mut units = unit::Declared::default();
         insta::assert_snapshot!(table(&sheet, &mut units), @r"
+        \medskip
         {\small
         \begin{tabular}{@{}S[table-format=-2.4e-2]ll@{}}
         \toprule
@@ -209,6 +217,7 @@ mod tests {
          & 1 &  \\
         \bottomrule
         \end{tabular}\par}
+        \medskip
         ");
         assert_eq!(units.lines(), [r"\DeclareSIUnit{\gumptionpsi}{psi}"]);
     }
