@@ -210,6 +210,12 @@ workbook_case() {
   check "$1: LibreOffice computes the same y, u, k and U to 1e-9" workbook "$1" "$2"
 }
 
+# a workbook on a terminal is refused with exit code 2
+on_a_terminal() {
+  script -qec "'$GUMPTION' run models/inclined_plane.json --format xlsx --trials 0" "$DIR/terminal"
+  [ $? = 2 ] && grep -q 'cannot be shown in a terminal' "$DIR/terminal"
+}
+
 spreadsheet() {
   local name=$1
   rm -rf "$DIR/$name.sheet" && mkdir -p "$DIR/$name.sheet"
@@ -245,6 +251,7 @@ if wanted workbook; then
   say "workbooks in LibreOffice"
   if packages soffice libreoffice-calc && python openpyxl; then
     each_case workbook_case
+    check "a terminal gets no workbook" on_a_terminal
     for name in plane attenuator readings every_step; do
       line=$(printf '%s\n' "${CASES[@]}" | grep "^$name ")
       check "$name: a changed input changes U as in the changed model" \

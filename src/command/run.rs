@@ -121,7 +121,13 @@ impl Run {
         }
         let control = self.control(&stop);
         let histograms = self.histograms(&report, &control)?;
-        let shown = Shown { columns: &self.columns, histograms: &histograms, model: &text };
+        let replaced: Vec<String> = self.replacements.iter().map(|set| set.text.clone()).collect();
+        let shown = Shown {
+            columns: &self.columns,
+            histograms: &histograms,
+            replaced: &replaced,
+            model: &text,
+        };
         let saver = save::Saver { report: &report, control: &control };
         if let Some(path) = &self.save {
             saver.result(path)?;

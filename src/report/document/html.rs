@@ -3,7 +3,7 @@
 use maud::{Markup, html};
 
 use super::{Block, Document};
-use crate::report::html::{figure, page, table};
+use crate::report::html::{figure, page, raised, table};
 
 /// The whole page.
 pub(in crate::report) fn html(document: &Document) -> String {
@@ -18,16 +18,17 @@ pub(in crate::report) fn html(document: &Document) -> String {
 
 fn block(block: &Block, figures: &mut usize) -> Markup {
     match block {
-        Block::Section(title) => html! { h2 { (title) } },
-        Block::Text(text) => html! { p { (text) } },
+        Block::Section(title) => html! { h2 { (raised(title)) } },
+        Block::Text(text) => html! { p { (raised(text)) } },
         Block::Verdict(sentences) => html! {
             div.verdict {
                 @for (place, sentence) in sentences.iter().enumerate() {
+                    @let sentence = raised(sentence);
                     @if place == 0 { p { strong { (sentence) } } } @else { p { (sentence) } }
                 }
             }
         },
-        Block::List(items) => html! { ul { @for item in items { li { (item) } } } },
+        Block::List(items) => html! { ul { @for item in items { li { (raised(item)) } } } },
         Block::Table(sheet) => table(sheet),
         Block::Figure(drawing) => {
             *figures += 1;

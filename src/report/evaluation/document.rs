@@ -42,7 +42,7 @@ pub(super) fn of(report: &Report<'_>, shown: &Shown<'_>) -> Document {
         let notes = warnings.iter().map(|warning| plain(&warning.text));
         document.blocks.push(Block::List(notes.collect()));
     }
-    repeat::section(&mut document, report, shown.model);
+    repeat::section(&mut document, report, shown);
     document
 }
 

@@ -22,6 +22,8 @@ pub struct Shown<'a> {
     pub columns: &'a [Column],
     /// For each row of conditions the histograms of its outputs; none at all, or as many as rows.
     pub histograms: &'a [Vec<Option<Histogram>>],
+    /// What the command line replaces in the model file, as it was typed.
+    pub replaced: &'a [String],
     /// The text of the model file, for pages that show it.
     pub model: &'a str,
 }

@@ -1,20 +1,22 @@
 //! Everything that is needed to get the same answer again.
 
+use super::Shown;
 use crate::report::document::{Block, Document};
 use crate::report::sheet::Sheet;
 use crate::report::{Report, plain};
 use crate::task::Trials;
 
 /// Program, settings, digests, and the text of the model file where the page shows it.
-pub(super) fn section(document: &mut Document, report: &Report<'_>, model: &str) {
+pub(super) fn section(document: &mut Document, report: &Report<'_>, shown: &Shown<'_>) {
     document.section("To repeat this");
-    let lines = lines(report);
+    let lines = lines(report, shown);
     let mut sheet = Sheet::default();
     sheet.text("what", lines.iter().map(|(name, _)| name.clone()));
     sheet.text("value", lines.into_iter().map(|(_, value)| value));
     document.table(sheet);
     document
         .text("The same program, files and seed give the same figures on any number of threads.");
+    let model = shown.model;
     if !model.trim().is_empty() {
         let about = "The model file:".to_owned();
         document.blocks.push(Block::Listing { about, text: model.to_owned() });
@@ -22,7 +24,7 @@ pub(super) fn section(document: &mut Document, report: &Report<'_>, model: &str)
 }
 
 /// Names and values.
-pub(in crate::report) fn lines(report: &Report<'_>) -> Vec<(String, String)> {
+pub(super) fn lines(report: &Report<'_>, shown: &Shown<'_>) -> Vec<(String, String)> {
     let Report { evaluation, provenance, .. } = report;
     let settings = &evaluation.settings;
     let trials = match settings.trials {
@@ -37,6 +39,7 @@ pub(in crate::report) fn lines(report: &Report<'_>) -> Vec<(String, String)> {
         ("digits".to_owned(), settings.digits.to_string()),
         ("model file, SHA-256".to_owned(), provenance.model_sha256.clone()),
     ];
+    lines.extend(shown.replaced.iter().map(|text| ("replaced".to_owned(), plain(text))));
     let digest =
         |(name, digest): &(String, String)| (format!("{}, SHA-256", plain(name)), digest.clone());
     lines.extend(provenance.files.iter().map(digest));

@@ -1,8 +1,10 @@
 //! Pages for a browser and for print: one file each, without scripts and without anything from
 //! elsewhere.
 
+mod raised;
 mod table;
 
+pub(super) use raised::raised;
 pub(super) use table::table;
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};

@@ -2,8 +2,9 @@
 
 use maud::{Markup, html};
 
+use super::raised;
 use crate::report::number::align;
-use crate::report::sheet::{Column, Sheet};
+use crate::report::sheet::{Column, Kind, Sheet};
 
 /// A table; numbers are padded so that their decimal points stand under each other.
 pub(in crate::report) fn table(sheet: &Sheet) -> Markup {
@@ -30,8 +31,10 @@ pub(in crate::report) fn table(sheet: &Sheet) -> Markup {
                     @for row in 0..sheet.rows() {
                         tr class=[is_total(row).then_some("total")] {
                             @for (column, cells) in sheet.columns.iter().zip(&columns) {
+                                @let cell = cells.get(row).map_or("", String::as_str);
                                 td class=[class(column)] {
-                                    (cells.get(row).map_or("", String::as_str))
+                                    @if column.kind == Kind::Units { (raised(cell)) }
+                                    @else { (cell) }
                                 }
                             }
                         }

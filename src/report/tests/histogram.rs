@@ -4,7 +4,10 @@ use super::*;
 use crate::distribution::special::normal;
 use crate::propagate::histograms;
 
-fn counted(case: &Case, control: &Control<'_>) -> Vec<Option<crate::propagate::monte_carlo::Histogram>> {
+fn counted(
+    case: &Case,
+    control: &Control<'_>,
+) -> Vec<Option<crate::propagate::monte_carlo::Histogram>> {
     histograms(&case.task, &case.evaluation, 0, control).unwrap().unwrap()
 }
 

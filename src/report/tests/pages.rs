@@ -18,7 +18,9 @@ fn pages(case: &Case, columns: &[Column]) -> [(&'static str, String, Rows); 3] {
     let report = case.report();
     let drawn = histograms(&case.task, &case.evaluation, 0, &Control::default()).unwrap();
     let histograms = [drawn.unwrap_or_default()];
-    let shown = Shown { columns, histograms: &histograms, model: "{\"title\": \"<model>\"}\n" };
+    let replaced = ["tilt=35 deg".to_owned()];
+    let model = "{\"title\": \"<model>\"}\n";
+    let shown = Shown { columns, histograms: &histograms, replaced: &replaced, model };
     let markdown = markdown(&report, &shown);
     let latex = latex(&report, &shown);
     let html = html(&report, &shown);
@@ -196,6 +198,7 @@ fn a_page_has_what_is_needed_to_repeat_it() {
         assert_eq!(row(&rows, 0, "data.csv, SHA-256")[1], "4567", "{format}");
         assert_eq!(row(&rows, 0, "seed")[1], "1", "{format}");
         assert_eq!(row(&rows, 0, "trials")[1], "20000", "{format}");
+        assert_eq!(row(&rows, 0, "replaced")[1], "tilt=35 deg", "{format}");
         assert!(page.contains(env!("CARGO_PKG_VERSION")), "{format}");
         assert!(page.contains("there are few of them"), "{format}");
         assert!(page.contains("clause 8: the GUM interval is"), "{format}");
@@ -209,7 +212,9 @@ fn html_has_its_figures() {
     let [.., (_, page, _)] = pages(&case, &[]);
     // shares and distribution of a_x and a_z; a_y does not vary; the inputs
     assert_eq!(page.matches("<svg").count(), 5);
-    for needed in ["GUM: normal", "Monte Carlo, symmetric", "Monte Carlo, shortest", "r(a_ref, tilt)"] {
+    for needed in
+        ["GUM: normal", "Monte Carlo, symmetric", "Monte Carlo, shortest", "r(a_ref, tilt)"]
+    {
         assert!(page.contains(needed), "{needed}");
     }
     let without = Case::new(plane_at(35.0, 0));

@@ -58,7 +58,7 @@ pub(in crate::report::evaluation) fn shares(task: &Task, gum: &Gum) -> Option<Dr
     });
     let mut caption = "Shares of the combined variance, largest first".to_owned();
     if bars.iter().any(|bar| bar.2) {
-        caption.push_str("; light bars: correlation coefficients");
+        caption.push_str("; paler bars: correlation coefficients");
     }
     if all > bars.len() {
         caption.push_str(&format!("; {} smaller ones are left out", all - bars.len()));

@@ -72,8 +72,8 @@ pub(in crate::report::evaluation) fn sweep(
             upper.draw(&PathElement::new(bar, stroke(AFTER, 1.5)))?;
             upper.draw(&Circle::new((at, *y), px(2.5), INK.filled()))?;
         }
-        let label = format!("U({})", axis(quantity));
-        let lower = over(label, &widths).draw(&bottom)?;
+        let name = format!("U({})", quantity.name);
+        let lower = over(axis(&Quantity { name, ..quantity.clone() }), &widths).draw(&bottom)?;
         for (at, _, u) in &points {
             let dot = Circle::new((x.position(*at), *u), px(2.5), AFTER.filled());
             lower.plotting_area().draw(&dot)?;

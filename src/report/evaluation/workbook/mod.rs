@@ -102,7 +102,7 @@ fn about(mut book: Book, report: &Report<'_>, shown: &Shown<'_>) -> Result<Vec<u
     let mut leaf = book.leaf("About")?;
     leaf.title(0, "To repeat this")?;
     let mut row = 2;
-    for (name, value) in repeat::lines(report) {
+    for (name, value) in repeat::lines(report, shown) {
         leaf.text(row, 0, &name)?;
         leaf.text(row, 1, &value)?;
         row += 1;
