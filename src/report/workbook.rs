@@ -98,7 +98,7 @@ impl Book {
         let mut name = short(LONGEST_NAME);
         let mut number = 2;
         while self.names.contains(&name.to_lowercase()) || check_sheet_name(&name).is_err() {
-            name = format!("{} {number}", short(LONGEST_NAME - 6));
+            name = format!("{} {number}", short(LONGEST_NAME - 6)).trim().to_owned();
             number += 1;
         }
         name
@@ -277,6 +277,7 @@ fn quoted(name: &str) -> String {
 /// The decimal place of the last digit of a number as a page shows it.
 fn decimals(text: &str) -> Option<i32> {
     let (mantissa, exponent) = text.split_once('e').unwrap_or((text, "0"));
+    mantissa.parse::<f64>().ok()?;
     let decimals = mantissa.split_once('.').map_or(0, |(_, decimals)| decimals.len());
     Some(exponent.parse::<i32>().ok()? - i32::try_from(decimals).ok()?)
 }

@@ -66,14 +66,25 @@ fn pages_have_no_path_and_no_date() {
     for format in ["markdown", "latex", "html"] {
         let page = output(&["run", &model, "--format", format, "--trials", "2000", "--quiet"]);
         assert!(!page.contains(root), "{format}");
-        assert_eq!(page.matches("http").count(), page.matches("http://www.w3.org/2000/svg").count());
+        assert_eq!(
+            page.matches("http").count(),
+            page.matches("http://www.w3.org/2000/svg").count()
+        );
     }
 }
 
 #[test]
 fn what_the_command_line_replaces_is_on_the_page() {
     let page = output(&[
-        "run", MODEL, "--format", "markdown", "--trials", "0", "--set", "tilt=36 deg", "--quiet",
+        "run",
+        MODEL,
+        "--format",
+        "markdown",
+        "--trials",
+        "0",
+        "--set",
+        "tilt=36 deg",
+        "--quiet",
     ]);
     assert!(page.contains("| replaced ") && page.contains("tilt=36 deg"), "{page}");
 }

@@ -93,9 +93,9 @@ fn agrees(text: &str, value: f64) -> bool {
     let decimals = mantissa.split_once('.').map_or(0, |(_, decimals)| decimals.len() as i32);
     let place = exponent.parse::<i32>().unwrap() - decimals;
     let read: f64 = text.parse().unwrap();
-    let trailing = mantissa.trim_start_matches('-').len() - mantissa.trim_end_matches('0').len();
     // zeros left of the point may stand for rounded digits
-    let place = if decimals == 0 { place + trailing as i32 } else { place };
+    let zeros = mantissa.len() - mantissa.trim_end_matches('0').len();
+    let place = if decimals == 0 && read != 0.0 { place + zeros as i32 } else { place };
     (read - value).abs() <= 0.5 * 10_f64.powi(place) * (1.0 + 1e-9)
 }
 
@@ -259,7 +259,7 @@ fn a_sweep_has_a_row_for_each_row_of_conditions() {
 fn what_is_not_defined_is_said() {
     let text = r#"{"inputs": {"x": {"distribution": "normal", "mean": 0, "std": 1},
         "c": {"distribution": "constant", "value": 2}},
-        "equations": {"y": "sqrt(abs(x))", "z": "c"}, "outputs": {"y": {}, "z": {}},
+        "equations": {"y": "sqrt(max(x, 0))", "z": "c"}, "outputs": {"y": {}, "z": {}},
         "monte_carlo": {"trials": 2000}}"#;
     let file = read_text("file", text, Path::new(""), &[]).unwrap();
     let case = Case::new(file.task);
