@@ -225,7 +225,6 @@ impl Leaf {
 
     /// A table from a row on: cells whose unrounded numbers are known are those, with as many
     /// decimals as the page shows. The row below it.
-    #[cfg_attr(not(test), expect(dead_code, reason = "tables of other reports"))]
     pub(crate) fn table(&mut self, row: u32, sheet: &Sheet) -> Result<u32, XlsxError> {
         let titles: Vec<String> = sheet.columns.iter().map(super::sheet::Column::title).collect();
         self.headers(row, titles.iter().map(String::as_str))?;

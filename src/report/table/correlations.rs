@@ -4,7 +4,7 @@ use super::grid::Grid;
 use super::{WIDTH, text};
 use crate::propagate::RowEvaluation;
 use crate::report::number::justified;
-use crate::report::sheet::Sheet;
+use crate::report::sheet::{Figure, Sheet};
 use crate::task::Task;
 
 /// Decimal place of the coefficients (JCGM 100, 7.2.6).
@@ -52,23 +52,25 @@ pub(in crate::report) fn found(task: &Task, row: &RowEvaluation) -> Option<Coeff
         return Some(Coefficients::TooMany(said));
     }
     let trials = row.outputs.first()?.monte_carlo.as_ref().map(|figures| figures.trials);
-    let coefficients: Vec<String> = row.correlations.iter().map(|&r| cell(r, trials)).collect();
+    let coefficients: Vec<Figure> =
+        row.correlations.iter().map(|&r| Figure::of(r, cell(r, trials))).collect();
     let sheet = matrix(&names, &coefficients);
     let pairs =
         names.iter().enumerate().flat_map(|(i, a)| names.iter().skip(i + 1).map(move |b| (a, b)));
-    let listed = pairs.zip(&coefficients).map(|((a, b), r)| format!("r({a}, {b}) = {r}"));
+    let listed = pairs.zip(&coefficients).map(|((a, b), r)| format!("r({a}, {b}) = {}", r.text));
     Some(Coefficients::Matrix { sheet, listed: listed.collect::<Vec<_>>().join("; ") })
 }
 
-fn matrix(names: &[String], coefficients: &[String]) -> Sheet {
+fn matrix(names: &[String], coefficients: &[Figure]) -> Sheet {
     let mut sheet = Sheet::default();
     sheet.text("correlation", names[..names.len() - 1].iter().cloned());
     for j in 1..names.len() {
         let cells = (0..names.len() - 1).map(|i| {
             let place = pair(i, j, names.len());
-            place.and_then(|place| coefficients.get(place).cloned()).unwrap_or_default()
+            let blank = Figure { text: String::new(), value: None };
+            place.and_then(|place| coefficients.get(place).cloned()).unwrap_or(blank)
         });
-        sheet.numbers(&names[j], cells);
+        sheet.figures(&names[j], cells);
     }
     sheet
 }

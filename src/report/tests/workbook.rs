@@ -115,10 +115,19 @@ fn assert_budget(book: &Book, gum: &Value, output: &str) -> Vec<String> {
 fn budgets_are_live_and_hold_the_numbers_of_the_json() {
     for case in [Case::new(plane_at(35.0, 2000)), Case::new(grouped(0)), Case::new(correlated(0))] {
         let book = Book::of(&case);
-        let names =
-            ["Results", "Inputs", "Budget a_x", "Budget a_y", "Budget a_z", "Model", "About"];
+        let names = [
+            "Results",
+            "Inputs",
+            "Budget a_x",
+            "Budget a_y",
+            "Budget a_z",
+            "Model",
+            "Correlations",
+            "About",
+        ];
         assert_eq!(book.names(), names);
         let answer = case.json();
+        book.assert("Correlations", (3, 1), &answer["output_correlations"][0][2]);
         for (number, output) in ["a_x", "a_y", "a_z"].into_iter().enumerate() {
             let gum = &answer["outputs"][output]["gum"];
             let formulas = assert_budget(&book, gum, output);

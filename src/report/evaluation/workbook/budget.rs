@@ -78,6 +78,8 @@ struct Block<'a> {
     /// Lines of the inputs and of the coefficients.
     lines: Vec<BudgetLine>,
     links: Vec<CorrelationLine>,
+    /// The sets of paired readings.
+    ensembles: Vec<Vec<usize>>,
     /// The first line.
     top: u32,
     /// Decimal place of the output's figures.
@@ -115,6 +117,10 @@ pub(super) fn write(
             probability: &live.inputs.probability,
             lines: gum.budget().collect(),
             links: gum.correlations().collect(),
+            ensembles: paired::ensembles(&row.distributions)
+                .into_iter()
+                .map(|ensemble| ensemble.members)
+                .collect(),
             top: at + 1,
             place: place(gum.standard_uncertainty, evaluation.settings.digits),
         };
@@ -221,8 +227,7 @@ impl Block<'_> {
     fn welch(&self, at: u32, line: &BudgetLine) -> (String, f64) {
         let u = self.combined();
         let dof = here(at, DOF);
-        let ensembles = paired::ensembles(&self.row.distributions);
-        let set = ensembles.iter().find(|set| set.members.contains(&line.variable));
+        let set = self.ensembles.iter().find(|set| set.contains(&line.variable));
         let Some(set) = set else {
             let term = format!(
                 "IF(AND(ISNUMBER({dof}),{u}>0),({}/{u})^4/{dof},0)",
@@ -236,10 +241,10 @@ impl Block<'_> {
             };
             return (term, now);
         };
-        if set.members.first() != Some(&line.variable) {
+        if set.first() != Some(&line.variable) {
             return ("0".to_owned(), 0.0);
         }
-        let within = |variable: usize| set.members.contains(&variable);
+        let within = |variable: usize| set.contains(&variable);
         let lines = self.lines.iter().filter(|line| within(line.variable));
         let own: f64 = lines.map(|line| line.share).sum();
         let pairs = self.links.iter().enumerate();
@@ -247,7 +252,7 @@ impl Block<'_> {
         let (places, shares): (Vec<u32>, Vec<f64>) = pairs
             .map(|(place, link)| (self.top + (self.lines.len() + place) as u32, link.share))
             .unzip();
-        let members = set.members.iter().filter_map(|&member| self.line_of(member));
+        let members = set.iter().filter_map(|&member| self.line_of(member));
         let cells: Vec<String> = members.chain(places).map(|at| here(at, VARIANCE)).collect();
         let term =
             format!("IF(AND(ISNUMBER({dof}),{u}>0),(MAX(0,{})/{u}^2)^2/{dof},0)", cells.join("+"));

@@ -14,6 +14,7 @@ use rust_xlsxwriter::XlsxError;
 use self::tape::Tape;
 use super::{Shown, repeat};
 use crate::propagate::RowEvaluation;
+use crate::report::table::correlations::{self, Coefficients};
 use crate::report::workbook::{Book, failed};
 use crate::report::{Report, plain, table};
 
@@ -66,6 +67,14 @@ fn write(report: &Report<'_>, shown: &Shown<'_>) -> Result<Vec<u8>, XlsxError> {
     for leaf in [results, inputs].into_iter().chain(budgets).chain(steps) {
         book.push(leaf)?;
     }
+    if let [row] = report.evaluation.rows.as_slice()
+        && let Some(Coefficients::Matrix { sheet, .. }) = correlations::found(task, row)
+    {
+        let mut leaf = book.leaf("Correlations")?;
+        leaf.title(0, "Correlation of the outputs")?;
+        leaf.table(2, &sheet)?;
+        book.push(leaf)?;
+    }
     about(book, report, shown)
 }
 
@@ -82,17 +91,16 @@ fn lines(report: &Report<'_>) -> usize {
 
 /// The models of all rows; `None` where a spreadsheet could not follow them.
 fn tapes(report: &Report<'_>) -> Option<Vec<Tape>> {
-    let mut cells = 0;
+    let program = &report.task.model.program;
+    let each = program.nodes.len().saturating_mul(4 + program.outputs.len());
+    if each.saturating_mul(report.task.rows.len()) > MOST_CELLS {
+        return None;
+    }
     let mut all = Vec::new();
     for row in &report.task.rows {
         let mut values: Vec<f64> = row.distributions.iter().map(|d| d.mean()).collect();
         values.extend(&row.conditions);
-        let tape = Tape::of(&report.task.model.program, &values)?;
-        cells += tape.cells();
-        if cells > MOST_CELLS {
-            return None;
-        }
-        all.push(tape);
+        all.push(Tape::of(program, &values)?);
     }
     Some(all)
 }

@@ -120,11 +120,6 @@ impl Tape {
     pub(super) fn reaches(&self, step: usize, output: usize) -> bool {
         self.steps.get(step).and_then(|step| step.reach.get(output)).copied().unwrap_or(false)
     }
-
-    /// How many cells it takes.
-    pub(super) fn cells(&self) -> usize {
-        self.steps.len() * (4 + self.outputs.len())
-    }
 }
 
 /// The value of an operation, from the cells of its operands.
