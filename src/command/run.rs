@@ -153,10 +153,11 @@ impl Run {
         }
         let results = task.rows.len().saturating_mul(task.model.outputs.len());
         if self.format == Page::Xlsx && results > report::MOST_RESULTS {
-            return refuse(
-                "there are more results than a worksheet has rows; take `--format csv`, or \
-                 evaluate fewer rows of conditions",
-            );
+            return Err(Failure::Argument(format!(
+                "there are {results} results, but a workbook takes at most {}; take \
+                 `--format csv`, or evaluate fewer rows of conditions",
+                report::MOST_RESULTS
+            )));
         }
         if !self.histogram {
             return Ok(());

@@ -152,13 +152,15 @@ impl Leaf {
         row: u32,
         headers: impl IntoIterator<Item = &'h str>,
     ) -> Result<(), XlsxError> {
-        let format = Format::new()
+        let plain = Format::new()
             .set_bold()
             .set_text_wrap()
             .set_align(FormatAlign::Bottom)
             .set_border_bottom(FormatBorder::Thin);
+        let centred = plain.clone().set_align(FormatAlign::Center);
         for (column, header) in (0_u16..).zip(headers) {
-            self.worksheet.write_string_with_format(row, column, cut(header), &format)?;
+            let format = if column > 0 { &centred } else { &plain };
+            self.worksheet.write_string_with_format(row, column, cut(header), format)?;
             let word = header.split_whitespace().map(|word| word.chars().count()).max();
             self.widen(column, word.unwrap_or(0));
         }
@@ -168,8 +170,10 @@ impl Leaf {
     /// A text.
     pub(crate) fn text(&mut self, row: u32, column: u16, text: &str) -> Result<(), XlsxError> {
         if !text.is_empty() {
-            self.worksheet.write_string(row, column, cut(text))?;
-            self.widen(column, text.chars().count());
+            // apart from the number on its left
+            let format = Format::new().set_indent(u8::from(column > 0));
+            self.worksheet.write_string_with_format(row, column, cut(text), &format)?;
+            self.widen(column, text.chars().count() + 1);
         }
         Ok(())
     }

@@ -24,8 +24,9 @@ const MOST_LINES: usize = 50_000;
 /// Cells of all models together, at most; of larger ones the sensitivity coefficients are numbers.
 const MOST_CELLS: usize = 100_000;
 
-/// Results that a worksheet has room for: one for each output in each row of conditions.
-pub const MOST_RESULTS: usize = 1_000_000;
+/// Results of a workbook, at most: one for each output in each row of conditions. Workbooks are made
+/// in memory, and so many take half a gigabyte.
+pub const MOST_RESULTS: usize = 100_000;
 
 /// The evaluation as the bytes of an XLSX file.
 ///
