@@ -34,6 +34,7 @@ fn what_is_not_defined_is_empty() {
 #[cfg(feature = "cli")]
 #[test]
 fn a_table_has_its_numbers_in_full_precision() {
+    use crate::report::csv::of_sheet;
     use crate::report::sheet::{Figure, Sheet};
 
     let mut sheet = Sheet::default();
@@ -42,7 +43,7 @@ fn a_table_has_its_numbers_in_full_precision() {
         "standard\nuncertainty",
         [Figure::of(0.1 + 0.2, "0.30".to_owned()), Figure::missing()],
     );
-    let text = crate::report::csv::of_sheet(&sheet);
+    let text = of_sheet(&sheet);
     let wanted = "name,standard uncertainty\n'=1+1,0.30000000000000004\n\"a, \"\"b\"\"\",\n";
     assert_eq!(text, wanted);
 }
