@@ -5,7 +5,7 @@ use crate::model::Quantity;
 use crate::propagate::OutputEvaluation;
 use crate::report::Report;
 use crate::report::document::{Block, Document, sentence};
-use crate::report::number::{place, to, with_uncertainty};
+use crate::report::number::{justified, place, with_uncertainty};
 use crate::report::sheet::Sheet;
 use crate::report::table::budget::{self, Budget};
 use crate::report::table::{self, comparison, has_name, in_unit};
@@ -95,9 +95,12 @@ fn result(settings: &Settings, output: &Quantity, found: &OutputEvaluation) -> S
     if let Some(figures) = &found.monte_carlo {
         let u = figures.standard_uncertainty.or_else(|| gum.map(|gum| gum.standard_uncertainty));
         let digits = u.and_then(|u| place(u, settings.digits));
-        let [estimate, low, high] =
-            [figures.estimate, figures.symmetric_interval[0], figures.symmetric_interval[1]]
-                .map(|value| to(value, digits));
+        let [low, high] = [0, 1].map(|end| {
+            let error = figures.errors.symmetric_interval[end];
+            justified(figures.symmetric_interval[end], digits, error)
+        });
+        let error = figures.errors.estimate.unwrap_or(f64::NAN);
+        let estimate = justified(figures.estimate, digits, error);
         let high = in_unit(&high, &output.unit);
         let estimate = in_unit(&estimate, &output.unit);
         return format!(
