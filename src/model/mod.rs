@@ -10,6 +10,8 @@ mod sim;
 mod trace;
 pub mod typed;
 
+#[cfg(feature = "cli")]
+pub(crate) use program::Node;
 pub use program::Program;
 pub(crate) use schedule::{Place, Schedule};
 pub use sim::{Circular, Effect, Maker, Sim};

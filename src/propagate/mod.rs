@@ -6,6 +6,7 @@
 mod again;
 mod budget;
 mod control;
+mod density;
 mod evaluation;
 pub mod gum;
 pub mod monte_carlo;
@@ -13,7 +14,7 @@ mod origins;
 pub mod validate;
 mod warnings;
 
-pub use again::{for_each_block, joint_ranks, quantiles};
+pub use again::{for_each_block, histograms, joint_ranks, quantiles};
 pub use control::Control;
 pub use evaluation::{
     Conformity, Evaluation, EvaluationError, OutputEvaluation, RowEvaluation, Together, evaluate,

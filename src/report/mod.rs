@@ -1,6 +1,10 @@
 //! Reports: what an evaluation looks like, one file for each format.
 
 mod csv;
+#[cfg(feature = "cli")]
+mod document;
+#[cfg(feature = "cli")]
+mod evaluation;
 pub mod gap;
 #[cfg(feature = "cli")]
 mod html;
@@ -10,11 +14,17 @@ pub mod number;
 mod plot;
 mod samples;
 mod saved;
+#[cfg(feature = "cli")]
+mod sheet;
 mod subtotals;
 #[cfg(feature = "cli")]
 mod table;
+#[cfg(feature = "cli")]
+mod workbook;
 
 pub use csv::{csv, write_csv};
+#[cfg(feature = "cli")]
+pub use evaluation::{MOST_RESULTS, Shown, histograms, html, latex, markdown, xlsx};
 pub use json::{json, write_json};
 pub use samples::Samples;
 pub use saved::saved;

@@ -16,6 +16,7 @@ mod gap_check;
 mod gap_examples;
 mod intervals;
 mod mutations;
+mod reports;
 mod reproducible;
 mod results;
 mod schema;

@@ -8,7 +8,12 @@ use crate::propagate::monte_carlo::{Adaptive, FIRST_STAGE, MonteCarlo};
 use crate::propagate::validate::Validation;
 use crate::propagate::{Conformity, OutputEvaluation};
 use crate::report::number::{MISSING, coarser, justified, place, rounded, significant, to};
+use crate::report::sheet::Sheet;
 use crate::task::StoppingRule;
+
+/// What is said of a shortest interval that is not exact.
+pub(in crate::report) const NEARLY_SHORTEST: &str =
+    "the shortest interval is that of the trials within 1e-5 u";
 
 /// Decimal place of skewness and kurtosis.
 const SHAPE_PLACE: i32 = -2;
@@ -18,17 +23,18 @@ const SHAPE_PLACE: i32 = -2;
 pub(super) fn table(output: &Quantity, figures: &OutputEvaluation, digits: u32) -> Option<String> {
     let gum = figures.gum.as_ref();
     let Some(monte_carlo) = &figures.monte_carlo else {
-        return gum.and_then(|gum| interval_line(output, gum, digits));
+        let said = gum.and_then(|gum| interval_text(output, gum, digits));
+        return said.map(|said| text::wrapped(&said));
     };
     let lines = lines(gum, monte_carlo, digits);
     let mut grid = Grid::default();
-    grid.text("", lines.iter().map(|line| line.name.to_owned()));
+    grid.text("", lines.iter().map(|line| line.names[0].to_owned()));
     grid.numbers("GUM", lines.iter().map(|line| line.gum.clone()));
     grid.numbers("Monte Carlo", lines.iter().map(|line| line.monte_carlo.clone()));
     grid.numbers("numerical\nstandard error", lines.iter().map(|line| line.error.clone()));
     let mut page = grid.render(WIDTH);
     if !monte_carlo.shortest_exact {
-        page += &text::wrapped("the shortest interval is that of the trials within 1e-5 u");
+        page += &text::wrapped(NEARLY_SHORTEST);
     }
     if let Some(end) = &monte_carlo.adaptive {
         page += &text::wrapped(&stability(output, end, monte_carlo.trials));
@@ -42,7 +48,7 @@ pub(super) fn table(output: &Quantity, figures: &OutputEvaluation, digits: u32) 
 }
 
 /// The probability of conformity with the output's tolerance.
-fn conformity_text(output: &Quantity, found: &Conformity) -> String {
+pub(in crate::report) fn conformity_text(output: &Quantity, found: &Conformity) -> String {
     let limits = match (found.tolerance.lower, found.tolerance.upper) {
         (Some(lower), Some(upper)) => format!("from {lower} to {upper}"),
         (Some(lower), None) => format!("from {lower} on"),
@@ -62,7 +68,7 @@ fn conformity_text(output: &Quantity, found: &Conformity) -> String {
 }
 
 /// How the adaptive procedure ended, after how many trials, and why.
-fn stability(output: &Quantity, end: &Adaptive, trials: u64) -> String {
+pub(in crate::report) fn stability(output: &Quantity, end: &Adaptive, trials: u64) -> String {
     let Adaptive { rule, block_trials, blocks, tolerance, converged } = *end;
     let tolerance = in_unit(&significant(tolerance, 1), &output.unit);
     let trials = text::grouped(trials);
@@ -92,11 +98,33 @@ fn stability(output: &Quantity, end: &Adaptive, trials: u64) -> String {
     }
 }
 
-struct Line {
-    name: &'static str,
+/// A figure by both methods.
+pub(in crate::report) struct Line {
+    /// Its name, and its name where it does not stand below another.
+    names: [&'static str; 2],
     gum: String,
     monte_carlo: String,
     error: String,
+}
+
+const SYMMETRIC_LOW: [&str; 2] =
+    ["coverage interval, symmetric: from", "coverage interval, symmetric: from"];
+const SYMMETRIC_HIGH: [&str; 2] =
+    ["                              to", "coverage interval, symmetric: to"];
+const SHORTEST_LOW: [&str; 2] =
+    ["coverage interval, shortest:  from", "coverage interval, shortest: from"];
+const SHORTEST_HIGH: [&str; 2] =
+    ["                              to", "coverage interval, shortest: to"];
+
+/// The figures of both methods side by side; `None` without trials.
+pub(in crate::report) fn sheet(figures: &OutputEvaluation, digits: u32) -> Option<Sheet> {
+    let lines = lines(figures.gum.as_ref(), figures.monte_carlo.as_ref()?, digits);
+    let mut sheet = Sheet::default();
+    sheet.text("figure", lines.iter().map(|line| line.names[1].to_owned()));
+    sheet.numbers("GUM", lines.iter().map(|line| line.gum.clone()));
+    sheet.numbers("Monte Carlo", lines.iter().map(|line| line.monte_carlo.clone()));
+    sheet.numbers("numerical\nstandard error", lines.iter().map(|line| line.error.clone()));
+    Some(sheet)
 }
 
 fn lines(gum: Option<&Gum>, figures: &MonteCarlo, digits: u32) -> Vec<Line> {
@@ -105,17 +133,18 @@ fn lines(gum: Option<&Gum>, figures: &MonteCarlo, digits: u32) -> Vec<Line> {
     let gum_place = uncertainty.and_then(|u| place(u, digits));
     let own_place = own.and_then(|u| place(u, digits)).or(gum_place);
     let errors = &figures.errors;
-    let line = |name, gum: Option<f64>, value: Option<f64>, error: Option<f64>| Line {
-        name,
-        gum: gum.map_or_else(|| MISSING.to_owned(), |value| to(value, gum_place)),
-        monte_carlo: value.map_or_else(
-            || MISSING.to_owned(),
-            |value| justified(value, own_place, error.unwrap_or(f64::NAN)),
-        ),
-        error: error
-            .filter(|error| !error.is_nan())
-            .map_or_else(|| MISSING.to_owned(), |error| significant(error, 1)),
-    };
+    let line =
+        |names: [&'static str; 2], gum: Option<f64>, value: Option<f64>, error: Option<f64>| Line {
+            names,
+            gum: gum.map_or_else(|| MISSING.to_owned(), |value| to(value, gum_place)),
+            monte_carlo: value.map_or_else(
+                || MISSING.to_owned(),
+                |value| justified(value, own_place, error.unwrap_or(f64::NAN)),
+            ),
+            error: error
+                .filter(|error| !error.is_nan())
+                .map_or_else(|| MISSING.to_owned(), |error| significant(error, 1)),
+        };
     let ends = |[low, high]: [f64; 2]| (Some(low), Some(high));
     let (gum_low, gum_high) = gum.and_then(Gum::interval).map_or((None, None), ends);
     let (low, high) = ends(figures.symmetric_interval);
@@ -124,13 +153,13 @@ fn lines(gum: Option<&Gum>, figures: &MonteCarlo, digits: u32) -> Vec<Line> {
     let (short_low_error, short_high_error) = ends(errors.shortest_interval);
     let spread = figures.standard_uncertainty;
     vec![
-        line("estimate", gum.map(|gum| gum.estimate), Some(figures.estimate), errors.estimate),
-        line("standard uncertainty", uncertainty, spread, errors.standard_uncertainty),
-        line("median", None, Some(figures.median), Some(errors.median)),
-        line("coverage interval, symmetric: from", gum_low, low, low_error),
-        line("                              to", gum_high, high, high_error),
-        line("coverage interval, shortest:  from", None, short_low, short_low_error),
-        line("                              to", None, short_high, short_high_error),
+        line(["estimate"; 2], gum.map(|gum| gum.estimate), Some(figures.estimate), errors.estimate),
+        line(["standard uncertainty"; 2], uncertainty, spread, errors.standard_uncertainty),
+        line(["median"; 2], None, Some(figures.median), Some(errors.median)),
+        line(SYMMETRIC_LOW, gum_low, low, low_error),
+        line(SYMMETRIC_HIGH, gum_high, high, high_error),
+        line(SHORTEST_LOW, None, short_low, short_low_error),
+        line(SHORTEST_HIGH, None, short_high, short_high_error),
         shape("skewness", figures.skewness, errors.skewness),
         shape("excess kurtosis", figures.excess_kurtosis, errors.excess_kurtosis),
     ]
@@ -141,7 +170,7 @@ fn shape(name: &'static str, value: Option<f64>, error: Option<f64>) -> Line {
     let missing = || MISSING.to_owned();
     let figure = |value: f64| justified(value, Some(SHAPE_PLACE), error.unwrap_or(f64::NAN));
     Line {
-        name,
+        names: [name; 2],
         gum: missing(),
         monte_carlo: value.map_or_else(missing, figure),
         error: error.map_or_else(missing, |error| significant(error, 1)),
@@ -149,14 +178,23 @@ fn shape(name: &'static str, value: Option<f64>, error: Option<f64>) -> Line {
 }
 
 /// The GUM interval alone, where there are no trials.
-fn interval_line(output: &Quantity, gum: &Gum, digits: u32) -> Option<String> {
+pub(in crate::report) fn interval_text(
+    output: &Quantity,
+    gum: &Gum,
+    digits: u32,
+) -> Option<String> {
     let place = place(gum.standard_uncertainty, digits);
     let [low, high] = gum.interval()?.map(|end| to(end, place));
     let high = in_unit(&high, &output.unit);
-    Some(text::wrapped(&format!("coverage interval from {low} to {high}, by GUM alone")))
+    Some(format!("coverage interval from {low} to {high}, by GUM alone"))
 }
 
-fn verdict(output: &Quantity, figures: &OutputEvaluation, monte_carlo: &MonteCarlo) -> String {
+/// What JCGM 101, clause 8 says.
+pub(in crate::report) fn verdict(
+    output: &Quantity,
+    figures: &OutputEvaluation,
+    monte_carlo: &MonteCarlo,
+) -> String {
     let Some(validation) = &figures.validation else {
         return "JCGM 101, clause 8: there is no GUM interval to compare; take the Monte Carlo one."
             .to_owned();
