@@ -35,7 +35,7 @@ pub use exponential::Exponential;
 pub use gamma::Gamma;
 pub use input::{Evaluation, Input, InputError};
 pub use joint::{Correlation, CorrelationError};
-pub(crate) use joint::{Draws, Fits, Joint, Varying, paired};
+pub(crate) use joint::{Draws, Fits, FromScore, Joint, Varying, paired};
 pub use log_uniform::LogUniform;
 pub use lognormal::Lognormal;
 pub use normal::Normal;

@@ -112,6 +112,11 @@ pub enum EvaluationError {
         /// The operation that gave no number.
         operation: Option<String>,
     },
+    /// More trials are not finite than are allowed, of which no more is known.
+    NotFinite {
+        /// Their share.
+        share: f64,
+    },
     /// The thread pool could not be started.
     Threads(String),
 }
@@ -130,6 +135,11 @@ impl fmt::Display for EvaluationError {
                 let at: Vec<String> = at.collect();
                 if at.is_empty() { Ok(()) } else { write!(f, ", at {}", at.join(", ")) }
             }
+            Self::NotFinite { share } => write!(
+                f,
+                "{} % of the trials have no finite result; `gumption run` names the first of them",
+                Shortest(100.0 * share)
+            ),
             Self::Threads(error) => write!(f, "cannot start threads: {error}"),
         }
     }
@@ -146,7 +156,7 @@ impl EvaluationError {
 }
 
 /// The joint draw of a row.
-pub(super) fn joint(task: &Task, row: &Row) -> Result<Arc<Joint>, EvaluationError> {
+pub(crate) fn joint(task: &Task, row: &Row) -> Result<Arc<Joint>, EvaluationError> {
     let joint = task.fits.joint(&row.distributions, &task.correlations);
     joint.map_err(|error| EvaluationError::correlation(task, error))
 }
@@ -184,7 +194,7 @@ const MOST_COLUMNS: usize = 256 << 20;
 
 /// Runs `work` on the number of threads that the control asks for, or as many as have room for the
 /// columns of the task.
-pub(super) fn in_pool<R: Send>(
+pub(crate) fn in_pool<R: Send>(
     task: &Task,
     control: &Control<'_>,
     work: impl FnOnce() -> R + Send,

@@ -19,5 +19,6 @@ pub use evaluation::{
     Conformity, Evaluation, EvaluationError, OutputEvaluation, RowEvaluation, Together, evaluate,
     trial_hash,
 };
+pub(crate) use evaluation::{in_pool, joint};
 pub use origins::{Origins, linear, origins};
 pub use warnings::warnings;

@@ -1,5 +1,7 @@
 //! Reports: what an evaluation looks like, one file for each format.
 
+pub mod assumptions;
+pub mod compare;
 mod csv;
 pub mod gap;
 #[cfg(feature = "cli")]
@@ -13,6 +15,7 @@ mod saved;
 mod subtotals;
 #[cfg(feature = "cli")]
 mod table;
+mod tree;
 
 pub use csv::{csv, write_csv};
 pub use json::{json, write_json};
@@ -21,7 +24,7 @@ pub use saved::saved;
 #[cfg(feature = "cli")]
 pub use table::{Column, Style, table, write_table};
 #[cfg(feature = "cli")]
-pub(crate) use table::{Grid, WIDTH, plain, wrapped};
+pub(crate) use table::{Grid, WIDTH, conditions_text, grouped, plain, wrapped};
 
 use crate::propagate::Evaluation;
 use crate::task::{Task, Warning};

@@ -22,6 +22,13 @@ mod terminal;
 #[cfg(feature = "cli")]
 mod words;
 
+#[cfg(feature = "cli")]
+pub(super) use html::{Drawing, WIDTH, table as html_table};
+#[cfg(feature = "cli")]
+pub(super) use sheet::Sheet;
+#[cfg(feature = "cli")]
+pub(super) use table::grid;
+
 pub use check_json::check_json;
 pub use csv::csv;
 #[cfg(feature = "cli")]

@@ -2,28 +2,28 @@
 
 /// A table, column by column.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Sheet {
-    pub(super) columns: Vec<Column>,
+pub(crate) struct Sheet {
+    pub(crate) columns: Vec<Column>,
 }
 
 /// A column of a table.
 #[derive(Clone, Debug)]
-pub(super) struct Column {
+pub(crate) struct Column {
     /// What stands above it; a line break may be in it.
-    pub(super) header: String,
-    pub(super) cells: Vec<String>,
+    pub(crate) header: String,
+    pub(crate) cells: Vec<String>,
     /// Whether the cells are numbers, whose decimal points stand under each other.
-    pub(super) numbers: bool,
+    pub(crate) numbers: bool,
 }
 
 impl Sheet {
     /// Adds a column of texts.
-    pub(super) fn text(&mut self, header: &str, cells: impl IntoIterator<Item = String>) {
+    pub(crate) fn text(&mut self, header: &str, cells: impl IntoIterator<Item = String>) {
         self.push(header, cells, false);
     }
 
     /// Adds a column of numbers.
-    pub(super) fn numbers(&mut self, header: &str, cells: impl IntoIterator<Item = String>) {
+    pub(crate) fn numbers(&mut self, header: &str, cells: impl IntoIterator<Item = String>) {
         self.push(header, cells, true);
     }
 
@@ -33,7 +33,7 @@ impl Sheet {
     }
 
     /// How many rows it has.
-    pub(super) fn rows(&self) -> usize {
+    pub(crate) fn rows(&self) -> usize {
         self.columns.iter().map(|column| column.cells.len()).max().unwrap_or(0)
     }
 }

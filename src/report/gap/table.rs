@@ -89,7 +89,7 @@ fn predictions(diagnosis: &Diagnosis, rows: &[Predicted]) -> String {
 }
 
 /// A table for a page of text.
-pub(super) fn grid(sheet: &Sheet) -> Grid {
+pub(crate) fn grid(sheet: &Sheet) -> Grid {
     let mut grid = Grid::default();
     for column in &sheet.columns {
         let cells = column.cells.iter().cloned();

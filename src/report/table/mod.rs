@@ -10,7 +10,7 @@ mod text;
 
 pub use columns::Column;
 pub(crate) use grid::Grid;
-pub(crate) use text::{plain, wrapped};
+pub(crate) use text::{grouped, plain, wrapped};
 
 use std::io::{self, Write};
 
@@ -71,7 +71,7 @@ pub fn write_table(report: &Report<'_>, style: &Style, mut out: impl Write) -> i
     }
     if evaluation.stopped {
         let trials = trials_made(evaluation);
-        below(format!("stopped after {} trials\n", text::grouped(trials)))?;
+        below(format!("stopped after {} trials\n", grouped(trials)))?;
     }
     Ok(())
 }
@@ -84,7 +84,7 @@ fn heading(task: &Task, evaluation: &Evaluation) -> String {
     match trials {
         Trials::Fixed(0) => {}
         Trials::Fixed(count) => {
-            line += &format!("; {} Monte Carlo trials{each}, seed {seed}", text::grouped(count));
+            line += &format!("; {} Monte Carlo trials{each}, seed {seed}", grouped(count));
         }
         Trials::Adaptive => {
             line += &format!("; as many Monte Carlo trials{each} as are needed, seed {seed}");
@@ -158,7 +158,7 @@ fn title(quantity: &Quantity) -> String {
 /// Trials that were left out because an output was not finite.
 fn left_out(row: &RowEvaluation) -> Option<String> {
     let undefined = row.undefined.as_ref()?;
-    let [count, trials] = [undefined.count, undefined.trials].map(text::grouped);
+    let [count, trials] = [undefined.count, undefined.trials].map(grouped);
     Some(format!("{count} of {trials} trials have no finite result and are left out\n"))
 }
 
@@ -181,7 +181,7 @@ fn coverage_text(coverage: Coverage) -> String {
 }
 
 /// `f = 10 Hz, tilt = 35 deg`.
-fn conditions_text(conditions: &[Quantity], values: &[f64]) -> String {
+pub(crate) fn conditions_text(conditions: &[Quantity], values: &[f64]) -> String {
     let parts: Vec<String> = conditions
         .iter()
         .zip(values)

@@ -17,13 +17,13 @@ use crate::report::number::align;
 use crate::report::{Provenance, plain};
 
 /// Width of all figures in pixels.
-pub(super) const WIDTH: f64 = 720.0;
+pub(crate) const WIDTH: f64 = 720.0;
 
 /// A figure with what is written below it.
 #[derive(Debug)]
-pub(super) struct Drawing {
-    pub(super) svg: String,
-    pub(super) caption: String,
+pub(crate) struct Drawing {
+    pub(crate) svg: String,
+    pub(crate) caption: String,
 }
 
 /// The diagnosis as one HTML file with figures that needs nothing else: it loads nothing and runs
@@ -96,7 +96,7 @@ pub fn html(diagnosis: &Diagnosis, provenance: &Provenance) -> String {
 }
 
 /// A table; numbers are padded so that their decimal points stand under each other.
-pub(super) fn table(sheet: &Sheet) -> Markup {
+pub(crate) fn table(sheet: &Sheet) -> Markup {
     let class = |column: &Column| column.numbers.then_some("number");
     let columns: Vec<Vec<String>> = sheet
         .columns
