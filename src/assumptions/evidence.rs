@@ -170,21 +170,9 @@ fn outside(stated: &Distribution, readings: &[f64]) -> usize {
     readings.iter().filter(|x| **x < low - slack || **x > high + slack).count()
 }
 
-/// The probabilities below and above a value, by halving on the scale of standard normal scores.
+/// The probabilities below and above a value.
 fn probabilities(stated: &Distribution, value: f64) -> [f64; 2] {
-    let at = |z: f64| {
-        if z < 0.0 {
-            stated.quantile(special::normal::cdf(z))
-        } else {
-            stated.quantile_upper(special::normal::sf(z))
-        }
-    };
-    let (mut low, mut high) = (-37.0, 37.0);
-    while high - low > 1e-13 {
-        let middle = 0.5 * (low + high);
-        if at(middle) < value { low = middle } else { high = middle }
-    }
-    let z = 0.5 * (low + high);
+    let z = stated.score_of(value);
     [special::normal::cdf(z), special::normal::sf(z)]
 }
 

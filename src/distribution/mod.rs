@@ -20,6 +20,7 @@ mod readings;
 mod rectangular;
 mod result;
 mod samples;
+mod score;
 mod shape;
 pub(crate) mod special;
 mod stream;

@@ -323,7 +323,8 @@ impl<'a> ModelReader<'a> {
             None if self.names_simulation() => Some(Inputs::default()),
             None => root.required("inputs").and(None),
         };
-        let outputs = root.required("outputs").and_then(|member| outputs::read(log, member));
+        let outputs =
+            root.required("outputs").and_then(|member| outputs::read(log, member, &results));
         let (inputs, outputs) = (inputs?, outputs.unwrap_or_default());
         self.names(&inputs, &conditions, &maker);
         let (rows, outputs_found) = (conditions.rows.len(), outputs.outputs.len());

@@ -7,11 +7,12 @@ use std::sync::{Arc, Mutex, PoisonError};
 use rayon::prelude::*;
 
 use super::Control;
+use super::conformity::Conformity;
 use super::gum::{self, Gum};
 use super::monte_carlo::{self, MonteCarlo, Request, Search, Undefined};
 use super::validate::{Validation, validate};
 use crate::distribution::{BLOCK, Correlation, CorrelationError, Joint};
-use crate::model::{Program, Tolerance};
+use crate::model::{Output, Program};
 use crate::number::{Column, Shortest};
 use crate::task::{Row, Settings, Task, Trials};
 
@@ -78,17 +79,38 @@ pub struct OutputEvaluation {
     pub drawn_dof: f64,
 }
 
-/// How probable it is that an output lies within its tolerance limits (JCGM 106, clause 7).
+/// The expanded uncertainty that a laboratory may state beside its capability.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Conformity {
-    /// The limits.
-    pub tolerance: Tolerance,
-    /// The share of trials within them.
-    pub probability: f64,
-    /// Numerical standard error of the probability.
-    pub numerical_standard_error: f64,
-    /// Whether the estimate itself lies within the limits.
-    pub conforms: bool,
+pub struct Stated {
+    /// The capability (CMC) at the estimate.
+    pub cmc: f64,
+    /// The expanded uncertainty to be stated.
+    pub expanded_uncertainty: f64,
+    /// Whether it was raised to the capability.
+    pub raised: bool,
+}
+
+impl OutputEvaluation {
+    /// The expanded uncertainty beside the laboratory's capability; `None` if there is none of
+    /// either. Of an output without a GUM side, or without a coverage factor, it is half the length
+    /// of the symmetric coverage interval.
+    pub fn stated(&self, output: &Output) -> Option<Stated> {
+        let capability = output.capability?;
+        let of_gum = || {
+            let gum = self.gum.as_ref()?;
+            Some((gum.estimate, gum.expanded_uncertainty()?))
+        };
+        let of_trials = || {
+            let figures = self.monte_carlo.as_ref()?;
+            let [low, high] = figures.symmetric_interval;
+            Some((figures.estimate, 0.5 * high - 0.5 * low))
+        };
+        let (estimate, expanded) = of_gum().or_else(of_trials)?;
+        let cmc = capability.at(estimate);
+        let raised = capability.floor && expanded < cmc;
+        let expanded_uncertainty = if raised { cmc } else { expanded };
+        Some(Stated { cmc, expanded_uncertainty, raised })
+    }
 }
 
 /// Why a task cannot be evaluated.
@@ -309,14 +331,9 @@ fn evaluate_row(
     notes.lock().unwrap_or_else(PoisonError::into_inner).add(&joint, stopped);
     let evaluated = gums.into_iter().zip(figures).zip(drawn_dof).zip(&task.model.outputs);
     for (((gum, monte_carlo), drawn_dof), output) in evaluated {
-        let conformity = output.tolerance.zip(monte_carlo.as_ref()).map(|(tolerance, figures)| {
-            let p = figures.inside;
-            Conformity {
-                tolerance,
-                probability: p,
-                numerical_standard_error: (p * (1.0 - p) / figures.trials as f64).sqrt(),
-                conforms: tolerance.holds(figures.estimate),
-            }
+        let conformity = monte_carlo.as_ref().and_then(|figures| {
+            let u = gum.as_ref().map(|gum| gum.standard_uncertainty);
+            Conformity::of(output, figures, u)
         });
         let validation = match (&gum, &monte_carlo) {
             (Some(gum), Some(figures)) => validate(gum, figures, task.settings.digits),

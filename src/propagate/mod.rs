@@ -5,6 +5,7 @@
 
 mod again;
 mod budget;
+mod conformity;
 mod control;
 mod evaluation;
 pub mod gum;
@@ -14,9 +15,10 @@ pub mod validate;
 mod warnings;
 
 pub use again::{for_each_block, joint_ranks, quantiles};
+pub use conformity::{Conformity, GlobalRisks};
 pub use control::Control;
 pub use evaluation::{
-    Conformity, Evaluation, EvaluationError, OutputEvaluation, RowEvaluation, Together, evaluate,
+    Evaluation, EvaluationError, OutputEvaluation, RowEvaluation, Stated, Together, evaluate,
     trial_hash,
 };
 pub(crate) use evaluation::{in_pool, joint};

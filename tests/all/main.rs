@@ -8,6 +8,8 @@ mod assumptions;
 mod cases;
 mod catalogue;
 mod commands;
+mod compare;
+mod conformity;
 mod diff;
 mod errors;
 mod formulas;
