@@ -11,6 +11,7 @@ use rayon::prelude::*;
 
 use super::sampler::Sampler;
 use super::spread::{batches, standard_error, trials_in};
+use crate::distribution::BLOCK;
 use crate::propagate::Control;
 
 /// The indices of one set of quantities for one output.
@@ -61,6 +62,24 @@ impl Sums {
 /// For each output the indices of each set of places; `None` for an output that does not vary or has
 /// trials that are not finite. The whole is `None` if stopped.
 pub(super) fn indices(
+    sampler: &Sampler,
+    sets: &[Vec<usize>],
+    trials: u64,
+    control: &Control<'_>,
+) -> Option<Vec<Vec<Option<Sobol>>>> {
+    // the outputs of a block for both samples and every set that is taken at a time
+    let block = size_of::<[f64; BLOCK]>() * sampler.outputs();
+    let at_a_time = (control.memory / block.max(1)).saturating_sub(2).max(1);
+    let mut all = vec![Vec::with_capacity(sets.len()); sampler.outputs()];
+    for sets in sets.chunks(at_a_time) {
+        let found = indices_of(sampler, sets, trials, control)?;
+        all.iter_mut().zip(found).for_each(|(all, found)| all.extend(found));
+    }
+    Some(all)
+}
+
+/// The indices of some of the sets.
+fn indices_of(
     sampler: &Sampler,
     sets: &[Vec<usize>],
     trials: u64,

@@ -40,7 +40,9 @@ impl<'a> Stake<'a> {
         allowed: f64,
         control: &Control<'_>,
     ) -> Self {
-        let affordable = (MOST_VALUES / BLOCK / sampler.variables.len().max(1)) as u64;
+        // the outputs' values are collected by every thread
+        let columns = sampler.variables.len() + 4 * sampler.outputs();
+        let affordable = (MOST_VALUES / BLOCK / columns.max(1)) as u64;
         let blocks = (trials / BLOCK as u64).min(affordable).clamp(BLOCKS[0], BLOCKS[1]);
         let mut buffers = sampler.buffers();
         let drawn = (0..blocks).map(|block| sampler.drawn(control.path, block, &mut buffers));

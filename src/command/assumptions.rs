@@ -62,6 +62,9 @@ enum Format {
 /// The fewest trials from which moves can be told.
 const FEWEST: u64 = 20_000;
 
+/// The most trials: some hundred megabytes of kept values for each variant.
+const MOST: u64 = 1_000_000_000;
+
 /// Trials where the file asks for none, or for as many as it takes.
 const USUAL: u64 = 1_000_000;
 
@@ -74,8 +77,8 @@ fn allowed(text: &str) -> Result<f64, String> {
 
 fn trials(text: &str) -> Result<u64, String> {
     match options::trials(text) {
-        Ok(Trials::Fixed(count)) if count >= FEWEST => Ok(count),
-        _ => Err(format!("a whole number from {FEWEST} to 1e12 is needed")),
+        Ok(Trials::Fixed(count)) if (FEWEST..=MOST).contains(&count) => Ok(count),
+        _ => Err(format!("a whole number from {FEWEST} to 1e9 is needed")),
     }
 }
 
@@ -138,7 +141,7 @@ impl Assumptions {
                 warnings.push(Warning::new("few-trials", "", text));
                 FEWEST
             }
-            (None, Trials::Fixed(trials)) => trials,
+            (None, Trials::Fixed(trials)) => trials.min(MOST),
         }
     }
 

@@ -109,6 +109,7 @@ fn the_laboratorys_capability() {
     );
     assert_eq!(codes(&raised), ["raised-to-cmc"]);
     let (_, page, said) = run(&model(10.0, 0.01, r#""cmc": 0.05"#), &[]);
-    assert!(page.contains("capability") || said.contains("capability"), "{page} {said}");
+    assert!(page.contains("is below the laboratory's capability (CMC) of 0.0500 um"), "{page}");
+    assert!(said.contains("must not be stated"), "{said}");
     assert!(codes(&answer(&model(10.0, 0.1, r#""cmc": 0.05"#))).is_empty());
 }

@@ -2,7 +2,7 @@
 
 use super::grid::Grid;
 use super::{WIDTH, in_unit, text};
-use crate::model::{Quantity, Tolerance};
+use crate::model::{Output, Quantity, Tolerance};
 use crate::propagate::gum::Gum;
 use crate::propagate::monte_carlo::{Adaptive, FIRST_STAGE, MonteCarlo};
 use crate::propagate::validate::Validation;
@@ -41,6 +41,23 @@ pub(super) fn table(output: &Quantity, figures: &OutputEvaluation, digits: u32) 
         page += &text::wrapped(&risks_text(found));
     }
     Some(page)
+}
+
+/// What may be stated beside the laboratory's capability.
+pub(super) fn capability(output: &Output, figures: &OutputEvaluation) -> Option<String> {
+    let stated = figures.stated(output)?;
+    let unit = &output.quantity.unit;
+    let number = |value: f64| in_unit(&significant(value, 3), unit);
+    let (cmc, expanded) = (number(stated.cmc), number(stated.expanded_uncertainty));
+    Some(text::wrapped(&if stated.raised {
+        format!(
+            "The laboratory's capability (CMC) is {cmc}; U is raised to it: {expanded} is to be stated."
+        )
+    } else if stated.expanded_uncertainty < stated.cmc {
+        format!("U = {expanded} is below the laboratory's capability (CMC) of {cmc}.")
+    } else {
+        format!("The laboratory's capability (CMC) is {cmc}; U = {expanded} can be stated.")
+    }))
 }
 
 /// The probability of conformity with the output's tolerance.

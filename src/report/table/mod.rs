@@ -138,6 +138,7 @@ fn section(
         )),
     }
     parts.extend(comparison::table(&output.quantity, figures, digits));
+    parts.extend(comparison::capability(output, figures));
     parts.join("\n")
 }
 
