@@ -623,7 +623,8 @@ fn notes(
             "poor-integral",
             format!(
                 "The evidence of the verdict rests on {:.0} effective draws only (standard error of its \
-                 logarithm {:.2}); its probability is not known well.",
+                 logarithm {:.2}); the probabilities are averages over that error, and less sure for \
+                 it.",
                 winner.evidence.effective, winner.evidence.error
             ),
         );
@@ -654,6 +655,19 @@ fn notes(
             ),
         );
     }
+    if let (Kind::None, Some(p)) = (verdict.kind, gap.p_value)
+        && p < OVERDISPERSED
+    {
+        note(
+            "scatter",
+            format!(
+                "The residuals are {:.2} times as large as their uncertainties allow, but without a \
+                 pattern that an effect or a smooth discrepancy would make: the stated noise is \
+                 probably too small, or values are wrong one by one.",
+                (gap.chi2 / gap.dof).sqrt()
+            ),
+        );
+    }
     if setup.data.points.len() < 8 {
         note(
             "few-conditions",
@@ -665,6 +679,9 @@ fn notes(
     }
     notes
 }
+
+/// The chi-square test speaks against the verdict "no gap" below this probability.
+const OVERDISPERSED: f64 = 1e-3;
 
 /// A mean square of normalized residuals that data without a misfit exceed with probability 1e-3.
 fn misfit(values: usize) -> f64 {

@@ -5,6 +5,7 @@
 use super::latent::bounded_from_normal;
 use super::likelihood::Likelihood;
 use super::mixture::{Mixture, ln_priors, standard_normals};
+use super::ridge;
 use super::roam::roam;
 use super::search::{self, Mode};
 use crate::distribution::StreamKey;
@@ -116,6 +117,15 @@ impl Evidence {
         let Some((last, _)) = self.mixtures.last() else { return };
         let mixture = last.adapted(&self.columns, &self.weights);
         self.draw(likelihood, mixture, columns);
+    }
+
+    /// Draws along the ridges of the posterior in the quantities after the first `shared` ones.
+    pub(crate) fn along_ridges(&mut self, likelihood: &Likelihood<'_>, shared: usize) {
+        if let Some(mixture) = ridge::mixture(likelihood, &self.modes, shared) {
+            let adapted = mixture.clone();
+            self.draw(likelihood, mixture, 4);
+            self.draw(likelihood, adapted.adapted(&self.columns, &self.weights), 4);
+        }
     }
 
     /// Lets walkers roam from what was drawn, and draws from a mixture fitted to where they went.

@@ -15,6 +15,9 @@ const DOF: usize = 6;
 /// The share of the prior itself among the components: no region is left out altogether.
 const DEFENCE: f64 = 0.04;
 
+/// Components whose weight is lower than the largest by this factor's logarithm are left out.
+const DEPTH: f64 = 7.0;
+
 /// A mixture of t distributions and the prior.
 #[derive(Clone, Debug)]
 pub(crate) struct Mixture {
@@ -92,6 +95,19 @@ impl Mixture {
             components.extend(Component::new(share, mode.scores.clone(), &inverse));
         }
         let mut mixture = Self { unknowns, bounded: bounded.to_vec(), components };
+        mixture.normalize();
+        mixture
+    }
+
+    /// Components with these logarithms of weights, means and scales.
+    pub(crate) fn of(bounded: &[bool], components: Vec<(f64, Vec<f64>, DMatrix<f64>)>) -> Self {
+        let most = components.iter().map(|(ln, ..)| *ln).fold(f64::NEG_INFINITY, f64::max);
+        let components = components
+            .into_iter()
+            .filter(|(ln, ..)| *ln > most - DEPTH)
+            .filter_map(|(ln, mean, scale)| Component::new((ln - most).exp(), mean, &scale))
+            .collect();
+        let mut mixture = Self { unknowns: bounded.len(), bounded: bounded.to_vec(), components };
         mixture.normalize();
         mixture
     }

@@ -6,6 +6,7 @@ use rayon::prelude::*;
 
 use super::covariance::dot;
 use super::discrepancy::{Base, Discrepancy, Unexplained, by_rows};
+use super::doubt;
 use super::evidence::{Evidence, ln_add};
 use super::likelihood::Likelihood;
 use super::setup::Setup;
@@ -146,7 +147,8 @@ pub(crate) fn posterior(
         wanted.into_par_iter().map(|effects| begin(effects, &[])).collect();
     progress(0.2);
     let residuals = by_rows(&setup.data.nominal_residuals());
-    let unexplained = discrepancy.evidence(setup, &residuals);
+    let unexplained =
+        discrepancy.evidence(setup, &residuals, floor(&hypotheses, prior.unexplained));
     progress(0.3);
     if prior.two > 0.0 {
         let pairs: Vec<Vec<usize>> =
@@ -163,6 +165,9 @@ pub(crate) fn posterior(
     let leads = |h: &&mut Hypothesis| h.probability > LEADING && !h.effects.is_empty();
     posterior.hypotheses.par_iter_mut().filter(leads).for_each(|hypothesis| {
         let likelihood = setup.likelihood(&hypothesis.effects);
+        if effort.generations > 0 {
+            hypothesis.evidence.along_ridges(&likelihood, setup.roles.len());
+        }
         hypothesis.evidence.roam(&likelihood, effort.generations);
     });
     posterior.weigh();
@@ -200,6 +205,7 @@ pub(crate) fn posterior(
         });
         posterior.weigh();
     }
+    posterior.doubt(seed);
     progress(1.0);
     posterior
 }
@@ -216,6 +222,13 @@ impl Hypothesis {
         let poor = self.evidence.effective < 60.0;
         p * (1.0 - p) * own > error || (p > 0.02 && poor) || (poor && p * 20.0 > error)
     }
+}
+
+/// The evidence of "unexplained" that would make it as probable as the leading hypothesis.
+fn floor(hypotheses: &[Hypothesis], prior: f64) -> f64 {
+    let ln = |h: &Hypothesis| h.prior.max(f64::MIN_POSITIVE).ln() + h.evidence.ln_evidence;
+    let most = hypotheses.iter().map(ln).fold(f64::NEG_INFINITY, f64::max);
+    most - prior.max(f64::MIN_POSITIVE).ln()
 }
 
 /// Share of "unexplained" in which an effect of the catalogue acts as well.
@@ -246,6 +259,7 @@ impl Posterior {
         let count = setup.case.candidates.len();
         let all = count + count * count.saturating_sub(1) / 2;
         let ln_share = (BESIDE_AN_EFFECT / all.max(1) as f64).ln();
+        let floor = floor(&self.hypotheses, self.prior);
         let others: Vec<(f64, Arc<Base>, Unexplained)> = leading
             .into_iter()
             .filter_map(|h| {
@@ -262,8 +276,8 @@ impl Posterior {
                         return None;
                     }
                 }
-                let own = discrepancy.evidence(setup, &residuals);
                 let ln = ln_share + mode.ln_occam(setup.roles.len());
+                let own = discrepancy.evidence(setup, &residuals, floor - ln);
                 Some((ln, Arc::new(base), own))
             })
             .collect();
@@ -289,5 +303,25 @@ impl Posterior {
             hypothesis.probability = (own - total).exp();
         }
         self.probability = (unexplained - total).exp();
+    }
+
+    /// Averages the probabilities over the errors of the integrals.
+    fn doubt(&mut self, seed: u64) {
+        let known = |prior: f64, ln: f64, error: f64, effective: f64| {
+            let ln = if prior > 0.0 { prior.ln() + ln } else { f64::NEG_INFINITY };
+            doubt::Known { ln, error, effective }
+        };
+        let mut all: Vec<doubt::Known> = self
+            .hypotheses
+            .iter()
+            .map(|h| known(h.prior, h.evidence.ln_evidence, h.evidence.error, h.evidence.effective))
+            .collect();
+        all.push(known(self.prior, self.unexplained.ln_evidence, 0.0, 0.0));
+        let averaged = doubt::averaged(&all, seed);
+        let mut averaged = averaged.into_iter();
+        for (hypothesis, own) in self.hypotheses.iter_mut().zip(&mut averaged) {
+            hypothesis.probability = own;
+        }
+        self.probability = averaged.next().unwrap_or(0.0);
     }
 }

@@ -60,21 +60,17 @@ struct Local {
 struct Walker {
     scores: Vec<f64>,
     local: Local,
+    /// The score that stays as it is, if any.
+    held: Option<usize>,
     damping: f64,
     done: bool,
 }
 
 /// The modes that are reached from `starts`, best first, at most `most` of them.
 pub(crate) fn modes(likelihood: &Likelihood<'_>, starts: &[Vec<f64>], most: usize) -> Vec<Mode> {
-    let farthest: Vec<f64> =
-        likelihood.bounded().iter().map(|b| if *b { EDGE } else { FARTHEST }).collect();
-    let locals = locals(likelihood, starts);
-    let mut walkers: Vec<Walker> = starts
-        .iter()
-        .zip(locals)
-        .filter(|(_, local)| local.cost.is_finite())
-        .map(|(scores, local)| Walker { scores: scores.clone(), local, damping: 1e-2, done: false })
-        .collect();
+    let starts = starts.iter().map(|scores| (None, scores.clone())).collect();
+    let mut walkers = Walker::at(likelihood, starts);
+    let farthest = farthest(likelihood);
     for step in 0..MOST_STEPS {
         // the laggards are given up: they end where a better walker is, or in a worse mode
         if step == 8 || step == 16 {
@@ -83,30 +79,58 @@ pub(crate) fn modes(likelihood: &Likelihood<'_>, starts: &[Vec<f64>], most: usiz
             walkers.retain(|walker| walker.local.cost < best + slack.max(0.3 * best.abs().sqrt()));
             merge(&mut walkers);
         }
-        let active: Vec<usize> = (0..walkers.len()).filter(|&w| !walkers[w].done).collect();
-        if active.is_empty() {
+        if !advance(likelihood, &mut walkers, &farthest) {
             break;
-        }
-        let proposals: Vec<Vec<f64>> =
-            active.iter().map(|&w| walkers[w].proposal(&farthest)).collect();
-        for ((&w, proposal), local) in
-            active.iter().zip(&proposals).zip(self::locals(likelihood, &proposals))
-        {
-            walkers[w].decide(proposal, local);
         }
     }
     merge(&mut walkers);
     let best = walkers.first().map_or(f64::INFINITY, |walker| walker.local.cost);
     walkers.retain(|walker| walker.local.cost < best + DEPTH);
     walkers.truncate(most);
-    walkers
-        .into_iter()
-        .map(|walker| Mode {
-            scores: walker.scores,
-            cost: walker.local.cost,
-            information: walker.local.information,
-        })
-        .collect()
+    walkers.into_iter().map(Walker::mode).collect()
+}
+
+/// The best points with one score held at its value in the start; the held score with each.
+pub(crate) fn profile(
+    likelihood: &Likelihood<'_>,
+    starts: &[(usize, Vec<f64>)],
+) -> Vec<(usize, Mode)> {
+    let farthest = farthest(likelihood);
+    let within = |scores: &Vec<f64>| -> Vec<f64> {
+        scores.iter().zip(&farthest).map(|(score, most)| score.clamp(-most, *most)).collect()
+    };
+    let starts = starts.iter().map(|(held, scores)| (Some(*held), within(scores))).collect();
+    let mut walkers = Walker::at(likelihood, starts);
+    for _ in 0..MOST_STEPS {
+        if !advance(likelihood, &mut walkers, &farthest) {
+            break;
+        }
+    }
+    walkers.into_iter().filter_map(|walker| Some((walker.held?, walker.mode()))).collect()
+}
+
+/// Information without what it says about one score, which is held.
+pub(crate) fn freed(information: &DMatrix<f64>, held: usize) -> DMatrix<f64> {
+    let mut freed = information.clone();
+    freed.row_mut(held).fill(0.0);
+    freed.column_mut(held).fill(0.0);
+    freed[(held, held)] = 1.0;
+    freed
+}
+
+fn farthest(likelihood: &Likelihood<'_>) -> Vec<f64> {
+    likelihood.bounded().iter().map(|b| if *b { EDGE } else { FARTHEST }).collect()
+}
+
+/// One step of all walkers that are not done; whether there were any.
+fn advance(likelihood: &Likelihood<'_>, walkers: &mut [Walker], farthest: &[f64]) -> bool {
+    let active: Vec<usize> = (0..walkers.len()).filter(|&w| !walkers[w].done).collect();
+    let proposals: Vec<Vec<f64>> = active.iter().map(|&w| walkers[w].proposal(farthest)).collect();
+    for ((&w, proposal), local) in active.iter().zip(&proposals).zip(locals(likelihood, &proposals))
+    {
+        walkers[w].decide(proposal, local);
+    }
+    !active.is_empty()
 }
 
 /// Sorts by cost and drops walkers that stand where a better one does.
@@ -130,14 +154,39 @@ fn merge(walkers: &mut Vec<Walker>) {
 }
 
 impl Walker {
+    /// Walkers at starts where the likelihood is finite, with the scores that are held.
+    fn at(likelihood: &Likelihood<'_>, starts: Vec<(Option<usize>, Vec<f64>)>) -> Vec<Self> {
+        let (held, points): (Vec<_>, Vec<_>) = starts.into_iter().unzip();
+        let locals = locals(likelihood, &points);
+        points
+            .into_iter()
+            .zip(held)
+            .zip(locals)
+            .filter(|(_, local)| local.cost.is_finite())
+            .map(|((scores, held), local)| Self { scores, local, held, damping: 1e-2, done: false })
+            .collect()
+    }
+
+    fn mode(self) -> Mode {
+        let Local { cost, information, .. } = self.local;
+        Mode { scores: self.scores, cost, information }
+    }
+
     fn proposal(&self, farthest: &[f64]) -> Vec<f64> {
         let Local { gradient, information, .. } = &self.local;
-        let mut damped = information.clone();
+        let mut gradient = gradient.clone();
+        let mut damped = match self.held {
+            Some(held) => {
+                gradient[held] = 0.0;
+                freed(information, held)
+            }
+            None => information.clone(),
+        };
         for i in 0..damped.nrows() {
             damped[(i, i)] *= 1.0 + self.damping;
         }
-        let step = damped.cholesky().map(|root| root.solve(gradient));
-        let step = step.unwrap_or_else(|| gradient.clone());
+        let step = damped.cholesky().map(|root| root.solve(&gradient));
+        let step = step.unwrap_or(gradient);
         let to = |((score, step), most): ((&f64, &f64), &f64)| (score - step).clamp(-most, *most);
         self.scores.iter().zip(step.iter()).zip(farthest).map(to).collect()
     }

@@ -49,7 +49,7 @@ pub(crate) fn shrinkage(
     // without each block in turn
     let left_out: Vec<(Vec<usize>, Fold)> = blocks
         .par_iter()
-        .map(|block| (block.clone(), fold(setup, posterior, correction, block, seed)))
+        .map(|block| (block.clone(), fold(setup, discrepancy, posterior, correction, block, seed)))
         .collect();
     let mut predicted = vec![(0.0, 0.0); data.len()];
     let mut gain = 0.0;
@@ -316,6 +316,7 @@ impl Density {
 
 fn fold(
     setup: &Setup<'_>,
+    discrepancy: &Discrepancy,
     posterior: &Posterior,
     correction: &Correction,
     block: &[usize],
@@ -362,7 +363,7 @@ fn fold(
             }
         }
         Correction::Unexplained => {
-            let discrepancy = Discrepancy::new(&part);
+            let discrepancy = discrepancy.for_part(&part, &posterior.unexplained);
             // an effect that acts beside the discrepancy is fitted anew as well
             let base = posterior.unexplained.kinds.first().and_then(|kind| kind.base.as_ref());
             let base = base.and_then(|base| {
@@ -381,7 +382,7 @@ fn fold(
                 Some(base) => base.residuals(&part),
                 None => by_rows(&part.data.nominal_residuals()),
             };
-            let mut found = discrepancy.evidence(&part, &residuals);
+            let mut found = discrepancy.evidence(&part, &residuals, f64::NEG_INFINITY);
             if let Some(base) = base {
                 found = found.beside(base);
             }

@@ -221,6 +221,11 @@ impl Nodes {
         });
         Self { places, roots }
     }
+
+    /// Number of features of one function.
+    pub(crate) fn rank(&self) -> usize {
+        self.roots.ncols()
+    }
 }
 
 /// The covariance of a function of unit variance between two coordinates: Matern 5/2 (Rasmussen and

@@ -39,8 +39,12 @@ struct Factored {
     projector: DMatrix<f64>,
 }
 
-/// All forms for a design.
-pub(crate) fn forms(setup: &Setup<'_>, axes: &Axes) -> Vec<Form> {
+/// The forms for a design that are `wanted`.
+pub(crate) fn forms(
+    setup: &Setup<'_>,
+    axes: &Axes,
+    wanted: &(dyn Fn(&Term, f64) -> bool + Sync),
+) -> Vec<Form> {
     let terms = terms(setup.case, &setup.data);
     let ln_term = -(terms.len() as f64).ln();
     let sites = sites(setup.case, &setup.data);
@@ -51,6 +55,7 @@ pub(crate) fn forms(setup: &Setup<'_>, axes: &Axes) -> Vec<Form> {
             let ln_weight = ln_term - (lengths.len() as f64).ln();
             lengths.iter().map(move |&length| (term, length, ln_weight))
         })
+        .filter(|(term, length, _)| wanted(term, *length))
         .collect();
     with_lengths
         .into_par_iter()

@@ -11,6 +11,7 @@ mod grammar;
 
 pub(crate) use features::{Axes, Coordinates, Site};
 pub(crate) use form::{Form, forms};
+use grammar::Term;
 
 use std::sync::Arc;
 
@@ -139,14 +140,25 @@ impl Unexplained {
 impl Discrepancy {
     pub(crate) fn new(setup: &Setup<'_>) -> Self {
         let axes = Axes::new(setup.case, &setup.data);
-        let forms = forms(setup, &axes);
+        let forms = forms(setup, &axes, &|_, _| true);
         Self { axes, forms }
     }
 
-    /// The evidence of residuals (row by row, outputs fastest) of a setup's data.
-    pub(crate) fn evidence(&self, setup: &Setup<'_>, residuals: &[f64]) -> Unexplained {
+    /// For a part of the data: the forms that all of them leave probable.
+    pub(crate) fn for_part(&self, part: &Setup<'_>, found: &Unexplained) -> Self {
+        let axes = Axes::new(part.case, &part.data);
+        let own: Vec<&Form> = found.kinds.iter().map(|kind| &self.forms[kind.form]).collect();
+        let wanted =
+            |term: &Term, length: f64| own.iter().any(|f| f.term == *term && f.length == length);
+        let forms = forms(part, &axes, &wanted);
+        if forms.is_empty() { Self::new(part) } else { Self { axes, forms } }
+    }
+
+    /// The evidence of residuals (row by row, outputs fastest) of a setup's data. What lies far below
+    /// `floor`, a logarithm of evidence, need not be known well.
+    pub(crate) fn evidence(&self, setup: &Setup<'_>, residuals: &[f64], floor: f64) -> Unexplained {
         if setup.linear.fitted {
-            return fitted::evidence(self, setup, residuals);
+            return fitted::evidence(self, setup, residuals, floor);
         }
         let whitened = setup.linear.whiten_blocks(residuals);
         let base = ln_normal(setup, &whitened);

@@ -15,7 +15,7 @@ fn weights_are_those_of_dense_covariances() {
     let setup = Setup::new(&case);
     let discrepancy = Discrepancy::new(&setup);
     let residuals = by_rows(&setup.data.nominal_residuals());
-    let found = discrepancy.evidence(&setup, &residuals);
+    let found = discrepancy.evidence(&setup, &residuals, f64::NEG_INFINITY);
     let u = [0.1f64, 0.1, 0.12, 0.1, 0.2, 0.1];
     let dense = |form: usize, multiplier: f64| {
         let form = &discrepancy.forms[form];
@@ -80,7 +80,7 @@ fn estimated_noise_is_integrated_out() {
     let setup = Setup::new(&case);
     let discrepancy = Discrepancy::new(&setup);
     let residuals = by_rows(&setup.data.nominal_residuals());
-    let found = discrepancy.evidence(&setup, &residuals);
+    let found = discrepancy.evidence(&setup, &residuals, f64::NEG_INFINITY);
     let rms = (residuals.iter().map(|r| r * r).sum::<f64>() / 10.0).sqrt();
     let mut ln_total = f64::NEG_INFINITY;
     let (steps, grid) = (14, 3000);

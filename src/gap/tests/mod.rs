@@ -23,7 +23,7 @@ fn case(text: &str, data: &str) -> Case {
 }
 
 /// A line through measured points with an offset and a slope as candidate effects.
-fn line(inputs: &str, noise: bool) -> Case {
+pub(in crate::gap) fn line(inputs: &str, noise: bool) -> Case {
     let uncertainty = if noise { r#", "standard_uncertainty": "u""# } else { "" };
     let text = format!(
         r#"{{

@@ -33,6 +33,10 @@ pub(super) fn verdict(diagnosis: &Diagnosis) -> String {
     let verdict = &diagnosis.verdict;
     let how_sure = format!("(probability {})", probability(verdict.probability));
     match verdict.kind {
+        Kind::None if diagnosis.notes.iter().any(|note| note.code == "scatter") => format!(
+            "There is no gap that an effect or a discrepancy explains {how_sure}, but the data \
+             scatter by more than their uncertainties."
+        ),
         Kind::None => {
             format!("There is no gap: the uncertainties explain the data {how_sure}.")
         }
