@@ -126,7 +126,8 @@ fn prior(tolerance: &Object<'_>, unit: &Unit, results: &Results<'_>) -> Option<D
             found: kind.name.to_owned(),
             allowed: allowed.filter(|name| !NO_PRIORS.contains(name)).map(str::to_owned).collect(),
         };
-        object.report(fault);
+        let place = object.get("distribution").map_or(object.place(), |m| &m.value.span);
+        object.log.report(place, fault);
         return None;
     }
     let mut known = vec!["distribution", "about"];
