@@ -5,7 +5,6 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use gumption::file;
 use serde_json::Value;
 
 use crate::support::{announce, command, root};
