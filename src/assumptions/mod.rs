@@ -1,7 +1,7 @@
 //! The audit of Type B assumptions: which shapes and widths matter, and which ones readings
 //! contradict.
 //!
-//! Every variant of the evaluation uses the same random numbers ([`sampler`]): a quantity's value is
+//! Every variant of the evaluation uses the same random numbers (`sampler`): a quantity's value is
 //! the quantile at the probability of its standard normal score, whatever its shape. Quantities that
 //! are correlated keep their scores' dependence (a Gaussian copula) when one of them is given another
 //! shape.
