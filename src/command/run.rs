@@ -284,11 +284,13 @@ fn write(
 }
 
 /// An evaluation that failed, as a mistake with its place where it is the user's.
-fn failure(file: &ModelFile, error: EvaluationError) -> Failure {
+pub(super) fn failure(file: &ModelFile, error: EvaluationError) -> Failure {
     let message = error.to_string();
     match error {
         EvaluationError::Threads(_) => Failure::System(message),
-        EvaluationError::Undefined { .. } | EvaluationError::Correlation { .. } => {
+        EvaluationError::Undefined { .. }
+        | EvaluationError::NotFinite { .. }
+        | EvaluationError::Correlation { .. } => {
             let (source, span) = file.output_place(0);
             let fault = Fault::Evaluation { message };
             Failure::Problems(Problems(vec![Problem { source, span, fault }]))

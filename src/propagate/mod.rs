@@ -5,6 +5,7 @@
 
 mod again;
 mod budget;
+mod conformity;
 mod control;
 mod density;
 mod evaluation;
@@ -15,10 +16,12 @@ pub mod validate;
 mod warnings;
 
 pub use again::{for_each_block, histograms, joint_ranks, quantiles};
+pub use conformity::{Conformity, GlobalRisks};
 pub use control::Control;
 pub use evaluation::{
-    Conformity, Evaluation, EvaluationError, OutputEvaluation, RowEvaluation, Together, evaluate,
+    Evaluation, EvaluationError, OutputEvaluation, RowEvaluation, Stated, Together, evaluate,
     trial_hash,
 };
+pub(crate) use evaluation::{in_pool, joint};
 pub use origins::{Origins, linear, origins};
 pub use warnings::warnings;

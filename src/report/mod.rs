@@ -1,5 +1,7 @@
 //! Reports: what an evaluation looks like, one file for each format.
 
+pub mod assumptions;
+pub mod compare;
 mod csv;
 #[cfg(feature = "cli")]
 mod document;
@@ -19,6 +21,7 @@ mod sheet;
 mod subtotals;
 #[cfg(feature = "cli")]
 mod table;
+mod tree;
 #[cfg(feature = "cli")]
 mod workbook;
 
@@ -31,7 +34,7 @@ pub use saved::saved;
 #[cfg(feature = "cli")]
 pub use table::{Column, Style, table, write_table};
 #[cfg(feature = "cli")]
-pub(crate) use table::{Grid, WIDTH, plain, wrapped};
+pub(crate) use table::{Grid, WIDTH, conditions_text, grouped, plain, wrapped};
 
 use crate::propagate::Evaluation;
 use crate::task::{Task, Warning};

@@ -4,9 +4,12 @@
 #![allow(clippy::print_stderr)]
 
 mod adaptive;
+mod assumptions;
 mod cases;
 mod catalogue;
 mod commands;
+mod compare;
+mod conformity;
 mod diff;
 mod errors;
 mod formulas;

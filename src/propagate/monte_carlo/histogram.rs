@@ -114,7 +114,8 @@ pub(crate) fn histograms(
                 break;
             }
             trials.block(control.path, block, workspace);
-            let (left, _) = drop_undefined(&mut workspace.outputs, trials_in(block, count));
+            let (left, _) =
+                drop_undefined(control.path, &mut workspace.outputs, trials_in(block, count));
             for (histogram, values) in counted.iter_mut().zip(&workspace.outputs) {
                 if let Some(histogram) = histogram {
                     histogram.add(&values[..left]);

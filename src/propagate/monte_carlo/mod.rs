@@ -32,10 +32,11 @@ pub use adaptive::Adaptive;
 #[cfg(feature = "cli")]
 pub(crate) use adaptive::FIRST_STAGE;
 pub(crate) use adaptive::{Search, find_trials};
-pub(crate) use block::Trials;
+pub(crate) use block::{Trials, onto_branch, stream_name};
 pub(crate) use hash::hash_trials;
 pub use histogram::Histogram;
 pub(crate) use histogram::histograms;
+pub(crate) use interval::Ranks;
 pub(crate) use quantiles::quantiles;
 pub(crate) use repeat::repeat;
 pub(crate) use run::{Finished, Request, run};

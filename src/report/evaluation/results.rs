@@ -1,7 +1,7 @@
 //! Everything about one output.
 
 use super::{Shown, figures};
-use crate::model::Quantity;
+use crate::model::{Output, Quantity};
 use crate::propagate::OutputEvaluation;
 use crate::report::Report;
 use crate::report::document::{Block, Document, sentence};
@@ -22,12 +22,11 @@ pub(super) fn section(
     let Some(found) = evaluation.rows.first().and_then(|row| row.outputs.get(output)) else {
         return;
     };
-    let Some(quantity) = task.model.outputs.get(output).map(|output| &output.quantity) else {
-        return;
-    };
+    let Some(output_of) = task.model.outputs.get(output) else { return };
+    let quantity = &output_of.quantity;
     let digits = evaluation.settings.digits;
     document.section(table::title_text(quantity));
-    document.blocks.push(Block::Verdict(verdict(&evaluation.settings, quantity, found)));
+    document.blocks.push(Block::Verdict(verdict(&evaluation.settings, output_of, found)));
     match &found.gum {
         Some(gum) => {
             let budget = Budget { task, output: quantity, gum, digits };
@@ -59,7 +58,8 @@ pub(super) fn section(
 }
 
 /// The result, what clause 8 says of it, and whether it conforms.
-fn verdict(settings: &Settings, output: &Quantity, found: &OutputEvaluation) -> Vec<String> {
+fn verdict(settings: &Settings, stated: &Output, found: &OutputEvaluation) -> Vec<String> {
+    let output = &stated.quantity;
     let mut said = vec![result(settings, output, found)];
     match &found.monte_carlo {
         Some(figures) => said.push(comparison::verdict(output, found, figures)),
@@ -70,7 +70,8 @@ fn verdict(settings: &Settings, output: &Quantity, found: &OutputEvaluation) -> 
             said.extend(interval.map(|said| sentence(&said)));
         }
     }
-    said.extend(found.conformity.map(|c| comparison::conformity_text(output, &c)));
+    said.extend(found.conformity.iter().flat_map(|c| comparison::conformity(output, c)));
+    said.extend(comparison::capability(stated, found));
     said
 }
 

@@ -2,12 +2,12 @@
 
 use super::grid::Grid;
 use super::{WIDTH, in_unit, text};
-use crate::model::Quantity;
+use crate::model::{Output, Quantity, Tolerance};
 use crate::propagate::gum::Gum;
 use crate::propagate::monte_carlo::{Adaptive, FIRST_STAGE, MonteCarlo};
 use crate::propagate::validate::Validation;
 use crate::propagate::{Conformity, OutputEvaluation};
-use crate::report::number::{MISSING, coarser, justified, place, rounded, significant, to};
+use crate::report::number::{MISSING, coarser, exact, justified, place, rounded, significant, to};
 use crate::report::sheet::Sheet;
 use crate::task::StoppingRule;
 
@@ -42,29 +42,104 @@ pub(super) fn table(output: &Quantity, figures: &OutputEvaluation, digits: u32) 
     page.push('\n');
     page += &text::wrapped(&verdict(output, figures, monte_carlo));
     if let Some(found) = &figures.conformity {
-        page += &text::wrapped(&conformity_text(output, found));
+        page += &conformity(output, found).map(|said| text::wrapped(&said)).concat();
     }
     Some(page)
 }
 
+/// What may be stated beside the laboratory's capability.
+pub(in crate::report) fn capability(output: &Output, figures: &OutputEvaluation) -> Option<String> {
+    let stated = figures.stated(output)?;
+    let unit = &output.quantity.unit;
+    let number = |value: f64| in_unit(&significant(value, 3), unit);
+    let (cmc, expanded) = (number(stated.cmc), number(stated.expanded_uncertainty));
+    Some(if stated.raised {
+        format!(
+            "The laboratory's capability (CMC) is {cmc}; U is raised to it: {expanded} is to be stated."
+        )
+    } else if stated.expanded_uncertainty < stated.cmc {
+        format!("U = {expanded} is below the laboratory's capability (CMC) of {cmc}.")
+    } else {
+        format!("The laboratory's capability (CMC) is {cmc}; U = {expanded} can be stated.")
+    })
+}
+
+/// Conformity with the output's tolerance: its probability, the rule and the decision, the risks.
+pub(in crate::report) fn conformity(output: &Quantity, found: &Conformity) -> [String; 3] {
+    [conformity_text(output, found), rule_text(output, found), risks_text(found)]
+}
+
 /// The probability of conformity with the output's tolerance.
-pub(in crate::report) fn conformity_text(output: &Quantity, found: &Conformity) -> String {
-    let limits = match (found.tolerance.lower, found.tolerance.upper) {
+fn conformity_text(output: &Quantity, found: &Conformity) -> String {
+    let error = 100.0 * found.numerical_standard_error;
+    let probability = justified(100.0 * found.probability, Some(-2), error);
+    let side = if found.tolerance.holds(found.estimate) { "within" } else { "outside" };
+    format!(
+        "Tolerance {}: the estimate lies {side}, and the value conforms with a probability of {probability} % \
+         (numerical standard error {} %).",
+        limits_text(output, &found.tolerance, None),
+        significant(error, 1)
+    )
+}
+
+/// Limits with the unit; to a decimal place if there is one.
+fn limits_text(output: &Quantity, limits: &Tolerance, place: Option<i32>) -> String {
+    let text = |limit: f64| place.map_or_else(|| limit.to_string(), |place| rounded(limit, place));
+    let limits = match (limits.lower.map(text), limits.upper.map(text)) {
         (Some(lower), Some(upper)) => format!("from {lower} to {upper}"),
         (Some(lower), None) => format!("from {lower} on"),
         (None, Some(upper)) => format!("up to {upper}"),
         (None, None) => String::new(),
     };
-    let limits = in_unit(&limits, &output.unit);
-    let percent = |share: f64| 100.0 * share;
-    let error = percent(found.numerical_standard_error);
-    let probability = justified(percent(found.probability), Some(-2), error);
-    let side = if found.conforms { "within" } else { "outside" };
+    in_unit(&limits, &output.unit)
+}
+
+/// The decision rule and the decision.
+fn rule_text(output: &Quantity, found: &Conformity) -> String {
+    let decision = if found.conforms { "accepted" } else { "rejected" };
+    let Some(risk) = found.wanted_risk else {
+        return format!(
+            "Decision rule: simple acceptance (JCGM 106, 8.2), accepted where the estimate lies \
+             within the tolerance. Decision: {decision}."
+        );
+    };
+    let kind = if found.global.is_some() { "global" } else { "specific" };
+    let wanted = format!("a {kind} risk of false acceptance of at most {} %", percentage(risk));
+    let (Some(width), Some(acceptance)) = (found.guard_band, found.acceptance) else {
+        return format!(
+            "Decision rule: guarded acceptance (JCGM 106, 8.3) for {wanted}; no value has so small \
+             a one. Decision: {decision}."
+        );
+    };
+    let digits = place(width, 3);
     format!(
-        "Tolerance {limits}: the estimate lies {side}, and the value conforms with a probability of \
-         {probability} % (numerical standard error {} %).",
-        significant(error, 1)
+        "Decision rule: guarded acceptance (JCGM 106, 8.3) for {wanted}: guard band {}, accepted {}. \
+         Decision: {decision}.",
+        in_unit(&to(width, digits), &output.unit),
+        limits_text(output, &acceptance, digits)
     )
+}
+
+/// Specific and global risks.
+fn risks_text(found: &Conformity) -> String {
+    let wrong = if found.conforms { "does not conform" } else { "conforms all the same" };
+    let error = 100.0 * found.numerical_standard_error;
+    let specific = justified(100.0 * found.specific_risk(), Some(-2), error);
+    let mut text = format!("Specific risk that the value {wrong}: {specific} %.");
+    if let Some(risks) = found.global {
+        text += &format!(
+            " Global risks with the prior, for normally distributed errors: false acceptance {} %, \
+             false rejection {} %.",
+            significant(100.0 * risks.false_acceptance, 3),
+            significant(100.0 * risks.false_rejection, 3)
+        );
+    }
+    text
+}
+
+/// A share in percent, as exactly as it was given.
+fn percentage(share: f64) -> String {
+    exact((1e12 * share).round() / 1e10)
 }
 
 /// How the adaptive procedure ended, after how many trials, and why.

@@ -10,8 +10,7 @@ mod text;
 
 pub use columns::Column;
 pub(crate) use grid::Grid;
-pub(super) use text::grouped;
-pub(crate) use text::{plain, wrapped};
+pub(crate) use text::{grouped, plain, wrapped};
 
 use std::io::{self, Write};
 
@@ -154,6 +153,7 @@ fn section(
         None => parts.push(wrapped(NO_BUDGET)),
     }
     parts.extend(comparison::table(&output.quantity, figures, digits));
+    parts.extend(comparison::capability(output, figures).map(|said| wrapped(&said)));
     parts.join("\n")
 }
 
@@ -208,7 +208,7 @@ pub(super) fn coverage_text(coverage: Coverage) -> String {
 }
 
 /// `f = 10 Hz, tilt = 35 deg`.
-pub(super) fn conditions_text(conditions: &[Quantity], values: &[f64]) -> String {
+pub(crate) fn conditions_text(conditions: &[Quantity], values: &[f64]) -> String {
     let parts: Vec<String> = conditions
         .iter()
         .zip(values)
