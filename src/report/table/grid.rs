@@ -164,7 +164,7 @@ impl Grid {
     }
 
     /// The table without a header, ending in a newline.
-    pub(super) fn bare(&self, width: usize) -> String {
+    pub(crate) fn bare(&self, width: usize) -> String {
         let rows = self.rows();
         let pages = (0..rows).step_by(PAGE).map(|first| first..(first + PAGE).min(rows));
         let lines = pages.flat_map(|page| self.lines(width, false, page));
