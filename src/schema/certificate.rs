@@ -92,6 +92,7 @@ fn certificate() -> Node {
             "monte_carlo",
             referenced("monte-carlo", "Trials and seed of all models, in place of their own."),
         ),
+        ("conditions", names("Conditions that the table shows; all of them unless given.")),
         ("shared_inputs", names("Inputs that are one and the same quantity in all model files.")),
         ("separate_inputs", names("Inputs that have a value of their own in every row.")),
         (

@@ -19,7 +19,7 @@ use crate::task::{Coverage, Settings, Warning};
 use rows::Rows;
 
 /// The keys of a certificate file.
-const KEYS: [&str; 24] = [
+const KEYS: [&str; 25] = [
     "format",
     "title",
     "number",
@@ -41,6 +41,7 @@ const KEYS: [&str; 24] = [
     "rounding",
     "digits",
     "monte_carlo",
+    "conditions",
     "shared_inputs",
     "separate_inputs",
     "rows",
@@ -211,6 +212,10 @@ fn certificate(root: Object<'_>, folder: &Path) -> Option<CertificateFile> {
         Some(list) => rows.read(list),
         None => {}
     }
+    let shown = texts(&root, "conditions");
+    for (name, span) in &shown {
+        rows.check_condition(name, span);
+    }
     let (shared, separate) = (names(&root, "shared_inputs"), names(&root, "separate_inputs"));
     for (name, span) in shared.iter().chain(&separate) {
         rows.check_input(name, span);
@@ -228,6 +233,7 @@ fn certificate(root: Object<'_>, folder: &Path) -> Option<CertificateFile> {
         digits: u32::try_from(digits).unwrap_or(2),
         evaluations,
         lines,
+        shown: shown.into_iter().map(|(name, _)| name).collect(),
         shared: shared.into_keys().collect(),
         separate: separate.into_keys().collect(),
     };

@@ -293,6 +293,21 @@ impl<'a> Rows<'a> {
         }
     }
 
+    /// Whether some model has a condition of that name.
+    pub(super) fn check_condition(&self, name: &str, span: &Range<usize>) {
+        let conditions = |task: &Task| -> Vec<String> {
+            task.model.conditions.iter().map(|condition| condition.name.clone()).collect()
+        };
+        let known: Vec<String> =
+            self.models.iter().flat_map(|(_, task)| conditions(task)).collect();
+        if !self.models.is_empty() && !known.iter().any(|known| known == name) {
+            let near = nearest(name, known.iter().map(String::as_str));
+            let near = near.map_or(String::new(), |near| format!("; did you mean `{near}`?"));
+            let reason = format!("no model of this certificate has a condition `{name}`{near}");
+            self.log.report(span, Fault::Certificate { reason });
+        }
+    }
+
     /// Whether some model has an input or a component of that name.
     pub(super) fn check_input(&self, name: &str, span: &Range<usize>) {
         let quantities = |task: &'_ Task| -> Vec<String> {

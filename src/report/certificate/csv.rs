@@ -2,7 +2,6 @@
 
 use super::Report;
 use super::stated::{self, Stated};
-use crate::report::conditions_text;
 use crate::report::csv::{number, text};
 
 const COLUMNS: [&str; 15] = [
@@ -38,15 +37,12 @@ pub fn csv(report: &Report<'_>) -> String {
 }
 
 fn record(report: &Report<'_>, row: &Stated<'_>) -> Vec<String> {
-    let mut conditions = row.replaced();
-    let swept = conditions_text(&row.asked.task.model.conditions, row.conditions);
-    conditions.extend((!swept.is_empty()).then_some(swept));
     let ends = row.interval(report).map(|ends| ends.map(|end| end.text));
     let [low, high] = ends.unwrap_or_default();
     vec![
         row.number.to_string(),
         text(&row.name(&report.certificate.languages)),
-        text(&conditions.join(", ")),
+        text(&row.circumstances(report).join(", ")),
         number(row.line.nominal),
         row.value().text,
         row.expanded().text,

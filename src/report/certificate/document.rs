@@ -37,8 +37,8 @@ pub(super) fn of(report: &Report<'_>) -> Document {
             }
         } else {
             for language in languages {
-                let words = words::of(*language);
-                document.text(format!("{}{}.", words.many, certificate.lines.len()));
+                let rows = certificate.lines.len().to_string();
+                document.text(words::of(*language).many.replace("{rows}", &rows));
             }
         }
     }

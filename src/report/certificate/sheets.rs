@@ -3,9 +3,10 @@
 use super::Report;
 use super::stated::{self, Stated};
 use super::words::{Words, stacked};
+use crate::model::Quantity;
 use crate::report::number::{MISSING, exact, rounded};
+use crate::report::plain;
 use crate::report::sheet::{Figure, Sheet};
-use crate::report::{conditions_text, plain};
 
 /// Rows up to which a page shows the matrix of their correlation coefficients.
 pub(super) const MOST_CORRELATED: usize = 12;
@@ -21,7 +22,7 @@ pub(super) fn results(report: &Report<'_>) -> Sheet {
     let mut sheet = Sheet::default();
     sheet.numbers(&header(|w| w.row), rows.iter().map(|row| row.number.to_string()));
     sheet.text(&header(|w| w.quantity), rows.iter().map(|row| row.name(languages)));
-    conditions(&mut sheet, &rows, &header(|w| w.conditions));
+    conditions(&mut sheet, report, &rows, &header(|w| w.conditions));
     if rows.iter().any(|row| row.line.nominal.is_some()) {
         sheet.figures(&header(|w| w.nominal), rows.iter().map(Stated::nominal));
     }
@@ -46,36 +47,45 @@ pub(super) fn results(report: &Report<'_>) -> Sheet {
     sheet
 }
 
-/// A column for each condition if all rows have the same ones, else all in words.
-fn conditions(sheet: &mut Sheet, rows: &[Stated<'_>], header: &str) {
-    let names = |row: &Stated<'_>| -> Vec<String> {
-        let conditions = row.asked.task.model.conditions.iter();
-        conditions.map(|c| plain(&format!("{}\nin {}", c.name, c.unit.text()))).collect()
+/// Conditions up to which each has a column of its own.
+const MOST_COLUMNS: usize = 3;
+
+/// A column for each condition, empty where a row does not have it, and one for what is replaced; if
+/// there are many conditions, a column of all in words.
+fn conditions(sheet: &mut Sheet, report: &Report<'_>, rows: &[Stated<'_>], header: &str) {
+    let named = |quantity: &Quantity| match plain(quantity.unit.text()).as_str() {
+        "" | "1" => plain(&quantity.name),
+        unit => format!("{}\nin {unit}", plain(&quantity.name)),
     };
-    let first = rows.first().map(&names).unwrap_or_default();
-    let alike = rows.iter().all(|row| row.asked.set.is_empty() && names(row) == first);
-    if alike {
-        for (place, condition) in
-            rows.first().iter().flat_map(|row| &row.asked.task.model.conditions).enumerate()
-        {
-            let unit = plain(condition.unit.text());
-            let header = match unit.as_str() {
-                "" | "1" => plain(&condition.name),
-                unit => format!("{}\nin {unit}", plain(&condition.name)),
-            };
-            let value =
-                |row: &Stated<'_>| Figure::rounded(row.conditions.get(place).copied(), exact);
-            sheet.figures(&header, rows.iter().map(value));
+    let mut names: Vec<String> = Vec::new();
+    for (quantity, _) in rows.iter().flat_map(|row| row.shown(report)) {
+        let name = named(quantity);
+        if !names.contains(&name) {
+            names.push(name);
         }
+    }
+    if names.len() > MOST_COLUMNS {
+        let text = |row: &Stated<'_>| row.circumstances(report).join(", ");
+        sheet.text(header, rows.iter().map(text));
         return;
     }
-    let text = |row: &Stated<'_>| {
-        let conditions = conditions_text(&row.asked.task.model.conditions, row.conditions);
-        let mut parts = row.replaced();
-        parts.extend((!conditions.is_empty()).then_some(conditions));
-        stated::or_missing(parts.join(", "))
+    let replaced = |row: &Stated<'_>| match row.line.label {
+        Some(_) => String::new(),
+        None => row.replaced().join(", "),
     };
-    sheet.text(header, rows.iter().map(text));
+    if rows.iter().any(|row| !replaced(row).is_empty()) {
+        sheet.text(header, rows.iter().map(replaced));
+    }
+    for name in names {
+        let value = |row: &Stated<'_>| {
+            let shown = row.shown(report);
+            match shown.iter().find(|(quantity, _)| named(quantity) == name) {
+                Some((_, value)) => Figure::of(*value, exact(*value)),
+                None => Figure { text: String::new(), value: None },
+            }
+        };
+        sheet.figures(&name, rows.iter().map(value));
+    }
 }
 
 /// The upper triangle of the correlation coefficients between the rows.

@@ -5,9 +5,9 @@ use crate::certificate::Statement;
 use crate::model::Quantity;
 use crate::propagate::OutputEvaluation;
 use crate::propagate::gum::Dof;
-use crate::report::number::{MISSING, exact, rounded};
-use crate::report::plain;
+use crate::report::number::{exact, rounded};
 use crate::report::sheet::Figure;
+use crate::report::{conditions_text, plain};
 use crate::task::certificate::{Asked, Language, Line};
 
 /// A row of the table.
@@ -109,6 +109,28 @@ impl Stated<'_> {
         Figure::rounded(self.line.nominal, exact)
     }
 
+    /// The conditions that the table shows, with their values.
+    pub(super) fn shown(&self, report: &Report<'_>) -> Vec<(&Quantity, f64)> {
+        let shown = &report.certificate.shown;
+        let conditions = self.asked.task.model.conditions.iter().zip(self.conditions);
+        conditions
+            .filter(|(condition, _)| shown.is_empty() || shown.contains(&condition.name))
+            .map(|(condition, value)| (condition, *value))
+            .collect()
+    }
+
+    /// Replacements and shown conditions in words, on one line; a row with a label of its own says
+    /// nothing of replacements.
+    pub(super) fn circumstances(&self, report: &Report<'_>) -> Vec<String> {
+        let mut parts = if self.line.label.is_some() { Vec::new() } else { self.replaced() };
+        let shown = self.shown(report);
+        let (quantities, values): (Vec<Quantity>, Vec<f64>) =
+            shown.into_iter().map(|(quantity, value)| (quantity.clone(), value)).unzip();
+        let conditions = conditions_text(&quantities, &values);
+        parts.extend((!conditions.is_empty()).then_some(conditions));
+        parts
+    }
+
     /// Replacements of the row, as `tilt = 35 deg`.
     pub(super) fn replaced(&self) -> Vec<String> {
         let unit = |name: &str| {
@@ -126,9 +148,4 @@ impl Stated<'_> {
 /// A share in percent, without the digits that its binary form adds.
 pub(super) fn percent(share: f64) -> f64 {
     (1e12 * share).round() / 1e10
-}
-
-/// A name, or a dash where there is none.
-pub(super) fn or_missing(text: String) -> String {
-    if text.trim().is_empty() { MISSING.to_owned() } else { text }
 }

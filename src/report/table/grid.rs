@@ -8,7 +8,7 @@ use comfy_table::{
 };
 
 use crate::report::number::align;
-use crate::report::sheet::Sheet;
+use crate::report::sheet::{Kind, Sheet};
 
 /// Spaces between columns.
 const GAP: u16 = 2;
@@ -63,10 +63,14 @@ impl Grid {
         let mut grid = Self { columns: Vec::new(), footer: sheet.footer };
         for column in &sheet.columns {
             let cells = column.cells.iter().cloned();
-            if column.is_numeric() {
-                grid.numbers(&column.header, cells);
-            } else {
-                grid.text(&column.header, cells);
+            match column.kind {
+                Kind::Numbers => grid.numbers(&column.header, cells),
+                Kind::Text => grid.text(&column.header, cells),
+                Kind::Units => {
+                    let constraint = Some(ColumnConstraint::ContentWidth);
+                    let cells = cells.collect();
+                    grid.push(&column.header, cells, CellAlignment::Left, constraint);
+                }
             }
         }
         grid

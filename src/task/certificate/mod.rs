@@ -24,6 +24,8 @@ pub struct Certificate {
     pub evaluations: Vec<Asked>,
     /// The rows of the table, in order.
     pub lines: Vec<Line>,
+    /// Names of the conditions that the table shows; all of them if there are none.
+    pub shown: Vec<String>,
     /// Names of inputs that are one and the same quantity in all model files.
     pub shared: Vec<String>,
     /// Names of inputs that have a value of their own in every evaluation.

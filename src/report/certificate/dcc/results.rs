@@ -7,9 +7,9 @@ use super::people::both;
 use super::unit::{is_of_the_si, unit};
 use super::xml::Xml;
 use crate::certificate::Basis;
+use crate::model::Quantity;
 use crate::report::certificate::stated::{self, Stated};
 use crate::report::certificate::{Report, json, words};
-use crate::report::conditions_text;
 use crate::report::number::exact;
 use crate::task::certificate::{Language, Localized};
 use crate::unit::Unit;
@@ -78,14 +78,14 @@ fn result(xml: &mut Xml, report: &Report<'_>, rows: &[Stated<'_>], languages: &[
         if !first.quantity.about.trim().is_empty() {
             lines.push(first.quantity.about.trim().to_owned());
         }
-        lines.extend(rows.iter().map(|row| named(row, *language)));
+        lines.extend(rows.iter().map(|row| named(report, row, *language)));
         (Some(*language), lines.join("; "))
     };
     let about = Localized { texts: languages.iter().map(described).collect() };
     xml.text("dcc:description", &about, languages);
     xml.element("dcc:data", |xml| {
         xml.element("dcc:list", |xml| {
-            conditions(xml, rows, languages);
+            conditions(xml, report, rows, languages);
             nominal(xml, rows, languages);
             measured(xml, rows, languages);
             intervals(xml, report, rows, languages);
@@ -94,11 +94,9 @@ fn result(xml: &mut Xml, report: &Report<'_>, rows: &[Stated<'_>], languages: &[
 }
 
 /// `row 3: a_x, tilt = 35 deg`
-fn named(row: &Stated<'_>, language: Language) -> String {
+fn named(report: &Report<'_>, row: &Stated<'_>, language: Language) -> String {
     let mut parts = vec![row.name(&[language])];
-    parts.extend(row.replaced());
-    let conditions = conditions_text(&row.asked.task.model.conditions, row.conditions);
-    parts.extend((!conditions.is_empty()).then_some(conditions));
+    parts.extend(row.circumstances(report));
     format!("{} {}: {}", words::of(language).row, row.number, parts.join(", "))
 }
 
@@ -127,17 +125,15 @@ fn explained(xml: &mut Xml, of: &Unit) {
     });
 }
 
-/// The conditions that all rows have.
-fn conditions(xml: &mut Xml, rows: &[Stated<'_>], languages: &[Language]) {
+/// The conditions that all rows show.
+fn conditions(xml: &mut Xml, report: &Report<'_>, rows: &[Stated<'_>], languages: &[Language]) {
     let Some(first) = rows.first() else { return };
-    for condition in &first.asked.task.model.conditions {
+    for (condition, _) in first.shown(report) {
         let value = |row: &Stated<'_>| {
-            let conditions = &row.asked.task.model.conditions;
-            let same = |c: &crate::model::Quantity| {
+            let same = |(c, _): &(&Quantity, f64)| {
                 c.name == condition.name && c.unit.text() == condition.unit.text()
             };
-            let place = conditions.iter().position(same)?;
-            row.conditions.get(place).map(|value| exact(*value))
+            row.shown(report).into_iter().find(same).map(|(_, value)| exact(value))
         };
         let Some(values) = rows.iter().map(value).collect::<Option<Vec<String>>>() else {
             continue;

@@ -39,8 +39,8 @@ pub(super) const WORDS: Words = Words {
     expanded: "U",
     unit: "unit",
     probability: "p in %",
-    low: "interval from",
-    high: "interval to",
+    low: "interval\nfrom",
+    high: "interval\nto",
 
     uncertainty: "Uncertainty of measurement",
     rows: "Rows {rows}: ",
@@ -75,7 +75,8 @@ pub(super) const WORDS: Words = Words {
     correlated: "Rows that share inputs are correlated. The standard uncertainty of the difference \
         of rows i and j follows from u² = u_i² + u_j² - 2 r u_i u_j, with u_i = U_i / k_i and the \
         coefficient r from the table (from the law of propagation).",
-    many: "The correlation coefficients of these rows are in the JSON answer and in the workbook: ",
+    many: "The {rows} rows share inputs; their correlation coefficients are in the JSON answer and in \
+        the workbook.",
     conformity: "Conformity",
     provenance: "Provenance",
     program: "program",

@@ -39,8 +39,8 @@ pub(super) const WORDS: Words = Words {
     expanded: "U",
     unit: "Einheit",
     probability: "p in %",
-    low: "Intervall von",
-    high: "Intervall bis",
+    low: "Intervall\nvon",
+    high: "Intervall\nbis",
 
     uncertainty: "Messunsicherheit",
     rows: "Zeilen {rows}: ",
@@ -78,8 +78,8 @@ pub(super) const WORDS: Words = Words {
     correlated: "Zeilen mit gemeinsamen Eingangsgrößen sind korreliert. Die Standardmessunsicherheit \
         der Differenz der Zeilen i und j folgt aus u² = u_i² + u_j² - 2 r u_i u_j mit u_i = U_i / k_i \
         und dem Koeffizienten r der Tabelle (nach dem Fortpflanzungsgesetz).",
-    many: "Die Korrelationskoeffizienten dieser Zeilen stehen in der JSON-Ausgabe und in der \
-        Arbeitsmappe: ",
+    many: "Die {rows} Zeilen haben gemeinsame Eingangsgrößen; ihre Korrelationskoeffizienten stehen in \
+        der JSON-Ausgabe und in der Arbeitsmappe.",
     conformity: "Konformität",
     provenance: "Herkunft",
     program: "Programm",

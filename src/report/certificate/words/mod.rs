@@ -70,7 +70,7 @@ pub(super) struct Words {
 
     pub(super) correlation: &'static str,
     pub(super) correlated: &'static str,
-    /// How many rows.
+    /// `{rows}`: how many.
     pub(super) many: &'static str,
     pub(super) conformity: &'static str,
     pub(super) provenance: &'static str,
