@@ -15,6 +15,7 @@ use super::products::{Products, waves};
 use super::sorting::sort;
 use super::windows::Windows;
 use crate::distribution::BLOCK;
+use crate::number::CodePath;
 use crate::propagate::Control;
 
 /// Blocks of the pilot; fewer trials than that are all kept.
@@ -317,13 +318,14 @@ fn finish(
             });
         }
     }
+    let path = control.path.or_baseline();
     // one output after the other: sorting copies, and memory is for one copy at a time
     let outputs: Vec<Option<MonteCarlo>> = per_output
         .into_iter()
         .enumerate()
         .map(|(o, chunks)| {
             let dof = request.drawn_dof.get(o).copied().unwrap_or(f64::INFINITY);
-            figures(summaries[o].0, dof, request.probability, &plans[o].windows, chunks)
+            figures(path, summaries[o].0, dof, request.probability, &plans[o].windows, chunks)
         })
         .collect();
     let outputs = outputs.into_iter().collect::<Option<Vec<_>>>()?;
@@ -345,21 +347,22 @@ struct Batch {
 }
 
 /// The order statistics of some batches together.
-fn order_of(batches: &[Batch], windows: &Windows) -> Order {
+fn order_of(path: CodePath, batches: &[Batch], windows: &Windows) -> Order {
     let sum = |of: fn(&Batch) -> u64| batches.iter().map(of).sum();
     let kept: Vec<&[f64]> = batches.iter().map(|batch| batch.kept.as_slice()).collect();
-    Order::new(sum(|b| b.trials), &kept, sum(|b| b.below_median), windows)
+    Order::new(path, sum(|b| b.trials), &kept, sum(|b| b.below_median), windows)
 }
 
 fn figures(
+    path: CodePath,
     moments: Moments,
     drawn_dof: f64,
     probability: f64,
     windows: &Windows,
     chunks: Vec<Batch>,
 ) -> Option<MonteCarlo> {
-    let shortest_error = shortest_error(&chunks, probability, windows);
-    let mut order = order_of(&chunks, windows);
+    let shortest_error = shortest_error(path, &chunks, probability, windows);
+    let mut order = order_of(path, &chunks, windows);
     drop(chunks);
     let order = &mut order;
     let symmetric_interval = symmetric(order, probability)?;
@@ -441,7 +444,12 @@ impl NumericalError {
 /// The scatter of the shortest interval between batches of the trials, brought to the number of
 /// all trials by the cube-root law of such intervals (Kim and Pollard, Annals of Statistics 18,
 /// 1990).
-fn shortest_error(chunks: &[Batch], probability: f64, windows: &Windows) -> [f64; 2] {
+fn shortest_error(
+    path: CodePath,
+    chunks: &[Batch],
+    probability: f64,
+    windows: &Windows,
+) -> [f64; 2] {
     let batches: Vec<&[Batch]> = chunks.chunks(chunks.len().div_ceil(BATCHES).max(1)).collect();
     let trials = |batch: &[Batch]| batch.iter().map(|chunk| chunk.trials).sum::<u64>();
     let total: u64 = batches.iter().map(|batch| trials(batch)).sum();
@@ -450,7 +458,7 @@ fn shortest_error(chunks: &[Batch], probability: f64, windows: &Windows) -> [f64
         .into_par_iter()
         // a last batch of few trials would scatter more than the others
         .filter(|batch| 2 * trials(batch) > largest)
-        .filter_map(|batch| shortest(&mut order_of(batch, windows), probability))
+        .filter_map(|batch| shortest(&mut order_of(path, batch, windows), probability))
         .collect();
     let n = ends.len() as f64;
     if ends.len() < 4 {
