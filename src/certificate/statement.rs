@@ -155,7 +155,11 @@ pub(super) fn of(
 }
 
 fn by_propagation(gum: &Gum, settings: &Settings) -> Option<Found> {
-    let coverage_factor = gum.coverage_factor?;
+    let coverage_factor = match (settings.coverage, gum.dof) {
+        // K itself, and not the factor at its probability of 0.9545, which is 2.000 02
+        (Coverage::Factor { factor, .. }, Dof::Infinite) => factor,
+        _ => gum.coverage_factor?,
+    };
     let basis = match (settings.coverage, gum.dof) {
         (Coverage::Factor { fixed: true, .. }, Dof::Finite(_)) | (_, Dof::Undefined) => {
             Basis::Fixed
@@ -167,7 +171,7 @@ fn by_propagation(gum: &Gum, settings: &Settings) -> Option<Found> {
         basis,
         value: gum.estimate,
         standard_uncertainty: gum.standard_uncertainty,
-        expanded_uncertainty: gum.expanded_uncertainty()?,
+        expanded_uncertainty: coverage_factor * gum.standard_uncertainty,
         coverage_factor,
         interval: None,
     })
@@ -182,8 +186,23 @@ fn is_normal(factor: f64, coverage: Coverage) -> bool {
     (100.0 * factor).round() == (100.0 * normal).round()
 }
 
+/// How many numerical standard errors longer than the shortest interval another one may be and
+/// still count as the shortest: it is the least of many that scatter by about one.
+const AS_SHORT: f64 = 4.0;
+
+/// The shortest coverage interval. Of a symmetric distribution many intervals are as short, and the
+/// scatter of the trials would choose among them; the probabilistically symmetric one is taken if it
+/// is as short within its numerical error.
+fn interval(figures: &MonteCarlo) -> [f64; 2] {
+    let length = |[low, high]: [f64; 2]| high - low;
+    let (symmetric, shortest) = (figures.symmetric_interval, figures.shortest_interval);
+    let [low, high] = figures.errors.symmetric_interval;
+    let allowed = AS_SHORT * low.hypot(high);
+    if length(symmetric) - length(shortest) <= allowed { symmetric } else { shortest }
+}
+
 fn by_trials(figures: &MonteCarlo, gum: Option<&Gum>) -> Option<Found> {
-    let [low, high] = figures.shortest_interval;
+    let [low, high] = interval(figures);
     let value = figures.estimate;
     // few readings have no variance in the trials
     let u = figures.standard_uncertainty.or_else(|| gum.map(|gum| gum.standard_uncertainty))?;

@@ -18,7 +18,7 @@ pub(super) fn coverage(report: &Report<'_>, language: Language) -> Vec<String> {
         let sentence = kind.sentence(words);
         said.push(match of.len() == rows.len() {
             true => sentence,
-            false => words.rows.replace("{rows}", &listed(&of, words)) + &sentence,
+            false => about(&of, words) + &sentence,
         });
     }
     said.push(words.propagation.to_owned());
@@ -33,7 +33,7 @@ pub(super) fn coverage(report: &Report<'_>, language: Language) -> Vec<String> {
         .map(|row| row.number)
         .collect();
     if !raised.is_empty() {
-        said.push(words.rows.replace("{rows}", &listed(&raised, words)) + words.raised);
+        said.push(about(&raised, words) + words.raised);
     }
     said.push(rounding(report, words));
     said
@@ -91,6 +91,13 @@ fn probability(p: Option<f64>, words: &Words) -> String {
         Some(p) => format!("{} %", exact(stated::percent(p))),
         None => String::new(),
     }
+}
+
+/// "Rows 1, 2 and 5: "
+pub(super) fn about(rows: &[usize], words: &Words) -> String {
+    let [one, several] = words.rows;
+    let beginning = if rows.len() == 1 { one } else { several };
+    beginning.replace("{rows}", &listed(rows, words))
 }
 
 /// "1, 2 and 5"; consecutive rows as "1 - 4".

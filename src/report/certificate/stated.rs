@@ -10,6 +10,9 @@ use crate::report::sheet::Figure;
 use crate::report::{conditions_text, plain};
 use crate::task::certificate::{Asked, Language, Line};
 
+/// Degrees of freedom that are printed as infinitely many.
+const MOST_DOF: f64 = 10_000.0;
+
 /// A row of the table.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Stated<'a> {
@@ -90,6 +93,7 @@ impl Stated<'_> {
     /// Effective degrees of freedom, their integer part (JCGM 100, G.4.1).
     pub(super) fn dof(&self) -> Figure {
         match self.statement.dof {
+            Dof::Finite(dof) if dof >= MOST_DOF => Figure { text: "∞".to_owned(), value: None },
             Dof::Infinite => Figure { text: "∞".to_owned(), value: None },
             Dof::Undefined => Figure::missing(),
             Dof::Finite(dof) if dof >= 1.0 => {

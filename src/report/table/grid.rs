@@ -66,11 +66,7 @@ impl Grid {
             match column.kind {
                 Kind::Numbers => grid.numbers(&column.header, cells),
                 Kind::Text => grid.text(&column.header, cells),
-                Kind::Units => {
-                    let constraint = Some(ColumnConstraint::ContentWidth);
-                    let cells = cells.collect();
-                    grid.push(&column.header, cells, CellAlignment::Left, constraint);
-                }
+                Kind::Units => grid.units(&column.header, cells),
             }
         }
         grid
@@ -81,8 +77,14 @@ impl Grid {
         self.push(header, cells.into_iter().collect(), CellAlignment::Left, None);
     }
 
+    /// A column of units, which never wrap.
+    pub(crate) fn units(&mut self, header: &str, cells: impl IntoIterator<Item = String>) {
+        let constraint = Some(ColumnConstraint::ContentWidth);
+        self.push(header, cells.into_iter().collect(), CellAlignment::Left, constraint);
+    }
+
     /// A column of texts that wrap only above a width.
-    pub(super) fn text_from(
+    pub(crate) fn text_from(
         &mut self,
         header: &str,
         width: usize,

@@ -9,7 +9,7 @@ use super::xml::Xml;
 use crate::certificate::Basis;
 use crate::model::Quantity;
 use crate::report::certificate::stated::{self, Stated};
-use crate::report::certificate::{Report, json, words};
+use crate::report::certificate::{Report, json, sentences, words};
 use crate::report::number::exact;
 use crate::task::certificate::{Language, Localized};
 use crate::unit::Unit;
@@ -202,11 +202,11 @@ fn intervals(xml: &mut Xml, report: &Report<'_>, rows: &[Stated<'_>], languages:
         .filter_map(|row| Some((row, row.interval(report)?.map(|end| end.text))))
         .collect();
     let Some((first, _)) = rows.first() else { return };
-    let numbers: Vec<String> = rows.iter().map(|(row, _)| row.number.to_string()).collect();
+    let numbers: Vec<usize> = rows.iter().map(|(row, _)| row.number).collect();
     xml.within("dcc:quantity", &[("refType", "basic_measuredValue")], |xml| {
         let rows_of = |language: &Language| {
-            let word = words::of(*language).rows;
-            (Some(*language), word.replace("{rows}", &numbers.join(", ")))
+            let said = sentences::about(&numbers, words::of(*language));
+            (Some(*language), said.trim_end_matches([':', ' ']).to_owned())
         };
         let name = both(["Coverage interval", "Überdeckungsintervall"]);
         xml.text("dcc:name", &name, languages);
@@ -240,7 +240,13 @@ fn attachments(xml: &mut Xml, report: &Report<'_>, languages: &[Language]) {
         let mut add = |about: [&str; 2], name: &str, kind: &str, bytes: &[u8]| {
             xml.element("dcc:byteData", |xml| {
                 xml.text("dcc:name", &both(about), languages);
-                xml.leaf("dcc:fileName", name);
+                // the name of the file alone: who saves it chooses the folder
+                let file = name.rsplit(['/', '\\']).next().unwrap_or(name);
+                if file != name {
+                    let named = Localized::plain(name);
+                    xml.text("dcc:description", &named, languages);
+                }
+                xml.leaf("dcc:fileName", file);
                 xml.leaf("dcc:mimeType", kind);
                 xml.leaf("dcc:dataBase64", &STANDARD.encode(bytes));
             });

@@ -39,11 +39,11 @@ pub(super) const WORDS: Words = Words {
     expanded: "U",
     unit: "unit",
     probability: "p in %",
-    low: "interval\nfrom",
-    high: "interval\nto",
+    low: "from",
+    high: "to",
 
     uncertainty: "Uncertainty of measurement",
-    rows: "Rows {rows}: ",
+    rows: ["Row {rows}: ", "Rows {rows}: "],
     and: " and ",
     normal: "The expanded uncertainty U is the standard uncertainty multiplied by the coverage factor \
         k = {k}; the result is normally distributed, so that the interval from value - U to value + U \
@@ -53,7 +53,7 @@ pub(super) const WORDS: Words = Words {
         freedom ν_eff in the table, and k is chosen so that the coverage probability is {p}.",
     fixed: "The expanded uncertainty U is the standard uncertainty multiplied by the agreed coverage \
         factor k = {k}. No distribution is supposed, so that no coverage probability is stated.",
-    shortest: "The result is not normally distributed. The interval in the table is the shortest one \
+    shortest: "The result is not normally distributed. The interval from - to in the table is the shortest one \
         with a coverage probability of {p}, found by the Monte Carlo method (JCGM 101:2008). U is the \
         distance of the value from its farther end, and k is U over the standard uncertainty.",
     propagation: "The standard uncertainty was evaluated by the law of propagation of uncertainty \

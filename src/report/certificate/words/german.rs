@@ -39,11 +39,11 @@ pub(super) const WORDS: Words = Words {
     expanded: "U",
     unit: "Einheit",
     probability: "p in %",
-    low: "Intervall\nvon",
-    high: "Intervall\nbis",
+    low: "von",
+    high: "bis",
 
     uncertainty: "Messunsicherheit",
-    rows: "Zeilen {rows}: ",
+    rows: ["Zeile {rows}: ", "Zeilen {rows}: "],
     and: " und ",
     normal: "Die erweiterte Messunsicherheit U ist die Standardmessunsicherheit, multipliziert mit dem \
         Erweiterungsfaktor k = {k}; das Ergebnis ist normalverteilt, sodass das Intervall von Wert - U \
@@ -55,7 +55,7 @@ pub(super) const WORDS: Words = Words {
     fixed: "Die erweiterte Messunsicherheit U ist die Standardmessunsicherheit, multipliziert mit dem \
         vereinbarten Erweiterungsfaktor k = {k}. Es wird keine Verteilung vorausgesetzt und daher keine \
         Überdeckungswahrscheinlichkeit angegeben.",
-    shortest: "Das Ergebnis ist nicht normalverteilt. Das Intervall der Tabelle ist das kürzeste mit \
+    shortest: "Das Ergebnis ist nicht normalverteilt. Das Intervall von - bis der Tabelle ist das kürzeste mit \
         einer Überdeckungswahrscheinlichkeit von {p}, ermittelt mit dem Monte-Carlo-Verfahren (JCGM \
         101:2008). U ist der Abstand des Werts vom weiter entfernten Ende, und k ist U geteilt durch \
         die Standardmessunsicherheit.",

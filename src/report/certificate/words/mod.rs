@@ -45,8 +45,8 @@ pub(super) struct Words {
     pub(super) high: &'static str,
 
     pub(super) uncertainty: &'static str,
-    /// Begins a sentence about some rows: `{rows}`.
-    pub(super) rows: &'static str,
+    /// Begins a sentence about one row, and about several: `{rows}`.
+    pub(super) rows: [&'static str; 2],
     pub(super) and: &'static str,
     /// `{k}`, `{p}`
     pub(super) normal: &'static str,
