@@ -258,7 +258,7 @@ certificate_case() {
   check "$name: GitHub's renderer shows its tables" github "$DIR/$name.markdown"
   check "$name: LibreOffice and Python read the stated figures" tables "$name"
   check "$name: pydcc reads the stated figures" \
-    "$PYTHON" tests/readers/dcc.py "$DIR/$name.json" "$DIR/$name.dcc"
+    "$PYTHON" tests/readers/digital_certificate.py "$DIR/$name.json" "$DIR/$name.dcc"
   if [ -n "${DCC_SCHEMA:-}" ]; then
     check "$name: the digital certificate is valid" \
       xmllint --nonet --noout --schema "$DCC_SCHEMA" "$DIR/$name.dcc"

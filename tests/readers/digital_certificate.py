@@ -1,4 +1,4 @@
-"""A digital calibration certificate read with pydcc: dcc.py ANSWER.json CERTIFICATE.xml
+"""A digital calibration certificate read with pydcc: digital_certificate.py ANSWER.json CERTIFICATE.xml
 
 The values, expanded uncertainties, coverage factors and intervals that it finds are those of the JSON
 answer. Signatures and the schema are not pydcc's part here: the libraries for the first want another
@@ -22,9 +22,6 @@ import dcc.dcc  # noqa: E402
 
 dcc.dcc.DCCXMLValidator = object
 
-SI = "{https://ptb.de/si}"
-
-
 def numbers(text):
     return [float(word) for word in text.split()]
 
@@ -33,7 +30,7 @@ def find(tree, name):
     """All texts of elements of that name in a tree of dictionaries and lists."""
     if isinstance(tree, dict):
         for key, value in tree.items():
-            if key == SI + name:
+            if key == name:
                 yield from (value if isinstance(value, list) else [value])
             else:
                 yield from find(value, name)
@@ -51,9 +48,10 @@ groups = {}
 for row in answer["rows"]:
     groups.setdefault((row["output"], row["unit"]), []).append(row["stated"])
 
-measured = [group for group in certificate.get_calibration_results("name") if list(find(group[1], "uncertaintyXMLList"))]
+results = [tree for _, tree in certificate.get_calibration_results("name")]
+measured = [tree for tree in results if list(find(tree, "uncertaintyXMLList"))]
 assert len(measured) == len(groups), (len(measured), len(groups))
-for (_, tree), rows in zip(measured, groups.values()):
+for tree, rows in zip(measured, groups.values()):
     for name, key in [
         ("valueXMLList", "value"),
         ("uncertaintyXMLList", "expanded_uncertainty"),
@@ -64,7 +62,7 @@ for (_, tree), rows in zip(measured, groups.values()):
 
 ends = [row["interval"] for rows in groups.values() for row in rows if row["interval"]]
 for place, name in enumerate(["intervalMinXMLList", "intervalMaxXMLList"]):
-    texts = [t for group in certificate.get_calibration_results("name") for t in find(group[1], name)]
+    texts = [text for tree in results for text in find(tree, name)]
     found = [number for text in texts for number in numbers(text)]
     assert found == [float(end[place]) for end in ends], (name, found)
 print(len(answer["rows"]), "rows,", len(ends), "intervals")
