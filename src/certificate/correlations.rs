@@ -48,15 +48,9 @@ pub(super) fn between(
         Some(if i == j { 1.0 } else { (covariance(a, b) / u / v).clamp(-1.0, 1.0) })
     };
     let count = parts.len();
-    let mut matrix = vec![vec![None; count]; count];
-    for i in 0..count {
-        for j in i..count {
-            let r = coefficient(i, j);
-            matrix[i][j] = r;
-            matrix[j][i] = r;
-        }
-    }
-    matrix
+    // each of the two halves of the matrix from the same sum
+    let row = |i: usize| (0..count).map(|j| coefficient(i.min(j), i.max(j))).collect();
+    (0..count).map(row).collect()
 }
 
 /// Contributions c u of a result by unknown value.

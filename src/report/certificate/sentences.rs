@@ -12,29 +12,21 @@ pub(super) fn coverage(report: &Report<'_>, language: Language) -> Vec<String> {
     let words = words::of(language);
     let rows = stated::rows(report);
     let mut said = Vec::new();
+    let mut say = |sentence: &str, holds: &dyn Fn(&Stated<'_>) -> bool| {
+        let of: Vec<usize> = rows.iter().filter(|row| holds(row)).map(|row| row.number).collect();
+        match of.len() {
+            0 => {}
+            count if count == rows.len() => said.push(sentence.to_owned()),
+            _ => said.push(about(&of, words) + sentence),
+        }
+    };
     for kind in kinds(&rows) {
-        let of: Vec<usize> =
-            rows.iter().filter(|row| kind.holds(row)).map(|row| row.number).collect();
-        let sentence = kind.sentence(words);
-        said.push(match of.len() == rows.len() {
-            true => sentence,
-            false => about(&of, words) + &sentence,
-        });
+        say(&kind.sentence(words), &|row| kind.holds(row));
     }
-    said.push(words.propagation.to_owned());
-    let confirmed =
-        |row: &Stated<'_>| row.found.validation.is_some_and(|v| v.gum_valid == Some(true));
-    if !rows.is_empty() && rows.iter().all(confirmed) {
-        said.push(words.confirmed.to_owned());
-    }
-    let raised: Vec<usize> = rows
-        .iter()
-        .filter(|row| row.statement.limit.is_some_and(|limit| limit.raised))
-        .map(|row| row.number)
-        .collect();
-    if !raised.is_empty() {
-        said.push(about(&raised, words) + words.raised);
-    }
+    say(words.propagation, &|row| row.statement.basis != Basis::Shortest);
+    say(words.raised, &|row| row.statement.limit.is_some_and(|limit| limit.raised));
+    say(words.confirmed, &|row| row.found.validation.is_some_and(|v| v.gum_valid == Some(true)));
+    said.push(words.time.to_owned());
     said.push(rounding(report, words));
     said
 }

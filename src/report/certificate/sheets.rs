@@ -4,7 +4,7 @@ use super::Report;
 use super::stated::{self, Stated};
 use super::words::{Words, stacked};
 use crate::model::Quantity;
-use crate::report::number::{MISSING, exact, rounded};
+use crate::report::number::{exact, rounded};
 use crate::report::plain;
 use crate::report::sheet::{Figure, Sheet};
 
@@ -94,13 +94,16 @@ pub(super) fn correlations(report: &Report<'_>) -> Sheet {
     let count = matrix.len();
     let mut sheet = Sheet::default();
     sheet.text("r", (1..count).map(|row| row.to_string()));
-    for j in 1..count {
-        let cells = (0..count.saturating_sub(1)).map(|i| match matrix[i][j] {
-            _ if i >= j => Figure { text: String::new(), value: None },
-            Some(r) => coefficient(r),
-            None => Figure { text: MISSING.to_owned(), value: None },
-        });
-        sheet.figures(&(j + 1).to_string(), cells);
+    for column in 1..count {
+        let cells =
+            matrix.iter().take(count - 1).enumerate().map(|(row, coefficients)| match coefficients
+                .get(column)
+            {
+                _ if row >= column => Figure { text: String::new(), value: None },
+                Some(Some(r)) => coefficient(*r),
+                _ => Figure::missing(),
+            });
+        sheet.figures(&(column + 1).to_string(), cells);
     }
     sheet
 }

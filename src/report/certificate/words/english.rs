@@ -57,8 +57,8 @@ pub(super) const WORDS: Words = Words {
         with a coverage probability of {p}, found by the Monte Carlo method (JCGM 101:2008). U is the \
         distance of the value from its farther end, and k is U over the standard uncertainty.",
     propagation: "The standard uncertainty was evaluated by the law of propagation of uncertainty \
-        (JCGM 100:2008) as EA-4/02 M:2022 asks; it does not include how the device will behave over \
-        time.",
+        (JCGM 100:2008), as EA-4/02 M:2022 asks.",
+    time: "The uncertainties do not include how the device will behave over time.",
     confirmed: "The Monte Carlo method (JCGM 101:2008, clause 8) confirms these intervals.",
     rounding: "U has {digits} ({rule}); the value is rounded to the same place.",
     rules: [

@@ -60,8 +60,8 @@ pub(super) const WORDS: Words = Words {
         101:2008). U ist der Abstand des Werts vom weiter entfernten Ende, und k ist U geteilt durch \
         die Standardmessunsicherheit.",
     propagation: "Die Standardmessunsicherheit wurde nach dem Fortpflanzungsgesetz der \
-        Messunsicherheit (JCGM 100:2008) ermittelt, wie EA-4/02 M:2022 es verlangt; wie sich der \
-        Gegenstand auf Dauer verhält, ist darin nicht enthalten.",
+        Messunsicherheit (JCGM 100:2008) ermittelt, wie EA-4/02 M:2022 es verlangt.",
+    time: "Wie sich der Gegenstand auf Dauer verhält, ist in den Unsicherheiten nicht enthalten.",
     confirmed: "Das Monte-Carlo-Verfahren (JCGM 101:2008, Abschnitt 8) bestätigt diese Intervalle.",
     rounding: "U hat {digits} ({rule}); der Wert ist auf dieselbe Stelle gerundet.",
     rules: [

@@ -57,6 +57,8 @@ pub(super) struct Words {
     /// `{p}`
     pub(super) shortest: &'static str,
     pub(super) propagation: &'static str,
+    /// About all rows.
+    pub(super) time: &'static str,
     pub(super) confirmed: &'static str,
     /// `{rule}`; digits stand in it.
     pub(super) rounding: &'static str,
