@@ -7,6 +7,7 @@ mod adaptive;
 mod assumptions;
 mod cases;
 mod catalogue;
+mod certificate;
 mod commands;
 mod compare;
 mod conformity;
