@@ -4,6 +4,7 @@
 #![allow(clippy::print_stderr)]
 
 mod adaptive;
+mod benches;
 mod cases;
 mod catalogue;
 mod commands;
