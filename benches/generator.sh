@@ -42,7 +42,7 @@ for order in trials blocks inputs seeds; do
         { "$bits" "$order" || true; } |
             dieharder -g 200 $test "${multiply[@]}" -Y 1 -k 2 -c , -D test_name -D ntuple -D tsamples \
                 -D psamples -D pvalues -D assessment |
-            sed "s/^ */$order,/; s/ *, */,/g" | tee -a "$log" >&2
+            sed "s/^ */$order,/; s/ *, */,/g; s/ *$//" | tee -a "$log" >&2
     done
 done
 

@@ -1,5 +1,7 @@
 """The goals of gumption's speed and what was measured."""
 
+import statistics
+
 from contest import median, ratio
 
 MB = 1e6
@@ -117,9 +119,11 @@ class Goals:
             self.add(what, CAP + 16, capped["peak_mb"], show=show, least=False)
             value = ratio(capped, lines["one pass"])
             self.add(f"time of the capped run against one pass, {trials}", 2, value, least=False)
-        process = self.results["process"]["median_s"]
-        what = "`gumption run` on W1 at 1e6 trials, start to exit"
-        self.add(what, 0.040, process, show=seconds, least=False, wall=True)
+        process = {k: statistics.median(v) for k, v in self.results["process"].items()}
+        what = "`gumption run` on W1 at 1e6 trials, start to exit, all threads, wall"
+        self.add(what, 0.040, process["wall_s"], show=seconds, least=False, wall=True)
+        what = "the same, CPU time"
+        self.add(what, 0.040, process["cpu_s"], show=seconds, least=False)
         adaptive = self.results["adaptive"]
         what = "adaptive run to three digits on W1 against as many trials"
         for suffix, clock in (("", "cpu_s"), (", 2 threads", "wall_s")):

@@ -19,6 +19,7 @@ def main():
     parser.add_argument("--command-binary", required=True)
     parser.add_argument("--paths", required=True, help="code paths, slowest first")
     parser.add_argument("--quick", action="store_true")
+    parser.add_argument("--rounds", type=int, default=9, help="of a comparison, at most")
     parser.add_argument("--render", action="store_true", help="from the kept measurements")
     parser.add_argument("--output", type=Path, default=Path("reports"))
     arguments = parser.parse_args()
@@ -27,7 +28,8 @@ def main():
         results = json.loads(kept.read_text())
     else:
         paths = arguments.paths.split(",")
-        plan = Plan(arguments.workload_binary, arguments.command_binary, paths, arguments.quick)
+        binaries = arguments.workload_binary, arguments.command_binary
+        plan = Plan(*binaries, paths, arguments.quick, arguments.rounds)
         results = plan.everything()
         results["machine"], results["versions"] = machine.kind(paths), machine.versions()
         arguments.output.mkdir(parents=True, exist_ok=True)

@@ -1,6 +1,7 @@
 """What is measured."""
 
 import os
+import resource
 import statistics
 import subprocess
 import sys
@@ -15,9 +16,10 @@ PEERS = os.path.join(os.path.dirname(__file__), "..", "peers.py")
 class Plan:
     """`paths`: the machine's code paths, slowest first."""
 
-    def __init__(self, workload_binary, command_binary, paths, quick):
+    def __init__(self, workload_binary, command_binary, paths, quick, most_rounds):
         self.binary, self.command = workload_binary, command_binary
         self.paths, self.quick = paths, quick
+        self.most_rounds = most_rounds
         self.best = paths[-1]
 
     def engine(self, name, workload, trials, threads=1, path=None, memory=64):
@@ -41,7 +43,7 @@ class Plan:
         print(what, file=sys.stderr, flush=True)
 
     def rounds(self, full):
-        return 3 if self.quick else full
+        return min(3 if self.quick else full, self.most_rounds)
 
     # ------------------------------------------------------------------------------ the workloads
 
@@ -85,10 +87,10 @@ class Plan:
         trials = "1e8" if self.quick else "1e9"
         self.say(f"W1, {trials}, with and without the cap")
         contenders = [
-            self.engine("capped", "W1", trials, threads=0),
-            self.engine("one pass", "W1", trials, threads=0, memory=8192),
+            self.engine("capped", "W1", trials),
+            self.engine("one pass", "W1", trials, memory=8192),
         ]
-        return {trials: contest(contenders, 1 if self.quick else 3)}
+        return {trials: contest(contenders, 1)}
 
     # ---------------------------------------------------------------------------------- adaptive
 
@@ -110,22 +112,30 @@ class Plan:
     # ----------------------------------------------------------------------------- whole command
 
     def process(self):
-        """Wall seconds of `gumption run` on W1 at 1e6 trials, from process start to exit."""
+        """Seconds of `gumption run` on W1 at 1e6 trials, from process start to exit."""
         self.say("gumption run")
         command = [self.command, "run", "benches/models/plane_typed.json", "--quiet"]
-        seconds = []
+        wall, cpu = [], []
         for _ in range(self.rounds(31) + 1):
-            start = time.perf_counter()
+            start, before = time.perf_counter(), self.children()
             subprocess.run(command, stdout=subprocess.DEVNULL, check=True)
-            seconds.append(time.perf_counter() - start)
-        return {"wall_s": seconds[1:], "median_s": statistics.median(seconds[1:])}
+            wall.append(time.perf_counter() - start)
+            cpu.append(self.children() - before)
+        # the first one reads the program from the disk
+        return {"wall_s": wall[1:], "cpu_s": cpu[1:]}
+
+    @staticmethod
+    def children():
+        """CPU seconds of the processes that have ended."""
+        used = resource.getrusage(resource.RUSAGE_CHILDREN)
+        return used.ru_utime + used.ru_stime
 
     # -------------------------------------------------------------------------------- the curves
 
     def trials(self):
         """Time against trials of W1."""
-        most = 6 if self.quick else 9
-        limits = {"gumption": 9, "numpy": 7, "numba-partition": 8}
+        most = 6 if self.quick else 8
+        limits = {"gumption": 8, "numpy": 7, "numba-partition": 8}
         curves = {name: [] for name in limits}
         for power in range(4, most + 1):
             trials = f"1e{power}"
@@ -209,8 +219,13 @@ class Plan:
         return done
 
     def everything(self):
+        memory = self.memory()
+        curve = self.trials()
+        for trials, lines in memory.items():
+            curve["gumption"].append([int(float(trials)), lines["capped"]["cpu_s"][0]])
         return {
             "quick": self.quick,
+            "most_rounds": self.most_rounds,
             "paths": self.paths,
             "workloads": self.workloads(),
             "adaptive": self.adaptive(),
@@ -218,6 +233,6 @@ class Plan:
             "inputs": self.inputs(),
             "threads": self.threads(),
             "large": self.large(),
-            "trials": self.trials(),
-            "memory": self.memory(),
+            "trials": curve,
+            "memory": memory,
         }

@@ -50,6 +50,8 @@ def opening(results):
     ]
     if results["quick"]:
         lines += ["**Quick form**: few trials and few repeats; only shows that everything runs.", ""]
+    if not results["quick"] and results["most_rounds"] < 5:
+        lines += [f"Medians of {results['most_rounds']} repeats only (`--rounds`).", ""]
     share = waiting(results)
     if share > BUSY:
         lines += [
