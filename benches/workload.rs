@@ -8,11 +8,12 @@
 //! With `--on-demand` it makes one repeat for each line of standard input, so that several tools
 //! can be measured in turn; it answers `ready` after the warm-up and `done` after each repeat, and
 //! prints the JSON at the end of input. Without a workload it tries all of them on a few trials.
-#![allow(missing_docs, clippy::print_stdout, clippy::print_stderr)]
+#![allow(missing_docs, clippy::print_stderr)]
 
 mod measure;
 
-use std::io::BufRead;
+use std::fmt::Display;
+use std::io::{BufRead, Write};
 use std::process::ExitCode;
 use std::time::Instant;
 
@@ -120,6 +121,12 @@ fn trials_made(evaluation: &Evaluation) -> Option<u64> {
     Some(evaluation.rows.first()?.outputs.first()?.monte_carlo.as_ref()?.trials)
 }
 
+/// A line on standard output; an error if nobody reads it any more.
+fn say(line: impl Display) -> Result<(), String> {
+    let mut out = std::io::stdout();
+    writeln!(out, "{line}").and_then(|()| out.flush()).map_err(|e| e.to_string())
+}
+
 /// The task and that of its warm-up.
 fn tasks(name: &str, arguments: &Arguments) -> Result<[Task; 2], String> {
     let adaptive = arguments.trials == "adaptive";
@@ -153,11 +160,11 @@ fn measured(name: &str, arguments: &Arguments) -> Result<Value, String> {
         Ok::<(), String>(())
     };
     if arguments.on_demand {
-        println!("ready");
+        say("ready")?;
         for line in std::io::stdin().lock().lines() {
             line.map_err(|e| e.to_string())?;
             repeat()?;
-            println!("done");
+            say("done")?;
         }
     } else {
         for _ in 0..arguments.repeats {
@@ -184,22 +191,17 @@ fn tried() -> Result<(), String> {
     let names = "W1 W1-formula W2 W3 W4 W5 sum:10 correlated:10 formula:100 outputs:10";
     let arguments = Arguments::parse_from(["workload", "--trials", "1000", "--repeats", "1"]);
     for name in names.split_whitespace() {
-        println!("{}", measured(name, &arguments)?);
+        say(measured(name, &arguments)?)?;
     }
     Ok(())
 }
 
 fn main() -> ExitCode {
     let arguments = Arguments::parse();
-    if arguments.paths {
-        println!(
-            "{}",
-            CodePath::available().into_iter().map(CodePath::name).collect::<Vec<_>>().join(",")
-        );
-        return ExitCode::SUCCESS;
-    }
+    let paths = CodePath::available().into_iter().map(CodePath::name).collect::<Vec<_>>();
     let done = match &arguments.workload {
-        Some(name) => measured(name, &arguments).map(|line| println!("{line}")),
+        _ if arguments.paths => say(paths.join(",")),
+        Some(name) => measured(name, &arguments).and_then(say),
         None => tried(),
     };
     match done {
