@@ -50,8 +50,10 @@
 
 #![deny(unsafe_code)]
 
+pub mod assumptions;
 #[cfg(feature = "cli")]
 pub mod command;
+pub mod compare;
 pub mod diff;
 pub mod distribution;
 pub mod file;

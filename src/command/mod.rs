@@ -1,6 +1,8 @@
 //! The command line: arguments in, exit code out. One file for each subcommand.
 
+mod assumptions;
 mod check;
+mod compare;
 mod diff;
 mod exit;
 mod gap;
@@ -33,8 +35,12 @@ struct Arguments {
 enum Command {
     /// Evaluate a model file by GUM and by Monte Carlo and print its budget and intervals
     Run(run::Run),
+    /// Test the Type B assumptions of a model file: which matter, which the readings contradict
+    Assumptions(assumptions::Assumptions),
     /// Check a model file and list all of its mistakes
     Check(check::Check),
+    /// Compare results two by two (normalized errors), or those of many laboratories
+    Compare(compare::Compare),
     /// List the typed measurement models, or describe one
     Models(models::Models),
     /// Recompute the published examples on this machine, or compare its code paths
@@ -54,7 +60,9 @@ pub fn main() -> ExitCode {
     let arguments = Arguments::parse();
     let result = match arguments.command {
         Command::Run(command) => command.execute(),
+        Command::Assumptions(command) => command.execute(),
         Command::Check(command) => command.execute(),
+        Command::Compare(command) => command.execute(),
         Command::Models(command) => command.execute(),
         Command::Verify(command) => command.execute(),
         Command::Diff(command) => command.execute(),

@@ -21,6 +21,25 @@ pub(super) enum Format {
     Csv,
 }
 
+/// The format of an answer that goes to people in many ways.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum Page {
+    /// A page of text for people
+    Table,
+    /// The whole answer for programs
+    Json,
+    /// One line for each output
+    Csv,
+    /// A page as GitHub shows it
+    Markdown,
+    /// A LaTeX file for `article` with `booktabs` and `siunitx`
+    Latex,
+    /// A page with figures for a browser and for print, in one file
+    Html,
+    /// A workbook with the budget in live formulas
+    Xlsx,
+}
+
 /// How the answer is given.
 #[derive(Debug, Args)]
 pub(super) struct Answer {

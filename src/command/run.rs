@@ -1,17 +1,18 @@
 //! `gumption run`
 
-use std::io::Write;
+use std::io::{self, IsTerminal, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use clap::{Args, ValueEnum};
 use sha2::{Digest, Sha256};
 
-use super::options::{self, Answer, Format};
+use super::options::{self, Page};
 use super::{Exit, Failure, output, progress, save};
 use crate::file::{self, Fault, ModelFile, Override, Problem, Problems};
-use crate::propagate::{Control, Evaluation, EvaluationError, evaluate, warnings};
-use crate::report::{self, Column, Provenance, Report, Style};
+use crate::propagate::monte_carlo::Histogram;
+use crate::propagate::{Control, Evaluation, EvaluationError, evaluate, histograms, warnings};
+use crate::report::{self, Column, Provenance, Report, Shown, Style};
 use crate::task::{Coverage, StoppingRule, Task, Trials, Warning};
 
 /// Evaluate a model file.
@@ -19,8 +20,15 @@ use crate::task::{Coverage, StoppingRule, Task, Trials, Warning};
 pub(super) struct Run {
     /// The model file; - for standard input
     model: PathBuf,
-    #[command(flatten)]
-    answer: Answer,
+    /// Format of the answer
+    #[arg(long, value_enum, default_value = "table")]
+    format: Page,
+    /// Write the answer to this file instead of standard output
+    #[arg(long, value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// No progress, notes or warnings on standard error
+    #[arg(long)]
+    quiet: bool,
     /// Seed of the random streams
     #[arg(long, value_name = "N")]
     seed: Option<u64>,
@@ -59,6 +67,9 @@ pub(super) struct Run {
     /// More columns of the budget in a table: names with commas between them
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = options::columns())]
     columns: Vec<Column>,
+    /// Draw the distribution of each output below the table, with the coverage intervals
+    #[arg(long)]
+    histogram: bool,
     /// Write a result file, from which inputs of other models can be taken
     #[arg(long, value_name = "FILE")]
     save: Option<PathBuf>,
@@ -69,6 +80,9 @@ pub(super) struct Run {
     #[arg(long)]
     fail: bool,
 }
+
+/// Rows of conditions whose distributions are drawn in a terminal, at most.
+const MOST_DRAWN_ROWS: usize = 100;
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
 enum DofRule {
@@ -85,6 +99,7 @@ impl Run {
             return Err(Failure::Argument(reason.to_owned()));
         }
         save::check(&task, self.save.as_deref(), self.samples.as_ref())?;
+        self.check_format(&task)?;
         let stop = progress::stop_flag();
         let (evaluation, warnings) = self.evaluate(&file, &task, &stop)?;
         let provenance = provenance(&text, &file.files);
@@ -94,22 +109,25 @@ impl Run {
             warnings: &warnings,
             provenance: &provenance,
         };
-        let answer = |out: &mut dyn Write| match self.answer.format {
-            Format::Table => {
-                let style = Style { columns: self.columns.clone(), ..Style::default() };
-                report::write_table(&report, &style, out)
-            }
-            Format::Json => report::write_json(&report, out),
-            Format::Csv => report::write_csv(&report, out),
-        };
-        if !self.answer.quiet {
+        if !self.quiet {
             say(&warnings);
         }
         if evaluation.stopped || stop.load(Ordering::Relaxed) {
-            output::write_with(None, answer)?;
+            // a workbook is no answer on a screen
+            let format = if self.format == Page::Xlsx { Page::Table } else { self.format };
+            let shown = Shown { columns: &self.columns, ..Shown::default() };
+            output::write_with(None, |out| write(format, &report, &shown, out))?;
             return Ok(Exit::Interrupted);
         }
         let control = self.control(&stop);
+        let histograms = self.histograms(&report, &control)?;
+        let replaced: Vec<String> = self.replacements.iter().map(|set| set.text.clone()).collect();
+        let shown = Shown {
+            columns: &self.columns,
+            histograms: &histograms,
+            replaced: &replaced,
+            model: &text,
+        };
         let saver = save::Saver { report: &report, control: &control };
         if let Some(path) = &self.save {
             saver.result(path)?;
@@ -120,8 +138,66 @@ impl Run {
         if stop.load(Ordering::Relaxed) {
             return Ok(Exit::Interrupted);
         }
-        output::write_with(self.answer.output.as_deref(), answer)?;
+        output::write_with(self.output.as_deref(), |out| write(self.format, &report, &shown, out))?;
         Ok(if self.fail && is_refuted(&evaluation) { Exit::No } else { Exit::Done })
+    }
+
+    /// Whether the answer can be given in the format that was asked for.
+    fn check_format(&self, task: &Task) -> Result<(), Failure> {
+        let refuse = |reason: &str| Err(Failure::Argument(reason.to_owned()));
+        if self.format == Page::Xlsx && self.output.is_none() && io::stdout().is_terminal() {
+            return refuse(
+                "a workbook cannot be shown in a terminal; add `--output FILE.xlsx`, or give it \
+                 to a pipe",
+            );
+        }
+        let results = task.rows.len().saturating_mul(task.model.outputs.len());
+        if self.format == Page::Xlsx && results > report::MOST_RESULTS {
+            return Err(Failure::Argument(format!(
+                "there are {results} results, but a workbook takes at most {}; take \
+                 `--format csv`, or evaluate fewer rows of conditions",
+                report::MOST_RESULTS
+            )));
+        }
+        if !self.histogram {
+            return Ok(());
+        }
+        if self.format != Page::Table {
+            return refuse(
+                "`--histogram` goes with `--format table`; `--format html` shows the distribution \
+                 without it",
+            );
+        }
+        if task.settings.trials == Trials::Fixed(0) {
+            return refuse("`--histogram` needs Monte Carlo trials, but their number is 0");
+        }
+        if task.rows.len() > MOST_DRAWN_ROWS {
+            return Err(Failure::Argument(format!(
+                "`--histogram` draws at most {MOST_DRAWN_ROWS} rows of conditions, but there are \
+                 {}; evaluate fewer of them",
+                task.rows.len()
+            )));
+        }
+        Ok(())
+    }
+
+    /// For each row the histograms of its outputs, where the answer shows them.
+    fn histograms(
+        &self,
+        report: &Report<'_>,
+        control: &Control<'_>,
+    ) -> Result<Vec<Vec<Option<Histogram>>>, Failure> {
+        let Report { task, evaluation, .. } = *report;
+        let rows = match self.format {
+            Page::Html if evaluation.rows.len() == 1 => 1,
+            Page::Table if self.histogram => evaluation.rows.len(),
+            _ => 0,
+        };
+        let mut all = Vec::with_capacity(rows);
+        for row in 0..rows {
+            all.push(histograms(task, evaluation, row, control)?.unwrap_or_default());
+        }
+        Ok(all)
     }
 
     fn read(&self) -> Result<(String, ModelFile), Failure> {
@@ -173,7 +249,7 @@ impl Run {
             Trials::Fixed(trials) => Some(trials.saturating_mul(rows)),
             Trials::Adaptive => None,
         };
-        let bar = progress::bar(trials, self.answer.quiet);
+        let bar = progress::bar(trials, self.quiet);
         let advance = |trials: u64| bar.inc(trials);
         let control = Control { progress: Some(&advance), ..self.control(stop) };
         let result = evaluate(task, &control);
@@ -185,12 +261,36 @@ impl Run {
     }
 }
 
+/// Writes the answer in a format.
+fn write(
+    format: Page,
+    report: &Report<'_>,
+    shown: &Shown<'_>,
+    out: &mut dyn Write,
+) -> io::Result<()> {
+    match format {
+        Page::Table => {
+            let style = Style { columns: shown.columns.to_vec(), ..Style::default() };
+            report::write_table(report, &style, &mut *out)?;
+            out.write_all(report::histograms(report, shown).as_bytes())
+        }
+        Page::Json => report::write_json(report, out),
+        Page::Csv => report::write_csv(report, out),
+        Page::Markdown => out.write_all(report::markdown(report, shown).as_bytes()),
+        Page::Latex => out.write_all(report::latex(report, shown).as_bytes()),
+        Page::Html => out.write_all(report::html(report, shown).as_bytes()),
+        Page::Xlsx => out.write_all(&report::xlsx(report, shown)?),
+    }
+}
+
 /// An evaluation that failed, as a mistake with its place where it is the user's.
-fn failure(file: &ModelFile, error: EvaluationError) -> Failure {
+pub(super) fn failure(file: &ModelFile, error: EvaluationError) -> Failure {
     let message = error.to_string();
     match error {
         EvaluationError::Threads(_) => Failure::System(message),
-        EvaluationError::Undefined { .. } | EvaluationError::Correlation { .. } => {
+        EvaluationError::Undefined { .. }
+        | EvaluationError::NotFinite { .. }
+        | EvaluationError::Correlation { .. } => {
             let (source, span) = file.output_place(0);
             let fault = Fault::Evaluation { message };
             Failure::Problems(Problems(vec![Problem { source, span, fault }]))

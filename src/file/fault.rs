@@ -69,8 +69,6 @@ pub enum Fault {
     },
     /// No distribution of that name.
     UnknownDistribution { name: String, nearest: Option<String> },
-    /// A part of the contract that this version does not do.
-    NotBuilt { what: String },
     /// Parameters that no distribution has.
     Distribution { name: String, error: Invalid },
     /// Two keys that say the same thing in different ways.
@@ -169,7 +167,6 @@ impl Fault {
             Self::Unit { .. } => "bad-unit",
             Self::WrongDimension { .. } => "wrong-dimension",
             Self::UnknownDistribution { .. } => "unknown-distribution",
-            Self::NotBuilt { .. } => "not-built",
             Self::Distribution { .. } => "bad-distribution",
             Self::Exclusive { .. } => "exclusive-keys",
             Self::NoCoverage { .. } => "no-coverage",
@@ -333,7 +330,6 @@ impl fmt::Display for Fault {
                     hint(nearest.as_ref(), &list(&known))
                 )
             }
-            Self::NotBuilt { what } => write!(f, "{what}: this version cannot do that yet"),
             Self::Distribution { name, error } => write!(f, "`{name}`: {error}"),
             Self::Exclusive { first, second } => {
                 write!(f, "`{first}` and `{second}` say the same thing; take one of them out")

@@ -18,7 +18,7 @@ use super::shapes::{self, Estimate, Fields, Kind};
 use crate::distribution::{Constant, Distribution, Evaluation, Samples};
 use crate::model::formula::Formula;
 use crate::model::{InputQuantity, Quantity};
-use crate::task::{Sharing, Variable, Warning};
+use crate::task::{Evidence, Sharing, Variable, Warning};
 use crate::unit::Unit;
 
 /// At most so many variables.
@@ -59,6 +59,8 @@ pub(super) struct Inputs {
     pub(super) files: Vec<(String, Vec<u8>)>,
     /// The variables whose readings are said to be paired.
     pub(super) paired: Vec<usize>,
+    /// Readings that distributions are to be tested against.
+    pub(super) evidence: Vec<Evidence>,
 }
 
 /// Where a quantity's estimate comes from.
@@ -250,8 +252,8 @@ impl<'a> Reader<'a, '_> {
         }
     }
 
-    /// Readings that the distribution is to be tested against: their form alone.
-    fn evidence(&self) {
+    /// Readings that the distribution is to be tested against.
+    fn evidence(&mut self) {
         let log = self.object.log;
         let Some(member) = self.object.get("evidence") else {
             return;
@@ -261,11 +263,17 @@ impl<'a> Reader<'a, '_> {
             return;
         };
         object.check_keys(&["values", "file"]);
-        object.numbers("values");
-        object.text("file");
-        if ["values", "file"].iter().all(|key| object.get(key).is_none()) {
-            object.report(Fault::NoValues { name: format!("{}/evidence", self.name) });
+        let name = format!("{}/evidence", self.name);
+        let files = &mut self.inputs.files;
+        let Some((readings, place)) = samples::numbers(&object, &name, self.folder, files) else {
+            return;
+        };
+        if readings.is_empty() {
+            log.report(place, Fault::NoValues { name });
+            return;
         }
+        let variable = self.inputs.variables.len();
+        self.inputs.evidence.push(Evidence { variable, readings });
     }
 
     /// The samples of an input or component, if that is its shape.

@@ -3,9 +3,11 @@
 //! Reading goes on after a mistake, so that all of a file's mistakes are reported at once; only
 //! text that is not JSON stops it.
 
+mod answer;
 pub(crate) mod bytes;
 mod case;
 mod catalogue;
+mod comparison;
 mod conditions;
 mod correlations;
 mod effects;
@@ -34,6 +36,7 @@ mod size;
 mod soundness;
 mod source;
 mod table;
+mod text_table;
 mod variant;
 mod width;
 
@@ -42,6 +45,7 @@ pub use case::{
     read_text as read_case_text,
 };
 pub use catalogue::{Listed, ListedParameter, Listing, catalogue};
+pub use comparison::{ComparisonOptions, ComparisonTable, read_comparison, read_comparison_text};
 pub use either::{ModelOrResult, read_either, read_either_text};
 pub use fault::Fault;
 pub use model_file::{ModelFile, Override, Overrides, read, read_text};

@@ -22,7 +22,7 @@ use crate::distribution::Fits;
 use crate::model::formula::{self, Formula, Scope, Typing};
 use crate::model::typed::{Entry, find};
 use crate::model::{InputQuantity, Maker as SimMaker, Sim, typed};
-use crate::task::{Observed, Row, Task, Warning};
+use crate::task::{Evidence, Observed, Row, Task, Warning};
 use crate::unit::{Dimension, Unit};
 
 /// A model file that was read and found right.
@@ -38,6 +38,8 @@ pub struct ModelFile {
     pub files: Vec<(String, Vec<u8>)>,
     /// Where each output stands in the file, for messages of the evaluation.
     pub output_places: Vec<Range<usize>>,
+    /// Readings that what is assumed about inputs can be tested against.
+    pub evidence: Vec<Evidence>,
 }
 
 /// A replacement from the command line: `NAME=VALUE` or `NAME.field=VALUE`.
@@ -321,7 +323,8 @@ impl<'a> ModelReader<'a> {
             None if self.names_simulation() => Some(Inputs::default()),
             None => root.required("inputs").and(None),
         };
-        let outputs = root.required("outputs").and_then(|member| outputs::read(log, member));
+        let outputs =
+            root.required("outputs").and_then(|member| outputs::read(log, member, &results));
         let (inputs, outputs) = (inputs?, outputs.unwrap_or_default());
         self.names(&inputs, &conditions, &maker);
         let (rows, outputs_found) = (conditions.rows.len(), outputs.outputs.len());
@@ -438,7 +441,8 @@ impl<'a> ModelReader<'a> {
             fits,
         };
         let source = log.source.clone();
-        let file = ModelFile { task, warnings, source, files, output_places: places };
+        let evidence = inputs.evidence;
+        let file = ModelFile { task, warnings, source, files, output_places: places, evidence };
         let data = observations.map(|observations| observations.table);
         Some(Found { file, sim, observed, simulated: simulated.len(), data })
     }

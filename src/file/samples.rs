@@ -1,6 +1,7 @@
 //! The samples of an empirical distribution: a list in the model file, or a file with one number a
 //! line.
 
+use std::ops::Range;
 use std::path::Path;
 
 use super::object::Object;
@@ -22,24 +23,36 @@ pub(super) fn read(
     folder: &Path,
     files: &mut Vec<(String, Vec<u8>)>,
 ) -> Option<Samples> {
-    let (values, place) = match (object.get("file"), object.get("values")) {
-        (Some(_), Some(second)) => {
-            let fault = Fault::Exclusive { first: "file", second: "values" };
-            object.log.report(&second.key_span, fault);
-            return None;
-        }
-        (Some(member), None) => {
-            (from_file(object, object.text("file")?, folder, files)?, &member.value.span)
-        }
-        (None, Some(member)) => (object.numbers("values")?, &member.value.span),
-        (None, None) => {
-            object.report(Fault::NoValues { name: name.to_owned() });
-            return None;
-        }
-    };
+    let (values, place) = numbers(object, name, folder, files)?;
     let samples = Samples::new(values);
     let fault = |error| Fault::Distribution { name: name.to_owned(), error };
     object.log.value(place, samples.map_err(fault))
+}
+
+/// The numbers of the object's `values` or of its `file` in `folder`, whose content is added to
+/// `files`, and where they are named; `name` is what they belong to.
+pub(super) fn numbers<'a>(
+    object: &Object<'a>,
+    name: &str,
+    folder: &Path,
+    files: &mut Vec<(String, Vec<u8>)>,
+) -> Option<(Vec<f64>, &'a Range<usize>)> {
+    match (object.get("file"), object.get("values")) {
+        (Some(_), Some(second)) => {
+            let fault = Fault::Exclusive { first: "file", second: "values" };
+            object.log.report(&second.key_span, fault);
+            None
+        }
+        (Some(member), None) => {
+            let values = from_file(object, object.text("file")?, folder, files)?;
+            Some((values, &member.value.span))
+        }
+        (None, Some(member)) => Some((object.numbers("values")?, &member.value.span)),
+        (None, None) => {
+            object.report(Fault::NoValues { name: name.to_owned() });
+            None
+        }
+    }
 }
 
 fn from_file(
@@ -76,7 +89,7 @@ fn from_file(
     Some(numbers)
 }
 
-type Faults = Vec<(std::ops::Range<usize>, Fault)>;
+type Faults = Vec<(Range<usize>, Fault)>;
 
 /// The numbers of a text, one a line; empty lines and those that begin with `#` are skipped.
 fn parse(text: &str) -> Result<Vec<f64>, Faults> {

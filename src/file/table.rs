@@ -193,7 +193,7 @@ fn is_skipped(line: Option<&str>) -> bool {
 
 /// The place of a cell in its line; the whole line where quotes make that uncertain. An empty cell is
 /// shown by the separator before or after it.
-fn place_of_cell(line: &Place, number: usize, semicolon: bool) -> Place {
+pub(super) fn place_of_cell(line: &Place, number: usize, semicolon: bool) -> Place {
     let text = line.source.text.get(line.span.clone()).unwrap_or("");
     let separator = if semicolon { ';' } else { ',' };
     if text.contains('"') {

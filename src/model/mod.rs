@@ -10,11 +10,16 @@ mod sim;
 mod trace;
 pub mod typed;
 
+#[cfg(feature = "cli")]
+pub(crate) use program::Node;
 pub use program::Program;
 pub(crate) use schedule::{Place, Schedule};
 pub use sim::{Circular, Effect, Maker, Sim};
 pub use trace::{Recorder, Traced};
 
+use std::sync::Arc;
+
+use crate::distribution::Distribution;
 use crate::unit::Unit;
 
 /// A named quantity with its unit.
@@ -47,6 +52,31 @@ pub struct Output {
     pub period: Option<f64>,
     /// The limits that a conforming value lies within, in the output's unit.
     pub tolerance: Option<Tolerance>,
+    /// What was known about the values of the items before measuring, in the output's unit; for
+    /// global risks.
+    pub prior: Option<Arc<Distribution>>,
+    /// The risk of false acceptance that is wanted; simple acceptance without one.
+    pub risk: Option<f64>,
+    /// The smallest expanded uncertainty that the laboratory may state.
+    pub capability: Option<Capability>,
+}
+
+/// A laboratory's calibration and measurement capability (CMC), in the output's unit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Capability {
+    /// Share of the modulus of the estimate.
+    pub relative: f64,
+    /// What is added to that.
+    pub absolute: f64,
+    /// Whether a smaller expanded uncertainty is raised to it.
+    pub floor: bool,
+}
+
+impl Capability {
+    /// The smallest expanded uncertainty at an estimate.
+    pub fn at(&self, estimate: f64) -> f64 {
+        self.relative * estimate.abs() + self.absolute
+    }
 }
 
 /// Tolerance limits of an output; at least one is given (JCGM 106).
@@ -59,6 +89,16 @@ pub struct Tolerance {
 }
 
 impl Tolerance {
+    /// The limits, infinite where there is none.
+    pub fn ends(&self) -> [f64; 2] {
+        [self.lower.unwrap_or(f64::NEG_INFINITY), self.upper.unwrap_or(f64::INFINITY)]
+    }
+
+    /// The limits moved inwards by a width.
+    pub fn narrowed(&self, width: f64) -> Self {
+        Self { lower: self.lower.map(|l| l + width), upper: self.upper.map(|u| u - width) }
+    }
+
     /// Whether a value lies within the limits.
     pub fn holds(&self, value: f64) -> bool {
         self.lower.is_none_or(|lower| value >= lower) && self.upper.is_none_or(|u| value <= u)

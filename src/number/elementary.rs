@@ -104,18 +104,40 @@ fn sin_cos_octant(angle: f64) -> (f64, f64) {
     (sin, cos)
 }
 
+/// The nearest whole number of quarter turns of an angle, as a number and in the low bits of
+/// another.
+#[inline(always)]
+fn quarters(x: f64) -> (f64, u64) {
+    let rounded = x * FRAC_2_PI + ROUNDER;
+    (rounded - ROUNDER, rounded.to_bits())
+}
+
+/// What is left of an angle without `n` quarter turns.
+#[inline(always)]
+fn without_quarters(x: f64, n: f64) -> f64 {
+    // The first product and difference are exact; the second product is small, so that only the
+    // rounding of the last difference is left.
+    (x - n * PI_HALF_1) - n * PI_HALF_2
+}
+
 /// Sine and cosine for |x| ≤ [`TRIG_FAST_LIMIT`]; meaningless, but harmless, beyond.
 #[inline(always)]
 fn sin_cos_fast(x: f64) -> (f64, f64) {
-    let rounded = x * FRAC_2_PI + ROUNDER;
-    let n = rounded - ROUNDER;
+    let (n, quadrant) = quarters(x);
+    let (sin, cos) = sin_cos_octant(without_quarters(x, n));
+    rotate(quadrant, sin, cos)
+}
 
-    // The first product and difference are exact; the second product is small, so that only the
-    // rounding of the last difference is left.
-    let angle = (x - n * PI_HALF_1) - n * PI_HALF_2;
-
-    let (sin, cos) = sin_cos_octant(angle);
-    rotate(rounded.to_bits(), sin, cos)
+/// The quarter turns of all elements where they are the same for all and within the fast range: an
+/// angle that is known to a few degrees seldom crosses from one to the next. No element is NaN then.
+#[inline(always)]
+fn common_quarters<const N: usize>(x: &[f64; N]) -> Option<(f64, u64)> {
+    let first = quarters(x[0]);
+    let mut differences = 0;
+    for &x in x {
+        differences |= quarters(x).1 ^ first.1;
+    }
+    (differences == 0 && x[0].abs() < TRIG_FAST_LIMIT - 1.0).then_some(first)
 }
 
 /// Sine of an argument outside the fast range, by `libm`; ±∞ gives NaN.
@@ -188,6 +210,13 @@ fn repair(x: &[f64], out: &mut [f64], slow: fn(f64) -> f64) {
 /// [`sin`] of each element, with the same bits.
 #[inline(always)]
 pub(crate) fn sin_column<const N: usize>(x: &[f64; N], out: &mut [f64; N]) {
+    if let Some((n, quadrant)) = common_quarters(x) {
+        for i in 0..N {
+            let (sin, cos) = sin_cos_octant(without_quarters(x[i], n));
+            out[i] = rotate(quadrant, sin, cos).0;
+        }
+        return;
+    }
     for i in 0..N {
         out[i] = sin_cos_fast(x[i]).0;
     }
@@ -199,6 +228,13 @@ pub(crate) fn sin_column<const N: usize>(x: &[f64; N], out: &mut [f64; N]) {
 /// [`cos`] of each element, with the same bits.
 #[inline(always)]
 pub(crate) fn cos_column<const N: usize>(x: &[f64; N], out: &mut [f64; N]) {
+    if let Some((n, quadrant)) = common_quarters(x) {
+        for i in 0..N {
+            let (sin, cos) = sin_cos_octant(without_quarters(x[i], n));
+            out[i] = rotate(quadrant, sin, cos).1;
+        }
+        return;
+    }
     for i in 0..N {
         out[i] = sin_cos_fast(x[i]).1;
     }
@@ -210,6 +246,13 @@ pub(crate) fn cos_column<const N: usize>(x: &[f64; N], out: &mut [f64; N]) {
 /// [`sin`] and [`cos`] of each element, with the same bits, for little more than one of them.
 #[inline(always)]
 pub(crate) fn sin_cos_column<const N: usize>(x: &[f64; N], sin: &mut [f64; N], cos: &mut [f64; N]) {
+    if let Some((n, quadrant)) = common_quarters(x) {
+        for i in 0..N {
+            let (s, c) = sin_cos_octant(without_quarters(x[i], n));
+            (sin[i], cos[i]) = rotate(quadrant, s, c);
+        }
+        return;
+    }
     for i in 0..N {
         (sin[i], cos[i]) = sin_cos_fast(x[i]);
     }

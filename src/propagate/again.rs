@@ -1,7 +1,8 @@
 //! A finished run's trials generated again: for what needs more of them than an evaluation keeps.
 
 use super::evaluation::{in_pool, joint};
-use super::monte_carlo::{self, Trials};
+use super::gum::Gum;
+use super::monte_carlo::{self, Histogram, Trials};
 use super::{Control, Evaluation, EvaluationError, gum};
 use crate::task::Task;
 
@@ -65,6 +66,36 @@ pub fn joint_ranks(
     in_pool(task, control, || {
         let trials = trials(task, row)?.filter(|_| count > 0);
         Ok(trials.and_then(|trials| monte_carlo::joint_ranks(&trials, count, rows, control)))
+    })?
+}
+
+/// For each output of a row the histogram of the run's trials (of the first ten million of more), over
+/// a range that nearly all of them lie in and that shows the coverage intervals of both methods. An
+/// entry is `None` for an output that does not vary; the whole is `None` without trials, or if
+/// stopped.
+///
+/// # Errors
+/// Threads that cannot be started.
+pub fn histograms(
+    task: &Task,
+    evaluation: &Evaluation,
+    row: usize,
+    control: &Control<'_>,
+) -> Result<Option<Vec<Option<Histogram>>>, EvaluationError> {
+    let count = made(evaluation, row);
+    let outputs = evaluation.rows.get(row).map_or(&[][..], |row| &row.outputs);
+    let shown: Vec<Option<[f64; 2]>> = outputs
+        .iter()
+        .map(|output| {
+            let gum = output.gum.as_ref().and_then(Gum::interval);
+            let own = output.monte_carlo.as_ref();
+            let own = own.into_iter().flat_map(|m| [m.symmetric_interval, m.shortest_interval]);
+            gum.into_iter().chain(own).reduce(|[a, b], [c, d]| [a.min(c), b.max(d)])
+        })
+        .collect();
+    in_pool(task, control, || {
+        let trials = trials(task, row)?.filter(|_| count > 0);
+        Ok(trials.and_then(|trials| monte_carlo::histograms(&trials, count, &shown, control)))
     })?
 }
 

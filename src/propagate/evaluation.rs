@@ -7,11 +7,12 @@ use std::sync::{Arc, Mutex, PoisonError};
 use rayon::prelude::*;
 
 use super::Control;
+use super::conformity::Conformity;
 use super::gum::{self, Gum};
 use super::monte_carlo::{self, MonteCarlo, Request, Search, Undefined};
 use super::validate::{Validation, validate};
 use crate::distribution::{BLOCK, Correlation, CorrelationError, Joint};
-use crate::model::{Program, Tolerance};
+use crate::model::{Output, Program};
 use crate::number::{Column, Shortest};
 use crate::task::{Row, Settings, Task, Trials};
 
@@ -78,17 +79,38 @@ pub struct OutputEvaluation {
     pub drawn_dof: f64,
 }
 
-/// How probable it is that an output lies within its tolerance limits (JCGM 106, clause 7).
+/// The expanded uncertainty that a laboratory may state beside its capability.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Conformity {
-    /// The limits.
-    pub tolerance: Tolerance,
-    /// The share of trials within them.
-    pub probability: f64,
-    /// Numerical standard error of the probability.
-    pub numerical_standard_error: f64,
-    /// Whether the estimate itself lies within the limits.
-    pub conforms: bool,
+pub struct Stated {
+    /// The capability (CMC) at the estimate.
+    pub cmc: f64,
+    /// The expanded uncertainty to be stated.
+    pub expanded_uncertainty: f64,
+    /// Whether it was raised to the capability.
+    pub raised: bool,
+}
+
+impl OutputEvaluation {
+    /// The expanded uncertainty beside the laboratory's capability; `None` if there is none of
+    /// either. Of an output without a GUM side, or without a coverage factor, it is half the length
+    /// of the symmetric coverage interval.
+    pub fn stated(&self, output: &Output) -> Option<Stated> {
+        let capability = output.capability?;
+        let of_gum = || {
+            let gum = self.gum.as_ref()?;
+            Some((gum.estimate, gum.expanded_uncertainty()?))
+        };
+        let of_trials = || {
+            let figures = self.monte_carlo.as_ref()?;
+            let [low, high] = figures.symmetric_interval;
+            Some((figures.estimate, 0.5 * high - 0.5 * low))
+        };
+        let (estimate, expanded) = of_gum().or_else(of_trials)?;
+        let cmc = capability.at(estimate);
+        let raised = capability.floor && expanded < cmc;
+        let expanded_uncertainty = if raised { cmc } else { expanded };
+        Some(Stated { cmc, expanded_uncertainty, raised })
+    }
 }
 
 /// Why a task cannot be evaluated.
@@ -112,6 +134,11 @@ pub enum EvaluationError {
         /// The operation that gave no number.
         operation: Option<String>,
     },
+    /// More trials are not finite than are allowed, of which no more is known.
+    NotFinite {
+        /// Their share.
+        share: f64,
+    },
     /// The thread pool could not be started.
     Threads(String),
 }
@@ -130,6 +157,11 @@ impl fmt::Display for EvaluationError {
                 let at: Vec<String> = at.collect();
                 if at.is_empty() { Ok(()) } else { write!(f, ", at {}", at.join(", ")) }
             }
+            Self::NotFinite { share } => write!(
+                f,
+                "{} % of the trials have no finite result; `gumption run` names the first of them",
+                Shortest(100.0 * share)
+            ),
             Self::Threads(error) => write!(f, "cannot start threads: {error}"),
         }
     }
@@ -146,7 +178,7 @@ impl EvaluationError {
 }
 
 /// The joint draw of a row.
-pub(super) fn joint(task: &Task, row: &Row) -> Result<Arc<Joint>, EvaluationError> {
+pub(crate) fn joint(task: &Task, row: &Row) -> Result<Arc<Joint>, EvaluationError> {
     let joint = task.fits.joint(&row.distributions, &task.correlations);
     joint.map_err(|error| EvaluationError::correlation(task, error))
 }
@@ -184,7 +216,7 @@ const MOST_COLUMNS: usize = 256 << 20;
 
 /// Runs `work` on the number of threads that the control asks for, or as many as have room for the
 /// columns of the task.
-pub(super) fn in_pool<R: Send>(
+pub(crate) fn in_pool<R: Send>(
     task: &Task,
     control: &Control<'_>,
     work: impl FnOnce() -> R + Send,
@@ -299,14 +331,9 @@ fn evaluate_row(
     notes.lock().unwrap_or_else(PoisonError::into_inner).add(&joint, stopped);
     let evaluated = gums.into_iter().zip(figures).zip(drawn_dof).zip(&task.model.outputs);
     for (((gum, monte_carlo), drawn_dof), output) in evaluated {
-        let conformity = output.tolerance.zip(monte_carlo.as_ref()).map(|(tolerance, figures)| {
-            let p = figures.inside;
-            Conformity {
-                tolerance,
-                probability: p,
-                numerical_standard_error: (p * (1.0 - p) / figures.trials as f64).sqrt(),
-                conforms: tolerance.holds(figures.estimate),
-            }
+        let conformity = monte_carlo.as_ref().and_then(|figures| {
+            let u = gum.as_ref().map(|gum| gum.standard_uncertainty);
+            Conformity::of(output, figures, u)
         });
         let validation = match (&gum, &monte_carlo) {
             (Some(gum), Some(figures)) => validate(gum, figures, task.settings.digits),

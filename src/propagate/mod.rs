@@ -5,7 +5,9 @@
 
 mod again;
 mod budget;
+mod conformity;
 mod control;
+mod density;
 mod evaluation;
 pub mod gum;
 pub mod monte_carlo;
@@ -13,11 +15,13 @@ mod origins;
 pub mod validate;
 mod warnings;
 
-pub use again::{for_each_block, joint_ranks, quantiles};
+pub use again::{for_each_block, histograms, joint_ranks, quantiles};
+pub use conformity::{Conformity, GlobalRisks};
 pub use control::Control;
 pub use evaluation::{
-    Conformity, Evaluation, EvaluationError, OutputEvaluation, RowEvaluation, Together, evaluate,
+    Evaluation, EvaluationError, OutputEvaluation, RowEvaluation, Stated, Together, evaluate,
     trial_hash,
 };
+pub(crate) use evaluation::{in_pool, joint};
 pub use origins::{Origins, linear, origins};
 pub use warnings::warnings;

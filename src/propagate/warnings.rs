@@ -5,6 +5,7 @@ use std::collections::HashMap;
 use super::evaluation::{Evaluation, OutputEvaluation, RowEvaluation};
 use super::gum::{BudgetLine, Dof, Gum};
 use super::monte_carlo::{Adaptive, MonteCarlo};
+use crate::model::Output;
 use crate::number::Shortest;
 use crate::task::{Task, Trials, Warning};
 
@@ -52,6 +53,7 @@ pub fn warnings(task: &Task, evaluation: &Evaluation) -> Vec<Warning> {
         }
         for (output, evaluated) in task.model.outputs.iter().zip(&row.outputs) {
             of_output(task, &output.quantity.name, row, evaluated, &mut found);
+            of_capability(output, evaluated, &mut found);
         }
     }
     found
@@ -100,6 +102,35 @@ fn push(found: &mut Vec<Warning>, warning: Warning) {
     if !found.iter().any(known) {
         found.push(warning);
     }
+}
+
+/// Whether the expanded uncertainty is below the laboratory's capability.
+fn of_capability(output: &Output, evaluated: &OutputEvaluation, found: &mut Vec<Warning>) {
+    let Some(stated) = evaluated.stated(output) else {
+        return;
+    };
+    let name = &output.quantity.name;
+    let (code, text) = if stated.raised {
+        let text = format!(
+            "the expanded uncertainty of `{name}` is below the laboratory's capability (CMC) and \
+             raised to it: {} {} is to be stated",
+            Shortest(stated.cmc),
+            output.quantity.unit
+        );
+        ("raised-to-cmc", text)
+    } else if stated.expanded_uncertainty < stated.cmc {
+        let text = format!(
+            "the expanded uncertainty of `{name}` is {}, below the laboratory's capability (CMC) of \
+             {} {}, and must not be stated (ILAC-P14)",
+            Shortest(stated.expanded_uncertainty),
+            Shortest(stated.cmc),
+            output.quantity.unit
+        );
+        ("below-cmc", text)
+    } else {
+        return;
+    };
+    push(found, Warning::new(code, name.as_str(), text));
 }
 
 fn of_output(

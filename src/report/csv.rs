@@ -3,6 +3,8 @@
 use std::io::{self, Write};
 
 use super::Report;
+#[cfg(feature = "cli")]
+use super::number::MISSING;
 use crate::propagate::gum::Dof;
 use crate::propagate::{OutputEvaluation, RowEvaluation};
 use crate::task::Task;
@@ -101,6 +103,27 @@ fn cells(output: &OutputEvaluation) -> [String; 16] {
         number(figures.map(|figures| figures.shortest_interval[1])),
         valid.map(|valid| valid.to_string()).unwrap_or_default(),
     ]
+}
+
+/// A table as comma-separated values: numbers whose unrounded values are known in full precision,
+/// everything else as a page shows it. An empty cell stands for what is not defined.
+#[cfg(feature = "cli")]
+#[cfg_attr(not(test), expect(dead_code, reason = "tables of reports to come"))]
+pub(crate) fn of_sheet(sheet: &super::sheet::Sheet) -> String {
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    let mut written = writer.write_record(sheet.columns.iter().map(|column| column.title()));
+    for row in 0..sheet.rows() {
+        let cells = sheet.columns.iter().map(|column| match column.value(row) {
+            Some(value) => number(Some(value)),
+            None if !column.is_numeric() => text(column.cell(row)),
+            None if column.cell(row) == MISSING => String::new(),
+            None => column.cell(row).to_owned(),
+        });
+        written = written.and_then(|()| writer.write_record(cells));
+    }
+    // writing to memory cannot fail, and all records have as many cells
+    debug_assert!(written.is_ok(), "{written:?}");
+    writer.into_inner().ok().and_then(|bytes| String::from_utf8(bytes).ok()).unwrap_or_default()
 }
 
 /// Shortest text that reads back as the same number.

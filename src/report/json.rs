@@ -9,7 +9,7 @@ use super::Report;
 use super::subtotals::Subtotals;
 use crate::propagate::gum::{BudgetLine, CorrelationLine, Dof, Gum};
 use crate::propagate::monte_carlo::{MonteCarlo, NumericalError};
-use crate::propagate::{Evaluation, OutputEvaluation, RowEvaluation, validate};
+use crate::propagate::{Conformity, Evaluation, OutputEvaluation, RowEvaluation, Stated, validate};
 use crate::task::{Task, Trials, Warning};
 
 /// The answer as JSON, keys in a fixed order, numbers in the shortest text that reads back as the
@@ -101,12 +101,8 @@ impl Serialize for Outputs<'_> {
                 gum: evaluation.gum.as_ref().map(|gum| GumSide::of(task, gum)),
                 monte_carlo: MonteCarloSide::of(task, row, evaluation, stopped),
                 validation: evaluation.validation.map(Validation::from),
-                conformity: evaluation.conformity.map(|conformity| ConformitySide {
-                    lower: conformity.tolerance.lower,
-                    upper: conformity.tolerance.upper,
-                    probability: conformity.probability,
-                    numerical_standard_error: conformity.numerical_standard_error,
-                }),
+                conformity: evaluation.conformity.map(|conformity| ConformitySide::of(&conformity)),
+                cmc: CmcSide::of(output, evaluation),
             };
             (&output.quantity.name, side)
         }))
@@ -135,6 +131,8 @@ struct Output<'a> {
     validation: Option<Validation>,
     #[serde(skip_serializing_if = "Option::is_none")]
     conformity: Option<ConformitySide>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    cmc: Option<CmcSide>,
 }
 
 #[derive(Serialize)]
@@ -233,6 +231,73 @@ struct ConformitySide {
     upper: Option<f64>,
     probability: f64,
     numerical_standard_error: f64,
+    conforms: bool,
+    specific_risk: Risks,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    global_risk: Option<Risks>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    guard_band: Option<GuardBand>,
+}
+
+/// Risks of deciding wrongly; `null` for the decision that was not taken.
+#[derive(Serialize)]
+struct Risks {
+    false_acceptance: Option<f64>,
+    false_rejection: Option<f64>,
+}
+
+/// The guard band for a wanted risk; `null` where no value has so small a one.
+#[derive(Serialize)]
+struct GuardBand {
+    risk: f64,
+    width: Option<f64>,
+    lower: Option<f64>,
+    upper: Option<f64>,
+}
+
+impl ConformitySide {
+    fn of(conformity: &Conformity) -> Self {
+        let specific = conformity.specific_risk();
+        let accepted = conformity.conforms;
+        let acceptance = conformity.acceptance;
+        Self {
+            lower: conformity.tolerance.lower,
+            upper: conformity.tolerance.upper,
+            probability: conformity.probability,
+            numerical_standard_error: conformity.numerical_standard_error,
+            conforms: accepted,
+            specific_risk: Risks {
+                false_acceptance: accepted.then_some(specific),
+                false_rejection: (!accepted).then_some(specific),
+            },
+            global_risk: conformity.global.map(|risks| Risks {
+                false_acceptance: Some(risks.false_acceptance),
+                false_rejection: Some(risks.false_rejection),
+            }),
+            guard_band: conformity.wanted_risk.map(|risk| GuardBand {
+                risk,
+                width: conformity.guard_band,
+                lower: acceptance.and_then(|limits| limits.lower),
+                upper: acceptance.and_then(|limits| limits.upper),
+            }),
+        }
+    }
+}
+
+/// The laboratory's capability, and what may be stated.
+#[derive(Serialize)]
+struct CmcSide {
+    cmc: f64,
+    expanded_uncertainty: f64,
+    raised: bool,
+}
+
+impl CmcSide {
+    fn of(output: &crate::model::Output, evaluation: &OutputEvaluation) -> Option<Self> {
+        let stated = evaluation.stated(output)?;
+        let Stated { cmc, expanded_uncertainty, raised } = stated;
+        Some(Self { cmc, expanded_uncertainty, raised })
+    }
 }
 
 /// The number of trials that was asked for.

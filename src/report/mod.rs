@@ -1,6 +1,12 @@
 //! Reports: what an evaluation looks like, one file for each format.
 
+pub mod assumptions;
+pub mod compare;
 mod csv;
+#[cfg(feature = "cli")]
+mod document;
+#[cfg(feature = "cli")]
+mod evaluation;
 pub mod gap;
 #[cfg(feature = "cli")]
 mod html;
@@ -10,18 +16,25 @@ pub mod number;
 mod plot;
 mod samples;
 mod saved;
+#[cfg(feature = "cli")]
+mod sheet;
 mod subtotals;
 #[cfg(feature = "cli")]
 mod table;
+mod tree;
+#[cfg(feature = "cli")]
+mod workbook;
 
 pub use csv::{csv, write_csv};
+#[cfg(feature = "cli")]
+pub use evaluation::{MOST_RESULTS, Shown, histograms, html, latex, markdown, xlsx};
 pub use json::{json, write_json};
 pub use samples::Samples;
 pub use saved::saved;
 #[cfg(feature = "cli")]
 pub use table::{Column, Style, table, write_table};
 #[cfg(feature = "cli")]
-pub(crate) use table::{Grid, WIDTH, plain, wrapped};
+pub(crate) use table::{Grid, WIDTH, conditions_text, grouped, plain, wrapped};
 
 use crate::propagate::Evaluation;
 use crate::task::{Task, Warning};

@@ -157,6 +157,12 @@ fn tolerance() -> Node {
         ("lower", referenced("number", "Lower tolerance limit.")),
         ("upper", referenced("number", "Upper tolerance limit.")),
         ("prior", prior),
+        (
+            "risk",
+            described("number", "The wanted risk of false acceptance, for guard bands.")
+                .with("exclusiveMinimum", 0u64)
+                .with("exclusiveMaximum", 0.5),
+        ),
     ];
     closed("Limits that the output should conform to.", properties, &[]).with("anyOf", limits)
 }

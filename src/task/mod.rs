@@ -3,11 +3,13 @@
 
 mod case;
 mod coverage;
+mod evidence;
 mod settings;
 mod warning;
 
 pub use case::{Candidate, Case, Observed, Prior};
 pub use coverage::Coverage;
+pub use evidence::Evidence;
 pub use settings::{Settings, StoppingRule, Trials};
 pub use warning::Warning;
 

@@ -5,25 +5,12 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use gumption::file;
 use serde_json::Value;
 
 use crate::support::{announce, command, root};
 
-/// So many examples need distributions or features that are not built yet. The number may only
-/// fall: lower it when a feature arrives.
-const NOT_RUN: usize = 0;
-
 fn folder() -> PathBuf {
     root().join("tests/cases")
-}
-
-/// Whether all that is wrong with a file is that this version cannot do it yet.
-fn is_not_built(name: &str) -> bool {
-    match file::read(&folder().join(name).join("model.json"), &[]) {
-        Ok(_) => false,
-        Err(problems) => problems.0.iter().all(|p| p.fault.code() == "not-built"),
-    }
 }
 
 /// A step of a path: a key, or what stands in brackets.
@@ -125,9 +112,6 @@ fn run_case(name: &str) {
     let folder = folder().join(name);
     let expected = fs::read_to_string(folder.join("expect.json")).expect("expectations");
     let expected: Value = serde_json::from_str(&expected).expect("JSON");
-    if is_not_built(name) {
-        return announce(&format!("not run: {name}"));
-    }
     let run = command()
         .current_dir(&folder)
         .args(["run", "model.json", "--format", "json", "--quiet"])
@@ -294,12 +278,6 @@ fn every_folder_is_named() {
         .map(|entry| entry.file_name().to_string_lossy().into_owned())
         .collect();
     assert_eq!(named, found);
-}
-
-#[test]
-fn the_number_of_cases_that_are_not_run_only_falls() {
-    let left: Vec<&&str> = NAMES.iter().filter(|name| is_not_built(name)).collect();
-    assert_eq!(left.len(), NOT_RUN, "not run: {left:?}");
 }
 
 /// All files below a folder with their contents, by their paths within it.

@@ -5,9 +5,12 @@
 
 mod adaptive;
 mod benches;
+mod assumptions;
 mod cases;
 mod catalogue;
 mod commands;
+mod compare;
+mod conformity;
 mod diff;
 mod errors;
 mod formulas;
@@ -17,6 +20,7 @@ mod gap_check;
 mod gap_examples;
 mod intervals;
 mod mutations;
+mod reports;
 mod reproducible;
 mod results;
 mod schema;

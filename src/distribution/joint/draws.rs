@@ -64,6 +64,32 @@ impl Varying {
     pub(crate) fn len(&self) -> usize {
         self.distributions.len()
     }
+
+    /// Their distributions.
+    pub(crate) fn distributions(&self) -> &[Arc<Distribution>] {
+        &self.distributions
+    }
+
+    /// For each whether [`Draws::scores`] gives its values and no scores: paired readings, and
+    /// outputs of a saved result that are drawn together.
+    pub(crate) fn without_scores(&self) -> Vec<bool> {
+        let mut without = vec![false; self.len()];
+        let groups = self.joint.groups.iter().zip(&self.members);
+        let paired = groups.filter(|(group, _)| group.dof.is_some());
+        let paired = paired.flat_map(|(_, members)| members.iter().map(|m| m.place));
+        let together = self.together.iter().flat_map(|set| set.members.iter().copied());
+        for place in paired.chain(together) {
+            without[place] = true;
+        }
+        without
+    }
+
+    /// The sets of quantities that are drawn together.
+    pub(crate) fn linked(&self) -> Vec<Vec<usize>> {
+        let groups = self.members.iter().map(|set| set.iter().map(|m| m.place).collect());
+        let together = self.together.iter().map(|set| set.members.clone());
+        groups.chain(together).collect()
+    }
 }
 
 /// The running draw of a set of quantities through one block.
@@ -95,7 +121,7 @@ impl<'a> Draws<'a> {
         }
         for (group, members) in varying.joint.groups.iter().zip(&varying.members) {
             if members.iter().any(|m| used[m.place]) {
-                self.group(group, members, registers, register);
+                self.group(group, members, false, registers, register);
             }
         }
         for set in &varying.together {
@@ -105,13 +131,33 @@ impl<'a> Draws<'a> {
         }
     }
 
+    /// Draws the next column of standard normal scores of every quantity, dependent as the
+    /// quantities are; of those [`Varying::without_scores`] the values.
+    #[inline(always)]
+    pub(crate) fn scores(&mut self, registers: &mut [Column], register: &[usize]) {
+        let varying = self.varying;
+        for q in 0..varying.len() {
+            if !varying.in_group[q] {
+                normal::draw(0.0, 1.0, &mut self.streams[q], &mut registers[register[q]]);
+            }
+        }
+        for (group, members) in varying.joint.groups.iter().zip(&varying.members) {
+            self.group(group, members, group.dof.is_none(), registers, register);
+        }
+        for set in &varying.together {
+            set.draw(&varying.distributions, &mut self.streams, registers, register);
+        }
+    }
+
     /// Standard normals, or a spherical t, mixed by the factor from the last row upwards, so that
-    /// every row still finds the columns above it unmixed.
+    /// every row still finds the columns above it unmixed. With `scores` the mixed normals are left
+    /// as they are.
     #[inline(always)]
     fn group(
         &mut self,
         group: &Group,
         members: &[Member],
+        scores: bool,
         registers: &mut [Column],
         register: &[usize],
     ) {
@@ -134,6 +180,10 @@ impl<'a> Draws<'a> {
                 }
             }
             let out = &mut registers[register[member.place]].0;
+            if scores {
+                *out = sum.0;
+                continue;
+            }
             if let Some(table) = shape.table() {
                 let z = sum.clone();
                 table.values(&z.0, &mut sum.0);

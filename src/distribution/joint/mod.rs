@@ -24,6 +24,7 @@ mod matrix;
 pub(crate) mod paired;
 mod profile;
 mod profiles;
+mod scores;
 mod standard;
 #[cfg(test)]
 mod tests;
@@ -37,6 +38,7 @@ pub(crate) use fits::Fits;
 use matrix::Symmetric;
 use profile::Table;
 use profiles::{Profiled, Profiles};
+pub(crate) use scores::FromScore;
 use standard::Standard;
 use together::{Together, together};
 

@@ -33,7 +33,6 @@ pub(crate) fn cdf(x: f64, shape: f64) -> f64 {
 /// Q(a, x): the probability of a gamma quantity of shape a and unit scale above `x`.
 ///
 /// Shapes 1e-3 to 1e7; accuracy as of [`cdf`]. 1 for x <= 0.
-#[cfg(test)]
 pub(crate) fn sf(x: f64, shape: f64) -> f64 {
     if !is_shape(shape) || x.is_nan() {
         f64::NAN

@@ -121,7 +121,14 @@ impl Typed {
                 unit: Unit::parse(output.unit)?,
                 about: output.about.to_owned(),
             };
-            Ok(Output { quantity, period: output.period, tolerance: None })
+            Ok(Output {
+                quantity,
+                period: output.period,
+                tolerance: None,
+                prior: None,
+                risk: None,
+                capability: None,
+            })
         });
         let inputs = inputs.collect::<Result<Vec<_>, UnitError>>()?;
         let outputs = outputs.collect::<Result<Vec<_>, UnitError>>()?;

@@ -225,6 +225,9 @@ impl Ready {
             quantity: quantity(output),
             period: None,
             tolerance: None,
+            prior: None,
+            risk: None,
+            capability: None,
         });
         let inputs =
             inputs.iter().map(|i| InputQuantity { quantity: quantity(i), parts: 1 }).collect();

@@ -125,7 +125,7 @@ impl Trials {
 
 /// The stream of a variable: its name, and where rows have values of their own, what tells the
 /// rows apart.
-fn stream_name(task: &Task, row: &Row, variable: usize) -> String {
+pub(crate) fn stream_name(task: &Task, row: &Row, variable: usize) -> String {
     let name = &task.variables[variable].name;
     match task.variables[variable].sharing {
         Sharing::All => name.clone(),
@@ -169,7 +169,7 @@ impl Kernel for BlockKernel<'_> {
 
 /// Moves values by whole turns to within half a turn of the middle.
 #[inline(always)]
-fn onto_branch(values: &mut [f64], middle: f64, turn: f64) {
+pub(crate) fn onto_branch(values: &mut [f64], middle: f64, turn: f64) {
     // adding and taking away 1.5 x 2^52 rounds to the nearest integer; phases of more turns than
     // that have lost their angle anyway
     const ROUND: f64 = 6_755_399_441_055_744.0;

@@ -2,6 +2,7 @@
 
 use super::shelves::Shelves;
 use super::windows::Windows;
+use crate::number::CodePath;
 
 /// The kept values, and which ranks they have among all trials.
 #[derive(Clone, Debug)]
@@ -24,13 +25,19 @@ impl Order {
     /// From all values.
     #[cfg(test)]
     pub(crate) fn of_all(values: Vec<f64>) -> Self {
-        Self::new(values.len() as u64, &[&values], 0, &Windows::ALL)
+        Self::new(CodePath::best(), values.len() as u64, &[&values], 0, &Windows::ALL)
     }
 
     /// From the values that `windows` keeps of `trials` many trials, in any order and any number of
     /// parts; `below_median` of the trials lie below the window about the median.
-    pub(crate) fn new(trials: u64, kept: &[&[f64]], below_median: u64, windows: &Windows) -> Self {
-        let shelves = Shelves::new(kept, windows);
+    pub(crate) fn new(
+        path: CodePath,
+        trials: u64,
+        kept: &[&[f64]],
+        below_median: u64,
+        windows: &Windows,
+    ) -> Self {
+        let shelves = Shelves::new(path, kept, windows);
         let [low, median, high] = shelves.regions();
         let run = |rank: u64, place: usize, length: usize| Run { rank, place, length };
         let runs = if windows.keep_all() {

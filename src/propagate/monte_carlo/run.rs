@@ -15,10 +15,21 @@ use super::products::{Products, waves};
 use super::sorting::sort;
 use super::windows::Windows;
 use crate::distribution::BLOCK;
+use crate::number::CodePath;
 use crate::propagate::Control;
 
-/// Blocks of the pilot; fewer trials than that are all kept.
+/// Blocks of the pilot of a long run.
 const PILOT_BLOCKS: u64 = 16;
+
+/// Blocks of the pilot of a short one, where a longer pilot would cost more than narrower windows
+/// save.
+const SHORT_PILOT: u64 = 4;
+
+/// From so many trials on a run is long.
+const LONG: u64 = 1_000_000;
+
+/// Up to so many trials all values are kept.
+const ALL_KEPT: u64 = 1 << 16;
 
 /// Outputs whose pilot values are held at a time: 64 MiB.
 const PILOT_OUTPUTS: usize = (64 << 20) / (8 * BLOCK * PILOT_BLOCKS as usize);
@@ -122,7 +133,13 @@ pub(crate) struct Request<'a> {
 
 /// Runs the trials of one row. Where every trial is undefined, or the run was stopped before the
 /// first one, there are no outputs.
-pub(crate) fn run(trials: &Trials, request: Request<'_>, control: &Control<'_>) -> Finished {
+pub(crate) fn run(trials: &mut Trials, request: Request<'_>, control: &Control<'_>) -> Finished {
+    // what the pilot computes is not computed again
+    trials.hold(control.path, pilot_blocks(request.trials), control.memory);
+    run_held(trials, request, control)
+}
+
+fn run_held(trials: &Trials, request: Request<'_>, control: &Control<'_>) -> Finished {
     let mut margin = 1.0;
     loop {
         let plans = plans(trials, request, control, margin);
@@ -156,7 +173,7 @@ fn run_capped(
     let affordable = control.memory as f64 / 8.0 / plans.len().max(1) as f64;
     let part = (request.trials / 64).min(affordable as u64 / 2).max(2);
     let quiet = Control { progress: None, ..*control };
-    let mut first = run(trials, Request { trials: part, ..request }, &quiet);
+    let mut first = run_held(trials, Request { trials: part, ..request }, &quiet);
     let law = (part as f64 / request.trials as f64).cbrt();
     let errors: Vec<[f64; 2]> = first
         .outputs
@@ -169,6 +186,12 @@ fn run_capped(
     })
 }
 
+/// The blocks of the pilot of a run.
+fn pilot_blocks(trials: u64) -> u64 {
+    let most = if trials >= LONG { PILOT_BLOCKS } else { SHORT_PILOT };
+    trials.div_ceil(BLOCK as u64).min(most)
+}
+
 /// The values of some outputs in the first blocks.
 fn pilot(
     trials: &Trials,
@@ -176,7 +199,7 @@ fn pilot(
     control: &Control<'_>,
     outputs: Range<usize>,
 ) -> Vec<Vec<f64>> {
-    let blocks = request.trials.div_ceil(BLOCK as u64).min(PILOT_BLOCKS);
+    let blocks = pilot_blocks(request.trials);
     let mut workspace = trials.workspace();
     let mut pilot: Vec<Vec<f64>> = vec![Vec::new(); outputs.len()];
     for block in 0..blocks {
@@ -204,7 +227,7 @@ pub(super) fn plans(
         .map(|(output, mut values)| {
             sort(&mut values);
             let reference = reference(&values, trials.limits(output));
-            let all = request.trials <= 4 * PILOT_BLOCKS * BLOCK as u64 || margin > KEEP_ALL_MARGIN;
+            let all = request.trials <= ALL_KEPT || margin > KEEP_ALL_MARGIN;
             let windows = if all {
                 Windows::ALL
             } else {
@@ -317,13 +340,14 @@ fn finish(
             });
         }
     }
+    let path = control.path.or_baseline();
     // one output after the other: sorting copies, and memory is for one copy at a time
     let outputs: Vec<Option<MonteCarlo>> = per_output
         .into_iter()
         .enumerate()
         .map(|(o, chunks)| {
             let dof = request.drawn_dof.get(o).copied().unwrap_or(f64::INFINITY);
-            figures(summaries[o].0, dof, request.probability, &plans[o].windows, chunks)
+            figures(path, summaries[o].0, dof, request.probability, &plans[o].windows, chunks)
         })
         .collect();
     let outputs = outputs.into_iter().collect::<Option<Vec<_>>>()?;
@@ -345,21 +369,22 @@ struct Batch {
 }
 
 /// The order statistics of some batches together.
-fn order_of(batches: &[Batch], windows: &Windows) -> Order {
+fn order_of(path: CodePath, batches: &[Batch], windows: &Windows) -> Order {
     let sum = |of: fn(&Batch) -> u64| batches.iter().map(of).sum();
     let kept: Vec<&[f64]> = batches.iter().map(|batch| batch.kept.as_slice()).collect();
-    Order::new(sum(|b| b.trials), &kept, sum(|b| b.below_median), windows)
+    Order::new(path, sum(|b| b.trials), &kept, sum(|b| b.below_median), windows)
 }
 
 fn figures(
+    path: CodePath,
     moments: Moments,
     drawn_dof: f64,
     probability: f64,
     windows: &Windows,
     chunks: Vec<Batch>,
 ) -> Option<MonteCarlo> {
-    let shortest_error = shortest_error(&chunks, probability, windows);
-    let mut order = order_of(&chunks, windows);
+    let shortest_error = shortest_error(path, &chunks, probability, windows);
+    let mut order = order_of(path, &chunks, windows);
     drop(chunks);
     let order = &mut order;
     let symmetric_interval = symmetric(order, probability)?;
@@ -441,7 +466,12 @@ impl NumericalError {
 /// The scatter of the shortest interval between batches of the trials, brought to the number of
 /// all trials by the cube-root law of such intervals (Kim and Pollard, Annals of Statistics 18,
 /// 1990).
-fn shortest_error(chunks: &[Batch], probability: f64, windows: &Windows) -> [f64; 2] {
+fn shortest_error(
+    path: CodePath,
+    chunks: &[Batch],
+    probability: f64,
+    windows: &Windows,
+) -> [f64; 2] {
     let batches: Vec<&[Batch]> = chunks.chunks(chunks.len().div_ceil(BATCHES).max(1)).collect();
     let trials = |batch: &[Batch]| batch.iter().map(|chunk| chunk.trials).sum::<u64>();
     let total: u64 = batches.iter().map(|batch| trials(batch)).sum();
@@ -450,7 +480,7 @@ fn shortest_error(chunks: &[Batch], probability: f64, windows: &Windows) -> [f64
         .into_par_iter()
         // a last batch of few trials would scatter more than the others
         .filter(|batch| 2 * trials(batch) > largest)
-        .filter_map(|batch| shortest(&mut order_of(batch, windows), probability))
+        .filter_map(|batch| shortest(&mut order_of(path, batch, windows), probability))
         .collect();
     let n = ends.len() as f64;
     if ends.len() < 4 {

@@ -2,6 +2,7 @@
 //! a coverage interval looks at few of them.
 
 use super::windows::Windows;
+use crate::number::{CodePath, Kernel};
 
 /// Values to a shelf, on average.
 const PER_SHELF: usize = 24;
@@ -28,17 +29,9 @@ pub(super) struct Shelves {
 struct Region {
     from: f64,
     inverse: f64,
-    first: usize,
-    last: usize,
-}
-
-impl Region {
-    /// Greater values never have a lower shelf; those beyond the ends are on the outermost ones.
-    #[inline(always)]
-    fn shelf(&self, value: f64) -> usize {
-        // the conversion takes what is below 0, or not a number, to 0
-        (self.first + ((value - self.from) * self.inverse) as usize).min(self.last)
-    }
+    first: f64,
+    /// How many there are after the first.
+    more: f64,
 }
 
 /// Which shelf a value belongs on.
@@ -65,12 +58,11 @@ impl Plan {
         let region = |from: f64, to: f64, first: usize, count: usize| {
             let inverse = count as f64 / (to - from);
             let inverse = if inverse.is_finite() && inverse > 0.0 { inverse } else { 0.0 };
-            Region { from, inverse, first, last: first + count - 1 }
+            Region { from, inverse, first: first as f64, more: count as f64 - 1.0 }
         };
         if windows.keep_all() {
             let all = region(ends[0], ends[1], 0, shelves);
-            let none = Region { from: 0.0, inverse: 0.0, first: shelves, last: shelves };
-            return Self { low: f64::INFINITY, high: f64::INFINITY, regions: [all, none, none] };
+            return Self { low: f64::INFINITY, high: f64::INFINITY, regions: [all; 3] };
         }
         Self {
             low: windows.low,
@@ -83,54 +75,90 @@ impl Plan {
         }
     }
 
+    /// The shelf of a value: greater values never have a lower one, and those beyond the ends are on
+    /// the outermost ones.
     #[inline(always)]
-    fn region(&self, value: f64) -> usize {
-        usize::from(value > self.low) + usize::from(value >= self.high)
+    fn shelf(&self, value: f64) -> u16 {
+        // adding 2^52 rounds and leaves the integer in the low bits
+        const ROUND: f64 = 4_503_599_627_370_496.0;
+        let [low, median, high] = self.regions;
+        let or = |of: fn(&Region) -> f64| {
+            let tail = if value <= self.low { of(&low) } else { of(&high) };
+            if (value > self.low) & (value < self.high) { of(&median) } else { tail }
+        };
+        let place = (value - or(|r| r.from)) * or(|r| r.inverse);
+        let place = if place > 0.0 { place } else { 0.0 };
+        let more = or(|r| r.more);
+        let place = if place < more { place } else { more };
+        (place + or(|r| r.first) + ROUND).to_bits() as u16
     }
 
-    fn shelves(&self) -> usize {
-        self.regions.iter().map(|region| region.last + 1).max().unwrap_or(0)
+    /// Number of shelves, and where those of the three regions end.
+    fn ends(&self) -> [usize; 3] {
+        self.regions.map(|region| (region.first + region.more) as usize + 1)
+    }
+}
+
+/// The shelves of some values.
+struct ShelfKernel<'a> {
+    plan: &'a Plan,
+    values: &'a [f64],
+    out: &'a mut [u16],
+}
+
+impl Kernel for ShelfKernel<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        for (out, &value) in self.out.iter_mut().zip(self.values) {
+            *out = self.plan.shelf(value);
+        }
     }
 }
 
 impl Shelves {
-    pub(super) fn new(kept: &[&[f64]], windows: &Windows) -> Self {
+    pub(super) fn new(path: CodePath, kept: &[&[f64]], windows: &Windows) -> Self {
         let count: usize = kept.iter().map(|part| part.len()).sum();
         let plan = Plan::new(kept, windows, (count / PER_SHELF).clamp(1, MOST_SHELVES));
-        let shelves = plan.shelves();
+        let ends = plan.ends();
+        let shelves = ends[2];
+        let mut shelf_of = vec![0u16; count];
         let mut counts = vec![0usize; shelves];
-        let mut shelf_of: Vec<u16> = Vec::with_capacity(count);
-        for part in kept {
-            shelf_of.extend(part.iter().map(|&value| {
-                let shelf = plan.regions[plan.region(value)].shelf(value);
-                counts[shelf] += 1;
-                shelf as u16
-            }));
+        let mut rest = &mut shelf_of[..];
+        for values in kept {
+            let (own, after) = rest.split_at_mut(values.len());
+            path.run(ShelfKernel { plan: &plan, values, out: own });
+            for &shelf in own.iter() {
+                counts[usize::from(shelf)] += 1;
+            }
+            rest = after;
         }
-        let mut starts = Vec::with_capacity(shelves + 1);
-        let mut next = 0;
-        starts.push(0);
-        starts.extend(counts.iter().map(|count| {
-            next += count;
-            next
-        }));
+        let mut starts = vec![0; shelves + 1];
+        for shelf in 0..shelves {
+            starts[shelf + 1] = starts[shelf] + counts[shelf];
+        }
         let mut heads = starts.clone();
         let mut values = vec![0.0; count];
-        for (&value, &shelf) in kept.iter().flat_map(|part| part.iter()).zip(&shelf_of) {
-            let head = &mut heads[usize::from(shelf)];
-            values[*head] = value;
-            *head += 1;
+        let mut places = shelf_of.iter();
+        for part in kept {
+            for (&value, &shelf) in part.iter().zip(&mut places) {
+                let head = &mut heads[usize::from(shelf)];
+                values[*head] = value;
+                *head += 1;
+            }
         }
-        let extremes = starts.windows(2).map(|ends| {
-            values[ends[0]..ends[1]]
-                .iter()
-                .fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], &v| {
-                    [if v < a { v } else { a }, if v > b { v } else { b }]
-                })
+        let extremes = (0..shelves).map(|shelf| {
+            let (mut least, mut greatest) = (f64::INFINITY, f64::NEG_INFINITY);
+            for &v in &values[starts[shelf]..starts[shelf + 1]] {
+                least = if v < least { v } else { least };
+                greatest = if v > greatest { v } else { greatest };
+            }
+            [least, greatest]
         });
         let extremes = extremes.collect();
-        let end = |region: usize| starts[(plan.regions[region].last + 1).min(shelves)];
-        let regions = [end(0), end(1) - end(0).min(end(1)), count - end(1).max(end(0))];
+        let [low, median, high] = ends.map(|end| starts[end]);
+        let regions = [low, median.saturating_sub(low), high.saturating_sub(median)];
         Self { values, starts, extremes, sorted: vec![false; shelves], regions }
     }
 
@@ -244,7 +272,7 @@ mod tests {
             let mut sorted = values.clone();
             sorted.sort_by(f64::total_cmp);
             let parts: Vec<&[f64]> = values.chunks(777).collect();
-            let mut shelves = Shelves::new(&parts, &Windows::ALL);
+            let mut shelves = Shelves::new(CodePath::best(), &parts, &Windows::ALL);
             for place in (0..values.len()).step_by(97) {
                 assert_eq!(shelves.at(place).to_bits(), sorted[place].to_bits());
             }

@@ -12,8 +12,6 @@ mod json;
 #[cfg(feature = "cli")]
 mod residuals;
 #[cfg(feature = "cli")]
-mod sheet;
-#[cfg(feature = "cli")]
 mod sheets;
 #[cfg(feature = "cli")]
 mod table;

@@ -1,11 +1,11 @@
 //! The tables of a diagnosis.
 
 use super::digits::{self, p_value, probability, share, tenths};
-use super::sheet::Sheet;
 use super::words;
 use crate::gap::{Diagnosis, Hypothesis, Kind, Named, Parameter, Predicted, Shrunk};
 use crate::report::number::{MISSING, place, rounded, significant, to, with_uncertainty};
 use crate::report::plain;
+use crate::report::sheet::Sheet;
 
 /// So much of the probability is shown by name, in so many lines at most.
 const SHOWN_PROBABILITY: f64 = 0.999;

@@ -1,6 +1,5 @@
 //! The page for a terminal.
 
-use super::sheet::Sheet;
 use super::{sheets, terminal, words};
 use crate::gap::{Diagnosis, Predicted};
 use crate::report::{Grid, WIDTH, wrapped};
@@ -15,7 +14,7 @@ pub fn table(diagnosis: &Diagnosis) -> String {
     page.push(section("Where?") + &regions(diagnosis));
     page.push(section("Which effect?") + &hypotheses(diagnosis));
     if let Some(parameters) = sheets::parameters(diagnosis) {
-        page.push(section("Parameters of the verdict") + &grid(&parameters).render(WIDTH));
+        page.push(section("Parameters of the verdict") + &Grid::of(&parameters).render(WIDTH));
     }
     page.push(section("How far does it shrink?") + &shrinkage(diagnosis));
     page.push(section("What to measure next") + &wrapped(&words::next(diagnosis)));
@@ -56,19 +55,19 @@ fn paragraphs(sentences: Vec<String>) -> String {
 
 fn regions(diagnosis: &Diagnosis) -> String {
     match sheets::regions(diagnosis) {
-        Some(sheet) => grid(&sheet).render(WIDTH) + &wrapped(words::REGIONS),
+        Some(sheet) => Grid::of(&sheet).render(WIDTH) + &wrapped(words::REGIONS),
         None => wrapped(words::NO_REGION),
     }
 }
 
 fn hypotheses(diagnosis: &Diagnosis) -> String {
-    let mut text = grid(&sheets::hypotheses(diagnosis)).render(WIDTH);
+    let mut text = Grid::of(&sheets::hypotheses(diagnosis)).render(WIDTH);
     text += &sheets::left_out(diagnosis).map(|said| wrapped(&said)).unwrap_or_default();
     text
 }
 
 fn shrinkage(diagnosis: &Diagnosis) -> String {
-    let mut text = grid(&sheets::shrinkage(diagnosis)).render(WIDTH);
+    let mut text = Grid::of(&sheets::shrinkage(diagnosis)).render(WIDTH);
     text += &paragraphs(words::shrinkage(diagnosis));
     text += &paragraphs(words::noise(diagnosis));
     text
@@ -78,26 +77,12 @@ fn shrinkage(diagnosis: &Diagnosis) -> String {
 fn predictions(diagnosis: &Diagnosis, rows: &[Predicted]) -> String {
     let one = |output: usize| {
         let title = wrapped(&words::axis(&diagnosis.outputs[output]));
-        let mut table = grid(&sheets::prediction(diagnosis, rows, output, false));
+        let mut table = Grid::of(&sheets::prediction(diagnosis, rows, output, false));
         if table.natural_width() > WIDTH {
-            table = grid(&sheets::prediction(diagnosis, rows, output, true));
+            table = Grid::of(&sheets::prediction(diagnosis, rows, output, true));
         }
         title + &table.render(WIDTH)
     };
     let tables: Vec<String> = (0..diagnosis.outputs.len()).map(one).collect();
     tables.join("\n")
-}
-
-/// A table for a page of text.
-pub(super) fn grid(sheet: &Sheet) -> Grid {
-    let mut grid = Grid::default();
-    for column in &sheet.columns {
-        let cells = column.cells.iter().cloned();
-        if column.numbers {
-            grid.numbers(&column.header, cells);
-        } else {
-            grid.text(&column.header, cells);
-        }
-    }
-    grid
 }

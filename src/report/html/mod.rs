@@ -1,6 +1,12 @@
 //! Pages for a browser and for print: one file each, without scripts and without anything from
 //! elsewhere.
 
+mod raised;
+mod table;
+
+pub(super) use raised::raised;
+pub(super) use table::table;
+
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 /// How pages look, in light and dark and on A4.
@@ -25,6 +31,16 @@ pub(super) fn page(title: &str, body: &Markup) -> String {
         }
     };
     page.into_string() + "\n"
+}
+
+/// Width of all figures in pixels.
+pub(super) const WIDTH: f64 = 720.0;
+
+/// A figure with what is written below it.
+#[derive(Clone, Debug)]
+pub(super) struct Drawing {
+    pub(super) svg: String,
+    pub(super) caption: String,
 }
 
 /// A figure with its number and caption; the drawing is an `svg` element.

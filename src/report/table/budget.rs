@@ -6,8 +6,10 @@ use super::{WIDTH, coverage_text, has_name, in_unit, text};
 use crate::model::Quantity;
 use crate::propagate::gum::{BudgetLine, CorrelationLine, Dof, Gum};
 use crate::report::number::{exact, place, rounded, significant, with_uncertainty};
+use crate::report::sheet::{Figure, Kind, Sheet};
 use crate::report::subtotals::Subtotals;
 use crate::task::{Settings, Task};
+use crate::unit::Unit;
 
 /// Significant digits of sensitivity coefficients.
 const SENSITIVITY_DIGITS: u32 = 4;
@@ -21,12 +23,15 @@ const MOST_COEFFICIENTS: usize = 500;
 /// Degrees of freedom above this are written as a power of ten.
 const MANY: f64 = 1e7;
 
+/// The header of the column of units.
+const UNIT: &str = "unit";
+
 /// The usual columns: their headers as words, and broken for pages that would become too wide.
 const HEADERS: [[&str; 2]; 9] = [
     ["quantity"; 2],
     ["estimate"; 2],
     ["standard\nuncertainty", "standard\nuncer-\ntainty"],
-    ["unit"; 2],
+    [UNIT; 2],
     ["distribution", "distri-\nbution"],
     ["dof"; 2],
     ["sensitivity\ncoefficient", "sensi-\ntivity"],
@@ -36,11 +41,11 @@ const HEADERS: [[&str; 2]; 9] = [
 
 /// The budget of one output, and what it is written with.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Budget<'a> {
-    pub(super) task: &'a Task,
-    pub(super) output: &'a Quantity,
-    pub(super) gum: &'a Gum,
-    pub(super) digits: u32,
+pub(in crate::report) struct Budget<'a> {
+    pub(in crate::report) task: &'a Task,
+    pub(in crate::report) output: &'a Quantity,
+    pub(in crate::report) gum: &'a Gum,
+    pub(in crate::report) digits: u32,
 }
 
 /// A column of the budget.
@@ -89,6 +94,21 @@ impl Budget<'_> {
         let apart: Vec<Field> =
             names.into_iter().chain(further.into_iter().map(|(_, field)| field)).collect();
         grid(&usual).render(WIDTH) + "\n" + &grid(&apart).render(WIDTH)
+    }
+
+    /// The same table without a look, with the further columns in their places.
+    pub(in crate::report) fn sheet(&self, columns: &[Column]) -> Sheet {
+        let fields = arranged(&self.usual_fields(), &columns::fields(self, columns));
+        let mut sheet = Sheet { footer: true, ..Sheet::default() };
+        for Field { headers: [header, _], layout, cells } in fields {
+            let kind = match layout {
+                _ if header == UNIT => Kind::Units,
+                Layout::Numbers => Kind::Numbers,
+                Layout::Text | Layout::TextFrom(_) => Kind::Text,
+            };
+            sheet.push(header, cells, kind);
+        }
+        sheet
     }
 
     fn usual_fields(&self) -> Vec<Field> {
@@ -206,7 +226,8 @@ fn distribution(line: &BudgetLine) -> String {
     }
 }
 
-fn legend(output: &Quantity, columns: &[Column]) -> String {
+/// What the columns mean.
+pub(in crate::report) fn legend(output: &Quantity, columns: &[Column]) -> String {
     let mut legend = if has_name(&output.unit) {
         let unit = output.unit.text();
         format!(
@@ -226,7 +247,7 @@ fn legend(output: &Quantity, columns: &[Column]) -> String {
 }
 
 /// Shares by group and by type, where there is more than one of them.
-fn subtotals(task: &Task, gum: &Gum) -> Option<String> {
+pub(in crate::report) fn subtotals(task: &Task, gum: &Gum) -> Option<String> {
     let Subtotals { groups, types } = Subtotals::of(task, gum);
     let entry = |name: &str, share: f64| format!("{} {} %", text::plain(name), percent(share));
     let mut sums = Vec::new();
@@ -251,24 +272,69 @@ fn subtotals(task: &Task, gum: &Gum) -> Option<String> {
     Some(format!("subtotals: {}", sums.join("; ")))
 }
 
-fn conclusion(settings: &Settings, output: &Quantity, gum: &Gum, digits: u32) -> String {
+/// A figure that follows from the budget.
+#[derive(Clone, Debug)]
+pub(in crate::report) struct Conclusion<'a> {
+    pub(in crate::report) name: &'static str,
+    pub(in crate::report) figure: Figure,
+    /// Its unit, if it has one.
+    pub(in crate::report) unit: Option<&'a Unit>,
+    /// What is said behind it.
+    pub(in crate::report) remark: String,
+}
+
+/// Combined standard uncertainty, degrees of freedom, coverage factor, expanded uncertainty.
+pub(in crate::report) fn conclusions<'a>(
+    settings: &Settings,
+    output: &'a Quantity,
+    gum: &Gum,
+    digits: u32,
+) -> [Conclusion<'a>; 4] {
+    let conclusion = |name, figure| Conclusion { name, figure, unit: None, remark: String::new() };
     let (_, combined) = with_uncertainty(gum.estimate, gum.standard_uncertainty, digits);
-    let factor = match gum.coverage_factor {
-        Some(factor) => {
-            format!("{} for {}", rounded(factor, -2), coverage_text(settings.coverage))
+    let (factor, remark) = match gum.coverage_factor {
+        Some(factor) => (
+            Figure::of(factor, rounded(factor, -2)),
+            format!("for {}", coverage_text(settings.coverage)),
+        ),
+        None => {
+            let text = "not defined for these degrees of freedom".to_owned();
+            (Figure { text, value: None }, String::new())
         }
-        None => "not defined for these degrees of freedom".to_owned(),
     };
-    let expanded = match gum.expanded_uncertainty() {
-        Some(expanded) => in_unit(&significant(expanded, digits), &output.unit),
-        None => "not defined".to_owned(),
+    let dof = match gum.dof {
+        Dof::Finite(dof) => Some(dof),
+        Dof::Infinite | Dof::Undefined => None,
     };
-    let entries = [
-        ("combined standard uncertainty", in_unit(&combined, &output.unit)),
-        ("effective degrees of freedom", effective(gum.dof, settings.real_dof)),
-        ("coverage factor", factor),
-        ("expanded uncertainty", expanded),
-    ];
+    let dof = Figure { text: effective(gum.dof, settings.real_dof), value: dof };
+    let expanded = gum.expanded_uncertainty();
+    let unit = expanded.map(|_| &output.unit);
+    let expanded = match expanded {
+        Some(expanded) => Figure::of(expanded, significant(expanded, digits)),
+        None => Figure { text: "not defined".to_owned(), value: None },
+    };
+    [
+        Conclusion {
+            unit: Some(&output.unit),
+            ..conclusion(
+                "combined standard uncertainty",
+                Figure::of(gum.standard_uncertainty, combined),
+            )
+        },
+        conclusion("effective degrees of freedom", dof),
+        Conclusion { remark, ..conclusion("coverage factor", factor) },
+        Conclusion { unit, ..conclusion("expanded uncertainty", expanded) },
+    ]
+}
+
+fn conclusion(settings: &Settings, output: &Quantity, gum: &Gum, digits: u32) -> String {
+    let entries = conclusions(settings, output, gum, digits).map(|found| {
+        let text = match found.unit {
+            Some(unit) => in_unit(&found.figure.text, unit),
+            None => format!("{} {}", found.figure.text, found.remark),
+        };
+        (found.name, text)
+    });
     let entries: Vec<_> = entries.iter().map(|(name, text)| (*name, text.as_str())).collect();
     text::definitions(&entries)
 }

@@ -4,6 +4,7 @@ use super::grid::Grid;
 use super::{WIDTH, text};
 use crate::propagate::RowEvaluation;
 use crate::report::number::justified;
+use crate::report::sheet::{Figure, Sheet};
 use crate::task::Task;
 
 /// Decimal place of the coefficients (JCGM 100, 7.2.6).
@@ -14,6 +15,31 @@ const MOST_PAIRS: usize = 1000;
 
 /// The coefficients as the upper triangle of their matrix or, if that is too wide, as a list.
 pub(super) fn table(task: &Task, row: &RowEvaluation) -> Option<String> {
+    match found(task, row)? {
+        Coefficients::Matrix { sheet, listed } => {
+            let grid = Grid::of(&sheet);
+            let fits = grid.natural_width() <= WIDTH;
+            Some(if fits { grid.render(WIDTH) } else { text::wrapped(&listed) })
+        }
+        Coefficients::TooMany(said) => Some(text::wrapped(&said)),
+    }
+}
+
+/// The coefficients of a row, ready for any page.
+pub(in crate::report) enum Coefficients {
+    /// The upper triangle of their matrix, and the same as a sentence.
+    Matrix {
+        /// The matrix.
+        sheet: Sheet,
+        /// The sentence.
+        listed: String,
+    },
+    /// How many there are.
+    TooMany(String),
+}
+
+/// The coefficients of a row; `None` for a single output.
+pub(in crate::report) fn found(task: &Task, row: &RowEvaluation) -> Option<Coefficients> {
     let names: Vec<String> =
         task.model.outputs.iter().map(|output| text::plain(&output.quantity.name)).collect();
     if names.len() < 2 {
@@ -22,32 +48,31 @@ pub(super) fn table(task: &Task, row: &RowEvaluation) -> Option<String> {
     let pairs = row.correlations.len();
     if pairs > MOST_PAIRS {
         let pairs = text::grouped(pairs as u64);
-        let text = format!("{pairs} correlation coefficients of the outputs: --format json");
-        return Some(text::wrapped(&text));
+        let said = format!("{pairs} correlation coefficients of the outputs: --format json");
+        return Some(Coefficients::TooMany(said));
     }
     let trials = row.outputs.first()?.monte_carlo.as_ref().map(|figures| figures.trials);
-    let coefficients: Vec<String> = row.correlations.iter().map(|&r| cell(r, trials)).collect();
-    let grid = matrix(&names, &coefficients);
-    if grid.natural_width() <= WIDTH {
-        return Some(grid.render(WIDTH));
-    }
+    let coefficients: Vec<Figure> =
+        row.correlations.iter().map(|&r| Figure::of(r, cell(r, trials))).collect();
+    let sheet = matrix(&names, &coefficients);
     let pairs =
         names.iter().enumerate().flat_map(|(i, a)| names.iter().skip(i + 1).map(move |b| (a, b)));
-    let listed = pairs.zip(&coefficients).map(|((a, b), r)| format!("r({a}, {b}) = {r}"));
-    Some(text::wrapped(&listed.collect::<Vec<_>>().join("; ")))
+    let listed = pairs.zip(&coefficients).map(|((a, b), r)| format!("r({a}, {b}) = {}", r.text));
+    Some(Coefficients::Matrix { sheet, listed: listed.collect::<Vec<_>>().join("; ") })
 }
 
-fn matrix(names: &[String], coefficients: &[String]) -> Grid {
-    let mut grid = Grid::default();
-    grid.text("correlation", names[..names.len() - 1].iter().cloned());
+fn matrix(names: &[String], coefficients: &[Figure]) -> Sheet {
+    let mut sheet = Sheet::default();
+    sheet.text("correlation", names[..names.len() - 1].iter().cloned());
     for j in 1..names.len() {
         let cells = (0..names.len() - 1).map(|i| {
             let place = pair(i, j, names.len());
-            place.and_then(|place| coefficients.get(place).cloned()).unwrap_or_default()
+            let blank = Figure { text: String::new(), value: None };
+            place.and_then(|place| coefficients.get(place).cloned()).unwrap_or(blank)
         });
-        grid.numbers(&names[j], cells);
+        sheet.figures(&names[j], cells);
     }
-    grid
+    sheet
 }
 
 /// The place of the pair i < j among all such pairs.

@@ -8,6 +8,7 @@ use comfy_table::{
 };
 
 use crate::report::number::align;
+use crate::report::sheet::Sheet;
 
 /// Spaces between columns.
 const GAP: u16 = 2;
@@ -55,6 +56,20 @@ impl Grid {
     /// A table whose last row is set off by a line and kept to one line.
     pub(super) fn with_footer() -> Self {
         Self { columns: Vec::new(), footer: true }
+    }
+
+    /// The table of a sheet.
+    pub(crate) fn of(sheet: &Sheet) -> Self {
+        let mut grid = Self { columns: Vec::new(), footer: sheet.footer };
+        for column in &sheet.columns {
+            let cells = column.cells.iter().cloned();
+            if column.is_numeric() {
+                grid.numbers(&column.header, cells);
+            } else {
+                grid.text(&column.header, cells);
+            }
+        }
+        grid
     }
 
     /// A column of texts, which wrap if the page is too narrow.

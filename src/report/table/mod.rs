@@ -1,16 +1,16 @@
 //! The page for a terminal.
 
-mod budget;
+pub(super) mod budget;
 mod columns;
-mod comparison;
-mod correlations;
+pub(super) mod comparison;
+pub(super) mod correlations;
 mod grid;
-mod sweep;
+pub(super) mod sweep;
 mod text;
 
 pub use columns::Column;
 pub(crate) use grid::Grid;
-pub(crate) use text::{plain, wrapped};
+pub(crate) use text::{grouped, plain, wrapped};
 
 use std::io::{self, Write};
 
@@ -64,44 +64,57 @@ pub fn write_table(report: &Report<'_>, style: &Style, mut out: impl Write) -> i
             for (output, figures) in task.model.outputs.iter().zip(&row.outputs) {
                 below(section(task, evaluation, output, figures, digits, &style.columns))?;
             }
-            let whole = correlations::table(task, row).into_iter().chain(left_out(row));
+            let whole = correlations::table(task, row)
+                .into_iter()
+                .chain(left_out(row).map(|said| said + "\n"));
             whole.into_iter().try_for_each(&mut below)?;
         }
         rows => sweep::tables(task, rows, digits).try_for_each(&mut below)?,
     }
-    if evaluation.stopped {
-        let trials = trials_made(evaluation);
-        below(format!("stopped after {} trials\n", text::grouped(trials)))?;
+    if let Some(said) = stopped(evaluation) {
+        below(said + "\n")?;
     }
     Ok(())
 }
 
 /// Title, coverage, trials; the conditions where there is one row of them.
 fn heading(task: &Task, evaluation: &Evaluation) -> String {
+    let mut heading = wrapped(&plain(&task.title)) + &wrapped(&settings_text(evaluation));
+    heading += &at(task, evaluation).map(|at| wrapped(&at)).unwrap_or_default();
+    heading
+}
+
+/// Coverage and trials.
+pub(super) fn settings_text(evaluation: &Evaluation) -> String {
     let Settings { coverage, trials, seed, .. } = evaluation.settings;
     let mut line = format!("coverage probability {}", coverage_text(coverage));
     let each = if evaluation.rows.len() > 1 { " for each row" } else { "" };
     match trials {
         Trials::Fixed(0) => {}
         Trials::Fixed(count) => {
-            line += &format!("; {} Monte Carlo trials{each}, seed {seed}", text::grouped(count));
+            line += &format!("; {} Monte Carlo trials{each}, seed {seed}", grouped(count));
         }
         Trials::Adaptive => {
             line += &format!("; as many Monte Carlo trials{each} as are needed, seed {seed}");
         }
     }
-    let mut heading = wrapped(&plain(&task.title)) + &wrapped(&line);
-    if let [row] = evaluation.rows.as_slice()
-        && task.swept
-    {
-        let at = conditions_text(&task.model.conditions, &row.conditions);
-        heading += &wrapped(&format!("at {at}"));
-    }
-    heading
+    line
+}
+
+/// The conditions where there is one row of them.
+pub(super) fn at(task: &Task, evaluation: &Evaluation) -> Option<String> {
+    let [row] = evaluation.rows.as_slice() else { return None };
+    task.swept.then(|| format!("at {}", conditions_text(&task.model.conditions, &row.conditions)))
 }
 
 /// What the quantities are, in words: inputs, their components where those say more, conditions.
 fn legend(task: &Task) -> Option<String> {
+    let entries = quantities(task);
+    (!entries.is_empty()).then(|| text::definitions(&entries))
+}
+
+/// Names of inputs, components and conditions with what they are, where that is said.
+pub(super) fn quantities(task: &Task) -> Vec<(&str, &str)> {
     let mut variables = task.variables.iter();
     let mut entries: Vec<(&str, &str)> = Vec::new();
     for InputQuantity { quantity, parts } in &task.model.inputs {
@@ -115,8 +128,12 @@ fn legend(task: &Task) -> Option<String> {
     let conditions = task.model.conditions.iter();
     entries.extend(conditions.map(|condition| (condition.name.as_str(), condition.about.as_str())));
     entries.retain(|(_, about)| !about.trim().is_empty());
-    (!entries.is_empty()).then(|| text::definitions(&entries))
+    entries
 }
+
+/// What is said where there is none.
+pub(super) const NO_BUDGET: &str =
+    "There is no budget: the estimate or a sensitivity coefficient is not finite here.";
 
 /// Everything about one output.
 fn section(
@@ -133,16 +150,22 @@ fn section(
             let budget = Budget { task, output: &output.quantity, gum, digits };
             parts.push(budget.table(&evaluation.settings, columns));
         }
-        None => parts.push(wrapped(
-            "There is no budget: the estimate or a sensitivity coefficient is not finite here.",
-        )),
+        None => parts.push(wrapped(NO_BUDGET)),
     }
     parts.extend(comparison::table(&output.quantity, figures, digits));
+    parts.extend(comparison::capability(output, figures).map(|said| wrapped(&said)));
     parts.join("\n")
 }
 
 /// Name, unit and words of an output, underlined.
 fn title(quantity: &Quantity) -> String {
+    let line = wrapped(&title_text(quantity));
+    let width = line.lines().map(|line| line.chars().count()).max().unwrap_or(0);
+    format!("{line}{}\n", "═".repeat(width.min(WIDTH)))
+}
+
+/// Name, unit and words of an output.
+pub(super) fn title_text(quantity: &Quantity) -> String {
     let mut line = plain(&quantity.name);
     if has_name(&quantity.unit) {
         line += &format!(" in {}", plain(quantity.unit.text()));
@@ -150,16 +173,20 @@ fn title(quantity: &Quantity) -> String {
     if !quantity.about.trim().is_empty() {
         line += &format!(": {}", plain(&quantity.about));
     }
-    let line = wrapped(&line);
-    let width = line.lines().map(|line| line.chars().count()).max().unwrap_or(0);
-    format!("{line}{}\n", "═".repeat(width.min(WIDTH)))
+    line
 }
 
 /// Trials that were left out because an output was not finite.
-fn left_out(row: &RowEvaluation) -> Option<String> {
+pub(super) fn left_out(row: &RowEvaluation) -> Option<String> {
     let undefined = row.undefined.as_ref()?;
-    let [count, trials] = [undefined.count, undefined.trials].map(text::grouped);
-    Some(format!("{count} of {trials} trials have no finite result and are left out\n"))
+    let [count, trials] = [undefined.count, undefined.trials].map(grouped);
+    Some(format!("{count} of {trials} trials have no finite result and are left out"))
+}
+
+/// Whether the run was stopped, and when.
+pub(super) fn stopped(evaluation: &Evaluation) -> Option<String> {
+    let trials = grouped(trials_made(evaluation));
+    evaluation.stopped.then(|| format!("stopped after {trials} trials"))
 }
 
 /// The trials behind the figures, of all rows together.
@@ -168,7 +195,7 @@ fn trials_made(evaluation: &Evaluation) -> u64 {
     outputs.filter_map(|output| output.monte_carlo.as_ref()).map(|figures| figures.trials).sum()
 }
 
-fn coverage_text(coverage: Coverage) -> String {
+pub(super) fn coverage_text(coverage: Coverage) -> String {
     match coverage {
         Coverage::Factor { factor: 2.0, .. } => "approximately 95 %".to_owned(),
         _ => {
@@ -181,7 +208,7 @@ fn coverage_text(coverage: Coverage) -> String {
 }
 
 /// `f = 10 Hz, tilt = 35 deg`.
-fn conditions_text(conditions: &[Quantity], values: &[f64]) -> String {
+pub(crate) fn conditions_text(conditions: &[Quantity], values: &[f64]) -> String {
     let parts: Vec<String> = conditions
         .iter()
         .zip(values)
@@ -194,10 +221,10 @@ fn conditions_text(conditions: &[Quantity], values: &[f64]) -> String {
 }
 
 /// A number with its unit, if that has a name.
-fn in_unit(number: &str, unit: &Unit) -> String {
+pub(super) fn in_unit(number: &str, unit: &Unit) -> String {
     if has_name(unit) { format!("{number} {}", plain(unit.text())) } else { number.to_owned() }
 }
 
-fn has_name(unit: &Unit) -> bool {
+pub(super) fn has_name(unit: &Unit) -> bool {
     !matches!(unit.text().trim(), "" | "1")
 }

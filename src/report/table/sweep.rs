@@ -6,6 +6,7 @@ use crate::model::{Output, Quantity};
 use crate::propagate::gum::Gum;
 use crate::propagate::{OutputEvaluation, RowEvaluation};
 use crate::report::number::{MISSING, align, exact, justified, place, rounded, significant, to};
+use crate::report::sheet::{Figure, Sheet};
 use crate::task::Task;
 
 /// The tables of all outputs, part by part, an empty line apart.
@@ -16,8 +17,7 @@ pub(super) fn tables<'a>(
 ) -> impl Iterator<Item = String> + 'a {
     let conditions = &task.model.conditions;
     let varying: Vec<usize> = (0..conditions.len()).filter(|&place| varies(rows, place)).collect();
-    let made = |row: &RowEvaluation| row.outputs.iter().any(|o| o.monte_carlo.is_some());
-    let sweep = Sweep { task, rows, digits, has_trials: rows.iter().any(made) };
+    let sweep = Sweep { task, rows, digits, has_trials: rows.iter().any(has_trials) };
     let [wide, narrow] =
         [WIDE, NARROW].map(|uncertainty| Layout { labels: Labels::Conditions, uncertainty });
     let numbers = Layout { labels: Labels::Numbers, uncertainty: WIDE };
@@ -37,11 +37,85 @@ pub(super) fn tables<'a>(
             std::mem::take(&mut above) + &grid.render(WIDTH)
         })
     });
-    let last = text::wrapped(
-        "Budgets, shortest intervals, numerical standard errors and correlations of every row: \
-         --format json.",
-    );
+    let last = text::wrapped(MORE);
     fixed.into_iter().chain(by_number).chain(tables).chain([last])
+}
+
+/// What else there is of a sweep.
+pub(in crate::report) const MORE: &str = "Budgets, shortest intervals, numerical standard errors and correlations of every row: \
+     --format json.";
+
+/// Inputs with a column of their own, at most.
+const MOST_SHARES: usize = 8;
+
+/// The shares of the variance in every row in per cent, of the inputs with the largest ones; `None`
+/// where none contributes.
+pub(in crate::report) fn shares(
+    task: &Task,
+    rows: &[RowEvaluation],
+    output: usize,
+) -> Option<Sheet> {
+    let gums: Vec<Option<&Gum>> =
+        rows.iter().map(|row| row.outputs.get(output)?.gum.as_ref()).collect();
+    let mut largest = vec![0.0_f64; task.variables.len()];
+    for line in gums.iter().flatten().flat_map(|gum| gum.budget()) {
+        if let Some(share) = largest.get_mut(line.variable) {
+            *share = share.max(line.share);
+        }
+    }
+    let mut chosen: Vec<usize> = (0..largest.len()).filter(|&v| largest[v] > 0.0).collect();
+    chosen.sort_by(|&a, &b| largest[b].total_cmp(&largest[a]));
+    chosen.truncate(MOST_SHARES);
+    chosen.sort_unstable();
+    if chosen.is_empty() {
+        return None;
+    }
+    let mut sheet = Sheet::default();
+    for (place, condition) in task.model.conditions.iter().enumerate() {
+        let values = rows.iter().map(|row| row.conditions.get(place).copied());
+        sheet.figures(&header(condition), values.map(|value| Figure::rounded(value, exact)));
+    }
+    for variable in chosen {
+        let share = |gum: &Option<&Gum>| {
+            let mut lines = gum.as_ref()?.budget();
+            lines.find(|line| line.variable == variable).map(|line| 100.0 * line.share)
+        };
+        let name = task.variables.get(variable).map_or("", |variable| &variable.name);
+        let cells = gums.iter().map(|gum| Figure::rounded(share(gum), |v| rounded(v, -1)));
+        sheet.figures(&text::plain(name), cells);
+    }
+    Some(sheet)
+}
+
+/// The table of an output over the first rows of a sweep, without a look.
+pub(in crate::report) fn sheet(
+    task: &Task,
+    rows: &[RowEvaluation],
+    output: usize,
+    digits: u32,
+) -> Sheet {
+    let mut sheet = Sheet::default();
+    for (place, condition) in task.model.conditions.iter().enumerate() {
+        let values = rows.iter().map(|row| row.conditions.get(place).copied());
+        sheet.figures(&header(condition), values.map(|value| Figure::rounded(value, exact)));
+    }
+    let lines: Vec<[String; 7]> =
+        rows.iter().map(|row| line(row.outputs.get(output), digits)).collect();
+    let column = |place: usize| lines.iter().map(move |line| line[place].clone());
+    sheet.numbers("estimate", column(0));
+    sheet.numbers("standard\nuncertainty", column(1));
+    sheet.numbers("expanded\nuncertainty", column(2));
+    sheet.numbers("k", column(3));
+    if rows.iter().any(has_trials) {
+        sheet.numbers("Monte Carlo\nfrom", column(4));
+        sheet.numbers("to", column(5));
+        sheet.text("GUM\ninterval", column(6));
+    }
+    sheet
+}
+
+fn has_trials(row: &RowEvaluation) -> bool {
+    row.outputs.iter().any(|output| output.monte_carlo.is_some())
 }
 
 /// What the tables are made of.

@@ -53,7 +53,7 @@ pub(super) fn definitions(entries: &[(&str, &str)]) -> String {
 }
 
 /// A count with its digits in groups of three: 1 000 000.
-pub(super) fn grouped(count: u64) -> String {
+pub(crate) fn grouped(count: u64) -> String {
     let digits = count.to_string();
     let mut text = String::with_capacity(digits.len() + digits.len() / 3);
     for (place, digit) in digits.chars().enumerate() {

@@ -3,10 +3,15 @@
 #[cfg(feature = "cli")]
 mod columns;
 mod csv;
+mod histogram;
 mod json;
+#[cfg(feature = "cli")]
+mod pages;
 mod saved;
 #[cfg(feature = "cli")]
 mod table;
+#[cfg(feature = "cli")]
+mod workbook;
 
 use super::{Provenance, Report};
 use crate::distribution::{Correlation, Input};

@@ -2,12 +2,12 @@
 
 use maud::html;
 
-use super::super::html::{Drawing, repeat, table};
+use super::super::html::repeat;
 use super::design::Design;
 use super::{confusion, matrix, reliability, sheets, words};
 use crate::gap::check::Report;
 use crate::report::Provenance;
-use crate::report::html::{figure, page};
+use crate::report::html::{Drawing, figure, page, table};
 
 /// The scores of a blind check as one HTML file with figures that needs nothing else: it loads
 /// nothing and runs nothing, reads in light and dark and prints on A4.

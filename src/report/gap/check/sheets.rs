@@ -1,12 +1,12 @@
 //! The tables of a blind check.
 
 use super::super::digits::share;
-use super::super::sheet::Sheet;
 use super::super::words::unit;
 use super::confusion::Wrong;
 use crate::gap::check::{Report, SmallestEffect};
 use crate::report::number::{MISSING, significant};
 use crate::report::plain;
+use crate::report::sheet::Sheet;
 
 /// So many kinds of wrong verdicts are listed at most.
 pub(super) const SHOWN: usize = 15;

@@ -1,10 +1,10 @@
 //! The page of a blind check for a terminal.
 
-use super::super::table::{grid, section};
+use super::super::table::section;
 use super::design::Design;
 use super::{confusion, sheets, words};
 use crate::gap::check::Report;
-use crate::report::{WIDTH, wrapped};
+use crate::report::{Grid, WIDTH, wrapped};
 
 /// The scores of a blind check as a page of at most 100 columns: what was done, the scores, whether
 /// probabilities mean what they say, the most frequent wrong verdicts, and the smallest effects that
@@ -12,9 +12,9 @@ use crate::report::{WIDTH, wrapped};
 pub fn table(design: &Design, report: &Report) -> String {
     let mut page = vec![heading(design, report)];
     page.push(section("What was done") + &wrapped(&words::done(design, report)));
-    let scores = grid(&sheets::scores(report)).render(WIDTH);
+    let scores = Grid::of(&sheets::scores(report)).render(WIDTH);
     page.push(section("Scores") + &scores + &wrapped(words::RIGHT) + &wrapped(words::SCORES));
-    let reliability = grid(&sheets::reliability(report)).render(WIDTH);
+    let reliability = Grid::of(&sheets::reliability(report)).render(WIDTH);
     page.push(
         section("Do probabilities mean what they say?")
             + &reliability
@@ -22,7 +22,7 @@ pub fn table(design: &Design, report: &Report) -> String {
     );
     page.push(section("Wrong verdicts") + &wrong(report));
     if let Some(sheet) = sheets::smallest(report) {
-        let smallest = grid(&sheet).render(WIDTH);
+        let smallest = Grid::of(&sheet).render(WIDTH);
         page.push(section("Smallest effects found") + &smallest + &wrapped(words::SMALLEST));
     }
     page.join("\n")
@@ -39,7 +39,7 @@ fn wrong(report: &Report) -> String {
     match sheets::wrong(&wrong) {
         Some(sheet) => {
             let rest = words::left_out(&wrong).map(|said| wrapped(&said));
-            grid(&sheet).render(WIDTH) + &rest.unwrap_or_default()
+            Grid::of(&sheet).render(WIDTH) + &rest.unwrap_or_default()
         }
         None => wrapped(words::NONE_WRONG),
     }

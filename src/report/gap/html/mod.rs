@@ -9,22 +9,11 @@ mod where_map;
 
 use maud::{Markup, html};
 
-use super::sheet::{Column, Sheet};
 use super::{digits, sheets, words};
 use crate::gap::Diagnosis;
-use crate::report::html::{figure, page};
-use crate::report::number::align;
+pub(super) use crate::report::html::{Drawing, WIDTH};
+use crate::report::html::{figure, page, table};
 use crate::report::{Provenance, plain};
-
-/// Width of all figures in pixels.
-pub(super) const WIDTH: f64 = 720.0;
-
-/// A figure with what is written below it.
-#[derive(Debug)]
-pub(super) struct Drawing {
-    pub(super) svg: String,
-    pub(super) caption: String,
-}
 
 /// The diagnosis as one HTML file with figures that needs nothing else: it loads nothing and runs
 /// nothing, reads in light and dark and prints on A4.
@@ -93,45 +82,6 @@ pub fn html(diagnosis: &Diagnosis, provenance: &Provenance) -> String {
         (repeat(&settings, provenance))
     };
     page(&title, &body)
-}
-
-/// A table; numbers are padded so that their decimal points stand under each other.
-pub(super) fn table(sheet: &Sheet) -> Markup {
-    let class = |column: &Column| column.numbers.then_some("number");
-    let columns: Vec<Vec<String>> = sheet
-        .columns
-        .iter()
-        .map(|column| if column.numbers { padded(&column.cells) } else { column.cells.clone() })
-        .collect();
-    html! {
-        div.table {
-            table {
-                thead {
-                    tr {
-                        @for column in &sheet.columns {
-                            th class=[class(column)] { (column.header.replace('\n', " ").trim()) }
-                        }
-                    }
-                }
-                tbody {
-                    @for row in 0..sheet.rows() {
-                        tr {
-                            @for (column, cells) in sheet.columns.iter().zip(&columns) {
-                                td class=[class(column)] {
-                                    (cells.get(row).map_or("", String::as_str))
-                                }
-                            }
-                        }
-                    }
-                }
-            }
-        }
-    }
-}
-
-/// Numbers padded with spaces of the width of a digit.
-fn padded(cells: &[String]) -> Vec<String> {
-    align(cells).into_iter().map(|cell| cell.replace(' ', "\u{2007}")).collect()
 }
 
 /// Everything that is needed to get the same answer again; `settings` are those of the command, with

@@ -1,0 +1,178 @@
+//! Two results of one quantity: normalized error and zeta score (ISO 13528:2022, 9.5 and 9.7;
+//! ISO/IEC 17043), and the range of the normalized error that printed digits allow.
+
+use super::{FACTOR, probability};
+
+/// A result as it is stated.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stated {
+    /// The value x.
+    pub value: f64,
+    /// Its expanded uncertainty U, at least 0, in the same unit.
+    pub expanded: f64,
+    /// Its coverage factor k, above 0.
+    pub factor: f64,
+    /// By how much x and U may be rounded: half a unit of their last printed digits, or 0.
+    pub rounding: [f64; 2],
+}
+
+impl Stated {
+    /// Standard uncertainty U/k.
+    pub fn standard_uncertainty(&self) -> f64 {
+        self.expanded / self.factor
+    }
+}
+
+/// Two results of one quantity.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Pair {
+    /// What is compared.
+    pub label: String,
+    /// The two results.
+    pub results: [Stated; 2],
+    /// Their correlation coefficient, from -1 to 1.
+    pub correlation: f64,
+}
+
+/// Two results compared.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Compared {
+    /// What is compared.
+    pub label: String,
+    /// x1 - x2.
+    pub difference: f64,
+    /// Its expanded uncertainty U with k = 2; results that are stated with other factors are brought
+    /// to that.
+    pub expanded: f64,
+    /// Normalized error |d|/U.
+    pub normalized_error: f64,
+    /// Zeta score |d|/u(d).
+    pub zeta: f64,
+    /// The normalized errors that the printed digits allow, from and to; infinite where U may be 0.
+    pub range: [f64; 2],
+    /// Probability that two results of one value differ by as much or more.
+    pub probability: f64,
+}
+
+impl Compared {
+    /// Whether the results are compatible: the normalized error is at most 1.
+    pub fn is_compatible(&self) -> bool {
+        self.normalized_error <= 1.0
+    }
+}
+
+impl Pair {
+    /// The comparison; `None` if the difference has no uncertainty.
+    pub fn compare(&self) -> Option<Compared> {
+        let [a, b] = self.results;
+        let [u1, u2] = self.results.map(|result| result.standard_uncertainty());
+        let difference = a.value - b.value;
+        let u = squared([u1, u2], self.correlation).max(0.0).sqrt();
+        // u of fully correlated results may be nothing but rounding
+        (u > 1e-12 * (u1 + u2)).then(|| Compared {
+            label: self.label.clone(),
+            difference,
+            expanded: FACTOR * u,
+            normalized_error: difference.abs() / (FACTOR * u),
+            zeta: difference.abs() / u,
+            range: self.range(),
+            probability: probability(difference, u),
+        })
+    }
+
+    /// The least and the greatest normalized error over all values and uncertainties that print as
+    /// these do.
+    fn range(&self) -> [f64; 2] {
+        let [a, b] = self.results;
+        let (d, slack) = ((a.value - b.value).abs(), a.rounding[0] + b.rounding[0]);
+        let ends = self.results.map(|result| {
+            let [low, high] =
+                [result.expanded - result.rounding[1], result.expanded + result.rounding[1]];
+            [low.max(0.0) / result.factor, high / result.factor]
+        });
+        let (least, greatest) = extremes(ends, self.correlation);
+        let at = |d: f64, u: f64| if d == 0.0 { 0.0 } else { d / (FACTOR * u) };
+        [at((d - slack).max(0.0), greatest), at(d + slack, least)]
+    }
+}
+
+/// u1^2 + u2^2 - 2 r u1 u2.
+fn squared([u1, u2]: [f64; 2], r: f64) -> f64 {
+    u1 * u1 + u2 * u2 - 2.0 * r * u1 * u2
+}
+
+/// The least and the greatest standard uncertainty of a difference over a rectangle of standard
+/// uncertainties. Its square is convex: the greatest is at a corner, the least on an edge where that
+/// is flat, or at a corner.
+fn extremes([a, b]: [[f64; 2]; 2], r: f64) -> (f64, f64) {
+    let corners = a.iter().flat_map(|&u1| b.map(|u2| [u1, u2]));
+    let flat_on_a = a.map(|u1| [u1, (r * u1).clamp(b[0], b[1])]);
+    let flat_on_b = b.map(|u2| [(r * u2).clamp(a[0], a[1]), u2]);
+    let all: Vec<f64> = corners
+        .chain(flat_on_a)
+        .chain(flat_on_b)
+        .map(|at| squared(at, r).max(0.0).sqrt())
+        .collect();
+    (all.iter().copied().fold(f64::INFINITY, f64::min), all.iter().copied().fold(0.0, f64::max))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn stated(value: f64, expanded: f64, factor: f64) -> Stated {
+        Stated { value, expanded, factor, rounding: [0.5, 0.5] }
+    }
+
+    /// By hand: d = 3, u = sqrt(1.5^2 + 2^2) = 2.5, U = 5.
+    #[test]
+    fn a_pair_by_hand() {
+        let pair = |r: f64| Pair {
+            label: "a".into(),
+            results: [stated(10.0, 3.0, 2.0), stated(13.0, 6.0, 3.0)],
+            correlation: r,
+        };
+        let found = pair(0.0).compare().unwrap();
+        assert_eq!((found.difference, found.expanded, found.zeta), (-3.0, 5.0, 1.2));
+        assert!((found.normalized_error - 0.6).abs() < 1e-15 && found.is_compatible());
+        // 2 (1 - Phi(1.2)), tables
+        assert!((found.probability - 0.230_139).abs() < 1e-6);
+        // r = 0.5: u^2 = 2.25 + 4 - 3 = 3.25
+        let found = pair(0.5).compare().unwrap();
+        assert!((found.expanded - 2.0 * 3.25f64.sqrt()).abs() < 1e-14);
+    }
+
+    /// The range is that of a fine grid over everything that prints alike.
+    #[test]
+    fn the_range_of_printed_digits() {
+        for r in [-1.0, -0.4, 0.0, 0.3, 0.9, 1.0] {
+            let pair = Pair {
+                label: "a".into(),
+                results: [stated(10.0, 3.0, 2.0), stated(13.0, 4.0, 2.0)],
+                correlation: r,
+            };
+            let steps = |i: i32| f64::from(i) / 20.0 - 0.5;
+            let (mut least, mut greatest) = (f64::INFINITY, 0.0f64);
+            for (i, j) in (0..=20).flat_map(|i| (0..=20).map(move |j| (i, j))) {
+                let u =
+                    squared([(3.0 + steps(i)) / 2.0, (4.0 + steps(j)) / 2.0], r).max(0.0).sqrt();
+                least = least.min(2.0 / (2.0 * u));
+                greatest = greatest.max(4.0 / (2.0 * u));
+            }
+            let [from, to] = pair.compare().unwrap().range;
+            assert!(from <= least + 1e-12 && to >= greatest - 1e-12, "{r} {from} {to}");
+            // a grid of step 0.05 misses the ends by little
+            assert!(least - from < 0.01 && (greatest - to).abs() < 0.02 * to || to.is_infinite());
+        }
+    }
+
+    #[test]
+    fn no_uncertainty_is_no_comparison() {
+        let pair = Pair {
+            label: "a".into(),
+            results: [stated(1.0, 2.0, 2.0), stated(2.0, 2.0, 2.0)],
+            correlation: 1.0,
+        };
+        assert!(pair.compare().is_none());
+    }
+}

@@ -1,0 +1,134 @@
+//! Global risks: of accepting an item that does not conform, or rejecting one that does, over all
+//! items that come (JCGM 106, 9.5).
+//!
+//! With the prior distribution g of the items' values and the probability a(eta) that an item of the
+//! value eta is measured within the acceptance limits, the risk of false acceptance is the integral
+//! of g a outside the tolerance, that of false rejection the integral of g (1 - a) inside. The
+//! integrals run over the standard normal scores of the prior, so that any shape will do.
+
+use super::smallest;
+use crate::distribution::{Distribution, special};
+
+/// Risks over all items that are inspected.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GlobalRisks {
+    /// That an item is accepted and does not conform (the consumer's risk).
+    pub false_acceptance: f64,
+    /// That an item is rejected and conforms (the producer's risk).
+    pub false_rejection: f64,
+}
+
+/// Scores beyond this are left out: 1e-17 of all items.
+const FARTHEST: f64 = 8.5;
+
+/// The absolute error of an integral, at most.
+const TOLERANCE: f64 = 1e-10;
+
+/// Items of a prior, measured with a standard uncertainty.
+#[derive(Debug)]
+pub(super) struct Inspection<'a> {
+    prior: &'a Distribution,
+    u: f64,
+    limits: [f64; 2],
+}
+
+impl<'a> Inspection<'a> {
+    pub(super) fn new(prior: &'a Distribution, u: f64, limits: [f64; 2]) -> Self {
+        Self { prior, u, limits }
+    }
+
+    /// The risks with acceptance limits.
+    pub(super) fn risks(&self, acceptance: [f64; 2]) -> GlobalRisks {
+        let [lower, upper] = self.limits.map(|limit| self.score(limit));
+        let accepted = |value: f64| {
+            let [low, high] = acceptance.map(|limit| (limit - value) / self.u);
+            // from the near tail, so that small probabilities keep their digits
+            if low > 0.0 {
+                special::normal::sf(low) - special::normal::sf(high)
+            } else if high < 0.0 {
+                special::normal::cdf(high) - special::normal::cdf(low)
+            } else {
+                1.0 - special::normal::cdf(low) - special::normal::sf(high)
+            }
+        };
+        let density = |z: f64| libm::exp(-0.5 * z * z) / (2.0 * std::f64::consts::PI).sqrt();
+        let f = |z: f64| density(z) * accepted(self.prior.at_score(z));
+        let rejected = |z: f64| density(z) * (1.0 - accepted(self.prior.at_score(z)));
+        let places = self.places(acceptance);
+        GlobalRisks {
+            false_acceptance: integral(&f, -FARTHEST, lower, &places)
+                + integral(&f, upper, FARTHEST, &places),
+            false_rejection: integral(&rejected, lower, upper, &places),
+        }
+    }
+
+    /// The guard band with which the risk of false acceptance is at most this; `None` if no band
+    /// gives that.
+    pub(super) fn guard_band(&self, risk: f64) -> Option<f64> {
+        let [lower, upper] = self.limits;
+        let most = if (upper - lower).is_finite() { 0.5 * (upper - lower) } else { 40.0 * self.u };
+        let at = |width: f64| self.risks([lower + width, upper - width]).false_acceptance;
+        (at(most) <= risk).then(|| smallest(0.0, most, |width| at(width) <= risk))
+    }
+
+    /// The score of a value, within those that are integrated over.
+    fn score(&self, value: f64) -> f64 {
+        if value.is_infinite() {
+            return FARTHEST.copysign(value);
+        }
+        self.prior.score_of(value).clamp(-FARTHEST, FARTHEST)
+    }
+
+    /// Scores about which the integrands change: the acceptance limits, and some standard
+    /// uncertainties from them.
+    fn places(&self, acceptance: [f64; 2]) -> Vec<f64> {
+        let steps = [-8.0, -4.0, -2.0, 0.0, 2.0, 4.0, 8.0];
+        let finite = acceptance.into_iter().filter(|limit| limit.is_finite());
+        let values = finite.flat_map(|limit| steps.map(|step| limit + step * self.u));
+        let mut places: Vec<f64> = values.map(|value| self.score(value)).collect();
+        places.extend([-4.0, -2.0, 0.0, 2.0, 4.0]);
+        places.sort_by(f64::total_cmp);
+        places
+    }
+}
+
+/// The integral between two scores, cut at the places between them.
+fn integral(f: &impl Fn(f64) -> f64, from: f64, to: f64, places: &[f64]) -> f64 {
+    let mut sum = 0.0;
+    let mut start = from;
+    let between = places.iter().copied().filter(|place| *place > from && *place < to);
+    for end in between.chain([to]) {
+        if end > start {
+            let (a, b) = (f(start), f(end));
+            let (middle, whole) = simpson(f, (start, a), (end, b));
+            sum += refined(f, [(start, a), middle, (end, b)], whole, TOLERANCE, 40);
+            start = end;
+        }
+    }
+    sum
+}
+
+/// Simpson's rule, and the middle point that it took.
+fn simpson(f: &impl Fn(f64) -> f64, from: (f64, f64), to: (f64, f64)) -> ((f64, f64), f64) {
+    let middle = 0.5 * (from.0 + to.0);
+    let value = f(middle);
+    ((middle, value), (to.0 - from.0) / 6.0 * (from.1 + 4.0 * value + to.1))
+}
+
+/// Simpson's rule on halves of halves, until two of them agree with their whole.
+fn refined(
+    f: &impl Fn(f64) -> f64,
+    [from, middle, to]: [(f64, f64); 3],
+    whole: f64,
+    tolerance: f64,
+    depth: u32,
+) -> f64 {
+    let (low, left) = simpson(f, from, middle);
+    let (high, right) = simpson(f, middle, to);
+    let change = left + right - whole;
+    if depth == 0 || change.abs() <= 15.0 * tolerance {
+        return left + right + change / 15.0;
+    }
+    refined(f, [from, low, middle], left, 0.5 * tolerance, depth - 1)
+        + refined(f, [middle, high, to], right, 0.5 * tolerance, depth - 1)
+}

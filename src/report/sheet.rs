@@ -1,0 +1,124 @@
+//! A table without a look: every page, document and workbook draws it in its own way.
+
+use super::number::MISSING;
+
+/// A table, column by column.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Sheet {
+    pub(crate) columns: Vec<Column>,
+    /// Whether the last row sums up the others.
+    pub(crate) footer: bool,
+}
+
+/// A column of a table.
+#[derive(Clone, Debug)]
+pub(crate) struct Column {
+    /// What stands above it; a line break may be in it.
+    pub(crate) header: String,
+    /// The cells as a page shows them.
+    pub(crate) cells: Vec<String>,
+    /// The numbers that the cells were rounded from, where they are known: as many as cells, or
+    /// none at all.
+    pub(crate) values: Vec<Option<f64>>,
+    pub(crate) kind: Kind,
+}
+
+/// What the cells of a column are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Kind {
+    /// Texts.
+    Text,
+    /// Numbers, whose decimal points stand under each other.
+    Numbers,
+    /// Units as files write them: `m/s^2`.
+    Units,
+}
+
+/// A number as a page shows it, and as it was before rounding.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Figure {
+    pub(crate) text: String,
+    pub(crate) value: Option<f64>,
+}
+
+impl Figure {
+    /// A number that was rounded once.
+    pub(crate) fn of(value: f64, text: String) -> Self {
+        Self { text, value: Some(value) }
+    }
+
+    /// A number that there is none of.
+    pub(crate) fn missing() -> Self {
+        Self { text: MISSING.to_owned(), value: None }
+    }
+
+    /// A number rounded by `round` if there is one.
+    pub(crate) fn rounded(value: Option<f64>, round: impl FnOnce(f64) -> String) -> Self {
+        value.map_or_else(Self::missing, |value| Self::of(value, round(value)))
+    }
+}
+
+impl Sheet {
+    /// Adds a column of texts.
+    pub(crate) fn text(&mut self, header: &str, cells: impl IntoIterator<Item = String>) {
+        self.push(header, cells, Kind::Text);
+    }
+
+    /// Adds a column of numbers.
+    pub(crate) fn numbers(&mut self, header: &str, cells: impl IntoIterator<Item = String>) {
+        self.push(header, cells, Kind::Numbers);
+    }
+
+    /// Adds a column of units.
+    pub(crate) fn units(&mut self, header: &str, cells: impl IntoIterator<Item = String>) {
+        self.push(header, cells, Kind::Units);
+    }
+
+    /// Adds a column of numbers whose unrounded values are known.
+    pub(crate) fn figures(&mut self, header: &str, cells: impl IntoIterator<Item = Figure>) {
+        let (texts, values): (Vec<_>, Vec<_>) =
+            cells.into_iter().map(|figure| (figure.text, figure.value)).unzip();
+        self.numbers(header, texts);
+        if let Some(column) = self.columns.last_mut() {
+            column.values = values;
+        }
+    }
+
+    /// Adds a column of a kind.
+    pub(crate) fn push(
+        &mut self,
+        header: &str,
+        cells: impl IntoIterator<Item = String>,
+        kind: Kind,
+    ) {
+        let cells = cells.into_iter().collect();
+        self.columns.push(Column { header: header.to_owned(), cells, values: Vec::new(), kind });
+    }
+
+    /// How many rows it has.
+    pub(crate) fn rows(&self) -> usize {
+        self.columns.iter().map(|column| column.cells.len()).max().unwrap_or(0)
+    }
+}
+
+impl Column {
+    /// Whether the cells are numbers.
+    pub(crate) fn is_numeric(&self) -> bool {
+        self.kind == Kind::Numbers
+    }
+
+    /// The header on one line.
+    pub(crate) fn title(&self) -> String {
+        self.header.split_whitespace().collect::<Vec<_>>().join(" ")
+    }
+
+    /// The cell of a row; nothing where it has none.
+    pub(crate) fn cell(&self, row: usize) -> &str {
+        self.cells.get(row).map_or("", String::as_str)
+    }
+
+    /// The unrounded number of a row.
+    pub(crate) fn value(&self, row: usize) -> Option<f64> {
+        self.values.get(row).copied().flatten()
+    }
+}

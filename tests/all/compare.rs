@@ -1,0 +1,236 @@
+//! `gumption compare` from the outside.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Output;
+
+use serde_json::{Value, json};
+
+use crate::support::{command, root};
+
+fn run(folder: &Path, arguments: &[&str]) -> Output {
+    let output = command().current_dir(folder).arg("compare").args(arguments).output();
+    output.expect("the program runs")
+}
+
+fn answer(folder: &Path, arguments: &[&str]) -> Value {
+    let output = run(folder, &[arguments, &["--format", "json"]].concat());
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(0), "{said}");
+    serde_json::from_slice(&output.stdout).expect("JSON")
+}
+
+/// A folder with a file in it.
+fn with(name: &str, text: &str) -> (tempfile::TempDir, PathBuf) {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join(name);
+    fs::write(&path, text).expect("written");
+    (folder, path)
+}
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().expect("a number")
+}
+
+/// Table 1 of Chiominto et al. (2024), as printed, and the normalized errors of its Table 2.
+const PAPER: [([f64; 4], f64); 9] = [
+    ([423.0, 13.0, 422.0, 13.0], 0.04),
+    ([422.0, 11.0, 419.0, 12.0], 0.18),
+    ([425.0, 11.0, 421.0, 11.0], 0.26),
+    ([422.0, 9.0, 422.0, 13.0], 0.05),
+    ([423.0, 12.0, 419.0, 11.0], 0.25),
+    ([423.0, 9.0, 419.0, 10.0], 0.31),
+    ([423.0, 10.0, 425.0, 22.0], 0.09),
+    ([430.0, 11.0, 429.0, 23.0], 0.05),
+    ([426.0, 7.0, 424.0, 17.0], 0.07),
+];
+
+fn paper() -> String {
+    let rows = PAPER.iter().enumerate().map(|(row, ([x1, u1, x2, u2], _))| {
+        format!("MEMS {} {},{x1},{u1},{x2},{u2}\n", row / 3 + 1, ["x", "y", "z"][row % 3])
+    });
+    "label,x1,U1,x2,U2\n".to_owned() + &rows.collect::<String>()
+}
+
+/// Every value of Table 2 lies in the range that the digits of Table 1 allow, widened by the rounding
+/// of Table 2 itself (0.005); all pairs are compatible.
+#[test]
+fn the_papers_table_2_from_its_table_1() {
+    let (folder, _) = with("table1.csv", &paper());
+    let found = answer(folder.path(), &["table1.csv", "--rounding", "--fail"]);
+    let rows = found["rows"].as_array().expect("a list");
+    assert_eq!(rows.len(), 9);
+    for (row, ([x1, u1, x2, u2], published)) in rows.iter().zip(PAPER) {
+        let [low, high] = [&row["range"][0], &row["range"][1]].map(number);
+        assert!(low - 0.005 <= published && published <= high + 0.005, "{row} {published}");
+        assert!(low <= number(&row["en"]) && number(&row["en"]) <= high);
+        let expected = (x1 - x2).abs() / (u1 * u1 + u2 * u2).sqrt();
+        assert!((number(&row["en"]) - expected).abs() < 1e-14);
+        assert_eq!((number(&row["difference"]), &row["compatible"]), (x1 - x2, &json!(true)));
+    }
+    // MEMS 2, x: the printed table gives 0.00
+    assert_eq!(number(&rows[3]["en"]), 0.0);
+    assert!((number(&rows[3]["probability"]) - 1.0).abs() < 1e-15);
+    let plain = answer(folder.path(), &["table1.csv"]);
+    assert!(plain["rows"][0].get("range").is_none());
+}
+
+#[test]
+fn every_format_shows_the_same_rows() {
+    let (folder, _) = with("table1.csv", &paper());
+    for format in ["table", "html", "markdown", "csv"] {
+        let output = run(folder.path(), &["table1.csv", "--rounding", "--format", format]);
+        assert_eq!(output.status.code(), Some(0));
+        let text = String::from_utf8(output.stdout).expect("UTF-8");
+        assert!(text.contains("MEMS 3 z"), "{text}");
+        match format {
+            "csv" => assert_eq!(text.lines().count(), 10),
+            "html" => {
+                assert!(text.contains("<svg") && !text.contains("<script"));
+                roxmltree::Document::parse(
+                    &text[text.find("<svg").expect("a figure")
+                        ..text.find("</svg>").expect("its end") + 6],
+                )
+                .expect("a well-formed figure");
+            }
+            "markdown" => assert!(text.contains("| MEMS 1 x | 423 ± 13 | 422 ± 13 |"), "{text}"),
+            _ => assert!(text.contains("All 9 pairs are compatible."), "{text}"),
+        }
+    }
+}
+
+#[test]
+fn pairs_that_are_not_compatible() {
+    let (folder, _) = with("t.csv", "label;x1;U1;x2;U2;r\na;10,0;0,3;10,2;0,4;0,5\nb;1;1;9;1;0\n");
+    let found = answer(folder.path(), &["t.csv"]);
+    // 0.3^2 + 0.4^2 - 2 x 0.5 x 0.3 x 0.4 = 0.13
+    assert!((number(&found["rows"][0]["U"]) - 0.13f64.sqrt()).abs() < 1e-14);
+    assert_eq!(found["rows"][1]["compatible"], false);
+    assert_eq!(run(folder.path(), &["t.csv"]).status.code(), Some(0));
+    let failed = run(folder.path(), &["t.csv", "--fail"]);
+    assert_eq!(failed.status.code(), Some(3));
+    assert!(
+        String::from_utf8_lossy(&failed.stdout).contains("1 of 2 pairs are not compatible: b.")
+    );
+}
+
+/// Laboratories by hand: the mean of 10 and 12 with U = 2 each, and one far off that is left out.
+#[test]
+fn laboratories_and_their_reference_value() {
+    let (folder, _) = with("labs.csv", "label,x,U,k\nA,10,2,2\nB,12,3,3\nC,100,2,2\n");
+    let found = answer(folder.path(), &["labs.csv"]);
+    assert_eq!(found["reference"]["laboratories"], json!(["A", "B"]));
+    assert_eq!(found["largest_consistent_subset"], "all subsets");
+    assert!((number(&found["reference"]["value"]) - 11.0).abs() < 1e-12);
+    assert!((number(&found["reference"]["U"]) - 2f64.sqrt()).abs() < 1e-12);
+    assert_eq!(found["weighted_mean"]["consistent"], false);
+    assert_eq!(
+        (&found["rows"][2]["in_reference"], &found["rows"][2]["compatible"]),
+        (&json!(false), &json!(false))
+    );
+    assert_eq!(run(folder.path(), &["labs.csv", "--fail"]).status.code(), Some(3));
+    fs::write(folder.path().join("r.csv"), "C,A,B\n1,0,0\n0,1,0.2\n0,0.2,1\n").expect("written");
+    let found = answer(folder.path(), &["labs.csv", "--correlations", "r.csv"]);
+    assert!((number(&found["reference"]["U"]) - 2.0 * 0.6f64.sqrt()).abs() < 1e-12);
+    for format in ["table", "html", "markdown", "csv"] {
+        let output = run(folder.path(), &["labs.csv", "--format", format]);
+        assert_eq!(output.status.code(), Some(0));
+        assert!(String::from_utf8_lossy(&output.stdout).contains("100"));
+    }
+}
+
+/// The second results come from a run: its GUM side, with its coverage factor.
+#[test]
+fn against_a_run() {
+    let (folder, _) = with("t.csv", "label,x1,U1\na_x,4.95,0.02\na_z,8.19,0.02\n");
+    let model = root().join("models/inclined_plane.json");
+    let model = model.to_str().expect("a path");
+    let arguments = ["run", model, "--trials", "0", "--format", "json", "--output", "run.json"];
+    let made = command().current_dir(folder.path()).args(arguments).output().expect("it runs");
+    assert_eq!(made.status.code(), Some(0));
+    let run_answer: Value =
+        serde_json::from_slice(&fs::read(folder.path().join("run.json")).expect("read"))
+            .expect("JSON");
+    let found = answer(folder.path(), &["t.csv", "--against", "run.json"]);
+    let gum = &run_answer["outputs"]["a_x"]["gum"];
+    let row = &found["rows"][0];
+    assert!((number(&row["difference"]) - (4.95 - number(&gum["estimate"]))).abs() < 1e-14);
+    let u = (0.01f64.powi(2) + number(&gum["standard_uncertainty"]).powi(2)).sqrt();
+    assert!((number(&row["U"]) / (2.0 * u) - 1.0).abs() < 1e-12);
+    // a sweep needs its conditions as columns
+    let model = root().join("models/inclined_plane_campaign.json");
+    let model = model.to_str().expect("a path");
+    let arguments = ["run", model, "--trials", "0", "--format", "json", "--output", "sweep.json"];
+    command().current_dir(folder.path()).args(arguments).output().expect("it runs");
+    let refused = run(folder.path(), &["t.csv", "--against", "sweep.json"]);
+    assert_eq!(refused.status.code(), Some(2));
+    let text = "label,tilt_nominal,rotation_nominal,x1,U1\na_x,35,30,4.97,0.02\n";
+    fs::write(folder.path().join("s.csv"), text).expect("written");
+    let found = answer(folder.path(), &["s.csv", "--against", "sweep.json"]);
+    assert!(number(&found["rows"][0]["difference"]).abs() < 0.01);
+}
+
+/// A workbook as others write it: shared strings left out, numbers as they are.
+fn workbook(path: &Path) {
+    use std::io::Write;
+    let file = fs::File::create(path).expect("a file");
+    let mut zip = zip::ZipWriter::new(file);
+    let parts = [
+        ("[Content_Types].xml", r#"<?xml version="1.0"?><Types xmlns="http://schemas.openxmlformats.org/package/2006/content-types"><Default Extension="rels" ContentType="application/vnd.openxmlformats-package.relationships+xml"/><Override PartName="/xl/workbook.xml" ContentType="application/vnd.openxmlformats-officedocument.spreadsheetml.sheet.main+xml"/><Override PartName="/xl/worksheets/sheet1.xml" ContentType="application/vnd.openxmlformats-officedocument.spreadsheetml.worksheet+xml"/></Types>"#.to_owned()),
+        ("_rels/.rels", r#"<?xml version="1.0"?><Relationships xmlns="http://schemas.openxmlformats.org/package/2006/relationships"><Relationship Id="r1" Type="http://schemas.openxmlformats.org/officeDocument/2006/relationships/officeDocument" Target="xl/workbook.xml"/></Relationships>"#.to_owned()),
+        ("xl/workbook.xml", r#"<?xml version="1.0"?><workbook xmlns="http://schemas.openxmlformats.org/spreadsheetml/2006/main" xmlns:r="http://schemas.openxmlformats.org/officeDocument/2006/relationships"><sheets><sheet name="a" sheetId="1" r:id="r1"/></sheets></workbook>"#.to_owned()),
+        ("xl/_rels/workbook.xml.rels", r#"<?xml version="1.0"?><Relationships xmlns="http://schemas.openxmlformats.org/package/2006/relationships"><Relationship Id="r1" Type="http://schemas.openxmlformats.org/officeDocument/2006/relationships/worksheet" Target="worksheets/sheet1.xml"/></Relationships>"#.to_owned()),
+        ("xl/worksheets/sheet1.xml", {
+            let cell = |(column, text): (usize, &str)| {
+                let letter = ["A", "B", "C", "D", "E"][column];
+                match text.parse::<f64>() {
+                    Ok(_) => format!(r#"<c r="{letter}%ROW%"><v>{text}</v></c>"#),
+                    Err(_) => format!(r#"<c r="{letter}%ROW%" t="inlineStr"><is><t>{text}</t></is></c>"#),
+                }
+            };
+            let rows = paper().lines().enumerate().map(|(row, line)| {
+                let cells: String = line.split(',').enumerate().map(cell).collect();
+                let row = (row + 2).to_string();
+                format!(r#"<row r="{row}">{}</row>"#, cells.replace("%ROW%", &row))
+            }).collect::<String>();
+            format!(r#"<?xml version="1.0"?><worksheet xmlns="http://schemas.openxmlformats.org/spreadsheetml/2006/main"><sheetData>{rows}</sheetData></worksheet>"#)
+        }),
+    ];
+    for (name, text) in parts {
+        zip.start_file(name, zip::write::SimpleFileOptions::default()).expect("a part");
+        zip.write_all(text.as_bytes()).expect("written");
+    }
+    zip.finish().expect("a workbook");
+}
+
+#[test]
+fn a_workbook_gives_what_its_csv_gives() {
+    let (folder, _) = with("t.csv", &paper());
+    workbook(&folder.path().join("t.xlsx"));
+    let of = |name: &str| answer(folder.path(), &[name, "--rounding"]);
+    assert_eq!(of("t.xlsx"), of("t.csv"));
+    fs::write(folder.path().join("no.xlsx"), "label,x1").expect("written");
+    let refused = run(folder.path(), &["no.xlsx"]);
+    assert_eq!(refused.status.code(), Some(2));
+    assert!(String::from_utf8_lossy(&refused.stderr).contains("it is no workbook"));
+}
+
+/// Mistakes name the file, the line and what would be right, and nothing is written.
+#[test]
+fn mistakes_of_tables() {
+    let (folder, _) = with("t.csv", "label,x1,U1,x2,U2\na,1,1,2,\n");
+    let refused = run(folder.path(), &["t.csv", "--output", "out.json", "--format", "json"]);
+    assert_eq!(refused.status.code(), Some(2));
+    let said = String::from_utf8_lossy(&refused.stderr).into_owned();
+    assert!(said.starts_with("t.csv:2:8:") && said.contains("`U2`"), "{said}");
+    assert!(!folder.path().join("out.json").exists());
+    for arguments in [
+        vec!["t.csv", "--against", "missing.json"],
+        vec!["t.csv", "--correlations", "t.csv"],
+        vec!["missing.csv"],
+    ] {
+        let refused = run(folder.path(), &arguments);
+        assert_eq!(refused.status.code(), Some(2), "{arguments:?}");
+        assert!(!refused.stderr.is_empty() && refused.stdout.is_empty());
+    }
+}

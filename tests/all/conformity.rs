@@ -1,0 +1,115 @@
+//! Tolerances, risks and the laboratory's capability from the outside.
+
+use std::fs;
+
+use serde_json::{Value, json};
+
+use crate::support::command;
+
+/// A model y = x with x normal about `mean` and these further keys of its output.
+fn model(mean: f64, std: f64, more: &str) -> String {
+    format!(
+        r#"{{"inputs": {{"x": {{"unit": "um", "distribution": "normal", "mean": {mean}, "std": {std}}}}},
+        "equations": {{"y": "x"}}, "outputs": {{"y": {{"unit": "um", {more}}}}},
+        "monte_carlo": {{"trials": 200000}}}}"#
+    )
+}
+
+fn run(text: &str, more: &[&str]) -> (Option<i32>, String, String) {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("m.json");
+    fs::write(&path, text).expect("written");
+    let output = command().current_dir(folder.path()).arg("run").arg("m.json").args(more).output();
+    let output = output.expect("the program runs");
+    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+    (output.status.code(), text(&output.stdout), text(&output.stderr))
+}
+
+fn answer(text: &str) -> Value {
+    let (code, answer, said) = run(text, &["--format", "json"]);
+    assert_eq!(code, Some(0), "{said}");
+    serde_json::from_str(&answer).expect("JSON")
+}
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().unwrap_or_else(|| panic!("a number, not {value}"))
+}
+
+/// JCGM 106, 7: an upper limit 1.4 standard uncertainties above the estimate gives
+/// Phi(1.40) = 0.919 243, and limits 1.5 above and 0.611 below Phi(1.5) - Phi(-0.6111) = 0.662 64.
+/// Tolerance: five numerical standard errors of 200 000 trials; a false failure once in a million.
+#[test]
+fn conformance_probabilities() {
+    let cases = [
+        (-5.47, 0.05, r#""tolerance": {"upper": -5.4}"#, 0.919_243),
+        (13.6, 1.8, r#""tolerance": {"lower": 12.5, "upper": 16.3}"#, 0.662_64),
+    ];
+    for (mean, std, more, expected) in cases {
+        let found = answer(&model(mean, std, more));
+        let of = &found["outputs"]["y"]["conformity"];
+        let p = number(&of["probability"]);
+        assert!((p - expected).abs() < 5.0 * number(&of["numerical_standard_error"]), "{p}");
+        assert_eq!(of["conforms"], true);
+        let risk = number(&of["specific_risk"]["false_acceptance"]);
+        assert!((risk - (1.0 - p)).abs() < 1e-15);
+        assert!(of["specific_risk"]["false_rejection"].is_null() && of.get("guard_band").is_none());
+    }
+}
+
+/// The ball bearings of JCGM 106, 9.5.4. u from 200 000 trials is 0.25 um to 0.16 %, and the risk
+/// follows it about in proportion.
+#[test]
+fn global_risks_with_a_prior() {
+    let prior = r#""prior": {"distribution": "gamma", "shape": 4, "rate": 4}"#;
+    let tolerance = format!(r#""tolerance": {{"upper": 2, {prior}}}"#);
+    let found = answer(&model(1.2, 0.25, &tolerance));
+    let global = &found["outputs"]["y"]["conformity"]["global_risk"];
+    let risk = number(&global["false_acceptance"]);
+    assert!((risk / 0.008_019 - 1.0).abs() < 0.02, "{risk}");
+    let guarded = format!(r#""tolerance": {{"upper": 2, {prior}, "risk": 0.001}}"#);
+    let found = answer(&model(1.9, 0.25, &guarded));
+    let of = &found["outputs"]["y"]["conformity"];
+    assert!((number(&of["global_risk"]["false_acceptance"]) - 0.001).abs() < 1e-6);
+    assert!((number(&of["guard_band"]["upper"]) - 1.67).abs() < 0.01);
+    assert_eq!((&of["conforms"], &of["guard_band"]["lower"]), (&json!(false), &json!(null)));
+    assert!(number(&of["specific_risk"]["false_rejection"]) > 0.6);
+    let (code, page, _) = run(&model(1.9, 0.25, &guarded), &["--fail", "--quiet"]);
+    assert_eq!(code, Some(3));
+    let page = page.split_whitespace().collect::<Vec<_>>().join(" ");
+    for said in [
+        "guarded acceptance (JCGM 106, 8.3)",
+        "at most 0.1 %",
+        "Decision: rejected.",
+        "Global risks",
+    ] {
+        assert!(page.contains(said), "{said}: {page}");
+    }
+    // within the tolerance, so by simple acceptance it is accepted
+    let (code, page, _) =
+        run(&model(1.9, 0.25, r#""tolerance": {"upper": 2}"#), &["--fail", "--quiet"]);
+    assert_eq!(code, Some(0));
+    assert!(page.contains("simple acceptance (JCGM 106, 8.2)"), "{page}");
+}
+
+#[test]
+fn the_laboratorys_capability() {
+    let found = answer(&model(10.0, 0.01, r#""cmc": "0.4 % + 0.01 um""#));
+    let of = &found["outputs"]["y"]["cmc"];
+    assert!((number(&of["cmc"]) - 0.05).abs() < 1e-15 && of["raised"] == json!(false));
+    assert!((number(&of["expanded_uncertainty"]) - 0.0196).abs() < 1e-5);
+    let codes = |found: &Value| -> Vec<String> {
+        let all = found["warnings"].as_array().expect("a list");
+        all.iter().filter_map(|w| w["code"].as_str().map(str::to_owned)).collect()
+    };
+    assert_eq!(codes(&found), ["below-cmc"]);
+    let raised = answer(&model(10.0, 0.01, r#""cmc": 0.05, "cmc_floor": true"#));
+    assert_eq!(
+        raised["outputs"]["y"]["cmc"],
+        json!({"cmc": 0.05, "expanded_uncertainty": 0.05, "raised": true})
+    );
+    assert_eq!(codes(&raised), ["raised-to-cmc"]);
+    let (_, page, said) = run(&model(10.0, 0.01, r#""cmc": 0.05"#), &[]);
+    assert!(page.contains("is below the laboratory's capability (CMC) of 0.0500 um"), "{page}");
+    assert!(said.contains("must not be stated"), "{said}");
+    assert!(codes(&answer(&model(10.0, 0.1, r#""cmc": 0.05"#))).is_empty());
+}

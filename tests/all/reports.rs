@@ -1,0 +1,112 @@
+//! The formats of `run` as the command gives them: what goes where, and what is refused.
+
+use std::fs;
+
+use crate::support::{gumption, output};
+
+const MODEL: &str = "models/inclined_plane.json";
+const SWEEP: &str = "models/measuring_chain_frequencies.json";
+
+/// Standard output of `run`, as bytes.
+fn bytes(arguments: &[&str]) -> Vec<u8> {
+    let assert = gumption().arg("run").args(arguments).arg("--quiet").assert().success();
+    assert!(assert.get_output().stderr.is_empty());
+    assert.get_output().stdout.clone()
+}
+
+/// Exit code and standard error of a `run` that gives no answer.
+fn refused(arguments: &[&str]) -> String {
+    let assert = gumption().arg("run").args(arguments).assert().code(2);
+    assert!(assert.get_output().stdout.is_empty());
+    String::from_utf8(assert.get_output().stderr.clone()).expect("UTF-8")
+}
+
+#[test]
+fn every_format_is_the_same_bytes_on_any_number_of_threads() {
+    let beginnings: [(&str, &[u8]); 4] = [
+        ("markdown", b"# Accelerations on"),
+        ("latex", b"\\documentclass"),
+        ("html", b"<!DOCTYPE html>"),
+        ("xlsx", b"PK\x03\x04"),
+    ];
+    for (format, beginning) in beginnings {
+        let with = |threads| {
+            bytes(&[MODEL, "--format", format, "--trials", "50000", "--threads", threads])
+        };
+        let answer = with("1");
+        assert!(answer.starts_with(beginning), "{format}");
+        assert!(answer == with("3"), "{format}");
+    }
+}
+
+#[test]
+fn an_output_file_has_what_standard_output_has() {
+    let folder = tempfile::tempdir().expect("a folder");
+    for format in ["markdown", "latex", "html", "xlsx"] {
+        for model in [MODEL, SWEEP] {
+            let path = folder.path().join("answer");
+            let name = path.to_str().expect("a path");
+            let arguments = [model, "--format", format, "--trials", "2000"];
+            let shown = bytes(&arguments);
+            assert!(bytes(&[&arguments[..], &["--output", name]].concat()).is_empty());
+            let written = fs::read(&path).expect("the answer");
+            assert!(written == shown, "{format}, {model}");
+        }
+    }
+    let missing = folder.path().join("missing/answer.xlsx");
+    let arguments = ["run", MODEL, "--format", "xlsx", "--trials", "0", "--output"];
+    gumption().args(arguments).arg(&missing).assert().code(1);
+}
+
+/// No page says where or when it was made.
+#[test]
+fn pages_have_no_path_and_no_date() {
+    let root = env!("CARGO_MANIFEST_DIR");
+    let model = format!("{root}/{MODEL}");
+    for format in ["markdown", "latex", "html"] {
+        let page = output(&["run", &model, "--format", format, "--trials", "2000", "--quiet"]);
+        assert!(!page.contains(root), "{format}");
+        // the only address is the name of the drawings' language
+        let addresses = page.matches("http:").count() + page.matches("https:").count();
+        assert_eq!(addresses, page.matches("http://www.w3.org/2000/svg").count());
+    }
+}
+
+#[test]
+fn what_the_command_line_replaces_is_on_the_page() {
+    let page = output(&[
+        "run",
+        MODEL,
+        "--format",
+        "markdown",
+        "--trials",
+        "0",
+        "--set",
+        "tilt=36 deg",
+        "--quiet",
+    ]);
+    assert!(page.contains("| replaced ") && page.contains("tilt=36 deg"), "{page}");
+}
+
+#[test]
+fn histograms_stand_below_the_table() {
+    let with = |more: &[&str]| {
+        let arguments = ["run", MODEL, "--trials", "20000", "--quiet"];
+        output(&[&arguments[..], more].concat())
+    };
+    let (plain, drawn) = (with(&[]), with(&["--histogram"]));
+    let rest = drawn.strip_prefix(&plain).expect("the same table");
+    assert_eq!(rest.matches("MC, symmetric").count(), 3);
+    assert!(rest.contains('█') && rest.lines().all(|line| line.chars().count() <= 100));
+    let rows = output(&["run", SWEEP, "--trials", "2000", "--quiet", "--histogram"]);
+    assert_eq!(rows.matches("MC, symmetric").count(), 18);
+    assert_eq!(rows.matches("at frequency = ").count(), 6);
+}
+
+#[test]
+fn histograms_that_cannot_be_drawn_are_refused() {
+    let said = refused(&[MODEL, "--histogram", "--format", "json"]);
+    assert!(said.contains("`--histogram` goes with `--format table`"), "{said}");
+    let said = refused(&[MODEL, "--histogram", "--trials", "0"]);
+    assert!(said.contains("needs Monte Carlo trials"), "{said}");
+}
