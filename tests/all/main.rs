@@ -4,8 +4,8 @@
 #![allow(clippy::print_stderr)]
 
 mod adaptive;
-mod benches;
 mod assumptions;
+mod benches;
 mod cases;
 mod catalogue;
 mod commands;
