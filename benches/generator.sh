@@ -49,7 +49,7 @@ done
 summary() {
     echo "\`benches/generator.sh\` fed the draws of rectangular quantities (52 bits each) to" \
         "$(dieharder -h 2>&1 | grep -o 'dieharder version [0-9.]*' | head -1), every stream by each" \
-        "test from its start:"
+        "test from its start${quick:+, with a quarter of the usual samples}:"
     echo
     echo "| stream | p-values | passed | weak | failed | least | greatest |"
     echo "| --- | --- | --- | --- | --- | --- | --- |"
