@@ -1,7 +1,7 @@
 //! The law of propagation of uncertainty (JCGM 100, clause 5) and the budget that follows from it.
 
 use std::collections::{BTreeMap, HashMap};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use rayon::prelude::*;
 
@@ -78,6 +78,8 @@ pub(crate) struct GumRow {
 pub(crate) struct Rows<'a> {
     task: &'a Task,
     shown: Arc<[usize]>,
+    /// Coverage factors of all rows have the same probability.
+    factors: Factors,
     /// What links the variables of the row before, as it mostly is the same.
     last: Mutex<Option<(Distributions, Arc<Linked>)>>,
 }
@@ -93,7 +95,7 @@ pub(crate) fn evaluate(task: &Task, row: &Row) -> GumRow {
 impl<'a> Rows<'a> {
     pub(crate) fn of(task: &'a Task) -> Self {
         let shown = task.variables.iter().enumerate().filter(|(_, v)| v.shown).map(|(v, _)| v);
-        Self { task, shown: shown.collect(), last: Mutex::new(None) }
+        Self { task, shown: shown.collect(), factors: Factors::default(), last: Mutex::new(None) }
     }
 
     /// Evaluates one row of the task.
@@ -247,7 +249,7 @@ impl Rows<'_> {
             estimate,
             standard_uncertainty,
             dof,
-            coverage_factor: coverage_factor(settings.coverage, dof, settings.real_dof),
+            coverage_factor: self.factors.factor(settings.coverage, dof, settings.real_dof),
             sensitivities: slopes.into(),
             inputs: Arc::clone(&row.distributions),
             shown: Arc::clone(&self.shown),
@@ -338,6 +340,40 @@ fn joint_variance(
     (own + mixed).max(0.0)
 }
 
+/// Coverage factors that were found before: those of whole degrees of freedom come again and again.
+#[derive(Debug)]
+struct Factors([OnceLock<Option<f64>>; KNOWN]);
+
+/// Degrees of freedom up to this are remembered.
+const KNOWN: usize = 256;
+
+impl Default for Factors {
+    fn default() -> Self {
+        Self([const { OnceLock::new() }; KNOWN])
+    }
+}
+
+impl Factors {
+    fn factor(&self, coverage: Coverage, dof: Dof, real: bool) -> Option<f64> {
+        let find = || coverage_factor(coverage, dof, real);
+        // the first place is that of infinite degrees of freedom
+        let place = match dof {
+            Dof::Infinite => Some(0),
+            Dof::Finite(dof) if !real && dof >= 1.0 => Some(whole(dof) as usize),
+            Dof::Finite(_) | Dof::Undefined => None,
+        };
+        match place.and_then(|place| self.0.get(place)) {
+            Some(known) => *known.get_or_init(find),
+            None => find(),
+        }
+    }
+}
+
+/// The integer part of degrees of freedom; 19 computed as 18.999999999 means 19.
+fn whole(dof: f64) -> f64 {
+    (dof * (1.0 + 1e-9)).floor()
+}
+
 /// The coverage factor k_p (JCGM 100, G.3.3 and G.4.1): the t factor at the integer part of the
 /// effective degrees of freedom (below 1 at the real value), or at the real value if asked for.
 pub(crate) fn coverage_factor(coverage: Coverage, dof: Dof, real: bool) -> Option<f64> {
@@ -349,8 +385,7 @@ pub(crate) fn coverage_factor(coverage: Coverage, dof: Dof, real: bool) -> Optio
         Dof::Undefined => coverage.given_factor(),
         Dof::Infinite => Some(special::student::two_sided_factor(probability, f64::INFINITY)),
         Dof::Finite(dof) => {
-            // a dof of 19 computed as 18.999999999 means 19
-            let whole = (dof * (1.0 + 1e-9)).floor();
+            let whole = whole(dof);
             let used = if real || whole < 1.0 { dof } else { whole };
             // at a thousandth of a degree of freedom it is beyond all doubles
             Some(special::student::two_sided_factor(probability, used)).filter(|k| k.is_finite())

@@ -5,6 +5,7 @@
 
 mod adaptive;
 mod assumptions;
+mod benches;
 mod cases;
 mod catalogue;
 mod certificate;

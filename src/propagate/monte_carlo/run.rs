@@ -18,8 +18,18 @@ use crate::distribution::BLOCK;
 use crate::number::CodePath;
 use crate::propagate::Control;
 
-/// Blocks of the pilot; fewer trials than that are all kept.
+/// Blocks of the pilot of a long run.
 const PILOT_BLOCKS: u64 = 16;
+
+/// Blocks of the pilot of a short one, where a longer pilot would cost more than narrower windows
+/// save.
+const SHORT_PILOT: u64 = 4;
+
+/// From so many trials on a run is long.
+const LONG: u64 = 1_000_000;
+
+/// Up to so many trials all values are kept.
+const ALL_KEPT: u64 = 1 << 16;
 
 /// Outputs whose pilot values are held at a time: 64 MiB.
 const PILOT_OUTPUTS: usize = (64 << 20) / (8 * BLOCK * PILOT_BLOCKS as usize);
@@ -123,7 +133,13 @@ pub(crate) struct Request<'a> {
 
 /// Runs the trials of one row. Where every trial is undefined, or the run was stopped before the
 /// first one, there are no outputs.
-pub(crate) fn run(trials: &Trials, request: Request<'_>, control: &Control<'_>) -> Finished {
+pub(crate) fn run(trials: &mut Trials, request: Request<'_>, control: &Control<'_>) -> Finished {
+    // what the pilot computes is not computed again
+    trials.hold(control.path, pilot_blocks(request.trials), control.memory);
+    run_held(trials, request, control)
+}
+
+fn run_held(trials: &Trials, request: Request<'_>, control: &Control<'_>) -> Finished {
     let mut margin = 1.0;
     loop {
         let plans = plans(trials, request, control, margin);
@@ -157,7 +173,7 @@ fn run_capped(
     let affordable = control.memory as f64 / 8.0 / plans.len().max(1) as f64;
     let part = (request.trials / 64).min(affordable as u64 / 2).max(2);
     let quiet = Control { progress: None, ..*control };
-    let mut first = run(trials, Request { trials: part, ..request }, &quiet);
+    let mut first = run_held(trials, Request { trials: part, ..request }, &quiet);
     let law = (part as f64 / request.trials as f64).cbrt();
     let errors: Vec<[f64; 2]> = first
         .outputs
@@ -170,6 +186,12 @@ fn run_capped(
     })
 }
 
+/// The blocks of the pilot of a run.
+fn pilot_blocks(trials: u64) -> u64 {
+    let most = if trials >= LONG { PILOT_BLOCKS } else { SHORT_PILOT };
+    trials.div_ceil(BLOCK as u64).min(most)
+}
+
 /// The values of some outputs in the first blocks.
 fn pilot(
     trials: &Trials,
@@ -177,7 +199,7 @@ fn pilot(
     control: &Control<'_>,
     outputs: Range<usize>,
 ) -> Vec<Vec<f64>> {
-    let blocks = request.trials.div_ceil(BLOCK as u64).min(PILOT_BLOCKS);
+    let blocks = pilot_blocks(request.trials);
     let mut workspace = trials.workspace();
     let mut pilot: Vec<Vec<f64>> = vec![Vec::new(); outputs.len()];
     for block in 0..blocks {
@@ -205,7 +227,7 @@ pub(super) fn plans(
         .map(|(output, mut values)| {
             sort(&mut values);
             let reference = reference(&values, trials.limits(output));
-            let all = request.trials <= 4 * PILOT_BLOCKS * BLOCK as u64 || margin > KEEP_ALL_MARGIN;
+            let all = request.trials <= ALL_KEPT || margin > KEEP_ALL_MARGIN;
             let windows = if all {
                 Windows::ALL
             } else {

@@ -5,6 +5,9 @@ use crate::gap::{Diagnosis, Kind, Named, Region};
 use crate::report::number::{exact, place, rounded, significant};
 use crate::report::plain;
 
+/// Odds below this power of e are none at all.
+const WORTH_SAYING: f64 = 0.01;
+
 /// Odds below this power of e are not worth a measurement.
 const WORTH_MEASURING: f64 = 1.0;
 
@@ -234,6 +237,12 @@ pub(super) fn next(diagnosis: &Diagnosis) -> String {
     };
     let [own, rival] = next.separates.each_ref().map(|effects| quoted(effects));
     let gain = next.expected_log_odds;
+    if gain < WORTH_SAYING {
+        return format!(
+            "No one row at these conditions or between them tells {own} from {rival}: the logarithm \
+             of the odds is expected to change by less than {WORTH_SAYING} everywhere."
+        );
+    }
     let none = next.separates.first().is_some_and(Vec::is_empty);
     let truth = if none { "there is none".to_owned() } else { format!("{own} is true") };
     let mut said = format!(

@@ -51,10 +51,19 @@ impl<'a> Panel<'a> {
             None => first,
         };
         let regions = diagnosis.regions.iter().enumerate();
-        let regions = regions
+        let regions: Vec<(String, &Region)> = regions
             .filter(|(_, region)| own(region))
             .map(|(place, region)| (words::letter(place), region))
             .collect();
+        // a frame runs between cells and not through one
+        for end in regions.iter().flat_map(|(_, region)| places(&levels, region)) {
+            let last = edges.len() - 1;
+            let nearest = (1..last).min_by_key(|&edge| edges[edge].abs_diff(end));
+            if let Some(edge) = nearest.filter(|_| !edges.contains(&end)) {
+                edges[edge] = end;
+            }
+        }
+        edges.sort_unstable();
         let name = words::axis(&diagnosis.conditions[condition]);
         Self { name, levels, edges, regions, condition }
     }
@@ -70,10 +79,7 @@ impl<'a> Panel<'a> {
 
     /// Where a region begins and ends.
     fn span(&self, region: &Region) -> [f64; 2] {
-        let [low, high] = region.range.map_or([f64::NEG_INFINITY, f64::INFINITY], |(_, r)| r);
-        let first = self.levels.partition_point(|level| *level < low);
-        let end = self.levels.partition_point(|level| *level <= high);
-        [self.x(first), self.x(end.max(first + 1))]
+        places(&self.levels, region).map(|place| self.x(place))
     }
 
     /// Root mean square of the normalized residuals in a cell.
@@ -87,6 +93,13 @@ impl<'a> Panel<'a> {
             .collect();
         (!squares.is_empty()).then(|| (squares.iter().sum::<f64>() / squares.len() as f64).sqrt())
     }
+}
+
+/// The places of a region's first level and of the level after its last.
+fn places(levels: &[f64], region: &Region) -> [usize; 2] {
+    let [low, high] = region.range.map_or([f64::NEG_INFINITY, f64::INFINITY], |(_, r)| r);
+    let first = levels.partition_point(|level| *level < low);
+    [first, levels.partition_point(|level| *level <= high).max(first + 1)]
 }
 
 /// A panel for each condition that varies; `None` where none does.

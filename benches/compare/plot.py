@@ -1,0 +1,42 @@
+"""The plot: time against trials, inputs and threads."""
+
+import matplotlib
+
+matplotlib.use("svg")
+import matplotlib.pyplot as plt  # noqa: E402
+
+COLOURS = {"gumption": "#0b6e4f", "numpy": "#b23a48", "numba-partition": "#3d5a99"}
+LABELS = {"gumption": "gumption", "numpy": "numpy", "numba-partition": "numba, tuned by hand"}
+
+
+def curves(axes, data, label):
+    for name, points in data.items():
+        points = [point for point in points if point[1] > 0]
+        axes.loglog(*zip(*points), "o-", color=COLOURS[name], label=LABELS[name], markersize=4)
+    axes.set_xlabel(label)
+    axes.grid(True, which="major", color="#dddddd", linewidth=0.6)
+    axes.set_axisbelow(True)
+
+
+def draw(results, path):
+    # the same file from the same numbers
+    plt.rcParams.update({"svg.hashsalt": "gumption", "font.size": 9, "svg.fonttype": "none"})
+    figure, (trials, inputs, threads) = plt.subplots(1, 3, figsize=(11, 3.6))
+    curves(trials, results["trials"], "trials (W1)")
+    trials.set_ylabel("CPU time, s")
+    trials.legend(frameon=False)
+    curves(inputs, results["inputs"], "inputs (sum, 1e5 trials)")
+    for (workload, lines), marker in zip(results["threads"].items(), "os^"):
+        counts = [int(count) for count in lines]
+        first = lines["1"]["wall_s"]
+        gains = [first / lines[str(count)]["wall_s"] for count in counts]
+        threads.plot(counts, gains, f"{marker}-", label=workload, markersize=4)
+    most = max(counts)
+    threads.plot([1, most], [1, most], ":", color="#888888", label="ideal")
+    threads.set_xlabel("threads")
+    threads.set_ylabel("times as fast (wall time)")
+    threads.set_xticks(counts)
+    threads.grid(True, color="#dddddd", linewidth=0.6)
+    threads.legend(frameon=False)
+    figure.tight_layout()
+    figure.savefig(path, metadata={"Date": None, "Creator": None})
