@@ -51,6 +51,7 @@
 #![deny(unsafe_code)]
 
 pub mod assumptions;
+pub mod certificate;
 #[cfg(feature = "cli")]
 pub mod command;
 pub mod compare;

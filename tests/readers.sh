@@ -1,13 +1,16 @@
 #!/usr/bin/env bash
 # Opens every format of a report in a real reader: HTML in headless Chromium, workbooks in
 # LibreOffice, LaTeX in a plain TeX Live, Markdown in GitHub's own renderer, CSV in LibreOffice and
-# in Python's csv module.
+# in Python's csv module. Certificates go to all of them, and the digital one to xmllint and pydcc.
 #
 # usage: tests/readers.sh [--no-install] [GROUP...]     groups: html latex markdown workbook csv
+#                                                       certificate
 #
 # What it needs is installed (Debian packages as root; Python packages in an environment of their
 # own). What it makes stays in target/readers (or $READERS_DIR), screenshots among it, to be looked
-# at. It says what it did, goes on after a failure, and ends with 1 if there was one.
+# at. DCC_SCHEMA is the path of dcc.xsd of the Digital Calibration Certificate 3.1.2, which imports
+# SI_Format.xsd beside it; without it the digital certificate is not validated, and that is said.
+# It says what it did, goes on after a failure, and ends with 1 if there was one.
 set -uo pipefail
 cd "$(dirname "$0")/.."
 
@@ -65,11 +68,11 @@ python() {
   local missing=()
   [ -x "$PYTHON" ] || python3 -m venv "$DIR/venv" > "$DIR/venv.log" 2>&1
   local module
-  for module in "$@"; do "$PYTHON" -c "import $module" 2> /dev/null || missing+=("$module"); done
+  for module in "$@"; do "$PYTHON" -c "import importlib.util, sys; sys.exit(importlib.util.find_spec(\"$module\") is None)" 2> /dev/null || missing+=("$module"); done
   [ ${#missing[@]} -eq 0 ] && { say "  found Python with $*"; return 0; }
   [ $INSTALL = no ] && { fail "Python modules are missing: ${missing[*]}"; return 1; }
   say "  installing ${missing[*]} in $DIR/venv"
-  "$PYTHON" -m pip install --quiet "${missing[@]}" >> "$DIR/venv.log" 2>&1 && return 0
+  "$PYTHON" -m pip install --quiet "${missing[@]/#dcc/pydcc}" >> "$DIR/venv.log" 2>&1 && return 0
   fail "${missing[*]} cannot be installed: $DIR/venv.log"
   return 1
 }
@@ -229,6 +232,41 @@ csv_case() {
   check "$1: LibreOffice and Python read the CSV alike, with the numbers of the JSON" spreadsheet "$1"
 }
 
+# certificates: name and certificate file
+CERTIFICATES=(
+  "worked_day   models/certificates/three_axis_accelerometer.json"
+  "correlated   tests/readers/certificate.json"
+)
+
+certificate() { "$GUMPTION" certificate "$2" --format "$3" --output "$DIR/$1.$3" --quiet; }
+
+tables() {
+  local name=$1
+  rm -rf "$DIR/$name.sheet" && mkdir -p "$DIR/$name.sheet"
+  office xlsx "$DIR/$name.xlsx" "$DIR/$name.sheet" || return 1
+  "$PYTHON" tests/readers/certificate.py "$DIR/$name.json" "$DIR/$name.csv" \
+    "$DIR/$name.sheet/$name.xlsx"
+}
+
+certificate_case() {
+  local name=$1 file=$2 format
+  for format in json csv xlsx markdown latex html dcc; do
+    check "$name: $format is written" certificate "$name" "$file" "$format"
+  done
+  check "$name: Chromium shows and prints it without an error" page "$DIR/$name.html"
+  check "$name: pdflatex compiles it" tex "$DIR/$name.latex"
+  check "$name: GitHub's renderer shows its tables" github "$DIR/$name.markdown"
+  check "$name: LibreOffice and Python read the stated figures" tables "$name"
+  check "$name: pydcc reads the stated figures" \
+    "$PYTHON" tests/readers/digital_certificate.py "$DIR/$name.json" "$DIR/$name.dcc"
+  if [ -n "${DCC_SCHEMA:-}" ]; then
+    check "$name: the digital certificate is valid" \
+      xmllint --nonet --noout --schema "$DCC_SCHEMA" "$DIR/$name.dcc"
+  else
+    say "  --    $name: not validated; DCC_SCHEMA is not set"
+  fi
+}
+
 # ---------------------------------------------------------------- all of it
 
 say "what is needed"
@@ -262,6 +300,18 @@ fi
 if wanted csv; then
   say "CSV in LibreOffice and Python"
   packages soffice libreoffice-calc && python openpyxl && each_case csv_case
+fi
+
+if wanted certificate; then
+  say "certificates"
+  packages chromium chromium fonts-dejavu && packages soffice libreoffice-calc &&
+    packages pdflatex texlive-latex-base texlive-latex-recommended texlive-science \
+      texlive-fonts-recommended &&
+    packages cmark-gfm cmark-gfm && packages xmllint libxml2-utils && python openpyxl dcc &&
+    for line in "${CERTIFICATES[@]}"; do
+      read -r name file <<< "$line"
+      certificate_case "$name" "$file"
+    done
 fi
 
 say "$DONE checks passed, $FAILED failed; what was made is in $DIR"

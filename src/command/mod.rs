@@ -1,6 +1,7 @@
 //! The command line: arguments in, exit code out. One file for each subcommand.
 
 mod assumptions;
+mod certificate;
 mod check;
 mod compare;
 mod diff;
@@ -37,7 +38,9 @@ enum Command {
     Run(run::Run),
     /// Test the Type B assumptions of a model file: which matter, which the readings contradict
     Assumptions(assumptions::Assumptions),
-    /// Check a model file and list all of its mistakes
+    /// Make a calibration certificate from a certificate file and its models
+    Certificate(certificate::Certificate),
+    /// Check a file and list all of its mistakes
     Check(check::Check),
     /// Compare results two by two (normalized errors), or those of many laboratories
     Compare(compare::Compare),
@@ -61,6 +64,7 @@ pub fn main() -> ExitCode {
     let result = match arguments.command {
         Command::Run(command) => command.execute(),
         Command::Assumptions(command) => command.execute(),
+        Command::Certificate(command) => command.execute(),
         Command::Check(command) => command.execute(),
         Command::Compare(command) => command.execute(),
         Command::Models(command) => command.execute(),

@@ -55,22 +55,6 @@ pub fn read_text(name: &str, text: &str, folder: &Path) -> Result<CaseFile, Prob
     read_with(name, text, folder, (&[], None), |reader| reader.case())
 }
 
-/// Checks a file, as a case where it has a key that only cases have, else as a model.
-///
-/// # Errors
-/// All mistakes of the file and its tables, in the order of their places.
-pub fn check(path: &Path) -> Result<(), Problems> {
-    read_file(path, &[], None, |reader| reader.checked())
-}
-
-/// Checks a file's text as [`check`] does.
-///
-/// # Errors
-/// All mistakes of the text and its tables, in the order of their places.
-pub fn check_text(name: &str, text: &str, folder: &Path) -> Result<(), Problems> {
-    read_with(name, text, folder, (&[], None), |reader| reader.checked())
-}
-
 /// What effects are read against: the sim, and what was measured.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Read<'a> {
@@ -86,7 +70,8 @@ impl Found {
 }
 
 impl ModelReader<'_> {
-    fn checked(&self) -> Option<()> {
+    /// Reads the file as a case where it has a key that only cases have, else as a model.
+    pub(super) fn checked(&self) -> Option<()> {
         if KEYS.iter().any(|key| self.root.get(key).is_some()) {
             self.case().map(|_| ())
         } else {

@@ -137,6 +137,10 @@ pub enum Fault {
     Observation { reason: String },
     /// Prior probabilities that do not sum to one.
     Prior { reason: String },
+    /// Something in a certificate file that does not fit.
+    Certificate { reason: String },
+    /// Not a day of the calendar.
+    NotDate { key: &'static str, found: String },
     /// An override of the command line that does not fit.
     Override { text: String, reason: String },
 }
@@ -201,6 +205,8 @@ impl Fault {
             Self::Effect { .. } => "bad-effect",
             Self::Observation { .. } => "bad-observations",
             Self::Prior { .. } => "bad-prior",
+            Self::Certificate { .. } => "bad-certificate",
+            Self::NotDate { .. } => "not-a-date",
             Self::Override { .. } => "bad-override",
         }
     }
@@ -434,6 +440,10 @@ impl fmt::Display for Fault {
                  with a file of that row alone"
             ),
             Self::Evaluation { message } => f.write_str(message),
+            Self::Certificate { reason } => f.write_str(reason),
+            Self::NotDate { key, found } => {
+                write!(f, "`{key}` is `{found}`, but must be a day such as 2026-03-02")
+            }
             Self::Override { text, reason } => write!(f, "`--set {text}`: {reason}"),
         }
     }

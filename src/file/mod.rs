@@ -7,6 +7,8 @@ mod answer;
 pub(crate) mod bytes;
 mod case;
 mod catalogue;
+mod certificate;
+mod checked;
 mod comparison;
 mod conditions;
 mod correlations;
@@ -40,11 +42,13 @@ mod text_table;
 mod variant;
 mod width;
 
-pub use case::{
-    CaseFile, check, check_text, read as read_case, read_at as read_case_at,
-    read_text as read_case_text,
-};
+pub use case::{CaseFile, read as read_case, read_at as read_case_at, read_text as read_case_text};
 pub use catalogue::{Listed, ListedParameter, Listing, catalogue};
+pub(crate) use certificate::keys as certificate_keys;
+pub use certificate::{
+    CertificateFile, CertifiedModel, read as read_certificate, read_text as read_certificate_text,
+};
+pub use checked::{check, check_text};
 pub use comparison::{ComparisonOptions, ComparisonTable, read_comparison, read_comparison_text};
 pub use either::{ModelOrResult, read_either, read_either_text};
 pub use fault::Fault;

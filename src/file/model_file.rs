@@ -174,10 +174,26 @@ pub(super) fn read_with<T>(
     }
 }
 
+/// Refuses a version of the file format that this program does not know.
+pub(super) fn check_format(root: &Object<'_>) {
+    if let Some(member) = root.get("format")
+        && member.value.number() != Some(1.0)
+    {
+        let found = match &member.value.value {
+            Json::Number(text) | Json::Text(text) => text.clone(),
+            other => other.kind().to_owned(),
+        };
+        root.log.report(&member.value.span, Fault::UnknownFormat { found });
+    }
+}
+
 /// Puts the values of `--set NAME.field=VALUE` into the tree.
 fn override_fields(log: &Log, root: &mut Node, overrides: &[Override]) {
     let whole = root.span.start..root.span.start;
     for replaced in overrides {
+        if override_condition(log, root, replaced) {
+            continue;
+        }
         let inputs = match &mut root.value {
             Json::Object(members) => members.iter_mut().find(|m| m.key == "inputs"),
             _ => None,
@@ -216,6 +232,43 @@ fn override_fields(log: &Log, root: &mut Node, overrides: &[Override]) {
                 });
             }
         }
+    }
+}
+
+/// Puts one value in place of those of a condition of a grid; false if there is none of that name.
+fn override_condition(log: &Log, root: &mut Node, replaced: &Override) -> bool {
+    let Some((unit, values)) = condition_of_grid(root, &replaced.input) else {
+        return false;
+    };
+    if replaced.field.is_some() {
+        return false;
+    }
+    match replaced.value_in(&unit) {
+        Ok(value) => {
+            let span = values.span.clone();
+            values.value = Json::List(vec![Node { span, value: Json::Number(value.to_string()) }]);
+        }
+        Err(fault) => log.report(&values.span, fault),
+    }
+    true
+}
+
+/// The values of a condition of a grid, and its unit.
+fn condition_of_grid<'n>(root: &'n mut Node, name: &str) -> Option<(Unit, &'n mut Node)> {
+    let condition = member_of(member_of(root, "conditions")?, name)?;
+    let unit = match member_of(condition, "unit").map(|unit| &unit.value) {
+        Some(Json::Text(text)) => Unit::parse(text).ok()?,
+        _ => Unit::one(),
+    };
+    Some((unit, member_of(condition, "values")?))
+}
+
+fn member_of<'n>(node: &'n mut Node, key: &str) -> Option<&'n mut Node> {
+    match &mut node.value {
+        Json::Object(members) => {
+            members.iter_mut().find(|member| member.key == key).map(|member| &mut member.value)
+        }
+        _ => None,
     }
 }
 
@@ -282,7 +335,7 @@ impl<'a> ModelReader<'a> {
     pub(super) fn found(&self) -> Option<Found> {
         let Self { log, root, .. } = self;
         root.check_keys(&KEYS);
-        self.format();
+        check_format(root);
         let title = root.text("title").unwrap_or("").to_owned();
         root.text("source");
         let check_units = root.truth("check_units").unwrap_or(true);
@@ -445,18 +498,6 @@ impl<'a> ModelReader<'a> {
         let file = ModelFile { task, warnings, source, files, output_places: places, evidence };
         let data = observations.map(|observations| observations.table);
         Some(Found { file, sim, observed, simulated: simulated.len(), data })
-    }
-
-    fn format(&self) {
-        if let Some(member) = self.root.get("format")
-            && member.value.number() != Some(1.0)
-        {
-            let found = match &member.value.value {
-                Json::Number(text) | Json::Text(text) => text.clone(),
-                other => other.kind().to_owned(),
-            };
-            self.log.report(&member.value.span, Fault::UnknownFormat { found });
-        }
     }
 
     /// What was measured of each output of the sim.

@@ -65,8 +65,8 @@ pub(super) fn read(log: &Log, member: &Member, results: &Results<'_>) -> Option<
     Some(outputs)
 }
 
-/// The laboratory's capability for an output.
-fn capability(output: &Object<'_>, name: &str, unit: &Unit) -> Option<Capability> {
+/// The laboratory's capability for an output, which is where the keys stand; `name` is for messages.
+pub(super) fn capability(output: &Object<'_>, name: &str, unit: &Unit) -> Option<Capability> {
     let floor = output.truth("cmc_floor").unwrap_or(false);
     let Some(member) = output.get("cmc") else {
         if let Some(floor) = output.get("cmc_floor") {

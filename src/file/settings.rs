@@ -93,7 +93,8 @@ fn rule(object: &Object<'_>) -> Option<StoppingRule> {
     rule
 }
 
-fn coverage(root: &Object<'_>) -> Option<Coverage> {
+/// The coverage that a root object asks for, if it does.
+pub(super) fn coverage(root: &Object<'_>) -> Option<Coverage> {
     let fixed = root.truth("coverage_factor_fixed").unwrap_or(false);
     match (root.get("coverage_probability"), root.get("coverage_factor")) {
         (Some(_), Some(second)) => {

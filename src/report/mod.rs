@@ -1,6 +1,8 @@
 //! Reports: what an evaluation looks like, one file for each format.
 
 pub mod assumptions;
+#[cfg(feature = "cli")]
+pub mod certificate;
 pub mod compare;
 mod csv;
 #[cfg(feature = "cli")]

@@ -95,6 +95,11 @@ impl Sheet {
         self.columns.push(Column { header: header.to_owned(), cells, values: Vec::new(), kind });
     }
 
+    /// Whether something stands above the columns.
+    pub(crate) fn has_headers(&self) -> bool {
+        self.columns.iter().any(|column| !column.header.is_empty())
+    }
+
     /// How many rows it has.
     pub(crate) fn rows(&self) -> usize {
         self.columns.iter().map(|column| column.cells.len()).max().unwrap_or(0)

@@ -4,6 +4,7 @@
 //! [`file`](crate::file). What it refuses, reading refuses too.
 
 mod case;
+mod certificate;
 mod model_file;
 mod node;
 mod result_file;
@@ -29,6 +30,7 @@ pub fn text() -> String {
 fn schema() -> Node {
     let mut definitions = model_file::definitions();
     definitions.extend(case::definitions());
+    definitions.extend(certificate::definitions());
     definitions.extend(result_file::definitions());
     definitions.extend(shapes::definitions());
     definitions.extend(values::definitions());
@@ -40,13 +42,20 @@ fn schema() -> Node {
             Node::from(
                 "Files of gumption, format 1. Model files: a measurement with what is known about \
                  its inputs, to be evaluated by the GUM and by Monte Carlo; with observations a case \
-                 of the gap diagnosis. Result files: what an evaluation found, to be the input of \
-                 another one.",
+                 of the gap diagnosis. Certificate files: which results of which models are stated. \
+                 Result files: what an evaluation found, to be the input of another one.",
             ),
         ),
         ("if", with_key("result")),
         ("then", reference("result")),
-        ("else", reference("model")),
+        (
+            "else",
+            object([
+                ("if", certificate::meant()),
+                ("then", reference("certificate")),
+                ("else", reference("model")),
+            ]),
+        ),
         ("$defs", object(definitions)),
     ])
 }

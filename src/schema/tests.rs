@@ -44,9 +44,11 @@ fn ready_files_and_worked_examples_are_valid() {
         path.is_dir() && !name.starts_with("wrong-")
     });
     let gaps = entries("models/gap").into_iter().filter(|path| path.is_dir());
+    let certificates = entries("models/certificates").into_iter();
     let files: Vec<PathBuf> = ready
         .chain(cases.map(|path| path.join("model.json")))
         .chain(gaps.map(|path| path.join("case.json")))
+        .chain(certificates.filter(|path| path.extension().is_some_and(|e| e == "json")))
         .collect();
     assert!(files.len() > 100);
     let mut mistakes = Vec::new();
@@ -247,6 +249,16 @@ fn the_reader_knows_the_same_keys() {
     };
     assert!(same("effect", case("effects", json!({"e": {"unknown": 1}}))));
     assert!(same("prior", case("prior", json!({"unknown": 1}))));
+
+    let certificate = |key: &str, value: Value| {
+        let mut file = json!({"rows": [{"model": "ready.json", "output": "y"}]});
+        file[key] = value;
+        file
+    };
+    assert!(same("certificate", certificate("unknown", json!(1))));
+    assert!(same("certificate-row", certificate("rows", json!([{"unknown": 1}]))));
+    assert!(same("device", certificate("device", json!({"unknown": 1}))));
+    assert!(same("party", certificate("customer", json!({"unknown": 1}))));
 
     let mut read = 0;
     for shape in &SHAPES {

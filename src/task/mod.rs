@@ -2,6 +2,7 @@
 //! and the settings of the evaluation. Files and typed measurements both become a [`Task`].
 
 mod case;
+pub mod certificate;
 mod coverage;
 mod evidence;
 mod settings;

@@ -36,9 +36,9 @@ fn compare(file: &str, mean: f64, u: f64, interval: [f64; 2]) {
     near(found.estimate, mean, errors.estimate.unwrap(), "mean");
     let u_error = errors.standard_uncertainty.unwrap();
     near(found.standard_uncertainty.unwrap(), u, u_error, "u");
-    let ends = found.symmetric_interval.iter().zip(interval).zip(errors.symmetric_interval);
-    for ((&end, right), error) in ends {
-        near(end, right, error, "end");
+    let ends = found.symmetric_interval.into_iter().zip(interval).zip(errors.symmetric_interval);
+    for ((found, right), error) in ends {
+        near(found, right, error, "end");
     }
 }
 

@@ -12,9 +12,14 @@ use serde_json::Value;
 use crate::support::{command, file_name, root};
 
 /// Mistakes that `check` does not see, with the command that does.
-const COMMANDS: [(&str, &[&str]); 3] = [
+const COMMANDS: [(&str, &[&str]); 5] = [
     ("several_rows", &["diff", "good.result", "several_rows.json"]),
     ("run_undefined", &["run", "--trials", "1000", "run_undefined.json"]),
+    ("certificate_undefined", &["certificate", "--trials", "1000", "certificate_undefined.json"]),
+    (
+        "certificate_dcc_incomplete",
+        &["certificate", "--format", "dcc", "certificate_dcc_incomplete.json"],
+    ),
     ("set_unknown_input", &["run", "--set", "y=2", "set_unknown_input.json"]),
 ];
 

@@ -8,6 +8,7 @@ mod assumptions;
 mod benches;
 mod cases;
 mod catalogue;
+mod certificate;
 mod commands;
 mod compare;
 mod conformity;

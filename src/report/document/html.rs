@@ -3,7 +3,7 @@
 use maud::{Markup, html};
 
 use super::{Block, Document};
-use crate::report::html::{figure, page, raised, table};
+use crate::report::html::{figure, page_in, raised, table};
 
 /// The whole page.
 pub(in crate::report) fn html(document: &Document) -> String {
@@ -13,7 +13,8 @@ pub(in crate::report) fn html(document: &Document) -> String {
         @for line in &document.subtitle { p.settings { (line) } }
         @for part in &document.blocks { (block(part, &mut figures)) }
     };
-    page(&document.title, &body)
+    let language = if document.language.is_empty() { "en" } else { document.language };
+    page_in(language, &document.title, &body)
 }
 
 fn block(block: &Block, figures: &mut usize) -> Markup {

@@ -4,10 +4,12 @@
 mod html;
 mod latex;
 mod markdown;
+mod text;
 
 pub(super) use html::html;
 pub(super) use latex::latex;
 pub(super) use markdown::markdown;
+pub(super) use text::text;
 
 use super::html::Drawing;
 use super::sheet::Sheet;
@@ -19,6 +21,8 @@ pub(crate) struct Document {
     pub(crate) title: String,
     /// Lines below the title.
     pub(crate) subtitle: Vec<String>,
+    /// The language of its texts, as ISO 639-1 has it; English if that is empty.
+    pub(crate) language: &'static str,
     /// What it says.
     pub(crate) blocks: Vec<Block>,
 }

@@ -17,9 +17,14 @@ const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'";
 
 /// A whole page.
 pub(super) fn page(title: &str, body: &Markup) -> String {
+    page_in("en", title, body)
+}
+
+/// A whole page in a language, a code of ISO 639-1.
+pub(super) fn page_in(language: &str, title: &str, body: &Markup) -> String {
     let page = html! {
         (DOCTYPE)
-        html lang="en" {
+        html lang=(language) {
             head {
                 meta charset="utf-8";
                 meta http-equiv="Content-Security-Policy" content=(POLICY);

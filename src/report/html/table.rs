@@ -20,10 +20,12 @@ pub(in crate::report) fn table(sheet: &Sheet) -> Markup {
     html! {
         div.table {
             table {
-                thead {
-                    tr {
-                        @for column in &sheet.columns {
-                            th class=[class(column)] { (column.title()) }
+                @if sheet.has_headers() {
+                    thead {
+                        tr {
+                            @for column in &sheet.columns {
+                                th class=[class(column)] { (column.title()) }
+                            }
                         }
                     }
                 }

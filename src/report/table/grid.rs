@@ -8,7 +8,7 @@ use comfy_table::{
 };
 
 use crate::report::number::align;
-use crate::report::sheet::Sheet;
+use crate::report::sheet::{Kind, Sheet};
 
 /// Spaces between columns.
 const GAP: u16 = 2;
@@ -63,10 +63,10 @@ impl Grid {
         let mut grid = Self { columns: Vec::new(), footer: sheet.footer };
         for column in &sheet.columns {
             let cells = column.cells.iter().cloned();
-            if column.is_numeric() {
-                grid.numbers(&column.header, cells);
-            } else {
-                grid.text(&column.header, cells);
+            match column.kind {
+                Kind::Numbers => grid.numbers(&column.header, cells),
+                Kind::Text => grid.text(&column.header, cells),
+                Kind::Units => grid.units(&column.header, cells),
             }
         }
         grid
@@ -77,8 +77,14 @@ impl Grid {
         self.push(header, cells.into_iter().collect(), CellAlignment::Left, None);
     }
 
+    /// A column of units, which never wrap.
+    pub(crate) fn units(&mut self, header: &str, cells: impl IntoIterator<Item = String>) {
+        let constraint = Some(ColumnConstraint::ContentWidth);
+        self.push(header, cells.into_iter().collect(), CellAlignment::Left, constraint);
+    }
+
     /// A column of texts that wrap only above a width.
-    pub(super) fn text_from(
+    pub(crate) fn text_from(
         &mut self,
         header: &str,
         width: usize,
@@ -164,7 +170,7 @@ impl Grid {
     }
 
     /// The table without a header, ending in a newline.
-    pub(super) fn bare(&self, width: usize) -> String {
+    pub(crate) fn bare(&self, width: usize) -> String {
         let rows = self.rows();
         let pages = (0..rows).step_by(PAGE).map(|first| first..(first + PAGE).min(rows));
         let lines = pages.flat_map(|page| self.lines(width, false, page));

@@ -95,7 +95,10 @@ fn table(sheet: &Sheet, units: &mut unit::Declared) -> String {
     let columns: Vec<String> =
         sheet.columns.iter().zip(&widths).map(|(column, width)| form(column, *width)).collect();
     let line = |cells: Vec<String>| cells.join(" & ") + " \\\\";
-    let header = line(sheet.columns.iter().map(header).collect());
+    let header = match sheet.has_headers() {
+        true => format!("{}\n\\midrule\n", line(sheet.columns.iter().map(header).collect())),
+        false => String::new(),
+    };
     let mut rows: Vec<String> = (0..sheet.rows())
         .map(|row| line(sheet.columns.iter().map(|column| cell(column, row, units)).collect()))
         .collect();
@@ -106,12 +109,12 @@ fn table(sheet: &Sheet, units: &mut unit::Declared) -> String {
     let rows = rows.join("\n");
     if sheet.rows() > LONG {
         format!(
-            "{{{size}\n\\begin{{longtable}}{{{form}}}\n\\toprule\n{header}\n\\midrule\n\\endhead\n\
+            "{{{size}\n\\begin{{longtable}}{{{form}}}\n\\toprule\n{header}\\endhead\n\
              \\bottomrule\n\\endfoot\n{rows}\n\\end{{longtable}}}}"
         )
     } else {
         format!(
-            "\\medskip\n{{{size}\n\\begin{{tabular}}{{{form}}}\n\\toprule\n{header}\n\\midrule\n{rows}\n\
+            "\\medskip\n{{{size}\n\\begin{{tabular}}{{{form}}}\n\\toprule\n{header}{rows}\n\
              \\bottomrule\n\\end{{tabular}}\\par}}\n\\medskip"
         )
     }

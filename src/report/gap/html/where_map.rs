@@ -56,7 +56,8 @@ impl<'a> Panel<'a> {
             .map(|(place, region)| (words::letter(place), region))
             .collect();
         // a frame runs between cells and not through one
-        for end in regions.iter().flat_map(|(_, region)| places(&levels, region)) {
+        let ends = regions.iter().flat_map(|(_, region)| places(&levels, region));
+        for end in ends.filter(|end| *end < levels.len()) {
             let last = edges.len() - 1;
             let nearest = (1..last).min_by_key(|&edge| edges[edge].abs_diff(end));
             if let Some(edge) = nearest.filter(|_| !edges.contains(&end)) {

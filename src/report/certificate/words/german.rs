@@ -1,0 +1,90 @@
+//! German.
+
+use super::Words;
+
+pub(super) const WORDS: Words = Words {
+    title: "Kalibrierschein",
+    number: "Kalibrierscheinnummer",
+    device: "Gegenstand",
+    manufacturer: "Hersteller",
+    model: "Typ",
+    serial_number: "Seriennummer",
+    customer_number: "Nummer des Auftraggebers",
+    customer: "Auftraggeber",
+    laboratory: "Laboratorium",
+    code: "Laborkennzeichen",
+    responsible: "Verantwortlich",
+    calibrated: "Datum der Kalibrierung",
+    period: "{first} bis {last}",
+    issued: "Ausstellungsdatum",
+    place: "Ort der Kalibrierung",
+    places: [
+        "Laboratorium",
+        "beim Auftraggeber",
+        "Zweigstelle des Laboratoriums",
+        "Zweigstelle des Auftraggebers",
+        "an anderem Ort",
+    ],
+    environment: "Umgebungsbedingungen",
+    method: "Verfahren",
+    traceability: "Metrologische Rückführung",
+    remarks: "Bemerkungen",
+
+    results: "Messergebnisse",
+    row: "Zeile",
+    quantity: "Größe",
+    conditions: "Bedingungen",
+    nominal: "Nennwert",
+    value: "Wert",
+    expanded: "U",
+    unit: "Einheit",
+    probability: "p in %",
+    low: "von",
+    high: "bis",
+
+    uncertainty: "Messunsicherheit",
+    rows: ["Zeile {rows}: ", "Zeilen {rows}: "],
+    and: " und ",
+    normal: "Die erweiterte Messunsicherheit U ist die Standardmessunsicherheit, multipliziert mit dem \
+        Erweiterungsfaktor k = {k}; das Ergebnis ist normalverteilt, sodass das Intervall von Wert - U \
+        bis Wert + U eine Überdeckungswahrscheinlichkeit von {p} hat.",
+    student: "Die erweiterte Messunsicherheit U ist die Standardmessunsicherheit, multipliziert mit dem \
+        Erweiterungsfaktor k der Tabelle. Das Ergebnis folgt einer t-Verteilung mit den effektiven \
+        Freiheitsgraden ν_eff der Tabelle, und k ist so gewählt, dass die \
+        Überdeckungswahrscheinlichkeit {p} beträgt.",
+    fixed: "Die erweiterte Messunsicherheit U ist die Standardmessunsicherheit, multipliziert mit dem \
+        vereinbarten Erweiterungsfaktor k = {k}. Es wird keine Verteilung vorausgesetzt und daher keine \
+        Überdeckungswahrscheinlichkeit angegeben.",
+    shortest: "Das Ergebnis ist nicht normalverteilt. Das Intervall von - bis der Tabelle ist das kürzeste mit \
+        einer Überdeckungswahrscheinlichkeit von {p}, ermittelt mit dem Monte-Carlo-Verfahren (JCGM \
+        101:2008). U ist der Abstand des Werts vom weiter entfernten Ende, und k ist U geteilt durch \
+        die Standardmessunsicherheit.",
+    propagation: "Die Standardmessunsicherheit wurde nach dem Fortpflanzungsgesetz der \
+        Messunsicherheit (JCGM 100:2008) ermittelt, wie EA-4/02 M:2022 es verlangt.",
+    time: "Wie sich der Gegenstand auf Dauer verhält, ist in den Unsicherheiten nicht enthalten.",
+    confirmed: "Das Monte-Carlo-Verfahren (JCGM 101:2008, Abschnitt 8) bestätigt diese Intervalle.",
+    rounding: "U hat {digits} ({rule}); der Wert ist auf dieselbe Stelle gerundet.",
+    rules: [
+        "kaufmännisch gerundet",
+        "kaufmännisch gerundet, aber aufgerundet, wo sonst mehr als 5 % wegfielen, EA-4/02 M:2022",
+        "aufgerundet",
+    ],
+    digits: ["eine signifikante Stelle", "{digits} signifikante Stellen"],
+    raised: "Die ermittelte Messunsicherheit ist kleiner als die kleinste angebbare Messunsicherheit \
+        (CMC) des Laboratoriums; diese ist stattdessen angegeben (ILAC-P14:09/2020).",
+    approximately: "annähernd {p}",
+
+    correlation: "Korrelation der Zeilen",
+    correlated: "Zeilen mit gemeinsamen Eingangsgrößen sind korreliert. Die Standardmessunsicherheit \
+        der Differenz der Zeilen i und j folgt aus u² = u_i² + u_j² - 2 r u_i u_j mit u_i = U_i / k_i \
+        und dem Koeffizienten r der Tabelle (nach dem Fortpflanzungsgesetz).",
+    many: "Die {rows} Zeilen haben gemeinsame Eingangsgrößen; ihre Korrelationskoeffizienten stehen in \
+        der JSON-Ausgabe und in der Arbeitsmappe.",
+    conformity: "Konformität",
+    provenance: "Herkunft",
+    program: "Programm",
+    certificate_file: "Kalibrierscheindatei, SHA-256",
+    seed: "Startwert",
+    trials: "Monte-Carlo-Versuche",
+    adaptive: "adaptiv",
+};

@@ -1,0 +1,534 @@
+//! `gumption certificate`: what is stated, in every format, and how rows vary together.
+
+use std::fs;
+use std::path::Path;
+
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use calamine::{Data, Reader, Xlsx};
+use serde_json::{Value, json};
+use tempfile::TempDir;
+
+use crate::support::{gumption, output, root};
+
+const WORKED_DAY: &str = "models/certificates/three_axis_accelerometer.json";
+
+/// A folder with these files.
+fn folder(files: &[(&str, Value)]) -> TempDir {
+    let folder = tempfile::tempdir().expect("a folder");
+    for (name, content) in files {
+        fs::write(folder.path().join(name), content.to_string()).expect("a file");
+    }
+    folder
+}
+
+fn path(folder: &Path, name: &str) -> String {
+    folder.join(name).to_str().expect("a path").to_owned()
+}
+
+/// The certificate of these files, whose first is the certificate file.
+fn answer(files: &[(&str, Value)], options: &[&str]) -> Value {
+    let folder = folder(files);
+    let name = path(folder.path(), files[0].0);
+    let said = output(&[&["certificate", &name, "--format", "json", "--quiet"], options].concat());
+    serde_json::from_str(&said).expect("JSON")
+}
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().unwrap_or_else(|| panic!("{value} is no number"))
+}
+
+/// Standard uncertainty of a difference from two rows and their coefficient.
+fn of_difference(answer: &Value, i: usize, j: usize) -> f64 {
+    let u = |row: usize| number(&answer["rows"][row]["standard_uncertainty"]);
+    let r = number(&answer["correlations"][i][j]);
+    (u(i) * u(i) + u(j) * u(j) - 2.0 * r * u(i) * u(j)).sqrt()
+}
+
+/// Standard uncertainty by a run of a model of its own.
+fn of_run(model: &Value) -> f64 {
+    let folder = folder(&[("m.json", model.clone())]);
+    let name = path(folder.path(), "m.json");
+    let said = output(&["run", &name, "--trials", "0", "--format", "json", "--quiet"]);
+    let answer: Value = serde_json::from_str(&said).expect("JSON");
+    let (_, output) = answer["outputs"].as_object().and_then(|all| all.iter().next()).expect("one");
+    number(&output["gum"]["standard_uncertainty"])
+}
+
+fn normal(mean: f64, std: f64) -> Value {
+    json!({"distribution": "normal", "mean": mean, "std": std})
+}
+
+/// The difference of two rows has the uncertainty that a model of the difference gives: both are
+/// the law of propagation, so that they agree but for rounding of doubles.
+#[test]
+fn the_difference_of_two_rows_has_its_right_uncertainty() {
+    let inputs = json!({"a": normal(2.0, 0.01), "b": normal(0.5, 0.02), "x": normal(1.0, 0.005),
+        "c": normal(0.0, 0.004)});
+    let model = json!({"inputs": inputs, "correlations": [["b", "c", 0.6]],
+        "equations": {"y": "a*x^2 + b + c"}, "outputs": {"y": {}}});
+    let rows = json!([{"model": "m.json", "output": "y"},
+        {"model": "m.json", "output": "y", "set": {"x": 3}}]);
+    let certificate = |more: Value| {
+        let mut file = json!({"rows": rows, "monte_carlo": {"trials": 0}});
+        for (key, value) in more.as_object().expect("an object") {
+            file[key] = value.clone();
+        }
+        answer(&[("c.json", file), ("m.json", model.clone())], &[])
+    };
+    // one deviation of x in both rows
+    let shared = json!({"inputs": {"a": normal(2.0, 0.01), "e": normal(0.0, 0.005)},
+        "equations": {"d": "a*(3 + e)^2 - a*(1 + e)^2"}, "outputs": {"d": {}}});
+    let found = of_difference(&certificate(json!({})), 0, 1);
+    assert!((found / of_run(&shared) - 1.0).abs() < 1e-9, "{found}");
+    // deviations of their own
+    let own = json!({"inputs": {"a": normal(2.0, 0.01), "x_1": normal(1.0, 0.005),
+        "x_2": normal(3.0, 0.005)}, "equations": {"d": "a*x_2^2 - a*x_1^2"}, "outputs": {"d": {}}});
+    let found = of_difference(&certificate(json!({"separate_inputs": ["x"]})), 0, 1);
+    assert!((found / of_run(&own) - 1.0).abs() < 1e-9, "{found}");
+    // b of a row of its own stays correlated with the c that both rows have: d = ... + b_2 - b_1,
+    // where u(d)^2 has 2 u(b)^2 more, and the terms of b and c cancel
+    let found = of_difference(&certificate(json!({"separate_inputs": ["b"]})), 0, 1);
+    let expected = (of_run(&shared).powi(2) + 2.0 * 0.02_f64.powi(2)).sqrt();
+    assert!((found / expected - 1.0).abs() < 1e-9, "{found} {expected}");
+}
+
+/// The same for a typed model, its outputs, and its rows of conditions.
+#[test]
+fn rows_of_a_typed_model_share_its_inputs() {
+    let tolerance = |mean: Value| {
+        json!({"unit": "deg", "distribution": "rectangular",
+        "mean": mean, "half_width": 0.1})
+    };
+    let a_ref = json!({"unit": "m/s^2", "distribution": "normal", "mean": 10, "std": 0.01});
+    let model = |per: &str| {
+        let mut tilt = tolerance(json!("t"));
+        if !per.is_empty() {
+            tilt["per"] = json!(per);
+        }
+        json!({"model": "inclined-plane",
+            "inputs": {"a_ref": a_ref, "tilt": tilt, "rotation": tolerance(json!(30))},
+            "conditions": {"t": {"unit": "deg", "values": [15, 75]}},
+            "outputs": {"a_x": {"unit": "m/s^2"}, "a_z": {"unit": "m/s^2"}}})
+    };
+    let file = json!({"monte_carlo": {"trials": 0}, "rows": [
+        {"model": "m.json", "output": "a_x"}, {"model": "m.json", "output": "a_z"}]});
+    // rows: a_x at 15 and 75 deg, a_z at 15 and 75 deg
+    let of = |per: &str| answer(&[("c.json", file.clone()), ("m.json", model(per))], &[]);
+    let direct = |tilts: &[(&str, Value)], equation: &str| {
+        let mut inputs = json!({"a_ref": a_ref, "rotation": tolerance(json!(30))});
+        for (name, tilt) in tilts {
+            inputs[*name] = tilt.clone();
+        }
+        of_run(&json!({"inputs": inputs, "equations": {"d": equation},
+            "outputs": {"d": {"unit": "m/s^2"}}}))
+    };
+    let zero = tolerance(json!(0));
+    let shared =
+        direct(&[("e", zero)], "a_ref*cos(rotation)*(sin(75*pi/180 + e) - sin(15*pi/180 + e))");
+    let found = of_difference(&of(""), 0, 1);
+    assert!((found / shared - 1.0).abs() < 1e-9, "{found} {shared}");
+    let planes = [("p", tolerance(json!(15))), ("q", tolerance(json!(75)))];
+    let own = direct(&planes, "a_ref*cos(rotation)*(sin(q) - sin(p))");
+    let found = of_difference(&of("row"), 0, 1);
+    assert!((found / own - 1.0).abs() < 1e-9, "{found} {own}");
+    // two outputs of one row have its tilt in common even then
+    let outputs = direct(&planes, "a_ref*(sin(p)*cos(rotation) - cos(p))");
+    let found = of_difference(&of("row"), 0, 2);
+    assert!((found / outputs - 1.0).abs() < 1e-9, "{found} {outputs}");
+}
+
+/// Inputs of the same name in two model files are two quantities unless the certificate says
+/// otherwise.
+#[test]
+fn inputs_of_two_files_are_shared_only_where_the_certificate_says_so() {
+    let model = |std: f64| {
+        json!({"inputs": {"x": normal(1.0, std), "z": normal(0.0, std)},
+        "equations": {"y": "x + z"}, "outputs": {"y": {}}})
+    };
+    let rows = json!([{"model": "m.json", "output": "y"}, {"model": "n.json", "output": "y"}]);
+    let of = |file: Value| {
+        answer(&[("c.json", file), ("m.json", model(0.1)), ("n.json", model(0.2))], &[])
+    };
+    let apart = of(json!({"rows": rows, "monte_carlo": {"trials": 0}}));
+    assert_eq!(apart["correlations"], json!([[1.0, 0.0], [0.0, 1.0]]));
+    let together = of(json!({"rows": rows, "shared_inputs": "x", "monte_carlo": {"trials": 0}}));
+    // x is half of each variance
+    assert!((number(&together["correlations"][0][1]) - 0.5).abs() < 1e-12);
+}
+
+/// Each basis with its factor: a rectangular distribution has k = 0.9545 sqrt(3) = 1.653 at 95.45 %
+/// (EA-4/02, S9.14 has 1.65 at 95 %), a t distribution with 4 degrees of freedom 2.87 (EA-4/02,
+/// table E.1).
+#[test]
+fn the_statement_follows_the_distribution() {
+    let model = json!({"inputs": {
+            "n": normal(10.0, 0.1),
+            "r": {"distribution": "rectangular", "mean": 5, "half_width": 0.3},
+            "t": {"distribution": "normal", "mean": 3, "std": 0.1, "dof": 4}},
+        "equations": {"a": "n", "b": "r", "c": "t"}, "outputs": {"a": {}, "b": {}, "c": {}}});
+    let rows = json!([{"model": "m.json", "output": "a"}, {"model": "m.json", "output": "b"},
+        {"model": "m.json", "output": "c"}]);
+    let file = json!({"rows": rows, "language": ["en", "de"]});
+    let files = [("c.json", file), ("m.json", model)];
+    let found = answer(&files, &[]);
+    let row = |place: usize| &found["rows"][place];
+    let basis = |place: usize| row(place)["basis"].as_str().expect("a text").to_owned();
+    assert_eq!([basis(0), basis(1), basis(2)], ["normal", "monte-carlo", "t"]);
+    assert_eq!(row(0)["stated"]["coverage_factor"], "2.00");
+    assert_eq!(row(0)["stated"]["expanded_uncertainty"], "0.20");
+    assert_eq!(row(2)["stated"]["coverage_factor"], "2.87");
+    assert_eq!(row(2)["dof"], 4.0);
+    // all intervals of a rectangle are as short; the symmetric one of a million trials has ends with
+    // a standard error of 0.6 sqrt(0.02275 0.97725 / 1e6) = 9e-5, of which 6 are allowed
+    let (k, u) = (number(&row(1)["coverage_factor"]), number(&row(1)["expanded_uncertainty"]));
+    assert!((u - 0.9545 * 0.3).abs() < 6e-4 && (k - 1.6532).abs() < 4e-3, "{u} {k}");
+    let [low, high] = [0, 1].map(|end| number(&row(1)["interval"][end]));
+    assert!((low - 5.0 + 0.9545 * 0.3).abs() < 6e-4, "{low}");
+    assert!((high - 5.0 - 0.9545 * 0.3).abs() < 6e-4, "{high}");
+    let value = number(&row(1)["value"]);
+    assert!(value - u <= low + 1e-12 && high <= value + u + 1e-12);
+    let said = |language: &str| found["statements"][language].to_string();
+    for words in ["k = 2.00", "approximately 95 %", "Row 1: ", "shortest", "ν_eff"] {
+        assert!(said("en").contains(words), "{words}: {}", said("en"));
+    }
+    for words in ["Erweiterungsfaktor k = 2.00", "annähernd 95 %", "Zeile 2: ", "kürzeste"] {
+        assert!(said("de").contains(words), "{words}: {}", said("de"));
+    }
+    // without trials nothing is known but the law of propagation
+    let found = answer(&files, &["--trials", "0"]);
+    assert_eq!(found["rows"][1]["basis"], "normal");
+    // a factor that is kept states no probability where it has none
+    let mut fixed = files.clone();
+    fixed[0].1["coverage_factor"] = json!(2);
+    fixed[0].1["coverage_factor_fixed"] = json!(true);
+    let found = answer(&fixed, &["--trials", "0"]);
+    assert_eq!(found["rows"][2]["basis"], "fixed-factor");
+    assert_eq!(found["rows"][2]["coverage_probability"], Value::Null);
+    assert_eq!(found["rows"][0]["coverage_probability"], 0.9545);
+}
+
+/// Values go to the place of the rounded uncertainty: 9.96, 99.6, 999.9, left of the point, 0, and the
+/// 5 % of EA-4/02.
+#[test]
+fn values_are_rounded_to_the_place_of_the_uncertainty() {
+    let of = |value: f64, expanded: f64, rule: &str, digits: u64| {
+        let x = match expanded {
+            0.0 => json!({"distribution": "constant", "value": value}),
+            _ => json!({"distribution": "normal", "mean": value, "expanded": expanded, "k": 2}),
+        };
+        let model = json!({"inputs": {"x": x}, "equations": {"y": "x"}, "outputs": {"y": {}}});
+        let file = json!({"rounding": rule, "digits": digits, "monte_carlo": {"trials": 0},
+            "rows": [{"model": "m.json", "output": "y"}]});
+        let found = answer(&[("c.json", file), ("m.json", model)], &[]);
+        let stated = found["rows"][0]["stated"].clone();
+        [stated["value"].clone(), stated["expanded_uncertainty"].clone()]
+            .map(|text| text.as_str().expect("a text").to_owned())
+    };
+    let cases = [
+        (10.0576, 0.0273, "nearest", 2, "10.058", "0.027"),
+        (123.456, 9.96, "nearest", 2, "123", "10"),
+        (1234.5, 99.6, "nearest", 2, "1230", "100"),
+        (123_456.0, 999.9, "nearest", 2, "123500", "1000"),
+        (56_789.0, 1234.0, "nearest", 2, "56800", "1200"),
+        (56_789.0, 1234.0, "up", 2, "56800", "1300"),
+        (1.2345, 0.349, "nearest", 1, "1.2", "0.3"),
+        (1.2345, 0.349, "ea", 1, "1.2", "0.4"),
+        (1.2345, 0.52, "ea", 1, "1.2", "0.5"),
+        (-0.004, 0.12, "up", 2, "0.00", "0.12"),
+        (1.5, 0.0, "nearest", 2, "1.5", "0"),
+    ];
+    for (value, expanded, rule, digits, y, u) in cases {
+        assert_eq!(of(value, expanded, rule, digits), [y, u], "{value} {expanded} {rule}");
+    }
+}
+
+#[test]
+fn uncertainties_below_the_capability_are_warned_of_or_raised() {
+    let model = json!({"inputs": {"x": normal(10.0, 0.1)}, "equations": {"y": "x"},
+        "outputs": {"y": {"unit": "1", "cmc": 0.15}}});
+    let rows = json!([
+        {"model": "m.json", "output": "y"},
+        {"model": "m.json", "output": "y", "cmc": "2.04 % of reading"},
+        {"model": "m.json", "output": "y", "cmc": 0.504, "cmc_floor": true}]);
+    let file = json!({"rows": rows, "monte_carlo": {"trials": 0}});
+    let files = [("c.json", file), ("m.json", model)];
+    let found = answer(&files, &[]);
+    let row = |place: usize| &found["rows"][place];
+    assert_eq!(row(0)["limit"], json!({"cmc": 0.15, "below": false, "raised": false}));
+    assert_eq!(row(1)["limit"]["below"], true);
+    assert_eq!(row(1)["stated"]["expanded_uncertainty"], "0.20");
+    assert_eq!(row(2)["limit"]["raised"], true);
+    // 0.50 would be below the capability of 0.504
+    assert_eq!(row(2)["stated"]["expanded_uncertainty"], "0.51");
+    let codes: Vec<&str> = found["warnings"]
+        .as_array()
+        .expect("a list")
+        .iter()
+        .filter_map(|warning| warning["code"].as_str())
+        .collect();
+    assert_eq!(codes, ["below-cmc", "raised-to-cmc"]);
+    assert!(found["statements"]["en"].to_string().contains("Row 3: The evaluated uncertainty"));
+    let folder = folder(&files);
+    let said = gumption().args(["certificate", &path(folder.path(), "c.json")]).assert().success();
+    let notes = String::from_utf8(said.get_output().stderr.clone()).expect("UTF-8");
+    assert!(notes.contains("row 2: U = 0.20 is below the laboratory's capability"), "{notes}");
+}
+
+/// Conditions are chosen, or evaluated at a value that the file does not have.
+#[test]
+fn rows_are_chosen_by_their_conditions() {
+    let model = json!({"inputs": {"x": normal(1.0, 0.1)},
+        "conditions": {"f": {"unit": "kHz", "values": [1, 2]}, "g": {"values": [1, 2]}},
+        "equations": {"y": "x*f*g/1000"}, "outputs": {"y": {"unit": "Hz"}}});
+    let file = json!({"monte_carlo": {"trials": 0}, "rows": [
+        {"model": "m.json", "output": "y", "set": {"f": "2000 Hz", "g": 1}, "nominal": "f"},
+        {"model": "m.json", "output": "y", "set": {"f": 3}},
+        {"model": "m.json", "output": "y", "set": {"g": 2}}]});
+    let files = [("c.json", file), ("m.json", model)];
+    let found = answer(&files, &[]);
+    let values: Vec<f64> =
+        found["rows"].as_array().expect("rows").iter().map(|row| number(&row["value"])).collect();
+    assert_eq!(values, [2.0, 3.0, 6.0, 2.0, 4.0]);
+    assert_eq!(found["rows"][0]["nominal"], 2000.0);
+    assert_eq!(found["rows"][1]["conditions"], json!({"f": 3.0, "g": 1.0}));
+    // `run` takes one value of a condition as well
+    let folder = folder(&files);
+    let name = path(folder.path(), "m.json");
+    let said = output(&[
+        "run",
+        &name,
+        "--set",
+        "f=5000 Hz",
+        "--trials",
+        "0",
+        "--format",
+        "json",
+        "--quiet",
+    ]);
+    let found: Value = serde_json::from_str(&said).expect("JSON");
+    assert_eq!(found["rows"].as_array().expect("rows").len(), 2);
+    assert_eq!(found["rows"][1]["conditions"], json!({"f": 5.0, "g": 2.0}));
+}
+
+/// Three rows with everything that a certificate may show, quick to evaluate.
+fn small() -> Vec<(&'static str, Value)> {
+    let model = json!({"inputs": {
+            "n": {"unit": "m/s^2", "distribution": "normal", "mean": 9.81, "std": 0.0123},
+            "r": {"unit": "m/s^2", "distribution": "rectangular", "mean": 0, "half_width": 0.2}},
+        "conditions": {"f": {"unit": "Hz", "values": [5, 1000]}},
+        "equations": {"a": "n", "b": "n + r"},
+        "outputs": {"a": {"unit": "m/s^2"}, "b": {"unit": "m/s^2", "tolerance": {"lower": 9.5}}}});
+    let party =
+        json!({"name": "L & <Co>", "email": "a@example.org", "city": "Torino", "country": "IT"});
+    let file = json!({"number": "C-1", "title": {"en": "Certificate", "de": "Schein"},
+        "device": {"name": "device | 1", "manufacturer": "M", "serial_number": "=1+1"},
+        "customer": party, "laboratory": party, "responsible": "R", "calibration_date": "2026-03-02",
+        "environment": "23 °C", "method": "comparison", "remarks": ["a remark"],
+        "language": ["en", "de"], "monte_carlo": {"trials": 50000, "seed": 3},
+        "rows": [{"model": "m.json", "output": "a", "nominal": 9.8},
+            {"model": "m.json", "output": "b", "nominal": 9.8}]});
+    vec![("c.json", file), ("m.json", model)]
+}
+
+/// Every format prints the figures of the JSON answer, rounded once.
+#[test]
+fn every_format_states_the_same_figures() {
+    let files = small();
+    let folder = folder(&files);
+    let name = path(folder.path(), "c.json");
+    let found = answer(&files, &[]);
+    let rows = found["rows"].as_array().expect("rows");
+    assert_eq!(rows.len(), 4);
+    assert_eq!(rows[3]["basis"], "monte-carlo");
+    let stated: Vec<Vec<String>> = rows
+        .iter()
+        .map(|row| {
+            let text = |key: &str| row["stated"][key].as_str().expect("a text").to_owned();
+            let mut texts =
+                vec![text("value"), text("expanded_uncertainty"), text("coverage_factor")];
+            for end in row["stated"]["interval"].as_array().into_iter().flatten() {
+                texts.push(end.as_str().expect("a text").to_owned());
+            }
+            texts
+        })
+        .collect();
+    let page = |format: &str| output(&["certificate", &name, "--format", format, "--quiet"]);
+    for format in ["table", "markdown", "latex", "html"] {
+        let page = page(format).replace('\u{2007}', " ");
+        let separators: &[char] = &['|', '&', '<', '>', '\n', '\\'];
+        for (row, texts) in stated.iter().enumerate() {
+            let lines: Vec<String> = match format {
+                "html" => page.split("<tr>").map(str::to_owned).collect(),
+                _ => page.lines().map(str::to_owned).collect(),
+            };
+            let holds = |line: &String| {
+                let line = line.trim_end_matches("\\\\");
+                let cells: Vec<&str> = match format {
+                    "table" => line.split_whitespace().collect(),
+                    _ => line.split(separators).map(str::trim).collect(),
+                };
+                texts.iter().all(|text| cells.contains(&text.as_str()))
+            };
+            assert!(lines.iter().any(holds), "{format}, row {}: {texts:?}\n{page}", row + 1);
+        }
+    }
+    // CSV
+    let text = page("csv");
+    let mut reader = csv::Reader::from_reader(text.as_bytes());
+    for (record, texts) in reader.records().zip(&stated) {
+        let record = record.expect("a record");
+        let cells: Vec<&str> = record.iter().collect();
+        assert!(texts.iter().all(|text| cells.contains(&text.as_str())), "{cells:?} {texts:?}");
+    }
+    // the workbook has numbers
+    let bytes = gumption().args(["certificate", &name, "--format", "xlsx", "--quiet"]).output();
+    let bytes = bytes.expect("a workbook").stdout;
+    let mut book: Xlsx<_> = Xlsx::new(std::io::Cursor::new(bytes)).expect("a workbook");
+    let sheet = book.worksheet_range("Certificate").expect("a sheet");
+    for texts in &stated {
+        let wanted: Vec<f64> = texts.iter().map(|text| text.parse().expect("a number")).collect();
+        let holds = |row: &[Data]| {
+            let numbers: Vec<f64> = row
+                .iter()
+                .filter_map(|cell| match cell {
+                    Data::Float(value) => Some(*value),
+                    Data::Int(value) => Some(*value as f64),
+                    _ => None,
+                })
+                .collect();
+            wanted.iter().all(|value| numbers.contains(value))
+        };
+        assert!(sheet.rows().any(holds), "{texts:?}");
+    }
+    assert!(book.sheet_names().contains(&"Correlations".to_owned()));
+}
+
+/// The digital certificate: well-formed, its numbers those of the JSON, its files as they were.
+#[test]
+fn the_digital_certificate_reads_back() {
+    let files = small();
+    let folder = folder(&files);
+    let name = path(folder.path(), "c.json");
+    let text = output(&["certificate", &name, "--format", "dcc", "--quiet"]);
+    let document = roxmltree::Document::parse(&text).expect("XML");
+    let found = answer(&files, &[]);
+    let all = |tag: &str| -> Vec<String> {
+        let nodes = document.descendants().filter(|node| node.tag_name().name() == tag);
+        nodes.map(|node| node.text().unwrap_or_default().to_owned()).collect()
+    };
+    let stated = |rows: &[usize], key: &str| -> String {
+        let text = |row: &usize| found["rows"][*row]["stated"][key].as_str().expect("a text");
+        rows.iter().map(text).collect::<Vec<_>>().join(" ")
+    };
+    // for each output the conditions, the nominal and the measured values; b has intervals as well
+    let values = all("valueXMLList");
+    assert_eq!(values.len(), 7);
+    assert_eq!(values[0], "5 1000");
+    assert_eq!(values[1], "9.8 9.8");
+    assert_eq!([&values[2], &values[5]], [&stated(&[0, 1], "value"), &stated(&[2, 3], "value")]);
+    assert_eq!(
+        all("uncertaintyXMLList"),
+        [stated(&[0, 1], "expanded_uncertainty"), stated(&[2, 3], "expanded_uncertainty")]
+    );
+    assert_eq!(all("coverageProbabilityXMLList"), ["0.9545 0.9545"; 3]);
+    assert_eq!(all("distributionXMLList"), ["normal normal", "other other", "other other"]);
+    let low = |row: usize| found["rows"][row]["stated"]["interval"][0].as_str().expect("a text");
+    assert_eq!(all("intervalMinXMLList"), [format!("{} {}", low(2), low(3))]);
+    let units = all("unitXMLList");
+    assert_eq!([units[0].as_str(), units[2].as_str()], [r"\hertz", r"\metre\second\tothe{-2}"]);
+    assert_eq!(all("uniqueIdentifier"), ["C-1"]);
+    assert!(all("content").contains(&"L & <Co>".to_owned()));
+    // the files, byte for byte
+    let attached: Vec<(String, Vec<u8>)> = all("fileName")
+        .into_iter()
+        .zip(all("dataBase64").iter().map(|text| STANDARD.decode(text).expect("base64")))
+        .collect();
+    let names: Vec<&str> = attached.iter().map(|(name, _)| name.as_str()).collect();
+    assert_eq!(names, ["result.json", "certificate.json", "m.json"]);
+    let model = fs::read(folder.path().join("m.json")).expect("the model");
+    assert_eq!(attached[2].1, model);
+    let result: Value = serde_json::from_slice(&attached[0].1).expect("JSON");
+    assert_eq!(result["rows"], found["rows"]);
+}
+
+#[test]
+fn certificates_are_the_same_bytes_on_any_number_of_threads_and_at_any_place() {
+    let files = small();
+    for format in ["json", "html", "dcc", "latex"] {
+        let with = |threads: &str| {
+            let folder = folder(&files);
+            let name = path(folder.path(), "c.json");
+            let said = output(&[
+                "certificate",
+                &name,
+                "--format",
+                format,
+                "--quiet",
+                "--threads",
+                threads,
+            ]);
+            assert!(!said.contains(folder.path().to_str().expect("a path")), "{format}");
+            said
+        };
+        assert!(with("1") == with("3"), "{format}");
+    }
+}
+
+#[test]
+fn certificate_files_are_checked() {
+    for entry in fs::read_dir(root().join("models/certificates")).expect("the folder") {
+        let path = entry.expect("an entry").path();
+        let said = output(&["check", path.to_str().expect("a path")]);
+        assert!(said.contains("no mistakes found"), "{said}");
+    }
+}
+
+/// A digital certificate without the answer for programs that is attached to it: that has all digits,
+/// of which the last ones are those of the version.
+fn without_answer(page: &str) -> String {
+    let (name, end) = ("<dcc:fileName>result.json", "</dcc:dataBase64>");
+    match page.split_once(name) {
+        Some((before, rest)) => before.to_owned() + rest.split_once(end).expect("its bytes").1,
+        None => page.to_owned(),
+    }
+}
+
+/// The worked day: `gumption certificate models/certificates/three_axis_accelerometer.json`.
+/// `GUMPTION_UPDATE=1 cargo test --test all worked_day` writes the reports anew.
+#[test]
+fn the_worked_day_is_the_one_in_reports() {
+    for (format, name) in [
+        ("markdown", "certificate.md"),
+        ("html", "certificate.html"),
+        ("dcc", "certificate.dcc.xml"),
+    ] {
+        let found = output(&["certificate", WORKED_DAY, "--format", format, "--quiet"]);
+        let path = root().join("reports").join(name);
+        if std::env::var_os("GUMPTION_UPDATE").is_some() {
+            fs::write(&path, &found).expect("the report is written");
+        }
+        let kept = fs::read_to_string(&path).expect("the report");
+        assert!(
+            without_answer(&found) == without_answer(&kept),
+            "reports/{name} is not what the command prints; see this test's comment"
+        );
+    }
+}
+
+/// Its last rows are table 1 of Chiominto et al. (2024), MEMS 1 on the linear bench: 422 +- 13,
+/// 419 +- 12, 421 +- 11 D/(m/s^2), k = 2.
+#[test]
+fn the_worked_day_has_the_sensitivities_of_the_paper() {
+    let said = output(&["certificate", WORKED_DAY, "--format", "json", "--quiet", "--trials", "0"]);
+    let found: Value = serde_json::from_str(&said).expect("JSON");
+    let rows = found["rows"].as_array().expect("rows");
+    let stated: Vec<(&str, &str)> = rows[rows.len() - 3..]
+        .iter()
+        .map(|row| {
+            let text = |key: &str| row["stated"][key].as_str().expect("a text");
+            (text("value"), text("expanded_uncertainty"))
+        })
+        .collect();
+    assert_eq!(stated, [("422", "13"), ("419", "12"), ("421", "11")]);
+}
