@@ -4,6 +4,7 @@
 #   benches/compare.sh             an hour or less; leave the machine alone meanwhile
 #   benches/compare.sh --quick     some minutes, few trials: does everything run and agree?
 #   benches/compare.sh --rounds 3  fewer repeats of each comparison
+#   benches/compare.sh --resume    goes on where an interrupted run stopped
 #   benches/compare.sh --render    the pages again from the kept measurements
 #
 # Writes to reports/, in the quick form to target/quick-reports/ unless --output DIR says otherwise.

@@ -35,6 +35,13 @@ bits=${CARGO_TARGET_DIR:-target}/release/examples/random_bits
 log=$(mktemp)
 trap 'rm -f "$log"' EXIT
 
+# of a test that was given more samples only what it said in the end
+final() {
+    awk -F, '
+        { line[NR] = $0; samples[NR] = $5; if ($5 > most) most = $5 }
+        END { for (i = 1; i <= NR; i++) if (samples[i] == most) print line[i] }'
+}
+
 for order in trials blocks inputs seeds; do
     for test in "${tests[@]}"; do
         # word splitting wanted; the generator ends when dieharder has read enough
@@ -42,7 +49,7 @@ for order in trials blocks inputs seeds; do
         { "$bits" "$order" || true; } |
             dieharder -g 200 $test "${multiply[@]}" -Y 1 -k 2 -c , -D test_name -D ntuple -D tsamples \
                 -D psamples -D pvalues -D assessment |
-            sed "s/^ */$order,/; s/ *, */,/g; s/ *$//" | tee -a "$log" >&2
+            sed "s/^ */$order,/; s/ *, */,/g; s/ *$//" | tee /dev/stderr | final >>"$log"
     done
 done
 

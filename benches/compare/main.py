@@ -13,6 +13,25 @@ from agreement import disagreements
 from plan import Plan
 
 
+def measured(arguments, kept):
+    """Measures; an interrupted run goes on where it stopped if it is told to."""
+    paths = arguments.paths.split(",")
+    binaries = arguments.workload_binary, arguments.command_binary
+    plan = Plan(*binaries, paths, arguments.quick, arguments.rounds)
+    if arguments.resume:
+        results = json.loads(kept.read_text())
+    else:
+        results = {"quick": arguments.quick, "most_rounds": arguments.rounds, "paths": paths}
+        results["machine"], results["versions"] = machine.kind(paths), machine.versions()
+    arguments.output.mkdir(parents=True, exist_ok=True)
+
+    def keep(results):
+        kept.write_text(json.dumps(results, indent=1) + "\n")
+
+    plan.fill(results, keep)
+    return results
+
+
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--workload-binary", required=True)
@@ -21,19 +40,14 @@ def main():
     parser.add_argument("--quick", action="store_true")
     parser.add_argument("--rounds", type=int, default=9, help="of a comparison, at most")
     parser.add_argument("--render", action="store_true", help="from the kept measurements")
+    parser.add_argument("--resume", action="store_true", help="an interrupted run")
     parser.add_argument("--output", type=Path, default=Path("reports"))
     arguments = parser.parse_args()
     kept = arguments.output / "performance.json"
     if arguments.render:
         results = json.loads(kept.read_text())
     else:
-        paths = arguments.paths.split(",")
-        binaries = arguments.workload_binary, arguments.command_binary
-        plan = Plan(*binaries, paths, arguments.quick, arguments.rounds)
-        results = plan.everything()
-        results["machine"], results["versions"] = machine.kind(paths), machine.versions()
-        arguments.output.mkdir(parents=True, exist_ok=True)
-        kept.write_text(json.dumps(results, indent=1) + "\n")
+        results = measured(arguments, kept)
     tested = Path("reports/generator.md")
     text = tested.read_text() if tested.exists() else ""
     (arguments.output / "performance.md").write_text(report.write(results, text))

@@ -62,8 +62,10 @@ class Plan:
         plans += [("W3", "1e3" if self.quick else "1e5")]
         plans += [("W4", trials) for trials in sizes]
         plans += [("W5", "1e4" if self.quick else "1e5")]
-        done = {}
+        done = self.kept.setdefault("workloads", {})
         for workload, trials in plans:
+            if f"{workload} {trials}" in done:
+                continue
             self.say(f"{workload}, {trials}")
             contenders = self.engines(workload, trials, formula=workload == "W1")
             peers = ["numpy", "numba"]
@@ -78,6 +80,7 @@ class Plan:
                 contenders.append(self.peer("gtc", "gtc", workload, "1e3"))
             long = trials == "1e7" or workload == "W3"
             done[f"{workload} {trials}"] = contest(contenders, self.rounds(5 if long else 9))
+            self.keep()
         return done
 
     # ------------------------------------------------------------------------------------ memory
@@ -218,21 +221,25 @@ class Plan:
             ]
         return done
 
-    def everything(self):
-        memory = self.memory()
-        curve = self.trials()
-        for trials, lines in memory.items():
-            curve["gumption"].append([int(float(trials)), lines["capped"]["cpu_s"][0]])
+    def parts(self):
+        """What is measured, by name."""
         return {
-            "quick": self.quick,
-            "most_rounds": self.most_rounds,
-            "paths": self.paths,
-            "workloads": self.workloads(),
-            "adaptive": self.adaptive(),
-            "process": self.process(),
-            "inputs": self.inputs(),
-            "threads": self.threads(),
-            "large": self.large(),
-            "trials": curve,
-            "memory": memory,
+            "workloads": self.workloads,
+            "adaptive": self.adaptive,
+            "process": self.process,
+            "inputs": self.inputs,
+            "threads": self.threads,
+            "large": self.large,
+            "trials": self.trials,
+            "memory": self.memory,
         }
+
+    def fill(self, results, keep):
+        """Measures what the results have not yet; `keep` is called after each part."""
+        self.kept, self.keep = results, lambda: keep(results)
+        for name, part in self.parts().items():
+            if name not in results or name == "workloads":
+                results[name] = part()
+                self.keep()
+        results["complete"] = True
+        self.keep()

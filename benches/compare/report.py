@@ -131,18 +131,27 @@ def large(results):
     return "## Large models\n\n" + text + table(head, rows)
 
 
+def with_capped(results):
+    """The curve of trials with the capped run at its end."""
+    curve = {name: list(points) for name, points in results["trials"].items()}
+    for trials, lines in results["memory"].items():
+        curve["gumption"].append([int(float(trials)), lines["capped"]["cpu_s"][0]])
+    return curve
+
+
 def curves(results):
-    counts = sorted({point[0] for points in results["trials"].values() for point in points})
+    by_trials = with_capped(results)
+    counts = sorted({point[0] for points in by_trials.values() for point in points})
     rows = []
     for count in counts:
         row = [f"1e{len(str(count)) - 1}"]
-        for points in results["trials"].values():
+        for points in by_trials.values():
             found = dict(map(tuple, points)).get(count)
             row.append(f"{seconds(found)}, {found / count * 1e9:.3g} ns" if found else "")
         rows.append(row)
     text = "![Time against trials, inputs and threads](performance.svg)\n\n"
     text += "CPU time of W1, in all and for a trial:\n\n"
-    text += table(["trials", *results["trials"]], rows) + "\nSums of rectangular quantities, 1e5 "
+    text += table(["trials", *by_trials], rows) + "\nSums of rectangular quantities, 1e5 "
     text += "trials, CPU time:\n\n"
     rows = []
     for place, (count, _) in enumerate(results["inputs"]["gumption"]):
