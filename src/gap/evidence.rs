@@ -122,9 +122,8 @@ impl Evidence {
     /// Draws along the ridges of the posterior in the quantities after the first `shared` ones.
     pub(crate) fn along_ridges(&mut self, likelihood: &Likelihood<'_>, shared: usize) {
         if let Some(mixture) = ridge::mixture(likelihood, &self.modes, shared) {
-            let adapted = mixture.clone();
             self.draw(likelihood, mixture, 4);
-            self.draw(likelihood, adapted.adapted(&self.columns, &self.weights), 4);
+            self.refine(likelihood, 4);
         }
     }
 

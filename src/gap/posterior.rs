@@ -224,6 +224,11 @@ impl Hypothesis {
     }
 }
 
+/// The logarithm of a prior probability times an evidence.
+fn ln_weight(prior: f64, ln_evidence: f64) -> f64 {
+    if prior > 0.0 { prior.ln() + ln_evidence } else { f64::NEG_INFINITY }
+}
+
 /// The evidence of "unexplained" that would make it as probable as the leading hypothesis.
 fn floor(hypotheses: &[Hypothesis], prior: f64) -> f64 {
     let ln = |h: &Hypothesis| h.prior.max(f64::MIN_POSITIVE).ln() + h.evidence.ln_evidence;
@@ -291,15 +296,12 @@ impl Posterior {
 
     /// Probabilities from priors and evidences.
     fn weigh(&mut self) {
-        let ln = |prior: f64, evidence: f64| {
-            if prior > 0.0 { prior.ln() + evidence } else { f64::NEG_INFINITY }
-        };
-        let unexplained = ln(self.prior, self.unexplained.ln_evidence);
+        let unexplained = ln_weight(self.prior, self.unexplained.ln_evidence);
         let total = self.hypotheses.iter().fold(unexplained, |sum, hypothesis| {
-            ln_add(sum, ln(hypothesis.prior, hypothesis.evidence.ln_evidence))
+            ln_add(sum, ln_weight(hypothesis.prior, hypothesis.evidence.ln_evidence))
         });
         for hypothesis in &mut self.hypotheses {
-            let own = ln(hypothesis.prior, hypothesis.evidence.ln_evidence);
+            let own = ln_weight(hypothesis.prior, hypothesis.evidence.ln_evidence);
             hypothesis.probability = (own - total).exp();
         }
         self.probability = (unexplained - total).exp();
@@ -307,9 +309,10 @@ impl Posterior {
 
     /// Averages the probabilities over the errors of the integrals.
     fn doubt(&mut self, seed: u64) {
-        let known = |prior: f64, ln: f64, error: f64, effective: f64| {
-            let ln = if prior > 0.0 { prior.ln() + ln } else { f64::NEG_INFINITY };
-            doubt::Known { ln, error, effective }
+        let known = |prior: f64, evidence: f64, error: f64, effective: f64| doubt::Known {
+            ln: ln_weight(prior, evidence),
+            error,
+            effective,
         };
         let mut all: Vec<doubt::Known> = self
             .hypotheses

@@ -20,6 +20,8 @@ mod samples;
 mod saved;
 #[cfg(feature = "cli")]
 mod sheet;
+#[cfg(feature = "cli")]
+mod si;
 mod subtotals;
 #[cfg(feature = "cli")]
 mod table;

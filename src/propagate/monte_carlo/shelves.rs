@@ -44,26 +44,24 @@ struct Plan {
 
 impl Plan {
     fn new(kept: &[&[f64]], windows: &Windows, shelves: usize) -> Self {
-        let ends = if windows.keep_all() {
-            let all = kept.iter().flat_map(|part| part.iter());
-            all.fold([f64::INFINITY, f64::NEG_INFINITY], |[least, greatest], &value| {
-                [least.min(value), greatest.max(value)]
-            })
-        } else {
-            windows.ends
-        };
-        // the tails have most of the values, and what is asked for lies there
-        let about = if windows.keep_all() { 0 } else { (shelves / 8).max(1) };
-        let tail = ((shelves - about.min(shelves - 1)) / 2).max(1);
         let region = |from: f64, to: f64, first: usize, count: usize| {
             let inverse = count as f64 / (to - from);
             let inverse = if inverse.is_finite() && inverse > 0.0 { inverse } else { 0.0 };
             Region { from, inverse, first: first as f64, more: count as f64 - 1.0 }
         };
         if windows.keep_all() {
-            let all = region(ends[0], ends[1], 0, shelves);
+            let all = kept.iter().flat_map(|part| part.iter());
+            let [least, greatest] = all
+                .fold([f64::INFINITY, f64::NEG_INFINITY], |[least, greatest], &value| {
+                    [least.min(value), greatest.max(value)]
+                });
+            let all = region(least, greatest, 0, shelves);
             return Self { low: f64::INFINITY, high: f64::INFINITY, regions: [all; 3] };
         }
+        // the tails have most of the values, and what is asked for lies there
+        let about = (shelves / 8).max(1);
+        let tail = ((shelves - about.min(shelves - 1)) / 2).max(1);
+        let ends = windows.ends;
         Self {
             low: windows.low,
             high: windows.high,

@@ -1,85 +1,20 @@
 //! Units as D-SI writes them: `\metre\second\tothe{-2}` for `m/s^2`.
 
+use crate::report::si;
 use crate::unit::Unit;
 
-/// D-SI's names of units, by the symbol that files write.
-const NAMES: [(&str, &str); 50] = [
-    ("m", "metre"),
+/// D-SI's names beside those that all know.
+const OWN: [(&str, &str); 6] = [
     ("kg", "kilogram"),
-    ("g", "gram"),
-    ("s", "second"),
-    ("A", "ampere"),
-    ("K", "kelvin"),
-    ("mol", "mole"),
-    ("cd", "candela"),
-    ("rad", "radian"),
-    ("sr", "steradian"),
-    ("Hz", "hertz"),
-    ("N", "newton"),
-    ("Pa", "pascal"),
-    ("J", "joule"),
-    ("W", "watt"),
-    ("C", "coulomb"),
-    ("V", "volt"),
-    ("F", "farad"),
-    ("ohm", "ohm"),
-    ("Ω", "ohm"),
-    ("\u{2126}", "ohm"),
-    ("S", "siemens"),
-    ("Wb", "weber"),
-    ("T", "tesla"),
-    ("H", "henry"),
-    ("lm", "lumen"),
-    ("lx", "lux"),
-    ("Bq", "becquerel"),
-    ("Gy", "gray"),
-    ("Sv", "sievert"),
-    ("kat", "katal"),
     ("degC", "degreecelsius"),
     ("°C", "degreecelsius"),
     ("℃", "degreecelsius"),
-    ("L", "litre"),
-    ("l", "litre"),
-    ("t", "tonne"),
-    ("eV", "electronvolt"),
-    ("Da", "dalton"),
-    ("min", "minute"),
-    ("h", "hour"),
-    ("d", "day"),
-    ("ha", "hectare"),
-    ("deg", "degree"),
-    ("°", "degree"),
-    ("arcmin", "arcminute"),
-    ("arcsec", "arcsecond"),
-    ("%", "percent"),
     ("ppm", "ppm"),
     ("1", "one"),
 ];
 
-const PREFIXES: [(&str, &str); 22] = [
-    ("da", "deca"),
-    ("m", "milli"),
-    ("k", "kilo"),
-    ("u", "micro"),
-    ("\u{b5}", "micro"),
-    ("\u{3bc}", "micro"),
-    ("M", "mega"),
-    ("n", "nano"),
-    ("c", "centi"),
-    ("h", "hecto"),
-    ("d", "deci"),
-    ("G", "giga"),
-    ("p", "pico"),
-    ("T", "tera"),
-    ("f", "femto"),
-    ("P", "peta"),
-    ("E", "exa"),
-    ("Z", "zetta"),
-    ("Y", "yotta"),
-    ("a", "atto"),
-    ("z", "zepto"),
-    ("y", "yocto"),
-];
+/// Symbols that take no prefix.
+const BARE: [&str; 4] = ["1", "%", "ppm", "kg"];
 
 /// A unit as D-SI writes it; one that D-SI does not have stands behind a bar, as it is written.
 pub(super) fn unit(unit: &Unit) -> String {
@@ -161,7 +96,7 @@ impl Reader<'_> {
     fn name(&mut self) -> Option<String> {
         let end = self.rest.find(['*', '.', '·', '⋅', '×', '/', '^', ' ', '(', ')']);
         let (name, behind) = self.rest.split_at(end.unwrap_or(self.rest.len()));
-        let found = written(name)?;
+        let found = si::macros(name, &OWN, &BARE)?;
         self.rest = behind;
         Some(found)
     }
@@ -173,21 +108,6 @@ impl Reader<'_> {
         self.rest = behind;
         power.parse().ok().filter(|power: &i32| power.abs() < 100)
     }
-}
-
-/// A unit with its prefix.
-fn written(name: &str) -> Option<String> {
-    let known = |name: &str| NAMES.iter().find(|(symbol, _)| *symbol == name);
-    if let Some((_, unit)) = known(name) {
-        return Some(format!("\\{unit}"));
-    }
-    PREFIXES.iter().find_map(|(symbol, prefix)| {
-        let bare = name.strip_prefix(symbol)?;
-        // these take no prefix
-        let (_, unit) =
-            known(bare).filter(|(symbol, _)| !matches!(*symbol, "1" | "%" | "ppm" | "kg"))?;
-        Some(format!("\\{prefix}\\{unit}"))
-    })
 }
 
 #[cfg(test)]
@@ -219,11 +139,11 @@ mod tests {
     /// What stands in the text means the same unit: its factors multiply to the same dimension.
     #[test]
     fn names_belong_to_their_symbols() {
-        for (symbol, name) in NAMES {
+        for (symbol, name) in OWN.iter().chain(&si::UNITS) {
             let parsed = Unit::parse(symbol).unwrap();
             assert!(!name.is_empty() && parsed.factor() > 0.0, "{symbol}");
         }
-        for (symbol, prefix) in PREFIXES {
+        for (symbol, prefix) in si::PREFIXES {
             let parsed = Unit::parse(&format!("{symbol}m")).unwrap();
             let power = parsed.factor().log10();
             assert!((power - power.round()).abs() < 1e-9, "{prefix}");

@@ -3,83 +3,11 @@
 use std::collections::BTreeMap;
 
 use super::text::escaped;
+use crate::report::si;
 
-/// Units that the package knows, by the symbol that files write.
-const KNOWN: [(&str, &str); 47] = [
-    ("m", "metre"),
-    ("g", "gram"),
-    ("s", "second"),
-    ("A", "ampere"),
-    ("K", "kelvin"),
-    ("mol", "mole"),
-    ("cd", "candela"),
-    ("rad", "radian"),
-    ("sr", "steradian"),
-    ("Hz", "hertz"),
-    ("N", "newton"),
-    ("Pa", "pascal"),
-    ("J", "joule"),
-    ("W", "watt"),
-    ("C", "coulomb"),
-    ("V", "volt"),
-    ("F", "farad"),
-    ("ohm", "ohm"),
-    ("Ω", "ohm"),
-    ("\u{2126}", "ohm"),
-    ("S", "siemens"),
-    ("Wb", "weber"),
-    ("T", "tesla"),
-    ("H", "henry"),
-    ("lm", "lumen"),
-    ("lx", "lux"),
-    ("Bq", "becquerel"),
-    ("Gy", "gray"),
-    ("Sv", "sievert"),
-    ("kat", "katal"),
-    ("degC", "degreeCelsius"),
-    ("°C", "degreeCelsius"),
-    ("℃", "degreeCelsius"),
-    ("L", "litre"),
-    ("l", "litre"),
-    ("t", "tonne"),
-    ("eV", "electronvolt"),
-    ("Da", "dalton"),
-    ("min", "minute"),
-    ("h", "hour"),
-    ("d", "day"),
-    ("ha", "hectare"),
-    ("deg", "degree"),
-    ("°", "degree"),
-    ("arcmin", "arcminute"),
-    ("arcsec", "arcsecond"),
-    ("%", "percent"),
-];
-
-/// Prefixes that every version of the package knows.
-const PREFIXES: [(&str, &str); 22] = [
-    ("m", "milli"),
-    ("k", "kilo"),
-    ("u", "micro"),
-    ("\u{b5}", "micro"),
-    ("\u{3bc}", "micro"),
-    ("M", "mega"),
-    ("n", "nano"),
-    ("c", "centi"),
-    ("h", "hecto"),
-    ("da", "deca"),
-    ("d", "deci"),
-    ("G", "giga"),
-    ("p", "pico"),
-    ("T", "tera"),
-    ("f", "femto"),
-    ("P", "peta"),
-    ("E", "exa"),
-    ("Z", "zetta"),
-    ("Y", "yotta"),
-    ("a", "atto"),
-    ("z", "zepto"),
-    ("y", "yocto"),
-];
+/// The package's names beside those that all know.
+const OWN: [(&str, &str); 3] =
+    [("degC", "degreeCelsius"), ("°C", "degreeCelsius"), ("℃", "degreeCelsius")];
 
 /// The units that a document declares because the package does not know them.
 #[derive(Clone, Debug, Default)]
@@ -152,16 +80,8 @@ impl Declared {
 
     /// A unit with its prefix.
     fn factor(&mut self, name: &str) -> Option<String> {
-        let known = |name: &str| KNOWN.iter().find(|(symbol, _)| *symbol == name);
-        if let Some((_, unit)) = known(name) {
-            return Some(format!("\\{unit}"));
-        }
-        let prefixed = PREFIXES.iter().find_map(|(symbol, prefix)| {
-            let (_, unit) = known(name.strip_prefix(symbol)?)?;
-            Some(format!("\\{prefix}\\{unit}"))
-        });
-        if prefixed.is_some() {
-            return prefixed;
+        if let Some(macros) = si::macros(name, &OWN, &[]) {
+            return Some(macros);
         }
         // a name of its own: ppm, psi, kgf
         if name.is_empty() || !name.chars().all(|c| c.is_ascii_alphabetic()) {
