@@ -61,6 +61,7 @@ pub mod file;
 pub mod gap;
 pub mod model;
 pub mod number;
+pub mod observe;
 pub mod propagate;
 pub mod report;
 pub mod schema;
