@@ -1,0 +1,106 @@
+//! The noise of a recording: how strong it is near a frequency, and what is known of it beforehand.
+
+use super::periodic::{Periodic, rotated_sum};
+use super::{Phasor, Signal, phasor};
+
+/// What the standard uncertainty of a fitted component is taken from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Noise {
+    /// All residuals: the noise is white. Degrees of freedom: values less parameters.
+    White,
+    /// The residuals' spectral density near the component, from so many frequencies (at least one)
+    /// on each side of it, one part of the signal's length apart, the nearest left out. For noise
+    /// of any colour that is even over these frequencies. Degrees of freedom: two a frequency.
+    Near(usize),
+}
+
+impl Noise {
+    /// The harmonics of a signal with their uncertainties in this noise.
+    pub(super) fn of(self, periodic: Periodic, signal: &Signal) -> Periodic {
+        match self {
+            Self::White => periodic,
+            Self::Near(count) => {
+                let residuals = periodic.without(signal);
+                let white = periodic.residual;
+                let mut freedom = f64::INFINITY;
+                let mut factors = Vec::new();
+                for part in &periodic.parts {
+                    let near = density(&residuals, part.frequency / signal.rate, count.max(1));
+                    freedom = freedom.min(near.degrees_of_freedom);
+                    let factor = if white > 0.0 { near.variance.sqrt() / white } else { 1.0 };
+                    factors.push((part.frequency, factor));
+                }
+                let factor =
+                    |f: f64| factors.iter().find(|known| known.0 == f).map_or(1.0, |known| known.1);
+                periodic.in_noise(factor, freedom)
+            }
+        }
+    }
+}
+
+/// The spectral density of noise at a frequency, as the variance of the white noise that has it
+/// everywhere.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Density {
+    pub(super) variance: f64,
+    pub(super) degrees_of_freedom: f64,
+}
+
+/// The density near `turns` a value: the mean of the periodogram at `count` frequencies on each
+/// side, as far as they lie between zero and half the rate.
+pub(super) fn density(residuals: &[f64], turns: f64, count: usize) -> Density {
+    let n = residuals.len() as f64;
+    let (mut sum, mut taken) = (0.0, 0.0);
+    for i in 0..count {
+        let away = (i as f64 + 1.5) / n;
+        for near in [turns - away, turns + away] {
+            if near > 0.75 / n && near < 0.5 - 0.75 / n {
+                let at: Phasor = rotated_sum(residuals, near);
+                sum += at.norm_sqr() / n;
+                taken += 1.0;
+            }
+        }
+    }
+    if taken == 0.0 {
+        let variance = residuals.iter().map(|e| e * e).sum::<f64>() / n;
+        return Density { variance, degrees_of_freedom: 1.0 };
+    }
+    Density { variance: sum / taken, degrees_of_freedom: 2.0 * taken }
+}
+
+/// The variance that rounding to whole steps adds: step^2 / 12 (JCGM 100, F.2.2.1), in the squared
+/// unit of the step. White only where the noise or the signal moves over many steps.
+pub fn quantization_variance(step: f64) -> f64 {
+    step * step / 12.0
+}
+
+/// The variance that sampling instants with a standard deviation of `jitter` seconds, independent
+/// of each other, add to a sine of peak amplitude `amplitude` and `frequency` hertz:
+/// (2 pi f A jitter)^2 / 2. To first order; the amplitude falls by
+/// (2 pi f jitter)^2 / 2, relatively.
+pub fn jitter_variance(amplitude: f64, frequency: f64, jitter: f64) -> f64 {
+    let slope = std::f64::consts::TAU * frequency * amplitude * jitter;
+    slope * slope / 2.0
+}
+
+/// What a linear step makes of white noise.
+///
+/// After the step the noise is not white any more, and a fit that takes it for white states a wrong
+/// standard uncertainty. The right one is the stated one times [`NoiseGain::factor`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NoiseGain {
+    /// Variance after the step over the variance before.
+    pub power: f64,
+}
+
+impl NoiseGain {
+    /// The square root of the noise's spectral density at a frequency over the density of white
+    /// noise of the same variance, `response` being the step's complex gain there. The standard
+    /// uncertainties of amplitude (before the gain is corrected for) and phase that a sine fit to
+    /// the signal after the step takes from its residuals are to be multiplied by it: above one
+    /// within a filter's band, as the filter takes the noise elsewhere out of the residuals but
+    /// not out of the amplitude.
+    pub fn factor(self, response: Phasor) -> f64 {
+        phasor::modulus(response) / self.power.sqrt()
+    }
+}
