@@ -3,7 +3,7 @@
 
 use std::f64::consts::TAU;
 
-use super::rotation::Component;
+use super::rotation::Oscillation;
 use super::spectral::{Ends, multiplied};
 use super::{Changed, Filter, Measured, Phasor, Signal, Unsuitable, measured, phasor, wrapped};
 
@@ -103,9 +103,9 @@ pub fn corrected(
     phase: Measured,
     gain: Measured,
     shift: Measured,
-) -> Component {
+) -> Oscillation {
     let value = amplitude.value / gain.value;
-    Component {
+    Oscillation {
         amplitude: measured::of_parts(
             value,
             &[
@@ -126,7 +126,7 @@ pub fn corrected(
 #[cfg(test)]
 mod tests {
     use super::super::study::{SETTINGS, Setting, study};
-    use super::super::{Band, Butterworth, Harmonics, Noise, Periodic, rms::improvement};
+    use super::super::{Band, Butterworth, Harmonics, Noise, Periodic, RmsOf, improvement};
     use super::*;
 
     const ALL: [f64; 2] = [0.0, f64::INFINITY];
@@ -157,8 +157,8 @@ mod tests {
         for (a, b) in after.values.iter().zip(&reference.values) {
             assert!((a - b).abs() < 1e-11);
         }
-        let found =
-            improvement(&reference, &through, &after, Some(harmonics), Noise::White).unwrap();
+        let of = RmsOf { harmonics: Some(harmonics), noise: Noise::White, resolution: 0.0 };
+        let found = improvement(&reference, &through, &after, of).unwrap();
         // before: the moduli's law, |h - 1| / sqrt(2)
         assert!((found.before.value - (h - 1.0).norm() / 2f64.sqrt()).abs() < 1e-11);
         assert!(found.reduction.value > 1.0 - 1e-10);
@@ -225,6 +225,7 @@ mod tests {
                 let phase = 6.0 * noise.uniform();
                 let signal = setting.record(noise, setting.sine(phase));
                 let fitted = Periodic::fit(&signal, harmonics).unwrap();
+                let fitted = fitted.rounded_to(setting.step());
                 let part = fitted.parts[0];
                 let gain = known(0.8 * (1.0 + 1e-4 * noise.next()), 0.8e-4);
                 let shift = known(0.3 + 1e-4 * noise.next(), 1e-4);

@@ -4,6 +4,7 @@
 
 use std::f64::consts::TAU;
 
+use super::periodic::dirichlet;
 use super::spectral::{Ends, multiplied};
 use super::unsuitable::within;
 use super::{Changed, Measured, NoiseGain, Phasor, Signal, Unsuitable, measured};
@@ -51,8 +52,7 @@ impl Derivative {
     /// What the derivative of a signal of so many values at `rate` hertz makes of white noise.
     ///
     /// The standard uncertainty of the value at an instant is the square root of the power times
-    /// the noise's standard deviation. An integral's noise is strongest far below a component; a
-    /// sine fit should then come before the step, and [`Derivative::amplitude`] after it.
+    /// the noise's standard deviation.
     pub fn noise(&self, samples: usize, rate: f64) -> NoiseGain {
         let n = samples as f64;
         let sum: f64 = (1..=samples / 2)
@@ -62,6 +62,27 @@ impl Derivative {
             })
             .sum();
         NoiseGain { power: sum / n }
+    }
+
+    /// What the standard uncertainties of a sine fit to the derivative of so many values are to be
+    /// multiplied by, for white noise before the step. Noise far from the component is so much
+    /// stronger after a derivative (or, below it, after an integral) that what leaks of it into a fit
+    /// over a partial period counts: this is the mean of the squared gain over Dirichlet's kernel
+    /// about the frequency, in hertz, over the mean over all frequencies. The fit is better when it
+    /// comes before the step, and [`Derivative::amplitude`] after it.
+    pub fn noise_factor(&self, samples: usize, rate: f64, frequency: f64) -> f64 {
+        let n = samples as f64;
+        let sum: f64 = (1..=samples / 2)
+            .map(|j| {
+                let f = j as f64 * rate / n;
+                let kernel = |away: f64| {
+                    let part = dirichlet(samples, away / rate) / n;
+                    part * part
+                };
+                self.response(f).norm_sqr() * (kernel(f - frequency) + kernel(f + frequency))
+            })
+            .sum();
+        (sum / self.noise(samples, rate).power).sqrt()
     }
 
     /// The amplitude of the derivative of a component, by the law of propagation:
@@ -148,15 +169,20 @@ mod tests {
         let step = Derivative { order, highest: 60.0, ends: Ends::Periodic(harmonics) };
         study("derivative", recordings, |noise| {
             let fitted = Periodic::fit(&sine(setting, noise), harmonics).unwrap();
+            let fitted = fitted.rounded_to(setting.step());
             (step.amplitude(fitted.parts[0].amplitude(), frequency), truth)
         })
         .is_right(&format!("derivative {order} of the amplitude, {setting:?}"));
         if order > 0 {
-            let factor = step.noise(setting.samples(), setting.rate).factor(step.response(f));
+            let factor = step.noise_factor(setting.samples(), setting.rate, f);
             study("derivative", recordings, |noise| {
-                let changed = step.apply(&sine(setting, noise)).unwrap();
+                let signal = sine(setting, noise);
+                let before = Periodic::fit(&signal, harmonics).unwrap();
+                let changed = step.apply(&signal).unwrap();
                 let fitted = Periodic::fit(&changed.signal, harmonics).unwrap();
-                (fitted.in_noise(|_| factor, f64::INFINITY).parts[0].amplitude(), truth)
+                let mut part = fitted.in_noise(|_| factor, f64::INFINITY).parts[0];
+                part.rounding = before.rounded_to(setting.step()).parts[0].rounding * truth;
+                (part.amplitude(), truth)
             })
             .is_right(&format!("amplitude of the derivative {order}, {setting:?}"));
         }

@@ -7,9 +7,12 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::noise::quantization_variance;
 use super::phasor::{self, Phasor};
+use super::quantization::amplitude_error;
 use super::unsuitable::within;
-use super::{Measured, Signal, Unsuitable};
+use super::{Measured, Signal, Unsuitable, measured};
+use crate::number::elementary;
 
 /// What is sought in a signal.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,30 +34,31 @@ pub struct Part {
     pub standard_uncertainty: [f64; 2],
     /// Degrees of freedom of both.
     pub degrees_of_freedom: f64,
+    /// Standard uncertainty of the amplitude from what rounding to a resolution leaves in phase with
+    /// the sine; zero as long as [`Periodic::rounded_to`] is not told of one.
+    pub rounding: f64,
 }
 
 impl Part {
     /// The peak amplitude, in the signal's unit.
     pub fn amplitude(&self) -> Measured {
         let (value, [x, y]) = (phasor::modulus(self.phasor), self.standard_uncertainty);
-        let along = (self.phasor.re * x) * (self.phasor.re * x)
-            + (self.phasor.im * y) * (self.phasor.im * y);
-        Measured {
+        let along = elementary::hypot(self.phasor.re * x, self.phasor.im * y);
+        let of_noise = if value > 0.0 { along / value } else { x.max(y) };
+        measured::of_parts(
             value,
-            standard_uncertainty: if value > 0.0 { along.sqrt() / value } else { x.max(y) },
-            degrees_of_freedom: self.degrees_of_freedom,
-        }
+            &[(of_noise, self.degrees_of_freedom), (self.rounding, f64::INFINITY)],
+        )
     }
 
     /// The phase at the middle of the signal, in radians, in (-pi, pi].
     pub fn phase(&self) -> Measured {
         let (square, [x, y]) = (self.phasor.norm_sqr(), self.standard_uncertainty);
-        let across = (self.phasor.im * x) * (self.phasor.im * x)
-            + (self.phasor.re * y) * (self.phasor.re * y);
+        let across = elementary::hypot(self.phasor.im * x, self.phasor.re * y);
         Measured {
             value: phasor::angle(self.phasor),
             standard_uncertainty: if square > 0.0 {
-                across.sqrt() / square
+                across / square
             } else {
                 std::f64::consts::PI / 3f64.sqrt()
             },
@@ -115,6 +119,7 @@ impl Periodic {
                     phasor: Phasor::new(solved.even[h], -solved.odd[h - 1]),
                     standard_uncertainty: [0.0; 2],
                     degrees_of_freedom: freedom,
+                    rounding: 0.0,
                 })
                 .collect(),
             middle: signal.instant((samples - 1) as f64 / 2.0),
@@ -156,6 +161,19 @@ impl Periodic {
             *value = x - self.offset.value - *value;
         }
         values
+    }
+
+    /// The same, with what rounding to steps of `resolution`, in the signal's unit, does to the first
+    /// harmonic's amplitude beyond noise: where the noise is small against a step, rounding distorts
+    /// the sine, in phase with it, in the same way in every period, so that it does not average out.
+    pub fn rounded_to(mut self, resolution: f64) -> Self {
+        if resolution > 0.0 {
+            let noise = self.residual * self.residual - quantization_variance(resolution);
+            let part = &mut self.parts[0];
+            let amplitude = phasor::modulus(part.phasor);
+            part.rounding = amplitude_error(resolution, amplitude, noise.max(0.0).sqrt());
+        }
+        self
     }
 
     /// The same, with the standard uncertainties of all harmonics multiplied by a factor of their
@@ -206,7 +224,7 @@ fn solve(values: &[f64], turns: f64, count: usize) -> Option<Solved> {
 }
 
 /// The sum of cos(2 pi `turns` k) over `n` instants k one apart and centred about zero.
-fn dirichlet(n: usize, turns: f64) -> f64 {
+pub(super) fn dirichlet(n: usize, turns: f64) -> f64 {
     let half = phasor::at_turns(turns / 2.0).im;
     if half.abs() < 1e-9 {
         // cos is 1 - x^2/2 about whole turns, and (n turns)^2 is lost in a double
@@ -276,4 +294,111 @@ pub(super) fn by_turns(periodic: &Periodic) -> Vec<f64> {
         *value *= k as f64 - middle;
     }
     values
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::TAU;
+
+    use super::super::study::{COARSE, Noises, SETTINGS, Setting, study};
+    use super::*;
+
+    /// Estimates, their covariance and the residuals against a least-squares solution by singular
+    /// values of the written-out matrix, at lengths that are no whole number of periods; 1e-10.
+    #[test]
+    fn fit_is_least_squares() {
+        let mut noise = Noises::new("least squares", 0);
+        for (samples, f, count) in [(333, 3.7, 3), (1000, 1.1, 1), (64, 20.0, 2)] {
+            let (rate, n) = (100.0, samples as f64);
+            let values: Vec<f64> = (0..samples)
+                .map(|k| 9.8 + (TAU * f * k as f64 / rate).cos() + 0.1 * noise.next())
+                .collect();
+            let signal = Signal { values: values.clone(), rate, start: 2.0 };
+            let harmonics = Harmonics { frequency: f, count };
+            let found = Periodic::fit(&signal, harmonics).unwrap();
+            let matrix = DMatrix::from_fn(samples, 2 * count + 1, |k, j| {
+                let angle = TAU * f * (k as f64 - (n - 1.0) / 2.0) / rate * j.div_ceil(2) as f64;
+                if j % 2 == 0 { angle.cos() } else { -angle.sin() }
+            });
+            // columns: 1, then -sin and cos of each harmonic
+            let solved = matrix.clone().svd(true, true);
+            let expected = solved.solve(&DVector::from_vec(values), 1e-12).unwrap();
+            let cofactor = (matrix.transpose() * &matrix).try_inverse().unwrap();
+            let close = |a: f64, b: f64| assert!((a - b).abs() < 1e-10, "{a} {b}");
+            close(found.offset.value, expected[0]);
+            for (h, part) in found.parts.iter().enumerate() {
+                close(part.phasor.im, expected[2 * h + 1]);
+                close(part.phasor.re, expected[2 * h + 2]);
+                let u = |j: usize| found.residual * cofactor[(j, j)].sqrt();
+                close(part.standard_uncertainty[1], u(2 * h + 1));
+                close(part.standard_uncertainty[0], u(2 * h + 2));
+            }
+            close(found.middle, 2.0 + (n - 1.0) / 200.0);
+        }
+    }
+
+    /// The sum that the search for a rate maximises is what the fit takes out.
+    #[test]
+    fn explained_is_what_the_fit_takes_out() {
+        let mut noise = Noises::new("explained", 0);
+        let signal = SETTINGS[0].record(&mut noise, SETTINGS[0].sine(1.0));
+        let mean = signal.values.iter().sum::<f64>() / signal.values.len() as f64;
+        let centred: Vec<f64> = signal.values.iter().map(|x| x - mean).collect();
+        for f in [3.0, 5.0, 7.7] {
+            let fit = Periodic::fit(&signal, Harmonics { frequency: f, count: 1 }).unwrap();
+            let square = |values: &[f64]| values.iter().map(|x| x * x).sum::<f64>();
+            let taken = square(&centred) - square(&fit.without(&signal));
+            // sums of a thousand squares of about one
+            assert!((explained(&centred, f / signal.rate) - taken).abs() < 1e-9);
+        }
+    }
+
+    fn judge(setting: Setting, recordings: usize) {
+        let harmonics = Harmonics { frequency: setting.frequency, count: 2 };
+        for of_phase in [false, true] {
+            study("periodic", recordings, |noise| {
+                let phase = 6.0 * noise.uniform();
+                let signal = setting.record(noise, setting.sine(phase));
+                let fit = Periodic::fit(&signal, harmonics).unwrap().rounded_to(setting.step());
+                if of_phase {
+                    let found = fit.parts[0].phase();
+                    let truth = TAU * setting.frequency * fit.middle + phase;
+                    (Measured { value: super::super::wrapped(found.value - truth), ..found }, 0.0)
+                } else {
+                    (fit.parts[0].amplitude(), 1.0)
+                }
+            })
+            .is_right(&format!("harmonics, phase {of_phase}, {setting:?}"));
+        }
+    }
+
+    #[test]
+    fn uncertainty_is_right_quick() {
+        judge(SETTINGS[0], 200);
+        judge(SETTINGS[6], 200);
+    }
+
+    #[test]
+    #[ignore = "the whole study: 1,000 recordings a setting"]
+    fn uncertainty_is_right() {
+        for setting in SETTINGS {
+            judge(setting, 1000);
+        }
+        judge(COARSE, 1000);
+    }
+
+    #[test]
+    fn unfit_signals_are_refused() {
+        let fit = |values: Vec<f64>, frequency| {
+            let signal = Signal { values, rate: 100.0, start: 0.0 };
+            Periodic::fit(&signal, Harmonics { frequency, count: 1 }).unwrap_err()
+        };
+        assert_eq!(fit(vec![0.0; 99], 1.0), Unsuitable::TooShort { samples: 99, needed: 100 });
+        assert_eq!(
+            fit(vec![0.0; 99], 50.0).to_string(),
+            "the frequency (Hz) is 50, and must lie between 0 and 50"
+        );
+        assert_eq!(fit(vec![0.0, f64::NAN], 9.0), Unsuitable::NotFinite { sample: 1 });
+        assert!(matches!(fit(Vec::new(), 9.0), Unsuitable::TooShort { .. }));
+    }
 }

@@ -19,18 +19,35 @@ pub struct Rms {
     pub mean: f64,
 }
 
-/// The root mean square of a signal about its mean.
-///
-/// With harmonics the signal is a periodic part, whose mean square is that of whole periods
-/// whatever the length, and noise. Their uncertainties: those of the amplitudes, and of the noise's
-/// variance 2 sigma^4 over its degrees of freedom in white noise, or the squared residuals' spectral
-/// density at zero over the number of values. Without harmonics the signal is taken for noise and
-/// the uncertainty is of the latter kind; of a sine it then lacks the effect of a partial period, up
-/// to 1 / (4 pi) of the mean square over the number of periods.
-///
-/// # Errors
-/// Fewer than 4 values, values that are not finite, harmonics that cannot be fitted.
-pub fn rms(signal: &Signal, harmonics: Option<Harmonics>, noise: Noise) -> Result<Rms, Unsuitable> {
+/// What is known of a signal whose root mean square is sought.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RmsOf {
+    /// The harmonics of a periodic signal; none where it is all noise.
+    pub harmonics: Option<Harmonics>,
+    /// What the uncertainty of the harmonics is taken from.
+    pub noise: Noise,
+    /// The step that the values are rounded to, in the signal's unit; zero where it does not matter.
+    pub resolution: f64,
+}
+
+impl RmsOf {
+    /// The root mean square of a signal about its mean.
+    ///
+    /// With harmonics the signal is a periodic part, whose mean square is that of whole periods
+    /// whatever the length, and noise. Their uncertainties: those of the amplitudes, and of the
+    /// noise's variance 2 sigma^4 over its degrees of freedom in white noise, or the squared
+    /// residuals' spectral density at zero over the number of values. Without harmonics the signal
+    /// is taken for noise and the uncertainty is of the latter kind; of a sine it then lacks the
+    /// effect of a partial period, up to 1 / (4 pi) of the mean square over the number of periods.
+    ///
+    /// # Errors
+    /// Fewer than 4 values, values that are not finite, harmonics that cannot be fitted.
+    pub fn rms(self, signal: &Signal) -> Result<Rms, Unsuitable> {
+        rms(signal, self)
+    }
+}
+
+fn rms(signal: &Signal, RmsOf { harmonics, noise, resolution }: RmsOf) -> Result<Rms, Unsuitable> {
     let n = signal.values.len();
     if n < 4 {
         return Err(Unsuitable::TooShort { samples: n, needed: 4 });
@@ -44,7 +61,7 @@ pub fn rms(signal: &Signal, harmonics: Option<Harmonics>, noise: Noise) -> Resul
         let square = mean_of_squares(&left, (n - 1) as f64, Noise::Near(NEAR_ZERO));
         return Ok(Rms { alternating: root(square), periodic: None, mean });
     };
-    let fitted = noise.of(Periodic::fit(signal, harmonics)?, signal);
+    let fitted = noise.of(Periodic::fit(signal, harmonics)?, signal).rounded_to(resolution);
     let left = fitted.without(signal);
     let freedom = (n - 1 - 2 * fitted.parts.len()) as f64;
     let rest = mean_of_squares(&left, freedom, noise);
@@ -112,23 +129,22 @@ pub struct Improvement {
 /// How much nearer a correction brings a signal to a reference, all three sampled together.
 ///
 /// # Errors
-/// Signals of different lengths or rates; as [`rms`].
+/// Signals of different lengths or rates; as [`RmsOf::rms`].
 pub fn improvement(
     reference: &Signal,
     before: &Signal,
     after: &Signal,
-    harmonics: Option<Harmonics>,
-    noise: Noise,
+    of: RmsOf,
 ) -> Result<Improvement, Unsuitable> {
     let difference = |signal: &Signal| {
         together(reference, signal)?;
         let pairs = signal.values.iter().zip(&reference.values);
         let values = pairs.map(|(x, r)| x - r).collect();
-        Ok(rms(&Signal { values, ..*reference }, harmonics, noise)?.alternating)
+        Ok(of.rms(&Signal { values, ..*reference })?.alternating)
     };
     let (before, after) = (difference(before)?, difference(after)?);
     if before.value == 0.0 {
-        return Err(Unsuitable::Silent { frequency: harmonics.map_or(0.0, |h| h.frequency) });
+        return Err(Unsuitable::Silent { frequency: of.harmonics.map_or(0.0, |h| h.frequency) });
     }
     let ratio = after.value / before.value;
     let reduction = measured::of_parts(
@@ -158,15 +174,19 @@ mod tests {
     use super::super::study::{Noises, SETTINGS, Setting, study};
     use super::*;
 
+    fn of(harmonics: Option<Harmonics>, resolution: f64) -> RmsOf {
+        RmsOf { harmonics, noise: Noise::White, resolution }
+    }
+
     fn judge(setting: Setting, recordings: usize) {
         let harmonics = Harmonics { frequency: setting.frequency, count: 1 };
-        let step = 2.5 / 2f64.powi(setting.bits);
+        let step = setting.step();
         let added = setting.sigma().powi(2) + step * step / 12.0;
         for periodic in [false, true] {
             study("rms", recordings, |noise| {
                 let phase = 6.0 * noise.uniform();
                 let signal = setting.record(noise, setting.sine(phase));
-                let found = rms(&signal, Some(harmonics), Noise::White).unwrap();
+                let found = of(Some(harmonics), setting.step()).rms(&signal).unwrap();
                 if periodic {
                     (found.periodic.unwrap(), 0.5f64.sqrt())
                 } else {
@@ -189,7 +209,7 @@ mod tests {
                 })
                 .collect();
             let signal = Signal { values, rate: 1000.0, start: 0.0 };
-            (rms(&signal, None, Noise::White).unwrap().alternating, 1.0 / 0.19f64.sqrt())
+            (of(None, 0.0).rms(&signal).unwrap().alternating, 1.0 / 0.19f64.sqrt())
         })
         .is_right("rms of coloured noise");
     }
@@ -221,7 +241,7 @@ mod tests {
             .collect();
         let signal = Signal { values, rate: 200.0, start: 0.0 };
         let harmonics = Some(Harmonics { frequency: 1.0, count: 3 });
-        let found = rms(&signal, harmonics, Noise::White).unwrap();
+        let found = of(harmonics, 0.0).rms(&signal).unwrap();
         assert!((found.alternating.value - 2.125f64.sqrt()).abs() < 1e-12);
         assert!((found.periodic.unwrap().value - 2.125f64.sqrt()).abs() < 1e-12);
         assert!((found.mean - 9.8).abs() < 1e-12);
@@ -247,8 +267,7 @@ mod tests {
             &signal(0.0, 0.0),
             &signal(phase, 1.0),
             &signal(0.0, 1.0),
-            harmonics,
-            Noise::White,
+            of(harmonics, 0.0),
         )
         .unwrap();
         let before = (0.5 * (2.0 * (phase / 2.0).sin()).powi(2) + 0.01).sqrt();
@@ -258,7 +277,7 @@ mod tests {
         assert!(off(found.reduction, 1.0 - 0.1 / before) < 4.0);
         let short = Signal { values: vec![0.0; 10], rate: 100.0, start: 0.0 };
         assert!(matches!(
-            improvement(&signal(0.0, 0.0), &short, &short, None, Noise::White),
+            improvement(&signal(0.0, 0.0), &short, &short, of(None, 0.0)),
             Err(Unsuitable::NotTogether { .. })
         ));
     }

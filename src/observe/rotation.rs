@@ -22,7 +22,7 @@ pub struct Rotation {
 
 /// A component with amplitude and phase.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Component {
+pub struct Oscillation {
     /// Peak amplitude, in m/s^2.
     pub amplitude: Measured,
     /// Phase at the instant at which the angle's phase is, in radians, in (-pi, pi].
@@ -33,9 +33,9 @@ pub struct Component {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Accelerations {
     /// Tangential, at the frequency of the oscillation.
-    pub tangential: Component,
+    pub tangential: Oscillation,
     /// Radial, at twice the frequency: r w_0^2 / 2.
-    pub radial: Component,
+    pub radial: Oscillation,
     /// Mean of the radial acceleration, in m/s^2: the same value as the amplitude.
     pub radial_mean: Measured,
     /// Coefficient of correlation of the tangential and the radial amplitude, which share radius,
@@ -69,11 +69,11 @@ impl Rotation {
         let shared = r * r + 2.0 * a * a + 4.0 * f * f;
         let variances = (r * r + a * a + 4.0 * f * f) * (r * r + 4.0 * a * a + 4.0 * f * f);
         Accelerations {
-            tangential: Component {
+            tangential: Oscillation {
                 amplitude: amplitude(self.radius.value * pulsation * speed, [1.0, 1.0, 2.0]),
                 phase: Measured { value: wrapped(phase.value + PI), ..phase },
             },
-            radial: Component {
+            radial: Oscillation {
                 amplitude: radial,
                 phase: Measured {
                     value: wrapped(2.0 * phase.value + PI),
@@ -209,7 +209,8 @@ mod tests {
         for radial in [false, true] {
             study("rotation", recordings, |noise| {
                 let signal = setting.record(noise, setting.sine(1.0));
-                let part = Periodic::fit(&signal, harmonics).unwrap().parts[0];
+                let fitted = Periodic::fit(&signal, harmonics).unwrap();
+                let part = fitted.rounded_to(setting.step()).parts[0];
                 let found = table.accelerations(part.amplitude(), part.phase());
                 if radial {
                     (found.radial.amplitude, truth.radial.amplitude.value)

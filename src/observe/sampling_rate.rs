@@ -62,23 +62,25 @@ pub fn sampling_rate(signal: &Signal, search: &RateSearch) -> Result<Rate, Unsui
     let mean = signal.values.iter().sum::<f64>() / n as f64;
     let centred: Vec<f64> = signal.values.iter().map(|x| x - mean).collect();
 
-    // the maximum is one part of the length wide, in turns a value: rate^2 / (n f) in hertz
-    let step = search.step.min(low * low / (n as f64 * f) / 4.0);
-    let count = ((high - low) / step).ceil().min(1e6);
-    let scan: Vec<[f64; 2]> = (0..=count as usize)
-        .map(|i| {
-            let rate = low + (high - low) * (i as f64 / count);
-            [rate, (2.0 * explained(&centred, f / rate) / n as f64).sqrt()]
-        })
-        .collect();
-    let best = (0..scan.len()).fold(0, |best, i| if scan[i][1] > scan[best][1] { i } else { best });
+    let first = n.min(FIRST_LOOK);
+    let step = search.step.min(low * low / (first as f64 * f) / 4.0);
+    let scan = look(&centred[..first], f, search.between, step);
+    let best = highest(&scan);
     if scan[best][1] == 0.0 {
         return Err(Unsuitable::Silent { frequency: f });
     }
     if best == 0 || best + 1 == scan.len() {
         return Err(Unsuitable::AtTheEnd { what: "the sampling rate (Hz)", end: scan[best][0] });
     }
-    let bracket = [scan[best + 1][0], scan[best - 1][0]].map(|rate| f / rate);
+    let mut bracket = about(&scan, f, first);
+    let mut length = first;
+    while length < n {
+        // the maximum is now so much narrower; it lies where that of the shorter part did
+        length = n.min(4 * length);
+        let finer = look(&centred[..length], f, bracket, (bracket[1] - bracket[0]) / 32.0);
+        bracket = about(&finer, f, length);
+    }
+    let bracket = [f / bracket[1], f / bracket[0]];
     let turns = refined(signal, bracket, &centred)?;
 
     let (fitted, slope) = fit(signal, turns)?;
@@ -99,6 +101,34 @@ pub fn sampling_rate(signal: &Signal, search: &RateSearch) -> Result<Rate, Unsui
         ],
     );
     Ok(Rate { rate, from_noise, from_frequency, amplitude: part.amplitude(), scan })
+}
+
+/// So many values are looked at first: 80 s at the source's rate.
+const FIRST_LOOK: usize = 1 << 17;
+
+/// Rates and the amplitudes at them. The maximum is one part of the length wide in turns a value,
+/// `rate^2 / (n f)` in hertz.
+fn look(centred: &[f64], f: f64, [low, high]: [f64; 2], step: f64) -> Vec<[f64; 2]> {
+    let count = ((high - low) / step).ceil().clamp(4.0, 1e6);
+    (0..=count as usize)
+        .map(|i| {
+            let rate = low + (high - low) * (i as f64 / count);
+            [rate, (2.0 * explained(centred, f / rate) / centred.len() as f64).sqrt()]
+        })
+        .collect()
+}
+
+/// Rates on both sides of the greatest amplitude: a step away, and an eighth of the maximum's width
+/// at least, so that noise does not push it out of a fine look at less than the whole recording.
+fn about(scan: &[[f64; 2]], f: f64, length: usize) -> [f64; 2] {
+    let rate = scan[highest(scan)][0];
+    let away = (scan[1][0] - scan[0][0]).max(rate * rate / (length as f64 * f) / 8.0);
+    [rate - away, rate + away]
+}
+
+/// The place of the greatest amplitude.
+fn highest(scan: &[[f64; 2]]) -> usize {
+    (0..scan.len()).fold(0, |best, i| if scan[i][1] > scan[best][1] { i } else { best })
 }
 
 /// The same values at another rate.
@@ -160,7 +190,7 @@ fn refined(
 
 #[cfg(test)]
 mod tests {
-    use super::super::study::{SETTINGS, Setting, study};
+    use super::super::study::{COARSE, SETTINGS, Setting, study};
     use super::*;
 
     const FIRST: RateSearch = RateSearch {
@@ -204,6 +234,7 @@ mod tests {
         for setting in SETTINGS {
             judge(setting, 1000);
         }
+        judge(COARSE, 1000);
     }
 
     /// The source's settings, 40 s at 5, 8 and 10 Hz with a 16-bit sensor, at 40 dB: within 0.05 Hz,
@@ -248,6 +279,18 @@ mod tests {
         assert!((found.amplitude.value - 1.0).abs() < 1e-10);
         let step = found.scan[1][0] - found.scan[0][0];
         assert!(step <= 1.0 + 1e-9);
+    }
+
+    /// A recording many times longer than the first look: 600 s.
+    #[test]
+    fn long_recordings_narrow_the_search() {
+        let setting =
+            Setting { rate: 1612.37, frequency: 10.0, periods: 6000.0, snr: 40.0, bits: 16 };
+        let mut noise = super::super::study::Noises::new("long", 0);
+        let signal = setting.record(&mut noise, setting.sine(1.0));
+        let found = sampling_rate(&signal, &search(setting)).unwrap().rate;
+        assert!((found.value - 1612.37).abs() < 4.0 * found.standard_uncertainty, "{found:?}");
+        assert!(found.standard_uncertainty < 1e-5);
     }
 
     #[test]

@@ -22,7 +22,7 @@ pub(super) struct Setting {
     pub(super) periods: f64,
     /// Power of a sine of amplitude one over that of the noise, in decibels.
     pub(super) snr: f64,
-    /// Of the converter, whose range is from -1.25 to 1.25 about the offset.
+    /// Of the converter, whose range is from -1.25 to 1.25 about the offset, within 10 %.
     pub(super) bits: i32,
 }
 
@@ -37,6 +37,9 @@ pub(super) const SETTINGS: [Setting; 7] = [
     setting(8.0, 21.7, 50.0, 8),
 ];
 
+/// Noise far below a step of the converter: what rounding leaves is not noise but harmonics.
+pub(super) const COARSE: Setting = setting(8.0, 200.7, 100.0, 8);
+
 const fn setting(frequency: f64, periods: f64, snr: f64, bits: i32) -> Setting {
     Setting { rate: 1612.0, frequency, periods, snr, bits }
 }
@@ -50,10 +53,16 @@ impl Setting {
         (0.5 * elementary::pow(10.0, -self.snr / 10.0)).sqrt()
     }
 
+    /// The converter's step.
+    pub(super) fn step(self) -> f64 {
+        2.5 / 2f64.powi(self.bits)
+    }
+
     /// What the signal is, at the instants of the recording, with the setting's noise, rounded by
     /// the converter, about an offset of 0.3.
     pub(super) fn record(self, noise: &mut Noises, wave: impl Fn(f64) -> f64) -> Signal {
-        let step = 2.5 / 2f64.powi(self.bits);
+        // so that where the sine's ends lie within a step differs from recording to recording
+        let step = self.step() * (0.9 + 0.2 * noise.uniform());
         let sigma = self.sigma();
         let values = (0..self.samples())
             .map(|k| {

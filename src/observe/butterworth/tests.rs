@@ -171,8 +171,12 @@ fn judge(setting: Setting, filter: Butterworth, recordings: usize) {
         let signal = setting.record(noise, setting.sine(phase));
         let settled = filter.apply(&signal, 1e-7).settled().unwrap();
         let fitted = Periodic::fit(&settled, harmonics).unwrap();
-        let found = fitted.in_noise(|_| factor, f64::INFINITY).parts[0].amplitude();
         let gain = response.norm();
+        let mut part = fitted.in_noise(|_| factor, f64::INFINITY).parts[0];
+        // what rounding distorts goes through the filter as the sine does
+        let before = Periodic::fit(&signal, harmonics).unwrap().rounded_to(setting.step());
+        part.rounding = before.parts[0].rounding * gain;
+        let found = part.amplitude();
         let before = Measured {
             value: found.value / gain,
             standard_uncertainty: found.standard_uncertainty / gain,

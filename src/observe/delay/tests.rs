@@ -1,6 +1,6 @@
 use std::f64::consts::TAU;
 
-use super::super::study::{Noises, SETTINGS, Setting, study};
+use super::super::study::{COARSE, Noises, SETTINGS, Setting, study};
 use super::super::{Harmonics, Measured, Signal, Unsuitable, wrapped};
 use super::*;
 
@@ -162,6 +162,7 @@ fn uncertainty_is_right() {
             judge_spectrum(setting, 1000);
         }
     }
+    judge_correlation(COARSE, 1000);
     for (snr, bits) in [(20.0, 24), (30.0, 8), (60.0, 16), (80.0, 24)] {
         judge_noise(Setting { snr, bits, ..SETTINGS[6] }, 1000);
     }
