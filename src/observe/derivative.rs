@@ -55,13 +55,14 @@ impl Derivative {
     /// the noise's standard deviation.
     pub fn noise(&self, samples: usize, rate: f64) -> NoiseGain {
         let n = samples as f64;
-        let sum: f64 = (1..=samples / 2)
-            .map(|j| {
-                let twice = if 2 * j == samples { 1.0 } else { 2.0 };
-                twice * self.response(j as f64 * rate / n).norm_sqr()
-            })
-            .sum();
-        NoiseGain { power: sum / n }
+        let (mut power, mut fourth) = (0.0, 0.0);
+        for j in 1..=samples / 2 {
+            let twice = if 2 * j == samples { 1.0 } else { 2.0 };
+            let square = self.response(j as f64 * rate / n).norm_sqr();
+            power += twice * square / n;
+            fourth += twice * square * square / n;
+        }
+        NoiseGain { power, fourth, level: self.response(0.0).norm_sqr() }
     }
 
     /// What the standard uncertainties of a sine fit to the derivative of so many values are to be

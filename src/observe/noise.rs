@@ -89,19 +89,38 @@ pub fn jitter_variance(amplitude: f64, frequency: f64, jitter: f64) -> f64 {
 /// standard uncertainty. The right one is the stated one times [`NoiseGain::factor`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NoiseGain {
-    /// Variance after the step over the variance before.
+    /// Variance after the step over the variance before: the mean of the squared gain over all
+    /// frequencies.
     pub power: f64,
+    /// The mean of the gain's fourth power.
+    pub fourth: f64,
+    /// The squared gain at zero.
+    pub level: f64,
 }
 
 impl NoiseGain {
     /// The square root of the noise's spectral density at a frequency over the density of white
     /// noise of the same variance, `response` being the step's complex gain there. The standard
     /// uncertainties of amplitude (before the gain is corrected for) and phase that a sine fit to
-    /// the signal after the step takes from its residuals are to be multiplied by it: above one
+    /// many values after the step takes from its residuals are to be multiplied by it: above one
     /// within a filter's band, as the filter takes the noise elsewhere out of the residuals but
     /// not out of the amplitude.
     pub fn factor(self, response: Phasor) -> f64 {
         phasor::modulus(response) / self.power.sqrt()
+    }
+
+    /// The same for a three-parameter fit to so many values, and the degrees of freedom of the
+    /// product. The noise has as many as white noise has that fills the step's band, n times the
+    /// squared mean over the mean of the squares of its density, and the fit takes its share of the
+    /// noise at zero and at the frequency out of the residuals, which counts where the band is
+    /// narrow. At least one degree of freedom.
+    pub fn of_fit(self, response: Phasor, samples: usize) -> (f64, f64) {
+        let n = samples as f64;
+        let density = response.norm_sqr();
+        let left = n * self.power - 2.0 * density - self.level;
+        let freedom = (n * self.power * self.power / self.fourth - 3.0).max(1.0);
+        let least = n * self.power / (n * self.power * self.power / self.fourth).max(1.0);
+        ((density * (n - 3.0).max(1.0) / left.max(least)).sqrt(), freedom)
     }
 }
 

@@ -166,6 +166,11 @@ impl Periodic {
     /// The same, with what rounding to steps of `resolution`, in the signal's unit, does to the first
     /// harmonic's amplitude beyond noise: where the noise is small against a step, rounding distorts
     /// the sine, in phase with it, in the same way in every period, so that it does not average out.
+    ///
+    /// This holds where the samples fall on ever other places of the period. If a few periods are a
+    /// whole number of samples and the noise is below a third of a step, the same rounding errors
+    /// come again and again, and the white noise's part of amplitude and phase is too small as well:
+    /// by 10 % to 20 % at 201.5 samples a period, 21.7 periods and a noise of 0.23 steps.
     pub fn rounded_to(mut self, resolution: f64) -> Self {
         if resolution > 0.0 {
             let noise = self.residual * self.residual - quantization_variance(resolution);

@@ -102,7 +102,7 @@ impl Rotation {
         let derivative = |order| Derivative { order, highest, ends }.apply(angle);
         let (mut radial, mut tangential) = (derivative(1)?, derivative(2)?);
         for value in &mut radial.signal.values {
-            *value *= self.radius.value * *value;
+            *value = self.radius.value * (*value * *value);
         }
         for value in &mut tangential.signal.values {
             *value *= self.radius.value;

@@ -26,7 +26,9 @@ pub(super) struct Setting {
     pub(super) bits: i32,
 }
 
-/// SNR, periods and bits as the studies have them: the corners, and the seeds' settings.
+/// SNR, periods and bits as the studies have them: the corners, and the seeds' settings. Where
+/// rounding counts, a period must not be a simple number of samples, or rounding errors repeat
+/// instead of averaging out: 201.618 samples here, 201.5 would make u 10 % to 20 % too small.
 pub(super) const SETTINGS: [Setting; 7] = [
     setting(5.0, 3.3, 20.0, 16),
     setting(8.0, 400.0, 20.0, 24),
@@ -34,11 +36,11 @@ pub(super) const SETTINGS: [Setting; 7] = [
     setting(5.0, 200.0, 60.0, 16),
     setting(8.0, 3.0, 100.0, 24),
     setting(10.0, 400.0, 100.0, 24),
-    setting(8.0, 21.7, 50.0, 8),
+    Setting { rate: 1612.944, ..setting(8.0, 21.7, 50.0, 8) },
 ];
 
 /// Noise far below a step of the converter: what rounding leaves is not noise but harmonics.
-pub(super) const COARSE: Setting = setting(8.0, 200.7, 100.0, 8);
+pub(super) const COARSE: Setting = Setting { rate: 1612.944, ..setting(8.0, 200.7, 100.0, 8) };
 
 const fn setting(frequency: f64, periods: f64, snr: f64, bits: i32) -> Setting {
     Setting { rate: 1612.0, frequency, periods, snr, bits }

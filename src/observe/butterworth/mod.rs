@@ -183,29 +183,45 @@ impl Filter {
         0
     }
 
-    /// How a run changes white noise.
+    /// How the filter changes white noise.
     pub fn noise(&self) -> NoiseGain {
-        let mut impulse = self.impulse_response();
-        if self.both_ways {
-            // its autocorrelation is the response both ways
-            let n = impulse.len();
-            let mut both = vec![0.0; n];
-            both.append(&mut impulse);
-            both.reverse();
-            self.run(&mut both, 0.0);
-            impulse = both;
+        // the response of a run forward and one backward is the autocorrelation of the first, and
+        // the sum of its squares the mean of the gain's fourth power (Parseval)
+        let mut response = self.impulse_response();
+        let mut means = vec![energy(&response)];
+        for _ in 0..3 {
+            self.run_back(&mut response);
+            means.push(energy(&response));
         }
-        NoiseGain { power: impulse.iter().map(|h| h * h).sum() }
+        let level = self.response(0.0).norm_sqr();
+        let [power, fourth] =
+            if self.both_ways { [means[1], means[3]] } else { [means[0], means[1]] };
+        NoiseGain { power, fourth, level }
+    }
+
+    /// Turns values round, with room for what a run now adds at their end, and runs over them.
+    fn run_back(&self, values: &mut Vec<f64>) {
+        values.reverse();
+        values.resize(values.len() + self.impulse_length(), 0.0);
+        self.run(values, 0.0);
     }
 
     /// The response of one run to a one, until less than 1e-16 of the slowest part is left.
     fn impulse_response(&self) -> Vec<f64> {
-        let slowest = self.sections.iter().map(Section::decay).fold(0.0, f64::max);
-        // poles side by side decay with a power of time before the exponential wins: twice as long
-        let length = (2.0 * -37.0 / elementary::ln(slowest)).ceil().clamp(64.0, 5e7);
-        let mut values = vec![0.0; length as usize];
+        let mut values = vec![0.0; self.impulse_length()];
         values[0] = 1.0;
         self.run(&mut values, 0.0);
         values
     }
+
+    fn impulse_length(&self) -> usize {
+        let slowest = self.sections.iter().map(Section::decay).fold(0.0, f64::max);
+        // poles side by side decay with a power of time before the exponential wins: twice as long
+        let length = (2.0 * -37.0 / elementary::ln(slowest)).ceil().clamp(64.0, 5e7);
+        length as usize
+    }
+}
+
+fn energy(values: &[f64]) -> f64 {
+    values.iter().map(|x| x * x).sum()
 }
