@@ -49,9 +49,7 @@ fn each(column: &[f64], short: bool) -> Each<'_> {
 /// without, whether columns are given as columns or as the number that all their entries are.
 #[test]
 fn budgets_in_columns_are_those_of_single_rows() {
-    for correlations in
-        ["", r#"["a", "tilt", -0.5], ["b", "c", 0.3]"#]
-    {
+    for correlations in ["", r#"["a", "tilt", -0.5], ["b", "c", 0.3]"#] {
         let task = task(correlations);
         let columns = columns(&task);
         let conditions: [Vec<f64>; 2] =
@@ -67,8 +65,13 @@ fn budgets_in_columns_are_those_of_single_rows() {
                 })
                 .collect();
             let options = Options { correlations: &task.correlations, path, ..Options::default() };
-            let made =
-                budgets(&task.model.program, &known, &[Each::Rows(&conditions[0]), Each::Rows(&conditions[1])], options).unwrap();
+            let made = budgets(
+                &task.model.program,
+                &known,
+                &[Each::Rows(&conditions[0]), Each::Rows(&conditions[1])],
+                options,
+            )
+            .unwrap();
             for (number, row) in task.rows.iter().enumerate() {
                 let alone = gum::evaluate(&task, row);
                 for (ours, alone) in made.iter().zip(&alone.outputs) {
