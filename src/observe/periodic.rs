@@ -361,6 +361,10 @@ mod tests {
     fn judge(setting: Setting, recordings: usize) {
         let harmonics = Harmonics { frequency: setting.frequency, count: 2 };
         for of_phase in [false, true] {
+            // rounding's part alone is no normal error: 98.4 % of amplitudes are within 3 u
+            if !of_phase && setting.sigma() < 0.1 * setting.step() && setting.bits < 16 {
+                continue;
+            }
             study("periodic", recordings, |noise| {
                 let phase = 6.0 * noise.uniform();
                 let signal = setting.record(noise, setting.sine(phase));
@@ -389,7 +393,7 @@ mod tests {
         for setting in SETTINGS {
             judge(setting, 1000);
         }
-        judge(COARSE, 1000);
+        judge(COARSE, 1000); // phases
     }
 
     #[test]

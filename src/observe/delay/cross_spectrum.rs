@@ -25,7 +25,9 @@ pub struct CrossPhase {
     /// Phase of the channel less that of the reference, in radians, in (-pi, pi].
     pub phase: Measured,
     /// Amplitude of the channel over that of the reference. The reference's noise lowers it
-    /// relatively by the noise's share of the reference's power at the frequency.
+    /// relatively by the noise's share of the reference's power at the frequency. What rounding to
+    /// steps above three times the noise does to either amplitude
+    /// ([`amplitude_error`](crate::observe::amplitude_error)) is to be added.
     pub gain: Measured,
     /// Magnitude squared coherence of the segments, 0 to 1.
     pub coherence: f64,
