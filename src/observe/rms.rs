@@ -193,7 +193,7 @@ mod tests {
                     (found.alternating, (0.5 + added).sqrt())
                 }
             })
-            .is_right(&format!("rms, periodic {periodic}, {setting:?}"));
+            .is_right(&format!("rms, periodic {periodic}"), Some(setting));
         }
     }
 
@@ -211,7 +211,7 @@ mod tests {
             let signal = Signal { values, rate: 1000.0, start: 0.0 };
             (of(None, 0.0).rms(&signal).unwrap().alternating, 1.0 / 0.19f64.sqrt())
         })
-        .is_right("rms of coloured noise");
+        .is_right("rms of coloured noise", None);
     }
 
     #[test]

@@ -218,7 +218,7 @@ mod tests {
                     (found.tangential.amplitude, truth.tangential.amplitude.value)
                 }
             })
-            .is_right(&format!("rotating table, radial {radial}, {setting:?}"));
+            .is_right(&format!("rotating table, radial {radial}"), Some(setting));
         }
     }
 

@@ -219,7 +219,7 @@ mod tests {
             let signal = setting.record(noise, setting.sine(phase));
             (sampling_rate(&signal, &search(setting)).unwrap().rate, setting.rate)
         })
-        .is_right(&format!("rate, {setting:?}"));
+        .is_right("rate", Some(setting));
     }
 
     #[test]
