@@ -32,11 +32,11 @@ pub fn check(path: &Path) -> Result<(), Problems> {
 /// All mistakes of the text and of the files that it names, in the order of their places.
 pub fn check_text(name: &str, text: &str, folder: &Path) -> Result<(), Problems> {
     if let Ok(root) = json::parse(&Source::new(name, text)) {
-        if certificate::is_meant(&root) {
-            return certificate::read_text(name, text, folder).map(|_| ());
-        }
         if recipe::is_meant(&root) {
             return recipe::check_text(name, text, folder);
+        }
+        if certificate::is_meant(&root) {
+            return certificate::read_text(name, text, folder).map(|_| ());
         }
     }
     read_with(name, text, folder, (&[], None), |reader| reader.checked())

@@ -71,8 +71,11 @@ pub enum Refused<E> {
 /// A frequency in a recording.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Fundamental {
-    /// Cycles in a sample interval.
+    /// Cycles in a sample interval that are fitted.
     pub(super) cycles: f64,
+    /// Cycles in a sample interval by which phases go on from the middle of the record: the same, but
+    /// for a cut at whole samples.
+    pub(super) turning: f64,
     /// In hertz.
     pub(super) hertz: Measured,
     /// The standard uncertainty of the cycles from a stated frequency.
@@ -207,6 +210,7 @@ impl Group<'_> {
         };
         Fundamental {
             cycles,
+            turning: cycles,
             hertz,
             of_stated: hertz.standard_uncertainty / rate.value,
             of_estimate: 0.0,

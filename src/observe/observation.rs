@@ -57,13 +57,16 @@ impl Value {
     pub(super) fn new(value: f64, contributions: Vec<(Source, f64)>, noise_dof: f64) -> Self {
         let kept: Vec<(Source, f64)> =
             contributions.into_iter().filter(|(_, u)| *u > 0.0).collect();
-        let variance: f64 = kept.iter().map(|(_, u)| u * u).sum();
+        // a sum of nothing is -0
+        let variance: f64 = kept.iter().map(|(_, u)| u * u).sum::<f64>() + 0.0;
         let noise: f64 =
             kept.iter().filter(|(source, _)| *source == Source::Noise).map(|(_, u)| u * u).sum();
-        let degrees_of_freedom = if noise > 0.0 {
-            variance * variance / (noise * noise / noise_dof)
-        } else {
+        // a share of the noise below 1e-5 of the standard uncertainty is as good as none
+        let negligible = noise <= 1e-10 * variance;
+        let degrees_of_freedom = if negligible {
             f64::INFINITY
+        } else {
+            variance * variance / (noise * noise) * noise_dof
         };
         let measured =
             Measured { value, standard_uncertainty: variance.sqrt(), degrees_of_freedom };

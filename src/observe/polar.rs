@@ -92,6 +92,10 @@ pub(super) fn polar(
         0.0
     };
     let leakage = leakage(analysed, tone);
+    let slope = design.slope(fit, fundamental);
+    let (sa, sb) = (slope.cosines[tone], slope.sines[tone]);
+    let phase_slope = (b * sa - a * sb) / (size * size);
+    let cut = phase_slope * size * of.of_cut;
     let mut own: Vec<(Source, f64, f64)> = Vec::new();
     let mut add = |source, along: f64, across: f64| {
         own.push((source, along.sqrt(), across.sqrt() / size));
@@ -106,12 +110,10 @@ pub(super) fn polar(
         across * quantization + slow * square,
     );
     add(Source::Jitter, along * jitter * fore, across * jitter * aside);
-    add(Source::Leakage, leakage * leakage, leakage * leakage);
+    add(Source::Leakage, leakage * leakage, leakage * leakage + cut * cut);
 
     // a fit at the wrong frequency: to first order by its slope; to second order the amplitude falls
     // as sin(x)/x with x = pi n N dc, whose x^2/6 has the rms value sqrt(3)/6 u(x)^2
-    let slope = design.slope(fit, fundamental);
-    let (sa, sb) = (slope.cosines[tone], slope.sines[tone]);
     let amplitude_slope = ca * sa + cb * sb;
     let mistuned = |u: f64| {
         let x = PI * times * samples * u;
@@ -125,7 +127,7 @@ pub(super) fn polar(
         (Source::Scale, amplitude * channel.scale_uncertainty),
     ];
     let blur = speed(analysed, tone) * base.jitter;
-    let cycles = of.cycles * times;
+    let cycles = of.turning * times;
     Some(Polar {
         tone,
         // the mean of cos over normal jitter s is less by exp(-(2 pi f s)^2/2)
@@ -133,7 +135,7 @@ pub(super) fn polar(
         phase: atan2(-b, a) - 2.0 * PI * (cycles * to_middle).fract(),
         own,
         shared,
-        slope: (b * sa - a * sb) / (size * size) - 2.0 * PI * times * to_middle,
+        slope: phase_slope - 2.0 * PI * times * to_middle,
         scatter: [
             (va + square + leakage * leakage).sqrt(),
             (vb + square + leakage * leakage).sqrt(),

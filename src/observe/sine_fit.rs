@@ -15,7 +15,7 @@ use super::turns::{Turns, oscillation};
 
 /// The largest condition number of the normal equations: beyond it the tones cannot be told apart
 /// (much less than a period, or two frequencies too near).
-const WORST_CONDITION: f64 = 1e6;
+const WORST_CONDITION: f64 = 1e4;
 
 /// An oscillation of a fit.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -197,7 +197,7 @@ fn phase(
 fn delay(phase: &Value, frequency: Measured) -> Value {
     let speed = 2.0 * PI * frequency.value;
     let mut delay = phase.clone().times(1.0 / speed);
-    delay.measured.value = -delay.measured.value;
+    delay.measured.value = 0.0 - delay.measured.value;
     delay
 }
 

@@ -38,7 +38,9 @@ pub fn whole_periods(values: &[f64], cycles: f64) -> Option<WholePeriods> {
     let instant = |group: &(f64, f64, u32)| group.1 / f64::from(group.2);
     let (from, to) = (instant(groups.first()?), instant(groups.last()?));
     let periods = ((to - from) * cycles).round();
-    if periods < 1.0 {
+    // crossings of something else than this oscillation
+    let astray = ((to - from) * cycles - periods).abs() > 0.25;
+    if periods < 1.0 || astray {
         return None;
     }
     let samples = (to - from).round() as usize;

@@ -53,13 +53,13 @@ fn schema() -> Node {
         (
             "else",
             object([
-                ("if", certificate::meant()),
-                ("then", reference("certificate")),
+                ("if", recipe::meant()),
+                ("then", reference("recipe")),
                 (
                     "else",
                     object([
-                        ("if", recipe::meant()),
-                        ("then", reference("recipe")),
+                        ("if", certificate::meant()),
+                        ("then", reference("certificate")),
                         ("else", reference("model")),
                     ]),
                 ),

@@ -341,7 +341,9 @@ impl RecipeFile {
         let place = |channel: usize| format!("`{}`, channel `{}`", file(channel), name(channel));
         let own = self.channels.get(refused_channel(refused));
         let mut span = of_row.map_or(0..0, |of| of.frequency_place.clone());
-        let shortest = crate::number::Shortest;
+        // products and quotients of what the recipe says: without the rounding of the last digits
+        let shortest =
+            |value: f64| crate::number::Shortest(format!("{value:.11e}").parse().unwrap_or(value));
         let reason = match refused {
             Refused::Unreadable(reason) => reason.clone(),
             Refused::AboveNyquist { channel, hertz, rate } => format!(

@@ -67,7 +67,7 @@ fn fits_are_those_of_scipy() {
         let mut held = crate::observe::Held { channels: vec![(0..samples).map(value).collect()] };
         let found = estimate(&mut held, Some(cycles * 1.0001), &[1, 2]).unwrap();
         // double precision of phases over the record: 1e-10 of a period over all samples
-        assert!((found.cycles - numbers[7]).abs() * samples as f64 < 1e-10, "{line}");
+        assert!((found.cycles - numbers[7]).abs() * (samples as f64) < 1e-10, "{line}");
         assert!((found.variance / numbers[13] - 1.0).abs() < 1e-6, "{line}");
         for (cycles, expected) in [(cycles, &numbers[2..7]), (found.cycles, &numbers[8..13])] {
             let tone = |multiple: u32| Tone {

@@ -84,6 +84,10 @@ impl Observed<'_> {
                 add(format!("amplitude{suffix}"), unit, &|of| {
                     Some(pair(&of.components.get(number)?.amplitude))
                 });
+                // against itself the reference has none
+                if *multiple == 1 && self.settings.reference == Some(place) {
+                    continue;
+                }
                 add(format!("phase{suffix}"), phase, &|of| {
                     Some(pair(&of.components.get(number)?.phase))
                 });

@@ -30,7 +30,7 @@ pub(super) fn components(observed: &Observed<'_>, channels: &[ChannelObservation
         let delays = rows.iter().map(|(_, c)| c.delay.as_ref().map(|delay| delay.measured));
         pair(&mut sheet, ["delay\n(s)", "u"], delays);
     }
-    sheet.text("u of the amplitude", rows.iter().map(|(_, c)| sources(&c.amplitude)));
+    sheet.text("u of\namplitude", rows.iter().map(|(_, c)| sources(&c.amplitude)));
     sheet
 }
 
@@ -52,7 +52,8 @@ pub(super) fn channels(observed: &Observed<'_>, channels: &[ChannelObservation])
     let periods =
         |of: &ChannelObservation| Figure::of(of.periods.value, significant(of.periods.value, 5));
     sheet.figures("periods", all.clone().map(periods));
-    pair(&mut sheet, ["rate\n(Hz)", "u"], all.map(|of| Some(of.rate)));
+    let rate = |of: &ChannelObservation| Figure::of(of.rate.value, significant(of.rate.value, 7));
+    sheet.figures("rate\n(Hz)", all.map(rate));
     sheet
 }
 
