@@ -3,8 +3,8 @@
 use crate::number::elementary::sin_cos_turn;
 
 /// Two to the powers by which turns are kept as whole numbers.
-const TWO_64: f64 = 18_446_744_073_709_551_616.0;
-const TWO_120: f64 = TWO_64 * 72_057_594_037_927_936.0;
+const TWO_64: f64 = (1u128 << 64) as f64;
+const TWO_120: f64 = (1u128 << 120) as f64;
 
 /// Turns, modulo one, as a fraction of 2^128. Sums and multiples of them are exact, so that the
 /// phase at the last sample of an hour is as good as at the first.
@@ -15,7 +15,7 @@ impl Turns {
     /// A number of turns from 0 to below 1, or none where it is not.
     pub(super) fn new(turns: f64) -> Option<Self> {
         // exact for all that is not below 2^-68
-        (0.0..1.0).contains(&turns).then(|| Self(((turns * TWO_120) as u128) << 8))
+        (0.0..1.0).contains(&turns).then_some(Self(((turns * TWO_120) as u128) << 8))
     }
 
     /// So many times as much.

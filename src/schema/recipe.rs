@@ -27,9 +27,8 @@ pub(super) fn meant() -> Node {
 }
 
 fn recipe() -> Node {
-    let one_of = |about: &str, names: Vec<&str>| {
-        described("string", about).with("enum", texts(names.into_iter()))
-    };
+    let one_of =
+        |about: &str, names: Vec<&str>| described("string", about).with("enum", texts(names));
     let multiples = described("array", "Multiples of the frequency that are given; 1 unless told.")
         .with("items", whole("A multiple.", 1, 50))
         .with("minItems", 1u64);

@@ -109,7 +109,7 @@ pub(super) fn same_dimension(
 /// A number above zero at `key`, already read.
 pub(super) fn positive(object: &Object<'_>, key: &'static str, quantity: &Quantity) -> bool {
     let found = quantity.value;
-    if !(found > 0.0)
+    if found <= 0.0
         && let Some(member) = object.get(key)
     {
         object.log.report(&member.value.span, Fault::NotPositive { key: key.into(), found });

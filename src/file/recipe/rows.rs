@@ -245,7 +245,7 @@ fn frequencies(object: &Object<'_>, member: &Member) -> Option<Vec<Frequency>> {
                 .collect()
         }
     };
-    let wrong = list.iter().filter_map(|of| of.hertz).find(|hertz| !(*hertz > 0.0));
+    let wrong = list.iter().filter_map(|of| of.hertz).find(|hertz| *hertz <= 0.0);
     if let Some(found) = wrong {
         let key = "frequency".to_owned();
         object.log.report(&member.value.span, Fault::NotPositive { key, found });

@@ -14,7 +14,7 @@ pub use table::table;
 
 use super::Provenance;
 use crate::file::Condition;
-use crate::observe::{Amplitude, ChannelObservation, Observation, Settings, Value};
+use crate::observe::{ChannelObservation, Observation, Settings, Value};
 use crate::task::Warning;
 
 /// Observations with what a report says about them.
@@ -108,11 +108,3 @@ impl Observed<'_> {
 }
 
 type Take<'t> = dyn Fn(&ChannelObservation) -> Option<(f64, f64)> + 't;
-
-/// What amplitudes are, in words.
-pub(super) fn amplitude_words(amplitude: Amplitude) -> &'static str {
-    match amplitude {
-        Amplitude::Peak => "peak amplitudes",
-        Amplitude::Rms => "RMS amplitudes",
-    }
-}

@@ -1,6 +1,7 @@
 //! The page for a terminal.
 
-use super::{Observed, amplitude_words, sheets};
+use super::{Observed, sheets};
+use crate::observe::Amplitude;
 use crate::report::number::exact;
 use crate::report::{Grid, WIDTH, wrapped};
 
@@ -61,4 +62,12 @@ pub fn table(observed: &Observed<'_>) -> String {
         }
     }
     page
+}
+
+/// What amplitudes are, in words.
+fn amplitude_words(amplitude: Amplitude) -> &'static str {
+    match amplitude {
+        Amplitude::Peak => "peak amplitudes",
+        Amplitude::Rms => "RMS amplitudes",
+    }
 }
