@@ -21,10 +21,12 @@ use clap::Parser;
 use cpu_time::ProcessTime;
 use gumption::number::CodePath;
 use gumption::propagate::gum::Dof;
+use gumption::propagate::gum::bulk::Budgets;
 use gumption::propagate::{Control, Evaluation, OutputEvaluation, evaluate};
 use gumption::task::{Task, Trials};
 use serde_json::{Value, json};
 
+use measure::columns::Columns;
 use measure::paths::path;
 use measure::workloads::workload;
 
@@ -36,7 +38,7 @@ const WARM_UP_ROW: u64 = 1000;
 
 #[derive(Debug, Parser)]
 struct Arguments {
-    /// W1, W1-formula, W2, W3, W4, W5, sum:N, correlated:N, formula:N or outputs:N.
+    /// W1, W1-formula, W2, W3, W4, W5, W5-all, W5-rows, sum:N, correlated:N, formula:N or outputs:N.
     #[arg(long)]
     workload: Option<String>,
     /// Trials of each row, such as 1e6, or `adaptive`; for W5 the number of budgets.
@@ -117,6 +119,17 @@ fn result(evaluation: &Evaluation) -> Value {
     outputs.map(figures).collect()
 }
 
+/// The outputs of the first budget and of the last.
+fn result_in_columns(budgets: &[Budgets]) -> Value {
+    let of = |row: Option<usize>| {
+        budgets.iter().zip(row).map(|(of, row)| {
+            json!({"mean": of.estimates[row], "u": of.standard_uncertainties[row], "dof": of.dof[row]})
+        }).collect::<Vec<_>>()
+    };
+    let last = budgets.first().and_then(|of| of.estimates.len().checked_sub(1));
+    of(last.map(|_| 0)).into_iter().chain(of(last)).collect()
+}
+
 fn trials_made(evaluation: &Evaluation) -> Option<u64> {
     Some(evaluation.rows.first()?.outputs.first()?.monte_carlo.as_ref()?.trials)
 }
@@ -131,13 +144,20 @@ fn say(line: impl Display) -> Result<(), String> {
 fn tasks(name: &str, arguments: &Arguments) -> Result<[Task; 2], String> {
     let adaptive = arguments.trials == "adaptive";
     let trials = if adaptive { WARM_UP } else { count(&arguments.trials)? };
-    let few = if matches!(name, "W3" | "W5") { WARM_UP_ROW } else { WARM_UP };
+    let few = if name == "W3" || name.starts_with("W5") { WARM_UP_ROW } else { WARM_UP };
     let mut task = workload(name, trials)?;
     if adaptive {
         task.settings.trials = Trials::Adaptive;
         task.settings.digits = arguments.digits;
     }
     Ok([task, workload(name, few.min(trials))?])
+}
+
+/// What the last repeat gave.
+#[derive(Default)]
+struct Last {
+    evaluation: Option<Evaluation>,
+    budgets: Vec<Budgets>,
 }
 
 fn measured(name: &str, arguments: &Arguments) -> Result<Value, String> {
@@ -148,15 +168,27 @@ fn measured(name: &str, arguments: &Arguments) -> Result<Value, String> {
         path: arguments.path.unwrap_or_else(CodePath::best),
         ..Control::default()
     };
+    let columns = matches!(name, "W5" | "W5-all").then(|| Columns::of(&task, name == "W5-all"));
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(arguments.threads).build();
+    let pool = pool.map_err(|e| e.to_string())?;
     evaluate(&warm_up, &control).map_err(|e| e.to_string())?;
     let before = peak();
-    let (mut cpu, mut wall, mut last) = (Vec::new(), Vec::new(), None);
+    let (mut cpu, mut wall, mut last) = (Vec::new(), Vec::new(), Last::default());
     let mut repeat = || {
         let (clock, start) = (ProcessTime::now(), Instant::now());
-        let evaluation = evaluate(&task, &control).map_err(|e| e.to_string())?;
+        let made = match &columns {
+            Some(columns) => {
+                let budgets = pool.install(|| columns.budgets(control.path))?;
+                Last { budgets, evaluation: None }
+            }
+            None => {
+                let evaluation = evaluate(&task, &control).map_err(|e| e.to_string())?;
+                Last { budgets: Vec::new(), evaluation: Some(evaluation) }
+            }
+        };
         cpu.push(clock.elapsed().as_secs_f64());
         wall.push(start.elapsed().as_secs_f64());
-        last = Some(evaluation);
+        last = made;
         Ok::<(), String>(())
     };
     if arguments.on_demand {
@@ -174,7 +206,7 @@ fn measured(name: &str, arguments: &Arguments) -> Result<Value, String> {
     Ok(json!({
         "tool": "gumption",
         "workload": name,
-        "trials": last.as_ref().and_then(trials_made),
+        "trials": last.evaluation.as_ref().and_then(trials_made),
         "rows": task.rows.len(),
         "threads": arguments.threads,
         "path": control.path.name(),
@@ -182,13 +214,14 @@ fn measured(name: &str, arguments: &Arguments) -> Result<Value, String> {
         "wall_s": wall,
         "before_mb": before,
         "peak_mb": peak(),
-        "result": last.as_ref().map(result),
+        "result": last.evaluation.as_ref().map_or_else(|| result_in_columns(&last.budgets), result),
     }))
 }
 
 /// Every workload on a few trials.
 fn tried() -> Result<(), String> {
-    let names = "W1 W1-formula W2 W3 W4 W5 sum:10 correlated:10 formula:100 outputs:10";
+    let names =
+        "W1 W1-formula W2 W3 W4 W5 W5-all W5-rows sum:10 correlated:10 formula:100 outputs:10";
     let arguments = Arguments::parse_from(["workload", "--trials", "1000", "--repeats", "1"]);
     for name in names.split_whitespace() {
         say(measured(name, &arguments)?)?;

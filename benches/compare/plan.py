@@ -77,6 +77,8 @@ class Plan:
                     name = f"{tool}, 2 threads"
                     contenders.append(self.peer(name, tool, workload, trials, threads=2))
             if workload == "W5":
+                contenders.append(self.engine("gumption, all inputs in columns", "W5-all", trials))
+                contenders.append(self.engine("gumption, row by row", "W5-rows", trials))
                 contenders.append(self.peer("gtc", "gtc", workload, "1e3"))
             long = trials == "1e7" or workload == "W3"
             done[f"{workload} {trials}"] = contest(contenders, self.rounds(5 if long else 9))

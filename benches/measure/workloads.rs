@@ -25,7 +25,8 @@ pub const BLOCK: &str = include_str!("../models/gauge_block.json");
 const STEP: f64 = 1e-6;
 
 /// What can be evaluated.
-pub const NAMES: &str = "W1, W1-formula, W2, W3, W4, W5, sum:N, correlated:N, formula:N, outputs:N";
+pub const NAMES: &str =
+    "W1, W1-formula, W2, W3, W4, W5, W5-all, W5-rows, sum:N, correlated:N, formula:N, outputs:N";
 
 /// A model file's task with this many trials.
 ///
@@ -62,7 +63,7 @@ pub fn workload(name: &str, trials: u64) -> Result<Task, String> {
         "W2" => return model(SUM, trials),
         "W3" => return model(CAMPAIGN, trials),
         "W4" => return model(BLOCK, trials),
-        "W5" => return budgets(trials),
+        "W5" | "W5-all" | "W5-rows" => return budgets(trials),
         _ => {}
     }
     let unknown = || format!("`{name}` is no workload; there are {NAMES}");

@@ -7,6 +7,7 @@ pub mod formula;
 mod program;
 mod schedule;
 mod sim;
+mod slopes;
 mod trace;
 pub mod typed;
 
@@ -15,6 +16,7 @@ pub(crate) use program::Node;
 pub use program::Program;
 pub(crate) use schedule::{Place, Schedule};
 pub use sim::{Circular, Effect, Maker, Sim};
+pub(crate) use slopes::{Columns, Slope, Slopes};
 pub use trace::{Recorder, Traced};
 
 use std::sync::Arc;

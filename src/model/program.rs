@@ -68,7 +68,7 @@ impl Program {
     /// (JCGM 100, 5.1.3), exact to rounding.
     pub fn gradients(&self, variables: &[f64]) -> (Vec<f64>, Vec<Vec<f64>>) {
         let used = self.used_variables();
-        if used.len() >= MANY && used.len() >= GRADIENT_CHUNK * self.outputs.len() {
+        if self.goes_backward_from(used.len()) {
             let (outputs, gradients) = self.gradients_backward(variables);
             // where something is not finite, what it means is decided by dual numbers
             if gradients.iter().flatten().all(|slope| slope.is_finite()) {
@@ -76,6 +76,15 @@ impl Program {
             }
         }
         self.gradients_forward(variables, &used)
+    }
+
+    /// Whether the way from the outputs back to the variables is the shorter one.
+    pub(crate) fn goes_backward(&self) -> bool {
+        self.goes_backward_from(self.used_variables().len())
+    }
+
+    fn goes_backward_from(&self, used: usize) -> bool {
+        used >= MANY && used >= GRADIENT_CHUNK * self.outputs.len()
     }
 
     /// With dual numbers, some variables at a time.

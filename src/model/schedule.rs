@@ -182,7 +182,7 @@ fn fold(program: &Program, bound: &[Option<f64>]) -> Vec<Option<f64>> {
 }
 
 /// The nodes that some output needs and that are not constant.
-fn needed(program: &Program, folded: &[Option<f64>]) -> Vec<bool> {
+pub(super) fn needed(program: &Program, folded: &[Option<f64>]) -> Vec<bool> {
     let mut needed = vec![false; program.nodes.len()];
     for &output in &program.outputs {
         needed[output] = true;

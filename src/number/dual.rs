@@ -1,7 +1,7 @@
 //! Dual numbers: a value with its exact gradient, carried through every operation by the chain
 //! rule. They give the sensitivity coefficients c_i of JCGM 100, 5.1.3, with no step to choose.
 
-use super::{Binary, Number, Unary, number_operators, scalar};
+use super::{Binary, Number, Unary, derivative, number_operators, scalar};
 
 /// A value and its partial derivatives with respect to `N` chosen inputs.
 ///
@@ -29,11 +29,10 @@ impl<const N: usize> Dual<N> {
         Self { value, gradient }
     }
 
-    /// `value` with this gradient times `slope`. A derivative that is 0 stays 0 whatever the slope,
-    /// so that an infinite slope of a constant part harms nobody.
+    /// `value` with this gradient times `slope`.
     #[inline(always)]
     fn chain(self, value: f64, slope: f64) -> Self {
-        let gradient = self.gradient.map(|g| if g == 0.0 { 0.0 } else { g * slope });
+        let gradient = self.gradient.map(|g| derivative::chain(g, slope));
         Self { value, gradient }
     }
 
@@ -58,68 +57,23 @@ impl<const N: usize> Number for Dual<N> {
     fn unary(self, operation: Unary) -> Self {
         let x = self.value;
         let y = scalar::unary(operation, x);
-        let slope = match operation {
-            Unary::Negate => -1.0,
-            Unary::Abs if x == 0.0 => 0.0,
-            Unary::Abs => x.signum(),
-            Unary::Sqrt => 0.5 / y,
-            Unary::Cbrt => 1.0 / (3.0 * y * y),
-            Unary::Exp => y,
-            Unary::Ln => 1.0 / x,
-            Unary::Log10 => std::f64::consts::LOG10_E / x,
-            Unary::Sin => Number::cos(x),
-            Unary::Cos => -Number::sin(x),
-            Unary::Tan => 1.0 + y * y,
-            Unary::Asin => 1.0 / ((1.0 - x) * (1.0 + x)).sqrt(),
-            Unary::Acos => -1.0 / ((1.0 - x) * (1.0 + x)).sqrt(),
-            Unary::Atan => 1.0 / (1.0 + x * x),
-            Unary::Sinh => Number::cosh(x),
-            Unary::Cosh => Number::sinh(x),
-            // 1 - tanh^2 loses its digits where the hyperbolic tangent is near 1
-            Unary::Tanh => {
-                let c = Number::cosh(x);
-                1.0 / (c * c)
-            }
-        };
-        self.chain(y, slope)
+        self.chain(y, derivative::unary(operation, x, y))
     }
 
     fn binary(self, operation: Binary, other: Self) -> Self {
         let (x, y) = (self.value, other.value);
         let value = scalar::binary(operation, x, y);
         match operation {
-            Binary::Add => self.chain_two(other, value, 1.0, 1.0),
-            Binary::Subtract => self.chain_two(other, value, 1.0, -1.0),
-            Binary::Multiply => self.chain_two(other, value, y, x),
-            Binary::Divide => self.chain_two(other, value, 1.0 / y, -value / y),
-            Binary::Power => {
-                let slope =
-                    if y == 0.0 { 0.0 } else { y * scalar::binary(Binary::Power, x, y - 1.0) };
-                self.chain_two(other, value, slope, value * Number::ln(x))
-            }
-            Binary::Atan2 => {
-                // of atan2(x, y): the point is (y, x); divided one after the other so that the
-                // square of a small radius does not vanish
-                let radius = scalar::binary(Binary::Hypot, x, y);
-                self.chain_two(other, value, y / radius / radius, -x / radius / radius)
-            }
-            Binary::Hypot => self.chain_two(other, value, x / value, y / value),
-            Binary::Min => {
-                if y < x {
-                    other.chain(value, 1.0)
-                } else {
-                    self.chain(value, 1.0)
-                }
-            }
-            Binary::Max => {
-                if y > x {
-                    other.chain(value, 1.0)
-                } else {
-                    self.chain(value, 1.0)
-                }
-            }
+            // the operand that is not taken has no say, however steep it is
+            Binary::Min if y < x => other.chain(value, 1.0),
+            Binary::Max if y > x => other.chain(value, 1.0),
+            Binary::Min | Binary::Max => self.chain(value, 1.0),
             Binary::Less | Binary::LessOrEqual | Binary::Equal | Binary::NotEqual => {
                 Self::flat(value)
+            }
+            _ => {
+                let [by_x, by_y] = derivative::binary(operation, x, y, value);
+                self.chain_two(other, value, by_x, by_y)
             }
         }
     }

@@ -11,6 +11,7 @@
 //! fused, so results are the same bits on every machine and at every vector width.
 
 mod column;
+pub(crate) mod derivative;
 mod dual;
 pub(crate) mod elementary;
 mod operation;

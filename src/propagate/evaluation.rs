@@ -8,12 +8,12 @@ use rayon::prelude::*;
 
 use super::Control;
 use super::conformity::Conformity;
-use super::gum::{self, Gum};
+use super::gum::{self, Gum, GumRow};
 use super::monte_carlo::{self, MonteCarlo, Request, Search, Undefined};
 use super::validate::{Validation, validate};
 use crate::distribution::{BLOCK, Correlation, CorrelationError, Joint};
 use crate::model::{Output, Program};
-use crate::number::{Column, Shortest};
+use crate::number::{COLUMN, Column, Shortest};
 use crate::task::{Row, Settings, Task, Trials};
 
 /// The evaluation of a whole task.
@@ -248,9 +248,17 @@ fn evaluate_rows(task: &Task, control: &Control<'_>) -> Result<Evaluation, Evalu
     let notes = Mutex::new(Notes::default());
     let rows: Vec<Result<RowEvaluation, EvaluationError>> = task
         .rows
-        .par_iter()
+        .par_chunks(COLUMN)
         .enumerate()
-        .map(|(number, row)| evaluate_row(&gum, task, (number, row), &reaches, control, &notes))
+        .flat_map(|(chunk, rows)| {
+            let linear = gum.evaluate_all(rows, control.path);
+            let rows = rows.par_iter().zip(linear).enumerate();
+            let row = |(number, (row, linear))| {
+                let row = (chunk * COLUMN + number, row, linear);
+                evaluate_row(task, row, &reaches, control, &notes)
+            };
+            rows.map(row).collect::<Vec<_>>()
+        })
         .collect();
     // the first row that failed, whichever was ready first
     let rows = rows.into_iter().collect::<Result<Vec<_>, _>>()?;
@@ -285,15 +293,13 @@ impl Notes {
 }
 
 fn evaluate_row(
-    gum: &gum::Rows<'_>,
     task: &Task,
-    (number, row): (usize, &Row),
+    (number, row, mut linear): (usize, &Row, GumRow),
     reaches: &[Vec<bool>],
     control: &Control<'_>,
     notes: &Mutex<Notes>,
 ) -> Result<RowEvaluation, EvaluationError> {
     let joint = joint(task, row)?;
-    let mut linear = gum.evaluate(row);
     let gums = std::mem::take(&mut linear.outputs);
     let drawn_dof: Vec<f64> = reaches.iter().map(|reach| fewest_dof(reach, row)).collect();
     let mut result = RowEvaluation {

@@ -1,5 +1,8 @@
 //! The law of propagation of uncertainty (JCGM 100, clause 5) and the budget that follows from it.
 
+pub mod bulk;
+mod gradients;
+
 use std::collections::{BTreeMap, HashMap};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
@@ -7,7 +10,9 @@ use rayon::prelude::*;
 
 pub use super::budget::{BudgetLine, CorrelationLine};
 use crate::distribution::{Correlation, Distribution, RootName, paired, special};
+use crate::number::CodePath;
 use crate::task::{Coverage, Row, Task};
+use gradients::{Gradients, Linear};
 
 /// The degrees of freedom of a combined standard uncertainty.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -77,6 +82,7 @@ pub(crate) struct GumRow {
 #[derive(Debug)]
 pub(crate) struct Rows<'a> {
     task: &'a Task,
+    gradients: Gradients<'a>,
     shown: Arc<[usize]>,
     /// Coverage factors of all rows have the same probability.
     factors: Factors,
@@ -95,15 +101,27 @@ pub(crate) fn evaluate(task: &Task, row: &Row) -> GumRow {
 impl<'a> Rows<'a> {
     pub(crate) fn of(task: &'a Task) -> Self {
         let shown = task.variables.iter().enumerate().filter(|(_, v)| v.shown).map(|(v, _)| v);
-        Self { task, shown: shown.collect(), factors: Factors::default(), last: Mutex::new(None) }
+        Self {
+            task,
+            gradients: Gradients::of(task),
+            shown: shown.collect(),
+            factors: Factors::default(),
+            last: Mutex::new(None),
+        }
     }
 
     /// Evaluates one row of the task.
     pub(crate) fn evaluate(&self, row: &Row) -> GumRow {
-        let task = self.task;
-        let mut values: Vec<f64> = row.distributions.iter().map(|d| d.mean()).collect();
-        values.extend(&row.conditions);
-        let (estimates, gradients) = task.model.program.gradients(&values);
+        self.evaluate_from(row, self.gradients.one(row))
+    }
+
+    /// Evaluates consecutive rows of the task; each has the same bits as on its own.
+    pub(crate) fn evaluate_all(&self, rows: &[Row], path: CodePath) -> Vec<GumRow> {
+        let linear = self.gradients.all(rows, path).into_iter();
+        rows.iter().zip(linear).map(|(row, linear)| self.evaluate_from(row, linear)).collect()
+    }
+
+    fn evaluate_from(&self, row: &Row, (estimates, gradients): Linear) -> GumRow {
         let uncertainties: Vec<f64> =
             row.distributions.iter().map(|d| d.standard_uncertainty()).collect();
         let linked = self.linked(row);

@@ -127,7 +127,7 @@ impl Kernel for FoldKernel<'_> {
 /// Appends the values that the windows keep, without a branch on each value; returns how many lie
 /// below the window about the median.
 #[inline(always)]
-fn keep(path: CodePath, block: &[f64], windows: &Windows, kept: &mut Vec<f64>) -> u64 {
+pub(super) fn keep(path: CodePath, block: &[f64], windows: &Windows, kept: &mut Vec<f64>) -> u64 {
     #[cfg(target_arch = "x86_64")]
     if path == CodePath::Avx512 {
         // SAFETY: a kernel runs on a path only where the machine has it.

@@ -12,7 +12,7 @@ use super::interval::{Ranks, is_extreme, quantile_error, shortest, symmetric};
 use super::moments::{Moments, Reference, Sums, correlations};
 use super::order::Order;
 use super::products::{Products, waves};
-use super::sorting::sort;
+use super::shelves::Shelves;
 use super::windows::Windows;
 use crate::distribution::BLOCK;
 use crate::number::CodePath;
@@ -224,14 +224,15 @@ pub(super) fn plans(
     let groups = groups.map(|first| first..(first + PILOT_OUTPUTS).min(trials.outputs()));
     groups
         .flat_map(|group| group.clone().zip(pilot(trials, request, control, group)))
-        .map(|(output, mut values)| {
-            sort(&mut values);
-            let reference = reference(&values, trials.limits(output));
+        .map(|(output, values)| {
+            let mut order = Shelves::new(control.path.or_baseline(), &[&values], &Windows::ALL);
+            let mut at = |place: usize| (place < values.len()).then(|| order.at(place));
+            let reference = reference(values.len(), &mut at, trials.limits(output));
             let all = request.trials <= ALL_KEPT || margin > KEEP_ALL_MARGIN;
             let windows = if all {
                 Windows::ALL
             } else {
-                Windows::from_pilot(&values, request.probability, margin)
+                Windows::from_pilot(values.len(), at, request.probability, margin)
             };
             let kept = values.iter().filter(|v| windows.keeps(**v)).count() as f64;
             Plan { reference, windows, kept: kept / values.len().max(1) as f64 }
@@ -239,11 +240,17 @@ pub(super) fn plans(
         .collect()
 }
 
-/// The median and a width of sorted values: half the distance of the quartiles, or what is there.
-fn reference(sorted: &[f64], limits: [f64; 2]) -> Reference {
-    let at = |share: f64| sorted.get((share * sorted.len() as f64) as usize).copied();
-    let middle = at(0.5).unwrap_or(0.0);
-    let widths = [at(0.25).zip(at(0.75)), sorted.first().copied().zip(sorted.last().copied())];
+/// The median and a width of `count` values, `at` a place in their order: half the distance of the
+/// quartiles, or what is there.
+fn reference(
+    count: usize,
+    at: &mut impl FnMut(usize) -> Option<f64>,
+    limits: [f64; 2],
+) -> Reference {
+    let mut share = |share: f64| at((share * count as f64) as usize);
+    let middle = share(0.5).unwrap_or(0.0);
+    let quartiles = share(0.25).zip(share(0.75));
+    let widths = [quartiles, at(0).zip(at(count.saturating_sub(1)))];
     let scale = widths
         .into_iter()
         .flatten()
@@ -383,8 +390,10 @@ fn figures(
     windows: &Windows,
     chunks: Vec<Batch>,
 ) -> Option<MonteCarlo> {
-    let shortest_error = shortest_error(path, &chunks, probability, windows);
-    let mut order = order_of(path, &chunks, windows);
+    let (shortest_error, mut order) = rayon::join(
+        || shortest_error(path, &chunks, probability, windows),
+        || order_of(path, &chunks, windows),
+    );
     drop(chunks);
     let order = &mut order;
     let symmetric_interval = symmetric(order, probability)?;

@@ -27,31 +27,42 @@ impl Windows {
         ends: [f64::NEG_INFINITY, f64::INFINITY],
     };
 
-    /// The windows for coverage probability `p`, from a sorted pilot, their margins times
-    /// `widening`. The lower end of any interval
-    /// of that content is one of the lowest 1 - p of the values, the upper end one of the highest.
-    pub(crate) fn from_pilot(sorted: &[f64], p: f64, widening: f64) -> Self {
-        let n = sorted.len() as f64;
-        let at = |share: f64, margin: f64| {
+    /// The windows for coverage probability `p`, from a pilot of `count` values, `nth` a place in
+    /// their order; their margins are times `widening`. The lower end of any interval of that content
+    /// is one of the lowest 1 - p of the values, the upper end one of the highest.
+    pub(crate) fn from_pilot(
+        count: usize,
+        mut nth: impl FnMut(usize) -> Option<f64>,
+        p: f64,
+        widening: f64,
+    ) -> Self {
+        let n = count as f64;
+        let mut at = |share: f64, margin: f64| {
             let rank = share * n
                 + margin * widening * MARGIN * (n * share * (1.0 - share)).sqrt()
                 + 2.0 * margin;
             let place = rank.round();
-            if place < 0.0 || place >= n { None } else { sorted.get(place as usize).copied() }
+            if place < 0.0 || place >= n { None } else { nth(place as usize) }
         };
-        let windows = (|| {
-            Some(Self {
-                low: at(1.0 - p, 1.0)?,
-                median_low: at(0.5, -1.0)?,
-                median_high: at(0.5, 1.0)?,
-                high: at(p, -1.0)?,
-                ends: [*sorted.first()?, *sorted.last()?],
-            })
-        })();
+        let [low, high] = [at(1.0 - p, 1.0), at(p, -1.0)];
+        let [median_low, median_high] = [at(0.5, -1.0), at(0.5, 1.0)];
+        let ends = nth(0).zip(nth(count.saturating_sub(1)));
+        let windows = low.zip(high).zip(median_low.zip(median_high)).zip(ends);
+        let windows = windows.map(|(((low, high), (median_low, median_high)), (least, most))| {
+            Self { low, median_low, median_high, high, ends: [least, most] }
+        });
         match windows {
             Some(w) if w.low < w.median_low && w.median_high < w.high => w,
             _ => Self::ALL,
         }
+    }
+
+    /// The tails alone.
+    pub(crate) fn without_median(self) -> Self {
+        if self.keep_all() {
+            return self;
+        }
+        Self { median_low: f64::INFINITY, median_high: f64::NEG_INFINITY, ..self }
     }
 
     /// Whether all values are kept.

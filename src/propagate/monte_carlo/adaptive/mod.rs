@@ -24,6 +24,7 @@ mod watch;
 use watch::Watch;
 
 use super::block::Trials;
+use super::fold::Plan;
 use crate::distribution::BLOCK;
 use crate::distribution::special::student;
 use crate::propagate::Control;
@@ -98,8 +99,16 @@ pub(crate) fn find_trials(
 ) -> (u64, Vec<Adaptive>) {
     let size = search.block_trials();
     let watches = vec![Watch::default(); trials.outputs()];
-    let mut blocks =
-        Blocks { trials, search, control, size, most: search.most / size, made: 0, watches };
+    let mut blocks = Blocks {
+        trials,
+        search,
+        control,
+        size,
+        most: search.most / size,
+        made: 0,
+        fences: None,
+        watches,
+    };
     // of blocks larger than that the scatter cannot be told within the largest number of trials
     let (blocks_wanted, converged) = match search.rule {
         _ if blocks.most < 2 => (0, false),
@@ -127,6 +136,8 @@ struct Blocks<'a> {
     /// Their largest number.
     most: u64,
     made: u64,
+    /// Windows of the outputs, found with the first blocks.
+    fences: Option<Vec<Plan>>,
     watches: Vec<Watch>,
 }
 
@@ -136,7 +147,10 @@ impl Blocks<'_> {
         let numbers = self.made..self.made + count;
         let end = (numbers.end * self.size).div_ceil(BLOCK as u64);
         self.trials.hold(self.control.path, end, self.control.memory);
-        let found = blocks::figures(self.trials, numbers, self.size, self.search, self.control);
+        let (search, control) = (self.search, self.control);
+        let fences =
+            self.fences.get_or_insert_with(|| blocks::fences(self.trials, search, control));
+        let found = blocks::figures(self.trials, numbers, self.size, fences, search, control);
         for figures in found {
             self.made += 1;
             for (watch, figures) in self.watches.iter_mut().zip(figures) {

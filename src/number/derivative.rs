@@ -1,0 +1,76 @@
+//! The derivatives of the operations, for dual numbers and for columns of rows alike.
+
+use super::{Binary, Number, Unary, scalar};
+
+/// The derivative of an operation at `x`, where its result is `y`. At a kink it is that of JCGM
+/// use: of a modulus at 0 it is 0.
+#[inline(always)]
+pub(crate) fn unary(operation: Unary, x: f64, y: f64) -> f64 {
+    match operation {
+        Unary::Negate => -1.0,
+        Unary::Abs => {
+            if x == 0.0 {
+                0.0
+            } else {
+                x.signum()
+            }
+        }
+        Unary::Sqrt => 0.5 / y,
+        Unary::Cbrt => 1.0 / (3.0 * y * y),
+        Unary::Exp => y,
+        Unary::Ln => 1.0 / x,
+        Unary::Log10 => std::f64::consts::LOG10_E / x,
+        Unary::Sin => Number::cos(x),
+        Unary::Cos => -Number::sin(x),
+        Unary::Tan => 1.0 + y * y,
+        Unary::Asin => 1.0 / ((1.0 - x) * (1.0 + x)).sqrt(),
+        Unary::Acos => -1.0 / ((1.0 - x) * (1.0 + x)).sqrt(),
+        Unary::Atan => 1.0 / (1.0 + x * x),
+        Unary::Sinh => Number::cosh(x),
+        Unary::Cosh => Number::sinh(x),
+        // 1 - tanh^2 loses its digits where the hyperbolic tangent is near 1
+        Unary::Tanh => {
+            let c = Number::cosh(x);
+            1.0 / (c * c)
+        }
+    }
+}
+
+/// The derivatives of an operation by its operands `x` and `y`, where its result is `value`.
+///
+/// Of `min` and `max` they are 1 for the operand that is taken, at a tie the first one, and 0 for
+/// the other; of a comparison 0.
+#[inline(always)]
+pub(crate) fn binary(operation: Binary, x: f64, y: f64, value: f64) -> [f64; 2] {
+    match operation {
+        Binary::Add => [1.0, 1.0],
+        Binary::Subtract => [1.0, -1.0],
+        Binary::Multiply => [y, x],
+        Binary::Divide => [1.0 / y, -value / y],
+        Binary::Power => {
+            let by_base =
+                if y == 0.0 { 0.0 } else { y * scalar::binary(Binary::Power, x, y - 1.0) };
+            [by_base, value * Number::ln(x)]
+        }
+        Binary::Atan2 => {
+            // of atan2(x, y): the point is (y, x); divided one after the other so that the
+            // square of a small radius does not vanish
+            let radius = scalar::binary(Binary::Hypot, x, y);
+            [y / radius / radius, -x / radius / radius]
+        }
+        Binary::Hypot => [x / value, y / value],
+        // the operand that is taken; a comparison has no slope
+        Binary::Min if y < x => [0.0, 1.0],
+        Binary::Max if y > x => [0.0, 1.0],
+        Binary::Min | Binary::Max => [1.0, 0.0],
+        Binary::Less | Binary::LessOrEqual | Binary::Equal | Binary::NotEqual => [0.0, 0.0],
+    }
+}
+
+/// A derivative on its way through an operation: times the slope. One that is 0 stays 0 whatever the
+/// slope, so that an infinite slope of a constant part harms nobody.
+/// What comes out as 0 has no sign.
+#[inline(always)]
+pub(crate) fn chain(gradient: f64, slope: f64) -> f64 {
+    if gradient == 0.0 { 0.0 } else { gradient * slope + 0.0 }
+}
