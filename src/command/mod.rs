@@ -9,6 +9,7 @@ mod exit;
 mod gap;
 mod gap_check;
 mod models;
+mod observe;
 mod options;
 mod output;
 mod problems;
@@ -54,6 +55,8 @@ enum Command {
     Gap(gap::Gap),
     /// Check that diagnosis blindly at a case's own design: how far its answers can be trusted
     GapCheck(gap_check::GapCheck),
+    /// Take amplitudes, phases and delays with their uncertainties from raw recordings
+    Observe(observe::Observe),
     /// Print the JSON Schema of the files, for editors
     Schema(schema::Schema),
 }
@@ -72,6 +75,7 @@ pub fn main() -> ExitCode {
         Command::Diff(command) => command.execute(),
         Command::Gap(command) => command.execute(),
         Command::GapCheck(command) => command.execute(),
+        Command::Observe(command) => command.execute(),
         Command::Schema(command) => command.execute(),
     };
     match result {

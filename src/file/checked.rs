@@ -6,10 +6,11 @@ use super::certificate;
 use super::json;
 use super::model_file::{read_with, text_of};
 use super::problem::{Log, Problems};
+use super::recipe;
 use super::{Fault, Source};
 
-/// Checks a file: as a certificate or as a case of the gap diagnosis where it has a key that only
-/// those have, else as a model.
+/// Checks a file: as a certificate, a recipe or a case of the gap diagnosis where it has a key that
+/// only those have, else as a model.
 ///
 /// # Errors
 /// All mistakes of the file and of the files that it names, in the order of their places.
@@ -30,10 +31,13 @@ pub fn check(path: &Path) -> Result<(), Problems> {
 /// # Errors
 /// All mistakes of the text and of the files that it names, in the order of their places.
 pub fn check_text(name: &str, text: &str, folder: &Path) -> Result<(), Problems> {
-    let meant =
-        json::parse(&Source::new(name, text)).is_ok_and(|root| certificate::is_meant(&root));
-    if meant {
-        return certificate::read_text(name, text, folder).map(|_| ());
+    if let Ok(root) = json::parse(&Source::new(name, text)) {
+        if recipe::is_meant(&root) {
+            return recipe::check_text(name, text, folder);
+        }
+        if certificate::is_meant(&root) {
+            return certificate::read_text(name, text, folder).map(|_| ());
+        }
     }
     read_with(name, text, folder, (&[], None), |reader| reader.checked())
 }

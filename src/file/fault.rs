@@ -141,6 +141,10 @@ pub enum Fault {
     Certificate { reason: String },
     /// Not a day of the calendar.
     NotDate { key: &'static str, found: String },
+    /// A recipe whose parts do not fit.
+    Recipe { reason: String },
+    /// A recording that cannot be used, with its line or sample and channel.
+    Recording { reason: String },
     /// An override of the command line that does not fit.
     Override { text: String, reason: String },
 }
@@ -207,6 +211,8 @@ impl Fault {
             Self::Prior { .. } => "bad-prior",
             Self::Certificate { .. } => "bad-certificate",
             Self::NotDate { .. } => "not-a-date",
+            Self::Recipe { .. } => "bad-recipe",
+            Self::Recording { .. } => "bad-recording",
             Self::Override { .. } => "bad-override",
         }
     }
@@ -440,7 +446,9 @@ impl fmt::Display for Fault {
                  with a file of that row alone"
             ),
             Self::Evaluation { message } => f.write_str(message),
-            Self::Certificate { reason } => f.write_str(reason),
+            Self::Certificate { reason } | Self::Recipe { reason } | Self::Recording { reason } => {
+                f.write_str(reason)
+            }
             Self::NotDate { key, found } => {
                 write!(f, "`{key}` is `{found}`, but must be a day such as 2026-03-02")
             }

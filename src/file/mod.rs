@@ -27,6 +27,8 @@ mod outputs;
 mod paired;
 mod prior;
 mod problem;
+mod recipe;
+mod recording;
 mod result_file;
 mod results;
 mod samples;
@@ -55,6 +57,11 @@ pub use fault::Fault;
 pub use model_file::{ModelFile, Override, Overrides, read, read_text};
 pub use nearest::nearest;
 pub use problem::{Problem, Problems};
+pub use recipe::{
+    Condition, OpenedRow, RecipeFile, RecipeRow, read as read_recipe, read_text as read_recipe_text,
+};
+pub(crate) use recipe::{OWN as RECIPE_KEY, STEP_NAMES};
+pub use recording::Recording;
 pub use result_file::{ResultFile, SavedOutput, read_result};
 pub use source::Source;
 pub use variant::NotCopied;

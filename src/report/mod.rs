@@ -14,6 +14,7 @@ pub mod gap;
 mod html;
 mod json;
 pub mod number;
+pub mod observe;
 #[cfg(feature = "cli")]
 mod plot;
 mod samples;

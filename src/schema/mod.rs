@@ -7,6 +7,7 @@ mod case;
 mod certificate;
 mod model_file;
 mod node;
+mod recipe;
 mod result_file;
 mod shapes;
 mod values;
@@ -31,6 +32,7 @@ fn schema() -> Node {
     let mut definitions = model_file::definitions();
     definitions.extend(case::definitions());
     definitions.extend(certificate::definitions());
+    definitions.extend(recipe::definitions());
     definitions.extend(result_file::definitions());
     definitions.extend(shapes::definitions());
     definitions.extend(values::definitions());
@@ -43,7 +45,7 @@ fn schema() -> Node {
                 "Files of gumption, format 1. Model files: a measurement with what is known about \
                  its inputs, to be evaluated by the GUM and by Monte Carlo; with observations a case \
                  of the gap diagnosis. Certificate files: which results of which models are stated. \
-                 Result files: what an evaluation found, to be the input of another one.",
+                 Recipes: what is taken from which recordings. Result files: what an evaluation found, to be the input of another one.",
             ),
         ),
         ("if", with_key("result")),
@@ -51,9 +53,16 @@ fn schema() -> Node {
         (
             "else",
             object([
-                ("if", certificate::meant()),
-                ("then", reference("certificate")),
-                ("else", reference("model")),
+                ("if", recipe::meant()),
+                ("then", reference("recipe")),
+                (
+                    "else",
+                    object([
+                        ("if", certificate::meant()),
+                        ("then", reference("certificate")),
+                        ("else", reference("model")),
+                    ]),
+                ),
             ]),
         ),
         ("$defs", object(definitions)),

@@ -260,6 +260,20 @@ fn the_reader_knows_the_same_keys() {
     assert!(same("device", certificate("device", json!({"unknown": 1}))));
     assert!(same("party", certificate("customer", json!({"unknown": 1}))));
 
+    let recipe = |path: &[&str], value: Value| {
+        let mut file = json!({"recordings": {"r": {"file": "x.csv", "sampling_rate": 100}},
+            "channels": {"a": {"column": 1}}, "frequency": {"value": 5}});
+        *path.iter().fold(&mut file, |place, key| &mut place[key]) = value;
+        file
+    };
+    let unknown = || json!({"unknown": 1});
+    assert!(same("recipe", recipe(&["unknown"], json!(1))));
+    assert!(same("recording", recipe(&["recordings", "r"], unknown())));
+    assert!(same("channel", recipe(&["channels", "a"], unknown())));
+    assert!(same("recipe-frequency", recipe(&["frequency"], unknown())));
+    assert!(same("recipe-row", recipe(&["rows"], json!([{"unknown": 1}]))));
+    assert!(same("recipe-condition", recipe(&["conditions"], json!({"c": {"unknown": 1}}))));
+
     let mut read = 0;
     for shape in &SHAPES {
         for name in std::iter::once(&shape.name).chain(shape.aliases) {

@@ -12,7 +12,7 @@ use serde_json::Value;
 use crate::support::{command, file_name, root};
 
 /// Mistakes that `check` does not see, with the command that does.
-const COMMANDS: [(&str, &[&str]); 5] = [
+const COMMANDS: [(&str, &[&str]); 9] = [
     ("several_rows", &["diff", "good.result", "several_rows.json"]),
     ("run_undefined", &["run", "--trials", "1000", "run_undefined.json"]),
     ("certificate_undefined", &["certificate", "--trials", "1000", "certificate_undefined.json"]),
@@ -20,6 +20,10 @@ const COMMANDS: [(&str, &[&str]); 5] = [
         "certificate_dcc_incomplete",
         &["certificate", "--format", "dcc", "certificate_dcc_incomplete.json"],
     ),
+    ("recipe_above_nyquist", &["observe", "recipe_above_nyquist.json"]),
+    ("recipe_less_than_one_period", &["observe", "recipe_less_than_one_period.json"]),
+    ("recipe_step_not_possible", &["observe", "recipe_step_not_possible.json"]),
+    ("recipe_frequencies_too_near", &["observe", "recipe_frequencies_too_near.json"]),
     ("set_unknown_input", &["run", "--set", "y=2", "set_unknown_input.json"]),
 ];
 

@@ -21,6 +21,7 @@ mod gap_check;
 mod gap_examples;
 mod intervals;
 mod mutations;
+mod observe;
 mod reports;
 mod reproducible;
 mod results;

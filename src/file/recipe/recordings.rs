@@ -1,0 +1,122 @@
+//! The recordings of a recipe.
+
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+use super::super::Fault;
+use super::super::object::Object;
+use super::super::recording::{ColumnName, Conversion, Reading, Wanted};
+use super::channels::column;
+use super::check_name;
+use super::quantity::{positive, quantity, unit};
+use crate::observe::Measured;
+
+/// The keys of a recording.
+pub(super) const KEYS: [&str; 7] =
+    ["file", "sampling_rate", "time", "time_unit", "jitter", "from", "to"];
+
+/// A recording, as the recipe describes it.
+#[derive(Clone, Debug)]
+pub(super) struct RecordingFile {
+    pub(super) name: String,
+    pub(super) place: Range<usize>,
+    /// The file and where it is named, where it is the same for all rows.
+    pub(super) file: Option<(String, Range<usize>)>,
+    pub(super) from: Option<f64>,
+    pub(super) to: Option<f64>,
+    /// The rms deviation of instants, in seconds.
+    pub(super) jitter: f64,
+    folder: PathBuf,
+    rate: Option<Measured>,
+    time: Option<(ColumnName, f64)>,
+}
+
+pub(super) fn read(root: &Object<'_>, folder: &Path) -> Option<Vec<RecordingFile>> {
+    let member = root.required("recordings")?;
+    let object = Object::new(root.log, "`recordings`", &member.value, &member.key_span)?;
+    let mut recordings = Vec::new();
+    for member in object.members() {
+        check_name(root.log, &member.key, &member.key_span);
+        let Some(of) = Object::new(root.log, "a recording", &member.value, &member.key_span) else {
+            continue;
+        };
+        of.check_keys(&KEYS);
+        let rate = quantity(&of, "sampling_rate", "Hz");
+        let rate = rate.filter(|rate| positive(&of, "sampling_rate", rate)).map(|rate| Measured {
+            value: rate.si(),
+            standard_uncertainty: rate.si_uncertainty(),
+            degrees_of_freedom: f64::INFINITY,
+        });
+        let seconds = |key| quantity(&of, key, "s").map(|quantity| quantity.si());
+        let jitter = quantity(&of, "jitter", "s")
+            .filter(|jitter| jitter.value == 0.0 || positive(&of, "jitter", jitter));
+        let unit = unit(&of, "time_unit", "s");
+        if let (Some(unit), Some(member)) = (&unit, of.get("time_unit")) {
+            let second = crate::unit::Unit::parse("s").unwrap_or_default();
+            super::quantity::same_dimension(&of, member, unit, &second);
+            if of.get("time").is_none() {
+                let fault = Fault::OnlyWith { key: "time_unit", with: "time" };
+                root.log.report(&member.key_span, fault);
+            }
+        }
+        let time = of.get("time").and_then(|member| column(root.log, member));
+        let (from, to) = (seconds("from"), seconds("to"));
+        check_part(&of, from, to);
+        recordings.push(RecordingFile {
+            name: member.key.clone(),
+            place: member.key_span.clone(),
+            file: of
+                .text("file")
+                .zip(of.get("file").map(|m| m.value.span.clone()))
+                .map(|(name, place)| (name.to_owned(), place)),
+            from,
+            to,
+            jitter: jitter.map_or(0.0, |jitter| jitter.si()),
+            folder: folder.to_owned(),
+            rate,
+            time: time.zip(unit.map(|unit| unit.factor())),
+        });
+    }
+    if recordings.is_empty() && object.members().is_empty() {
+        root.log.report(&member.key_span, Fault::NoValues { name: "recordings".into() });
+    }
+    (recordings.len() == object.members().len()).then_some(recordings)
+}
+
+/// The part that is used must have a length.
+pub(super) fn check_part(object: &Object<'_>, from: Option<f64>, to: Option<f64>) {
+    if let (Some(from), Some(to)) = (from, to)
+        && to <= from
+        && let Some(member) = object.get("to")
+    {
+        let found = crate::number::Shortest(to);
+        let reason = format!(
+            "`to` is {found} s, but must be after `from`, {} s",
+            crate::number::Shortest(from)
+        );
+        object.log.report(&member.value.span, Fault::Recipe { reason });
+    }
+}
+
+impl RecordingFile {
+    /// How to read one of its files.
+    pub(super) fn reading(
+        &self,
+        name: &str,
+        channels: Vec<(Wanted, Conversion)>,
+        slowest: Option<f64>,
+        from: Option<f64>,
+        to: Option<f64>,
+    ) -> Reading {
+        Reading {
+            path: self.folder.join(name),
+            name: name.to_owned(),
+            channels,
+            time: self.time.clone(),
+            rate: self.rate,
+            from,
+            to,
+            slowest,
+        }
+    }
+}

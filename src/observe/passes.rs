@@ -1,0 +1,92 @@
+//! Going through the channels of a recording, block by block, as often as a step needs.
+
+use std::convert::Infallible;
+
+/// Frames of a block at most: a block of some channels fits the cache.
+pub const BLOCK: usize = 4096;
+
+/// What is called with each block: the number of its first frame, and the values of each channel.
+pub type Each<'e> = dyn FnMut(u64, &[&[f64]]) + 'e;
+
+/// Channels on one time base that can be gone through again and again in blocks of at most
+/// [`BLOCK`] frames, always the same.
+pub trait Passes {
+    /// Why values cannot be had.
+    type Error;
+
+    /// Frames (values of each channel) in all.
+    fn frames(&self) -> u64;
+
+    /// Goes through all frames, in order.
+    ///
+    /// # Errors
+    /// Where the values cannot be read (again).
+    fn pass(&mut self, each: &mut Each<'_>) -> Result<(), Self::Error>;
+}
+
+/// Channels held in memory, of equal length.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Held {
+    /// The values of each channel.
+    pub channels: Vec<Vec<f64>>,
+}
+
+impl Passes for Held {
+    type Error = Infallible;
+
+    fn frames(&self) -> u64 {
+        self.channels.first().map_or(0, Vec::len) as u64
+    }
+
+    fn pass(&mut self, each: &mut Each<'_>) -> Result<(), Infallible> {
+        in_blocks(&self.channels, each);
+        Ok(())
+    }
+}
+
+/// Goes through channels in memory in blocks.
+pub fn in_blocks(channels: &[Vec<f64>], each: &mut Each<'_>) {
+    let frames = channels.first().map_or(0, Vec::len);
+    for first in (0..frames).step_by(BLOCK) {
+        let end = (first + BLOCK).min(frames);
+        let block: Vec<&[f64]> =
+            channels.iter().map(|values| values.get(first..end).unwrap_or(&[])).collect();
+        each(first as u64, &block);
+    }
+}
+
+/// Some of the channels of a recording.
+#[derive(Debug)]
+pub(super) struct Selected<'p, P> {
+    pub(super) passes: &'p mut P,
+    /// Which channels, by their places.
+    pub(super) columns: &'p [usize],
+}
+
+impl<P: Passes> Passes for Selected<'_, P> {
+    type Error = P::Error;
+
+    fn frames(&self) -> u64 {
+        self.passes.frames()
+    }
+
+    fn pass(&mut self, each: &mut Each<'_>) -> Result<(), P::Error> {
+        let columns = self.columns;
+        self.passes.pass(&mut |first, channels| {
+            let chosen: Vec<&[f64]> =
+                columns.iter().map(|at| channels.get(*at).copied().unwrap_or(&[])).collect();
+            each(first, &chosen);
+        })
+    }
+}
+
+/// The values of some channels, in memory.
+pub(super) fn gathered<P: Passes>(passes: &mut P, columns: &[usize]) -> Result<Held, P::Error> {
+    let mut channels = vec![Vec::new(); columns.len()];
+    Selected { passes, columns }.pass(&mut |_, values| {
+        for (channel, values) in channels.iter_mut().zip(values) {
+            channel.extend_from_slice(values);
+        }
+    })?;
+    Ok(Held { channels })
+}

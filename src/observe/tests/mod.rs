@@ -1,0 +1,5 @@
+//! Fits against independent least squares, and studies of simulated recordings with known truth.
+
+mod least_squares;
+mod simulated;
+mod study;

@@ -1,0 +1,73 @@
+//! The page for a terminal.
+
+use super::{Observed, sheets};
+use crate::observe::Amplitude;
+use crate::report::number::exact;
+use crate::report::{Grid, WIDTH, wrapped};
+
+/// The observations as a page of text: for each row and frequency the components of every channel, and
+/// what is said of the channels as a whole.
+pub fn table(observed: &Observed<'_>) -> String {
+    let settings = observed.settings;
+    let mut page = String::new();
+    if let Some(title) = observed.title {
+        page += &wrapped(title);
+    }
+    let root = settings.reference.and_then(|place| settings.channels.get(place));
+    let phases = match root {
+        Some(channel) => format!("phases and delays against `{}`", channel.name),
+        None => "phases at the recording's instant 0".to_owned(),
+    };
+    let method = match settings.method {
+        crate::observe::Method::SineFit => "sine fit",
+        crate::observe::Method::Fft => "Fourier transform of whole periods",
+    };
+    page += &wrapped(&format!(
+        "{method}, {}, {phases}; u: standard uncertainty",
+        amplitude_words(settings.amplitude)
+    ));
+    for (values, channels) in observed.lines() {
+        let conditions = observed.conditions.iter().zip(values);
+        let mut at: Vec<String> = conditions
+            .map(|(of, value)| {
+                let unit = if of.unit.text() == "1" { "" } else { of.unit.text() };
+                format!("{} = {} {unit}", of.name, exact(*value)).trim_end().to_owned()
+            })
+            .collect();
+        let hertz = observed.hertz(channels).0;
+        at.push(format!("{} = {} Hz", observed.frequency, exact(hertz)));
+        page += &format!("\n{}\n\n", at.join(", "));
+        page += &Grid::of(&sheets::components(observed, channels)).render(WIDTH);
+        page.push('\n');
+        page += &Grid::of(&sheets::channels(observed, channels)).render(WIDTH);
+        for of in channels {
+            for finding in &of.findings {
+                let name = settings.channels.get(of.channel).map_or("", |c| c.name.as_str());
+                let (value, u) = crate::report::number::with_uncertainty(
+                    finding.value.value,
+                    finding.value.standard_uncertainty,
+                    2,
+                );
+                page += &wrapped(&format!(
+                    "`{name}`: {} {value} {}, u = {u}",
+                    finding.name, finding.unit
+                ));
+            }
+        }
+    }
+    if !observed.warnings.is_empty() {
+        page.push('\n');
+        for warning in observed.warnings {
+            page += &wrapped(&format!("Note: {}.", warning.text.trim_end_matches('.')));
+        }
+    }
+    page
+}
+
+/// What amplitudes are, in words.
+fn amplitude_words(amplitude: Amplitude) -> &'static str {
+    match amplitude {
+        Amplitude::Peak => "peak amplitudes",
+        Amplitude::Rms => "RMS amplitudes",
+    }
+}
