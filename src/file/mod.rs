@@ -10,6 +10,7 @@ mod catalogue;
 mod certificate;
 mod checked;
 mod comparison;
+mod condition_values;
 mod conditions;
 mod correlations;
 mod effects;
