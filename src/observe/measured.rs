@@ -11,3 +11,20 @@ pub struct Measured {
     /// known.
     pub degrees_of_freedom: f64,
 }
+
+/// A value whose standard uncertainty has independent parts, each with its degrees of freedom.
+///
+/// Source: JCGM 100, 5.1.2 and formula of Welch and Satterthwaite (G.4.1).
+pub(super) fn of_parts(value: f64, parts: &[(f64, f64)]) -> Measured {
+    let variance: f64 = parts.iter().map(|(u, _)| u * u).sum();
+    let scatter: f64 = parts.iter().map(|(u, freedom)| u * u * (u * u) / freedom).sum();
+    Measured {
+        value,
+        standard_uncertainty: variance.sqrt(),
+        degrees_of_freedom: if scatter > 0.0 {
+            variance * variance / scatter
+        } else {
+            f64::INFINITY
+        },
+    }
+}

@@ -12,38 +12,68 @@
 //! reference a phase is that at the recording's instant 0.
 
 mod analysis;
+mod butterworth;
+mod changed;
+mod correction;
+mod delay;
+mod derivative;
 mod dirichlet;
 mod frequency;
 mod measured;
+mod noise;
 mod observation;
 mod passes;
+mod periodic;
+mod phasor;
 mod polar;
-
+mod quantization;
 mod recipe;
 mod residuals;
-mod rounding;
+mod resimulation;
+mod rms;
+mod rotation;
 mod run;
+mod sampling_rate;
 mod signal;
 mod sine_fit;
+mod spectral;
 mod spurious;
 mod step;
+mod transform;
 mod trials;
 mod turns;
+mod unsuitable;
 mod values;
 mod whole_periods;
 
 pub use analysis::{MOST_HELD, Refused};
+pub use butterworth::{Band, Butterworth, Filter, Passage};
+pub use changed::Changed;
+pub use correction::{Correction, Response, ResponsePoint, corrected};
+pub use delay::{Agreement, CrossCorrelation, CrossPhase, CrossSpectrum, Delay, agreement};
+pub use derivative::Derivative;
 pub use measured::Measured;
+pub use noise::{Noise, NoiseGain, jitter_variance, quantization_variance};
 pub use observation::{ChannelObservation, Component, Observation, Source, Value};
 pub use passes::{BLOCK, Each, Held, Passes, in_blocks};
+pub use periodic::{Harmonics, Part, Periodic};
+pub use phasor::{Phasor, wrapped};
+pub use quantization::amplitude_error;
 pub use recipe::{Amplitude, Channel, Frequency, Method, PhaseUnit, Settings, TimeBase};
-pub use rounding::amplitude_error;
+pub use resimulation::{Colour, Resimulation, Scatter};
+pub use rms::{Improvement, Rms, RmsOf, improvement};
+pub use rotation::{Accelerations, Oscillation, Rotation};
 pub use run::{Track, observe};
+pub use sampling_rate::{Rate, RateSearch, sampling_rate};
 pub use signal::Signal;
 pub use sine_fit::{Coefficients, Design, NoFit, Tone};
+pub use spectral::Ends;
 pub use spurious::Spurious;
 pub use step::{Finding, Step, Stepped, Surroundings};
+pub use unsuitable::Unsuitable;
 pub use whole_periods::{WholePeriods, whole_periods};
 
+#[cfg(test)]
+mod study;
 #[cfg(test)]
 mod tests;

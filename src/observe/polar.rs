@@ -4,8 +4,8 @@ use std::f64::consts::PI;
 
 use super::analysis::{Analysed, Fundamental, local};
 use super::observation::Source;
+use super::quantization::amplitude_error;
 use super::recipe::Channel;
-use super::rounding::amplitude_error;
 use crate::number::elementary::{atan2, exp, hypot};
 
 /// A tone of a channel as A cos(2 pi f t + phi).
