@@ -22,6 +22,7 @@ mod gap_examples;
 mod intervals;
 mod mutations;
 mod observe;
+mod observe_steps;
 mod reports;
 mod reproducible;
 mod results;
