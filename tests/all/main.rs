@@ -23,6 +23,7 @@ mod intervals;
 mod mutations;
 mod observe;
 mod recordings;
+mod observe_steps;
 mod reports;
 mod reproducible;
 mod results;

@@ -24,7 +24,7 @@ use crate::task::Warning;
 use crate::unit::Unit;
 use channels::ChannelFile;
 use recordings::RecordingFile;
-pub(crate) use steps::NAMES as STEP_NAMES;
+pub(crate) use steps::ALL as STEPS;
 
 /// The keys of a recipe.
 const KEYS: [&str; 16] = [
@@ -315,8 +315,9 @@ impl RecipeFile {
                         rate: recording.rate,
                         start: recording.start,
                         jitter: file.jitter,
+                        beside_frequency: None,
                     };
-                    opened.tracks.push(Track { passes: recording, base, channels });
+                    opened.tracks.push(Track { passes: recording, base, channels, search: None });
                     opened.of.push(number);
                 }
                 Err(reason) => {
@@ -372,6 +373,7 @@ impl RecipeFile {
                 }
                 format!("{}: {reason}", place(*channel))
             }
+            Refused::Rate { channel, reason } => format!("{}: {reason}", place(*channel)),
             Refused::TooLong { channel, samples } => {
                 if let Some(of) = own {
                     span = of.place.clone();
@@ -397,6 +399,7 @@ fn refused_channel<E>(refused: &Refused<E>) -> usize {
         | Refused::NotApart { channel, .. }
         | Refused::NotFound { channel }
         | Refused::Step { channel, .. }
+        | Refused::Rate { channel, .. }
         | Refused::TooLong { channel, .. } => *channel,
     }
 }
