@@ -19,6 +19,7 @@ mod delay;
 mod derivative;
 mod dirichlet;
 mod effects;
+mod found;
 mod frequency;
 mod measured;
 mod noise;

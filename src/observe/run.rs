@@ -121,7 +121,7 @@ fn through_steps<P: Passes>(
         return Ok(None);
     }
     let reference = match settings.reference {
-        Some(reference) if steps.iter().any(Step::needs_reference) && reference != channel => {
+        Some(reference) if steps.iter().any(Step::takes_reference) && reference != channel => {
             match done.iter().find(|of| of.channel == reference) {
                 Some(of) => Some(signal(of.base, of.held.channels.first())),
                 None => held(tracks, reference)?
@@ -162,10 +162,21 @@ fn through_steps<P: Passes>(
             frequencies: frequencies.len(),
             multiples: highest,
             reference: reference.as_ref(),
+            resolution: if effects.is_empty() {
+                settings.channels[channel].resolution
+            } else {
+                0.0
+            },
         };
         let after = of.apply(now, surroundings).map_err(refused)?;
         now = after.signal;
-        findings.extend(after.findings);
+        // what a step finds in the channel's own unit
+        findings.extend(after.findings.into_iter().map(|mut finding| {
+            if finding.unit.is_empty() {
+                finding.unit = settings.channels[channel].unit.text().to_owned();
+            }
+            finding
+        }));
         if let (Some(effect), Some(before)) = (after.effect, &before) {
             let found = through_filter(settings, channel, of, &effect, before).map_err(refused)?;
             notes.extend(found.iter().map(|finding| not_corrected(settings, channel, finding)));

@@ -1,6 +1,7 @@
 //! The steps of a channel: what is done with its signal before amplitudes are taken.
 
 use super::effects::Effect;
+use super::found;
 use super::whole_periods::whole_periods;
 use super::{
     Butterworth, Correction, Derivative, Ends, Harmonics, Measured, Response, Rotation, Signal,
@@ -59,6 +60,14 @@ pub enum Step {
         /// The standard uncertainty of its delay, in seconds.
         of_delay: f64,
     },
+    /// The delay against the reference by cross-correlation and by the cross-spectrum, and their
+    /// agreement; the signal stays.
+    Delay {
+        /// Segments of the cross-spectrum; none: as many as there are periods, 2 to 32.
+        segments: Option<usize>,
+    },
+    /// The root mean square; the signal stays.
+    Rms,
 }
 
 /// What a step may use beside its signal.
@@ -72,6 +81,8 @@ pub struct Surroundings<'a> {
     pub multiples: u32,
     /// The signal of the reference channel, after its own steps.
     pub reference: Option<&'a Signal>,
+    /// The step that the values are rounded to, in their unit; 0 where it is not known.
+    pub resolution: f64,
 }
 
 /// What a step found beside the signal that it hands on.
@@ -114,17 +125,30 @@ impl Step {
             Self::Rotation { radial: true, .. } => "radial",
             Self::Rotation { radial: false, .. } => "tangential",
             Self::Correct { .. } => "correct",
+            Self::Delay { .. } => "delay",
+            Self::Rms => "rms",
         }
     }
 
     /// Whether it looks at the reference channel.
-    pub(super) fn needs_reference(&self) -> bool {
-        matches!(self, Self::Correct { .. })
+    pub(super) fn takes_reference(&self) -> bool {
+        matches!(self, Self::Correct { .. } | Self::Delay { .. })
+    }
+
+    /// Whether it cannot do without it.
+    pub fn needs_reference(&self) -> bool {
+        matches!(self, Self::Delay { .. })
     }
 
     /// Whether it changes amplitudes, phases or noise.
     pub(super) fn has_effect(&self) -> bool {
-        !matches!(self, Self::RemoveMean | Self::RemoveTrend | Self::WholePeriods)
+        matches!(
+            self,
+            Self::Filter { .. }
+                | Self::Derivative { .. }
+                | Self::Rotation { .. }
+                | Self::Correct { .. }
+        )
     }
 
     /// Does the step.
@@ -203,7 +227,13 @@ impl Step {
                 }
             }
             Self::Correct { response, of_gain, of_phase, of_delay } => {
-                let (between, ends) = ([0.0, f64::INFINITY], surroundings.ends(&signal)?);
+                let ends = surroundings.ends(&signal)?;
+                // what a high-pass took out near zero does not come back
+                let lowest = match response {
+                    Response::HighPasses(_) => surroundings.frequency / 2.0,
+                    _ => 0.0,
+                };
+                let between = [lowest, f64::INFINITY];
                 let correction = Correction { response: response.clone(), between, ends };
                 let after = correction.apply(&signal).map_err(|error| error.to_string())?;
                 let effect = Some(Effect::Corrected {
@@ -213,10 +243,21 @@ impl Step {
                     of_delay: *of_delay,
                 });
                 let findings = match surroundings.reference {
-                    Some(reference) => nearer(reference, &signal, &after.signal, surroundings),
+                    Some(reference) => {
+                        found::nearer(reference, &signal, &after.signal, surroundings)
+                    }
                     None => Vec::new(),
                 };
                 Ok(Stepped { signal: after.signal, findings, effect })
+            }
+            Self::Delay { segments } => {
+                let reference = surroundings.reference.ok_or("there is no reference signal")?;
+                let findings = found::delay(reference, &signal, surroundings, *segments)?;
+                Ok(Stepped { signal, findings, effect: None })
+            }
+            Self::Rms => {
+                let findings = found::rms(&signal, surroundings)?;
+                Ok(Stepped { signal, findings, effect: None })
             }
         }
     }
@@ -232,7 +273,7 @@ impl Surroundings<'_> {
         Ok(Ends::Periodic(self.harmonics(signal)))
     }
 
-    fn harmonics(&self, signal: &Signal) -> Harmonics {
+    pub(super) fn harmonics(&self, signal: &Signal) -> Harmonics {
         let below = (1..=self.multiples).rev().find(|multiple| {
             self.frequency * f64::from(*multiple) < 0.499 * signal.rate
                 && signal.values.len() > 2 * *multiple as usize + 3
@@ -251,31 +292,6 @@ impl Signal {
         self.values.iter_mut().for_each(|value| *value *= factor);
         Stepped { signal: self, findings: Vec::new(), effect: Some(effect) }
     }
-}
-
-/// The RMS difference from the reference before and after a correction, where the two were sampled
-/// together.
-fn nearer(
-    reference: &Signal,
-    before: &Signal,
-    after: &Signal,
-    surroundings: Surroundings<'_>,
-) -> Vec<Finding> {
-    let of = super::RmsOf {
-        harmonics: Some(surroundings.harmonics(before)),
-        noise: super::Noise::White,
-        resolution: 0.0,
-    };
-    let Ok(found) = super::improvement(reference, before, after, of) else { return Vec::new() };
-    let finding = |name: &str, value| Finding { name: name.to_owned(), unit: String::new(), value };
-    vec![
-        finding("RMS difference to the reference before the correction", found.before),
-        finding("RMS difference to the reference after the correction", found.after),
-        Finding {
-            unit: "1".to_owned(),
-            ..finding("reduction of the RMS difference", found.reduction)
-        },
-    ]
 }
 
 /// The signal less its mean, or less its straight line of least squares.
@@ -297,8 +313,13 @@ fn without_line(mut signal: Signal, trend: bool) -> Signal {
 mod tests {
     use super::*;
 
-    const ALONE: Surroundings<'_> =
-        Surroundings { frequency: 10.0, frequencies: 1, multiples: 5, reference: None };
+    const ALONE: Surroundings<'_> = Surroundings {
+        frequency: 10.0,
+        frequencies: 1,
+        multiples: 5,
+        reference: None,
+        resolution: 0.0,
+    };
 
     #[test]
     fn lines_and_part_periods_go() {

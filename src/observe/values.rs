@@ -252,7 +252,8 @@ fn distortion(
             multiple > 1 && multiple <= settings.harmonics && polar.gain >= LEAST_GAIN
         })
         .collect();
-    if above.is_empty() {
+    // of a square the first multiple is nothing to compare with
+    if above.is_empty() || analysed.effects.power_of_scale() > 1.0 {
         return None;
     }
     let noise = |polar: &Polar| polar.scatter.map(|s| s * s);

@@ -98,7 +98,13 @@ fn recipe() -> Node {
 fn recording() -> Node {
     let properties = vec![
         ("file", referenced("file", "CSV, WAV (`.wav`) or NumPy (`.npy`) file.")),
-        ("sampling_rate", referenced("quantity", "Sampling rate, in Hz unless told.")),
+        (
+            "sampling_rate",
+            object([
+                ("description", Node::from("Sampling rate, in Hz unless told; or how to find it.")),
+                ("anyOf", Node::List(vec![reference("quantity"), search()])),
+            ]),
+        ),
         ("time", referenced("column", "The column of instants.")),
         ("time_unit", referenced("unit", "Unit of the instants; s unless told.")),
         (
@@ -115,6 +121,23 @@ fn recording() -> Node {
         ("to", referenced("quantity", "Instant at which it ends.")),
     ];
     closed("A recording.", properties, &[])
+}
+
+/// The search for a sampling rate.
+fn search() -> Node {
+    let hertz = |about: &str| referenced("quantity", about);
+    let search = closed(
+        "The sampling rate at which an oscillation of known frequency is strongest.",
+        vec![
+            ("channel", text_of("The channel that has the oscillation.")),
+            ("frequency", hertz("Its frequency, in Hz unless told; the recipe's unless told.")),
+            ("from", hertz("The least rate that comes into question.")),
+            ("to", hertz("The greatest.")),
+            ("step", hertz("The step of the first look; 1 Hz unless told.")),
+        ],
+        &["channel", "from", "to"],
+    );
+    closed("A sampling rate that is searched.", vec![("search", search)], &["search"])
 }
 
 fn channel() -> Node {
@@ -194,6 +217,14 @@ fn step() -> Node {
                 .with("minItems", 1u64),
         ),
         ("high_passes", corners),
+        (
+            "segments",
+            whole(
+                "Segments of the cross-spectrum; one a period, 32 at most, unless told.",
+                2,
+                10_000,
+            ),
+        ),
     ];
     let whole = closed("A step with its parameters.", properties, &["step"]);
     object([

@@ -11,7 +11,7 @@ use crate::observe::{Band, Butterworth, Measured, Response, ResponsePoint, Step}
 use crate::unit::Unit;
 
 /// The names of the steps, and their keys beside `step`.
-pub(crate) const ALL: [(&str, &[&str]); 11] = [
+pub(crate) const ALL: [(&str, &[&str]); 13] = [
     ("remove-mean", &[]),
     ("remove-trend", &[]),
     ("whole-periods", &[]),
@@ -23,6 +23,8 @@ pub(crate) const ALL: [(&str, &[&str]); 11] = [
     ("tangential", &["radius", "unit", "highest"]),
     ("radial", &["radius", "unit", "highest"]),
     ("correct", &["gain", "phase", "delay", "response", "high_passes"]),
+    ("delay", &["segments"]),
+    ("rms", &[]),
 ];
 
 /// The keys of a point of a response.
@@ -54,6 +56,14 @@ fn step(name: &str, of: &Object<'_>, of_values: &Unit) -> Option<(Step, Unit)> {
         "derivative" | "integral" => derivative(of, of_values, name == "integral"),
         "tangential" | "radial" => rotation(of, of_values, name == "radial"),
         "correct" => same(correct(of)?),
+        "delay" => {
+            let segments = match of.get("segments") {
+                Some(_) => Some(usize::try_from(of.whole("segments", 2, 10_000)?).ok()?),
+                None => None,
+            };
+            same(Step::Delay { segments })
+        }
+        "rms" => same(Step::Rms),
         _ => None,
     }
 }

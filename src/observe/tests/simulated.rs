@@ -131,7 +131,7 @@ impl Bench {
             standard_uncertainty: self.frequency_uncertainty,
             estimate: self.estimate,
         };
-        let mut tracks = [Track { passes: held, base, channels }];
+        let mut tracks = [Track { passes: held, base, channels, search: None }];
         observe(&self.settings(), &[frequency], &mut tracks).unwrap()
     }
 }
