@@ -206,7 +206,7 @@ fn grid(object: &Object<'_>) -> Option<Conditions> {
 }
 
 fn from_table(object: &Object<'_>, file: &Member, folder: &Path) -> Option<Conditions> {
-    object.check_keys(&["file", "units"]);
+    object.check_keys(&["file", "units", "columns"]);
     let log = object.log;
     let name = object.text("file")?;
     let table = table::read(log, folder, name, &file.value.span);
@@ -235,6 +235,10 @@ fn from_table(object: &Object<'_>, file: &Member, folder: &Path) -> Option<Condi
             }
         }
     }
+    let table = match object.get("columns") {
+        Some(member) => only(object, member, table)?,
+        None => table,
+    };
     let mut without_unit = Vec::new();
     let quantities = table
         .columns
@@ -255,11 +259,49 @@ fn from_table(object: &Object<'_>, file: &Member, folder: &Path) -> Option<Condi
     Some(Conditions { quantities, places, rows, files, without_unit, unreadable: false })
 }
 
+/// The table with only those columns that are wanted, in their order.
+fn only(object: &Object<'_>, member: &Member, mut table: Table) -> Option<Table> {
+    let nodes = object.list("columns")?;
+    if nodes.is_empty() {
+        object.log.report(&member.value.span, Fault::NoValues { name: "columns".into() });
+        return None;
+    }
+    let mut places = Vec::new();
+    for node in nodes {
+        let Json::Text(name) = &node.value else {
+            let (what, found) = ("`columns`".to_owned(), node.value.kind());
+            let expected = "a list of names of columns";
+            object.log.report(&node.span, Fault::WrongType { what, found, expected });
+            return None;
+        };
+        match table.columns.iter().position(|column| *column == *name) {
+            Some(place) if places.contains(&place) => {
+                let reason = format!("the column `{name}` is named twice");
+                object.log.report(&node.span, Fault::Table { reason });
+                return None;
+            }
+            Some(place) => places.push(place),
+            None => {
+                let near = super::nearest(name, table.columns.iter().map(String::as_str));
+                let near = near.map(|near| format!("; did you mean `{near}`?")).unwrap_or_default();
+                let reason = format!("`{}` has no column `{name}`{near}", table.source.name);
+                object.log.report(&node.span, Fault::Table { reason });
+                return None;
+            }
+        }
+    }
+    table.columns = places.iter().map(|place| table.columns[*place].clone()).collect();
+    for row in &mut table.rows {
+        *row = places.iter().map(|place| row.get(*place).copied().unwrap_or(f64::NAN)).collect();
+    }
+    Some(table)
+}
+
 /// What parameters of effects see of the conditions: nothing.
 #[derive(Debug)]
 pub(super) struct NoConditions;
 
-impl super::inputs::Conditions for NoConditions {
+impl super::condition_values::ConditionValues for NoConditions {
     fn rows(&self) -> usize {
         1
     }

@@ -5,6 +5,7 @@ use std::ops::Range;
 use std::path::Path;
 
 use super::Fault;
+use super::condition_values::ConditionValues;
 use super::conditions::unit;
 use super::json::{Json, Member};
 use super::known::Known;
@@ -26,20 +27,6 @@ const MOST_VARIABLES: usize = 100_000;
 
 /// Keys of any input or component beside those of its distribution.
 const COMMON: [&str; 6] = ["distribution", "about", "type", "group", "unit", "per"];
-
-/// The conditions' values in one row, by name, in SI units; and how formulas of them are checked.
-pub(super) trait Conditions {
-    /// The number of rows.
-    fn rows(&self) -> usize;
-    /// Checks a formula of conditions for an estimate in `unit`.
-    fn check(&self, formula: &Formula, unit: &Unit) -> Result<(), Vec<Fault>>;
-    /// The formula's value in SI in a row.
-    fn value(&self, formula: &Formula, row: usize) -> f64;
-    /// The place of a condition of that name.
-    fn place(&self, name: &str) -> Option<usize>;
-    /// The names.
-    fn names(&self) -> Vec<String>;
-}
 
 /// What was read.
 #[derive(Debug, Default)]
@@ -74,7 +61,7 @@ enum Source {
 pub(super) fn read(
     log: &Log,
     member: &Member,
-    conditions: &dyn Conditions,
+    conditions: &dyn ConditionValues,
     overrides: &[Override],
     results: &Results<'_>,
 ) -> Option<Inputs> {
@@ -109,7 +96,7 @@ pub(super) fn read(
 struct Reader<'a, 'i> {
     object: Object<'a>,
     name: &'a str,
-    conditions: &'a dyn Conditions,
+    conditions: &'a dyn ConditionValues,
     moved: Option<&'a Override>,
     folder: &'a Path,
     results: &'a Results<'a>,
@@ -210,8 +197,8 @@ impl<'a> Reader<'a, '_> {
             return;
         };
         let samples = self.samples(&object, self.name, kind);
-        let results = self.results;
-        let fields = |estimate| Fields {
+        let (results, conditions) = (self.results, self.conditions);
+        let fields = |estimate, row| Fields {
             object,
             name: self.name,
             unit,
@@ -219,13 +206,16 @@ impl<'a> Reader<'a, '_> {
             share_of: None,
             samples: samples.as_ref(),
             results,
+            at: Some((conditions, row)),
         };
         let mut zero_width = Vec::new();
         let mut drawn: Vec<Distribution> = Vec::new();
-        let differs = matches!(source, Source::Formula(_));
+        let differs =
+            matches!(source, Source::Formula(_)) || shapes::has_width_of_row(&object, kind);
         for row in 0..if differs { self.conditions.rows() } else { 1 } {
             let estimate = self.estimate(&source, unit, row);
-            let Some(distribution) = estimate.and_then(|e| fields(e).distribution(kind)) else {
+            let Some(distribution) = estimate.and_then(|e| fields(e, row).distribution(kind))
+            else {
                 return;
             };
             if !["constant", "result"].contains(&kind.name) && distribution.constant().is_some() {
@@ -373,13 +363,16 @@ impl<'a> Reader<'a, '_> {
             }
             _ => None,
         };
+        let conditions = self.conditions;
+        let at = |row| (conditions, row);
         let of_readings =
-            match readings.first().map(|part| part.distribution(unit, 0.0, self.results)) {
+            match readings.first().map(|part| part.distribution(unit, 0.0, self.results, at(0))) {
                 Some(Some(distribution)) => distribution.mean(),
                 Some(None) => return,
                 None => 0.0,
             };
-        let differs = matches!(source, Source::Formula(_));
+        let differs = matches!(source, Source::Formula(_))
+            || parts.iter().any(|part| shapes::has_width_of_row(&part.object, part.kind));
         let mut drawn: Vec<Vec<Distribution>> = vec![Vec::new(); 1 + parts.len()];
         for row in 0..if differs { self.conditions.rows() } else { 1 } {
             let total = match self.estimate(&source, unit, row) {
@@ -387,8 +380,10 @@ impl<'a> Reader<'a, '_> {
                 Some(Estimate::Given(value)) => value,
                 None => return,
             };
-            let of_parts: Option<Vec<Distribution>> =
-                parts.iter().map(|part| part.distribution(unit, total, self.results)).collect();
+            let of_parts: Option<Vec<Distribution>> = parts
+                .iter()
+                .map(|part| part.distribution(unit, total, self.results, at(row)))
+                .collect();
             let base = Constant::new(total - of_readings)
                 .map_err(|error| Fault::Distribution { name: self.name.to_owned(), error });
             let base = object.log.value(object.place(), base);
@@ -471,13 +466,20 @@ struct Part<'a> {
 impl Part<'_> {
     /// Its distribution where the quantity's estimate is `total`, of which a share may be its
     /// width. A component's own mean is 0 unless it is given.
-    fn distribution(&self, unit: &Unit, total: f64, results: &Results<'_>) -> Option<Distribution> {
+    fn distribution(
+        &self,
+        unit: &Unit,
+        total: f64,
+        results: &Results<'_>,
+        at: (&dyn ConditionValues, usize),
+    ) -> Option<Distribution> {
         let own = !self.kind.is_about_zero()
             || ["mean", "value", "lower"].iter().any(|key| self.object.get(key).is_some());
         let estimate = if own { Estimate::Own } else { Estimate::Given(0.0) };
         let (object, name) = (self.object, self.full.as_str());
         let samples = self.samples.as_ref();
-        Fields { object, name, unit, estimate, share_of: Some(total), samples, results }
+        let (share_of, at) = (Some(total), Some(at));
+        Fields { object, name, unit, estimate, share_of, samples, results, at }
             .distribution(self.kind)
     }
 }

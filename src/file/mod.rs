@@ -10,6 +10,7 @@ mod catalogue;
 mod certificate;
 mod checked;
 mod comparison;
+mod condition_values;
 mod conditions;
 mod correlations;
 mod effects;
@@ -60,7 +61,7 @@ pub use problem::{Problem, Problems};
 pub use recipe::{
     Condition, OpenedRow, RecipeFile, RecipeRow, read as read_recipe, read_text as read_recipe_text,
 };
-pub(crate) use recipe::{OWN as RECIPE_KEY, STEP_NAMES};
+pub(crate) use recipe::{OWN as RECIPE_KEY, STEPS};
 pub use recording::Recording;
 pub use result_file::{ResultFile, SavedOutput, read_result};
 pub use source::Source;

@@ -6,6 +6,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::bytes;
+use super::condition_values::ConditionValues;
 use super::conditions::{self, Conditions};
 use super::inputs::{self, Inputs};
 use super::json::{Json, Member, Node};
@@ -866,12 +867,13 @@ fn condition_scope(conditions: &Conditions) -> Scope {
 }
 
 /// The conditions as estimates' formulas see them.
+#[derive(Debug)]
 struct ConditionSet<'c> {
     conditions: &'c Conditions,
     check_units: bool,
 }
 
-impl inputs::Conditions for ConditionSet<'_> {
+impl ConditionValues for ConditionSet<'_> {
     fn rows(&self) -> usize {
         self.conditions.rows.len()
     }

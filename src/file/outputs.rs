@@ -134,7 +134,7 @@ fn prior(tolerance: &Object<'_>, unit: &Unit, results: &Results<'_>) -> Option<D
     known.extend(kind.fields);
     object.check_keys(&known);
     let (estimate, name) = (Estimate::Own, "prior");
-    Fields { object, name, unit, estimate, share_of: None, samples: None, results }
+    Fields { object, name, unit, estimate, share_of: None, samples: None, results, at: None }
         .distribution(kind)
 }
 

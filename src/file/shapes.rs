@@ -3,6 +3,8 @@
 use std::ops::Range;
 
 use super::Fault;
+use super::condition_values::ConditionValues;
+use super::json::Json;
 use super::nearest::nearest;
 use super::object::Object;
 use super::results::Results;
@@ -12,6 +14,7 @@ use crate::distribution::{
     LogUniform, Lognormal, Normal, PoissonCount, Readings, Rectangular, Samples, StudentT,
     Trapezoidal, Triangular, special,
 };
+use crate::model::formula::Formula;
 use crate::unit::Unit;
 
 /// A shape that files can name: its canonical name, its other names, its fields.
@@ -135,6 +138,29 @@ pub(super) struct Fields<'a> {
     pub(super) samples: Option<&'a Samples>,
     /// The saved results that inputs name.
     pub(super) results: &'a Results<'a>,
+    /// The conditions and the row of them that this is for, where a width may be a formula of them.
+    pub(super) at: Option<(&'a dyn ConditionValues, usize)>,
+}
+
+/// The fields that are widths.
+const WIDTHS: [&str; 5] = ["std", "expanded", "scale", "half_width", "semi_range"];
+
+/// The formula of conditions that a width is: a text that begins with a name, as no specification
+/// does.
+fn formula_of_width(object: &Object<'_>, key: &str) -> Option<String> {
+    match &object.get(key)?.value.value {
+        Json::Text(text)
+            if text.trim_start().starts_with(|c: char| c.is_alphabetic() || c == '_') =>
+        {
+            Some(text.clone())
+        }
+        _ => None,
+    }
+}
+
+/// Whether a width of the object is a formula of conditions, so that it differs from row to row.
+pub(super) fn has_width_of_row(object: &Object<'_>, kind: &Kind) -> bool {
+    WIDTHS.iter().any(|key| kind.fields.contains(key) && formula_of_width(object, key).is_some())
 }
 
 impl<'a> Fields<'a> {
@@ -381,10 +407,53 @@ impl<'a> Fields<'a> {
     #[allow(clippy::option_option)]
     fn width(&self, key: &'static str, estimate: f64) -> Option<Option<f64>> {
         let member = self.object.required(key)?;
+        let at = self.at.filter(|(conditions, _)| !conditions.names().is_empty());
+        if let (Some(text), Some(at)) = (formula_of_width(&self.object, key), at) {
+            return self.width_of_row(key, &text, at);
+        }
         let read = Width::read(&member.value, self.name, key, self.unit);
         let width = self.object.log.value(&member.value.span, read)?;
         let value = width.at(self.share_of.unwrap_or(estimate));
         if value == 0.0 && width.is_relative_only() { Some(None) } else { Some(Some(value)) }
+    }
+
+    /// The width that a formula of conditions gives in a row; inside, `None` where it is 0.
+    #[allow(clippy::option_option)]
+    fn width_of_row(
+        &self,
+        key: &'static str,
+        text: &str,
+        (conditions, row): (&dyn ConditionValues, usize),
+    ) -> Option<Option<f64>> {
+        let (log, place) = (self.object.log, self.place_of(key));
+        let formula = Formula::parse(text).map_err(|error| Fault::Formula { error });
+        let formula = log.value(&place, formula)?;
+        if row == 0
+            && let Err(faults) = conditions.check(&formula, self.unit)
+        {
+            for mut fault in faults {
+                if let Fault::WrongDimension { name, .. } = &mut fault {
+                    key.clone_into(name);
+                }
+                log.report(&place, fault);
+            }
+            return None;
+        }
+        let width = self.unit.from_si(conditions.value(&formula, row));
+        if width == 0.0 {
+            return Some(None);
+        }
+        if width > 0.0 && width.is_finite() {
+            return Some(Some(width));
+        }
+        let (name, found) = (self.name.to_owned(), text.to_owned());
+        let reason = format!(
+            "it is {} in row {} of the conditions",
+            crate::number::Shortest(width),
+            row + 1
+        );
+        log.report(&place, Fault::Width { name, found, reason });
+        None
     }
 
     fn dof(&self) -> Option<f64> {

@@ -3,13 +3,17 @@
 use std::rc::Rc;
 
 use super::Measured;
+use super::effects::{Effects, KnownNoise};
 use super::frequency::{self, NoFrequency};
 use super::passes::{Held, Passes, Selected, gathered};
+use super::polar::shares;
+use super::quantization::amplitude_error;
 use super::recipe::{Frequency, Method, Settings, TimeBase};
 use super::residuals::{self, Residuals};
 use super::sine_fit::{Coefficients, Design, NoFit, Tone};
 use super::spurious::{self, Spurious};
 use super::whole_periods::whole_periods;
+use crate::number::elementary::hypot;
 
 /// Values of one channel that are held in memory at most (1 GiB): what a channel with steps, or of
 /// a recipe with `"method": "fft"`, may have.
@@ -59,6 +63,13 @@ pub enum Refused<E> {
         /// Why.
         reason: String,
     },
+    /// The sampling rate cannot be found.
+    Rate {
+        /// The channel that it was looked for in.
+        channel: usize,
+        /// Why.
+        reason: String,
+    },
     /// More values than are held in memory for a step or the Fourier transform.
     TooLong {
         /// The channel.
@@ -102,6 +113,16 @@ pub(super) struct Analysed {
     pub(super) residuals: Residuals,
     pub(super) fundamentals: Vec<Fundamental>,
     pub(super) spurious: Vec<Spurious>,
+    /// What the channel's steps did.
+    pub(super) effects: Rc<Effects>,
+}
+
+/// Steps that a channel went through.
+#[derive(Clone, Debug)]
+pub(super) struct Through {
+    pub(super) effects: Rc<Effects>,
+    /// The channel just before the first of them that has an effect.
+    pub(super) before: Analysed,
 }
 
 /// The channels of one time base.
@@ -114,6 +135,8 @@ pub(super) struct Group<'g> {
     pub(super) clock: usize,
     /// The channels, and the place of each among those of the passes.
     pub(super) channels: &'g [(usize, usize)],
+    /// The steps that they went through, if these have an effect.
+    pub(super) through: Option<&'g Through>,
 }
 
 impl Group<'_> {
@@ -201,8 +224,11 @@ impl Group<'_> {
 
     fn stated(&self, frequency: &Frequency, cycles: f64) -> Fundamental {
         let rate = self.base.rate;
-        let relative = rate.standard_uncertainty / rate.value;
         let known = !frequency.estimate && frequency.hertz.is_some();
+        // a rate that was found from this very frequency: cycles that the recording has
+        let first = self.frequencies.first().is_some_and(|first| first.hertz == frequency.hertz);
+        let beside = self.base.beside_frequency.filter(|_| known && first);
+        let relative = beside.unwrap_or(rate.standard_uncertainty) / rate.value;
         let hertz = Measured {
             value: cycles * rate.value,
             standard_uncertainty: if known { frequency.standard_uncertainty } else { 0.0 },
@@ -212,7 +238,7 @@ impl Group<'_> {
             cycles,
             turning: cycles,
             hertz,
-            of_stated: hertz.standard_uncertainty / rate.value,
+            of_stated: if beside.is_some() { 0.0 } else { hertz.standard_uncertainty / rate.value },
             of_estimate: 0.0,
             of_rate: if known { cycles * relative } else { 0.0 },
             of_cut: 0.0,
@@ -272,7 +298,15 @@ impl Group<'_> {
         let tones = self.tones(&fundamentals, samples)?;
         let design = Design::new(tones, samples).map_err(|no| self.refusal(no, samples))?;
         let mut fits = design.fit(passes).map_err(Refused::Unreadable)?;
-        let left = residuals::of(&design, passes, &mut fits).map_err(Refused::Unreadable)?;
+        let mut left = residuals::of(&design, passes, &mut fits).map_err(Refused::Unreadable)?;
+        if let Some(through) = self.through {
+            for (residuals, (channel, _)) in left.iter_mut().zip(self.channels) {
+                let resolution =
+                    self.settings.channels.get(*channel).map_or(0.0, |of| of.resolution);
+                let known = through.noise(&design, residuals, base.rate.value, resolution);
+                residuals.known = Some(known);
+            }
+        }
         let lead = self.lead().1;
         for (number, of) in fundamentals.iter_mut().enumerate() {
             let tone = |t: &Tone| t.fundamental == number && t.multiple == 1;
@@ -297,6 +331,7 @@ impl Group<'_> {
                 residuals,
                 fundamentals: fundamentals.clone(),
                 spurious,
+                effects: self.through.map_or_else(Rc::default, |of| of.effects.clone()),
             }
         });
         Ok(analysed.collect())
@@ -332,9 +367,60 @@ impl Group<'_> {
 /// The noise power near a tone over that of white noise of the same variance, where the residuals
 /// are not white and the record is long enough to tell; else 1.
 pub(super) fn local(residuals: &Residuals, tone: usize) -> f64 {
+    if let Some(KnownNoise { factors: Some(factors), .. }) = &residuals.known {
+        return factors.get(tone).copied().unwrap_or(1.0);
+    }
     match &residuals.local {
         Some(local) if residuals.correlated => local.get(tone).copied().unwrap_or(1.0),
         _ => 1.0,
+    }
+}
+
+impl Through {
+    /// The noise after the steps. Where it was white before them it is theirs; where it was not, it
+    /// is measured after them, or before them, or taken as even over what the steps let pass.
+    fn noise(&self, design: &Design, after: &Residuals, rate: f64, resolution: f64) -> KnownNoise {
+        let before = &self.before.residuals;
+        let frequencies: Vec<f64> =
+            [0.0].into_iter().chain(design.tones.iter().map(|tone| tone.cycles * rate)).collect();
+        let coloured = self.effects.coloured(design.samples, rate, &frequencies);
+        let over = |variance: f64| {
+            let over =
+                if after.variance > 0.0 { variance / after.variance } else { 1.0 / coloured.power };
+            if over.is_finite() { over } else { 1.0 }
+        };
+        let (level, tones) = coloured.densities.split_first().unwrap_or((&1.0, &[]));
+        let white = over(before.variance);
+        let even = 1.0 / coloured.power.max(f64::MIN_POSITIVE);
+        let (factors, freedom, scale) = match (&before.local, &after.local) {
+            _ if !before.correlated => (Some(white), before.degrees_of_freedom, white),
+            (Some(_), Some(_)) => (None, 0.0, white),
+            _ => (Some(even), (coloured.freedom - 3.0).max(1.0), even),
+        };
+        let shares = shares(&self.before, resolution);
+        let noise = (before.variance * (1.0 - shares[0] - shares[1]).max(0.0)).sqrt();
+        let rounding = if resolution > 0.0 {
+            amplitude_error(resolution, self.before.strongest().max(resolution), noise)
+        } else {
+            0.0
+        };
+        KnownNoise {
+            factors: factors.map(|factor| tones.iter().map(|d| factor * d).collect()),
+            freedom,
+            // a constant that is known to be zero, as after a derivative, is not uncertain
+            level: scale * level,
+            of_residuals: (coloured.freedom - 1.0 - 2.0 * tones.len() as f64).max(1.0),
+            shares,
+            rounding: tones.iter().map(|d| rounding * d.sqrt()).collect(),
+        }
+    }
+}
+
+impl Analysed {
+    /// The peak amplitude of the strongest tone.
+    pub(super) fn strongest(&self) -> f64 {
+        let tones = self.fit.cosines.iter().zip(&self.fit.sines);
+        tones.map(|(a, b)| hypot(*a, *b)).fold(0.0, f64::max)
     }
 }
 
@@ -351,6 +437,7 @@ pub(super) fn unreadable<E>(refused: Refused<std::convert::Infallible>) -> Refus
         Refused::NotApart { channel, samples } => Refused::NotApart { channel, samples },
         Refused::NotFound { channel } => Refused::NotFound { channel },
         Refused::Step { channel, step, reason } => Refused::Step { channel, step, reason },
+        Refused::Rate { channel, reason } => Refused::Rate { channel, reason },
         Refused::TooLong { channel, samples } => Refused::TooLong { channel, samples },
     }
 }

@@ -21,6 +21,14 @@ pub enum Source {
     Leakage,
     /// The scale of the channel.
     Scale,
+    /// The gain of a filter, by the frequency and the sampling rate.
+    Filter,
+    /// The gain of a derivative or an integral, by the frequency.
+    Derivative,
+    /// The radius of a rotation.
+    Radius,
+    /// The response that a signal was corrected for.
+    Correction,
 }
 
 impl Source {
@@ -34,6 +42,10 @@ impl Source {
             Self::SamplingRate => "sampling rate",
             Self::Leakage => "leakage",
             Self::Scale => "scale",
+            Self::Filter => "filter",
+            Self::Derivative => "derivative",
+            Self::Radius => "radius",
+            Self::Correction => "correction",
         }
     }
 }

@@ -2,8 +2,10 @@
 
 use std::f64::consts::PI;
 
+use super::Measured;
 use super::analysis::{Analysed, Fundamental, local};
 use super::observation::Source;
+use super::phasor::{angle, modulus};
 use super::quantization::amplitude_error;
 use super::recipe::Channel;
 use crate::number::elementary::{atan2, exp, hypot};
@@ -20,23 +22,31 @@ pub(super) struct Polar {
     /// Standard uncertainties of A and, in radians, of phi from the channel's own noise and the like:
     /// those that no other channel shares.
     pub(super) own: Vec<(Source, f64, f64)>,
+    /// Contributions of the channel's steps: source, to A and, in radians, to phi.
+    pub(super) steps: Vec<(Source, f64, f64)>,
+    /// The modulus of the gain that the factors of the fit are still to be divided by, as A is.
+    pub(super) gain: f64,
     /// The standard uncertainty of A from what it shares with others.
     pub(super) shared: Vec<(Source, f64)>,
     /// How phi moves with the cycles in a sample interval that the fit took, radians.
     pub(super) slope: f64,
-    /// Standard deviations of the factors of cosine and sine from noise of all kinds.
+    /// Standard deviations of the factors of cosine and sine, divided by the gain, from noise of all
+    /// kinds.
     pub(super) scatter: [f64; 2],
     /// The fundamental that the tone belongs to.
     pub(super) of: Fundamental,
 }
 
 /// Shares of the residuals' variance that are known to be quantization and jitter.
-fn shares(analysed: &Analysed, channel: &Channel) -> [f64; 2] {
+pub(super) fn shares(analysed: &Analysed, resolution: f64) -> [f64; 2] {
+    if let Some(known) = &analysed.residuals.known {
+        return known.shares;
+    }
     let variance = analysed.residuals.variance;
     if variance <= 0.0 {
         return [0.0, 0.0];
     }
-    let quantization = (channel.resolution * channel.resolution / 12.0 / variance).min(1.0);
+    let quantization = (resolution * resolution / 12.0 / variance).min(1.0);
     let jitter: f64 = (0..analysed.design.tones.len())
         .map(|tone| {
             let speed = speed(analysed, tone) * analysed.base.jitter;
@@ -77,19 +87,19 @@ pub(super) fn polar(
     let (ca, cb) = (a / size, b / size);
     let along = ca * ca * va + cb * cb * vb;
     let across = cb * cb * va + ca * ca * vb;
-    let [quantization, jitter] = shares(analysed, channel);
+    let [quantization, jitter] = shares(analysed, channel.resolution);
     let noise = (1.0 - quantization - jitter).max(0.0);
     // the slope is steep where the sine is small: a half of the share of an even spread of jitter
     // goes along, three halves across
     let (fore, aside) = if multiple == 1 { (0.5, 1.5) } else { (1.0, 1.0) };
     let before = (residuals.variance * noise).sqrt();
-    let rounding = if channel.resolution > 0.0 {
-        let main = (0..design.tones.len())
-            .map(|tone| hypot(fit.cosines[tone], fit.sines[tone]))
-            .fold(0.0, f64::max);
-        amplitude_error(channel.resolution, main.max(channel.resolution), before)
-    } else {
-        0.0
+    let rounding = match &residuals.known {
+        Some(known) => known.rounding.get(tone).copied().unwrap_or(0.0),
+        None if channel.resolution > 0.0 => {
+            let main = analysed.strongest();
+            amplitude_error(channel.resolution, main.max(channel.resolution), before)
+        }
+        None => 0.0,
     };
     let leakage = leakage(analysed, tone);
     let slope = design.slope(fit, fundamental);
@@ -124,21 +134,39 @@ pub(super) fn polar(
         (Source::Frequency, mistuned(of.of_stated).hypot(mistuned(of.of_estimate))),
         (Source::SamplingRate, mistuned(of.of_rate)),
         (Source::Leakage, mistuned(of.of_cut)),
-        (Source::Scale, amplitude * channel.scale_uncertainty),
+        (Source::Scale, amplitude * channel.scale_uncertainty * analysed.effects.power_of_scale()),
     ];
     let blur = speed(analysed, tone) * base.jitter;
     let cycles = of.turning * times;
+    // what the steps did, and what of it is still in the fit
+    let frequency = Measured {
+        value: of.hertz.value * times,
+        standard_uncertainty: of.hertz.standard_uncertainty * times,
+        ..of.hertz
+    };
+    let left = analysed.effects.left(frequency.value);
+    let gain = modulus(left);
+    let relative = base.rate.standard_uncertainty / base.rate.value;
+    let mut steps = analysed.effects.contributions(frequency, relative);
+    for (_, along, _) in &mut steps {
+        *along *= amplitude / gain;
+    }
+    for (_, along, _) in &mut own {
+        *along /= gain;
+    }
     Some(Polar {
         tone,
+        steps,
+        gain,
         // the mean of cos over normal jitter s is less by exp(-(2 pi f s)^2/2)
-        amplitude: amplitude * exp(blur * blur / 2.0),
-        phase: atan2(-b, a) - 2.0 * PI * (cycles * to_middle).fract(),
+        amplitude: amplitude * exp(blur * blur / 2.0) / gain,
+        phase: atan2(-b, a) - angle(left) - 2.0 * PI * (cycles * to_middle).fract(),
         own,
-        shared,
+        shared: shared.into_iter().map(|(source, u)| (source, u / gain)).collect(),
         slope: phase_slope - 2.0 * PI * times * to_middle,
         scatter: [
-            (va + square + leakage * leakage).sqrt(),
-            (vb + square + leakage * leakage).sqrt(),
+            (va + square + leakage * leakage).sqrt() / gain,
+            (vb + square + leakage * leakage).sqrt() / gain,
         ],
         of,
     })

@@ -109,6 +109,23 @@ pub struct TimeBase {
     pub start: f64,
     /// The rms deviation of instants from even spacing, in seconds.
     pub jitter: f64,
+    /// The part of the rate's standard uncertainty that is not the recipe's own frequency's, where
+    /// the rate was found from an oscillation of that frequency: both go together then.
+    pub beside_frequency: Option<f64>,
+}
+
+/// The search for a recording's sampling rate: that at which an oscillation of known frequency is
+/// strongest.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Search {
+    /// The channel that has the oscillation.
+    pub channel: usize,
+    /// Its frequency, in hertz; none: the recipe's first.
+    pub frequency: Option<Measured>,
+    /// The least and the greatest rate that come into question, in hertz.
+    pub between: [f64; 2],
+    /// The step of the first look, in hertz.
+    pub step: f64,
 }
 
 /// A channel: values of a quantity in a recording.
@@ -116,11 +133,11 @@ pub struct TimeBase {
 pub struct Channel {
     /// The name.
     pub name: String,
-    /// The unit of its values.
+    /// The unit of its values after the steps.
     pub unit: Unit,
-    /// The standard uncertainty of its scale, relative.
+    /// The standard uncertainty of its scale, relative, before the steps.
     pub scale_uncertainty: f64,
-    /// The resolution of its values, in its unit; 0 where it is not known.
+    /// The resolution of its values before the steps, in their unit; 0 where it is not known.
     pub resolution: f64,
     /// What is done with it before amplitudes are taken.
     pub steps: Vec<Step>,

@@ -1,5 +1,6 @@
 //! What a fit leaves: its size, whether it is white, and how strong it is near each tone.
 
+use super::effects::KnownNoise;
 use super::passes::Passes;
 use super::sine_fit::{Coefficients, Design, Sums, Waves, dot};
 
@@ -39,6 +40,19 @@ pub(super) struct Residuals {
     pub(super) cycles: Vec<(f64, f64)>,
     /// The first residuals.
     pub(super) first: Vec<f64>,
+    /// What is known of the noise otherwise, after steps that change it.
+    pub(super) known: Option<KnownNoise>,
+}
+
+impl Residuals {
+    /// Degrees of freedom of the noise near the tones.
+    pub(super) fn noise_freedom(&self) -> f64 {
+        match (&self.known, &self.local) {
+            (Some(KnownNoise { factors: Some(_), freedom, .. }), _) => *freedom,
+            (_, Some(_)) if self.correlated => 2.0 * (self.parts as f64 - 1.0),
+            _ => self.degrees_of_freedom,
+        }
+    }
 }
 
 /// The residuals of every channel; the fits are refined by what the residuals still have of the
@@ -197,6 +211,7 @@ impl Gathered {
             cycles: cycles.collect(),
             autocorrelation,
             first: self.first,
+            known: None,
         }
     }
 }

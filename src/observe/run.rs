@@ -1,12 +1,16 @@
 //! A row of a recipe: recordings in, observations out.
 
-use super::Signal;
-use super::analysis::{Analysed, Group, MOST_HELD, Refused, local, unreadable};
+use std::rc::Rc;
+
+use super::analysis::{Analysed, Group, MOST_HELD, Refused, Through, local, unreadable};
+use super::effects::{Effect, Effects};
 use super::observation::{ChannelObservation, Observation};
 use super::passes::{Held, Passes, gathered};
-use super::recipe::{Frequency, Method, Settings, TimeBase};
+use super::recipe::{Frequency, Method, Search, Settings, TimeBase};
+use super::search;
 use super::step::{Finding, Step, Surroundings};
 use super::values::observed;
+use super::{Measured, Signal};
 
 /// A recording with the channels that it holds.
 #[derive(Debug)]
@@ -17,6 +21,8 @@ pub struct Track<P> {
     pub base: TimeBase,
     /// The channels that it holds, by their places in the recipe.
     pub channels: Vec<usize>,
+    /// How the sampling rate is found in it, where it is.
+    pub search: Option<Search>,
 }
 
 /// A channel that went through its steps.
@@ -26,7 +32,12 @@ struct Stepped {
     base: TimeBase,
     held: Held,
     findings: Vec<Finding>,
+    through: Option<Through>,
+    notes: Vec<Note>,
 }
+
+/// A fixed short name, the channel, and the sentence.
+type Note = (&'static str, usize, String);
 
 /// Takes amplitudes, phases and what goes with them from the recordings of one row.
 ///
@@ -37,6 +48,7 @@ pub fn observe<P: Passes>(
     frequencies: &[Frequency],
     tracks: &mut [Track<P>],
 ) -> Result<Observation, Refused<P::Error>> {
+    let mut findings: Vec<(usize, Finding)> = search::rates(settings, frequencies, tracks)?;
     let mut stepped: Vec<Stepped> = Vec::new();
     for channel in in_order(settings) {
         if let Some(found) = through_steps(settings, frequencies, tracks, &stepped, channel)? {
@@ -55,25 +67,29 @@ pub fn observe<P: Passes>(
             continue;
         }
         let base = recording.base;
-        let group = Group { settings, frequencies, base, track, clock, channels: &plain };
+        let group =
+            Group { settings, frequencies, base, track, clock, channels: &plain, through: None };
         analysed.extend(group.analyse(&mut recording.passes)?);
         track += 1;
     }
-    let mut findings: Vec<(usize, Vec<Finding>)> = Vec::new();
+    let mut of_steps: Vec<Note> = Vec::new();
     for mut of in stepped {
         let channels = [(of.channel, 0)];
         let (base, clock) = (of.base, of.clock);
-        let group = Group { settings, frequencies, base, track, clock, channels: &channels };
+        let through = of.through.as_ref();
+        let group =
+            Group { settings, frequencies, base, track, clock, channels: &channels, through };
         analysed.extend(group.analyse(&mut of.held).map_err(unreadable)?);
-        findings.push((of.channel, of.findings));
+        findings.extend(of.findings.into_iter().map(|finding| (of.channel, finding)));
+        of_steps.extend(of.notes);
         track += 1;
     }
     analysed.sort_by_key(|of| of.channel);
     let reference =
         settings.reference.and_then(|channel| analysed.iter().find(|of| of.channel == channel));
     let found = |channel: usize| {
-        let of = findings.iter().find(|(of, _)| *of == channel);
-        of.map_or(Vec::new(), |(_, findings)| findings.clone())
+        let of = findings.iter().filter(|(of, _)| *of == channel);
+        of.map(|(_, finding)| finding.clone()).collect()
     };
     let at = |fundamental: usize| -> Vec<ChannelObservation> {
         let channels = analysed.iter();
@@ -82,7 +98,9 @@ pub fn observe<P: Passes>(
             .collect()
     };
     let count = if settings.method == Method::Fft { 1 } else { frequencies.len() };
-    Ok(Observation { frequencies: (0..count).map(at).collect(), notes: notes(settings, &analysed) })
+    let mut notes = notes(settings, &analysed);
+    notes.extend(of_steps);
+    Ok(Observation { frequencies: (0..count).map(at).collect(), notes })
 }
 
 /// The channels, the reference first.
@@ -103,7 +121,7 @@ fn through_steps<P: Passes>(
         return Ok(None);
     }
     let reference = match settings.reference {
-        Some(reference) if steps.iter().any(Step::needs_reference) && reference != channel => {
+        Some(reference) if steps.iter().any(Step::takes_reference) && reference != channel => {
             match done.iter().find(|of| of.channel == reference) {
                 Some(of) => Some(signal(of.base, of.held.channels.first())),
                 None => held(tracks, reference)?
@@ -113,29 +131,126 @@ fn through_steps<P: Passes>(
         _ => None,
     };
     let Some((clock, mut base, held)) = held(tracks, channel)? else { return Ok(None) };
-    let frequency = frequencies.first().and_then(|of| of.hertz).unwrap_or(0.0);
+    let mut frequency = frequencies.first().and_then(|of| of.hertz).unwrap_or(0.0);
+    let highest = settings.components.iter().copied().max().unwrap_or(1).max(settings.harmonics);
     let mut now = signal(base, held.channels.first());
-    let mut findings = Vec::new();
+    let (mut findings, mut notes) = (Vec::new(), Vec::new());
+    let mut effects: Vec<Effect> = Vec::new();
+    let mut before: Option<Analysed> = None;
     for (step, of) in steps.iter().enumerate() {
-        let surroundings = Surroundings { frequency, reference: reference.as_ref() };
-        let after = of.apply(now, surroundings).map_err(|reason| Refused::Step {
-            channel,
-            step,
-            reason,
-        })?;
-        now = after.signal;
-        for finding in &after.findings {
-            // a rate that a step found is the channel's from here on
-            if finding.value.value == now.rate {
-                base.rate = finding.value;
-            }
+        let refused = |reason| Refused::Step { channel, step, reason };
+        if of.has_effect() && before.is_none() {
+            base.start = now.start;
+            let channels = [(channel, 0)];
+            let group = Group {
+                settings,
+                frequencies,
+                base,
+                track: 0,
+                clock,
+                channels: &channels,
+                through: None,
+            };
+            let mut held = Held { channels: vec![now.values] };
+            before = group.analyse(&mut held).map_err(unreadable)?.pop();
+            now.values = held.channels.pop().unwrap_or_default();
+            let first = before.as_ref().and_then(|of| of.fundamentals.first());
+            frequency = first.map_or(frequency, |of| of.hertz.value);
         }
-        findings.extend(after.findings);
+        let surroundings = Surroundings {
+            frequency,
+            frequencies: frequencies.len(),
+            multiples: highest,
+            reference: reference.as_ref(),
+            resolution: if effects.is_empty() {
+                settings.channels[channel].resolution
+            } else {
+                0.0
+            },
+        };
+        let after = of.apply(now, surroundings).map_err(refused)?;
+        now = after.signal;
+        // what a step finds in the channel's own unit
+        findings.extend(after.findings.into_iter().map(|mut finding| {
+            if finding.unit.is_empty() {
+                finding.unit = settings.channels[channel].unit.text().to_owned();
+            }
+            finding
+        }));
+        if let (Some(effect), Some(before)) = (after.effect, &before) {
+            let found = through_filter(settings, channel, of, &effect, before).map_err(refused)?;
+            notes.extend(found.iter().map(|finding| not_corrected(settings, channel, finding)));
+            findings.extend(found);
+            effects.push(effect);
+        }
     }
     base.start = now.start;
-    base.rate.value = now.rate;
     let held = Held { channels: vec![now.values] };
-    Ok(Some(Stepped { channel, clock, base, held, findings }))
+    let through = before.map(|before| Through { effects: Rc::new(Effects(effects)), before });
+    Ok(Some(Stepped { channel, clock, base, held, findings, through, notes }))
+}
+
+/// The least gain of a filter at a component that is asked for.
+const LEAST_GAIN: f64 = 1e-4;
+
+/// What a filter does to the components that are asked for: a mistake where it takes one of them out,
+/// findings where its gain is not corrected.
+fn through_filter(
+    settings: &Settings,
+    channel: usize,
+    step: &Step,
+    effect: &Effect,
+    before: &Analysed,
+) -> Result<Vec<Finding>, String> {
+    let Effect::Filtered { filter, correct } = effect else { return Ok(Vec::new()) };
+    let mut findings = Vec::new();
+    let rate = before.base.rate;
+    for fundamental in &before.fundamentals {
+        for multiple in settings.components.iter().map(|multiple| f64::from(*multiple)) {
+            let of = fundamental.hertz;
+            let frequency = Measured {
+                value: of.value * multiple,
+                standard_uncertainty: of.standard_uncertainty * multiple,
+                ..of
+            };
+            let passage = filter.passage(frequency, rate.standard_uncertainty / rate.value);
+            let hertz = crate::number::Shortest(frequency.value);
+            if *correct && passage.gain.value < LEAST_GAIN {
+                return Err(format!(
+                    "the filter lets {:.1e} of the component at {hertz} Hz of channel `{}` pass; that \
+                     is too little to be corrected",
+                    passage.gain.value, settings.channels[channel].name
+                ));
+            }
+            if !*correct {
+                let times = settings.phase.in_radian();
+                let phase = Measured {
+                    value: passage.phase.value * times,
+                    standard_uncertainty: passage.phase.standard_uncertainty * times,
+                    ..passage.phase
+                };
+                let name = |what: &str| format!("{what} of the {} at {hertz} Hz", step.name());
+                let unit = settings.phase.name().to_owned();
+                findings.push(Finding {
+                    name: name("gain"),
+                    unit: "1".to_owned(),
+                    value: passage.gain,
+                });
+                findings.push(Finding { name: name("phase"), unit, value: phase });
+            }
+        }
+    }
+    Ok(findings)
+}
+
+/// What to bear in mind about a gain that is left in the answer.
+fn not_corrected(settings: &Settings, channel: usize, finding: &Finding) -> Note {
+    let unit = if finding.unit == "1" { "" } else { &finding.unit };
+    let text = format!(
+        "`{}`: {}, {:.6} {unit}",
+        settings.channels[channel].name, finding.name, finding.value.value
+    );
+    ("filter-not-corrected", channel, format!("{}, is not corrected", text.trim_end()))
 }
 
 fn signal(base: TimeBase, values: Option<&Vec<f64>>) -> Signal {
@@ -159,12 +274,13 @@ fn held<P: Passes>(tracks: &mut [Track<P>], channel: usize) -> Result<InMemory, 
 }
 
 /// What to bear in mind about fits.
-fn notes(settings: &Settings, analysed: &[Analysed]) -> Vec<(&'static str, usize, String)> {
+fn notes(settings: &Settings, analysed: &[Analysed]) -> Vec<Note> {
     let mut notes = Vec::new();
     for of in analysed {
         let name = &settings.channels[of.channel].name;
         let residuals = &of.residuals;
-        if residuals.correlated {
+        let expected = residuals.known.as_ref().is_some_and(|known| known.factors.is_some());
+        if residuals.correlated && !expected {
             let lag = residuals.autocorrelation.first().copied().unwrap_or(0.0);
             let way = if residuals.local.is_some() {
                 format!(

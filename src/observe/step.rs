@@ -1,8 +1,14 @@
 //! The steps of a channel: what is done with its signal before amplitudes are taken.
 
-use super::Measured;
-use super::Signal;
+use super::effects::Effect;
+use super::found;
 use super::whole_periods::whole_periods;
+use super::{
+    Butterworth, Correction, Derivative, Ends, Harmonics, Measured, Response, Rotation, Signal,
+};
+
+/// What may be left of a filter's start, of the signal's greatest distance from its mean.
+const TRANSIENT: f64 = 1e-6;
 
 /// A step of a channel, with its parameters.
 #[derive(Clone, Debug, PartialEq)]
@@ -13,6 +19,55 @@ pub enum Step {
     RemoveTrend,
     /// Only a whole number of periods of the recipe's frequency is kept, between zero crossings.
     WholePeriods,
+    /// A Butterworth filter; what feels its start, or its end if it runs both ways, is cut off.
+    Filter {
+        /// The filter.
+        filter: Butterworth,
+        /// Whether amplitudes and phases are divided by its gain.
+        correct: bool,
+    },
+    /// Derivatives or integrals by the spectrum.
+    Derivative {
+        /// How many derivatives; integrals are negative.
+        order: i32,
+        /// The highest frequency that is kept, in hertz; none: that of the multiples that are fitted.
+        highest: Option<f64>,
+        /// Units of the answer for one unit of the channel times s^-order.
+        factor: f64,
+    },
+    /// The tangential or the radial acceleration of a sensor on a table whose angle is recorded.
+    Rotation {
+        /// Whether it is the radial one.
+        radial: bool,
+        /// Distance of the sensor from the axis, in metres.
+        radius: Measured,
+        /// The highest frequency of the angle that is kept, in hertz; none: that of the multiples
+        /// that are fitted.
+        highest: Option<f64>,
+        /// Radians for one unit of the channel.
+        radians: f64,
+        /// Units of the answer for 1 m/s^2.
+        factor: f64,
+    },
+    /// The signal is divided by a known response.
+    Correct {
+        /// What it came through.
+        response: Response,
+        /// The relative standard uncertainty of its gain.
+        of_gain: f64,
+        /// The standard uncertainty of its phase, in radians.
+        of_phase: f64,
+        /// The standard uncertainty of its delay, in seconds.
+        of_delay: f64,
+    },
+    /// The delay against the reference by cross-correlation and by the cross-spectrum, and their
+    /// agreement; the signal stays.
+    Delay {
+        /// Segments of the cross-spectrum; none: as many as there are periods, 2 to 32.
+        segments: Option<usize>,
+    },
+    /// The root mean square; the signal stays.
+    Rms,
 }
 
 /// What a step may use beside its signal.
@@ -20,8 +75,14 @@ pub enum Step {
 pub struct Surroundings<'a> {
     /// The recipe's frequency, in hertz; the first where there are several, 0 where it is unknown.
     pub frequency: f64,
+    /// How many frequencies there are.
+    pub frequencies: usize,
+    /// The highest multiple that is fitted.
+    pub multiples: u32,
     /// The signal of the reference channel, after its own steps.
     pub reference: Option<&'a Signal>,
+    /// The step that the values are rounded to, in their unit; 0 where it is not known.
+    pub resolution: f64,
 }
 
 /// What a step found beside the signal that it hands on.
@@ -42,14 +103,52 @@ pub struct Stepped {
     pub signal: Signal,
     /// What was found.
     pub findings: Vec<Finding>,
+    /// What it did to oscillations and noise, where it did.
+    pub effect: Option<Effect>,
 }
 
 impl Step {
-    /// Whether it looks at the reference channel.
-    pub(super) fn needs_reference(&self) -> bool {
+    /// Its name in files.
+    pub fn name(&self) -> &'static str {
+        use super::Band;
         match self {
-            Self::RemoveMean | Self::RemoveTrend | Self::WholePeriods => false,
+            Self::RemoveMean => "remove-mean",
+            Self::RemoveTrend => "remove-trend",
+            Self::WholePeriods => "whole-periods",
+            Self::Filter { filter, .. } => match filter.band {
+                Band::LowPass(_) => "low-pass",
+                Band::HighPass(_) => "high-pass",
+                Band::BandPass(..) => "band-pass",
+            },
+            Self::Derivative { order, .. } if *order < 0 => "integral",
+            Self::Derivative { .. } => "derivative",
+            Self::Rotation { radial: true, .. } => "radial",
+            Self::Rotation { radial: false, .. } => "tangential",
+            Self::Correct { .. } => "correct",
+            Self::Delay { .. } => "delay",
+            Self::Rms => "rms",
         }
+    }
+
+    /// Whether it looks at the reference channel.
+    pub(super) fn takes_reference(&self) -> bool {
+        matches!(self, Self::Correct { .. } | Self::Delay { .. })
+    }
+
+    /// Whether it cannot do without it.
+    pub fn needs_reference(&self) -> bool {
+        matches!(self, Self::Delay { .. })
+    }
+
+    /// Whether it changes amplitudes, phases or noise.
+    pub(super) fn has_effect(&self) -> bool {
+        matches!(
+            self,
+            Self::Filter { .. }
+                | Self::Derivative { .. }
+                | Self::Rotation { .. }
+                | Self::Correct { .. }
+        )
     }
 
     /// Does the step.
@@ -57,7 +156,7 @@ impl Step {
     /// # Errors
     /// A sentence on why it cannot be done with this signal.
     pub fn apply(&self, signal: Signal, surroundings: Surroundings<'_>) -> Result<Stepped, String> {
-        let only = |signal| Ok(Stepped { signal, findings: Vec::new() });
+        let only = |signal| Ok(Stepped { signal, findings: Vec::new(), effect: None });
         match self {
             Self::RemoveMean => only(without_line(signal, false)),
             Self::RemoveTrend => only(without_line(signal, true)),
@@ -70,7 +169,128 @@ impl Step {
                 let start = signal.instant(part.first as f64);
                 only(Signal { values: values.unwrap_or(&[]).to_vec(), start, ..signal })
             }
+            Self::Filter { filter, correct } => {
+                let said = |error: super::Unsuitable| error.to_string();
+                let filter = filter.at(signal.rate).map_err(said)?;
+                let after = filter.apply(&signal, TRANSIENT);
+                let cut = after.settling + after.unsettling;
+                let signal = after.settled().map_err(|_| {
+                    format!(
+                        "the filter needs {cut} of the {} values until its start is forgotten; the \
+                         recording is too short for it",
+                        signal.values.len()
+                    )
+                })?;
+                let effect = Some(Effect::Filtered { filter, correct: *correct });
+                Ok(Stepped { signal, findings: Vec::new(), effect })
+            }
+            Self::Derivative { order, highest, factor } => {
+                let ends = surroundings.ends(&signal)?;
+                let highest = highest.unwrap_or_else(|| surroundings.highest());
+                let derivative = Derivative { order: *order, highest, ends };
+                let after = derivative.apply(&signal).map_err(|error| error.to_string())?;
+                let effect = Effect::Derived { derivative, factor: *factor, of_radius: 0.0 };
+                Ok(after.signal.scaled(*factor, effect))
+            }
+            Self::Rotation { radial, radius, highest, radians, factor } => {
+                let ends = surroundings.ends(&signal)?;
+                let highest = highest.unwrap_or_else(|| surroundings.highest());
+                let frequency = Measured { value: surroundings.frequency, ..*radius };
+                let rotation = Rotation { radius: *radius, frequency };
+                let mut angle = signal;
+                angle.values.iter_mut().for_each(|value| *value *= radians);
+                let [tangential, of_radius] =
+                    rotation.signals(&angle, highest, ends).map_err(|error| error.to_string())?;
+                let known = (radius.standard_uncertainty / radius.value).abs();
+                let derivative = |order| Derivative { order, highest, ends };
+                let factor_of_radius = factor * radius.value;
+                if *radial {
+                    let values = &of_radius.signal.values;
+                    let mean = values.iter().sum::<f64>() / values.len().max(1) as f64;
+                    // of a square of a sine the mean is half of the peak
+                    let speed = (2.0 * mean / radius.value).max(0.0).sqrt();
+                    let effect = Effect::Squared {
+                        derivative: derivative(1),
+                        factor: factor_of_radius * radians,
+                        of_radius: known,
+                        speed,
+                        frequency: surroundings.frequency,
+                    };
+                    Ok(of_radius.signal.scaled(*factor, effect))
+                } else {
+                    let effect = Effect::Derived {
+                        derivative: derivative(2),
+                        factor: factor_of_radius * radians,
+                        of_radius: known,
+                    };
+                    Ok(tangential.signal.scaled(*factor, effect))
+                }
+            }
+            Self::Correct { response, of_gain, of_phase, of_delay } => {
+                let ends = surroundings.ends(&signal)?;
+                // what a high-pass took out near zero does not come back
+                let lowest = match response {
+                    Response::HighPasses(_) => surroundings.frequency / 2.0,
+                    _ => 0.0,
+                };
+                let between = [lowest, f64::INFINITY];
+                let correction = Correction { response: response.clone(), between, ends };
+                let after = correction.apply(&signal).map_err(|error| error.to_string())?;
+                let effect = Some(Effect::Corrected {
+                    correction,
+                    of_gain: *of_gain,
+                    of_phase: *of_phase,
+                    of_delay: *of_delay,
+                });
+                let findings = match surroundings.reference {
+                    Some(reference) => {
+                        found::nearer(reference, &signal, &after.signal, surroundings)
+                    }
+                    None => Vec::new(),
+                };
+                Ok(Stepped { signal: after.signal, findings, effect })
+            }
+            Self::Delay { segments } => {
+                let reference = surroundings.reference.ok_or("there is no reference signal")?;
+                let findings = found::delay(reference, &signal, surroundings, *segments)?;
+                Ok(Stepped { signal, findings, effect: None })
+            }
+            Self::Rms => {
+                let findings = found::rms(&signal, surroundings)?;
+                Ok(Stepped { signal, findings, effect: None })
+            }
         }
+    }
+}
+
+impl Surroundings<'_> {
+    /// The oscillation and its multiples below half the rate, which are taken out of the signal
+    /// before the transform and put back after it.
+    fn ends(&self, signal: &Signal) -> Result<Ends, String> {
+        if self.frequencies > 1 {
+            return Err("this step takes one frequency in each row".to_owned());
+        }
+        Ok(Ends::Periodic(self.harmonics(signal)))
+    }
+
+    pub(super) fn harmonics(&self, signal: &Signal) -> Harmonics {
+        let below = (1..=self.multiples).rev().find(|multiple| {
+            self.frequency * f64::from(*multiple) < 0.499 * signal.rate
+                && signal.values.len() > 2 * *multiple as usize + 3
+        });
+        Harmonics { frequency: self.frequency, count: below.unwrap_or(1) as usize }
+    }
+
+    /// One multiple above the highest that is fitted.
+    fn highest(&self) -> f64 {
+        self.frequency * f64::from(self.multiples + 1)
+    }
+}
+
+impl Signal {
+    fn scaled(mut self, factor: f64, effect: Effect) -> Stepped {
+        self.values.iter_mut().for_each(|value| *value *= factor);
+        Stepped { signal: self, findings: Vec::new(), effect: Some(effect) }
     }
 }
 
@@ -93,7 +313,13 @@ fn without_line(mut signal: Signal, trend: bool) -> Signal {
 mod tests {
     use super::*;
 
-    const ALONE: Surroundings<'_> = Surroundings { frequency: 10.0, reference: None };
+    const ALONE: Surroundings<'_> = Surroundings {
+        frequency: 10.0,
+        frequencies: 1,
+        multiples: 5,
+        reference: None,
+        resolution: 0.0,
+    };
 
     #[test]
     fn lines_and_part_periods_go() {

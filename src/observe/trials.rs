@@ -44,7 +44,8 @@ pub(super) fn scatter(
         let [a, b] = polar.scatter;
         a * a + b * b
     };
-    let plain = |polar: &Polar| (fit.cosines[polar.tone], fit.sines[polar.tone]);
+    let plain =
+        |polar: &Polar| (fit.cosines[polar.tone] / polar.gain, fit.sines[polar.tone] / polar.gain);
     let square = |(a, b): (f64, f64)| a * a + b * b;
     let harmonics = || tones.iter().filter(|polar| analysed.design.tones[polar.tone].multiple > 1);
     let size = square(plain(first)).sqrt();

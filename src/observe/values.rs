@@ -11,6 +11,9 @@ use super::step::Finding;
 use super::trials::{Scatter, scatter};
 use crate::number::elementary::log10;
 
+/// The least gain of a filter at a multiple that counts as distortion.
+const LEAST_GAIN: f64 = 1e-3;
+
 /// What was found in a channel at one of the frequencies; `reference` is the analysis of the
 /// reference channel where there is one.
 pub(super) fn observed(
@@ -36,10 +39,7 @@ pub(super) fn observed(
     let drawn = (settings.trials > 0)
         .then(|| scatter(analysed, &channel.name, &tones, settings.seed, settings.trials));
     let residuals = &analysed.residuals;
-    let noise_dof = match &residuals.local {
-        Some(_) if residuals.correlated => 2.0 * (residuals.parts as f64 - 1.0),
-        _ => residuals.degrees_of_freedom,
-    };
+    let noise_dof = residuals.noise_freedom();
     let root = reference.and_then(|reference| {
         let channel = settings.channels.get(reference.channel)?;
         Some((reference, polar(reference, channel, fundamental, 1)?))
@@ -103,13 +103,25 @@ fn component(
     for (source, along, _) in &polar.own {
         join(&mut amplitude, *source, *along);
     }
+    for (source, along, _) in &polar.steps {
+        join(&mut amplitude, *source, *along);
+    }
     for (source, u) in &polar.shared {
         join(&mut amplitude, *source, *u);
     }
     let mut amplitude = Value::new(polar.amplitude, amplitude, noise_dof);
     if let Some((drawn, _)) = trials {
-        // trials know noise and the frequency; jitter and the scale are added as they are
-        let others = |(source, _): &&(Source, f64)| matches!(source, Source::Scale);
+        // trials know noise and the frequency; the scale and the steps are added as they are
+        let others = |(source, _): &&(Source, f64)| {
+            matches!(
+                source,
+                Source::Scale
+                    | Source::Filter
+                    | Source::Derivative
+                    | Source::Radius
+                    | Source::Correction
+            )
+        };
         let rest: f64 = amplitude.contributions.iter().filter(others).map(|(_, u)| u * u).sum();
         amplitude = amplitude.checked((drawn * drawn + rest).sqrt());
     }
@@ -151,6 +163,9 @@ fn phase(
         join(&mut parts, *source, *across);
     }
     let own: f64 = parts.iter().map(|(_, u)| u * u).sum();
+    for (source, _, across) in &polar.steps {
+        join(&mut parts, *source, *across);
+    }
     let of = polar.of;
     let mut value = polar.phase;
     // what one unit of each error does: cycles from the estimate, hertz as stated, relative rate
@@ -162,6 +177,9 @@ fn phase(
     if let Some((reference, root)) = root {
         value -= times * root.phase;
         for (source, _, across) in &root.own {
+            join(&mut parts, *source, times * across);
+        }
+        for (source, _, across) in &root.steps {
             join(&mut parts, *source, times * across);
         }
         // a tone of the same channel as the reference's shares none of its noise
@@ -206,9 +224,14 @@ fn offset(settings: &Settings, analysed: &Analysed, noise_dof: f64) -> Value {
     let scale = settings.channels.get(analysed.channel).map_or(0.0, |c| c.scale_uncertainty);
     // the noise at zero frequency over that of white noise, from the autocorrelation
     let slow = 1.0 + 2.0 * residuals.autocorrelation.iter().sum::<f64>();
-    let slow = if residuals.correlated { slow.max(0.1) } else { 1.0 };
+    let slow = match &residuals.known {
+        Some(known) => known.level,
+        None if residuals.correlated => slow.max(0.1),
+        None => 1.0,
+    };
     let noise = (residuals.variance * slow * analysed.design.even[(0, 0)]).sqrt();
     let value = analysed.fit.offset;
+    let scale = scale * analysed.effects.power_of_scale();
     let parts = vec![(Source::Noise, noise), (Source::Scale, value.abs() * scale)];
     Value::new(value, parts, noise_dof)
 }
@@ -226,10 +249,11 @@ fn distortion(
         .iter()
         .filter(|polar| {
             let multiple = analysed.design.tones[polar.tone].multiple;
-            multiple > 1 && multiple <= settings.harmonics
+            multiple > 1 && multiple <= settings.harmonics && polar.gain >= LEAST_GAIN
         })
         .collect();
-    if above.is_empty() {
+    // of a square the first multiple is nothing to compare with
+    if above.is_empty() || analysed.effects.power_of_scale() > 1.0 {
         return None;
     }
     let noise = |polar: &Polar| polar.scatter.map(|s| s * s);
@@ -278,7 +302,11 @@ fn ratio(analysed: &Analysed, tones: &[Polar], with_multiples: bool) -> Value {
     let decibel = 10.0 / LN_10;
     let correlation: f64 = residuals.autocorrelation.iter().map(|r| r * r).sum();
     let spread = if residuals.correlated { 1.0 + 2.0 * correlation } else { 1.0 };
-    let of_noise = (2.0 * spread / residuals.degrees_of_freedom).sqrt() * noise / disturbance;
+    let freedom = match &residuals.known {
+        Some(known) => known.of_residuals,
+        None => residuals.degrees_of_freedom / spread,
+    };
+    let of_noise = (2.0 / freedom).sqrt() * noise / disturbance;
     let of_multiples: f64 =
         above.map(|polar| 2.0 * power(&polar) * scatter(polar)).sum::<f64>().sqrt() / disturbance;
     let first = tones.first().map_or(0.0, |polar| {

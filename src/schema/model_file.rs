@@ -199,8 +199,14 @@ fn condition() -> Node {
 
 fn table_of_conditions() -> Node {
     let units = named("Units of the columns, 1 unless given.", reference("unit"));
-    let properties =
-        vec![("file", referenced("file", "A CSV file with a header of names.")), ("units", units)];
+    let columns = described("array", "The columns that are conditions, all unless given.")
+        .with("items", reference("name"))
+        .with("minItems", 1u64);
+    let properties = vec![
+        ("file", referenced("file", "A CSV file with a header of names.")),
+        ("units", units),
+        ("columns", columns),
+    ];
     closed("The rows of a table.", properties, &["file"])
 }
 

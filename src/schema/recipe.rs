@@ -98,7 +98,13 @@ fn recipe() -> Node {
 fn recording() -> Node {
     let properties = vec![
         ("file", referenced("file", "CSV, WAV (`.wav`) or NumPy (`.npy`) file.")),
-        ("sampling_rate", referenced("quantity", "Sampling rate, in Hz unless told.")),
+        (
+            "sampling_rate",
+            object([
+                ("description", Node::from("Sampling rate, in Hz unless told; or how to find it.")),
+                ("anyOf", Node::List(vec![reference("quantity"), search()])),
+            ]),
+        ),
         ("time", referenced("column", "The column of instants.")),
         ("time_unit", referenced("unit", "Unit of the instants; s unless told.")),
         (
@@ -115,6 +121,23 @@ fn recording() -> Node {
         ("to", referenced("quantity", "Instant at which it ends.")),
     ];
     closed("A recording.", properties, &[])
+}
+
+/// The search for a sampling rate.
+fn search() -> Node {
+    let hertz = |about: &str| referenced("quantity", about);
+    let search = closed(
+        "The sampling rate at which an oscillation of known frequency is strongest.",
+        vec![
+            ("channel", text_of("The channel that has the oscillation.")),
+            ("frequency", hertz("Its frequency, in Hz unless told; the recipe's unless told.")),
+            ("from", hertz("The least rate that comes into question.")),
+            ("to", hertz("The greatest.")),
+            ("step", hertz("The step of the first look; 1 Hz unless told.")),
+        ],
+        &["channel", "from", "to"],
+    );
+    closed("A sampling rate that is searched.", vec![("search", search)], &["search"])
 }
 
 fn channel() -> Node {
@@ -146,8 +169,64 @@ fn channel() -> Node {
 }
 
 fn step() -> Node {
-    let name = object([("enum", texts(file::STEP_NAMES))]);
-    let whole = closed("A step with its parameters.", vec![("step", name.clone())], &["step"]);
+    let name = object([("enum", texts(file::STEPS.map(|(name, _)| name)))]);
+    let hertz = |about: &str| referenced("quantity", about);
+    let corners = described("array", "Corner frequencies of high-passes of first order, in Hz.")
+        .with("items", object([("type", Node::from("number"))]))
+        .with("minItems", 1u64);
+    let point = closed(
+        "A point of a response.",
+        vec![
+            ("frequency", hertz("Its frequency, in Hz unless told.")),
+            ("gain", referenced("quantity", "Amplitude after over amplitude before.")),
+            ("phase", referenced("quantity", "Phase after less phase before, in deg unless told.")),
+        ],
+        &["frequency", "gain"],
+    );
+    let properties = vec![
+        ("step", name.clone()),
+        ("cutoff", hertz("Corner of a low-pass or high-pass filter, in Hz unless told.")),
+        ("low", hertz("Lower corner of a band-pass filter.")),
+        ("high", hertz("Upper corner of a band-pass filter.")),
+        (
+            "order",
+            whole("Poles of a filter: 6 unless told; even for a band-pass, 2 unless told.", 1, 24),
+        ),
+        ("both_ways", described("boolean", "Run the filter forward and backward: no phase shift.")),
+        (
+            "correct",
+            described(
+                "boolean",
+                "Divide amplitudes and phases by the filter's own gain; true unless told.",
+            ),
+        ),
+        ("times", whole("How many derivatives or integrals; 1 unless told.", 1, 4)),
+        ("unit", referenced("unit", "Unit of the values after the step.")),
+        (
+            "highest",
+            hertz("Highest frequency that is kept; one multiple above those fitted unless told."),
+        ),
+        ("radius", referenced("quantity", "Distance of the sensor from the axis, with its unit.")),
+        ("gain", referenced("quantity", "Gain that the signal is divided by.")),
+        ("phase", referenced("quantity", "Phase that is taken off, in deg unless told.")),
+        ("delay", referenced("quantity", "Delay that is taken off, in s unless told.")),
+        (
+            "response",
+            described("array", "Points of the response that the signal is divided by.")
+                .with("items", point)
+                .with("minItems", 1u64),
+        ),
+        ("high_passes", corners),
+        (
+            "segments",
+            whole(
+                "Segments of the cross-spectrum; one a period, 32 at most, unless told.",
+                2,
+                10_000,
+            ),
+        ),
+    ];
+    let whole = closed("A step with its parameters.", properties, &["step"]);
     object([
         ("description", Node::from("A step: its name, or an object with its name and parameters.")),
         ("anyOf", Node::List(vec![name, whole])),

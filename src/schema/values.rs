@@ -33,7 +33,8 @@ pub(super) fn definitions() -> Vec<(String, Node)> {
     let formula = text_of("A formula of conditions and constants, evaluated in SI units.");
     let specification = text_of(
         "A specification: terms of `x %` or `x ppm` (of the reading), `x % of VALUE UNIT` (of the \
-         range) and `VALUE UNIT`, joined by `+`. The terms add linearly.",
+         range) and `VALUE UNIT`, joined by `+`, which add linearly; or, in an input, a formula of \
+         conditions that begins with a name, evaluated in SI units.",
     );
     let definitions = [
         ("number", described("number", "A number in the quantity's unit.")),

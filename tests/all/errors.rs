@@ -12,7 +12,7 @@ use serde_json::Value;
 use crate::support::{command, file_name, root};
 
 /// Mistakes that `check` does not see, with the command that does.
-const COMMANDS: [(&str, &[&str]); 9] = [
+const COMMANDS: [(&str, &[&str]); 14] = [
     ("several_rows", &["diff", "good.result", "several_rows.json"]),
     ("run_undefined", &["run", "--trials", "1000", "run_undefined.json"]),
     ("certificate_undefined", &["certificate", "--trials", "1000", "certificate_undefined.json"]),
@@ -23,6 +23,11 @@ const COMMANDS: [(&str, &[&str]); 9] = [
     ("recipe_above_nyquist", &["observe", "recipe_above_nyquist.json"]),
     ("recipe_less_than_one_period", &["observe", "recipe_less_than_one_period.json"]),
     ("recipe_step_not_possible", &["observe", "recipe_step_not_possible.json"]),
+    ("recipe_filter_above_nyquist", &["observe", "recipe_filter_above_nyquist.json"]),
+    ("recipe_filter_too_long", &["observe", "recipe_filter_too_long.json"]),
+    ("recipe_filter_takes_it_out", &["observe", "recipe_filter_takes_it_out.json"]),
+    ("recipe_search_without_maximum", &["observe", "recipe_search_without_maximum.json"]),
+    ("recipe_search_of_estimate", &["observe", "recipe_search_of_estimate.json"]),
     ("recipe_frequencies_too_near", &["observe", "recipe_frequencies_too_near.json"]),
     ("set_unknown_input", &["run", "--set", "y=2", "set_unknown_input.json"]),
 ];

@@ -22,6 +22,8 @@ mod gap_examples;
 mod intervals;
 mod mutations;
 mod observe;
+mod observe_steps;
+mod recordings;
 mod reports;
 mod reproducible;
 mod results;

@@ -72,20 +72,20 @@ fn channel(log: &Log, member: &Member, recordings: &[RecordingFile]) -> Option<C
     let zero = of.number("offset").unwrap_or(0.0);
     let range = range(&of);
     let resolution = resolution(&of, range);
-    let (steps, step_places) = steps::read(&of)?;
+    let steps = steps::read(&of, own.as_ref()?)?;
     let (gain, scale_uncertainty) = scale?;
     Some(ChannelFile {
         channel: Channel {
             name: member.key.clone(),
-            unit: own?,
+            unit: steps.unit,
             scale_uncertainty,
             resolution: resolution * gain.abs(),
-            steps,
+            steps: steps.steps,
         },
         recording: recording?,
         gain,
         place: member.key_span.clone(),
-        step_places,
+        step_places: steps.places,
         column: column?,
         zero,
         range,

@@ -19,12 +19,14 @@ use super::problem::{Log, Problems};
 use super::recording::{self, Recording};
 use super::source::Source;
 use crate::model::formula;
-use crate::observe::{Amplitude, Frequency, Method, PhaseUnit, Refused, Settings, TimeBase, Track};
+use crate::observe::{
+    Amplitude, Frequency, Method, PhaseUnit, Refused, Search, Settings, TimeBase, Track,
+};
 use crate::task::Warning;
 use crate::unit::Unit;
 use channels::ChannelFile;
 use recordings::RecordingFile;
-pub(crate) use steps::NAMES as STEP_NAMES;
+pub(crate) use steps::ALL as STEPS;
 
 /// The keys of a recipe.
 const KEYS: [&str; 16] = [
@@ -92,6 +94,7 @@ pub struct RecipeFile {
     /// The file's text.
     pub source: Arc<Source>,
     recordings: Vec<RecordingFile>,
+    searches: Vec<Option<Search>>,
     channels: Vec<ChannelFile>,
 }
 
@@ -188,6 +191,11 @@ fn recipe(root: &Object<'_>, folder: &Path) -> Option<RecipeFile> {
     let (rows, conditions, frequency) =
         rows::read(root, recordings.as_deref().unwrap_or(&[]), method == Some(Method::Fft))?;
     let (recordings, channels) = (recordings?, channels?);
+    let searches = recordings.iter().enumerate().map(|(number, of)| {
+        of.search.as_ref().and_then(|of| of.resolved(root.log, number, &channels))
+    });
+    let searches = searches.collect();
+    check_references(root.log, &channels, reference?);
     let settings = Settings {
         channels: channels.iter().map(|file| file.channel.clone()).collect(),
         reference: reference?,
@@ -200,7 +208,17 @@ fn recipe(root: &Object<'_>, folder: &Path) -> Option<RecipeFile> {
         seed,
     };
     let source = root.log.source.clone();
-    Some(RecipeFile { title, settings, conditions, frequency, rows, source, recordings, channels })
+    Some(RecipeFile {
+        title,
+        settings,
+        conditions,
+        frequency,
+        rows,
+        source,
+        recordings,
+        searches,
+        channels,
+    })
 }
 
 /// One of a few names; the default where the key is not there, nothing after a mistake.
@@ -260,6 +278,24 @@ fn reference(root: &Object<'_>, channels: &[ChannelFile]) -> Option<Option<usize
     place.map(Some)
 }
 
+/// Steps that need a reference have one, and it is another channel.
+fn check_references(log: &Log, channels: &[ChannelFile], reference: Option<usize>) {
+    for (number, file) in channels.iter().enumerate() {
+        for (step, place) in file.channel.steps.iter().zip(&file.step_places) {
+            let reason = match reference {
+                _ if !step.needs_reference() => continue,
+                None => format!("the step `{}` needs a `reference`", step.name()),
+                Some(reference) if reference == number => format!(
+                    "the step `{}` compares a channel with the reference; this is the reference",
+                    step.name()
+                ),
+                Some(_) => continue,
+            };
+            log.report(place, Fault::Recipe { reason });
+        }
+    }
+}
+
 /// A name of a channel, recording or condition.
 fn check_name(log: &Log, name: &str, place: &Range<usize>) {
     if let Err(error) = formula::check_name(name) {
@@ -315,8 +351,10 @@ impl RecipeFile {
                         rate: recording.rate,
                         start: recording.start,
                         jitter: file.jitter,
+                        beside_frequency: None,
                     };
-                    opened.tracks.push(Track { passes: recording, base, channels });
+                    let search = self.searches.get(number).copied().flatten();
+                    opened.tracks.push(Track { passes: recording, base, channels, search });
                     opened.of.push(number);
                 }
                 Err(reason) => {
@@ -372,6 +410,13 @@ impl RecipeFile {
                 }
                 format!("{}: {reason}", place(*channel))
             }
+            Refused::Rate { channel, reason } => {
+                let recording = own.and_then(|of| self.recordings.get(of.recording));
+                if let Some(search) = recording.and_then(|of| of.search.as_ref()) {
+                    span = search.place.clone();
+                }
+                format!("{}: {reason}", place(*channel))
+            }
             Refused::TooLong { channel, samples } => {
                 if let Some(of) = own {
                     span = of.place.clone();
@@ -397,6 +442,7 @@ fn refused_channel<E>(refused: &Refused<E>) -> usize {
         | Refused::NotApart { channel, .. }
         | Refused::NotFound { channel }
         | Refused::Step { channel, .. }
+        | Refused::Rate { channel, .. }
         | Refused::TooLong { channel, .. } => *channel,
     }
 }

@@ -4,16 +4,32 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use super::super::Fault;
+use super::super::json::{Json, Member};
 use super::super::object::Object;
+use super::super::problem::Log;
 use super::super::recording::{ColumnName, Conversion, Reading, Wanted};
-use super::channels::column;
+use super::channels::{ChannelFile, column};
 use super::check_name;
 use super::quantity::{positive, quantity, unit};
-use crate::observe::Measured;
+use crate::observe::{Measured, Search};
 
 /// The keys of a recording.
 pub(super) const KEYS: [&str; 7] =
     ["file", "sampling_rate", "time", "time_unit", "jitter", "from", "to"];
+
+/// The keys of a search for the sampling rate.
+const SEARCH: [&str; 5] = ["channel", "frequency", "from", "to", "step"];
+
+/// The search for a sampling rate, as the recipe describes it.
+#[derive(Clone, Debug)]
+pub(super) struct SearchFile {
+    channel: String,
+    /// Where it is named.
+    pub(super) place: Range<usize>,
+    frequency: Option<Measured>,
+    between: [f64; 2],
+    step: f64,
+}
 
 /// A recording, as the recipe describes it.
 #[derive(Clone, Debug)]
@@ -27,6 +43,8 @@ pub(super) struct RecordingFile {
     /// The rms deviation of instants, in seconds.
     pub(super) jitter: f64,
     folder: PathBuf,
+    /// How the sampling rate is found, where it is.
+    pub(super) search: Option<SearchFile>,
     rate: Option<Measured>,
     time: Option<(ColumnName, f64)>,
 }
@@ -41,7 +59,14 @@ pub(super) fn read(root: &Object<'_>, folder: &Path) -> Option<Vec<RecordingFile
             continue;
         };
         of.check_keys(&KEYS);
-        let rate = quantity(&of, "sampling_rate", "Hz");
+        let search = search(&of);
+        let found = search.as_ref().map(|of| Measured {
+            value: f64::midpoint(of.between[0], of.between[1]),
+            standard_uncertainty: 0.0,
+            degrees_of_freedom: f64::INFINITY,
+        });
+        let rate =
+            if searched(&of).is_some() { None } else { quantity(&of, "sampling_rate", "Hz") };
         let rate = rate.filter(|rate| positive(&of, "sampling_rate", rate)).map(|rate| Measured {
             value: rate.si(),
             standard_uncertainty: rate.si_uncertainty(),
@@ -73,7 +98,8 @@ pub(super) fn read(root: &Object<'_>, folder: &Path) -> Option<Vec<RecordingFile
             to,
             jitter: jitter.map_or(0.0, |jitter| jitter.si()),
             folder: folder.to_owned(),
-            rate,
+            rate: rate.or(found),
+            search,
             time: time.zip(unit.map(|unit| unit.factor())),
         });
     }
@@ -81,6 +107,86 @@ pub(super) fn read(root: &Object<'_>, folder: &Path) -> Option<Vec<RecordingFile
         root.log.report(&member.key_span, Fault::NoValues { name: "recordings".into() });
     }
     (recordings.len() == object.members().len()).then_some(recordings)
+}
+
+/// The search within `sampling_rate`, if there is one.
+fn searched<'a>(of: &Object<'a>) -> Option<(&'a Member, &'a [Member])> {
+    match &of.get("sampling_rate")?.value.value {
+        Json::Object(members) => {
+            members.iter().find(|member| member.key == "search").map(|m| (m, &members[..]))
+        }
+        _ => None,
+    }
+}
+
+fn search(of: &Object<'_>) -> Option<SearchFile> {
+    let (member, all) = searched(of)?;
+    if let Some(other) = all.iter().find(|other| other.key != "search") {
+        let fault = Fault::UnknownKey {
+            key: other.key.clone(),
+            what: "a sampling rate that is searched",
+            nearest: None,
+            known: vec!["search".into()],
+        };
+        of.log.report(&other.key_span, fault);
+    }
+    let of = Object::new(of.log, "a search", &member.value, &member.key_span)?;
+    of.check_keys(&SEARCH);
+    let place = of.required("channel").map(|member| member.value.span.clone());
+    let channel = of.text("channel")?.to_owned();
+    let hertz = |key: &'static str| {
+        let found = quantity(&of, key, "Hz")?;
+        positive(&of, key, &found).then_some(found)
+    };
+    let frequency = match of.get("frequency") {
+        Some(_) => {
+            let found = hertz("frequency")?;
+            Some(Measured {
+                value: found.si(),
+                standard_uncertainty: found.si_uncertainty(),
+                degrees_of_freedom: f64::INFINITY,
+            })
+        }
+        None => None,
+    };
+    let step = if of.get("step").is_some() { hertz("step")?.si() } else { 1.0 };
+    of.required("from")?;
+    of.required("to")?;
+    let (from, to) = (hertz("from")?.si(), hertz("to")?.si());
+    if to <= from {
+        let reason = format!(
+            "`to` is {} Hz, but must be above `from`, {} Hz",
+            crate::number::Shortest(to),
+            crate::number::Shortest(from)
+        );
+        of.log.report(&of.get("to")?.value.span, Fault::Recipe { reason });
+        return None;
+    }
+    Some(SearchFile { channel, place: place?, frequency, between: [from, to], step })
+}
+
+impl SearchFile {
+    /// The search, in one of the channels of its recording.
+    pub(super) fn resolved(
+        &self,
+        log: &Log,
+        recording: usize,
+        channels: &[ChannelFile],
+    ) -> Option<Search> {
+        let at =
+            |file: &ChannelFile| file.channel.name == self.channel && file.recording == recording;
+        let channel = channels.iter().position(at);
+        if channel.is_none() {
+            let reason = format!("this recording has no channel `{}`", self.channel);
+            log.report(&self.place, Fault::Recipe { reason });
+        }
+        Some(Search {
+            channel: channel?,
+            frequency: self.frequency,
+            between: self.between,
+            step: self.step,
+        })
+    }
 }
 
 /// The part that is used must have a length.

@@ -124,14 +124,14 @@ impl Bench {
             standard_uncertainty: self.rate_uncertainty,
             degrees_of_freedom: f64::INFINITY,
         };
-        let base = TimeBase { rate, start: 0.0, jitter: self.jitter };
+        let base = TimeBase { rate, start: 0.0, jitter: self.jitter, beside_frequency: None };
         let channels = (0..held.channels.len()).collect();
         let frequency = Frequency {
             hertz: Some(self.hertz),
             standard_uncertainty: self.frequency_uncertainty,
             estimate: self.estimate,
         };
-        let mut tracks = [Track { passes: held, base, channels }];
+        let mut tracks = [Track { passes: held, base, channels, search: None }];
         observe(&self.settings(), &[frequency], &mut tracks).unwrap()
     }
 }

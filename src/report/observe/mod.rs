@@ -102,6 +102,17 @@ impl Observed<'_> {
             add("periods".into(), "1", &|of| {
                 Some((of.periods.value, of.periods.standard_uncertainty))
             });
+            // what steps found, as far as all lines have it
+            let found = self.lines().next().and_then(|(_, channels)| {
+                Some(&channels.iter().find(|of| of.channel == place)?.findings)
+            });
+            for finding in found.into_iter().flatten() {
+                let plain = |c: char| if c.is_ascii_alphanumeric() { c } else { '_' };
+                add(finding.name.chars().map(plain).collect(), &finding.unit, &|of| {
+                    let same = of.findings.iter().find(|other| other.name == finding.name)?;
+                    Some((same.value.value, same.value.standard_uncertainty))
+                });
+            }
         }
         figures
     }

@@ -2,7 +2,7 @@
 
 use super::{Observed, sheets};
 use crate::observe::Amplitude;
-use crate::report::number::exact;
+use crate::report::number::{exact, significant, with_uncertainty};
 use crate::report::{Grid, WIDTH, wrapped};
 
 /// The observations as a page of text: for each row and frequency the components of every channel, and
@@ -43,15 +43,16 @@ pub fn table(observed: &Observed<'_>) -> String {
         for of in channels {
             for finding in &of.findings {
                 let name = settings.channels.get(of.channel).map_or("", |c| c.name.as_str());
-                let (value, u) = crate::report::number::with_uncertainty(
-                    finding.value.value,
-                    finding.value.standard_uncertainty,
-                    2,
-                );
-                page += &wrapped(&format!(
-                    "`{name}`: {} {value} {}, u = {u}",
-                    finding.name, finding.unit
-                ));
+                let (estimate, u) = (finding.value.value, finding.value.standard_uncertainty);
+                let unit = if finding.unit == "1" { "" } else { &finding.unit };
+                let said = if u > 0.0 {
+                    let (value, u) = with_uncertainty(estimate, u, 2);
+                    format!("{value} {unit}, u = {u}")
+                } else {
+                    format!("{} {unit}", significant(estimate, 6))
+                };
+                let said = said.replace(" ,", ",");
+                page += &wrapped(&format!("`{name}`: {} {}", finding.name, said.trim_end()));
             }
         }
     }

@@ -1,0 +1,115 @@
+//! What steps find in a signal beside what they hand on: root mean squares, delays, and how much
+//! nearer to the reference a correction brings it.
+
+use super::step::{Finding, Surroundings};
+use super::{
+    CrossCorrelation, CrossSpectrum, Measured, Noise, RmsOf, Signal, Unsuitable, agreement,
+    improvement,
+};
+
+/// A finding; without a unit it is in the channel's.
+fn finding(name: &str, unit: &str, value: Measured) -> Finding {
+    Finding { name: name.to_owned(), unit: unit.to_owned(), value }
+}
+
+/// A number without uncertainty.
+fn number(value: f64) -> Measured {
+    Measured { value, standard_uncertainty: 0.0, degrees_of_freedom: f64::INFINITY }
+}
+
+/// The root mean square about the mean, and that of the oscillation and its multiples.
+pub(super) fn rms(signal: &Signal, surroundings: Surroundings<'_>) -> Result<Vec<Finding>, String> {
+    let of = of(signal, surroundings).rms(signal).map_err(|error| error.to_string())?;
+    let mut findings = vec![finding("RMS", "", of.alternating)];
+    findings.extend(of.periodic.map(|value| finding("RMS of the multiples", "", value)));
+    Ok(findings)
+}
+
+fn of(signal: &Signal, surroundings: Surroundings<'_>) -> RmsOf {
+    RmsOf {
+        harmonics: Some(surroundings.harmonics(signal)),
+        noise: Noise::White,
+        resolution: surroundings.resolution,
+    }
+}
+
+/// The RMS difference from the reference before and after a correction, where the two were sampled
+/// together.
+pub(super) fn nearer(
+    reference: &Signal,
+    before: &Signal,
+    after: &Signal,
+    surroundings: Surroundings<'_>,
+) -> Vec<Finding> {
+    let common = |signal: &Signal| common(reference, signal);
+    let found = match (common(before), common(after)) {
+        (Ok([reference, before]), Ok([_, after])) => {
+            let of = RmsOf { resolution: 0.0, ..of(&before, surroundings) };
+            improvement(&reference, &before, &after, of)
+        }
+        _ => return Vec::new(),
+    };
+    let Ok(found) = found else { return Vec::new() };
+    vec![
+        finding("RMS difference before correction", "", found.before),
+        finding("RMS difference after correction", "", found.after),
+        finding("reduction of RMS difference", "1", found.reduction),
+    ]
+}
+
+/// The delay against the reference by cross-correlation, phase and delay by the cross-spectrum, and
+/// the normalized error of the two delays.
+pub(super) fn delay(
+    reference: &Signal,
+    signal: &Signal,
+    surroundings: Surroundings<'_>,
+    segments: Option<usize>,
+) -> Result<Vec<Finding>, String> {
+    let said = |error: Unsuitable| error.to_string();
+    let [reference, signal] = common(reference, signal).map_err(said)?;
+    let frequency = surroundings.frequency;
+    let harmonics = surroundings.harmonics(&signal);
+    let correlated = CrossCorrelation::Periodic(harmonics).of(&reference, &signal).map_err(said)?;
+    let periods = 0.99 * frequency * signal.duration();
+    let segments = segments.unwrap_or((periods as usize).clamp(2, 32));
+    let spectrum = CrossSpectrum { frequency, segments };
+    let crossed = spectrum.of(&reference, &signal).map_err(said)?;
+    let agreed = agreement(correlated.delay, crossed.delay, correlated.period);
+    let degrees = 180.0 / std::f64::consts::PI;
+    let phase = Measured {
+        value: crossed.phase.value * degrees,
+        standard_uncertainty: crossed.phase.standard_uncertainty * degrees,
+        ..crossed.phase
+    };
+    Ok(vec![
+        finding("delay by cross-correlation", "s", correlated.delay),
+        finding("coefficient of correlation", "1", number(correlated.correlation)),
+        finding("phase by cross-spectrum", "deg", phase),
+        finding("delay by cross-spectrum", "s", crossed.delay),
+        finding("coherence", "1", number(crossed.coherence)),
+        finding("normalized error of the delays", "1", number(agreed.normalized_error)),
+    ])
+}
+
+/// The parts of two signals of one clock that were taken at the same instants.
+fn common(a: &Signal, b: &Signal) -> Result<[Signal; 2], Unsuitable> {
+    let apart = (b.start - a.start) * a.rate;
+    // the rounding of instants after an hour at 1 MHz
+    if a.rate != b.rate || (apart - apart.round()).abs() > 1e-3 {
+        return Err(Unsuitable::NotTogether {
+            samples: [a.values.len(), b.values.len()],
+            rates: [a.rate, b.rate],
+        });
+    }
+    let apart = apart.round();
+    let (of_a, of_b) = (apart.max(0.0) as usize, (-apart).max(0.0) as usize);
+    let [left_a, left_b] =
+        [a.values.len().saturating_sub(of_a), b.values.len().saturating_sub(of_b)];
+    let length = left_a.min(left_b);
+    let part = |signal: &Signal, first: usize| Signal {
+        values: signal.values.get(first..first + length).unwrap_or(&[]).to_vec(),
+        rate: signal.rate,
+        start: 0.0,
+    };
+    Ok([part(a, of_a), part(b, of_b)])
+}
