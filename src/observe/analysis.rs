@@ -407,7 +407,6 @@ impl Through {
         KnownNoise {
             factors: factors.map(|factor| tones.iter().map(|d| factor * d).collect()),
             freedom,
-            // a constant that is known to be zero, as after a derivative, is not uncertain
             level: scale * level,
             of_residuals: (coloured.freedom - 1.0 - 2.0 * tones.len() as f64).max(1.0),
             shares,

@@ -126,7 +126,7 @@ fn search(of: &Object<'_>) -> Option<SearchFile> {
             key: other.key.clone(),
             what: "a sampling rate that is searched",
             nearest: None,
-            known: vec!["search".into()],
+            known: vec!["search"],
         };
         of.log.report(&other.key_span, fault);
     }
