@@ -188,8 +188,11 @@ fn plane(seed: u64) -> Result<Vec<u8>, Box<dyn Error>> {
     })
 }
 
+/// Files with their content.
+type Files = Vec<(String, Vec<u8>)>;
+
 /// The recordings: path in `models/recordings` and content.
-pub(crate) fn recordings() -> Result<Vec<(String, Vec<u8>)>, Box<dyn Error>> {
+pub(crate) fn recordings() -> Result<Files, Box<dyn Error>> {
     let mut made = Vec::new();
     for (seed, (hertz, angle)) in (1..).zip(truth::TABLE) {
         made.push((format!("rotating_table/encoder_{hertz}hz.wav"), encoder(seed, hertz, angle)?));
