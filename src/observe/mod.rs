@@ -12,42 +12,31 @@
 //! reference a phase is that at the recording's instant 0.
 
 mod analysis;
-mod butterworth;
-mod changed;
-mod correction;
-mod delay;
-mod derivative;
-mod dirichlet;
 mod effects;
+mod fit;
 mod found;
-mod frequency;
 mod measured;
-mod noise;
 mod observation;
 mod passes;
-mod periodic;
 mod phasor;
-mod polar;
-mod quantization;
 mod recipe;
-mod residuals;
-mod resimulation;
-mod rms;
-mod rotation;
 mod run;
-mod sampling_rate;
 mod search;
 mod signal;
-mod sine_fit;
-mod spectral;
-mod spurious;
 mod step;
-mod transform;
+mod steps;
 mod trials;
-mod turns;
 mod unsuitable;
 mod values;
-mod whole_periods;
+
+use fit::{
+    dirichlet, frequency, periodic, polar, quantization, residuals, sine_fit, spurious, turns,
+    whole_periods,
+};
+use steps::{
+    butterworth, changed, correction, delay, derivative, noise, resimulation, rms, rotation,
+    sampling_rate, spectral, transform,
+};
 
 pub use analysis::{MOST_HELD, Refused};
 pub use butterworth::{Band, Butterworth, Filter, Passage};

@@ -2,43 +2,43 @@
 
 use std::f64::consts::PI;
 
-use super::Measured;
-use super::analysis::{Analysed, Fundamental, local};
-use super::observation::Source;
-use super::phasor::{angle, modulus};
-use super::quantization::amplitude_error;
-use super::recipe::Channel;
 use crate::number::elementary::{atan2, exp, hypot};
+use crate::observe::Measured;
+use crate::observe::analysis::{Analysed, Fundamental, local};
+use crate::observe::observation::Source;
+use crate::observe::phasor::{angle, modulus};
+use crate::observe::quantization::amplitude_error;
+use crate::observe::recipe::Channel;
 
 /// A tone of a channel as A cos(2 pi f t + phi).
 #[derive(Clone, Debug)]
-pub(super) struct Polar {
+pub(in crate::observe) struct Polar {
     /// Its place among the tones of the design.
-    pub(super) tone: usize,
+    pub(in crate::observe) tone: usize,
     /// A, corrected for jitter.
-    pub(super) amplitude: f64,
+    pub(in crate::observe) amplitude: f64,
     /// phi at the recording's instant 0, in radians, not wrapped.
-    pub(super) phase: f64,
+    pub(in crate::observe) phase: f64,
     /// Standard uncertainties of A and, in radians, of phi from the channel's own noise and the like:
     /// those that no other channel shares.
-    pub(super) own: Vec<(Source, f64, f64)>,
+    pub(in crate::observe) own: Vec<(Source, f64, f64)>,
     /// Contributions of the channel's steps: source, to A and, in radians, to phi.
-    pub(super) steps: Vec<(Source, f64, f64)>,
+    pub(in crate::observe) steps: Vec<(Source, f64, f64)>,
     /// The modulus of the gain that the factors of the fit are still to be divided by, as A is.
-    pub(super) gain: f64,
+    pub(in crate::observe) gain: f64,
     /// The standard uncertainty of A from what it shares with others.
-    pub(super) shared: Vec<(Source, f64)>,
+    pub(in crate::observe) shared: Vec<(Source, f64)>,
     /// How phi moves with the cycles in a sample interval that the fit took, radians.
-    pub(super) slope: f64,
+    pub(in crate::observe) slope: f64,
     /// Standard deviations of the factors of cosine and sine, divided by the gain, from noise of all
     /// kinds.
-    pub(super) scatter: [f64; 2],
+    pub(in crate::observe) scatter: [f64; 2],
     /// The fundamental that the tone belongs to.
-    pub(super) of: Fundamental,
+    pub(in crate::observe) of: Fundamental,
 }
 
 /// Shares of the residuals' variance that are known to be quantization and jitter.
-pub(super) fn shares(analysed: &Analysed, resolution: f64) -> [f64; 2] {
+pub(in crate::observe) fn shares(analysed: &Analysed, resolution: f64) -> [f64; 2] {
     if let Some(known) = &analysed.residuals.known {
         return known.shares;
     }
@@ -63,15 +63,16 @@ fn speed(analysed: &Analysed, tone: usize) -> f64 {
 }
 
 /// The tone `multiple` of a fundamental; none if it is not fitted.
-pub(super) fn polar(
+pub(in crate::observe) fn polar(
     analysed: &Analysed,
     channel: &Channel,
     fundamental: usize,
     multiple: u32,
 ) -> Option<Polar> {
     let Analysed { design, fit, residuals, base, .. } = analysed;
-    let wanted =
-        |tone: &super::sine_fit::Tone| tone.fundamental == fundamental && tone.multiple == multiple;
+    let wanted = |tone: &crate::observe::sine_fit::Tone| {
+        tone.fundamental == fundamental && tone.multiple == multiple
+    };
     let tone = design.tones.iter().position(wanted)?;
     let of = *analysed.fundamentals.get(fundamental)?;
     let (a, b) = (fit.cosines[tone], fit.sines[tone]);
@@ -182,7 +183,7 @@ fn leakage(analysed: &Analysed, tone: usize) -> f64 {
         let sin = crate::number::elementary::sin(PI * apart).abs() * samples;
         if sin > 1.0 { 1.0 / sin } else { 1.0 }
     };
-    let of = |spurious: &super::spurious::Spurious| {
+    let of = |spurious: &crate::observe::spurious::Spurious| {
         let (near, far) = (envelope(spurious.cycles - cycles), envelope(spurious.cycles + cycles));
         spurious.amplitude * spurious.amplitude * (near * near + far * far) / 4.0
     };
@@ -190,7 +191,7 @@ fn leakage(analysed: &Analysed, tone: usize) -> f64 {
 }
 
 /// An angle in radians brought above -pi to pi.
-pub(super) fn wrapped(angle: f64) -> f64 {
+pub(in crate::observe) fn wrapped(angle: f64) -> f64 {
     let turns = angle / (2.0 * PI);
     let rest = angle - 2.0 * PI * (turns - 0.5).ceil();
     if rest <= -PI { rest + 2.0 * PI } else { rest }

@@ -1,11 +1,11 @@
 //! What a fit leaves: its size, whether it is white, and how strong it is near each tone.
 
-use super::effects::KnownNoise;
-use super::passes::Passes;
-use super::sine_fit::{Coefficients, Design, Sums, Waves, dot};
+use crate::observe::effects::KnownNoise;
+use crate::observe::passes::Passes;
+use crate::observe::sine_fit::{Coefficients, Design, Sums, Waves, dot};
 
 /// Lags at which the autocorrelation of residuals is looked at.
-pub(super) const LAGS: usize = 16;
+pub(in crate::observe) const LAGS: usize = 16;
 
 /// The 99.9 % quantile of chi-squared with [`LAGS`] degrees of freedom: the residuals of one white
 /// record in a thousand are taken as correlated.
@@ -16,37 +16,37 @@ const MOST_PARTS: u64 = 64;
 const LEAST_PARTS: u64 = 8;
 
 /// Residuals that are kept for their spectrum.
-pub(super) const KEPT: usize = 1 << 16;
+pub(in crate::observe) const KEPT: usize = 1 << 16;
 
 /// The residuals of one channel.
 #[derive(Clone, Debug)]
-pub(super) struct Residuals {
+pub(in crate::observe) struct Residuals {
     /// Their variance, with the degrees of freedom of the fit as divisor, in the channel's unit
     /// squared.
-    pub(super) variance: f64,
+    pub(in crate::observe) variance: f64,
     /// Values less parameters.
-    pub(super) degrees_of_freedom: f64,
+    pub(in crate::observe) degrees_of_freedom: f64,
     /// The autocorrelation coefficients at lags 1, 2, ...
-    pub(super) autocorrelation: Vec<f64>,
+    pub(in crate::observe) autocorrelation: Vec<f64>,
     /// Whether they are correlated beyond what white noise shows.
-    pub(super) correlated: bool,
+    pub(in crate::observe) correlated: bool,
     /// The noise power at each tone over that of white noise of the same variance; none where the
     /// record is too short to tell.
-    pub(super) local: Option<Vec<f64>>,
+    pub(in crate::observe) local: Option<Vec<f64>>,
     /// The parts of the record that `local` comes from; 0 if there are none.
-    pub(super) parts: u64,
+    pub(in crate::observe) parts: u64,
     /// By how much the cycles in a sample interval of a fundamental should be larger, and the
     /// variance of that for residuals of variance 1.
-    pub(super) cycles: Vec<(f64, f64)>,
+    pub(in crate::observe) cycles: Vec<(f64, f64)>,
     /// The first residuals.
-    pub(super) first: Vec<f64>,
+    pub(in crate::observe) first: Vec<f64>,
     /// What is known of the noise otherwise, after steps that change it.
-    pub(super) known: Option<KnownNoise>,
+    pub(in crate::observe) known: Option<KnownNoise>,
 }
 
 impl Residuals {
     /// Degrees of freedom of the noise near the tones.
-    pub(super) fn noise_freedom(&self) -> f64 {
+    pub(in crate::observe) fn noise_freedom(&self) -> f64 {
         match (&self.known, &self.local) {
             (Some(KnownNoise { factors: Some(_), freedom, .. }), _) => *freedom,
             (_, Some(_)) if self.correlated => 2.0 * (self.parts as f64 - 1.0),
@@ -57,7 +57,7 @@ impl Residuals {
 
 /// The residuals of every channel; the fits are refined by what the residuals still have of the
 /// tones.
-pub(super) fn of<P: Passes>(
+pub(in crate::observe) fn of<P: Passes>(
     design: &Design,
     passes: &mut P,
     fits: &mut [Coefficients],

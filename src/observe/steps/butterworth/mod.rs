@@ -17,9 +17,9 @@ use std::f64::consts::PI;
 
 use section::Section;
 
-use super::unsuitable::within;
-use super::{Changed, Measured, NoiseGain, Phasor, Signal, Unsuitable, phasor};
 use crate::number::elementary;
+use crate::observe::unsuitable::within;
+use crate::observe::{Changed, Measured, NoiseGain, Phasor, Signal, Unsuitable, phasor};
 
 /// What passes; frequencies in hertz, at which the gain of one run is 1/sqrt(2).
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -9,42 +9,42 @@ const TWO_120: f64 = (1u128 << 120) as f64;
 /// Turns, modulo one, as a fraction of 2^128. Sums and multiples of them are exact, so that the
 /// phase at the last sample of an hour is as good as at the first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Turns(u128);
+pub(in crate::observe) struct Turns(u128);
 
 impl Turns {
     /// A number of turns from 0 to below 1, or none where it is not.
-    pub(super) fn new(turns: f64) -> Option<Self> {
+    pub(in crate::observe) fn new(turns: f64) -> Option<Self> {
         // exact for all that is not below 2^-68
         (0.0..1.0).contains(&turns).then_some(Self(((turns * TWO_120) as u128) << 8))
     }
 
     /// So many times as much.
-    pub(super) fn times(self, count: u64) -> Self {
+    pub(in crate::observe) fn times(self, count: u64) -> Self {
         Self(self.0.wrapping_mul(u128::from(count)))
     }
 
     /// Half as much of what is below one turn.
-    pub(super) fn half(self) -> Self {
+    pub(in crate::observe) fn half(self) -> Self {
         Self(self.0 >> 1)
     }
 
     /// The sum, modulo one turn.
-    pub(super) fn plus(self, other: Self) -> Self {
+    pub(in crate::observe) fn plus(self, other: Self) -> Self {
         Self(self.0.wrapping_add(other.0))
     }
 
     /// The difference of two, without its sign.
-    pub(super) fn apart(self, other: Self) -> Self {
+    pub(in crate::observe) fn apart(self, other: Self) -> Self {
         Self(self.0.abs_diff(other.0))
     }
 
     /// As a number from 0 to 1.
-    pub(super) fn value(self) -> f64 {
+    pub(in crate::observe) fn value(self) -> f64 {
         (self.0 >> 64) as u64 as f64 / TWO_64
     }
 
     /// Sine and cosine of that many turns; small angles keep their relative accuracy.
-    pub(super) fn sin_cos(self) -> (f64, f64) {
+    pub(in crate::observe) fn sin_cos(self) -> (f64, f64) {
         let signed = (self.0 >> 64) as u64 as i64 as f64 / TWO_64;
         if signed < 0.0 {
             let (sin, cos) = sin_cos_turn(-signed);
@@ -56,7 +56,7 @@ impl Turns {
 }
 
 /// Cosines and sines of an oscillation at the samples of a block that begins with sample `first`.
-pub(super) fn oscillation(step: Turns, first: u64, cos: &mut [f64], sin: &mut [f64]) {
+pub(in crate::observe) fn oscillation(step: Turns, first: u64, cos: &mut [f64], sin: &mut [f64]) {
     let start = (step.times(first).0 >> 64) as u64;
     // within a block the error of 64 bits stays below 2^-50 turns for 2^14 samples
     let by = (step.0 >> 64) as u64;

@@ -1,7 +1,7 @@
 //! The noise of a recording: how strong it is near a frequency, and what is known of it beforehand.
 
-use super::periodic::{Periodic, rotated_sum};
-use super::{Phasor, Signal, phasor};
+use crate::observe::periodic::{Periodic, rotated_sum};
+use crate::observe::{Phasor, Signal, phasor};
 
 /// What the standard uncertainty of a fitted component is taken from.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -16,7 +16,7 @@ pub enum Noise {
 
 impl Noise {
     /// The harmonics of a signal with their uncertainties in this noise.
-    pub(super) fn of(self, periodic: Periodic, signal: &Signal) -> Periodic {
+    pub(in crate::observe) fn of(self, periodic: Periodic, signal: &Signal) -> Periodic {
         match self {
             Self::White => periodic,
             Self::Near(count) => {
@@ -41,14 +41,14 @@ impl Noise {
 /// The spectral density of noise at a frequency, as the variance of the white noise that has it
 /// everywhere.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Density {
-    pub(super) variance: f64,
-    pub(super) degrees_of_freedom: f64,
+pub(in crate::observe) struct Density {
+    pub(in crate::observe) variance: f64,
+    pub(in crate::observe) degrees_of_freedom: f64,
 }
 
 /// The density near `turns` a value: the mean of the periodogram at `count` frequencies on each
 /// side, as far as they lie between zero and half the rate.
-pub(super) fn density(residuals: &[f64], turns: f64, count: usize) -> Density {
+pub(in crate::observe) fn density(residuals: &[f64], turns: f64, count: usize) -> Density {
     let n = residuals.len() as f64;
     let (mut sum, mut taken) = (0.0, 0.0);
     for i in 0..count {
@@ -128,8 +128,8 @@ impl NoiseGain {
 mod tests {
     use std::f64::consts::TAU;
 
-    use super::super::study::Noises;
     use super::*;
+    use crate::observe::study::Noises;
 
     /// White noise has its variance everywhere: 400 degrees of freedom are 7 %; four of them. An
     /// autoregressive process x' = 0.8 x + e has 1 / |1 - 0.8 exp(-i w)|^2.

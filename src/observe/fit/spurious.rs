@@ -1,6 +1,6 @@
 //! Oscillations that a fit does not have: found in the spectrum of its residuals.
 
-use super::frequency::windowed;
+use crate::observe::frequency::windowed;
 
 /// The power of a bin over the median that noise alone exceeds in less than one record in a
 /// thousand: of 2^15 exponential bins the largest is above ln 2 x 25 times the median with a
@@ -20,7 +20,7 @@ pub struct Spurious {
 }
 
 /// The oscillations that stand out of the spectrum of residuals, strongest first.
-pub(super) fn found(residuals: &[f64]) -> Vec<Spurious> {
+pub(in crate::observe) fn found(residuals: &[f64]) -> Vec<Spurious> {
     let count = residuals.len();
     if count < 64 {
         return Vec::new();

@@ -2,17 +2,17 @@
 
 use rustfft::FftPlannerScalar as Planner;
 
-use super::Phasor;
+use crate::observe::Phasor;
 
 /// The values' transform: sum of `x_k` exp(-2 pi i j k / n) for j = 0, ..., n - 1.
-pub(super) fn forward(values: &[f64]) -> Vec<Phasor> {
+pub(in crate::observe) fn forward(values: &[f64]) -> Vec<Phasor> {
     let mut spectrum: Vec<Phasor> = values.iter().map(|&x| Phasor::new(x, 0.0)).collect();
     Planner::new().plan_fft_forward(values.len()).process(&mut spectrum);
     spectrum
 }
 
 /// The real signal of a spectrum of which only the bins up to half the rate count.
-pub(super) fn inverse(mut spectrum: Vec<Phasor>) -> Vec<f64> {
+pub(in crate::observe) fn inverse(mut spectrum: Vec<Phasor>) -> Vec<f64> {
     let n = spectrum.len();
     for j in 1..n.div_ceil(2) {
         spectrum[n - j] = spectrum[j].conj();

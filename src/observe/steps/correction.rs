@@ -3,9 +3,11 @@
 
 use std::f64::consts::TAU;
 
-use super::rotation::Oscillation;
-use super::spectral::{Ends, multiplied};
-use super::{Changed, Filter, Measured, Phasor, Signal, Unsuitable, measured, phasor, wrapped};
+use crate::observe::rotation::Oscillation;
+use crate::observe::spectral::{Ends, multiplied};
+use crate::observe::{
+    Changed, Filter, Measured, Phasor, Signal, Unsuitable, measured, phasor, wrapped,
+};
 
 /// A known complex response: what the chain multiplied a component's phasor by.
 #[derive(Clone, Debug, PartialEq)]
@@ -125,9 +127,9 @@ pub fn corrected(
 
 #[cfg(test)]
 mod tests {
-    use super::super::study::{SETTINGS, Setting, study};
-    use super::super::{Band, Butterworth, Harmonics, Noise, Periodic, RmsOf, improvement};
     use super::*;
+    use crate::observe::study::{SETTINGS, Setting, study};
+    use crate::observe::{Band, Butterworth, Harmonics, Noise, Periodic, RmsOf, improvement};
 
     const ALL: [f64; 2] = [0.0, f64::INFINITY];
 

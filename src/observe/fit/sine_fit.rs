@@ -9,9 +9,9 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::dirichlet::Kernel;
-use super::passes::{BLOCK, Passes};
-use super::turns::{Turns, oscillation};
+use crate::observe::dirichlet::Kernel;
+use crate::observe::passes::{BLOCK, Passes};
+use crate::observe::turns::{Turns, oscillation};
 
 /// The largest condition number of the normal equations: beyond it the tones cannot be told apart
 /// (much less than a period, or two frequencies too near).
@@ -49,9 +49,9 @@ pub struct Design {
     pub samples: u64,
     steps: Vec<Turns>,
     /// The inverse normal matrix of the constant and the cosines, in that order.
-    pub(super) even: DMatrix<f64>,
+    pub(in crate::observe) even: DMatrix<f64>,
     /// The inverse normal matrix of the sines.
-    pub(super) odd: DMatrix<f64>,
+    pub(in crate::observe) odd: DMatrix<f64>,
 }
 
 /// A constant and tones a cos + b sin, with phases counted from the middle of the record.
@@ -116,7 +116,7 @@ impl Design {
     }
 
     /// Goes through a recording with the waves of the tones at each block.
-    pub(super) fn each<P: Passes>(
+    pub(in crate::observe) fn each<P: Passes>(
         &self,
         passes: &mut P,
         mut each: impl FnMut(u64, &[&[f64]], &Waves),
@@ -130,7 +130,7 @@ impl Design {
     }
 
     /// The least-squares solution for sums of products.
-    pub(super) fn solve(&self, sums: &Sums) -> Coefficients {
+    pub(in crate::observe) fn solve(&self, sums: &Sums) -> Coefficients {
         // the sums count phases from the first sample; turned to the middle
         let mut even = DVector::zeros(self.steps.len() + 1);
         let mut odd = DVector::zeros(self.steps.len());
@@ -157,7 +157,7 @@ impl Design {
     }
 
     /// The factors of the tones with phases counted from the first sample.
-    pub(super) fn at_first(&self, fit: &Coefficients) -> Coefficients {
+    pub(in crate::observe) fn at_first(&self, fit: &Coefficients) -> Coefficients {
         let mut turned = fit.clone();
         for (k, step) in self.steps.iter().enumerate() {
             let (sin, cos) = self.middle(*step);
@@ -170,7 +170,7 @@ impl Design {
 
     /// How the fit of a channel moves with the cycles of a fundamental: the fit at `cycles` that are
     /// too large by e is off by e times this (the negative of the projected derivative).
-    pub(super) fn slope(&self, fit: &Coefficients, fundamental: usize) -> Coefficients {
+    pub(in crate::observe) fn slope(&self, fit: &Coefficients, fundamental: usize) -> Coefficients {
         let (even, odd) = self.derivative_products(fit, fundamental);
         let (even, odd) = (-(&self.even * even), -(&self.odd * odd));
         Coefficients {
@@ -182,7 +182,7 @@ impl Design {
 
     /// The products of the constant and the waves with the derivative of a channel's fit by the
     /// cycles of a fundamental.
-    pub(super) fn derivative_products(
+    pub(in crate::observe) fn derivative_products(
         &self,
         fit: &Coefficients,
         fundamental: usize,
@@ -223,9 +223,9 @@ fn inverse(matrix: DMatrix<f64>) -> Option<DMatrix<f64>> {
 
 /// The tones at the samples of a block, with phases counted from the first sample of the record.
 #[derive(Clone, Debug)]
-pub(super) struct Waves {
-    pub(super) cosines: Vec<Vec<f64>>,
-    pub(super) sines: Vec<Vec<f64>>,
+pub(in crate::observe) struct Waves {
+    pub(in crate::observe) cosines: Vec<Vec<f64>>,
+    pub(in crate::observe) sines: Vec<Vec<f64>>,
 }
 
 impl Waves {
@@ -245,24 +245,24 @@ impl Waves {
 /// Sums of the values of a channel with the waves of the tones. The first value is taken off all, so
 /// that a large constant costs no digits.
 #[derive(Clone, Debug)]
-pub(super) struct Sums {
+pub(in crate::observe) struct Sums {
     pilot: Option<f64>,
-    pub(super) values: f64,
-    pub(super) cosines: Vec<f64>,
-    pub(super) sines: Vec<f64>,
+    pub(in crate::observe) values: f64,
+    pub(in crate::observe) cosines: Vec<f64>,
+    pub(in crate::observe) sines: Vec<f64>,
 }
 
 impl Sums {
-    pub(super) fn new(tones: usize) -> Self {
+    pub(in crate::observe) fn new(tones: usize) -> Self {
         Self { pilot: None, values: 0.0, cosines: vec![0.0; tones], sines: vec![0.0; tones] }
     }
 
     /// Sums of values from which nothing is taken off.
-    pub(super) fn plain(tones: usize) -> Self {
+    pub(in crate::observe) fn plain(tones: usize) -> Self {
         Self { pilot: Some(0.0), ..Self::new(tones) }
     }
 
-    pub(super) fn add(&mut self, values: &[f64], waves: &Waves) {
+    pub(in crate::observe) fn add(&mut self, values: &[f64], waves: &Waves) {
         let pilot = *self.pilot.get_or_insert_with(|| values.first().copied().unwrap_or(0.0));
         self.values += values.iter().map(|value| value - pilot).sum::<f64>();
         let sum = |wave: &[f64]| dot(values, wave, pilot);
@@ -276,7 +276,7 @@ impl Sums {
 }
 
 /// The sum of products in eight partial sums, always in the same order.
-pub(super) fn dot(values: &[f64], wave: &[f64], pilot: f64) -> f64 {
+pub(in crate::observe) fn dot(values: &[f64], wave: &[f64], pilot: f64) -> f64 {
     let mut parts = [0.0; 8];
     let (whole, rest) = (values.chunks_exact(8), wave.chunks_exact(8));
     let tail: f64 =

@@ -1,6 +1,6 @@
 //! A signal that a step has changed.
 
-use super::{Signal, Unsuitable};
+use crate::observe::{Signal, Unsuitable};
 
 /// A signal after a step, value by value at the instants of the signal before it.
 #[derive(Clone, Debug, PartialEq)]

@@ -2,9 +2,9 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::super::periodic::{Harmonics, Periodic};
-use super::super::rms::together;
-use super::super::{Measured, Phasor, Signal, Unsuitable, phasor};
+use crate::observe::periodic::{Harmonics, Periodic};
+use crate::observe::rms::together;
+use crate::observe::{Measured, Phasor, Signal, Unsuitable, phasor};
 
 /// A cross-spectrum at one frequency, averaged over segments.
 ///
@@ -84,7 +84,7 @@ impl CrossSpectrum {
         };
         // the channel may have been started later
         let late = TAU * self.frequency * (channel.start - reference.start);
-        let phase = super::super::wrapped(phasor::angle(cross) - late);
+        let phase = crate::observe::wrapped(phasor::angle(cross) - late);
         let gain = phasor::modulus(cross) / x_power;
         // a phase cannot be less known than evenly on the circle
         let of_phase = relative.min(PI / 3f64.sqrt());

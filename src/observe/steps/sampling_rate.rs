@@ -6,10 +6,10 @@
 //! least-squares sine is brought to its maximum, so that neither the step nor leakage limits the
 //! answer.
 
-use super::noise::Noise;
-use super::periodic::{Harmonics, Periodic, by_turns, explained};
-use super::unsuitable::within;
-use super::{Measured, Signal, Unsuitable, measured};
+use crate::observe::noise::Noise;
+use crate::observe::periodic::{Harmonics, Periodic, by_turns, explained};
+use crate::observe::unsuitable::within;
+use crate::observe::{Measured, Signal, Unsuitable, measured};
 
 /// Where the rate is sought.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -190,8 +190,8 @@ fn refined(
 
 #[cfg(test)]
 mod tests {
-    use super::super::study::{COARSE, SETTINGS, Setting, study};
     use super::*;
+    use crate::observe::study::{COARSE, SETTINGS, Setting, study};
 
     const FIRST: RateSearch = RateSearch {
         frequency: Measured {
@@ -249,7 +249,7 @@ mod tests {
                 snr: 40.0,
                 bits: 16,
             };
-            let mut noise = super::super::study::Noises::new("seed's rate", i as u64);
+            let mut noise = crate::observe::study::Noises::new("seed's rate", i as u64);
             let signal = setting.record(&mut noise, setting.sine(1.0));
             let found = sampling_rate(&signal, &search(setting)).unwrap();
             let error = (found.rate.value - 1612.37).abs();
@@ -268,7 +268,7 @@ mod tests {
     #[test]
     fn noise_free_rate_is_exact() {
         let setting = Setting { rate: 1612.0, frequency: 5.0, periods: 17.3, snr: 400.0, bits: 52 };
-        let mut noise = super::super::study::Noises::new("no noise", 0);
+        let mut noise = crate::observe::study::Noises::new("no noise", 0);
         let signal = setting.record(&mut noise, setting.sine(0.4));
         let frequency =
             Measured { value: 5.0, standard_uncertainty: 0.001, degrees_of_freedom: 7.0 };
@@ -286,7 +286,7 @@ mod tests {
     fn long_recordings_narrow_the_search() {
         let setting =
             Setting { rate: 1612.37, frequency: 10.0, periods: 6000.0, snr: 40.0, bits: 16 };
-        let mut noise = super::super::study::Noises::new("long", 0);
+        let mut noise = crate::observe::study::Noises::new("long", 0);
         let signal = setting.record(&mut noise, setting.sine(1.0));
         let found = sampling_rate(&signal, &search(setting)).unwrap().rate;
         assert!((found.value - 1612.37).abs() < 4.0 * found.standard_uncertainty, "{found:?}");
@@ -296,7 +296,7 @@ mod tests {
     #[test]
     fn a_search_without_the_rate_is_refused() {
         let setting = Setting { rate: 1612.0, frequency: 5.0, periods: 60.0, snr: 60.0, bits: 16 };
-        let mut noise = super::super::study::Noises::new("elsewhere", 0);
+        let mut noise = crate::observe::study::Noises::new("elsewhere", 0);
         let signal = setting.record(&mut noise, setting.sine(0.4));
         let elsewhere = RateSearch { between: [1620.0, 1630.0], ..FIRST };
         assert!(matches!(

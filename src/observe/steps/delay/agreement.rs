@@ -1,6 +1,6 @@
 //! Whether two determinations of one delay or phase agree.
 
-use super::super::Measured;
+use crate::observe::Measured;
 
 /// The difference of two values of one quantity.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,8 +1,8 @@
 //! Root mean squares, and how much smaller the difference of two signals is after a correction.
 
-use super::noise::{Noise, density};
-use super::periodic::{Harmonics, Periodic};
-use super::{Measured, Signal, Unsuitable, measured};
+use crate::observe::noise::{Noise, density};
+use crate::observe::periodic::{Harmonics, Periodic};
+use crate::observe::{Measured, Signal, Unsuitable, measured};
 
 /// Frequencies from which the density of squares at zero is taken: 64 degrees of freedom.
 const NEAR_ZERO: usize = 32;
@@ -158,7 +158,7 @@ pub fn improvement(
 }
 
 /// Two signals have the same number of values and the same rate.
-pub(super) fn together(a: &Signal, b: &Signal) -> Result<(), Unsuitable> {
+pub(in crate::observe) fn together(a: &Signal, b: &Signal) -> Result<(), Unsuitable> {
     if a.values.len() == b.values.len() && a.rate == b.rate {
         Ok(())
     } else {
@@ -171,8 +171,8 @@ pub(super) fn together(a: &Signal, b: &Signal) -> Result<(), Unsuitable> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::study::{Noises, SETTINGS, Setting, study};
     use super::*;
+    use crate::observe::study::{Noises, SETTINGS, Setting, study};
 
     fn of(harmonics: Option<Harmonics>, resolution: f64) -> RmsOf {
         RmsOf { harmonics, noise: Noise::White, resolution }

@@ -8,8 +8,8 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::derivative::Derivative;
-use super::{Changed, Ends, Measured, Signal, Unsuitable, measured, wrapped};
+use crate::observe::derivative::Derivative;
+use crate::observe::{Changed, Ends, Measured, Signal, Unsuitable, measured, wrapped};
 
 /// Where the sensor sits.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -113,9 +113,9 @@ impl Rotation {
 
 #[cfg(test)]
 mod tests {
-    use super::super::study::{Noises, Setting, study};
-    use super::super::{Harmonics, Periodic};
     use super::*;
+    use crate::observe::study::{Noises, Setting, study};
+    use crate::observe::{Harmonics, Periodic};
 
     fn measured(value: f64, standard_uncertainty: f64) -> Measured {
         Measured { value, standard_uncertainty, degrees_of_freedom: f64::INFINITY }
@@ -224,13 +224,13 @@ mod tests {
 
     #[test]
     fn uncertainty_is_right_quick() {
-        judge(super::super::study::SETTINGS[0], 200);
+        judge(crate::observe::study::SETTINGS[0], 200);
     }
 
     #[test]
     #[ignore = "the whole study: 1,000 recordings a setting"]
     fn uncertainty_is_right() {
-        for setting in super::super::study::SETTINGS {
+        for setting in crate::observe::study::SETTINGS {
             judge(setting, 1000);
         }
     }

@@ -8,10 +8,10 @@
 use rustfft::FftPlannerScalar;
 use rustfft::num_complex::Complex;
 
-use super::passes::{BLOCK, Passes};
-use super::residuals::{self, Residuals};
-use super::sine_fit::{Coefficients, Design, NoFit, Tone};
-use super::turns::{Turns, oscillation};
+use crate::observe::passes::{BLOCK, Passes};
+use crate::observe::residuals::{self, Residuals};
+use crate::observe::sine_fit::{Coefficients, Design, NoFit, Tone};
+use crate::observe::turns::{Turns, oscillation};
 
 /// Parts whose phases the search follows.
 const PARTS: usize = 512;
@@ -24,7 +24,7 @@ const MOST_STEPS: usize = 30;
 
 /// Why no frequency was found.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum NoFrequency<E> {
+pub(in crate::observe) enum NoFrequency<E> {
     /// The recording cannot be read.
     Unreadable(E),
     /// The tones cannot be fitted at the frequency that was tried.
@@ -35,16 +35,16 @@ pub(super) enum NoFrequency<E> {
 
 /// A fit whose cycles were estimated.
 #[derive(Clone, Debug)]
-pub(super) struct Found {
+pub(in crate::observe) struct Found {
     /// Cycles in a sample interval of the fundamental.
-    pub(super) cycles: f64,
+    pub(in crate::observe) cycles: f64,
     /// Their variance for residuals of variance 1.
-    pub(super) variance: f64,
+    pub(in crate::observe) variance: f64,
 }
 
 /// Estimates the cycles in a sample interval of one oscillation and its `multiples` on the first
 /// channel, from a first guess, or from nothing.
-pub(super) fn estimate<P: Passes>(
+pub(in crate::observe) fn estimate<P: Passes>(
     passes: &mut P,
     guess: Option<f64>,
     multiples: &[u32],
@@ -120,7 +120,7 @@ fn strongest<P: Passes>(passes: &mut P) -> Result<Option<f64>, P::Error> {
 
 /// The power of each frequency of values, their mean taken off, under a Hann window; bins 0 to half
 /// the number of values.
-pub(super) fn windowed(values: &[f64]) -> Vec<f64> {
+pub(in crate::observe) fn windowed(values: &[f64]) -> Vec<f64> {
     let count = values.len();
     let mean = values.iter().sum::<f64>() / count.max(1) as f64;
     let step = Turns::new(1.0 / count.max(2) as f64);

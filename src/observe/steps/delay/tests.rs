@@ -1,8 +1,8 @@
 use std::f64::consts::TAU;
 
-use super::super::study::{COARSE, Noises, SETTINGS, Setting, study};
-use super::super::{Harmonics, Measured, Signal, Unsuitable, wrapped};
 use super::*;
+use crate::observe::study::{COARSE, Noises, SETTINGS, Setting, study};
+use crate::observe::{Harmonics, Measured, Signal, Unsuitable, wrapped};
 
 fn fundamental(setting: Setting) -> CrossCorrelation {
     CrossCorrelation::Periodic(Harmonics { frequency: setting.frequency, count: 1 })
@@ -20,7 +20,7 @@ fn rumble(noise: &mut Noises) -> impl Fn(f64) -> f64 + use<> {
     let sines: Vec<[f64; 2]> =
         (0..40).map(|_| [5.0 + 75.0 * noise.uniform(), noise.uniform()]).collect();
     move |t| {
-        sines.iter().map(|[f, p]| super::super::phasor::at_turns(f * t + p).re).sum::<f64>()
+        sines.iter().map(|[f, p]| crate::observe::phasor::at_turns(f * t + p).re).sum::<f64>()
             / 40f64.sqrt()
     }
 }

@@ -2,12 +2,12 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::super::noise::density;
-use super::super::periodic::{Harmonics, Part, Periodic};
-use super::super::rms::together;
-use super::super::unsuitable::within;
-use super::super::{Measured, Phasor, Signal, Unsuitable, phasor, transform};
 use crate::number::elementary;
+use crate::observe::noise::density;
+use crate::observe::periodic::{Harmonics, Part, Periodic};
+use crate::observe::rms::together;
+use crate::observe::unsuitable::within;
+use crate::observe::{Measured, Phasor, Signal, Unsuitable, phasor, transform};
 
 /// Frequencies from which the score's density is taken: 64 degrees of freedom.
 const NEAR_ZERO: usize = 32;

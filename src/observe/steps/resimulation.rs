@@ -9,9 +9,9 @@
 
 use rayon::prelude::*;
 
-use super::Signal;
 use crate::distribution::{Normal, Stream, StreamKey};
 use crate::number::{COLUMN, Column};
+use crate::observe::Signal;
 
 /// What of the residuals the new noise keeps.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -217,12 +217,12 @@ fn yule_walker(residuals: &[f64], order: usize) -> (Vec<f64>, f64) {
 
 #[cfg(test)]
 mod tests {
-    use super::super::study::{Noises, SETTINGS, Setting};
-    use super::super::{
+    use super::*;
+    use crate::observe::study::{Noises, SETTINGS, Setting};
+    use crate::observe::{
         Band, Butterworth, CrossCorrelation, Harmonics, Measured, Noise, Periodic, RateSearch,
         sampling_rate,
     };
-    use super::*;
 
     fn exactly(value: f64) -> Measured {
         Measured { value, standard_uncertainty: 0.0, degrees_of_freedom: f64::INFINITY }

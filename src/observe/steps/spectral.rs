@@ -2,10 +2,10 @@
 
 use std::f64::consts::PI;
 
-use super::periodic::{Harmonics, Periodic};
-use super::unsuitable::within;
-use super::{Changed, Phasor, Signal, Unsuitable, transform};
 use crate::number::elementary;
+use crate::observe::periodic::{Harmonics, Periodic};
+use crate::observe::unsuitable::within;
+use crate::observe::{Changed, Phasor, Signal, Unsuitable, transform};
 
 /// What is done about leakage: the transform takes a signal for one period of an endless one, and a
 /// step between its end and its start spreads over all frequencies.
@@ -23,7 +23,7 @@ pub enum Ends {
 
 /// Multiplies a signal's spectrum by `gain`, a function of the frequency in hertz from zero to half
 /// the rate; the gain at negative frequencies is its conjugate.
-pub(super) fn multiplied(
+pub(in crate::observe) fn multiplied(
     signal: &Signal,
     ends: Ends,
     gain: impl Fn(f64) -> Phasor,

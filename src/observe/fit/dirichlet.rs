@@ -1,21 +1,21 @@
 //! Sums of cosines over evenly spaced instants about their middle, in closed form.
 
-use super::turns::Turns;
+use crate::observe::turns::Turns;
 use std::f64::consts::PI;
 
 /// The sums over all samples of cos(2 pi c tau) and of tau sin(2 pi c tau), where tau counts samples
 /// from the middle of the record; sums with an odd integrand are zero there.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Kernel {
+pub(in crate::observe) struct Kernel {
     /// The sum of cos(2 pi c tau): the Dirichlet kernel.
-    pub(super) cosines: f64,
+    pub(in crate::observe) cosines: f64,
     /// The sum of tau sin(2 pi c tau).
-    pub(super) moments: f64,
+    pub(in crate::observe) moments: f64,
 }
 
 impl Kernel {
     /// Sums over `samples` of an oscillation of `cycles` in a sample interval, 0 to below 1.
-    pub(super) fn new(cycles: Turns, samples: u64) -> Self {
+    pub(in crate::observe) fn new(cycles: Turns, samples: u64) -> Self {
         let count = samples as f64;
         let (sin_n, cos_n) = cycles.half().times(samples).sin_cos();
         let (sin_1, cos_1) = cycles.half().sin_cos();

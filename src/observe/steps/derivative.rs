@@ -4,10 +4,10 @@
 
 use std::f64::consts::TAU;
 
-use super::periodic::dirichlet;
-use super::spectral::{Ends, multiplied};
-use super::unsuitable::within;
-use super::{Changed, Measured, NoiseGain, Phasor, Signal, Unsuitable, measured};
+use crate::observe::periodic::dirichlet;
+use crate::observe::spectral::{Ends, multiplied};
+use crate::observe::unsuitable::within;
+use crate::observe::{Changed, Measured, NoiseGain, Phasor, Signal, Unsuitable, measured};
 
 /// A derivative, an integral or two of them.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -112,9 +112,9 @@ fn powered(x: f64, order: i32) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::study::{Noises, SETTINGS, Setting, study};
-    use super::super::{Harmonics, Periodic};
     use super::*;
+    use crate::observe::study::{Noises, SETTINGS, Setting, study};
+    use crate::observe::{Harmonics, Periodic};
 
     fn sine(setting: Setting, noise: &mut Noises) -> Signal {
         let phase = 6.0 * noise.uniform();

@@ -1,8 +1,8 @@
 use std::f64::consts::TAU;
 
-use super::super::study::{SETTINGS, Setting, study};
-use super::super::{Harmonics, Periodic};
 use super::*;
+use crate::observe::study::{SETTINGS, Setting, study};
+use crate::observe::{Harmonics, Periodic};
 
 fn signal(rate: f64, values: Vec<f64>) -> Signal {
     Signal { values, rate, start: 0.0 }
@@ -20,7 +20,7 @@ fn known(value: f64, standard_uncertainty: f64) -> Measured {
 /// (poles at 1 - 1e-3 and closer: 1e-16 / 1e-6), hence 1e-9.
 #[test]
 fn filters_are_scipys() {
-    let table = include_str!("../../../tests/data/butterworth.csv");
+    let table = include_str!("../../../../tests/data/butterworth.csv");
     let mut seen = 0;
     for line in table.lines().filter(|line| !line.starts_with('#')).skip(1) {
         let fields: Vec<&str> = line.split(',').collect();

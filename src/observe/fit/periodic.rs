@@ -7,12 +7,12 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::noise::quantization_variance;
-use super::phasor::{self, Phasor};
-use super::quantization::amplitude_error;
-use super::unsuitable::within;
-use super::{Measured, Signal, Unsuitable, measured};
 use crate::number::elementary;
+use crate::observe::noise::quantization_variance;
+use crate::observe::phasor::{self, Phasor};
+use crate::observe::quantization::amplitude_error;
+use crate::observe::unsuitable::within;
+use crate::observe::{Measured, Signal, Unsuitable, measured};
 
 /// What is sought in a signal.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -142,7 +142,7 @@ impl Periodic {
 
     /// The values of the model, without the offset, each harmonic multiplied by a complex number:
     /// `gain` of its frequency in hertz.
-    pub(super) fn values(&self, gain: impl Fn(f64) -> Phasor) -> Vec<f64> {
+    pub(in crate::observe) fn values(&self, gain: impl Fn(f64) -> Phasor) -> Vec<f64> {
         let mut values = vec![0.0; self.samples];
         for part in &self.parts {
             add_turning(
@@ -229,7 +229,7 @@ fn solve(values: &[f64], turns: f64, count: usize) -> Option<Solved> {
 }
 
 /// The sum of cos(2 pi `turns` k) over `n` instants k one apart and centred about zero.
-pub(super) fn dirichlet(n: usize, turns: f64) -> f64 {
+pub(in crate::observe) fn dirichlet(n: usize, turns: f64) -> f64 {
     let half = phasor::at_turns(turns / 2.0).im;
     if half.abs() < 1e-9 {
         // cos is 1 - x^2/2 about whole turns, and (n turns)^2 is lost in a double
@@ -247,7 +247,7 @@ fn block_of(turns: f64) -> [Phasor; BLOCK] {
 }
 
 /// The sum of `x_k` exp(-2 pi i `turns` k), k counted from the middle.
-pub(super) fn rotated_sum(values: &[f64], turns: f64) -> Phasor {
+pub(in crate::observe) fn rotated_sum(values: &[f64], turns: f64) -> Phasor {
     let middle = (values.len() as f64 - 1.0) / 2.0;
     let table = block_of(-turns);
     let mut sum = Phasor::new(0.0, 0.0);
@@ -277,7 +277,7 @@ fn add_turning(values: &mut [f64], p: Phasor, turns: f64) {
 
 /// The sum of squares that an offset and a sine of `turns` a value take out of values, beyond what
 /// their mean does; zero where the fit is singular.
-pub(super) fn explained(centred: &[f64], turns: f64) -> f64 {
+pub(in crate::observe) fn explained(centred: &[f64], turns: f64) -> f64 {
     let n = centred.len();
     let sum = rotated_sum(centred, turns);
     let (once, twice) = (dirichlet(n, turns), dirichlet(n, 2.0 * turns));
@@ -292,7 +292,7 @@ pub(super) fn explained(centred: &[f64], turns: f64) -> f64 {
 
 /// The derivative of a fitted sine's values by its frequency in turns a value, at the fitted
 /// frequency.
-pub(super) fn by_turns(periodic: &Periodic) -> Vec<f64> {
+pub(in crate::observe) fn by_turns(periodic: &Periodic) -> Vec<f64> {
     let mut values = periodic.values(|_| Phasor::new(0.0, std::f64::consts::TAU));
     let middle = (values.len() as f64 - 1.0) / 2.0;
     for (k, value) in values.iter_mut().enumerate() {
@@ -305,8 +305,8 @@ pub(super) fn by_turns(periodic: &Periodic) -> Vec<f64> {
 mod tests {
     use std::f64::consts::TAU;
 
-    use super::super::study::{COARSE, Noises, SETTINGS, Setting, study};
     use super::*;
+    use crate::observe::study::{COARSE, Noises, SETTINGS, Setting, study};
 
     /// Estimates, their covariance and the residuals against a least-squares solution by singular
     /// values of the written-out matrix, at lengths that are no whole number of periods; 1e-10.
@@ -372,7 +372,7 @@ mod tests {
                 if of_phase {
                     let found = fit.parts[0].phase();
                     let truth = TAU * setting.frequency * fit.middle + phase;
-                    (Measured { value: super::super::wrapped(found.value - truth), ..found }, 0.0)
+                    (Measured { value: crate::observe::wrapped(found.value - truth), ..found }, 0.0)
                 } else {
                     (fit.parts[0].amplitude(), 1.0)
                 }
