@@ -10,6 +10,16 @@
 //! The phase of a component at n times the reference's frequency is phi - n phi_reference, above -180
 //! to 180 degrees; the delay is -phi/(2 pi f), positive for a channel that comes later. Without a
 //! reference a phase is that at the recording's instant 0.
+//!
+//! # Where things are
+//!
+//! [`observe`] (`run`) leads each channel through its steps (`step`, `effects`: what they did to
+//! oscillations and noise; `found`: what they find beside it; `search`: sampling rates), fits what
+//! comes out (`analysis`, `sine_fit`, `frequency`, `residuals`, `spurious`), and makes values with
+//! budgets of it (`polar`, `trials`, `values`, `observation`). `butterworth`, `derivative`,
+//! `rotation`, `correction`, `delay`, `rms` and `sampling_rate` are steps as functions of signals.
+//! There are two fits: `sine_fit` takes any tones of a recording that streams in blocks, `periodic`
+//! harmonics of one signal in memory, for steps that take them out and put them back.
 
 mod analysis;
 mod effects;
