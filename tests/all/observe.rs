@@ -221,7 +221,7 @@ fn answers_are_the_same_bytes_and_tables_name_what_they_show() {
     assert!(first.stderr.is_empty());
     let page = observe(folder, &recipe, &[]);
     let page = String::from_utf8(page.stdout).unwrap();
-    for word in ["A bench", "a_ref", "SINAD", "against `a_ref`", "noise", "f = 5 Hz"] {
+    for word in ["A bench", "a_ref", "SNR", "against `a_ref`", "noise", "f = 5 Hz"] {
         assert!(page.contains(word), "{word}: {page}");
     }
 }

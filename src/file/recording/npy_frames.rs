@@ -96,12 +96,13 @@ impl Frames for NpyFrames<'_> {
 
     fn read(&mut self, columns: &mut [Vec<f64>]) -> Result<(), String> {
         let sample = self.samples;
-        let frames: Vec<f64> = self
-            .values
-            .by_ref()
-            .take(BLOCK * self.channels)
-            .collect::<io::Result<_>>()
-            .map_err(|error| format!("it breaks off after sample {sample}: {error}"))?;
+        let mut frames: Vec<f64> = Vec::with_capacity(BLOCK * self.channels);
+        for value in self.values.by_ref().take(BLOCK * self.channels) {
+            frames.push(value.map_err(|error| {
+                let sample = sample + (frames.len() / self.channels.max(1)) as u64;
+                format!("it breaks off after sample {sample}: {error}")
+            })?);
+        }
         of_frames(&frames, self.channels, (&self.places, &self.wanted), sample, columns)?;
         self.samples += (frames.len() / self.channels.max(1)) as u64;
         Ok(())

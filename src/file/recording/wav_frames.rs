@@ -50,16 +50,18 @@ impl<R: Read> Frames for WavFrames<R> {
     fn read(&mut self, columns: &mut [Vec<f64>]) -> Result<(), String> {
         let channels = usize::from(self.reader.spec().channels);
         let mut frames = Vec::with_capacity(BLOCK * channels);
-        let sample = self.samples;
-        let broken =
-            move |error: hound::Error| format!("it breaks off after sample {sample}: {error}");
+        let samples = self.samples;
+        let broken = |error: hound::Error, read: usize| {
+            let sample = samples + (read / channels.max(1)) as u64;
+            format!("it breaks off after sample {sample}: {error}")
+        };
         if self.whole() {
             for value in self.reader.samples::<i32>().take(BLOCK * channels) {
-                frames.push(f64::from(value.map_err(broken)?));
+                frames.push(f64::from(value.map_err(|error| broken(error, frames.len()))?));
             }
         } else {
             for value in self.reader.samples::<f32>().take(BLOCK * channels) {
-                frames.push(f64::from(value.map_err(broken)?));
+                frames.push(f64::from(value.map_err(|error| broken(error, frames.len()))?));
             }
         }
         of_frames(&frames, channels, (&self.places, &self.wanted), self.samples, columns)?;

@@ -30,7 +30,6 @@ pub(super) fn components(observed: &Observed<'_>, channels: &[ChannelObservation
         let delays = rows.iter().map(|(_, c)| c.delay.as_ref().map(|delay| delay.measured));
         pair(&mut sheet, ["delay\n(s)", "u"], delays);
     }
-    sheet.text("u of\namplitude", rows.iter().map(|(_, c)| sources(&c.amplitude)));
     sheet
 }
 
@@ -48,7 +47,6 @@ pub(super) fn channels(observed: &Observed<'_>, channels: &[ChannelObservation])
     };
     pair(&mut sheet, ["THD\n(%)", "u"], all.clone().map(distortion));
     pair(&mut sheet, ["SNR\n(dB)", "u"], all.clone().map(|of| Some(of.signal_to_noise.measured)));
-    pair(&mut sheet, ["SINAD\n(dB)", "u"], all.clone().map(|of| Some(of.sinad.measured)));
     let periods =
         |of: &ChannelObservation| Figure::of(of.periods.value, significant(of.periods.value, 5));
     sheet.figures("periods", all.clone().map(periods));
@@ -57,7 +55,7 @@ pub(super) fn channels(observed: &Observed<'_>, channels: &[ChannelObservation])
     sheet
 }
 
-/// A value and its standard uncertainty, rounded to match.
+/// A value and its standard uncertainty, rounded to match; without its column if there is none.
 fn pair(sheet: &mut Sheet, headers: [&str; 2], of: impl Iterator<Item = Option<Measured>>) {
     let (values, uncertainties): (Vec<Figure>, Vec<Figure>) = of
         .map(|measured| {
@@ -72,7 +70,22 @@ fn pair(sheet: &mut Sheet, headers: [&str; 2], of: impl Iterator<Item = Option<M
         })
         .unzip();
     sheet.figures(headers[0], values);
-    sheet.figures(headers[1], uncertainties);
+    if uncertainties.iter().any(|figure| *figure != Figure::missing()) {
+        sheet.figures(headers[1], uncertainties);
+    }
+}
+
+/// Of every channel what the standard uncertainty of its largest amplitude is made of.
+pub(super) fn made_of(observed: &Observed<'_>, channels: &[ChannelObservation]) -> String {
+    let of_channel = |of: &ChannelObservation| {
+        let name = &observed.settings.channels.get(of.channel)?.name;
+        let size = |c: &Component| c.amplitude.measured.value;
+        let largest = of.components.iter().max_by(|a, b| size(a).total_cmp(&size(b)))?;
+        let sources = sources(&largest.amplitude);
+        (!sources.is_empty()).then(|| format!("`{name}` {sources}"))
+    };
+    let parts: Vec<String> = channels.iter().filter_map(of_channel).collect();
+    parts.join("; ")
 }
 
 /// The sources of an uncertainty with a share of a percent and more, the largest first.

@@ -40,6 +40,10 @@ pub fn table(observed: &Observed<'_>) -> String {
         page += &Grid::of(&sheets::components(observed, channels)).render(WIDTH);
         page.push('\n');
         page += &Grid::of(&sheets::channels(observed, channels)).render(WIDTH);
+        let made_of = sheets::made_of(observed, channels);
+        if !made_of.is_empty() {
+            page += &wrapped(&format!("u^2 of the amplitudes: {made_of}"));
+        }
         for of in channels {
             for finding in &of.findings {
                 let name = settings.channels.get(of.channel).map_or("", |c| c.name.as_str());
