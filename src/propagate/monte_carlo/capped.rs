@@ -1,6 +1,7 @@
 //! Runs whose kept values would not fit into memory: several passes over the same trials, which are
-//! generated again in each. The first counts values in cells; the next keep or count more finely
-//! what the wanted order statistics can depend on, until they are known. Memory does not grow with
+//! generated again in each. The first counts values in cells, narrow ones where a part of the trials
+//! lets them be expected ([`foresight`]); the next keep or count more finely what the wanted order
+//! statistics can depend on, until they are known. Memory does not grow with
 //! the trials, and the order statistics are exactly those of all trials, except that beyond 10^8
 //! trials the shortest interval is only sought to 10^-5 of the standard uncertainty.
 
@@ -8,6 +9,7 @@ use rayon::prelude::*;
 
 use super::block::Trials;
 use super::fold::{Plan, drop_undefined};
+use super::foresight;
 use super::interval::{Ranks, is_extreme, rank_spread};
 use super::moments::{Moments, Sums, correlations};
 use super::partition::{Leaf, Partition, Tally};
@@ -75,6 +77,7 @@ pub(super) fn run(
 ) -> Option<Finished> {
     let mut partitions = first_partitions(plans);
     let budget = kept_budget(plans, control);
+    foresight::prepare(trials, request, control, plans, &mut partitions, budget)?;
     let mut searches: Vec<Option<Search>> = vec![None; plans.len()];
     let mut first: Option<(Pass, Vec<(Moments, Sums)>)> = None;
     for number in 0..MOST_PASSES {
@@ -249,6 +252,38 @@ struct Found {
     exact: bool,
 }
 
+/// The order statistics that the symmetric interval, the median and their errors are made of.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct SearchTargets {
+    trials: u64,
+    ranks: Ranks,
+}
+
+impl SearchTargets {
+    pub(super) fn new(trials: u64, probability: f64) -> Self {
+        Self { trials, ranks: Ranks::new(trials, probability) }
+    }
+
+    /// The ranks of the lower end, the upper end and the median with one standard deviation of the
+    /// rank below and above each, and the two middle ranks.
+    fn ranks(&self) -> [u64; 11] {
+        let Ranks { q, r } = self.ranks;
+        let upper = (r + q).min(self.trials);
+        let (middle, next) = (self.trials.div_ceil(2), self.trials / 2 + 1);
+        let around = |rank: u64| {
+            let spread = rank_spread(self.trials, rank);
+            [rank.saturating_sub(spread).max(1), rank, (rank + spread).min(self.trials)]
+        };
+        let ([a, b, c], [d, e, f], [g, h, i]) = (around(r), around(upper), around(middle));
+        [a, b, c, d, e, f, g, h, i, middle, next]
+    }
+
+    /// The share of the trials that each rank is.
+    pub(super) fn shares(&self) -> [f64; 11] {
+        self.ranks().map(|rank| (rank as f64 - 0.5) / self.trials as f64)
+    }
+}
+
 /// The search for one output's order statistics.
 #[derive(Clone, Debug)]
 struct Search {
@@ -263,20 +298,6 @@ impl Search {
         Self { trials, ranks: Ranks::new(trials, probability), std, found: None }
     }
 
-    /// The ranks of the lower end, the upper end and the median with one standard deviation of the
-    /// rank below and above each, and the two middle ranks.
-    fn targets(&self) -> [u64; 11] {
-        let Ranks { q, r } = self.ranks;
-        let upper = (r + q).min(self.trials);
-        let (middle, next) = (self.trials.div_ceil(2), self.trials / 2 + 1);
-        let around = |rank: u64| {
-            let spread = rank_spread(self.trials, rank);
-            [rank.saturating_sub(spread).max(1), rank, (rank + spread).min(self.trials)]
-        };
-        let ([a, b, c], [d, e, f], [g, h, i]) = (around(r), around(upper), around(middle));
-        [a, b, c, d, e, f, g, h, i, middle, next]
-    }
-
     /// Looks for the figures in what a pass kept; gives the leaves that are still needed. With
     /// `last` it takes what there is.
     fn step(&mut self, leaves: &[Leaf], kept: &[f64], last: bool) -> Vec<bool> {
@@ -287,7 +308,8 @@ impl Search {
         };
         let mut complete = true;
         let mut values = [0.0; 11];
-        for (value, rank) in values.iter_mut().zip(self.targets()) {
+        let targets = SearchTargets { trials: self.trials, ranks: self.ranks };
+        for (value, rank) in values.iter_mut().zip(targets.ranks()) {
             match at(rank) {
                 (_, Some(found)) => *value = found,
                 (number, None) => {
@@ -309,7 +331,7 @@ impl Search {
             self.found = Some(Found { at: [b, e, median], errors, shortest, exact });
         } else {
             // everything that this search still needs is wanted again in the next pass
-            for rank in self.targets() {
+            for rank in targets.ranks() {
                 needed[leaf_of(leaves, rank)] = true;
             }
         }

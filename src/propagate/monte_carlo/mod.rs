@@ -11,6 +11,7 @@ mod adaptive;
 mod block;
 mod capped;
 mod fold;
+mod foresight;
 mod hash;
 mod histogram;
 mod interval;

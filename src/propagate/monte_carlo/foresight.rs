@@ -1,0 +1,110 @@
+//! Where the order statistics of a long run will lie, from a part of its trials: cells there are made
+//! narrow, and values that are likely to be asked for kept, before the first pass over all trials.
+//! A pass is then mostly enough; where it is not, the next ones narrow further as ever.
+
+use super::block::Trials;
+use super::capped::{SearchTargets, leaf_of, pass};
+use super::fold::Plan;
+use super::interval::Ranks;
+use super::partition::{Leaf, Partition};
+use super::run::Request;
+use crate::propagate::Control;
+
+/// This part of the trials is looked at beforehand, twice.
+const PART: u64 = 64;
+
+/// How many standard deviations an order statistic is looked for to both sides of where the part has
+/// it. It lies farther away once in 1.7 million runs.
+const MARGIN: f64 = 5.0;
+
+/// Narrow cells of all outputs together, if they get more than the fewest. They cost a search
+/// nothing but memory.
+const NARROW: usize = 1 << 18;
+
+/// Makes the partitions of all outputs ready; `None` if the run was stopped.
+pub(super) fn prepare(
+    trials: &Trials,
+    request: Request<'_>,
+    control: &Control<'_>,
+    plans: &[Plan],
+    partitions: &mut [Partition],
+    budget: usize,
+) -> Option<()> {
+    let part = request.trials / PART;
+    let search = SearchTargets::new(request.trials, request.probability);
+    let coarse = pass(trials, part, control, plans, partitions, false)?;
+    for (partition, tally) in partitions.iter_mut().zip(&coarse.tallies) {
+        let leaves = partition.leaves(tally);
+        let mut wanted = around_targets(&leaves, coarse.trials, &search);
+        near_the_shortest(&leaves, coarse.trials, request.probability, &mut wanted);
+        let count = wanted.iter().filter(|wanted| **wanted).count();
+        let parts = NARROW / plans.len() / count.max(1);
+        let parts = parts.clamp(16, 4096);
+        partition.refine(&leaves, |_| false, |leaf| if wanted[leaf] { parts } else { 0 });
+    }
+    let narrow = pass(trials, part, control, plans, partitions, false)?;
+    for (partition, tally) in partitions.iter_mut().zip(&narrow.tallies) {
+        let leaves = partition.leaves(tally);
+        let wanted = around_targets(&leaves, narrow.trials, &search);
+        let count = leaves.iter().zip(&wanted).filter(|(_, wanted)| **wanted);
+        let count: u64 = count.map(|(leaf, _)| leaf.count).sum();
+        // a tenth more than expected still has room
+        if count.saturating_mul(PART + PART / 10) < budget as u64 {
+            partition.refine(&leaves, |leaf| wanted[leaf], |_| 0);
+        }
+    }
+    Some(())
+}
+
+/// The rank that is so many standard deviations of a rank beyond the one that a share of the trials
+/// has in the part.
+fn rank_beyond(share: f64, trials: u64, deviations: f64) -> u64 {
+    let n = trials as f64;
+    let rank = share * n + deviations * ((n * share * (1.0 - share)).sqrt() + 1.0);
+    (rank.clamp(1.0, n.max(1.0))) as u64
+}
+
+/// The leaves in which the targets' order statistics of all trials may lie.
+fn around_targets(leaves: &[Leaf], trials: u64, search: &SearchTargets) -> Vec<bool> {
+    let mut wanted = vec![false; leaves.len()];
+    if trials == 0 {
+        return wanted;
+    }
+    for share in search.shares() {
+        let [from, to] =
+            [-MARGIN, MARGIN].map(|margin| leaf_of(leaves, rank_beyond(share, trials, margin)));
+        wanted[from..=to].fill(true);
+    }
+    wanted
+}
+
+/// Adds the leaves that the ends of the shortest interval of all trials may lie in: of the part's
+/// intervals those whose length is within the scatter of the least.
+fn near_the_shortest(leaves: &[Leaf], trials: u64, probability: f64, wanted: &mut [bool]) {
+    let Ranks { q, r } = Ranks::new(trials, probability);
+    let top = trials.saturating_sub(q);
+    if top == 0 {
+        return;
+    }
+    let error = |rank: u64| {
+        let share = rank as f64 / trials as f64;
+        let [below, above] =
+            [-1.0, 1.0].map(|d| leaves[leaf_of(leaves, rank_beyond(share, trials, d))]);
+        0.5 * (above.greatest - below.least)
+    };
+    let scatter = MARGIN * (error(r) + error((r + q).min(trials)));
+    let spans = leaves.iter().enumerate().filter(|(_, leaf)| leaf.count > 0 && leaf.below < top);
+    let spans: Vec<_> = spans
+        .map(|(number, leaf)| {
+            let (first, last) = (leaf.below + 1, (leaf.below + leaf.count).min(top));
+            let (from, to) = (leaf_of(leaves, first + q), leaf_of(leaves, last + q));
+            let least = leaves[from].least - leaf.greatest;
+            (number, from, to, least, leaves[to].greatest - leaf.least)
+        })
+        .collect();
+    let bound = spans.iter().map(|span| span.4).fold(f64::INFINITY, f64::min) + scatter;
+    for (number, from, to, ..) in spans.into_iter().filter(|span| span.3 <= bound) {
+        wanted[number] = true;
+        wanted[from..=to].fill(true);
+    }
+}
