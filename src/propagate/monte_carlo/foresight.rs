@@ -17,11 +17,13 @@ const PART: u64 = 64;
 /// it. It lies farther away once in 1.7 million runs.
 const MARGIN: f64 = 5.0;
 
-/// Narrow cells of all outputs together, if they get more than the fewest. They cost a search
-/// nothing but memory.
+/// Narrow cells of all outputs together. They cost a search nothing but memory.
 const NARROW: usize = 1 << 18;
 
-/// Makes the partitions of all outputs ready; `None` if the run was stopped.
+/// Of more outputs the values that are likely to be asked for would hardly find room.
+const MOST_OUTPUTS: usize = 16;
+
+/// Makes the partitions of all outputs ready, if they are few; `None` if the run was stopped.
 pub(super) fn prepare(
     trials: &Trials,
     request: Request<'_>,
@@ -30,6 +32,9 @@ pub(super) fn prepare(
     partitions: &mut [Partition],
     budget: usize,
 ) -> Option<()> {
+    if plans.len() > MOST_OUTPUTS {
+        return Some(());
+    }
     let part = request.trials / PART;
     let search = SearchTargets::new(request.trials, request.probability);
     let coarse = pass(trials, part, control, plans, partitions, false)?;
