@@ -246,22 +246,21 @@ fn evaluate_rows(task: &Task, control: &Control<'_>) -> Result<Evaluation, Evalu
     let memory = control.memory / task.rows.len().clamp(1, ROWS_AT_A_TIME);
     let control = &Control { memory, ..*control };
     let notes = Mutex::new(Notes::default());
-    let rows: Vec<Result<RowEvaluation, EvaluationError>> = task
-        .rows
-        .par_chunks(COLUMN)
-        .enumerate()
-        .flat_map(|(chunk, rows)| {
+    // every row has its place from the start: a million of them are not to be held twice
+    let mut rows: Vec<Option<Result<RowEvaluation, EvaluationError>>> = Vec::new();
+    rows.resize_with(task.rows.len(), || None);
+    rows.par_chunks_mut(COLUMN).zip(task.rows.par_chunks(COLUMN)).enumerate().for_each(
+        |(chunk, (places, rows))| {
             let linear = gum.evaluate_all(rows, control.path);
             let rows = rows.par_iter().zip(linear).enumerate();
-            let row = |(number, (row, linear))| {
+            places.par_iter_mut().zip(rows).for_each(|(place, (number, (row, linear)))| {
                 let row = (chunk * COLUMN + number, row, linear);
-                evaluate_row(task, row, &reaches, control, &notes)
-            };
-            rows.map(row).collect::<Vec<_>>()
-        })
-        .collect();
+                *place = Some(evaluate_row(task, row, &reaches, control, &notes));
+            });
+        },
+    );
     // the first row that failed, whichever was ready first
-    let rows = rows.into_iter().collect::<Result<Vec<_>, _>>()?;
+    let rows = rows.into_iter().map_while(|row| row).collect::<Result<Vec<_>, _>>()?;
     let notes = notes.into_inner().unwrap_or_else(PoisonError::into_inner);
     Ok(Evaluation {
         coverage_probability: task.settings.coverage.probability(),
