@@ -50,20 +50,15 @@
 
 #![deny(unsafe_code)]
 
-pub mod assumptions;
-pub mod certificate;
+pub use gumption_analysis::{assumptions, certificate, compare};
 #[cfg(feature = "cli")]
-pub mod command;
-pub mod compare;
-pub mod diff;
-pub mod distribution;
-pub mod file;
-pub mod gap;
-pub mod model;
-pub mod number;
-pub mod observe;
-pub mod propagate;
-pub mod report;
-pub mod schema;
-pub mod task;
-pub mod unit;
+pub use gumption_command as command;
+pub use gumption_diff as diff;
+pub use gumption_engine::{distribution, measurement, model, number, propagate, task};
+pub use gumption_files as file;
+pub use gumption_files::schema;
+pub use gumption_gap as gap;
+pub use gumption_measurements as measurements;
+pub use gumption_report as report;
+pub use gumption_signal as observe;
+pub use gumption_units as unit;

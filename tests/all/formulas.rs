@@ -4,7 +4,6 @@ use std::fs;
 use std::path::Path;
 
 use gumption::file::read_text;
-use gumption::model::typed;
 use gumption::propagate::gum::Gum;
 use gumption::propagate::monte_carlo::MonteCarlo;
 use gumption::propagate::{Control, Evaluation, evaluate};
@@ -128,7 +127,7 @@ fn compare_trials(place: &str, u: f64, one: &MonteCarlo, other: &MonteCarlo) {
 
 #[test]
 fn formula_files_agree_with_the_typed_models() {
-    for entry in typed::all() {
+    for entry in gumption::measurements::all() {
         let model = entry.typed.declaration.name;
         let written = text(&twin(model));
         let (ready, members) = (json(entry.example), json(&written));
@@ -158,9 +157,9 @@ fn every_formula_file_has_its_typed_model() {
     for entry in fs::read_dir(models().join("formulas")).expect("formula files") {
         let path = entry.expect("an entry").path();
         let name = path.file_stem().expect("a name").to_string_lossy().into_owned();
-        assert!(typed::find(&name.replace('_', "-")).is_some(), "{name}");
+        assert!(gumption::measurements::find(&name.replace('_', "-")).is_some(), "{name}");
         gumption::file::read(&path, &[]).unwrap_or_else(|problems| panic!("{problems:?}"));
         files += 1;
     }
-    assert_eq!(files, typed::all().len());
+    assert_eq!(files, gumption::measurements::all().len());
 }

@@ -1,0 +1,271 @@
+//! Whether readings agree with what is assumed about a quantity.
+//!
+//! The stated distribution is taken as it is, with its centre: readings that scatter about another
+//! value contradict it as well as readings that scatter too widely.
+
+use super::alternatives::limits;
+use super::anderson_darling::{p_value, statistic};
+use gumption_engine::distribution::{BLOCK, Distribution, FromScore, Normal, StreamKey, special};
+use gumption_engine::number::{COLUMN, Column};
+use std::sync::Arc;
+
+/// What readings say about a stated distribution.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Agreement {
+    /// Place of the variable in the task.
+    pub variable: usize,
+    /// Number of readings.
+    pub readings: usize,
+    /// Probability that readings of the stated distribution depart from it as far as these do
+    /// (Anderson-Darling).
+    pub p_value: f64,
+    /// The width that the readings support.
+    pub supported: Supported,
+    /// How many readings lie outside the stated limits.
+    pub outside: usize,
+    /// The verdict.
+    pub verdict: Verdict,
+}
+
+/// The width of a distribution of the stated shape and centre that readings support.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Supported {
+    /// Which width it is: `half_width`, `std` or `scale`.
+    pub parameter: &'static str,
+    /// The stated one.
+    pub stated: f64,
+    /// Estimate, in the variable's unit: the width for which half of such sets of readings would
+    /// reach farther; for a normal distribution the root mean square deviation.
+    pub estimate: f64,
+    /// 95 % confidence interval.
+    pub interval: [f64; 2],
+}
+
+/// What readings say about a stated distribution, the first that holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    /// Fewer than five readings.
+    TooFew,
+    /// A reading lies outside the stated limits, or the supported interval wholly above the stated
+    /// width.
+    TooNarrow,
+    /// The supported interval lies wholly below the stated width, at 99.5 % instead of 97.5 %.
+    TooWide,
+    /// The p-value is below 0.01.
+    WrongShape,
+    /// None of these.
+    Consistent,
+}
+
+impl Verdict {
+    /// The words of the answer.
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::TooFew => "too few readings to tell",
+            Self::TooNarrow => "too narrow",
+            Self::TooWide => "too wide",
+            Self::WrongShape => "wrong shape",
+            Self::Consistent => "consistent",
+        }
+    }
+}
+
+/// Readings that tell something.
+const FEWEST: usize = 5;
+
+/// Probabilities left out at the ends of the supported interval.
+const TAIL: f64 = 0.025;
+
+/// One set of readings in so many of the stated distribution is called too wide. All false verdicts
+/// together are to be fewer than one in twenty, and one in forty is spent on those that matter most.
+const TOO_WIDE: f64 = 0.005;
+
+/// p-values below this speak against the shape.
+const WRONG_SHAPE: f64 = 0.01;
+
+/// Rounding of a limit that is no reading outside of it, in half-widths.
+const ROUNDING: f64 = 1e-9;
+
+/// Simulated sets for shapes whose widths have no tabulated distribution: so many, and not more
+/// draws in all.
+const SETS: usize = 4000;
+const DRAWS: usize = 4_000_000;
+
+/// Compares readings with a distribution; `None` for one without a width, or without readings.
+pub fn agreement(
+    variable: usize,
+    stated: &Arc<Distribution>,
+    readings: &[f64],
+) -> Option<Agreement> {
+    let stated = &population(stated);
+    if readings.is_empty() || stated.constant().is_some() {
+        return None;
+    }
+    let outside = outside(stated, readings);
+    let mut sorted = readings.to_vec();
+    sorted.sort_unstable_by(f64::total_cmp);
+    let probabilities: Vec<[f64; 2]> = sorted.iter().map(|x| probabilities(stated, *x)).collect();
+    let p_value =
+        if outside > 0 { 0.0 } else { p_value(statistic(&probabilities), readings.len()) };
+    let (parameter, width) = parameter(stated);
+    let factors = factors(stated, readings);
+    let supported = Supported {
+        parameter,
+        stated: width,
+        estimate: width * factors.estimate,
+        interval: factors.interval.map(|factor| width * factor),
+    };
+    let verdict = if readings.len() < FEWEST {
+        Verdict::TooFew
+    } else if outside > 0 || factors.interval[0] > 1.0 + ROUNDING {
+        Verdict::TooNarrow
+    } else if factors.surely_below < 1.0 {
+        Verdict::TooWide
+    } else if p_value < WRONG_SHAPE {
+        Verdict::WrongShape
+    } else {
+        Verdict::Consistent
+    };
+    Some(Agreement { variable, readings: readings.len(), p_value, supported, outside, verdict })
+}
+
+/// The distribution of the population: degrees of freedom say how well a normal distribution's
+/// width is known, and are no part of it.
+fn population(stated: &Arc<Distribution>) -> Arc<Distribution> {
+    match &**stated {
+        Distribution::Normal(_) => {
+            let normal = Normal::new(stated.mean(), stated.standard_uncertainty());
+            normal.map_or_else(|_| Arc::clone(stated), |normal| Arc::new(normal.into()))
+        }
+        _ => Arc::clone(stated),
+    }
+}
+
+/// Which width the statement is about, and its value.
+fn parameter(stated: &Distribution) -> (&'static str, f64) {
+    match stated {
+        Distribution::Normal(_) => ("std", stated.standard_uncertainty()),
+        Distribution::StudentT(_) => ("scale", stated.standard_uncertainty()),
+        _ => match stated.divisor() {
+            Some(divisor) => ("half_width", divisor * stated.standard_uncertainty()),
+            None => ("std", stated.standard_deviation()),
+        },
+    }
+}
+
+/// How many readings lie where the stated distribution cannot be.
+fn outside(stated: &Distribution, readings: &[f64]) -> usize {
+    let positive = matches!(
+        stated,
+        Distribution::Exponential(_)
+            | Distribution::Gamma(_)
+            | Distribution::Lognormal(_)
+            | Distribution::PoissonCount(_)
+    );
+    let limits = limits(stated).or_else(|| positive.then_some([0.0, f64::INFINITY]));
+    let Some([low, high]) = limits else {
+        return 0;
+    };
+    let slack = if high.is_finite() { ROUNDING * (0.5 * high - 0.5 * low) } else { 0.0 };
+    readings.iter().filter(|x| **x < low - slack || **x > high + slack).count()
+}
+
+/// The probabilities below and above a value.
+fn probabilities(stated: &Distribution, value: f64) -> [f64; 2] {
+    let z = stated.score_of(value);
+    [special::normal::cdf(z), special::normal::sf(z)]
+}
+
+/// Widths that readings support, relative to the stated one.
+struct Factors {
+    estimate: f64,
+    interval: [f64; 2],
+    /// The upper end at 99.5 %.
+    surely_below: f64,
+}
+
+fn factors(stated: &Arc<Distribution>, readings: &[f64]) -> Factors {
+    let n = readings.len() as f64;
+    match &**stated {
+        Distribution::Normal(_) => {
+            let squares: f64 = readings.iter().map(|x| (x - stated.mean()).powi(2)).sum();
+            let squares = squares / stated.standard_uncertainty().powi(2);
+            // the sum of squares is chi-squared with n degrees of freedom
+            let at = |q: f64| (squares / (2.0 * special::gamma::quantile(q, 0.5 * n))).sqrt();
+            Factors {
+                estimate: (squares / n).sqrt(),
+                interval: [at(1.0 - TAIL), at(TAIL)],
+                surely_below: at(TOO_WIDE),
+            }
+        }
+        Distribution::Rectangular(_)
+        | Distribution::Trapezoidal(_)
+        | Distribution::CurvilinearTrapezoid(_)
+        | Distribution::Arcsine(_) => largest_deviation(stated, readings),
+        Distribution::Triangular(_) if stated.divisor().is_some() => {
+            largest_deviation(stated, readings)
+        }
+        _ => mean_deviation(stated, readings),
+    }
+}
+
+/// Of a symmetric shape between limits: by the largest deviation from the middle. It cannot be
+/// larger than the half-width, which is therefore the lower end; the upper end leaves out 5 %.
+fn largest_deviation(stated: &Distribution, readings: &[f64]) -> Factors {
+    let middle = stated.mean();
+    let reach = stated.quantile_upper(f64::MIN_POSITIVE) - middle;
+    let largest = readings.iter().map(|x| (x - middle).abs()).fold(0.0, f64::max) / reach;
+    // the largest of n deviations is below t with probability F(t)^n, F(t) = 1 - 2 P(above t)
+    let at = |q: f64| {
+        let above = -0.5 * libm::expm1(libm::log(q) / readings.len() as f64);
+        largest * reach / (stated.quantile_upper(above) - middle)
+    };
+    Factors { estimate: at(0.5), interval: [largest, at(2.0 * TAIL)], surely_below: at(TOO_WIDE) }
+}
+
+/// Of any other shape: by the mean deviation from the mean, compared with that of simulated sets.
+fn mean_deviation(stated: &Arc<Distribution>, readings: &[f64]) -> Factors {
+    let mean = stated.mean();
+    let n = readings.len();
+    let found = readings.iter().map(|x| (x - mean).abs()).sum::<f64>() / n as f64;
+    let sets = (DRAWS / n.max(1)).clamp(200, SETS);
+    let mut simulated = simulated_deviations(stated, n, sets);
+    simulated.sort_unstable_by(f64::total_cmp);
+    let at = |q: f64| {
+        let place = ((q * sets as f64) as usize).min(sets - 1);
+        found / simulated.get(place).copied().unwrap_or(f64::NAN)
+    };
+    Factors { estimate: at(0.5), interval: [at(1.0 - TAIL), at(TAIL)], surely_below: at(TOO_WIDE) }
+}
+
+/// The mean deviations of sets of n readings of the stated distribution, always the same ones.
+fn simulated_deviations(stated: &Arc<Distribution>, n: usize, sets: usize) -> Vec<f64> {
+    let key = StreamKey::new(1, "simulated readings");
+    let from_score = FromScore::of(stated);
+    let mean = stated.mean();
+    let mut found = Vec::with_capacity(sets);
+    let (mut scores, mut values) = (Column::ZERO, Column::ZERO);
+    let (mut sum, mut count) = (0.0, 0);
+    for block in 0.. {
+        let mut stream = key.block(block);
+        for _ in 0..BLOCK / COLUMN {
+            Normal::standard_draw(&mut stream, &mut scores);
+            from_score.values(&scores, &mut values);
+            for value in values.0 {
+                sum += (value - mean).abs();
+                count += 1;
+                if count == n {
+                    found.push(sum / n as f64);
+                    (sum, count) = (0.0, 0);
+                    if found.len() == sets {
+                        return found;
+                    }
+                }
+            }
+        }
+    }
+    found
+}
+
+#[cfg(test)]
+mod tests;

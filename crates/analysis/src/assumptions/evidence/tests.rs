@@ -1,0 +1,115 @@
+//! Verdicts by simulation: sets of readings from fixed streams.
+
+use super::*;
+use gumption_engine::distribution::{
+    Arcsine, Exponential, Rectangular, StudentT, Trapezoidal, Triangular,
+};
+
+/// Readings of a distribution, each set from a stream of its own.
+fn readings(of: &Distribution, set: usize, count: usize) -> Vec<f64> {
+    let mut uniform = [0.0; BLOCK];
+    StreamKey::new(7, "population").block(set as u64).uniform(&mut uniform);
+    uniform[..count].iter().map(|u| of.quantile(*u)).collect()
+}
+
+fn verdicts(stated: &Distribution, population: &Distribution, count: usize) -> Vec<Verdict> {
+    let stated = Arc::new(stated.clone());
+    let of = |set| agreement(0, &stated, &readings(population, set, count)).unwrap().verdict;
+    (0..1000).map(of).collect()
+}
+
+fn share(verdicts: &[Verdict], of: impl Fn(Verdict) -> bool) -> f64 {
+    verdicts.iter().filter(|verdict| of(**verdict)).count() as f64 / verdicts.len() as f64
+}
+
+/// A shape with half-widths (or standard deviations) 1, 2 and 1/2.
+fn widths() -> Vec<[Distribution; 3]> {
+    let sizes = [1.0, 2.0, 0.5];
+    vec![
+        sizes.map(|w| Rectangular::new(35.0, w).unwrap().into()),
+        sizes.map(|w| Triangular::new(35.0, w).unwrap().into()),
+        sizes.map(|w| Arcsine::new(35.0, w).unwrap().into()),
+        sizes.map(|w| Trapezoidal::new(35.0, w, 0.5).unwrap().into()),
+        sizes.map(|w| Normal::new(35.0, w).unwrap().into()),
+    ]
+}
+
+/// Twenty readings of a population twice as wide are called too narrow in at least 90 % of 1000
+/// sets, and no more than 5 % of the sets of the stated population get a verdict that they do not
+/// deserve, whatever the verdict. The rates themselves are 98 % and more, and below 4 % (a normal
+/// distribution: 2.5 % + 0.5 % + 1 % less what they share), 2 standard deviations of the count away.
+#[test]
+fn power_and_false_verdicts() {
+    for [stated, wider, narrower] in widths() {
+        let name = stated.name();
+        let power = share(&verdicts(&stated, &wider, 20), |v| v == Verdict::TooNarrow);
+        assert!(power >= 0.9, "{name} {power}");
+        let wrong = share(&verdicts(&stated, &stated, 20), |v| v != Verdict::Consistent);
+        assert!(wrong <= 0.05, "{name} {wrong}");
+        // half as wide is seen in most sets as well
+        let too_wide = share(&verdicts(&stated, &narrower, 20), |v| v == Verdict::TooWide);
+        assert!(too_wide >= 0.6, "{name} {too_wide}");
+    }
+}
+
+/// Shapes whose widths are compared with simulated sets: no more than 5 % false verdicts, to two
+/// standard deviations of a count of 40 in 1000.
+#[test]
+fn simulated_widths() {
+    let shapes: [Distribution; 2] =
+        [StudentT::new(1.0, 2.0, 5.0).unwrap().into(), Exponential::new(3.0).unwrap().into()];
+    for stated in shapes {
+        let wrong = share(&verdicts(&stated, &stated, 20), |v| v != Verdict::Consistent);
+        assert!(wrong <= 0.05, "{} {wrong}", stated.name());
+    }
+}
+
+/// The chi-squared distribution with 20 degrees of freedom has the quantiles 9.591 and 34.170 at
+/// 2.5 % and 97.5 % (tables), to five digits.
+#[test]
+fn supported_standard_deviation() {
+    let stated: Arc<Distribution> = Arc::new(Normal::new(1.0, 0.5).unwrap().into());
+    // deviations of +-2: the root mean square is 2
+    let values: Vec<f64> = (0..20).map(|i| if i % 2 == 0 { 3.0 } else { -1.0 }).collect();
+    let found = agreement(3, &stated, &values).unwrap();
+    assert_eq!((found.variable, found.readings, found.supported.parameter), (3, 20, "std"));
+    assert!((found.supported.estimate - 2.0).abs() < 1e-12);
+    let expected = [2.0 * (20.0f64 / 34.170).sqrt(), 2.0 * (20.0f64 / 9.591).sqrt()];
+    for (got, expected) in found.supported.interval.iter().zip(expected) {
+        assert!((got / expected - 1.0).abs() < 5e-5, "{got} {expected}");
+    }
+    assert_eq!(found.verdict, Verdict::TooNarrow);
+}
+
+/// The largest of n deviations from a rectangle's middle is below t with probability t^n.
+#[test]
+fn supported_half_width() {
+    let stated: Arc<Distribution> = Arc::new(Rectangular::new(35.0, 0.1).unwrap().into());
+    let mut values = vec![35.0; 19];
+    values.push(35.09);
+    let found = agreement(0, &stated, &values).unwrap().supported;
+    assert_eq!(found.parameter, "half_width");
+    let expected = [0.09, 0.09 * 0.05f64.powf(-0.05)];
+    assert!((found.interval[0] - expected[0]).abs() < 1e-12);
+    assert!((found.interval[1] - expected[1]).abs() < 1e-12);
+    assert!((found.estimate - 0.09 * 2f64.powf(0.05)).abs() < 1e-12);
+}
+
+#[test]
+fn the_first_verdict_that_holds() {
+    let stated: Arc<Distribution> = Arc::new(Rectangular::new(35.0, 0.1).unwrap().into());
+    let verdict = |values: &[f64]| agreement(0, &stated, values).unwrap().verdict;
+    assert_eq!(verdict(&[36.0, 34.0, 35.0, 35.0]), Verdict::TooFew);
+    let mut values: Vec<f64> = (0..12).map(|i| 34.905 + 0.0172 * f64::from(i)).collect();
+    assert_eq!(verdict(&values), Verdict::Consistent);
+    // the limit itself is inside
+    values.push(35.0 + 0.1);
+    assert_eq!(verdict(&values), Verdict::Consistent);
+    values.push(35.1001);
+    let found = agreement(0, &stated, &values).unwrap();
+    assert_eq!((found.verdict, found.outside, found.p_value), (Verdict::TooNarrow, 1, 0.0));
+    // all near the limits: the width is right, the shape is not
+    let ends: Vec<f64> = (0..20).map(|i| 35.0 + if i % 2 == 0 { 0.099 } else { -0.099 }).collect();
+    assert_eq!(verdict(&ends), Verdict::WrongShape);
+    assert!(agreement(0, &stated, &[]).is_none());
+}

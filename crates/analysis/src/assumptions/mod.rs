@@ -1,0 +1,483 @@
+//! The audit of Type B assumptions: which shapes and widths matter, and which ones readings
+//! contradict.
+//!
+//! Every variant of the evaluation uses the same random numbers (`sampler`): a quantity's value is
+//! the quantile at the probability of its standard normal score, whatever its shape. Quantities that
+//! are correlated keep their scores' dependence (a Gaussian copula) when one of them is given another
+//! shape.
+
+mod alternatives;
+mod anderson_darling;
+mod evidence;
+mod sampler;
+mod sobol;
+mod spread;
+mod stake;
+#[cfg(test)]
+mod tests;
+
+use std::sync::Arc;
+
+use rayon::prelude::*;
+
+pub use alternatives::Kept;
+pub use evidence::{Agreement, Supported, Verdict, agreement};
+pub use sobol::Sobol;
+
+use gumption_engine::distribution::{Distribution, Evaluation, FromScore};
+use gumption_engine::propagate::{Control, EvaluationError, gum, in_pool};
+use gumption_engine::task::{Evidence, Row, Task, Warning};
+use sampler::{Change, Sampler};
+use spread::Spread;
+use stake::Stake;
+
+/// What is asked for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Question {
+    /// Number of trials of every variant, at least 20 000.
+    pub trials: u64,
+    /// Relative change of the expanded uncertainty (half the length of the coverage interval) that
+    /// is allowed, above 0.
+    pub allowed: f64,
+}
+
+/// The audit of a task.
+#[derive(Clone, Debug)]
+pub struct Audit {
+    /// What was asked for.
+    pub question: Question,
+    /// The coverage probability of the intervals.
+    pub coverage_probability: f64,
+    /// One entry for each row of conditions.
+    pub rows: Vec<RowAudit>,
+    /// What the readings say, one entry for each input with evidence.
+    pub evidence: Vec<Agreement>,
+    /// Notes.
+    pub warnings: Vec<Warning>,
+}
+
+/// The audit of one row.
+#[derive(Clone, Debug)]
+pub struct RowAudit {
+    /// Values of the conditions.
+    pub conditions: Vec<f64>,
+    /// One entry for each output.
+    pub outputs: Vec<OutputAudit>,
+}
+
+/// The audit of one output.
+#[derive(Clone, Debug)]
+pub struct OutputAudit {
+    /// The figures with all distributions as stated.
+    pub baseline: Figures,
+    /// One entry for each line of the budget, in order.
+    pub inputs: Vec<InputAudit>,
+    /// Sobol indices of quantities that are drawn together, with their places in the task.
+    pub sets: Vec<(Vec<usize>, Option<Sobol>)>,
+}
+
+/// Standard uncertainty and coverage interval of one variant.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Figures {
+    /// Standard deviation of the trials; `None` if the distribution has none.
+    pub standard_uncertainty: Option<f64>,
+    /// Probabilistically symmetric coverage interval.
+    pub symmetric_interval: [f64; 2],
+}
+
+/// One input's assumption and what depends on it.
+#[derive(Clone, Debug)]
+pub struct InputAudit {
+    /// Place of the variable in the task.
+    pub variable: usize,
+    /// The stated distribution.
+    pub distribution: Arc<Distribution>,
+    /// Share of the combined variance by the law of propagation; `None` where that has no figure.
+    pub share: Option<f64>,
+    /// Its Sobol indices; `None` for a quantity that is drawn together with others.
+    pub sobol: Option<Sobol>,
+    /// Other shapes; none for an input of type A or a constant.
+    pub alternatives: Vec<Alternative>,
+    /// The width halved; `None` as for the alternatives.
+    pub halved: Option<Move>,
+    /// The width doubled.
+    pub doubled: Option<Move>,
+    /// The relative changes of the width that the output allows, from -1 (no width) to infinity.
+    pub allowed: Option<[f64; 2]>,
+}
+
+/// Another shape.
+#[derive(Clone, Debug)]
+pub struct Alternative {
+    /// The distribution.
+    pub distribution: Distribution,
+    /// What it has in common with the stated one.
+    pub kept: Kept,
+    /// What it does.
+    pub moved: Move,
+}
+
+/// How a variant departs from the baseline.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Move {
+    /// The variant's figures; `None` if some of its trials are not finite.
+    pub figures: Option<Figures>,
+    /// Relative change of half the length of the interval; `None` if the baseline has no length.
+    pub change: Option<f64>,
+    /// Numerical standard error of the change, from the scatter of batches. Of changes far below
+    /// 0.1 %, which move no trial past another one in a batch, it is too small.
+    pub error: Option<f64>,
+}
+
+/// Changes below this are not told from none.
+const SMALLEST: f64 = 5e-4;
+
+impl Move {
+    /// Whether there is a change to be seen: at least 0.05 %, and more than twice its numerical
+    /// standard error.
+    pub fn is_seen(&self) -> bool {
+        let error = self.error.unwrap_or(0.0);
+        self.change.is_some_and(|change| change.abs() > (2.0 * error).max(SMALLEST))
+    }
+}
+
+impl InputAudit {
+    /// The largest change that another shape makes.
+    pub fn largest_change(&self) -> Option<f64> {
+        let seen = self.alternatives.iter().map(|other| &other.moved);
+        let seen = seen.filter(|moved| moved.is_seen()).filter_map(|moved| moved.change);
+        seen.max_by(|a, b| a.abs().total_cmp(&b.abs()))
+    }
+}
+
+/// Audits every row of a task; `None` if stopped.
+///
+/// # Errors
+/// Correlations that cannot be drawn; more undefined trials than the settings allow.
+pub fn audit(
+    task: &Task,
+    evidence: &[Evidence],
+    question: Question,
+    control: &Control<'_>,
+) -> Result<Option<Audit>, EvaluationError> {
+    in_pool(task, control, || {
+        let mut warnings = Vec::new();
+        let mut rows = Vec::with_capacity(task.rows.len());
+        for row in &task.rows {
+            match (Auditor { task, row, question, control }).row(&mut warnings)? {
+                Some(audit) => rows.push(audit),
+                None => return Ok(None),
+            }
+        }
+        let agreements = evidence.iter().filter_map(|of| agree(task, of, &mut warnings)).collect();
+        warnings.dedup();
+        Ok(Some(Audit {
+            question,
+            coverage_probability: task.settings.coverage.probability(),
+            rows,
+            evidence: agreements,
+            warnings,
+        }))
+    })?
+}
+
+/// The trials that the audit of a task makes.
+pub fn trials_to_make(task: &Task, question: Question) -> u64 {
+    let row = |row: &Row| {
+        let variants = row.distributions.iter().zip(&task.variables).map(|(known, variable)| {
+            let changed = changed(variable.evaluation, known);
+            let other = if changed { alternatives::alternatives(known).len() + 2 } else { 0 };
+            other + usize::from(known.constant().is_none())
+        });
+        variants.sum::<usize>() as u64 + 3
+    };
+    task.rows.iter().map(row).sum::<u64>().saturating_mul(question.trials)
+}
+
+/// Whether there is an assumption to be changed.
+fn changed(evaluation: Evaluation, known: &Distribution) -> bool {
+    evaluation == Evaluation::B && known.constant().is_none()
+}
+
+/// Compares the readings of one input with what the first row states.
+fn agree(task: &Task, evidence: &Evidence, warnings: &mut Vec<Warning>) -> Option<Agreement> {
+    let name = task.variables.get(evidence.variable).map_or("", |v| v.name.as_str());
+    let first = task.rows.first()?.distributions.get(evidence.variable)?;
+    let evaluation = task.variables.get(evidence.variable)?.evaluation;
+    if !changed(evaluation, first) {
+        let text = format!(
+            "the evidence of `{name}` is not used: it is for a distribution that is assumed \
+             (type B), and this one is {}",
+            if first.constant().is_some() {
+                "a constant"
+            } else {
+                "evaluated from readings (type A)"
+            }
+        );
+        warnings.push(Warning::new("evidence-unused", name, text));
+        return None;
+    }
+    let differs = |row: &Row| row.distributions.get(evidence.variable) != Some(first);
+    if task.rows.iter().any(differs) {
+        let text = format!(
+            "`{name}` is not the same in all rows; its evidence is compared with the first row"
+        );
+        warnings.push(Warning::new("evidence-first-row", name, text));
+    }
+    agreement(evidence.variable, first, &evidence.readings)
+}
+
+/// The audit of one row in the making.
+#[derive(Clone, Copy)]
+struct Auditor<'a> {
+    task: &'a Task,
+    row: &'a Row,
+    question: Question,
+    control: &'a Control<'a>,
+}
+
+/// A variant to be evaluated: whose it is, and the fewest degrees of freedom of what is drawn.
+struct Variant {
+    place: usize,
+    change: Change,
+    drawn_dof: f64,
+}
+
+/// What became of one quantity's variants, in order.
+type Moves = Vec<Vec<Move>>;
+
+impl Auditor<'_> {
+    fn row(&self, warnings: &mut Vec<Warning>) -> Result<Option<RowAudit>, EvaluationError> {
+        let Self { task, row, question, control } = *self;
+        let sampler = Sampler::new(task, row)?;
+        let others: Vec<Vec<(Kept, Distribution)>> = (0..sampler.variables.len())
+            .map(|place| match self.stated(&sampler, place) {
+                Some(stated) if sampler.has_scores(place) => alternatives::alternatives(stated),
+                _ => Vec::new(),
+            })
+            .collect();
+        let mut variants = Vec::new();
+        for (place, others) in others.iter().enumerate() {
+            let Some(stated) = self.stated(&sampler, place) else {
+                continue;
+            };
+            for (_, other) in others {
+                let change = Change::Shape(place, FromScore::of(&Arc::new(other.clone())));
+                variants.push(Variant { place, change, drawn_dof: other.drawn_dof() });
+            }
+            for factor in [0.5, 2.0] {
+                let change = Change::Width { place, mean: stated.mean(), factor };
+                variants.push(Variant { place, change, drawn_dof: stated.drawn_dof() });
+            }
+        }
+        let Some((baseline, moves)) = self.moves(&sampler, &variants, warnings)? else {
+            return Ok(None);
+        };
+        let linked = sampler.linked();
+        let (sets, alone) = factors(&sampler, &linked);
+        let Some(indices) = sobol::indices(&sampler, &sets, question.trials, control) else {
+            return Ok(None);
+        };
+        let probability = task.settings.coverage.probability();
+        let stake = Stake::new(&sampler, (question.trials, probability), question.allowed, control);
+        let allowed: Vec<Vec<Option<[f64; 2]>>> = (0..sampler.variables.len())
+            .into_par_iter()
+            .map(|place| match self.stated(&sampler, place) {
+                Some(stated) if !control.is_stopped() => {
+                    stake.allowed(place, stated.mean(), control)
+                }
+                _ => Vec::new(),
+            })
+            .collect();
+        if control.is_stopped() {
+            return Ok(None);
+        }
+        self.note_links(&sampler, &linked, &others, warnings);
+        let gums = gum::evaluate(task, row).outputs;
+        let reach = task.model.program.reach();
+        let outputs = (0..sampler.outputs()).map(|output| {
+            let finite = self.fewest_dof(&reach, output, None) > 2.0;
+            let index = |set: Option<usize>| {
+                set.and_then(|set| indices.get(output)?.get(set).copied().flatten())
+                    .filter(|_| finite)
+            };
+            let gum = gums.get(output).and_then(Option::as_ref);
+            let shown = task.variables.iter().enumerate().filter(|(_, variable)| variable.shown);
+            let inputs = shown.map(|(variable, _)| {
+                let place = sampler.variables.binary_search(&variable).ok();
+                let own = |place: usize| {
+                    let first = variants.iter().position(|variant| variant.place == place)?;
+                    let count = variants.iter().filter(|variant| variant.place == place).count();
+                    moves.get(output)?.get(first..first + count)
+                };
+                let own = place.and_then(own).unwrap_or_default();
+                let shapes = place.and_then(|place| others.get(place));
+                let shapes = shapes.map_or(&[][..], Vec::as_slice);
+                let alternatives = shapes.iter().zip(own).map(|((kept, distribution), moved)| {
+                    Alternative { distribution: distribution.clone(), kept: *kept, moved: *moved }
+                });
+                let widths = own.get(shapes.len()..).unwrap_or_default();
+                let reached = reach.get(output).and_then(|reach| reach.get(variable));
+                let sobol = match place.filter(|_| reached == Some(&true)) {
+                    // a constant, or nothing that the output depends on
+                    None => Some(Sobol { first: 0.0, total: 0.0, standard_error: [0.0; 2] }),
+                    Some(place) => index(alone.get(place).copied().flatten()),
+                };
+                InputAudit {
+                    variable,
+                    distribution: Arc::clone(&row.distributions[variable]),
+                    share: gum.and_then(|gum| {
+                        gum.budget().find(|line| line.variable == variable).map(|line| line.share)
+                    }),
+                    sobol: sobol.filter(|_| finite),
+                    alternatives: alternatives.collect(),
+                    halved: widths.first().copied(),
+                    doubled: widths.get(1).copied(),
+                    allowed: place
+                        .and_then(|place| allowed.get(place)?.get(output).copied().flatten()),
+                }
+            });
+            let inputs = inputs.collect();
+            let sets = sets.iter().enumerate().skip(sets.len() - linked.len()).map(|(s, set)| {
+                (set.iter().map(|&place| sampler.variables[place]).collect(), index(Some(s)))
+            });
+            OutputAudit { baseline: baseline[output], inputs, sets: sets.collect() }
+        });
+        let outputs = outputs.collect();
+        Ok(Some(RowAudit { conditions: row.conditions.clone(), outputs }))
+    }
+
+    /// The stated distribution of the quantity at a place, if it is an assumption.
+    fn stated(&self, sampler: &Sampler, place: usize) -> Option<&Arc<Distribution>> {
+        let variable = *sampler.variables.get(place)?;
+        let known = self.row.distributions.get(variable)?;
+        changed(self.task.variables.get(variable)?.evaluation, known).then_some(known)
+    }
+
+    /// The fewest degrees of freedom of what an output depends on, where a variable is drawn with
+    /// others than stated.
+    fn fewest_dof(&self, reach: &[Vec<bool>], output: usize, other: Option<(usize, f64)>) -> f64 {
+        let reached = reach.get(output).map_or(&[][..], Vec::as_slice);
+        let known = self.row.distributions.iter().enumerate().zip(reached);
+        known
+            .filter(|(_, reached)| **reached)
+            .map(|((variable, known), _)| match other {
+                Some((changed, dof)) if changed == variable => dof,
+                _ => known.drawn_dof(),
+            })
+            .fold(f64::INFINITY, f64::min)
+    }
+
+    /// The baseline of each output, and for each what every variant does; `None` if stopped.
+    fn moves(
+        &self,
+        sampler: &Sampler,
+        variants: &[Variant],
+        warnings: &mut Vec<Warning>,
+    ) -> Result<Option<(Vec<Figures>, Moves)>, EvaluationError> {
+        let Self { task, question, control, .. } = *self;
+        let probability = task.settings.coverage.probability();
+        let reach = task.model.program.reach();
+        let outputs = sampler.outputs();
+        let figures = |spread: &Spread, dof: f64| Figures {
+            standard_uncertainty: (dof > 2.0).then_some(spread.std),
+            symmetric_interval: spread.interval,
+        };
+        // variants of a quantity that nothing depends on are the baseline
+        let made: Vec<&Variant> =
+            variants.iter().filter(|variant| sampler.is_used(variant.place)).collect();
+        let at_a_time = (control.memory / spread::bytes(sampler, question.trials).max(1)).max(2);
+        let mut baseline: Vec<Spread> = Vec::new();
+        let mut spreads = Vec::with_capacity(made.len());
+        let groups: Vec<&[&Variant]> =
+            if made.is_empty() { vec![&[]] } else { made.chunks(at_a_time - 1).collect() };
+        for group in groups {
+            let changes: Vec<Change> = std::iter::once(Change::None)
+                .chain(group.iter().map(|variant| variant.change.clone()))
+                .collect();
+            let request = (question.trials, probability);
+            let Some(mut found) = spread::spreads(sampler, &changes, request, control) else {
+                return Ok(None);
+            };
+            spreads.extend(found.drain(1..));
+            baseline = found.pop().unwrap_or_default();
+        }
+        let undefined = baseline.first().map_or(0.0, |spread| spread.undefined);
+        if undefined > task.settings.allowed_undefined || undefined >= 1.0 {
+            return Err(EvaluationError::NotFinite { share: undefined });
+        }
+        let stated = (0..outputs)
+            .map(|output| figures(&baseline[output], self.fewest_dof(&reach, output, None)));
+        let stated: Vec<Figures> = stated.collect();
+        let mut spreads = spreads.into_iter();
+        let mut moves: Moves = vec![Vec::with_capacity(variants.len()); outputs];
+        for variant in variants {
+            let own = if sampler.is_used(variant.place) { spreads.next() } else { None };
+            let variable = sampler.variables[variant.place];
+            if let Some(own) = own.as_ref().and_then(|own| own.first())
+                && own.undefined > task.settings.allowed_undefined
+            {
+                let name = &task.variables[variable].name;
+                let text = format!(
+                    "with another shape or width of `{name}` some trials have no finite result; \
+                     those variants have no figures"
+                );
+                warnings.push(Warning::new("variant-undefined", name, text));
+            }
+            for (output, moves) in moves.iter_mut().enumerate() {
+                let base = &baseline[output];
+                let spread = own.as_ref().and_then(|own| own.get(output)).unwrap_or(base);
+                let dof = self.fewest_dof(&reach, output, Some((variable, variant.drawn_dof)));
+                let defined = spread.undefined <= task.settings.allowed_undefined;
+                let [change, error] = match spread.change(base) {
+                    Some(found) if defined => found.map(|x| x.is_finite().then_some(x)),
+                    _ => [None; 2],
+                };
+                let figures = defined.then(|| figures(spread, dof));
+                moves.push(Move { figures, change, error });
+            }
+        }
+        Ok(Some((stated, moves)))
+    }
+
+    /// What is to be known about quantities that are drawn together.
+    fn note_links(
+        &self,
+        sampler: &Sampler,
+        linked: &[Vec<usize>],
+        others: &[Vec<(Kept, Distribution)>],
+        warnings: &mut Vec<Warning>,
+    ) {
+        for set in linked {
+            let name = |place: &usize| {
+                let variable = self.task.variables.get(sampler.variables[*place]);
+                format!("`{}`", variable.map_or("", |v| v.name.as_str()))
+            };
+            let names: Vec<String> = set.iter().map(name).collect();
+            let mut text = format!(
+                "{} are drawn together; they have one Sobol index as a set",
+                names.join(", ")
+            );
+            if set.iter().any(|place| others.get(*place).is_some_and(|others| !others.is_empty())) {
+                text += ". With another shape the dependence of their ranks is kept, so that the \
+                         correlation coefficient moves a little";
+            }
+            warnings.push(Warning::new("drawn-together", names.join(", "), text));
+        }
+    }
+}
+
+/// The sets of quantities whose indices are estimated, those drawn together last, and for each place
+/// the set of it alone.
+fn factors(sampler: &Sampler, linked: &[Vec<usize>]) -> (Vec<Vec<usize>>, Vec<Option<usize>>) {
+    let mut sets: Vec<Vec<usize>> = Vec::new();
+    let mut alone = vec![None; sampler.variables.len()];
+    for (place, alone) in alone.iter_mut().enumerate() {
+        if !linked.iter().any(|set| set.contains(&place)) {
+            *alone = Some(sets.len());
+            sets.push(vec![place]);
+        }
+    }
+    sets.extend(linked.iter().cloned());
+    (sets, alone)
+}

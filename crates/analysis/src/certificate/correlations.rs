@@ -1,0 +1,142 @@
+//! How the rows of a certificate vary together.
+//!
+//! Two rows share an input if it has the same name in the same model file, whatever the conditions
+//! and replacements of the rows; so do results that go back to the same input through saved results.
+//! An input of a row or of one condition (`per`), and one that the certificate declares separate, is
+//! shared only where the value is the same unknown one. The covariance of two rows is then
+//! the sum over the shared inputs of c_i u_i in both (JCGM 100, F.1.2.3).
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use crate::certificate::contents::{Asked, Certificate};
+use gumption_engine::distribution::RootName;
+use gumption_engine::propagate::gum::Gum;
+use gumption_engine::propagate::{Evaluation, Origins, linear, origins};
+use gumption_engine::task::{Row, Sharing};
+
+/// An unknown value: model file, input, and what tells values of the same input apart.
+type Key = (Arc<str>, Arc<str>, String);
+
+/// The matrix of the correlation coefficients between all rows.
+pub(super) fn between(
+    certificate: &Certificate,
+    evaluations: &[Evaluation],
+    digests: &[Arc<str>],
+) -> Vec<Vec<Option<f64>>> {
+    let mut unknowns = Unknowns { certificate, places: BTreeMap::new(), links: BTreeMap::new() };
+    let mut found: BTreeMap<(usize, usize), Vec<Option<Parts>>> = BTreeMap::new();
+    let parts: Vec<Option<Parts>> = certificate
+        .lines
+        .iter()
+        .map(|line| {
+            let at = (line.evaluation, line.row);
+            let of_row = found
+                .entry(at)
+                .or_insert_with(|| unknowns.of_row(at, evaluations, digests).unwrap_or_default());
+            of_row.get(line.output).cloned().flatten()
+        })
+        .collect();
+    let covariance = |a: &Parts, b: &Parts| unknowns.covariance(a, b);
+    let spread: Vec<Option<f64>> = parts
+        .iter()
+        .map(|part| part.as_ref().map(|p| covariance(p, p).sqrt()).filter(|u| *u > 0.0))
+        .collect();
+    let coefficient = |i: usize, j: usize| {
+        let (a, b) = (parts[i].as_ref()?, parts[j].as_ref()?);
+        let (u, v) = (spread[i]?, spread[j]?);
+        Some(if i == j { 1.0 } else { (covariance(a, b) / u / v).clamp(-1.0, 1.0) })
+    };
+    let count = parts.len();
+    // each of the two halves of the matrix from the same sum
+    let row = |i: usize| (0..count).map(|j| coefficient(i.min(j), i.max(j))).collect();
+    (0..count).map(row).collect()
+}
+
+/// Contributions c u of a result by unknown value.
+type Parts = BTreeMap<usize, f64>;
+
+/// The unknown values behind all rows.
+struct Unknowns<'a> {
+    certificate: &'a Certificate,
+    places: BTreeMap<Key, usize>,
+    /// Declared correlation coefficients, in both orders.
+    links: BTreeMap<usize, BTreeMap<usize, f64>>,
+}
+
+impl Unknowns<'_> {
+    /// For each output of a row of conditions its contributions.
+    fn of_row(
+        &mut self,
+        (number, row): (usize, usize),
+        evaluations: &[Evaluation],
+        digests: &[Arc<str>],
+    ) -> Option<Vec<Option<Parts>>> {
+        let asked = self.certificate.evaluations.get(number)?;
+        let outputs = &evaluations.get(number)?.rows.get(row)?.outputs;
+        let digest = digests.get(asked.file)?;
+        let conditions = asked.task.rows.get(row)?;
+        let gums: Vec<Option<&Gum>> = outputs.iter().map(linear).collect();
+        let Origins { roots, sensitivities, correlations } =
+            origins(&asked.task, conditions, &gums, digest);
+        let mut place = |name: &RootName| {
+            let key = key(self.certificate, (number, asked, conditions), name, digest);
+            let next = self.places.len();
+            *self.places.entry(key).or_insert(next)
+        };
+        let places: Vec<usize> = roots.iter().map(|root| place(&root.name)).collect();
+        for link in &correlations {
+            let (a, b) = (place(&link.first), place(&link.second));
+            for (a, b) in [(a, b), (b, a)] {
+                self.links.entry(a).or_default().insert(b, link.coefficient);
+            }
+        }
+        let parts = sensitivities.into_iter().map(|sensitivities| {
+            let mut parts = Parts::new();
+            for ((place, root), c) in places.iter().zip(&roots).zip(sensitivities?) {
+                *parts.entry(*place).or_insert(0.0) += c * root.standard_uncertainty;
+            }
+            Some(parts)
+        });
+        Some(parts.collect())
+    }
+
+    fn covariance(&self, a: &Parts, b: &Parts) -> f64 {
+        let mut sum = 0.0;
+        for (place, part) in a {
+            sum += part * b.get(place).copied().unwrap_or(0.0);
+            for (other, r) in self.links.get(place).into_iter().flatten() {
+                sum += r * part * b.get(other).copied().unwrap_or(0.0);
+            }
+        }
+        sum
+    }
+}
+
+/// What an input's value is called: the same for the same unknown value.
+fn key(
+    certificate: &Certificate,
+    (number, asked, row): (usize, &Asked, &Row),
+    name: &RootName,
+    digest: &Arc<str>,
+) -> Key {
+    let listed = |names: &[String]| {
+        names.iter().any(|listed| {
+            let rest = name.name.strip_prefix(listed.as_str());
+            rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('/'))
+        })
+    };
+    if name.model != *digest {
+        // an input of another model file, behind a saved result
+        return (name.model.clone(), name.name.clone(), String::new());
+    }
+    let variable = asked.task.variables.iter().find(|v| *v.name == *name.name);
+    let own = match variable.map(|variable| &variable.sharing) {
+        _ if listed(&certificate.separate) => format!("{number}{:?}", row.conditions),
+        Some(Sharing::Row) => format!("{number}{:?}", row.conditions),
+        Some(Sharing::Condition(place)) => format!("{place}{:?}", row.conditions.get(*place)),
+        Some(Sharing::All) | None => String::new(),
+    };
+    let model = if listed(&certificate.shared) { Arc::from("") } else { name.model.clone() };
+    (model, name.name.clone(), own)
+}

@@ -1,0 +1,101 @@
+//! A certificate evaluated: every model once, then a statement for each row.
+
+use std::fmt;
+use std::sync::Arc;
+
+use super::correlations;
+use super::statement::{self, Statement, Wanted};
+use crate::certificate::contents::Certificate;
+use gumption_engine::propagate::{Control, Evaluation, EvaluationError, evaluate};
+
+/// The results of a certificate.
+#[derive(Clone, Debug)]
+pub struct Issued {
+    /// The evaluations, in the order of the certificate's.
+    pub evaluations: Vec<Evaluation>,
+    /// What is stated, row by row.
+    pub statements: Vec<Statement>,
+    /// Correlation coefficients between the rows, by the law of propagation: the whole matrix, with
+    /// 1 on its diagonal. `None` where a result has no finite sensitivity coefficients, or does not
+    /// vary.
+    pub correlations: Vec<Vec<Option<f64>>>,
+    /// Whether the evaluation was stopped before all trials were made.
+    pub stopped: bool,
+}
+
+impl Issued {
+    /// Standard uncertainty of the difference between two rows of the same unit; `None` where their
+    /// correlation is not known.
+    pub fn difference(&self, first: usize, second: usize) -> Option<f64> {
+        let u = |row: usize| self.statements.get(row).map(|s| s.standard_uncertainty);
+        let (a, b) = (u(first)?, u(second)?);
+        let r = (*self.correlations.get(first)?.get(second)?)?;
+        Some((a * a + b * b - 2.0 * r * a * b).max(0.0).sqrt())
+    }
+}
+
+/// Why a certificate cannot be issued.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Failed {
+    /// An evaluation that is not possible.
+    Evaluation {
+        /// Which one.
+        evaluation: usize,
+        /// Why not.
+        error: EvaluationError,
+    },
+    /// A row without an expanded uncertainty.
+    NoUncertainty {
+        /// The row, counted from 0.
+        line: usize,
+    },
+}
+
+impl fmt::Display for Failed {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Evaluation { error, .. } => error.fmt(f),
+            Self::NoUncertainty { line } => write!(
+                f,
+                "row {} has no expanded uncertainty: neither the law of propagation nor the trials \
+                 give one; `gumption run` says why",
+                line + 1
+            ),
+        }
+    }
+}
+
+impl std::error::Error for Failed {}
+
+/// Evaluates the models of a certificate and states their results. `digests` are the SHA-256 of the
+/// model files, in hexadecimal.
+///
+/// # Errors
+/// An evaluation that is not possible, or a row without an expanded uncertainty.
+pub fn issue(
+    certificate: &Certificate,
+    digests: &[Arc<str>],
+    control: &Control<'_>,
+) -> Result<Issued, Failed> {
+    let mut evaluations = Vec::with_capacity(certificate.evaluations.len());
+    for (number, asked) in certificate.evaluations.iter().enumerate() {
+        let found = evaluate(&asked.task, control);
+        evaluations.push(found.map_err(|error| Failed::Evaluation { evaluation: number, error })?);
+    }
+    let stopped = evaluations.iter().any(|evaluation| evaluation.stopped);
+    let mut statements = Vec::with_capacity(certificate.lines.len());
+    for (number, line) in certificate.lines.iter().enumerate() {
+        let wanted = evaluations.get(line.evaluation).and_then(|evaluation| {
+            let output = evaluation.rows.get(line.row)?.outputs.get(line.output)?;
+            let wanted = Wanted {
+                settings: &evaluation.settings,
+                rounding: certificate.rounding,
+                digits: certificate.digits,
+            };
+            statement::of(output, line.capability.as_ref(), wanted)
+        });
+        statements.push(wanted.ok_or(Failed::NoUncertainty { line: number })?);
+    }
+    let correlations = correlations::between(certificate, &evaluations, digests);
+    Ok(Issued { evaluations, statements, correlations, stopped })
+}

@@ -1,0 +1,218 @@
+//! What a certificate states of one result.
+
+use super::rounding::{self, Direction, Rounded};
+use crate::certificate::contents::Rounding;
+use gumption_engine::distribution::special;
+use gumption_engine::model::Capability;
+use gumption_engine::propagate::OutputEvaluation;
+use gumption_engine::propagate::gum::{Dof, Gum};
+use gumption_engine::propagate::monte_carlo::MonteCarlo;
+use gumption_engine::task::{Coverage, Settings};
+
+/// What a stated expanded uncertainty rests on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Basis {
+    /// A normal distribution (EA-4/02, 5.1).
+    Normal,
+    /// A t distribution with the effective degrees of freedom (EA-4/02, 5.3 and annex E).
+    Student,
+    /// A coverage factor that the file fixes, whatever the degrees of freedom.
+    Fixed,
+    /// The shortest coverage interval of the Monte Carlo trials, because the distribution is not
+    /// normal (JCGM 101, clause 8 fails) or the law of propagation gives no interval.
+    Shortest,
+}
+
+impl Basis {
+    /// The name that answers use.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Normal => "normal",
+            Self::Student => "t",
+            Self::Fixed => "fixed-factor",
+            Self::Shortest => "monte-carlo",
+        }
+    }
+}
+
+/// A stated expanded uncertainty beside the laboratory's capability (ILAC-P14).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Limit {
+    /// The capability (CMC) at the value.
+    pub cmc: f64,
+    /// Whether the evaluated expanded uncertainty is below it.
+    pub below: bool,
+    /// Whether the stated one was raised to it.
+    pub raised: bool,
+}
+
+/// What is stated of one result, in the unit of the output.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Statement {
+    /// What it rests on.
+    pub basis: Basis,
+    /// The value: the estimate by the law of propagation, or of the trials where the statement
+    /// rests on them.
+    pub value: f64,
+    /// Its standard uncertainty.
+    pub standard_uncertainty: f64,
+    /// The expanded uncertainty that is stated: k u, or the capability if it was raised. Where the
+    /// statement rests on the trials it is the distance of the value from the farther end of the
+    /// interval.
+    pub expanded_uncertainty: f64,
+    /// The coverage factor: the evaluated expanded uncertainty over the standard uncertainty.
+    pub coverage_factor: f64,
+    /// Effective degrees of freedom; undefined where there is no evaluation by the law of
+    /// propagation.
+    pub dof: Dof,
+    /// The coverage probability; `None` where a coverage factor is fixed and says nothing of it.
+    pub coverage_probability: Option<f64>,
+    /// The shortest coverage interval, where the statement rests on it.
+    pub interval: Option<[f64; 2]>,
+    /// The laboratory's capability, where it is known.
+    pub limit: Option<Limit>,
+    /// The expanded uncertainty to the digits of the certificate; `None` if it is 0.
+    pub rounded: Option<Rounded>,
+}
+
+impl Statement {
+    /// The value to the place of the rounded expanded uncertainty.
+    pub fn rounded_value(&self) -> f64 {
+        self.rounded.map_or(self.value, |to| rounding::at(self.value, to.place, Direction::Nearest))
+    }
+
+    /// The ends of the interval to the same place: to the nearest, or outwards where expanded
+    /// uncertainties are always rounded up.
+    pub fn rounded_interval(&self, rule: Rounding) -> Option<[f64; 2]> {
+        let ends = self.interval?;
+        let Some(Rounded { place, .. }) = self.rounded else { return Some(ends) };
+        let [low, high] = match rule {
+            Rounding::Up => [Direction::Down, Direction::Up],
+            Rounding::Nearest | Rounding::Ea => [Direction::Nearest; 2],
+        };
+        Some([rounding::at(ends[0], place, low), rounding::at(ends[1], place, high)])
+    }
+}
+
+/// What a certificate asks of every statement.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Wanted<'a> {
+    pub(super) settings: &'a Settings,
+    pub(super) rounding: Rounding,
+    pub(super) digits: u32,
+}
+
+/// The figures before capability and rounding.
+struct Found {
+    basis: Basis,
+    value: f64,
+    standard_uncertainty: f64,
+    expanded_uncertainty: f64,
+    coverage_factor: f64,
+    interval: Option<[f64; 2]>,
+}
+
+/// The statement of an output; `None` where there is no expanded uncertainty to be stated.
+pub(super) fn of(
+    output: &OutputEvaluation,
+    capability: Option<&Capability>,
+    wanted: Wanted<'_>,
+) -> Option<Statement> {
+    let Wanted { settings, .. } = wanted;
+    let refuted = output.validation.is_some_and(|v| v.gum_valid == Some(false));
+    let linear = || by_propagation(output.gum.as_ref()?, settings);
+    let trials = || by_trials(output.monte_carlo.as_ref()?, output.gum.as_ref());
+    let found = if refuted { trials().or_else(linear) } else { linear().or_else(trials) }?;
+    let evaluated = found.expanded_uncertainty;
+    let limit = capability.map(|capability| {
+        let cmc = capability.at(found.value);
+        let below = evaluated < cmc;
+        Limit { cmc, below, raised: below && capability.floor }
+    });
+    let raised = limit.filter(|limit| limit.raised);
+    let expanded_uncertainty = raised.map_or(evaluated, |limit| limit.cmc);
+    let mut rounded = rounding::expanded(expanded_uncertainty, wanted.digits, wanted.rounding);
+    // rounding must not bring below the capability what is not below it
+    let kept = limit.filter(|limit| limit.raised || !limit.below).map(|limit| limit.cmc);
+    if let (Some(to), Some(cmc)) = (rounded, kept)
+        && to.value < cmc
+    {
+        rounded = rounding::expanded(expanded_uncertainty, wanted.digits, Rounding::Up);
+    }
+    Some(Statement {
+        basis: found.basis,
+        value: found.value,
+        standard_uncertainty: found.standard_uncertainty,
+        expanded_uncertainty,
+        coverage_factor: found.coverage_factor,
+        dof: output.gum.as_ref().map_or(Dof::Undefined, |gum| gum.dof),
+        coverage_probability: (found.basis != Basis::Fixed)
+            .then(|| settings.coverage.probability()),
+        interval: found.interval,
+        limit,
+        rounded,
+    })
+}
+
+fn by_propagation(gum: &Gum, settings: &Settings) -> Option<Found> {
+    let coverage_factor = match (settings.coverage, gum.dof) {
+        // K itself, and not the factor at its probability of 0.9545, which is 2.000 02
+        (Coverage::Factor { factor, .. }, Dof::Infinite) => factor,
+        _ => gum.coverage_factor?,
+    };
+    let basis = match (settings.coverage, gum.dof) {
+        (Coverage::Factor { fixed: true, .. }, Dof::Finite(_)) | (_, Dof::Undefined) => {
+            Basis::Fixed
+        }
+        (_, Dof::Finite(_)) if !is_normal(coverage_factor, settings.coverage) => Basis::Student,
+        _ => Basis::Normal,
+    };
+    Some(Found {
+        basis,
+        value: gum.estimate,
+        standard_uncertainty: gum.standard_uncertainty,
+        expanded_uncertainty: coverage_factor * gum.standard_uncertainty,
+        coverage_factor,
+        interval: None,
+    })
+}
+
+/// Whether a coverage factor is printed like that of a normal distribution: to two decimals.
+fn is_normal(factor: f64, coverage: Coverage) -> bool {
+    let normal = match coverage {
+        Coverage::Factor { factor, .. } => factor,
+        Coverage::Probability(p) => special::normal::quantile(0.5 + 0.5 * p),
+    };
+    (100.0 * factor).round() == (100.0 * normal).round()
+}
+
+/// How many numerical standard errors longer than the shortest interval another one may be and
+/// still count as the shortest: it is the least of many that scatter by about one.
+const AS_SHORT: f64 = 4.0;
+
+/// The shortest coverage interval. Of a symmetric distribution many intervals are as short, and the
+/// scatter of the trials would choose among them; the probabilistically symmetric one is taken if it
+/// is as short within its numerical error.
+fn interval(figures: &MonteCarlo) -> [f64; 2] {
+    let length = |[low, high]: [f64; 2]| high - low;
+    let (symmetric, shortest) = (figures.symmetric_interval, figures.shortest_interval);
+    let [low, high] = figures.errors.symmetric_interval;
+    let allowed = AS_SHORT * low.hypot(high);
+    if length(symmetric) - length(shortest) <= allowed { symmetric } else { shortest }
+}
+
+fn by_trials(figures: &MonteCarlo, gum: Option<&Gum>) -> Option<Found> {
+    let [low, high] = interval(figures);
+    let value = figures.estimate;
+    // few readings have no variance in the trials
+    let u = figures.standard_uncertainty.or_else(|| gum.map(|gum| gum.standard_uncertainty))?;
+    let expanded_uncertainty = (high - value).max(value - low);
+    (u > 0.0 && expanded_uncertainty.is_finite()).then(|| Found {
+        basis: Basis::Shortest,
+        value,
+        standard_uncertainty: u,
+        expanded_uncertainty,
+        coverage_factor: expanded_uncertainty / u,
+        interval: Some([low, high]),
+    })
+}

@@ -1,0 +1,213 @@
+//! Results of many laboratories: the weighted mean as reference value, whether they are consistent
+//! with it, and degrees of equivalence (M. G. Cox, Metrologia 39 (2002) 589, procedure A). Where they
+//! are not consistent, the reference value is that of the largest consistent subset (M. G. Cox,
+//! Metrologia 44 (2007) 187).
+//!
+//! Correlated results are weighted by the inverse of their covariance matrix; that of independent
+//! ones is diagonal, and the formulas become Cox's.
+
+use std::fmt;
+
+use nalgebra::{DMatrix, DVector};
+
+use super::pair::Stated;
+use super::subset::{self, Search};
+use super::{FACTOR, probability};
+use gumption_engine::distribution::special;
+
+/// The result of a laboratory.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Laboratory {
+    /// Its name.
+    pub label: String,
+    /// Its result; the standard uncertainty is above 0.
+    pub result: Stated,
+}
+
+/// The significance of the consistency test.
+pub const SIGNIFICANCE: f64 = 0.05;
+
+/// A weighted mean and its consistency.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Reference {
+    /// The laboratories that it is made from, in order.
+    pub members: Vec<usize>,
+    /// The value.
+    pub value: f64,
+    /// Its standard uncertainty.
+    pub standard_uncertainty: f64,
+    /// The observed chi-squared.
+    pub chi_squared: f64,
+    /// Its degrees of freedom, one fewer than there are members.
+    pub dof: usize,
+    /// The probability that consistent results give as much or more.
+    pub p_value: f64,
+}
+
+impl Reference {
+    /// Whether the members are consistent at 5 %.
+    pub fn is_consistent(&self) -> bool {
+        self.p_value >= SIGNIFICANCE
+    }
+}
+
+/// A laboratory's degree of equivalence.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Row {
+    /// The laboratory.
+    pub label: String,
+    /// Its value.
+    pub value: f64,
+    /// Its expanded uncertainty as stated.
+    pub expanded_stated: f64,
+    /// Difference from the reference value.
+    pub difference: f64,
+    /// The expanded uncertainty of the difference, k = 2; the reference value depends on the results
+    /// that it is made from.
+    pub expanded: f64,
+    /// Normalized error |d|/U.
+    pub normalized_error: f64,
+    /// Zeta score |d|/u(d).
+    pub zeta: f64,
+    /// Probability of as large a difference or a larger one.
+    pub probability: f64,
+    /// Whether the reference value is made from it.
+    pub member: bool,
+}
+
+/// The comparison of many laboratories.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Comparison {
+    /// The weighted mean of all.
+    pub all: Reference,
+    /// The reference value: that mean, or that of the largest consistent subset.
+    pub reference: Reference,
+    /// How the subset was found; `None` where all are consistent.
+    pub search: Option<Search>,
+    /// One entry for each laboratory.
+    pub rows: Vec<Row>,
+}
+
+/// Why there is no comparison.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Impossible {
+    /// Fewer than two laboratories.
+    TooFew,
+    /// The covariance matrix is not positive definite.
+    NotDefinite,
+}
+
+impl fmt::Display for Impossible {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::TooFew => "a comparison needs at least two laboratories",
+            Self::NotDefinite => {
+                "the correlation matrix of the laboratories is not positive definite, so their \
+                 results cannot be weighted"
+            }
+        })
+    }
+}
+
+impl std::error::Error for Impossible {}
+
+/// Values with their covariance matrix.
+#[derive(Debug)]
+pub(super) struct Results {
+    values: Vec<f64>,
+    covariance: DMatrix<f64>,
+}
+
+impl Results {
+    /// Weights of the members' mean and its standard uncertainty; `None` if their covariance matrix
+    /// is not positive definite.
+    fn weights(&self, members: &[usize]) -> Option<(DVector<f64>, f64)> {
+        let n = members.len();
+        let part = DMatrix::from_fn(n, n, |i, j| self.covariance[(members[i], members[j])]);
+        let solved = part.cholesky()?.solve(&DVector::from_element(n, 1.0));
+        let sum = solved.sum();
+        (sum > 0.0 && sum.is_finite()).then(|| (solved / sum, 1.0 / sum.sqrt()))
+    }
+
+    /// The weighted mean of the members and its consistency.
+    pub(super) fn reference(&self, members: &[usize]) -> Option<Reference> {
+        let (weights, u) = self.weights(members)?;
+        // about one of the values, so that a common large part costs no digits
+        let origin = *self.values.get(*members.first()?)?;
+        let deviations = DVector::from_fn(members.len(), |i, _| self.values[members[i]] - origin);
+        let mean = weights.dot(&deviations);
+        let n = members.len();
+        let part = DMatrix::from_fn(n, n, |i, j| self.covariance[(members[i], members[j])]);
+        let residuals = deviations.add_scalar(-mean);
+        let chi_squared = residuals.dot(&part.cholesky()?.solve(&residuals)).max(0.0);
+        let dof = n - 1;
+        let p_value =
+            if dof == 0 { 1.0 } else { special::gamma::sf(0.5 * chi_squared, 0.5 * dof as f64) };
+        let (members, value) = (members.to_vec(), origin + mean);
+        Some(Reference { members, value, standard_uncertainty: u, chi_squared, dof, p_value })
+    }
+
+    /// The standard uncertainty of a laboratory's difference from the members' mean.
+    fn of_difference(&self, laboratory: usize, members: &[usize]) -> Option<f64> {
+        let (weights, u) = self.weights(members)?;
+        let shared: f64 = members
+            .iter()
+            .zip(weights.iter())
+            .map(|(&member, weight)| weight * self.covariance[(laboratory, member)])
+            .sum();
+        let own = self.covariance[(laboratory, laboratory)];
+        Some((own + u * u - 2.0 * shared).max(0.0).sqrt())
+    }
+}
+
+/// Compares the results of laboratories; `correlations` has their coefficients, row by row, or is
+/// empty if they are independent.
+///
+/// # Errors
+/// Fewer than two laboratories; coefficients that no joint distribution has.
+pub fn compare(
+    laboratories: &[Laboratory],
+    correlations: &[Vec<f64>],
+) -> Result<Comparison, Impossible> {
+    if laboratories.len() < 2 {
+        return Err(Impossible::TooFew);
+    }
+    let u: Vec<f64> = laboratories.iter().map(|l| l.result.standard_uncertainty()).collect();
+    let n = laboratories.len();
+    let coefficient = |i: usize, j: usize| {
+        let given = correlations.get(i).and_then(|row| row.get(j)).copied();
+        given.unwrap_or(if i == j { 1.0 } else { 0.0 })
+    };
+    let results = Results {
+        values: laboratories.iter().map(|l| l.result.value).collect(),
+        covariance: DMatrix::from_fn(n, n, |i, j| coefficient(i, j) * u[i] * u[j]),
+    };
+    let everybody: Vec<usize> = (0..n).collect();
+    let all = results.reference(&everybody).ok_or(Impossible::NotDefinite)?;
+    let (reference, search) = if all.is_consistent() {
+        (all.clone(), None)
+    } else {
+        let (found, search) = subset::largest(&results, n).ok_or(Impossible::NotDefinite)?;
+        (found, Some(search))
+    };
+    let rows = laboratories.iter().enumerate().map(|(number, laboratory)| {
+        let difference = laboratory.result.value - reference.value;
+        let u = results.of_difference(number, &reference.members)?;
+        Some(Row {
+            label: laboratory.label.clone(),
+            value: laboratory.result.value,
+            expanded_stated: laboratory.result.expanded,
+            difference,
+            expanded: FACTOR * u,
+            normalized_error: difference.abs() / (FACTOR * u),
+            zeta: difference.abs() / u,
+            probability: probability(difference, u),
+            member: reference.members.contains(&number),
+        })
+    });
+    let rows = rows.collect::<Option<Vec<Row>>>().ok_or(Impossible::NotDefinite)?;
+    Ok(Comparison { all, reference, search, rows })
+}
+
+#[cfg(test)]
+mod tests;

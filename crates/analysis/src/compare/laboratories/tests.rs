@@ -1,0 +1,105 @@
+use super::*;
+use gumption_engine::distribution::{BLOCK, StreamKey};
+
+fn laboratory(label: &str, value: f64, u: f64) -> Laboratory {
+    let result = Stated { value, expanded: 2.0 * u, factor: 2.0, rounding: [0.0; 2] };
+    Laboratory { label: label.into(), result }
+}
+
+/// By hand: 1/u^2 = 1, 1, 1/4: mean (10 + 12 + 14/4)/(9/4) = 34/3, u = 2/3; chi-squared
+/// (16/9 + 4/9 + (64/9)/4) = 4, of 2 degrees of freedom exp(-2) = 0.1353.
+#[test]
+fn a_weighted_mean_by_hand() {
+    let all = [laboratory("a", 10.0, 1.0), laboratory("b", 12.0, 1.0), laboratory("c", 14.0, 2.0)];
+    let found = compare(&all, &[]).unwrap();
+    let reference = &found.reference;
+    assert!((reference.value - 34.0 / 3.0).abs() < 1e-13);
+    assert!((reference.standard_uncertainty - 2.0 / 3.0).abs() < 1e-14);
+    assert!((reference.chi_squared - 4.0).abs() < 1e-13 && reference.dof == 2);
+    assert!((reference.p_value - (-2.0f64).exp()).abs() < 1e-13);
+    assert!(found.search.is_none() && found.rows.iter().all(|row| row.member));
+    // u(d_i)^2 = u_i^2 - u^2 (Cox 2002, eq 7)
+    for (row, u) in found.rows.iter().zip([1.0f64, 1.0, 2.0]) {
+        let expected = 2.0 * (u * u - 4.0 / 9.0).sqrt();
+        assert!((row.expanded - expected).abs() < 1e-13, "{row:?}");
+        assert!((row.zeta - row.difference.abs() / (0.5 * expected)).abs() < 1e-13);
+    }
+}
+
+/// Two correlated results by hand: V = [[1, r],[r, 1]] weights both alike, u^2 = (1 + r)/2, and
+/// d_1 = (x1 - x2)/2 has the variance (1 - r)/2.
+#[test]
+fn correlated_results() {
+    let all = [laboratory("a", 10.0, 1.0), laboratory("b", 11.0, 1.0)];
+    let r = 0.6;
+    let found = compare(&all, &[vec![1.0, r], vec![r, 1.0]]).unwrap();
+    assert!((found.reference.value - 10.5).abs() < 1e-14);
+    assert!((found.reference.standard_uncertainty - 0.8f64.sqrt()).abs() < 1e-14);
+    assert!((found.reference.chi_squared - 0.5 / (1.0 - r)).abs() < 1e-13);
+    assert!((found.rows[0].expanded - 2.0 * 0.2f64.sqrt()).abs() < 1e-14);
+    let contradictory = [vec![1.0, 1.0], vec![1.0, 1.0]];
+    assert_eq!(compare(&all, &contradictory), Err(Impossible::NotDefinite));
+    assert_eq!(compare(&all[..1], &[]), Err(Impossible::TooFew));
+}
+
+/// The largest consistent subset is that of a search over all 2^n subsets, written in another way
+/// (sums of weights), for up to 12 laboratories, some of them far off.
+#[test]
+fn the_largest_consistent_subset() {
+    let mut with_search = 0;
+    for case in 0..40u64 {
+        let n = 3 + (case as usize % 10);
+        let mut uniform = [0.0; BLOCK];
+        StreamKey::new(case, "laboratories").block(0).uniform(&mut uniform);
+        let all: Vec<Laboratory> = (0..n)
+            .map(|i| {
+                let [value, width, off] = [uniform[3 * i], uniform[3 * i + 1], uniform[3 * i + 2]];
+                let u = 0.5 + width;
+                let shift = if off > 0.7 { 8.0 * (off - 0.85) / 0.15 } else { 0.0 };
+                laboratory(&i.to_string(), 4.0 * (value - 0.5) * u + shift, u)
+            })
+            .collect();
+        let found = compare(&all, &[]).unwrap();
+        let mut best: Option<(usize, f64, u32)> = None;
+        for set in 1u32..1 << n {
+            let members: Vec<&Laboratory> =
+                (0..n).filter(|i| set >> i & 1 == 1).map(|i| &all[i]).collect();
+            let weight = |l: &Laboratory| l.result.standard_uncertainty().powi(-2);
+            let sum: f64 = members.iter().map(|l| weight(l)).sum();
+            let mean = members.iter().map(|l| weight(l) * l.result.value).sum::<f64>() / sum;
+            let chi: f64 =
+                members.iter().map(|l| weight(l) * (l.result.value - mean).powi(2)).sum();
+            let dof = members.len() - 1;
+            let consistent = dof == 0 || special::gamma::sf(0.5 * chi, 0.5 * dof as f64) >= 0.05;
+            let better = best.is_none_or(|(size, least, _)| {
+                members.len() > size || members.len() == size && chi < least
+            });
+            if consistent && better {
+                best = Some((members.len(), chi, set));
+            }
+        }
+        let (size, chi, set) = best.unwrap();
+        let members = found.reference.members.iter().fold(0u32, |set, i| set | 1 << i);
+        assert_eq!(members, set, "case {case}");
+        assert_eq!(found.reference.members.len(), size);
+        // of a laboratory alone it is 0
+        assert!((found.reference.chi_squared - chi).abs() < 1e-9 * (1.0 + chi));
+        with_search += usize::from(found.search == Some(Search::All));
+    }
+    assert!(with_search >= 10, "{with_search}");
+}
+
+/// Fifty laboratories, six of them far off: too many subsets, so one is taken out at a time.
+#[test]
+fn many_laboratories() {
+    let off = |i: usize| if i % 8 == 3 { 60.0 } else { 0.0 };
+    let value = |i: usize| ((i * 7919) % 101) as f64 / 101.0 - 0.5 + off(i);
+    let all: Vec<Laboratory> = (0..50).map(|i| laboratory("l", value(i), 1.0)).collect();
+    let found = compare(&all, &[]).unwrap();
+    assert_eq!(found.search, Some(Search::OneAtATime));
+    assert!(found.rows.iter().enumerate().all(|(i, row)| row.member == (off(i) == 0.0)));
+    // who is not a member does not share the reference's uncertainty: u^2 = 1 + u_ref^2
+    let u = found.reference.standard_uncertainty;
+    let outside = found.rows.iter().find(|row| !row.member).unwrap();
+    assert!((outside.expanded - 2.0 * (1.0 + u * u).sqrt()).abs() < 1e-12);
+}

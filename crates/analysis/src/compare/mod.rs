@@ -1,0 +1,19 @@
+//! Results of one quantity compared: two by two ([`pair`]), and those of many laboratories with a
+//! reference value ([`laboratories`]).
+
+pub mod laboratories;
+pub mod pair;
+mod subset;
+
+pub use laboratories::{Comparison, Impossible, Laboratory, Row};
+pub use pair::{Compared, Pair, Stated};
+
+use gumption_engine::distribution::special;
+
+/// The coverage factor of expanded uncertainties in the answers.
+pub const FACTOR: f64 = 2.0;
+
+/// The probability that two values of one quantity differ by as much or more: 2 (1 - Phi(|d|/u)).
+fn probability(difference: f64, u: f64) -> f64 {
+    2.0 * special::normal::sf(difference.abs() / u)
+}

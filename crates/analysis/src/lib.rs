@@ -1,0 +1,8 @@
+//! What is made of evaluations: the audit of assumptions, comparisons of results and calibration
+//! certificates.
+
+#![deny(unsafe_code)]
+
+pub mod assumptions;
+pub mod certificate;
+pub mod compare;

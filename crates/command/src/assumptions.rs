@@ -1,0 +1,169 @@
+//! `gumption assumptions`
+
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use clap::{Args, ValueEnum};
+
+use super::{Exit, Failure, options, output, progress, run};
+use gumption_analysis::assumptions::{Audit, Question, audit, trials_to_make};
+use gumption_engine::propagate::Control;
+use gumption_engine::task::{Coverage, Task, Trials, Warning};
+use gumption_files as file;
+use gumption_files::{ModelFile, Override};
+use gumption_report as report;
+
+/// Test the Type B assumptions of a model file.
+#[derive(Debug, Args)]
+pub(super) struct Assumptions {
+    /// The model file; - for standard input
+    model: PathBuf,
+    /// Format of the answer
+    #[arg(long, value_enum, default_value = "table")]
+    format: Format,
+    /// Write the answer to this file instead of standard output
+    #[arg(long, value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// No progress, notes or warnings on standard error
+    #[arg(long)]
+    quiet: bool,
+    /// Relative change of the expanded uncertainty that is allowed
+    #[arg(long, value_name = "SHARE", default_value = "0.05", value_parser = allowed)]
+    allow: f64,
+    /// Seed of the random streams
+    #[arg(long, value_name = "N")]
+    seed: Option<u64>,
+    /// Number of Monte Carlo trials of each variant, at least 20000
+    #[arg(long, value_name = "N", value_parser = trials)]
+    trials: Option<u64>,
+    /// Number of threads; all of the machine's unless given
+    #[arg(long, value_name = "N", value_parser = options::threads)]
+    threads: Option<usize>,
+    /// Coverage probability
+    #[arg(long, value_name = "P", value_parser = options::probability)]
+    coverage: Option<f64>,
+    /// Replace an input's estimate (NAME=35, NAME="35 deg") or a field (NAME.half_width=0.2)
+    #[arg(long = "set", value_name = "NAME=VALUE", value_parser = options::replacement)]
+    replacements: Vec<Override>,
+}
+
+/// The format of the answer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Format {
+    /// A page of text for people
+    Table,
+    /// A page with figures for a browser and for print, in one file
+    Html,
+    /// The whole answer for programs
+    Json,
+    /// One line for each variant of the evaluation
+    Csv,
+}
+
+/// The fewest trials from which moves can be told.
+const FEWEST: u64 = 20_000;
+
+/// The most trials: some hundred megabytes of kept values for each variant.
+const MOST: u64 = 1_000_000_000;
+
+/// Trials where the file asks for none, or for as many as it takes.
+const USUAL: u64 = 1_000_000;
+
+fn allowed(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(share) if share > 0.0 && share <= 100.0 => Ok(share),
+        _ => Err("a share above 0 is needed, such as 0.05 for 5 %".to_owned()),
+    }
+}
+
+fn trials(text: &str) -> Result<u64, String> {
+    match options::trials(text) {
+        Ok(Trials::Fixed(count)) if (FEWEST..=MOST).contains(&count) => Ok(count),
+        _ => Err(format!("a whole number from {FEWEST} to 1e9 is needed")),
+    }
+}
+
+impl Assumptions {
+    pub(super) fn execute(&self) -> Result<Exit, Failure> {
+        let (text, file) = self.read()?;
+        let mut task = file.task.clone();
+        task.settings.seed = self.seed.unwrap_or(task.settings.seed);
+        if let Some(p) = self.coverage {
+            task.settings.coverage = Coverage::Probability(p);
+        }
+        let mut warnings = file.warnings.clone();
+        let question = Question { trials: self.trials(&task, &mut warnings), allowed: self.allow };
+        let stop = progress::stop_flag();
+        let Some(found) = self.audit(&file, &task, question, &stop)? else {
+            return Ok(Exit::Interrupted);
+        };
+        warnings.extend(found.warnings.iter().cloned());
+        let provenance = run::provenance(&text, &file.files);
+        let report = report::assumptions::Report {
+            task: &task,
+            audit: &found,
+            warnings: &warnings,
+            provenance: &provenance,
+        };
+        let answer = match self.format {
+            Format::Table => report::assumptions::table(&report),
+            Format::Html => report::assumptions::html(&report),
+            Format::Json => report::assumptions::json(&report),
+            Format::Csv => report::assumptions::csv(&report),
+        };
+        if !self.quiet {
+            run::say(&warnings);
+        }
+        output::write(&answer, self.output.as_deref())?;
+        Ok(Exit::Done)
+    }
+
+    fn read(&self) -> Result<(String, ModelFile), Failure> {
+        let overrides = &self.replacements;
+        if self.model == Path::new("-") {
+            let text = options::standard_input()?;
+            let file = file::read_text("<stdin>", &text, Path::new(""), overrides)?;
+            return Ok((text, file));
+        }
+        let file = file::read(&self.model, overrides)?;
+        Ok((file.source.text.clone(), file))
+    }
+
+    /// The command line beats the file.
+    fn trials(&self, task: &Task, warnings: &mut Vec<Warning>) -> u64 {
+        match (self.trials, task.settings.trials) {
+            (Some(trials), _) => trials,
+            (None, Trials::Adaptive | Trials::Fixed(0)) => USUAL,
+            (None, Trials::Fixed(trials)) if trials < FEWEST => {
+                let text = format!(
+                    "{trials} trials are too few to tell how assumptions move the result; {FEWEST} \
+                     are made"
+                );
+                warnings.push(Warning::new("few-trials", "", text));
+                FEWEST
+            }
+            (None, Trials::Fixed(trials)) => trials.min(MOST),
+        }
+    }
+
+    fn audit(
+        &self,
+        file: &ModelFile,
+        task: &Task,
+        question: Question,
+        stop: &AtomicBool,
+    ) -> Result<Option<Audit>, Failure> {
+        let bar = progress::bar(Some(trials_to_make(task, question)), self.quiet);
+        let advance = |trials: u64| bar.inc(trials);
+        let control = Control {
+            threads: self.threads.unwrap_or(0),
+            stop: Some(stop),
+            progress: Some(&advance),
+            ..Control::default()
+        };
+        let result = audit(task, &file.evidence, question, &control);
+        bar.finish_and_clear();
+        let found = result.map_err(|error| run::failure(file, error))?;
+        Ok(found.filter(|_| !stop.load(Ordering::Relaxed)))
+    }
+}

@@ -1,0 +1,244 @@
+//! `gumption certificate`
+
+use std::io::{self, IsTerminal};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use clap::{Args, ValueEnum};
+
+use super::{Exit, Failure, options, output, progress, run};
+use gumption_analysis::certificate::contents::Certificate as Asked;
+use gumption_analysis::certificate::{Failed, Issued, issue};
+use gumption_engine::propagate::{Control, EvaluationError, warnings};
+use gumption_engine::task::{Trials, Warning};
+use gumption_files as file;
+use gumption_files::{CertificateFile, Fault, Problem, Problems};
+use gumption_report::certificate::{self as report, Model, Report};
+use gumption_report::number::rounded;
+
+/// Make a calibration certificate.
+#[derive(Debug, Args)]
+pub(super) struct Certificate {
+    /// The certificate file; - for standard input
+    file: PathBuf,
+    /// Format of the certificate
+    #[arg(long, value_enum, default_value = "table")]
+    format: Format,
+    /// Write the certificate to this file instead of standard output
+    #[arg(long, value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// No progress, notes or warnings on standard error
+    #[arg(long)]
+    quiet: bool,
+    /// Seed of the random streams, for all models
+    #[arg(long, value_name = "N")]
+    seed: Option<u64>,
+    /// Number of Monte Carlo trials for each row; 0 for the law of propagation alone
+    #[arg(long, value_name = "N|adaptive", value_parser = options::trials)]
+    trials: Option<Trials>,
+    /// Number of threads; all of the machine's unless given
+    #[arg(long, value_name = "N", value_parser = options::threads)]
+    threads: Option<usize>,
+}
+
+/// The format of a certificate.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Format {
+    /// A page of text for people
+    Table,
+    /// The whole answer for programs
+    Json,
+    /// One line for each row of the table
+    Csv,
+    /// A page as GitHub shows it
+    Markdown,
+    /// A LaTeX file for `article` with `booktabs` and `siunitx`
+    Latex,
+    /// A page for a browser and for print, in one file
+    Html,
+    /// A workbook
+    Xlsx,
+    /// A Digital Calibration Certificate of the PTB, version 3.1.2
+    Dcc,
+}
+
+impl Certificate {
+    pub(super) fn execute(&self) -> Result<Exit, Failure> {
+        let (text, mut file) = self.read()?;
+        self.check_format(&file)?;
+        for asked in &mut file.certificate.evaluations {
+            let settings = &mut asked.task.settings;
+            settings.seed = self.seed.unwrap_or(settings.seed);
+            settings.trials = self.trials.unwrap_or(settings.trials);
+        }
+        let provenance = run::provenance(&text, &[]);
+        let models: Vec<Model<'_>> = file
+            .models
+            .iter()
+            .map(|model| {
+                let of = run::provenance(&model.source.text, &model.files);
+                (model, of)
+            })
+            .map(|(model, of)| Model {
+                name: &model.name,
+                text: &model.source.text,
+                digest: of.model_sha256,
+                tables: &model.files,
+                files: of.files,
+            })
+            .collect();
+        let stop = progress::stop_flag();
+        let issued = self.issue(&file, &models, &stop)?;
+        let warnings = notes(&file, &issued);
+        if !self.quiet {
+            run::say(&warnings);
+        }
+        let report = Report {
+            certificate: &file.certificate,
+            issued: &issued,
+            models: &models,
+            text: &text,
+            digest: &provenance.model_sha256,
+            warnings: &warnings,
+        };
+        if issued.stopped || stop.load(Ordering::Relaxed) {
+            // half a certificate is none
+            return Ok(Exit::Interrupted);
+        }
+        let answer = match self.format {
+            Format::Table => report::table(&report),
+            Format::Json => report::json(&report),
+            Format::Csv => report::csv(&report),
+            Format::Markdown => report::markdown(&report),
+            Format::Latex => report::latex(&report),
+            Format::Html => report::html(&report),
+            Format::Dcc => report::dcc(&report),
+            Format::Xlsx => {
+                let bytes = report::xlsx(&report)
+                    .map_err(|error| Failure::System(format!("no workbook: {error}")))?;
+                output::write_with(self.output.as_deref(), |out| out.write_all(&bytes))?;
+                return Ok(Exit::Done);
+            }
+        };
+        output::write(&answer, self.output.as_deref())?;
+        Ok(Exit::Done)
+    }
+
+    fn read(&self) -> Result<(String, CertificateFile), Failure> {
+        let file = if self.file == Path::new("-") {
+            file::read_certificate_text("<stdin>", &options::standard_input()?, Path::new(""))?
+        } else {
+            file::read_certificate(&self.file)?
+        };
+        Ok((file.source.text.clone(), file))
+    }
+
+    /// Whether the certificate can be given in the format that was asked for.
+    fn check_format(&self, file: &CertificateFile) -> Result<(), Failure> {
+        if self.format == Format::Xlsx && self.output.is_none() && io::stdout().is_terminal() {
+            let reason = "a workbook cannot be shown in a terminal; add `--output FILE.xlsx`, or \
+                          give it to a pipe";
+            return Err(Failure::Argument(reason.to_owned()));
+        }
+        if self.format == Format::Dcc {
+            let needed = report::needed(&file.certificate);
+            if !needed.is_empty() {
+                let what = "a digital calibration certificate (`--format dcc`)";
+                return Err(Failure::Problems(file.missing(&needed, what)));
+            }
+        }
+        Ok(())
+    }
+
+    fn issue(
+        &self,
+        file: &CertificateFile,
+        models: &[Model<'_>],
+        stop: &AtomicBool,
+    ) -> Result<Issued, Failure> {
+        let bar = progress::bar(trials_to_make(&file.certificate), self.quiet);
+        let advance = |trials: u64| bar.inc(trials);
+        let control = Control {
+            threads: self.threads.unwrap_or(0),
+            stop: Some(stop),
+            progress: Some(&advance),
+            ..Control::default()
+        };
+        let digests: Vec<Arc<str>> =
+            models.iter().map(|model| Arc::from(model.digest.as_str())).collect();
+        let result = issue(&file.certificate, &digests, &control);
+        bar.finish_and_clear();
+        result.map_err(|failed| failure(file, failed))
+    }
+}
+
+/// The trials of all evaluations; `None` if an adaptive one is among them.
+fn trials_to_make(certificate: &Asked) -> Option<u64> {
+    let of = |asked: &gumption_analysis::certificate::contents::Asked| match asked
+        .task
+        .settings
+        .trials
+    {
+        Trials::Fixed(trials) => Some(trials.saturating_mul(asked.task.rows.len() as u64)),
+        Trials::Adaptive => None,
+    };
+    certificate.evaluations.iter().map(of).sum()
+}
+
+/// What should be known about a certificate that is made all the same: notes of the model files, of
+/// their evaluations, and uncertainties below the laboratory's capability.
+fn notes(file: &CertificateFile, issued: &Issued) -> Vec<Warning> {
+    // said here for each row instead
+    const OF_ROWS: [&str; 2] = ["below-cmc", "raised-to-cmc"];
+    let mut notes = file.warnings.clone();
+    let evaluations = file.certificate.evaluations.iter().zip(&issued.evaluations);
+    for (asked, evaluation) in evaluations {
+        let found = warnings(&asked.task, evaluation).into_iter();
+        for warning in found.filter(|warning| !OF_ROWS.contains(&warning.code)) {
+            let text = format!("{}: {}", asked.model, warning.text);
+            let note = Warning { text, ..warning };
+            if !notes.contains(&note) {
+                notes.push(note);
+            }
+        }
+    }
+    for (number, statement) in issued.statements.iter().enumerate() {
+        let Some(limit) = statement.limit.filter(|limit| limit.below) else { continue };
+        let (row, cmc) = (number + 1, gumption_report::number::significant(limit.cmc, 3));
+        let (code, text) = if limit.raised {
+            let text =
+                format!("row {row}: U is raised to the laboratory's capability (CMC) of {cmc}");
+            ("raised-to-cmc", text)
+        } else {
+            let u = statement.rounded.map_or("0".to_owned(), |to| rounded(to.value, to.place));
+            let text = format!(
+                "row {row}: U = {u} is below the laboratory's capability (CMC) of {cmc}, which an \
+                 accredited certificate may not state (ILAC-P14); `\"cmc_floor\": true` raises it"
+            );
+            ("below-cmc", text)
+        };
+        notes.push(Warning::new(code, format!("row {row}"), text));
+    }
+    notes
+}
+
+/// A certificate that cannot be made, as a mistake with its place where it is the user's.
+fn failure(file: &CertificateFile, failed: Failed) -> Failure {
+    let message = failed.to_string();
+    let line = match &failed {
+        Failed::Evaluation { error: EvaluationError::Threads(_), .. } => {
+            return Failure::System(message);
+        }
+        Failed::Evaluation { evaluation, .. } => {
+            let of = |line: &gumption_analysis::certificate::contents::Line| {
+                line.evaluation == *evaluation
+            };
+            file.certificate.lines.iter().position(of)
+        }
+        Failed::NoUncertainty { line } => Some(*line),
+    };
+    let span = line.and_then(|line| file.places.get(line).cloned()).unwrap_or(0..0);
+    let fault = Fault::Evaluation { message };
+    Failure::Problems(Problems(vec![Problem { source: file.source.clone(), span, fault }]))
+}

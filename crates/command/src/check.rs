@@ -1,0 +1,88 @@
+//! `gumption check`
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use serde::Serialize;
+
+use super::options::{self, Answer, Format};
+use super::{Exit, Failure, output, problems};
+use gumption_files as file;
+use gumption_files::{Problem, Problems};
+
+/// Check a file.
+#[derive(Debug, Args)]
+pub(super) struct Check {
+    /// The file; - for standard input
+    file: PathBuf,
+    #[command(flatten)]
+    answer: Answer,
+}
+
+/// The answer for programs.
+#[derive(Debug, Serialize)]
+struct Verdict {
+    ok: bool,
+    errors: Vec<Mistake>,
+}
+
+#[derive(Debug, Serialize)]
+struct Mistake {
+    file: String,
+    line: usize,
+    column: usize,
+    code: &'static str,
+    message: String,
+    suggestion: Option<String>,
+}
+
+impl From<&Problem> for Mistake {
+    fn from(problem: &Problem) -> Self {
+        let (line, column) = problem.position();
+        Self {
+            file: problem.source.name.clone(),
+            line,
+            column,
+            code: problem.fault.code(),
+            message: problem.message(),
+            suggestion: problem.fault.suggestion(),
+        }
+    }
+}
+
+impl Check {
+    pub(super) fn execute(&self) -> Result<Exit, Failure> {
+        let result = if self.file == Path::new("-") {
+            file::check_text("<stdin>", &options::standard_input()?, Path::new(""))
+        } else {
+            file::check(&self.file)
+        };
+        let found = match result {
+            Ok(()) => Problems(Vec::new()),
+            Err(found) => found,
+        };
+        let right = found.0.is_empty();
+        let answer = match self.answer.format {
+            Format::Json => {
+                let errors = found.0.iter().map(Mistake::from).collect();
+                let verdict = Verdict { ok: right, errors };
+                serde_json::to_string_pretty(&verdict)
+                    .map_err(|error| Failure::System(error.to_string()))?
+                    + "\n"
+            }
+            Format::Csv => {
+                return Err(Failure::Argument("`check` answers as table or json".into()));
+            }
+            Format::Table if right => format!("{}: no mistakes found\n", self.file.display()),
+            Format::Table => {
+                // a list of mistakes is an error message wherever it goes
+                return Err(Failure::Problems(found));
+            }
+        };
+        output::write(&answer, self.answer.output.as_deref())?;
+        if !right && !self.answer.quiet {
+            anstream::eprint!("{}", problems::render(&found, true));
+        }
+        Ok(if right { Exit::Done } else { Exit::Wrong })
+    }
+}

@@ -1,0 +1,90 @@
+//! `gumption compare`
+
+use std::path::{Path, PathBuf};
+
+use clap::{Args, ValueEnum};
+
+use super::{Exit, Failure, options, output};
+use gumption_analysis::compare::{Pair, laboratories};
+use gumption_files as file;
+use gumption_files::{ComparisonOptions, ComparisonTable};
+use gumption_report::compare::{self as report, Compare as Answer};
+
+/// Compare results two by two, or those of many laboratories.
+#[derive(Debug, Args)]
+pub(super) struct Compare {
+    /// The table, CSV or XLSX: columns label, x1, U1, x2, U2 and perhaps k1, k2, r; or of
+    /// laboratories label, x, U and perhaps k; - for CSV on standard input
+    table: PathBuf,
+    /// Take the second results from the JSON answer of a run: the label names the output
+    #[arg(long, value_name = "RUN.json")]
+    against: Option<PathBuf>,
+    /// Correlation coefficients between laboratories: a header of their names, then the rows in that
+    /// order
+    #[arg(long, value_name = "FILE")]
+    correlations: Option<PathBuf>,
+    /// Show the normalized errors that the printed digits allow
+    #[arg(long)]
+    rounding: bool,
+    /// End with exit code 3 if results are not compatible, or laboratories not consistent
+    #[arg(long)]
+    fail: bool,
+    /// Format of the answer
+    #[arg(long, value_enum, default_value = "table")]
+    format: Format,
+    /// Write the answer to this file instead of standard output
+    #[arg(long, value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// Nothing on standard error but mistakes
+    #[arg(long)]
+    quiet: bool,
+}
+
+/// The format of the answer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Format {
+    /// A page of text for people
+    Table,
+    /// A page with a figure for a browser and for print, in one file
+    Html,
+    /// A page for GitHub and notebooks
+    Markdown,
+    /// The whole answer for programs
+    Json,
+    /// One line for each pair or laboratory
+    Csv,
+}
+
+impl Compare {
+    pub(super) fn execute(&self) -> Result<Exit, Failure> {
+        let options = ComparisonOptions {
+            against: self.against.as_deref(),
+            correlations: self.correlations.as_deref(),
+        };
+        let table = if self.table == Path::new("-") {
+            file::read_comparison_text("<stdin>", &options::standard_input()?, options)?
+        } else {
+            file::read_comparison(&self.table, options)?
+        };
+        let found = match table {
+            ComparisonTable::Pairs(pairs) => {
+                // pairs without an uncertainty are mistakes of the table
+                let compared = pairs.iter().filter_map(Pair::compare).collect();
+                Answer::Pairs { pairs, compared, rounding: self.rounding }
+            }
+            ComparisonTable::Laboratories { laboratories, correlations } => {
+                let found = laboratories::compare(&laboratories, &correlations);
+                Answer::Laboratories(found.map_err(|error| Failure::Argument(error.to_string()))?)
+            }
+        };
+        let answer = match self.format {
+            Format::Table => report::table(&found),
+            Format::Html => report::html(&found),
+            Format::Markdown => report::markdown(&found),
+            Format::Json => report::json(&found),
+            Format::Csv => report::csv(&found),
+        };
+        output::write(&answer, self.output.as_deref())?;
+        Ok(if self.fail && !found.is_compatible() { Exit::No } else { Exit::Done })
+    }
+}

@@ -1,0 +1,246 @@
+//! Two compared files in the formats of the answer.
+
+use serde::Serialize;
+use serde::ser::{SerializeMap, Serializer};
+
+use gumption_diff::{Difference, Due, OutputDifference, Part, RowDifference, State};
+use gumption_report::number::{MISSING, exact, place, rounded, significant, to, with_uncertainty};
+use gumption_report::{Grid, WIDTH, wrapped};
+
+/// Significant digits of uncertainties.
+const DIGITS: u32 = 2;
+
+#[derive(Serialize)]
+struct Answer<'a> {
+    gumption: &'static str,
+    a: &'a str,
+    b: &'a str,
+    changes: &'a [String],
+    #[serde(flatten)]
+    results: Results<'a>,
+}
+
+#[derive(Serialize)]
+#[serde(untagged)]
+enum Results<'a> {
+    Single { outputs: Map<&'a str, Output<'a>> },
+    Swept { rows: Vec<Row<'a>> },
+}
+
+#[derive(Serialize)]
+struct Row<'a> {
+    conditions: Map<&'a str, f64>,
+    outputs: Map<&'a str, Output<'a>>,
+}
+
+#[derive(Serialize)]
+struct Output<'a> {
+    unit: &'a str,
+    #[serde(rename = "U")]
+    expanded: [Option<f64>; 2],
+    inputs: Vec<Line<'a>>,
+}
+
+#[derive(Serialize)]
+struct Line<'a> {
+    /// The input; null for what is none.
+    input: Option<&'a str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    what: Option<&'static str>,
+    from: Option<Known<'a>>,
+    to: Option<Known<'a>>,
+    #[serde(rename = "change_of_U")]
+    change: Option<f64>,
+    share_of_change: Option<f64>,
+}
+
+#[derive(Serialize)]
+struct Known<'a> {
+    estimate: f64,
+    standard_uncertainty: f64,
+    distribution: &'a str,
+    dof: Option<f64>,
+    unit: &'a str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    sensitivity: Option<f64>,
+}
+
+impl<'a> From<&'a State> for Known<'a> {
+    fn from(state: &'a State) -> Self {
+        Self {
+            estimate: state.estimate,
+            standard_uncertainty: state.standard_uncertainty,
+            distribution: &state.distribution,
+            dof: state.dof.is_finite().then_some(state.dof),
+            unit: &state.unit,
+            sensitivity: state.sensitivity,
+        }
+    }
+}
+
+/// The name of an input, or what else a part is due to.
+fn due(part: &Part) -> (Option<&str>, Option<&'static str>) {
+    match &part.due {
+        Due::Input(name) => (Some(name), None),
+        Due::Correlations => (None, Some("correlations")),
+        Due::Coverage => (None, Some("coverage")),
+        Due::Model => (None, Some("model")),
+        Due::Rest => (None, Some("other")),
+    }
+}
+
+impl<'a> Line<'a> {
+    fn of(part: &'a Part) -> Self {
+        let (input, what) = due(part);
+        let [from, to] = part.states.each_ref().map(|state| state.as_ref().map(Known::from));
+        Self { input, what, from, to, change: part.change, share_of_change: part.share }
+    }
+}
+
+fn outputs(row: &RowDifference) -> Map<&str, Output<'_>> {
+    let outputs = row.outputs.iter().map(|output| {
+        let inputs = output.parts.iter().map(Line::of).collect();
+        let (unit, expanded) = (output.unit.as_str(), output.expanded);
+        (output.name.as_str(), Output { unit, expanded, inputs })
+    });
+    Map(outputs.collect())
+}
+
+/// The answer for programs.
+pub(super) fn json([a, b]: [&str; 2], difference: &Difference) -> String {
+    let results = match difference.rows.as_slice() {
+        [row] if !difference.swept => Results::Single { outputs: outputs(row) },
+        rows => {
+            let rows = rows.iter().map(|row| {
+                let conditions = row.conditions.iter().map(|(n, value, _)| (n.as_str(), *value));
+                Row { conditions: Map(conditions.collect()), outputs: outputs(row) }
+            });
+            Results::Swept { rows: rows.collect() }
+        }
+    };
+    let gumption = env!("CARGO_PKG_VERSION");
+    let answer = Answer { gumption, a, b, changes: &difference.changes, results };
+    // only a map with keys that are not text could fail
+    serde_json::to_string_pretty(&answer).unwrap_or_default() + "\n"
+}
+
+/// Pairs that become an object in their own order.
+struct Map<K, V>(Vec<(K, V)>);
+
+impl<K: Serialize, V: Serialize> Serialize for Map<K, V> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(Some(self.0.len()))?;
+        for (key, value) in &self.0 {
+            map.serialize_entry(key, value)?;
+        }
+        map.end()
+    }
+}
+
+/// The page for a terminal. Inputs that did not change are left out.
+pub(super) fn table([a, b]: [&str; 2], difference: &Difference) -> String {
+    let mut page = vec![wrapped(&format!("from {a} to {b}"))];
+    if !difference.changes.is_empty() {
+        page.push(difference.changes.iter().map(|change| wrapped(change)).collect());
+    }
+    for row in &difference.rows {
+        let at: Vec<String> = row
+            .conditions
+            .iter()
+            .map(|(name, value, unit)| format!("{name} = {} {unit}", exact(*value)))
+            .collect();
+        let at = if difference.swept { format!(" at {}", at.join(", ")) } else { String::new() };
+        page.extend(row.outputs.iter().map(|output| section(output, &at)));
+    }
+    if difference.rows.iter().all(|row| row.outputs.is_empty()) {
+        page.push(wrapped("The files have no output in common, or no row of conditions."));
+    }
+    page.join("\n")
+}
+
+fn section(output: &OutputDifference, at: &str) -> String {
+    let mut text = wrapped(&heading(output, at));
+    let changed = || output.parts.iter().filter(|part| part.is_changed());
+    if changed().next().is_none() {
+        return text + &wrapped("No input changed.");
+    }
+    // all to the place that the largest change deserves
+    let largest = changed().filter_map(|part| part.change).map(f64::abs).fold(0.0, f64::max);
+    let last = place(largest, DIGITS + 1);
+    let change = |part: &Part| part.change.map_or_else(missing, |change| to(change, last));
+    let share = |part: &Part| part.share.map_or_else(missing, |share| rounded(100.0 * share, -1));
+    let mut grid = Grid::default();
+    grid.text(
+        "what changed",
+        changed().map(|part| match due(part) {
+            (Some(name), _) => name.to_owned(),
+            (None, what) => what.unwrap_or("").to_owned(),
+        }),
+    );
+    grid.text("from", changed().map(|part| known(part, 0)));
+    grid.text("to", changed().map(|part| known(part, 1)));
+    grid.numbers("change\nof U", changed().map(change));
+    grid.numbers("share\nin %", changed().map(share));
+    text += &grid.render(WIDTH);
+    if changed().any(|part| part.change.is_none()) {
+        text += &wrapped(
+            "The change cannot be shared out: between the two files U is not defined everywhere.",
+        );
+    }
+    text
+}
+
+/// Degrees of freedom to three digits.
+fn three_digits(dof: f64) -> String {
+    if dof.fract() == 0.0 { exact(dof) } else { significant(dof, 3) }
+}
+
+fn missing() -> String {
+    MISSING.to_owned()
+}
+
+/// Name, U before and after, and its relative change.
+fn heading(output: &OutputDifference, at: &str) -> String {
+    let unit = if matches!(output.unit.trim(), "" | "1") { "" } else { &output.unit };
+    let expanded = output.expanded.map(|u| u.map_or_else(missing, |u| significant(u, 3)));
+    let [from, to] = expanded;
+    let relative = match output.expanded {
+        [Some(from), Some(to)] if from > 0.0 => {
+            format!(" ({:+.1} %)", 100.0 * (to / from - 1.0))
+        }
+        _ => String::new(),
+    };
+    let name = &output.name;
+    format!("{name}{at}: U from {from} to {to} {unit}").trim_end().to_owned() + &relative
+}
+
+/// What is known of an input in one of the files.
+fn known(part: &Part, side: usize) -> String {
+    if !matches!(part.due, Due::Input(_)) {
+        return String::new();
+    }
+    let Some(state) = part.states.get(side).and_then(Option::as_ref) else {
+        return "absent".to_owned();
+    };
+    let unit = if matches!(state.unit.trim(), "" | "1") { "" } else { &state.unit };
+    let State { estimate, standard_uncertainty: u, distribution, dof, .. } = state;
+    if *u == 0.0 {
+        return format!("{} {unit}", exact(*estimate)).trim_end().to_owned() + ", known exactly";
+    }
+    let (estimate, u) = with_uncertainty(*estimate, *u, DIGITS);
+    let dof = if dof.is_finite() {
+        format!(", {} degrees of freedom", three_digits(*dof))
+    } else {
+        String::new()
+    };
+    // where it moved, as it is then a reason
+    let sensitivities = part.states.each_ref().map(|s| s.as_ref().and_then(|s| s.sensitivity));
+    let sensitivity = match (state.sensitivity, sensitivities) {
+        (Some(c), [Some(from), Some(to)]) if from != to => {
+            format!(", sensitivity {}", significant(c, 4))
+        }
+        _ => String::new(),
+    };
+    format!("{estimate} {unit}").trim_end().to_owned()
+        + &format!(", u {u}, {distribution}{dof}{sensitivity}")
+}

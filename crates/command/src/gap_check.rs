@@ -1,0 +1,203 @@
+//! `gumption gap-check`
+//!
+//! Three separate steps: cases are written with their data, and the truths sealed beside them; each
+//! case is read and diagnosed from its own folder alone; only then are the truths opened and scored.
+
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use clap::{Args, ValueEnum};
+use rayon::prelude::*;
+
+use super::{Exit, Failure, options, output, progress, run};
+use gumption_files as file;
+use gumption_files::CaseFile;
+use gumption_gap as gap;
+use gumption_gap::Answer;
+use gumption_gap::check::{Checked, Report, Truth, score, truth};
+use gumption_report as report;
+
+/// Check the diagnosis blindly at a case's own design.
+#[derive(Debug, Args)]
+pub(super) struct GapCheck {
+    /// The case: its design, uncertainties and candidate effects are used, not its data
+    case: PathBuf,
+    /// Number of truths to draw
+    #[arg(long, value_name = "N", default_value = "200", value_parser = draws)]
+    draws: u64,
+    /// Format of the answer
+    #[arg(long, value_enum, default_value = "table")]
+    format: Format,
+    /// Seed of the random numbers
+    #[arg(long, value_name = "N")]
+    seed: Option<u64>,
+    /// Number of threads; all of the machine's unless given
+    #[arg(long, value_name = "N", value_parser = options::threads)]
+    threads: Option<usize>,
+    /// Keep the drawn cases and, in its folder `sealed`, their truths
+    #[arg(long, value_name = "FOLDER")]
+    keep: Option<PathBuf>,
+    /// Write the answer to this file instead of standard output
+    #[arg(long, value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// No progress, notes or warnings on standard error
+    #[arg(long)]
+    quiet: bool,
+}
+
+/// The format of the answer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Format {
+    /// A page of text for people
+    Table,
+    /// A page with figures for a browser and for print, in one file
+    Html,
+    /// The whole answer for programs
+    Json,
+}
+
+fn draws(text: &str) -> Result<u64, String> {
+    match text.parse::<u64>() {
+        Ok(count @ 1..=100_000) => Ok(count),
+        _ => Err("a whole number from 1 to 100000 is needed".to_owned()),
+    }
+}
+
+impl GapCheck {
+    pub(super) fn execute(&self) -> Result<Exit, Failure> {
+        let file = file::read_case(&self.case)?;
+        if !self.quiet {
+            run::say(&file.warnings);
+        }
+        let seed = self.seed.unwrap_or(file.case.task.settings.seed);
+        let kept;
+        let folder: &Path = match &self.keep {
+            Some(folder) => folder,
+            None => {
+                kept = tempfile::tempdir().map_err(|error| {
+                    Failure::System(format!("cannot make a temporary folder: {error}"))
+                })?;
+                kept.path()
+            }
+        };
+        let stop = progress::stop_flag();
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(self.threads.unwrap_or(0))
+            .build()
+            .map_err(|error| Failure::System(format!("cannot start threads: {error}")))?;
+        let Some(scores) = pool.install(|| self.scores(&file, folder, seed, &stop))? else {
+            return Ok(Exit::Interrupted);
+        };
+        let design = report::gap::check::Design::of(&file.case);
+        let answer = match self.format {
+            Format::Table => report::gap::check::table(&design, &scores),
+            Format::Html => {
+                let provenance = run::provenance(&file.source.text, &file.files);
+                report::gap::check::html(&design, &scores, &provenance)
+            }
+            Format::Json => report::gap::check_json(&design.title, &scores),
+        };
+        output::write(&answer, self.output.as_deref())?;
+        Ok(Exit::Done)
+    }
+
+    /// The three steps in turn: truths and data, diagnoses, comparison; `None` if they were
+    /// interrupted.
+    fn scores(
+        &self,
+        file: &CaseFile,
+        folder: &Path,
+        seed: u64,
+        stop: &AtomicBool,
+    ) -> Result<Option<Report>, Failure> {
+        let noise = gap::noise(&file.case, seed);
+        self.write(file, &noise, folder, seed)?;
+        let Some(answers) = self.diagnose(folder, seed, stop)? else {
+            return Ok(None);
+        };
+        let sim = gap::nominal(&file.case);
+        let checked = answers
+            .iter()
+            .enumerate()
+            .map(|(number, answer)| {
+                let sealed = open(&folder.join("sealed").join(format!("{number:05}.json")))?;
+                Ok(Checked::new(&sealed, answer, &sim, &noise))
+            })
+            .collect::<Result<Vec<_>, Failure>>()?;
+        Ok(Some(score(&file.case, checked, seed)))
+    }
+
+    /// Draws the truths: each case in a folder of its own, its truth in the folder `sealed`.
+    fn write(
+        &self,
+        file: &CaseFile,
+        noise: &[Vec<f64>],
+        folder: &Path,
+        seed: u64,
+    ) -> Result<(), Failure> {
+        let make = |path: &Path| {
+            std::fs::create_dir_all(path).map_err(|error| {
+                Failure::System(format!("cannot make the folder `{}`: {error}", path.display()))
+            })
+        };
+        let sealed = folder.join("sealed");
+        make(&sealed)?;
+        (0..self.draws).into_par_iter().try_for_each(|number| {
+            let (truth, measured) = truth(&file.case, noise, seed, number);
+            let own = folder.join(format!("{number:05}"));
+            make(&own)?;
+            let withheld = (truth.kind == gap::check::TruthKind::Withheld)
+                .then(|| truth.effects.first().map(String::as_str))
+                .flatten();
+            let files = file.variant(&measured, withheld);
+            for (name, bytes) in files.map_err(|error| Failure::Argument(error.0))? {
+                let path = own.join(name);
+                if let Some(parent) = path.parent() {
+                    make(parent)?;
+                }
+                write(&path, &bytes)?;
+            }
+            let text = serde_json::to_vec_pretty(&truth).unwrap_or_default();
+            write(&sealed.join(format!("{number:05}.json")), &text)
+        })
+    }
+
+    /// Diagnoses every case from its own folder; `None` if it was interrupted.
+    fn diagnose(
+        &self,
+        folder: &Path,
+        seed: u64,
+        stop: &AtomicBool,
+    ) -> Result<Option<Vec<Answer>>, Failure> {
+        let bar = progress::draws(self.draws, self.quiet);
+        let answers: Result<Vec<Option<Answer>>, Failure> = (0..self.draws)
+            .into_par_iter()
+            .map(|number| {
+                if stop.load(Ordering::Relaxed) {
+                    return Ok(None);
+                }
+                let path = folder.join(format!("{number:05}")).join("case.json");
+                let file = file::read_case(&path)?;
+                let answer = gap::answer(&file.case, seed);
+                bar.inc(1);
+                Ok(Some(answer))
+            })
+            .collect();
+        bar.finish_and_clear();
+        Ok(answers?.into_iter().collect())
+    }
+}
+
+fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
+    std::fs::write(path, bytes)
+        .map_err(|error| Failure::System(format!("cannot write `{}`: {error}", path.display())))
+}
+
+/// Opens a sealed truth.
+fn open(path: &Path) -> Result<Truth, Failure> {
+    let failed = |error: String| {
+        Failure::System(format!("cannot read the truth `{}`: {error}", path.display()))
+    };
+    let bytes = std::fs::read(path).map_err(|error| failed(error.to_string()))?;
+    serde_json::from_slice(&bytes).map_err(|error| failed(error.to_string()))
+}

@@ -1,0 +1,71 @@
+//! `gumption models --effects`: the ready-made effects of the gap diagnosis.
+
+use std::fmt::Write;
+
+use super::{one_line, plain_table, render, wrapped, wrapped_to};
+use crate::Failure;
+use gumption_files as file;
+use gumption_files::{Listing, nearest};
+
+/// The effects of that name, or all of them.
+pub(super) fn named(name: Option<&str>) -> Result<Listing, Failure> {
+    let Listing { names, mut effects } = file::catalogue();
+    let Some(name) = name else { return Ok(Listing { names, effects }) };
+    let hint = match nearest(name, effects.iter().map(|effect| effect.name.as_str())) {
+        Some(near) => format!("did you mean `{near}`?"),
+        None => "`gumption models --effects` lists those that there are".to_owned(),
+    };
+    effects.retain(|effect| effect.name == name);
+    if effects.is_empty() {
+        return Err(Failure::Argument(format!("the catalogue has no effect `{name}`; {hint}")));
+    }
+    Ok(Listing { names, effects })
+}
+
+pub(super) fn json(listing: &Listing) -> Result<String, Failure> {
+    let text = serde_json::to_string_pretty(listing);
+    Ok(text.map_err(|error| Failure::System(error.to_string()))? + "\n")
+}
+
+pub(super) fn page(listing: &Listing) -> String {
+    let mut text = String::new();
+    for effect in &listing.effects {
+        let _ = writeln!(text, "{} ({})\n", effect.name, bench(&effect.bench));
+        let _ = writeln!(text, "{}\n", wrapped(&effect.about));
+        let mut parameters = plain_table();
+        parameters.set_header(["parameter", "unit", "prior", "what it is"]);
+        for parameter in &effect.parameters {
+            parameters.add_row([
+                &parameter.name,
+                &parameter.unit,
+                &parameter.prior,
+                &one_line(&parameter.about),
+            ]);
+        }
+        let _ = writeln!(text, "{}", render(&parameters));
+        for (name, formula) in &effect.overrides {
+            let lines = wrapped_to(&format!("{name} becomes {formula}"), 92);
+            let _ = writeln!(text, "    {}", lines.replace('\n', "\n        "));
+        }
+        let _ = writeln!(text, "\n{}\n", wrapped(&format!("Source: {}", effect.source)));
+    }
+    text.push_str(&wrapped(
+        "A case names the effects that it wants after its own: \"catalogue\": [\"lateral-mode\"]. Of \
+         several entries of one name that is taken which acts on most quantities of the sim, those of \
+         a bench before those of any. {amplitude} and {phase} stand for each observed output of that \
+         kind, {unit} for its unit.",
+    ));
+    text.push_str("\n\n");
+    let names = listing.names.iter().map(|(name, alternatives)| {
+        let others: Vec<&str> = alternatives.iter().skip(1).map(String::as_str).collect();
+        format!("{name} {}", others.join(" or "))
+    });
+    let names = names.collect::<Vec<_>>().join(", ");
+    text.push_str(&wrapped(&format!("A sim may call {names}.")));
+    text.push('\n');
+    text
+}
+
+fn bench(bench: &str) -> String {
+    if bench == "any" { "any bench".to_owned() } else { bench.to_owned() }
+}

@@ -1,0 +1,179 @@
+//! `gumption models`
+
+mod effects;
+
+use std::fmt::Write;
+
+use clap::Args;
+use comfy_table::{ContentArrangement, Table, presets};
+
+use super::options::Format;
+use super::{Exit, Failure, output};
+use gumption_files::nearest;
+use gumption_measurements::Entry;
+
+/// List the typed models or describe one, or list the ready-made effects of the gap diagnosis.
+#[derive(Debug, Args)]
+pub(super) struct Models {
+    /// A model to describe; with --effects the effect
+    name: Option<String>,
+    /// Print a model file of it, ready to fill in
+    #[arg(long, requires = "name")]
+    template: bool,
+    /// List the effects that a gap case can name in its `catalogue`
+    #[arg(long, conflicts_with = "template")]
+    effects: bool,
+    /// Format of the answer; json with --effects only
+    #[arg(long, value_enum, default_value = "table")]
+    format: Format,
+}
+
+impl Models {
+    pub(super) fn execute(&self) -> Result<Exit, Failure> {
+        let text = match &self.name {
+            name if self.effects => {
+                let listing = effects::named(name.as_deref())?;
+                match self.format {
+                    Format::Table => effects::page(&listing),
+                    Format::Json => effects::json(&listing)?,
+                    Format::Csv => {
+                        let message = "`models --effects` answers as table or json";
+                        return Err(Failure::Argument(message.into()));
+                    }
+                }
+            }
+            _ if self.format != Format::Table => {
+                let message = "`models` answers as table; in json with --effects only";
+                return Err(Failure::Argument(message.into()));
+            }
+            None => list(&gumption_measurements::all()),
+            Some(name) => match gumption_measurements::find(name) {
+                Some(entry) if self.template => entry.example.to_owned(),
+                Some(entry) => describe(&entry),
+                None => return Err(unknown(name)),
+            },
+        };
+        output::write(&text, None)?;
+        Ok(Exit::Done)
+    }
+}
+
+fn unknown(name: &str) -> Failure {
+    let known = gumption_measurements::all();
+    let hint = match nearest(name, known.iter().map(|e| e.typed.declaration.name)) {
+        Some(near) => format!("did you mean `{near}`?"),
+        None => "`gumption models` lists those that there are".to_owned(),
+    };
+    Failure::Argument(format!("there is no typed model `{name}`; {hint}"))
+}
+
+/// A doc text as a page has it: no indentation, and links by their text.
+fn plain(about: &str) -> String {
+    let lines: Vec<&str> = about.trim().lines().map(str::trim).collect();
+    let mut text = String::new();
+    let whole = lines.join("\n");
+    let mut rest = whole.as_str();
+    while let Some((before, after)) = rest.split_once("[`") {
+        text.push_str(before);
+        let (name, after) = after.split_once("`]").unwrap_or((after, ""));
+        text.push_str(name);
+        let target = after.strip_prefix('(').and_then(|target| target.split_once(')'));
+        rest = target.map_or(after, |(_, after)| after);
+    }
+    text.push_str(rest);
+    text.replace('`', "")
+}
+
+/// The first paragraph of a doc text, on one line.
+fn headline(about: &str) -> String {
+    one_line(plain(about).split("\n\n").next().unwrap_or(""))
+}
+
+/// A table as text, without blanks at the ends of lines.
+fn render(table: &Table) -> String {
+    table.to_string().lines().map(|line| line.trim_end().to_owned() + "\n").collect()
+}
+
+fn plain_table() -> Table {
+    let mut table = Table::new();
+    table.load_style(presets::NOTHING).set_content_arrangement(ContentArrangement::Dynamic);
+    table.set_width(100);
+    table
+}
+
+/// On one line, and links of the documentation as names.
+fn one_line(text: &str) -> String {
+    let plain = text.replace("[`", "`").replace("`]", "`");
+    plain.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+/// On lines of at most 100 characters.
+fn wrapped(paragraph: &str) -> String {
+    wrapped_to(paragraph, 100)
+}
+
+/// On lines of at most so many characters, unless a word is longer.
+fn wrapped_to(paragraph: &str, longest: usize) -> String {
+    let mut text = String::new();
+    let mut width = 0;
+    for word in one_line(paragraph).split(' ') {
+        let length = word.chars().count();
+        if width > 0 && width + 1 + length > longest {
+            text.push('\n');
+            width = 0;
+        } else if width > 0 {
+            text.push(' ');
+            width += 1;
+        }
+        text.push_str(word);
+        width += length;
+    }
+    text
+}
+
+fn list(entries: &[Entry]) -> String {
+    let mut table = plain_table();
+    for entry in entries {
+        let declaration = entry.typed.declaration;
+        table.add_row([declaration.name.to_owned(), headline(declaration.about)]);
+    }
+    render(&table)
+}
+
+fn describe(entry: &Entry) -> String {
+    let declaration = entry.typed.declaration;
+    let mut text = format!("{}\n\n", declaration.name);
+    for paragraph in plain(declaration.about).split("\n\n") {
+        let _ = writeln!(text, "{}\n", wrapped(paragraph));
+    }
+    let _ = writeln!(text, "{}\n", wrapped(&format!("Source: {}", declaration.source)));
+    let mut inputs = plain_table();
+    inputs.set_header(["input", "unit", "default", "what it is"]);
+    for input in declaration.inputs {
+        let default = match input.default {
+            None => "required".to_owned(),
+            Some(value) if value.is_infinite() => "absent".to_owned(),
+            Some(value) => value.to_string(),
+        };
+        let unit = unit(input.unit, entry.any_unit.contains(&input.name));
+        inputs.add_row([input.name.to_owned(), unit, default, one_line(&plain(input.about))]);
+    }
+    let _ = writeln!(text, "{}", render(&inputs));
+    let mut outputs = plain_table();
+    outputs.set_header(["output", "unit", "equation", "what it is"]);
+    for output in declaration.outputs {
+        let mut unit = unit(output.unit, entry.any_unit.contains(&output.name));
+        if let Some(period) = output.period {
+            let _ = write!(unit, ", periodic {period}");
+        }
+        let about = one_line(&plain(output.about));
+        outputs.add_row([output.name.to_owned(), unit, output.equation.to_owned(), about]);
+    }
+    let _ = writeln!(text, "{}", render(&outputs));
+    let _ = writeln!(text, "A file to start from: gumption models {} --template", declaration.name);
+    text
+}
+
+fn unit(declared: &str, any: bool) -> String {
+    if any { "any".to_owned() } else { declared.to_owned() }
+}

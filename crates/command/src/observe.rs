@@ -1,0 +1,93 @@
+//! `gumption observe`
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+
+use super::options::{self, Answer, Format};
+use super::{Exit, Failure, output, run};
+use gumption_engine::task::Warning;
+use gumption_files as file;
+use gumption_files::RecipeFile;
+use gumption_report::observe::{self as report, Observed};
+use gumption_signal::{Observation, observe};
+
+/// Take amplitudes, phases and delays from recordings.
+#[derive(Debug, Args)]
+pub(super) struct Observe {
+    /// The recipe: recordings, channels and what is taken from them; - for standard input
+    recipe: PathBuf,
+    /// Seed of the random numbers
+    #[arg(long, value_name = "N")]
+    seed: Option<u64>,
+    #[command(flatten)]
+    answer: Answer,
+}
+
+impl Observe {
+    pub(super) fn execute(&self) -> Result<Exit, Failure> {
+        let mut file = if self.recipe == Path::new("-") {
+            file::read_recipe_text("<stdin>", &options::standard_input()?, Path::new(""))?
+        } else {
+            file::read_recipe(&self.recipe)?
+        };
+        file.settings.seed = self.seed.unwrap_or(file.settings.seed);
+        let mut provenance = run::provenance(&file.source.text, &[]);
+        let mut warnings: Vec<Warning> = Vec::new();
+        let mut rows = Vec::new();
+        for row in 0..file.rows.len() {
+            let (observation, found, digests) = observed(&file, row)?;
+            for warning in found {
+                if !warnings.contains(&warning) {
+                    warnings.push(warning);
+                }
+            }
+            for digest in digests {
+                if !provenance.files.contains(&digest) {
+                    provenance.files.push(digest);
+                }
+            }
+            rows.push((file.rows[row].conditions.clone(), observation));
+        }
+        let found = Observed {
+            title: file.title.as_deref(),
+            settings: &file.settings,
+            conditions: &file.conditions,
+            frequency: &file.frequency,
+            rows: &rows,
+            warnings: &warnings,
+            provenance: &provenance,
+        };
+        let answer = match self.answer.format {
+            Format::Table => report::table(&found),
+            Format::Json => report::json(&found),
+            Format::Csv => report::csv(&found),
+        };
+        // a page on standard output has the notes itself
+        if !self.answer.quiet
+            && (self.answer.format != Format::Table || self.answer.output.is_some())
+        {
+            run::say(&warnings);
+        }
+        output::write(&answer, self.answer.output.as_deref())?;
+        Ok(Exit::Done)
+    }
+}
+
+type Row = (Observation, Vec<Warning>, Vec<(String, String)>);
+
+/// What was found in a row, with notes and the digests of its files.
+fn observed(file: &RecipeFile, row: usize) -> Result<Row, Failure> {
+    let mut opened = file.open(row)?;
+    let frequencies = &file.rows[row].frequencies;
+    let observation = observe(&opened.settings, frequencies, &mut opened.tracks)
+        .map_err(|refused| file.refusal(row, &refused))?;
+    let mut warnings = opened.warnings;
+    let several = file.rows.len() > 1;
+    for (code, channel, text) in &observation.notes {
+        let name = opened.settings.channels.get(*channel).map_or("", |of| of.name.as_str());
+        let text = if several { format!("row {}, {text}", row + 1) } else { text.clone() };
+        warnings.push(Warning::new(code, name, text));
+    }
+    Ok((observation, warnings, opened.digests))
+}

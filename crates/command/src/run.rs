@@ -1,0 +1,330 @@
+//! `gumption run`
+
+use std::io::{self, IsTerminal, Write};
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use clap::{Args, ValueEnum};
+use sha2::{Digest, Sha256};
+
+use super::options::{self, Page};
+use super::{Exit, Failure, output, progress, save};
+use gumption_engine::propagate::monte_carlo::Histogram;
+use gumption_engine::propagate::{
+    Control, Evaluation, EvaluationError, evaluate, histograms, warnings,
+};
+use gumption_engine::task::{Coverage, StoppingRule, Task, Trials, Warning};
+use gumption_files as file;
+use gumption_files::{Fault, ModelFile, Override, Problem, Problems};
+use gumption_report as report;
+use gumption_report::{Column, Provenance, Report, Shown, Style};
+
+/// Evaluate a model file.
+#[derive(Debug, Args)]
+pub(super) struct Run {
+    /// The model file; - for standard input
+    model: PathBuf,
+    /// Format of the answer
+    #[arg(long, value_enum, default_value = "table")]
+    format: Page,
+    /// Write the answer to this file instead of standard output
+    #[arg(long, value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// No progress, notes or warnings on standard error
+    #[arg(long)]
+    quiet: bool,
+    /// Seed of the random streams
+    #[arg(long, value_name = "N")]
+    seed: Option<u64>,
+    /// Number of Monte Carlo trials; 0 for the GUM evaluation alone, `adaptive` for as many as the
+    /// digits need (JCGM 101, 7.9)
+    #[arg(long, value_name = "N|adaptive", value_parser = options::trials)]
+    trials: Option<Trials>,
+    /// When an adaptive run stops: by JCGM 101, 7.9, or by Stein's two-stage rule, which meets the
+    /// tolerance more often; 7.9 unless the file says otherwise
+    #[arg(long, value_name = "7.9|stein", value_parser = options::rule())]
+    rule: Option<StoppingRule>,
+    /// Make as many trials as the validation of the GUM interval needs (JCGM 101, 8.2)
+    #[arg(long, conflicts_with = "trials")]
+    validate: bool,
+    /// Largest number of trials of an adaptive run
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(20_000..))]
+    max_trials: Option<u64>,
+    /// Number of threads; all of the machine's unless given
+    #[arg(long, value_name = "N", value_parser = options::threads)]
+    threads: Option<usize>,
+    /// Memory for kept trial values
+    #[arg(long, value_name = "SIZE", default_value = "64M", value_parser = options::memory)]
+    memory: usize,
+    /// Coverage probability
+    #[arg(long, value_name = "P", value_parser = options::probability)]
+    coverage: Option<f64>,
+    /// Significant digits of the standard uncertainty that are held meaningful (clause 8)
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=15))]
+    digits: Option<u32>,
+    /// Take the coverage factor at the real number of effective degrees of freedom
+    #[arg(long, value_name = "real")]
+    dof: Option<DofRule>,
+    /// Replace an input's estimate (NAME=35, NAME="35 deg") or a field (NAME.half_width=0.2)
+    #[arg(long = "set", value_name = "NAME=VALUE", value_parser = options::replacement)]
+    replacements: Vec<Override>,
+    /// More columns of the budget in a table: names with commas between them
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = options::columns())]
+    columns: Vec<Column>,
+    /// Draw the distribution of each output below the table, with the coverage intervals
+    #[arg(long)]
+    histogram: bool,
+    /// Write a result file, from which inputs of other models can be taken
+    #[arg(long, value_name = "FILE")]
+    save: Option<PathBuf>,
+    /// Write the trials: a .csv or a .npy file
+    #[arg(long, value_name = "FILE", value_parser = save::samples)]
+    samples: Option<save::SampleFile>,
+    /// End with exit code 3 if clause 8 finds a GUM interval not valid or an output does not conform
+    #[arg(long)]
+    fail: bool,
+}
+
+/// Rows of conditions whose distributions are drawn in a terminal, at most.
+const MOST_DRAWN_ROWS: usize = 100;
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum DofRule {
+    Real,
+}
+
+impl Run {
+    pub(super) fn execute(&self) -> Result<Exit, Failure> {
+        let (text, file) = self.read()?;
+        let mut task = file.task.clone();
+        self.settings(&mut task);
+        if self.rule.is_some() && task.settings.trials != Trials::Adaptive {
+            let reason = "`--rule` is about adaptive runs; add `--trials adaptive`";
+            return Err(Failure::Argument(reason.to_owned()));
+        }
+        save::check(&task, self.save.as_deref(), self.samples.as_ref())?;
+        self.check_format(&task)?;
+        let stop = progress::stop_flag();
+        let (evaluation, warnings) = self.evaluate(&file, &task, &stop)?;
+        let provenance = provenance(&text, &file.files);
+        let report = Report {
+            task: &task,
+            evaluation: &evaluation,
+            warnings: &warnings,
+            provenance: &provenance,
+        };
+        if !self.quiet {
+            say(&warnings);
+        }
+        if evaluation.stopped || stop.load(Ordering::Relaxed) {
+            // a workbook is no answer on a screen
+            let format = if self.format == Page::Xlsx { Page::Table } else { self.format };
+            let shown = Shown { columns: &self.columns, ..Shown::default() };
+            output::write_with(None, |out| write(format, &report, &shown, out))?;
+            return Ok(Exit::Interrupted);
+        }
+        let control = self.control(&stop);
+        let histograms = self.histograms(&report, &control)?;
+        let replaced: Vec<String> = self.replacements.iter().map(|set| set.text.clone()).collect();
+        let shown = Shown {
+            columns: &self.columns,
+            histograms: &histograms,
+            replaced: &replaced,
+            model: &text,
+        };
+        let saver = save::Saver { report: &report, control: &control };
+        if let Some(path) = &self.save {
+            saver.result(path)?;
+        }
+        if let Some(file) = &self.samples {
+            saver.samples(file)?;
+        }
+        if stop.load(Ordering::Relaxed) {
+            return Ok(Exit::Interrupted);
+        }
+        output::write_with(self.output.as_deref(), |out| write(self.format, &report, &shown, out))?;
+        Ok(if self.fail && is_refuted(&evaluation) { Exit::No } else { Exit::Done })
+    }
+
+    /// Whether the answer can be given in the format that was asked for.
+    fn check_format(&self, task: &Task) -> Result<(), Failure> {
+        let refuse = |reason: &str| Err(Failure::Argument(reason.to_owned()));
+        if self.format == Page::Xlsx && self.output.is_none() && io::stdout().is_terminal() {
+            return refuse(
+                "a workbook cannot be shown in a terminal; add `--output FILE.xlsx`, or give it \
+                 to a pipe",
+            );
+        }
+        let results = task.rows.len().saturating_mul(task.model.outputs.len());
+        if self.format == Page::Xlsx && results > report::MOST_RESULTS {
+            return Err(Failure::Argument(format!(
+                "there are {results} results, but a workbook takes at most {}; take \
+                 `--format csv`, or evaluate fewer rows of conditions",
+                report::MOST_RESULTS
+            )));
+        }
+        if !self.histogram {
+            return Ok(());
+        }
+        if self.format != Page::Table {
+            return refuse(
+                "`--histogram` goes with `--format table`; `--format html` shows the distribution \
+                 without it",
+            );
+        }
+        if task.settings.trials == Trials::Fixed(0) {
+            return refuse("`--histogram` needs Monte Carlo trials, but their number is 0");
+        }
+        if task.rows.len() > MOST_DRAWN_ROWS {
+            return Err(Failure::Argument(format!(
+                "`--histogram` draws at most {MOST_DRAWN_ROWS} rows of conditions, but there are \
+                 {}; evaluate fewer of them",
+                task.rows.len()
+            )));
+        }
+        Ok(())
+    }
+
+    /// For each row the histograms of its outputs, where the answer shows them.
+    fn histograms(
+        &self,
+        report: &Report<'_>,
+        control: &Control<'_>,
+    ) -> Result<Vec<Vec<Option<Histogram>>>, Failure> {
+        let Report { task, evaluation, .. } = *report;
+        let rows = match self.format {
+            Page::Html if evaluation.rows.len() == 1 => 1,
+            Page::Table if self.histogram => evaluation.rows.len(),
+            _ => 0,
+        };
+        let mut all = Vec::with_capacity(rows);
+        for row in 0..rows {
+            all.push(histograms(task, evaluation, row, control)?.unwrap_or_default());
+        }
+        Ok(all)
+    }
+
+    fn read(&self) -> Result<(String, ModelFile), Failure> {
+        let overrides = &self.replacements;
+        if self.model == Path::new("-") {
+            let text = options::standard_input()?;
+            let file = file::read_text("<stdin>", &text, Path::new(""), overrides)?;
+            return Ok((text, file));
+        }
+        let file = file::read(&self.model, overrides)?;
+        Ok((file.source.text.clone(), file))
+    }
+
+    /// The command line beats the file.
+    fn settings(&self, task: &mut Task) {
+        let settings = &mut task.settings;
+        if let Some(p) = self.coverage {
+            settings.coverage = Coverage::Probability(p);
+        }
+        settings.trials = self.trials.unwrap_or(settings.trials);
+        if self.validate {
+            settings.trials = Trials::Adaptive;
+            settings.for_validation = true;
+        }
+        settings.rule = self.rule.unwrap_or(settings.rule);
+        settings.max_trials = self.max_trials.unwrap_or(settings.max_trials);
+        settings.seed = self.seed.unwrap_or(settings.seed);
+        settings.digits = self.digits.unwrap_or(settings.digits);
+        settings.real_dof |= self.dof.is_some();
+    }
+
+    fn control<'s>(&self, stop: &'s AtomicBool) -> Control<'s> {
+        Control {
+            threads: self.threads.unwrap_or(0),
+            memory: self.memory,
+            stop: Some(stop),
+            ..Control::default()
+        }
+    }
+
+    fn evaluate(
+        &self,
+        file: &ModelFile,
+        task: &Task,
+        stop: &AtomicBool,
+    ) -> Result<(Evaluation, Vec<Warning>), Failure> {
+        let rows = task.rows.len() as u64;
+        let trials = match task.settings.trials {
+            Trials::Fixed(trials) => Some(trials.saturating_mul(rows)),
+            Trials::Adaptive => None,
+        };
+        let bar = progress::bar(trials, self.quiet);
+        let advance = |trials: u64| bar.inc(trials);
+        let control = Control { progress: Some(&advance), ..self.control(stop) };
+        let result = evaluate(task, &control);
+        bar.finish_and_clear();
+        let evaluation = result.map_err(|error| failure(file, error))?;
+        let mut notes = file.warnings.clone();
+        notes.extend(warnings(task, &evaluation));
+        Ok((evaluation, notes))
+    }
+}
+
+/// Writes the answer in a format.
+fn write(
+    format: Page,
+    report: &Report<'_>,
+    shown: &Shown<'_>,
+    out: &mut dyn Write,
+) -> io::Result<()> {
+    match format {
+        Page::Table => {
+            let style = Style { columns: shown.columns.to_vec(), ..Style::default() };
+            report::write_table(report, &style, &mut *out)?;
+            out.write_all(report::histograms(report, shown).as_bytes())
+        }
+        Page::Json => report::write_json(report, out),
+        Page::Csv => report::write_csv(report, out),
+        Page::Markdown => out.write_all(report::markdown(report, shown).as_bytes()),
+        Page::Latex => out.write_all(report::latex(report, shown).as_bytes()),
+        Page::Html => out.write_all(report::html(report, shown).as_bytes()),
+        Page::Xlsx => out.write_all(&report::xlsx(report, shown)?),
+    }
+}
+
+/// An evaluation that failed, as a mistake with its place where it is the user's.
+pub(super) fn failure(file: &ModelFile, error: EvaluationError) -> Failure {
+    let message = error.to_string();
+    match error {
+        EvaluationError::Threads(_) => Failure::System(message),
+        EvaluationError::Undefined { .. }
+        | EvaluationError::NotFinite { .. }
+        | EvaluationError::Correlation { .. } => {
+            let (source, span) = file.output_place(0);
+            let fault = Fault::Evaluation { message };
+            Failure::Problems(Problems(vec![Problem { source, span, fault }]))
+        }
+    }
+}
+
+/// The digests of a file and of the tables that it reads.
+pub(super) fn provenance(text: &str, files: &[(String, Vec<u8>)]) -> Provenance {
+    let digest = |bytes: &[u8]| {
+        Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect::<String>()
+    };
+    Provenance {
+        model_sha256: digest(text.as_bytes()),
+        files: files.iter().map(|(name, bytes)| (name.clone(), digest(bytes))).collect(),
+    }
+}
+
+/// Warnings and notes on standard error.
+#[allow(clippy::print_stderr)]
+pub(super) fn say(warnings: &[Warning]) {
+    for warning in warnings {
+        anstream::eprintln!("note: {}", warning.text);
+    }
+}
+
+/// Whether clause 8 clearly fails for some output, or an output does not conform.
+fn is_refuted(evaluation: &Evaluation) -> bool {
+    evaluation.rows.iter().flat_map(|row| &row.outputs).any(|output| {
+        output.validation.is_some_and(|v| v.gum_valid == Some(false))
+            || output.conformity.is_some_and(|c| !c.conforms)
+    })
+}

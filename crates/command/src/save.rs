@@ -1,0 +1,110 @@
+//! What a run leaves for others: a result file, and its trials.
+
+use std::path::{Path, PathBuf};
+
+use super::{Failure, output};
+use gumption_engine::distribution::Scores;
+use gumption_engine::propagate::{
+    Control, EvaluationError, for_each_block, joint_ranks, linear, origins, quantiles,
+};
+use gumption_engine::task::{Task, Trials};
+use gumption_report as report;
+use gumption_report::{Report, Samples};
+
+/// Where to write trials, and in which form.
+#[derive(Clone, Debug)]
+pub(super) struct SampleFile {
+    path: PathBuf,
+    form: Samples,
+}
+
+/// A file of trials; its extension says the form.
+pub(super) fn samples(text: &str) -> Result<SampleFile, String> {
+    let path = PathBuf::from(text);
+    let form = path.extension().and_then(|e| Samples::of_extension(&e.to_string_lossy()));
+    let form = form.ok_or("a file name that ends in .csv or .npy is needed")?;
+    Ok(SampleFile { path, form })
+}
+
+/// Whether the task has what is to be written.
+pub(super) fn check(
+    task: &Task,
+    save: Option<&Path>,
+    samples: Option<&SampleFile>,
+) -> Result<(), Failure> {
+    let option = match (save, samples) {
+        (Some(_), _) => "--save",
+        (None, Some(_)) => "--samples",
+        (None, None) => return Ok(()),
+    };
+    let refuse = |reason: &str| Err(Failure::Argument(format!("`{option}` {reason}")));
+    if task.rows.len() != 1 {
+        return refuse(
+            "writes one result for each output, but the model has several rows of conditions; \
+             evaluate one row at a time",
+        );
+    }
+    if task.settings.trials == Trials::Fixed(0) {
+        return refuse("needs Monte Carlo trials, but their number is 0");
+    }
+    Ok(())
+}
+
+/// Writes what was asked for beside the answer.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Saver<'a> {
+    pub(super) report: &'a Report<'a>,
+    pub(super) control: &'a Control<'a>,
+}
+
+impl From<EvaluationError> for Failure {
+    fn from(error: EvaluationError) -> Self {
+        Self::System(error.to_string())
+    }
+}
+
+impl Saver<'_> {
+    /// The result file; nothing if the run is stopped meanwhile.
+    pub(super) fn result(&self, path: &Path) -> Result<(), Failure> {
+        let Report { task, evaluation, provenance, .. } = *self.report;
+        let scores: Vec<f64> = Scores::WRITTEN.values().collect();
+        let (Some(row), Some(evaluated)) = (task.rows.first(), evaluation.rows.first()) else {
+            return Ok(());
+        };
+        for (output, found) in task.model.outputs.iter().zip(&evaluated.outputs) {
+            let spread = found.monte_carlo.as_ref().and_then(|m| m.standard_uncertainty);
+            if linear(found).is_none() && spread.is_none() {
+                let name = &output.quantity.name;
+                return Err(Failure::Argument(format!(
+                    "`--save`: `{name}` has no standard uncertainty by either method"
+                )));
+            }
+        }
+        let Some(quantiles) = quantiles(task, evaluation, 0, &scores, self.control)? else {
+            return Ok(());
+        };
+        let Some(ranks) = joint_ranks(task, evaluation, 0, self.control)? else {
+            return Ok(());
+        };
+        let gums: Vec<_> = evaluated.outputs.iter().map(linear).collect();
+        let origins = origins(task, row, &gums, &provenance.model_sha256);
+        output::write_file(&report::saved(self.report, &origins, &quantiles, &ranks), path)
+    }
+
+    /// The trials, block by block; nothing is left if the run is stopped meanwhile.
+    pub(super) fn samples(&self, file: &SampleFile) -> Result<(), Failure> {
+        let Report { task, evaluation, .. } = *self.report;
+        let SampleFile { path, form } = file;
+        let names: Vec<&str> =
+            task.model.outputs.iter().map(|output| output.quantity.name.as_str()).collect();
+        let figures = evaluation.rows.iter().flat_map(|row| &row.outputs);
+        let trials = figures.filter_map(|output| output.monte_carlo.as_ref()).map(|m| m.trials);
+        let header = form.header(&names, trials.max().unwrap_or(0));
+        output::write_parts(path, |out| {
+            output::put(out, path, &header)?;
+            for_each_block(task, evaluation, 0, self.control, |block| {
+                output::put(out, path, &form.block(block))
+            })
+        })
+    }
+}

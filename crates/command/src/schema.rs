@@ -1,0 +1,23 @@
+//! `gumption schema`
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::{Exit, Failure, output};
+use gumption_files::schema;
+
+/// Print the JSON Schema of the files.
+#[derive(Debug, Args)]
+pub(super) struct Schema {
+    /// Write the schema to this file instead of standard output
+    #[arg(long, value_name = "FILE")]
+    output: Option<PathBuf>,
+}
+
+impl Schema {
+    pub(super) fn execute(&self) -> Result<Exit, Failure> {
+        output::write(&schema::text(), self.output.as_deref())?;
+        Ok(Exit::Done)
+    }
+}

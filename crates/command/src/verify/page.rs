@@ -1,0 +1,220 @@
+//! The verdicts in the formats of the answer.
+
+use std::fmt::Write;
+
+use serde::Serialize;
+
+use super::recompute::{Recomputed, Row, Verdict};
+use gumption_engine::task::Trials;
+use gumption_report::number::{MISSING, align, exact, place, rounded, significant};
+
+const VERSION: &str = env!("CARGO_PKG_VERSION");
+
+/// Characters in a line, at most.
+const WIDTH: usize = 100;
+
+/// Significant digits of a tolerance; recomputed values are rounded to match.
+const TOLERANCE_DIGITS: u32 = 2;
+
+/// The answer for programs.
+#[derive(Serialize)]
+struct Answer<'a> {
+    gumption: &'static str,
+    rows: Vec<Line<'a>>,
+    pass: usize,
+    diff: usize,
+}
+
+#[derive(Serialize)]
+struct Line<'a> {
+    example: &'a str,
+    output: Option<&'a str>,
+    quantity: &'a str,
+    published: f64,
+    tolerance: f64,
+    got: Option<f64>,
+    verdict: &'static str,
+}
+
+impl<'a> Line<'a> {
+    fn of(example: &'a str, row: &'a Row) -> Self {
+        Self {
+            example,
+            output: row.published.output.as_deref(),
+            quantity: &row.published.path,
+            published: row.published.value,
+            tolerance: row.published.tolerance,
+            got: row.got,
+            verdict: row.verdict.text(),
+        }
+    }
+}
+
+fn lines(found: &[Recomputed]) -> impl Iterator<Item = Line<'_>> {
+    found.iter().flat_map(|e| e.rows.iter().map(|row| Line::of(&e.name, row)))
+}
+
+/// How many values agree, and how many do not.
+fn counts(found: &[Recomputed]) -> (usize, usize) {
+    let verdicts = || found.iter().flat_map(|e| &e.rows).map(|row| row.verdict);
+    let pass = verdicts().filter(|v| *v == Verdict::Pass).count();
+    (pass, verdicts().count() - pass)
+}
+
+pub(super) fn json(found: &[Recomputed]) -> String {
+    let (pass, diff) = counts(found);
+    let answer = Answer { gumption: VERSION, rows: lines(found).collect(), pass, diff };
+    // only a map with keys that are not text could fail
+    serde_json::to_string_pretty(&answer).unwrap_or_default() + "\n"
+}
+
+pub(super) fn csv(found: &[Recomputed]) -> String {
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    let written = lines(found).try_for_each(|line| writer.serialize(line));
+    // writing to memory cannot fail, and all lines have as many cells
+    debug_assert!(written.is_ok(), "{written:?}");
+    writer.into_inner().ok().and_then(|bytes| String::from_utf8(bytes).ok()).unwrap_or_default()
+}
+
+/// Published value, tolerance and recomputed value as text.
+fn figures(row: &Row) -> [String; 3] {
+    let Row { published, got, .. } = row;
+    let got = match (got, place(published.tolerance, TOLERANCE_DIGITS)) {
+        (None, _) => MISSING.to_owned(),
+        (Some(got), Some(place)) => rounded(*got, place),
+        (Some(got), None) => exact(*got),
+    };
+    [exact(published.value), significant(published.tolerance, TOLERANCE_DIGITS), got]
+}
+
+/// The page for a terminal: a block for each example, columns under each other throughout.
+pub(super) fn table(found: &[Recomputed]) -> String {
+    let header = ["output", "quantity", "published", "tolerance", "recomputed", ""];
+    let blocks: Vec<Vec<[String; 6]>> = found.iter().map(cells).collect();
+    let mut widths = header.map(str::len);
+    for cells in blocks.iter().flatten() {
+        for (width, cell) in widths.iter_mut().zip(cells) {
+            *width = (*width).max(cell.chars().count());
+        }
+    }
+    let line = |cells: [&str; 6]| {
+        let mut line = String::from(" ");
+        for (place, (cell, width)) in cells.iter().zip(widths).enumerate() {
+            // numbers stand at the right of their column
+            let _ = match place {
+                2..=4 => write!(line, " {cell:>width$} "),
+                _ => write!(line, " {cell:width$} "),
+            };
+        }
+        line.trim_end().to_owned() + "\n"
+    };
+    let mut page = line(header);
+    let _ = writeln!(page, "{}", "─".repeat(widths.iter().map(|w| w + 2).sum::<usize>() - 1));
+    for (example, block) in found.iter().zip(&blocks) {
+        page += &wrapped(&format!("{}: {}", example.name, example.source), "");
+        for cells in block {
+            page += &line(cells.each_ref().map(String::as_str));
+        }
+        if let Some(failure) = &example.failure {
+            page += &wrapped(failure, "  ");
+        }
+    }
+    page.push('\n');
+    page += &wrapped(&summary(found), "");
+    page
+}
+
+/// The lines of an example, decimal points under each other.
+fn cells(example: &Recomputed) -> Vec<[String; 6]> {
+    let figures: Vec<[String; 3]> = example.rows.iter().map(figures).collect();
+    let column = |place: usize| align(&figures.iter().map(|row| &row[place]).collect::<Vec<_>>());
+    let numbers = [column(0), column(1), column(2)];
+    let rows = example.rows.iter().enumerate().map(|(place, row)| {
+        let [published, tolerance, got] = numbers.each_ref().map(|column| column[place].clone());
+        let output = row.published.output.clone().unwrap_or_default();
+        let verdict = row.verdict.text().to_owned();
+        [output, row.words.clone(), published, tolerance, got, verdict]
+    });
+    rows.collect()
+}
+
+/// A paragraph with lines of limited length.
+fn wrapped(text: &str, indent: &str) -> String {
+    let mut page = String::new();
+    let mut line = indent.to_owned();
+    for word in text.split_whitespace() {
+        let begun = line.len() > indent.len();
+        if begun && line.chars().count() + 1 + word.chars().count() > WIDTH {
+            page += &line;
+            page.push('\n');
+            line = format!("{indent}  ");
+        } else if begun {
+            line.push(' ');
+        }
+        line += word;
+    }
+    page + &line + "\n"
+}
+
+fn summary(found: &[Recomputed]) -> String {
+    let (pass, diff) = counts(found);
+    let examples = found.len();
+    let verdict = match diff {
+        0 => "all agree".to_owned(),
+        1 => format!("{pass} agree, 1 differs"),
+        _ => format!("{pass} agree, {diff} differ"),
+    };
+    let values = pass + diff;
+    format!("gumption {VERSION}: {values} published values of {examples} examples, {verdict}.")
+}
+
+/// A page to file.
+pub(super) fn markdown(found: &[Recomputed]) -> String {
+    let mut page = format!(
+        "# Published examples, recomputed\n\n\
+         {}\n\n\
+         Each published value is compared with what `gumption run` computes from the example's \
+         model file: PASS where the difference is not above the tolerance, DIFF elsewhere. \
+         `gumption verify` repeats this on any machine (ISO/IEC 17025, 7.11).\n",
+        summary(found)
+    );
+    for example in found {
+        let _ = writeln!(page, "\n## {}\n\n{}.", example.name, cell(&example.source));
+        if let Some(trials) = trials(example) {
+            let _ = writeln!(page, "{trials}");
+        }
+        if let Some(failure) = &example.failure {
+            let _ = writeln!(page, "\nNot evaluated: {}.", cell(failure));
+        }
+        page += "\n| output | quantity | published | tolerance | recomputed | verdict | tolerance \
+                 comes from |\n|---|---|---:|---:|---:|---|---|\n";
+        for row in &example.rows {
+            let [published, tolerance, got] = figures(row);
+            let output = cell(row.published.output.as_deref().unwrap_or(""));
+            let (words, verdict) = (cell(&row.words), row.verdict.text());
+            let why = cell(&row.published.why);
+            let _ = writeln!(
+                page,
+                "| {output} | {words} | {published} | {tolerance} | {got} | {verdict} | {why} |"
+            );
+        }
+        if !example.notes.is_empty() {
+            let _ = writeln!(page, "\n{}", cell(&example.notes));
+        }
+    }
+    page
+}
+
+fn trials(example: &Recomputed) -> Option<String> {
+    let (trials, seed) = example.trials?;
+    Some(match trials {
+        Trials::Fixed(count) => format!("{count} Monte Carlo trials, seed {seed}."),
+        Trials::Adaptive => format!("Adaptive Monte Carlo (JCGM 101, 7.9), seed {seed}."),
+    })
+}
+
+/// A text in one line, without what would end a cell or begin a tag.
+fn cell(text: &str) -> String {
+    let line = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    line.replace('|', "\\|").replace('<', "&lt;")
+}

@@ -1,0 +1,60 @@
+//! `gumption verify --paths`
+
+use std::fmt::Write;
+use std::path::PathBuf;
+
+use clap::Args;
+
+use crate::{Exit, Failure, options, output};
+use gumption_engine::number::CodePath;
+use gumption_engine::propagate::{Control, trial_hash};
+use gumption_engine::task::Trials;
+use gumption_files as file;
+
+/// Compare code paths.
+#[derive(Debug, Args)]
+pub(super) struct Paths {
+    /// With --paths: the model file whose trials are compared; a built-in one unless given
+    #[arg(long, value_name = "FILE", requires = "paths")]
+    model: Option<PathBuf>,
+    /// With --paths: number of trials
+    #[arg(
+        long,
+        value_name = "N",
+        default_value = "1000000",
+        requires = "paths",
+        value_parser = options::trials
+    )]
+    trials: Trials,
+}
+
+impl Paths {
+    /// Compares the paths on a number of threads; prints to standard output.
+    pub(super) fn execute(&self, threads: usize, fail: bool) -> Result<Exit, Failure> {
+        let file = match &self.model {
+            Some(path) => file::read(path, &[])?,
+            None => {
+                let name = "inclined-plane-spurious";
+                let example = gumption_measurements::find(name).map_or("", |entry| entry.example);
+                file::read_text(name, example, std::path::Path::new(""), &[])?
+            }
+        };
+        let Trials::Fixed(trials) = self.trials else {
+            return Err(Failure::Argument("a fixed number of trials is compared".to_owned()));
+        };
+        let mut text = String::new();
+        let mut hashes = Vec::new();
+        for path in CodePath::available() {
+            let control = Control { path, threads, ..Control::default() };
+            let hash = trial_hash(&file.task, trials, &control)
+                .map_err(|error| Failure::System(error.to_string()))?;
+            let _ = writeln!(text, "{:8} {hash:016x}", path.name());
+            hashes.push(hash);
+        }
+        let same = hashes.windows(2).all(|pair| pair[0] == pair[1]);
+        let verdict = if same { "the same bits on every path" } else { "the paths DIFFER" };
+        let _ = writeln!(text, "{trials} trials: {verdict}");
+        output::write(&text, None)?;
+        Ok(if !same && fail { Exit::No } else { Exit::Done })
+    }
+}

@@ -1,0 +1,191 @@
+//! The running draw of the quantities of a row.
+
+use std::sync::Arc;
+
+use super::together::Together;
+use super::{Group, Joint, paired};
+use crate::distribution::{Distribution, Stream, StreamKey, normal};
+use crate::number::{CodePath, Column};
+
+/// The quantities of a row that vary, and the joint draw of those that are linked.
+#[derive(Debug)]
+pub struct Varying {
+    distributions: Vec<Arc<Distribution>>,
+    joint: Arc<Joint>,
+    /// The members of the joint draw's groups as the row has them.
+    members: Vec<Vec<Member>>,
+    /// Outputs of saved results.
+    together: Vec<Together>,
+    in_group: Vec<bool>,
+}
+
+/// A quantity of a group: its place among those that vary, and what a drawn value becomes.
+#[derive(Clone, Copy, Debug)]
+struct Member {
+    place: usize,
+    location: f64,
+    scale: f64,
+}
+
+impl Varying {
+    /// The quantities at `varying` (in order) of a row; no group has members outside it.
+    pub fn new(row: &[Arc<Distribution>], varying: &[usize], joint: &Arc<Joint>) -> Self {
+        let distributions: Vec<Arc<Distribution>> =
+            varying.iter().filter_map(|&v| row.get(v).cloned()).collect();
+        let mut in_group = vec![false; distributions.len()];
+        let members = joint.groups.iter().map(|group| {
+            let members = group.members.iter().filter_map(|member| {
+                let place = varying.binary_search(&member.place).ok()?;
+                let [location, scale] = member.placed(distributions.get(place)?);
+                *in_group.get_mut(place)? = true;
+                Some(Member { place, location, scale })
+            });
+            members.collect()
+        });
+        let members = members.collect();
+        let together: Vec<Together> = joint.together.iter().map(|set| set.among(varying)).collect();
+        for &place in together.iter().flat_map(|set| &set.members) {
+            if let Some(is) = in_group.get_mut(place) {
+                *is = true;
+            }
+        }
+        Self { distributions, joint: Arc::clone(joint), members, together, in_group }
+    }
+
+    /// All of these quantities.
+    #[cfg(test)]
+    pub(crate) fn all(distributions: &[Distribution], joint: &Arc<Joint>) -> Self {
+        let shared: Vec<Arc<Distribution>> = distributions.iter().cloned().map(Arc::new).collect();
+        let varying: Vec<usize> = (0..shared.len()).collect();
+        Self::new(&shared, &varying, joint)
+    }
+
+    /// How many there are.
+    pub(crate) fn len(&self) -> usize {
+        self.distributions.len()
+    }
+
+    /// Their distributions.
+    pub fn distributions(&self) -> &[Arc<Distribution>] {
+        &self.distributions
+    }
+
+    /// For each whether [`Draws::scores`] gives its values and no scores: paired readings, and
+    /// outputs of a saved result that are drawn together.
+    pub fn without_scores(&self) -> Vec<bool> {
+        let mut without = vec![false; self.len()];
+        let groups = self.joint.groups.iter().zip(&self.members);
+        let paired = groups.filter(|(group, _)| group.dof.is_some());
+        let paired = paired.flat_map(|(_, members)| members.iter().map(|m| m.place));
+        let together = self.together.iter().flat_map(|set| set.members.iter().copied());
+        for place in paired.chain(together) {
+            without[place] = true;
+        }
+        without
+    }
+
+    /// The sets of quantities that are drawn together.
+    pub fn linked(&self) -> Vec<Vec<usize>> {
+        let groups = self.members.iter().map(|set| set.iter().map(|m| m.place).collect());
+        let together = self.together.iter().map(|set| set.members.clone());
+        groups.chain(together).collect()
+    }
+}
+
+/// The running draw of a set of quantities through one block.
+#[derive(Debug)]
+pub struct Draws<'a> {
+    varying: &'a Varying,
+    streams: Vec<Stream>,
+}
+
+impl<'a> Draws<'a> {
+    /// The draws of block `block` on a code path; `keys` are the streams of the quantities.
+    pub fn new(varying: &'a Varying, keys: &[StreamKey], path: CodePath, block: u64) -> Self {
+        Self { varying, streams: keys.iter().map(|key| key.block_on(path, block)).collect() }
+    }
+
+    /// Draws the next column of every quantity that is `used`; `register[q]` is where it goes.
+    #[inline(always)]
+    pub(crate) fn column(&mut self, registers: &mut [Column], register: &[usize], used: &[bool]) {
+        let varying = self.varying;
+        for (q, distribution) in varying.distributions.iter().enumerate() {
+            if used[q] && !varying.in_group[q] {
+                distribution.draw(&mut self.streams[q], &mut registers[register[q]]);
+            }
+        }
+        for (group, members) in varying.joint.groups.iter().zip(&varying.members) {
+            if members.iter().any(|m| used[m.place]) {
+                self.group(group, members, false, registers, register);
+            }
+        }
+        for set in &varying.together {
+            if set.members.iter().any(|&m| used[m]) {
+                set.draw(&varying.distributions, &mut self.streams, registers, register);
+            }
+        }
+    }
+
+    /// Draws the next column of standard normal scores of every quantity, dependent as the
+    /// quantities are; of those [`Varying::without_scores`] the values.
+    #[inline(always)]
+    pub fn scores(&mut self, registers: &mut [Column], register: &[usize]) {
+        let varying = self.varying;
+        for q in 0..varying.len() {
+            if !varying.in_group[q] {
+                normal::draw(0.0, 1.0, &mut self.streams[q], &mut registers[register[q]]);
+            }
+        }
+        for (group, members) in varying.joint.groups.iter().zip(&varying.members) {
+            self.group(group, members, group.dof.is_none(), registers, register);
+        }
+        for set in &varying.together {
+            set.draw(&varying.distributions, &mut self.streams, registers, register);
+        }
+    }
+
+    /// Standard normals, or a spherical t, mixed by the factor from the last row upwards, so that
+    /// every row still finds the columns above it unmixed. With `scores` the mixed normals are left
+    /// as they are.
+    #[inline(always)]
+    fn group(
+        &mut self,
+        group: &Group,
+        members: &[Member],
+        scores: bool,
+        registers: &mut [Column],
+        register: &[usize],
+    ) {
+        if let Some(dof) = group.dof {
+            let places = members.iter().map(|m| m.place);
+            paired::draw_spherical(dof, places, &mut self.streams, registers, register);
+        } else {
+            for m in members {
+                let out = &mut registers[register[m.place]];
+                normal::draw(0.0, 1.0, &mut self.streams[m.place], out);
+            }
+        }
+        let shapes = group.members.iter().zip(&group.factor);
+        for (member, (shape, row)) in members.iter().zip(shapes).rev() {
+            let mut sum = Column::ZERO;
+            for (&weight, other) in row.iter().zip(members) {
+                let z = &registers[register[other.place]].0;
+                for (sum, z) in sum.0.iter_mut().zip(z) {
+                    *sum += weight * z;
+                }
+            }
+            let out = &mut registers[register[member.place]].0;
+            if scores {
+                *out = sum.0;
+                continue;
+            }
+            if let Some(table) = shape.table() {
+                let z = sum.clone();
+                table.values(&z.0, &mut sum.0);
+            }
+            for (out, sum) in out.iter_mut().zip(&sum.0) {
+                *out = member.location + member.scale * sum;
+            }
+        }
+    }
+}

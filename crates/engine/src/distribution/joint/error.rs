@@ -1,0 +1,184 @@
+//! Why quantities cannot be drawn with the correlations that are declared.
+
+use std::fmt;
+
+use super::Correlation;
+
+/// At most so many coefficients are listed in a sentence.
+const LISTED: usize = 12;
+
+/// Why quantities with these correlations cannot be drawn.
+#[derive(Clone, Debug, PartialEq)]
+pub enum CorrelationError {
+    /// More quantities are linked with each other than can be served: their matrix has a number for
+    /// each pair.
+    TooMany {
+        /// How many there are.
+        count: usize,
+        /// How many there can be.
+        most: usize,
+    },
+    /// The coefficients of these quantities contradict each other: their matrix is not positive
+    /// semi-definite.
+    Contradiction {
+        /// The quantities.
+        members: Vec<usize>,
+        /// The lowest eigenvalue of their matrix.
+        eigenvalue: f64,
+        /// The nearest possible coefficients that differ from the declared ones.
+        nearest: Vec<Correlation>,
+        /// Decimals that the coefficients are worth.
+        decimals: usize,
+    },
+    /// Each pair of these quantities can have its coefficient, but a Gaussian copula cannot give
+    /// them all at once.
+    BeyondCopula {
+        /// The quantities.
+        members: Vec<usize>,
+        /// The nearest coefficients that the copula gives, where they differ.
+        nearest: Vec<Correlation>,
+        /// Decimals that the coefficients are worth.
+        decimals: usize,
+    },
+    /// No joint distribution of the two quantities has this coefficient.
+    OutOfReach {
+        /// The declared coefficient.
+        declared: Correlation,
+        /// The lowest and the highest coefficient that they can have.
+        attainable: [f64; 2],
+    },
+    /// A correlated quantity has no variance, so that the coefficient does not exist.
+    NoVariance {
+        /// The quantity.
+        member: usize,
+        /// The degrees of freedom that it is drawn with; infinite where they are not the reason.
+        dof: f64,
+    },
+    /// Paired readings that are not as many as they say.
+    Unpaired {
+        /// The quantity.
+        member: usize,
+        /// How many paired readings of that length there are.
+        count: usize,
+    },
+    /// A coefficient is declared for paired readings, whose joint distribution is that of their
+    /// sample.
+    GivenByReadings {
+        /// The quantity with paired readings.
+        member: usize,
+        /// The other one.
+        other: usize,
+        /// Whether the other one is paired with it.
+        paired: bool,
+    },
+}
+
+impl CorrelationError {
+    /// Whether a declared coefficient is one of those at fault.
+    pub fn concerns(&self, c: &Correlation) -> bool {
+        let of = |member: usize| c.first == member || c.second == member;
+        match self {
+            Self::Contradiction { members, .. } | Self::BeyondCopula { members, .. } => {
+                members.contains(&c.first) && members.contains(&c.second)
+            }
+            Self::OutOfReach { declared, .. } => of(declared.first) && of(declared.second),
+            Self::NoVariance { member, .. } => of(*member),
+            Self::GivenByReadings { member, other, .. } => of(*member) && of(*other),
+            Self::TooMany { .. } | Self::Unpaired { .. } => false,
+        }
+    }
+
+    /// The sentence, with the names of the quantities.
+    pub fn describe(&self, name: &dyn Fn(usize) -> String) -> String {
+        let names =
+            |members: &[usize]| members.iter().map(|&m| name(m)).collect::<Vec<_>>().join(", ");
+        match self {
+            Self::TooMany { count, most } => format!(
+                "{count} quantities are correlated with each other; this version takes {most} at \
+                 most"
+            ),
+            Self::Contradiction { members, eigenvalue, nearest, decimals } => format!(
+                "the correlation coefficients of {} contradict each other: no quantities can have \
+                 them all (their matrix is not positive semi-definite, its lowest eigenvalue is \
+                 {eigenvalue:.2}); the nearest possible coefficients are {}",
+                names(members),
+                list(nearest, *decimals, name)
+            ),
+            Self::BeyondCopula { members, nearest, decimals } => format!(
+                "a Gaussian copula cannot give {} these correlation coefficients all at once with \
+                 their distributions; the nearest that it can give are {}",
+                names(members),
+                list(nearest, *decimals, name)
+            ),
+            Self::OutOfReach { declared, attainable: [least, most] } => format!(
+                "the correlation coefficient of {} and {} is {}, but two quantities with their \
+                 distributions can have one from {} to {} only",
+                name(declared.first),
+                name(declared.second),
+                declared.coefficient,
+                toward_zero(*least),
+                toward_zero(*most)
+            ),
+            Self::NoVariance { member, dof } if dof.is_finite() => format!(
+                "{} is drawn from a t distribution with {dof} degrees of freedom, which has no \
+                 variance, so that a correlation coefficient of it does not exist",
+                name(*member)
+            ),
+            Self::NoVariance { member, .. } => format!(
+                "{} has no variance, so that a correlation coefficient of it does not exist",
+                name(*member)
+            ),
+            Self::Unpaired { member, count } => format!(
+                "{} has paired readings, of which there must be as many of equal length as it \
+                 says, but there are {count}",
+                name(*member)
+            ),
+            Self::GivenByReadings { member, other, paired: true } => format!(
+                "the correlation of {} and {} is given twice: by their paired readings and by a \
+                 declared coefficient; take one of them out",
+                name(*member),
+                name(*other)
+            ),
+            Self::GivenByReadings { member, other, paired: false } => format!(
+                "{} is drawn together with the readings that it is paired with, so that it cannot \
+                 have a declared correlation with {} as well",
+                name(*member),
+                name(*other)
+            ),
+        }
+    }
+}
+
+/// `a`-`b` 0.83, `a`-`c` -0.38
+fn list(coefficients: &[Correlation], decimals: usize, name: &dyn Fn(usize) -> String) -> String {
+    let listed = coefficients.iter().take(LISTED).map(|c| {
+        // no negative zero
+        let r = if c.coefficient.abs() < 0.5 * unit(decimals) { 0.0 } else { c.coefficient };
+        format!("{}-{} {r:.decimals$}", name(c.first), name(c.second))
+    });
+    let mut text = listed.collect::<Vec<_>>().join(", ");
+    if coefficients.len() > LISTED {
+        text.push_str(", and others");
+    }
+    text
+}
+
+/// One unit of the last of so many decimals.
+pub(super) fn unit(decimals: usize) -> f64 {
+    (0..decimals).fold(1.0, |unit, _| unit / 10.0)
+}
+
+/// Four decimals, cut off, so that the printed limit can be used.
+fn toward_zero(limit: f64) -> String {
+    // a limit of 1 comes out of an integral as 1 up to rounding
+    let cut = (limit.abs() * 1e4 + 1e-4).floor() / 1e4;
+    format!("{}", cut.copysign(limit))
+}
+
+impl fmt::Display for CorrelationError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.describe(&|member| format!("quantity {}", member + 1)))
+    }
+}
+
+impl std::error::Error for CorrelationError {}

@@ -1,0 +1,95 @@
+//! Joint draws found so far. Fits take their time, and the check of a file, its evaluation and what
+//! is generated again all need the same ones.
+
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+
+use super::profiles::Profiles;
+use super::standard::Standard;
+use super::{Correlation, CorrelationError, Joint};
+use crate::distribution::Distribution;
+
+/// A joint draw that rows share, or why there is none.
+pub(crate) type Shared = Result<Arc<Joint>, CorrelationError>;
+
+/// Quantities in all joint draws that are kept at a time. Each may have a table of 7 kB, and each
+/// pair of a draw has a number.
+const MOST: usize = 8192;
+
+/// Pairs whose numbers take the memory of a table.
+const PAIRS: usize = 1000;
+
+/// Joint draws by what they depend on: the shapes of the linked quantities and their coefficients.
+/// Copies share what they hold.
+#[derive(Clone, Debug, Default)]
+pub struct Fits(Arc<Known>);
+
+#[derive(Debug, Default)]
+struct Known {
+    draws: Mutex<Draws>,
+    profiles: Mutex<Profiles>,
+}
+
+#[derive(Debug, Default)]
+struct Draws {
+    correlations: Vec<Correlation>,
+    /// The quantities that the coefficients name, in order.
+    named: Vec<usize>,
+    found: Vec<(Linked, Arc<OnceLock<Shared>>)>,
+}
+
+/// The linked quantities with their shapes, in order.
+type Linked = Vec<(usize, Standard)>;
+
+impl Fits {
+    /// The joint draw of a row of quantities with these coefficients.
+    pub fn joint(
+        &self,
+        distributions: &[Arc<Distribution>],
+        correlations: &[Correlation],
+    ) -> Shared {
+        let place = self.place(distributions, correlations);
+        // other rows wait for the first that needs the same fit
+        let fit = || Joint::with(&self.0.profiles, distributions, correlations).map(Arc::new);
+        place.get_or_init(fit).clone()
+    }
+
+    /// Where the joint draw is kept, or will be.
+    fn place(
+        &self,
+        distributions: &[Arc<Distribution>],
+        correlations: &[Correlation],
+    ) -> Arc<OnceLock<Shared>> {
+        let mut draws = self.0.draws.lock().unwrap_or_else(PoisonError::into_inner);
+        if draws.correlations != correlations {
+            let mut named: Vec<usize> =
+                correlations.iter().flat_map(|c| [c.first, c.second]).collect();
+            named.sort_unstable();
+            named.dedup();
+            let correlations = correlations.to_vec();
+            *draws = Draws { correlations, named, found: Vec::new() };
+        }
+        let linked = linked(&draws.named, distributions);
+        if let Some((_, known)) = draws.found.iter().rev().find(|(known, _)| *known == linked) {
+            return Arc::clone(known);
+        }
+        let size = linked.len() + draws.correlations.len() / PAIRS;
+        if draws.found.len() >= (MOST / size.max(1)).max(1) {
+            draws.found.clear();
+        }
+        let place = Arc::default();
+        draws.found.push((linked, Arc::clone(&place)));
+        place
+    }
+}
+
+fn linked(named: &[usize], distributions: &[Arc<Distribution>]) -> Linked {
+    let is_paired = |d: &Distribution| matches!(d, Distribution::Readings(r) if r.together() > 1);
+    let mut places = named.to_vec();
+    let all = distributions.iter().enumerate();
+    let has_ranks = |d: &Distribution| d.saved().is_some_and(|s| s.origin().ranks.is_some());
+    places.extend(all.filter(|(_, d)| is_paired(d) || has_ranks(d)).map(|(place, _)| place));
+    places.sort_unstable();
+    places.dedup();
+    let shape = |q: usize| Some((q, Standard::of(distributions.get(q)?)));
+    places.into_iter().filter_map(shape).collect()
+}

@@ -1,0 +1,242 @@
+//! The joint distribution of many quantities: which of them are drawn together, and how.
+//!
+//! - Quantities that declared coefficients link are drawn from joint standard normals: normal ones
+//!   exactly, all others through a Gaussian copula fitted to their coefficients ([`copula`],
+//!   [`profile`]).
+//! - Outputs of one saved result are drawn as they varied in its trials ([`together`]), unless a
+//!   coefficient links one of them to another quantity.
+//! - Paired readings are drawn from a multivariate t distribution ([`paired`]).
+//!
+//! Contradictory coefficients are refused, never changed: only what lies within the rounding of
+//! their last decimals is taken as the nearest possible, and said to be. The same holds where each
+//! pair can have its coefficient but the normals behind the copula cannot.
+
+mod contradiction;
+mod copula;
+mod decimals;
+mod draws;
+mod eigen;
+mod error;
+mod fit;
+mod fits;
+mod links;
+mod matrix;
+pub mod paired;
+mod profile;
+mod profiles;
+mod scores;
+mod standard;
+#[cfg(test)]
+mod tests;
+mod together;
+
+use std::sync::{Arc, Mutex, PoisonError};
+
+pub use draws::Draws;
+pub use draws::Varying;
+pub use error::CorrelationError;
+pub use fits::Fits;
+use matrix::Symmetric;
+use profile::Table;
+use profiles::{Profiled, Profiles};
+pub use scores::FromScore;
+use standard::Standard;
+use together::{Together, together};
+
+use super::Distribution;
+
+/// A declared correlation coefficient of two quantities.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Correlation {
+    /// Place of the first quantity.
+    pub first: usize,
+    /// Place of the second quantity.
+    pub second: usize,
+    /// The coefficient r, from -1 to 1.
+    pub coefficient: f64,
+}
+
+/// At most so many quantities are linked with each other. A matrix of so many, and its factor, are
+/// 64 MB.
+const MOST_LINKED: usize = 2000;
+
+/// A quantity of a group.
+#[derive(Clone, Debug)]
+struct Member {
+    place: usize,
+    shape: MemberShape,
+}
+
+/// What the group's own standard normal or t quantity becomes.
+#[derive(Clone, Debug)]
+enum MemberShape {
+    /// The quantity, but for its place and scale.
+    Plain,
+    /// A value of this shape, that the table gives.
+    Tabulated(Standard, Arc<Table>),
+}
+
+impl Member {
+    fn plain(place: usize) -> Self {
+        Self { place, shape: MemberShape::Plain }
+    }
+
+    fn table(&self) -> Option<&Table> {
+        match &self.shape {
+            MemberShape::Plain => None,
+            MemberShape::Tabulated(_, table) => Some(table),
+        }
+    }
+
+    /// Location and scale of the quantity in a row.
+    fn placed(&self, distribution: &Distribution) -> [f64; 2] {
+        match &self.shape {
+            MemberShape::Plain => standard::plain(distribution),
+            MemberShape::Tabulated(shape, _) => shape.placed(distribution),
+        }
+    }
+}
+
+/// Quantities that are drawn together.
+#[derive(Clone, Debug)]
+struct Group {
+    members: Vec<Member>,
+    /// Lower triangular factor of the correlation matrix, row by row.
+    factor: Vec<Vec<f64>>,
+    /// Degrees of freedom of a multivariate t distribution; `None` for joint normals.
+    dof: Option<f64>,
+}
+
+/// How a set of quantities is drawn, but for the places and scales that each row has of its own.
+#[derive(Clone, Debug, Default)]
+pub struct Joint {
+    groups: Vec<Group>,
+    /// Outputs of saved results.
+    together: Vec<Together>,
+    /// Whether some matrix was positive semi-definite only up to the rounding of its coefficients.
+    pub(crate) rounded: bool,
+    /// The quantities that are drawn through a Gaussian copula, in order. Normal ones that share a
+    /// group with others are among them.
+    pub(crate) copula: Vec<usize>,
+    /// The largest change of a coefficient, within its rounding, that a copula needed.
+    pub(crate) adjusted: f64,
+    /// The coefficients that a copula does not give as they are: wanted, and drawn.
+    pub(crate) changes: Arc<Vec<(Correlation, f64)>>,
+}
+
+impl Joint {
+    /// The joint draw of quantities with these distributions and coefficients.
+    #[cfg(test)]
+    pub fn new(
+        distributions: &[Distribution],
+        correlations: &[Correlation],
+    ) -> Result<Arc<Self>, CorrelationError> {
+        let shared: Vec<Arc<Distribution>> = distributions.iter().cloned().map(Arc::new).collect();
+        Fits::default().joint(&shared, correlations)
+    }
+
+    /// The joint draw of quantities with these distributions and coefficients. Constants take no
+    /// part; coefficients of 0 say nothing. `profiles` is kept for the next one.
+    fn with(
+        profiles: &Mutex<Profiles>,
+        distributions: &[Arc<Distribution>],
+        correlations: &[Correlation],
+    ) -> Result<Self, CorrelationError> {
+        let varies = |q: usize| distributions.get(q).is_some_and(|d| d.constant().is_none());
+        let active: Vec<Correlation> = correlations
+            .iter()
+            .copied()
+            .filter(|c| c.coefficient != 0.0 && varies(c.first) && varies(c.second))
+            .collect();
+        let mut joint = Self::default();
+        for ensemble in paired::ensembles(distributions) {
+            ensemble.check(distributions)?;
+            let members = &ensemble.members;
+            if let Some(c) =
+                active.iter().find(|c| members.contains(&c.first) || members.contains(&c.second))
+            {
+                let (first, second) = (members.contains(&c.first), members.contains(&c.second));
+                let (member, other) = if first { (c.first, c.second) } else { (c.second, c.first) };
+                let paired = first && second;
+                return Err(CorrelationError::GivenByReadings { member, other, paired });
+            }
+            joint.groups.push(Group {
+                members: members.iter().map(|&m| Member::plain(m)).collect(),
+                factor: ensemble.coefficients.factor(),
+                dof: members.first().map(|&m| distributions[m].drawn_dof()),
+            });
+        }
+        let linked = links::connected(&active);
+        joint.together = together(distributions);
+        // a link to another quantity takes all of them out
+        joint.together.retain(|set| {
+            let other = |m: &usize| !set.members.contains(m);
+            !linked.iter().any(|ms| ms.iter().any(|m| !other(m)) && ms.iter().any(other))
+        });
+        for members in linked {
+            let inside = |set: &Together| members.iter().all(|m| set.members.contains(m));
+            if !joint.together.iter().any(inside) {
+                joint.add_correlated(&members, distributions, &active, profiles)?;
+            }
+        }
+        joint.copula.sort_unstable();
+        Ok(joint)
+    }
+
+    /// Adds the group of quantities that coefficients link.
+    fn add_correlated(
+        &mut self,
+        members: &[usize],
+        distributions: &[Arc<Distribution>],
+        active: &[Correlation],
+        profiles: &Mutex<Profiles>,
+    ) -> Result<(), CorrelationError> {
+        for &member in members {
+            let dof = distributions[member].drawn_dof();
+            if !(dof > 2.0 && distributions[member].standard_deviation().is_finite()) {
+                return Err(CorrelationError::NoVariance { member, dof });
+            }
+        }
+        let count = members.len();
+        if count > MOST_LINKED {
+            return Err(CorrelationError::TooMany { count, most: MOST_LINKED });
+        }
+        let declared = Symmetric::of(members, active);
+        let decimals = decimals::decimals(members, active, distributions);
+        let mut wanted = declared;
+        if !wanted.is_semidefinite() {
+            let nearest = wanted.nearest_correlation();
+            if !contradiction::is_rounding(&wanted, &nearest, decimals) {
+                return Err(contradiction::contradiction(members, &wanted, &nearest, decimals));
+            }
+            wanted = nearest;
+            self.rounded = true;
+        }
+        let mut shaped: Vec<Option<Arc<Profiled>>> = vec![None; members.len()];
+        let mut drawn: Vec<Member> = members.iter().map(|&m| Member::plain(m)).collect();
+        if members.iter().any(|&m| !distributions[m].is_drawn_normal()) {
+            for (shaped, member) in shaped.iter_mut().zip(&mut drawn) {
+                let shape = Standard::of(&distributions[member.place]);
+                let mut profiles = profiles.lock().unwrap_or_else(PoisonError::into_inner);
+                if let Some(profiled) = profiles.of(&shape) {
+                    let table = Arc::clone(&profiled.table);
+                    member.shape = MemberShape::Tabulated(shape, table);
+                    *shaped = Some(profiled);
+                }
+            }
+            let fit = fit::Fit { members, distributions, profiles: &shaped, decimals };
+            let fit::Fitted { normals, adjusted, changes } = fit.fit(&wanted)?;
+            wanted = normals;
+            self.adjusted = self.adjusted.max(adjusted);
+            Arc::make_mut(&mut self.changes).extend(changes);
+            self.copula.extend(members);
+        }
+        self.groups.push(Group { members: drawn, factor: wanted.factor(), dof: None });
+        Ok(())
+    }
+
+    /// The sets of outputs of saved results that are drawn together.
+    pub(crate) fn together(&self) -> &[Together] {
+        &self.together
+    }
+}

@@ -1,0 +1,96 @@
+//! Quantities from standard normal scores: the value at the probability that the score stands for.
+//! Two shapes that are given the same scores share their random numbers, and those of a Gaussian
+//! copula keep their dependence.
+
+use std::sync::Arc;
+
+use super::profile::{Profile, Table, at_normal};
+use super::standard::{Standard, plain};
+use crate::distribution::Distribution;
+use crate::number::{COLUMN, Column};
+
+/// How the values of a quantity follow from its scores.
+#[derive(Clone, Debug)]
+pub struct FromScore {
+    location: f64,
+    scale: f64,
+    function: Function,
+}
+
+#[derive(Clone, Debug)]
+enum Function {
+    /// The score itself.
+    Score,
+    Tabulated(Arc<Table>),
+    /// The quantile function of a quantity without a variance.
+    Quantiles(Arc<Distribution>),
+}
+
+impl FromScore {
+    /// Of a quantity with this distribution.
+    pub fn of(distribution: &Arc<Distribution>) -> Self {
+        let shape = Standard::of(distribution);
+        let [location, scale] = shape.placed(distribution);
+        match shape.distribution() {
+            None => {
+                let [location, scale] = plain(distribution);
+                Self { location, scale, function: Function::Score }
+            }
+            Some(standard) if standard.standard_deviation().is_finite() => {
+                let (_, table) = Profile::of(&standard);
+                Self { location, scale, function: Function::Tabulated(Arc::new(table)) }
+            }
+            Some(standard) => Self { location, scale, function: Function::Quantiles(standard) },
+        }
+    }
+
+    /// The values at some scores.
+    #[inline(always)]
+    pub fn values(&self, scores: &Column, out: &mut Column) {
+        match &self.function {
+            Function::Score => out.0 = scores.0,
+            Function::Tabulated(table) => table.values(&scores.0, &mut out.0),
+            Function::Quantiles(distribution) => quantiles(distribution, scores, out),
+        }
+        for i in 0..COLUMN {
+            out.0[i] = self.location + self.scale * out.0[i];
+        }
+    }
+}
+
+#[inline(never)]
+fn quantiles(distribution: &Distribution, scores: &Column, out: &mut Column) {
+    for (z, out) in scores.0.iter().zip(&mut out.0) {
+        *out = at_normal(distribution, *z);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::distribution::{Arcsine, Normal, StudentT, Triangular, special};
+
+    /// Values are the quantiles at the scores' probabilities: the table's bound of 1e-9 of the
+    /// standard deviation, and the quantile function itself for a t without a variance.
+    #[test]
+    fn values_are_quantiles() {
+        let shapes: [Distribution; 4] = [
+            Normal::new(3.0, 2.0).unwrap().into(),
+            Triangular::new(3.0, 2.0).unwrap().into(),
+            Arcsine::new(3.0, 2.0).unwrap().into(),
+            StudentT::new(3.0, 2.0, 1.5).unwrap().into(),
+        ];
+        let mut scores = Column::ZERO;
+        for (i, z) in scores.0.iter_mut().enumerate() {
+            *z = 6.0 * (i as f64 / 127.0 - 0.5);
+        }
+        for shape in shapes {
+            let mut out = Column::ZERO;
+            FromScore::of(&Arc::new(shape.clone())).values(&scores, &mut out);
+            for (z, value) in scores.0.iter().zip(&out.0) {
+                let expected = shape.quantile(special::normal::cdf(*z));
+                assert!((value - expected).abs() < 1e-8 * expected.abs().max(1.0), "{z} {value}");
+            }
+        }
+    }
+}

@@ -1,0 +1,212 @@
+//! What is known about a quantity: probability distributions, one file each, and the joint draw of
+//! many quantities.
+//!
+//! The seam for a new shape is one file that implements `shape::Shape` and one line in the list
+//! of `Distribution`.
+
+mod arcsine;
+mod beta;
+mod constant;
+mod curvilinear_trapezoid;
+mod exponential;
+mod gamma;
+mod input;
+mod joint;
+mod log_uniform;
+mod lognormal;
+mod normal;
+mod poisson_count;
+mod readings;
+mod rectangular;
+mod result;
+mod samples;
+mod score;
+mod shape;
+pub mod special;
+mod stream;
+mod student;
+mod trapezoidal;
+mod triangular;
+
+pub use arcsine::Arcsine;
+pub use beta::Beta;
+pub use constant::Constant;
+pub use curvilinear_trapezoid::CurvilinearTrapezoid;
+pub use exponential::Exponential;
+pub use gamma::Gamma;
+pub use input::{Evaluation, Input, InputError};
+pub use joint::Draws;
+pub use joint::Fits;
+pub use joint::FromScore;
+pub use joint::Joint;
+pub use joint::Varying;
+pub use joint::paired;
+pub use joint::{Correlation, CorrelationError};
+pub use log_uniform::LogUniform;
+pub use lognormal::Lognormal;
+pub use normal::Normal;
+pub use poisson_count::PoissonCount;
+pub use readings::Readings;
+pub use rectangular::Rectangular;
+pub use result::{Origin, Root, RootCorrelation, RootName, Saved, SavedResult, Scores};
+pub use samples::Samples;
+pub use shape::Invalid;
+use shape::Shape;
+pub use stream::BLOCK;
+pub use stream::Stream;
+pub use stream::StreamKey;
+pub use student::StudentT;
+pub use trapezoidal::Trapezoidal;
+pub use triangular::Triangular;
+
+use crate::number::Column;
+
+macro_rules! distributions {
+    ($($(#[$about:meta])* $shape:ident,)*) => {
+        /// A probability distribution (JCGM 101, Table 1).
+        #[derive(Clone, Debug, PartialEq)]
+        pub enum Distribution {
+            $($(#[$about])* $shape($shape),)*
+        }
+
+        $(
+            impl From<$shape> for Distribution {
+                fn from(shape: $shape) -> Self {
+                    Self::$shape(shape)
+                }
+            }
+        )*
+
+        impl Distribution {
+            /// The canonical name, as files and budgets have it.
+            pub fn name(&self) -> &'static str {
+                match self { $(Self::$shape(_) => <$shape as Shape>::NAME,)* }
+            }
+
+            /// The estimate: the expectation of the distribution.
+            pub fn mean(&self) -> f64 {
+                match self { $(Self::$shape(shape) => shape.mean(),)* }
+            }
+
+            /// The standard uncertainty on the GUM side: the standard deviation, but the scale of
+            /// a t distribution and s/sqrt(n) of readings.
+            pub fn standard_uncertainty(&self) -> f64 {
+                match self { $(Self::$shape(shape) => shape.standard_uncertainty(),)* }
+            }
+
+            /// Degrees of freedom of the standard uncertainty; infinite unless it was estimated.
+            pub fn dof(&self) -> f64 {
+                match self { $(Self::$shape(shape) => shape.dof(),)* }
+            }
+
+            /// What the stated width (the half-width of the limits, an expanded uncertainty, the
+            /// standard uncertainty itself) is divided by to give the standard uncertainty; `None`
+            /// for a shape that is not stated by one width.
+            pub fn divisor(&self) -> Option<f64> {
+                match self { $(Self::$shape(shape) => shape.divisor(),)* }
+            }
+
+            /// Degrees of freedom of the t distribution that trials are drawn from; infinite for
+            /// all other shapes. Moments of that order and above do not exist.
+            pub fn drawn_dof(&self) -> f64 {
+                match self { $(Self::$shape(shape) => shape.drawn_dof(),)* }
+            }
+
+            /// Standard deviation of the drawn values; infinite where it does not exist.
+            pub fn standard_deviation(&self) -> f64 {
+                match self { $(Self::$shape(shape) => shape.standard_deviation(),)* }
+            }
+
+            /// The value below which a drawn value lies with probability `p`, 0 < p < 1.
+            pub fn quantile(&self, p: f64) -> f64 {
+                match self { $(Self::$shape(shape) => shape.quantile(p),)* }
+            }
+
+            /// The value above which a drawn value lies with probability `q`, 0 < q < 1: the
+            /// quantile of 1 - q, also where that rounds to 1.
+            pub fn quantile_upper(&self, q: f64) -> f64 {
+                match self { $(Self::$shape(shape) => shape.quantile_upper(q),)* }
+            }
+
+            /// The same distribution with its estimate moved: limits move along. Shapes of
+            /// positive quantities keep the shape (gamma, exponential, log-uniform) or the
+            /// standard deviation (lognormal); a count becomes the one of that estimate.
+            ///
+            /// # Errors
+            /// An estimate that is not finite, or that the shape cannot have.
+            pub fn moved_to(&self, estimate: f64) -> Result<Self, Invalid> {
+                match self {
+                    $(Self::$shape(shape) => Ok(Self::$shape(shape.moved_to(estimate)?)),)*
+                }
+            }
+
+            #[inline(always)]
+            pub(crate) fn draw(&self, stream: &mut Stream, out: &mut Column) {
+                match self { $(Self::$shape(shape) => shape.draw(stream, out),)* }
+            }
+        }
+    };
+}
+
+distributions! {
+    /// Known exactly.
+    Constant,
+    /// Normal, or the t that stands for it at few degrees of freedom.
+    Normal,
+    /// Rectangular (uniform).
+    Rectangular,
+    /// Triangular.
+    Triangular,
+    /// Scaled and shifted t.
+    StudentT,
+    /// Trapezoidal, symmetric.
+    Trapezoidal,
+    /// Rectangular with inexactly known limits.
+    CurvilinearTrapezoid,
+    /// Arc sine (U-shaped).
+    Arcsine,
+    /// Repeated readings (Type A).
+    Readings,
+    /// Exponential.
+    Exponential,
+    /// Gamma.
+    Gamma,
+    /// Lognormal.
+    Lognormal,
+    /// Beta between two limits.
+    Beta,
+    /// Rectangular in the logarithm.
+    LogUniform,
+    /// Expectation of a Poisson process, of which events were counted.
+    PoissonCount,
+    /// Empirical: samples drawn with replacement.
+    Samples,
+    /// One output of a saved result.
+    SavedResult,
+}
+
+impl Distribution {
+    /// The value of a quantity that is known exactly.
+    pub fn constant(&self) -> Option<f64> {
+        match self {
+            Self::Constant(constant) => Some(constant.mean()),
+            _ => None,
+        }
+    }
+
+    /// The saved result, if it is one.
+    pub fn saved(&self) -> Option<&SavedResult> {
+        match self {
+            Self::SavedResult(saved) => Some(saved),
+            _ => None,
+        }
+    }
+
+    /// Whether trials are drawn from a normal distribution, so that a joint normal is exact.
+    pub fn is_drawn_normal(&self) -> bool {
+        matches!(self, Self::Normal(normal) if normal.drawn_dof().is_infinite())
+    }
+}
+
+#[cfg(test)]
+mod tests;

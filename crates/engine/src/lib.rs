@@ -1,0 +1,10 @@
+//! Measurement uncertainty: the law of propagation (JCGM 100) and the Monte Carlo method
+//! (JCGM 101) side by side.
+
+#![deny(unsafe_code)]
+
+pub mod distribution;
+pub mod model;
+pub mod number;
+pub mod propagate;
+pub mod task;

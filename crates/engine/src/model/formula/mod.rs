@@ -1,0 +1,157 @@
+//! Models written as text: formulas, their dimensions, and the numbers they compute with.
+//!
+//! A [`Formula`] is read once, checked against the names it may use ([`Scope`]), and then computed
+//! with whatever number is at hand: with a recording number it becomes part of a model's program,
+//! with `f64` it is evaluated at once.
+//!
+//! ```
+//! use std::collections::HashMap;
+//! use gumption_engine::model::formula::{Formula, Scope, Typing};
+//! use gumption_units::{Dimension, Unit};
+//!
+//! let formula = Formula::parse("2*height/duration^2")?;
+//! let unit = |text: &str| Unit::parse(text).map(|unit| Typing::in_unit(&unit));
+//! let scope = Scope::from_iter([("height", unit("cm")?), ("duration", unit("ms")?)]);
+//! let typing = formula.check(&scope).map_err(|errors| errors[0].clone())?;
+//! assert_eq!(typing.dimension, Some(Dimension::of([0, 1, -2, 0, 0, 0, 0])));
+//!
+//! // quantities in a formula are in SI units
+//! let values = HashMap::from([("height".to_owned(), 5.0), ("duration".to_owned(), 2.0)]);
+//! assert_eq!(formula.evaluate(&scope, &values)?, 2.5);
+//!
+//! let error = Formula::parse("height + duration")?.check(&scope).unwrap_err().remove(0);
+//! assert_eq!(error.span(), 7..8);
+//! assert_eq!(
+//!     error.to_string(),
+//!     "`height` is a length (m), but `duration` is a time (s); they cannot be added"
+//! );
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! The rules, in short; the grammar stands at the top of `parser.rs`:
+//!
+//! * `^` binds tighter than a minus sign in front and goes from right to left: `-2^2` is -4,
+//!   `2^3^2` is 512. Comparisons bind loosest, give 1 or 0, and do not chain.
+//! * A number in a formula is dimensionless, but a literal 0 fits every dimension. The exponent of
+//!   a quantity with a dimension is a rational number written out.
+//! * A temperature in degrees Celsius keeps its number; `kelvin(t)` adds 273.15, unless `t` is
+//!   known to be in kelvin.
+//! * No text makes reading or checking panic, recurse deeply or take long.
+
+#![warn(clippy::indexing_slicing)]
+
+mod dimension;
+mod error;
+mod evaluate;
+mod fraction;
+mod function;
+mod lexer;
+mod message;
+mod name;
+mod parser;
+mod suggest;
+mod syntax;
+#[cfg(test)]
+mod tests;
+mod typing;
+
+use std::collections::HashMap;
+use std::ops::Range;
+
+pub use error::{Arity, FormulaError, NumberFault, Operand};
+pub use name::{NameError, check_name, is_name};
+pub use typing::{Celsius, Scope, Typing};
+
+use super::Traced;
+use crate::number::Number;
+use syntax::{Kind, Tree};
+
+/// A formula that has been read.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Formula {
+    text: String,
+    tree: Tree,
+}
+
+impl Formula {
+    /// The longest formula, in bytes.
+    pub const MAX_LENGTH: usize = parser::MAX_LENGTH;
+
+    /// The deepest nesting of parentheses, calls, signs and exponents.
+    pub const MAX_DEPTH: usize = parser::MAX_DEPTH;
+
+    /// Reads a formula. What names and functions it uses is not looked at.
+    ///
+    /// # Errors
+    /// The first place where the text does not follow the grammar.
+    pub fn parse(text: &str) -> Result<Self, FormulaError> {
+        Ok(Self { tree: parser::parse(text)?, text: text.to_owned() })
+    }
+
+    /// The text as written.
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// The names of quantities that the formula uses, in the order of the text and as often as they
+    /// occur, each with its place.
+    pub fn names(&self) -> impl Iterator<Item = (&str, Range<usize>)> {
+        let names = self.tree.nodes.iter().filter(|node| node.kind == Kind::Name);
+        names.filter_map(|node| {
+            let name = self.text.get(node.span.clone())?;
+            Some((name, node.span.clone()))
+        })
+    }
+
+    /// Checks names, calls and dimensions, and tells what the result is.
+    ///
+    /// # Errors
+    /// All mistakes (fifty at most), in the order of their places; never an empty list.
+    pub fn check(&self, scope: &Scope) -> Result<Typing, Vec<FormulaError>> {
+        self.checked(scope, true)
+    }
+
+    /// Checks names and calls but not dimensions, for empirical formulas. The result's dimension is
+    /// known as far as the formula is consistent.
+    ///
+    /// # Errors
+    /// All mistakes (fifty at most), in the order of their places; never an empty list.
+    pub fn check_names(&self, scope: &Scope) -> Result<Typing, Vec<FormulaError>> {
+        self.checked(scope, false)
+    }
+
+    fn checked(&self, scope: &Scope, units: bool) -> Result<Typing, Vec<FormulaError>> {
+        let dimension::Checked { typings, mut errors } =
+            dimension::check(&self.text, &self.tree, scope, units);
+        if errors.is_empty() {
+            return Ok(typings.last().copied().unwrap_or(Typing::ANY));
+        }
+        errors.sort_by_key(|error| error.span().start);
+        Err(errors)
+    }
+
+    /// Computes the formula from the values of its names, which are in coherent SI units (degrees
+    /// Celsius as they are). The scope tells `kelvin` what its argument is.
+    ///
+    /// # Errors
+    /// A name without a value, or a call that [`Formula::check_names`] reports.
+    pub fn evaluate<T: Number>(
+        &self,
+        scope: &Scope,
+        values: &HashMap<String, T>,
+    ) -> Result<T, FormulaError> {
+        evaluate::evaluate(&self.text, &self.tree, scope, values)
+    }
+
+    /// Writes the formula down as part of a program: [`Formula::evaluate`] with recording numbers.
+    ///
+    /// # Errors
+    /// As [`Formula::evaluate`].
+    pub fn record<'r>(
+        &self,
+        scope: &Scope,
+        values: &HashMap<String, Traced<'r>>,
+    ) -> Result<Traced<'r>, FormulaError> {
+        self.evaluate(scope, values)
+    }
+}

@@ -1,0 +1,232 @@
+//! What formulas compute, directly and as recorded programs.
+
+use std::collections::HashMap;
+
+use super::*;
+use crate::model::typed::Typed;
+use crate::model::typed::example::Projection;
+use crate::model::{Program, Recorder, in_unit, recorded_values, variables};
+use crate::number::{Dual, Number};
+
+fn constant(text: &str) -> f64 {
+    let formula = Formula::parse(text).unwrap_or_else(|error| panic!("{text}: {error}"));
+    formula.evaluate(&Scope::new(), &HashMap::new()).unwrap()
+}
+
+#[test]
+fn constants() {
+    // exact in binary, or the same operation on the same numbers
+    let table = [
+        ("2^3^2", 512.0),
+        ("-2^2", -4.0),
+        ("2^-1", 0.5),
+        ("(-2)^3", -8.0),
+        ("(-2)^-3", -0.125),
+        ("(-1)^63", -1.0),
+        ("4^0.5", 2.0),
+        ("4^(1/2)", 2.0),
+        ("4^-0.5", 0.5),
+        ("0^0", 1.0),
+        ("2^65", 2.0 * f64::from(1 << 30) * f64::from(1 << 30) * 16.0),
+        ("1 + 2*3 - 4/8", 6.5),
+        ("10 - 4 - 3", 3.0),
+        ("16/4/2", 2.0),
+        ("pi", std::f64::consts::PI),
+        ("π/2", std::f64::consts::FRAC_PI_2),
+        ("sqrt(2)", std::f64::consts::SQRT_2),
+        ("cbrt(-27)", -3.0),
+        ("abs(-3)", 3.0),
+        ("min(3, 1, 2)", 1.0),
+        ("max(3, 1, 4, 2)", 4.0),
+        ("hypot(3, 4)", 5.0),
+        ("hypot(2, 3, 6)", 7.0),
+        ("atan2(1, -1)", 0.75 * std::f64::consts::PI),
+        ("ln(1) + log10(1000) + exp(0)", 4.0),
+        ("sin(0) + cos(0) + tan(0)", 1.0),
+        ("asin(1) - acos(0)", 0.0),
+        ("sinh(0) + cosh(0) + tanh(0) + atan(0)", 1.0),
+        ("1 < 2", 1.0),
+        ("2 < 1", 0.0),
+        ("2 > 1", 1.0),
+        ("1 > 1", 0.0),
+        ("1 >= 1", 1.0),
+        ("1 <= 0", 0.0),
+        ("1 == 1", 1.0),
+        ("1 != 1", 0.0),
+        ("(1 < 2)*(2 < 3)*7", 7.0),
+        ("kelvin(0)", 273.15),
+        ("kelvin(kelvin(0))", 273.15),
+        ("2^kelvin(0)", Number::pow(2.0, 273.15)),
+        ("1e-3*1E3", 1.0),
+    ];
+    for (text, expected) in table {
+        assert_eq!(constant(text), expected, "{text}");
+    }
+    assert!(constant("0/0").is_nan());
+    assert!(constant("sqrt(-1)").is_nan());
+}
+
+#[test]
+fn kelvin_adds_only_to_degrees_celsius() {
+    let mut scope = scope();
+    scope.define("alone", Typing::ANY);
+    let values: HashMap<String, f64> =
+        [("t", 20.0), ("t1", 10.0), ("dt", 2.0), ("alone", 1.0), ("n", 3.0)]
+            .into_iter()
+            .map(|(name, value)| (name.to_owned(), value))
+            .collect();
+    let table = [
+        ("kelvin(t)", 20.0 + 273.15),
+        ("kelvin(t + dt)", 22.0 + 273.15),
+        ("kelvin((t + t1)/2)", 15.0 + 273.15),
+        ("kelvin(t - t1)", 10.0 + 273.15),
+        ("kelvin(dt)", 2.0),
+        ("kelvin(kelvin(t) + dt)", 20.0 + 273.15 + 2.0),
+        ("kelvin(t)*kelvin(dt)", (20.0 + 273.15) * 2.0),
+        // where units are not checked
+        ("kelvin(t + 5)", 25.0 + 273.15),
+        ("kelvin(n)", 3.0 + 273.15),
+        ("kelvin(20)", 20.0 + 273.15),
+        ("kelvin(alone)", 1.0 + 273.15),
+    ];
+    for (text, expected) in table {
+        let formula = Formula::parse(text).unwrap();
+        assert_eq!(formula.evaluate(&scope, &values), Ok(expected), "{text}");
+    }
+}
+
+#[test]
+fn what_cannot_be_computed_is_an_error() {
+    let evaluate = |text: &str| {
+        Formula::parse(text).unwrap().evaluate::<f64>(&scope(), &HashMap::new()).unwrap_err()
+    };
+    assert_eq!(evaluate("1 + n").span(), 4..5);
+    assert!(
+        matches!(evaluate("titl"), FormulaError::UnknownName { nearest, .. } if nearest == ["tilt"])
+    );
+    assert!(matches!(evaluate("log(1)"), FormulaError::UnknownFunction { .. }));
+    assert!(matches!(evaluate("sin(1, 2)"), FormulaError::ArgumentCount { found: 2, .. }));
+    assert!(matches!(evaluate("2^sin()"), FormulaError::ArgumentCount { found: 0, .. }));
+    assert!(matches!(evaluate("kelvin()"), FormulaError::ArgumentCount { found: 0, .. }));
+}
+
+/// Formulas of x, y and z that use every operation.
+const FORMULAS: &[&str] = &[
+    "x + y*z - x/y",
+    "-x^2 + (-x)^3 - x^-2",
+    "x^0.5 + y^(1/3) + z^y + 2^x + x^0 + x^1 + x^64 + x^70",
+    "sin(x)*cos(y) + tan(z) - asin(x/9) + acos(y/9) - atan(z)",
+    "atan2(x, y)*hypot(x, y, z) + sinh(x) - cosh(y) + tanh(z)",
+    "exp(-x) + ln(y) + log10(z) + sqrt(x*y) + cbrt(z) + abs(x - y)",
+    "min(x, y, z) + 2*max(x, y, z)",
+    "(x < y) + 2*(x <= y) + 4*(x > y) + 8*(x >= y) + 16*(x == y) + 32*(x != y)",
+    "kelvin(x) + pi*kelvin(kelvin(y))",
+    "sin(x*y) + sin(x*y) + cos(x*y)",
+];
+
+fn program(text: &str, scope: &Scope) -> Program {
+    let recorder = Recorder::default();
+    let values = ["x", "y", "z"].into_iter().zip(0..);
+    let values = values.map(|(name, i)| (name.to_owned(), recorder.variable(i))).collect();
+    let result = Formula::parse(text).unwrap().record(scope, &values).unwrap();
+    recorder.program(3, &[result])
+}
+
+#[test]
+fn programs_compute_what_formulas_do() {
+    let scope = Scope::from_iter(["x", "y", "z"].map(|name| (name, Typing::NUMBER)));
+    let points = [[1.5, 0.7, 2.5], [0.25, 3.0, 0.125], [1.0, 1.0, 1.0], [2.0, 8.0, 4.5]];
+    for text in FORMULAS {
+        let formula = Formula::parse(text).unwrap();
+        let program = program(text, &scope);
+        for point in points {
+            let direct = |values: &HashMap<String, f64>| formula.evaluate(&scope, values).unwrap();
+            let named = ["x", "y", "z"].map(str::to_owned).into_iter();
+            let direct = direct(&named.clone().zip(point).collect());
+            assert_eq!(program.evaluate(&point)[0].to_bits(), direct.to_bits(), "{text}");
+
+            // the gradient: dual numbers straight through the formula
+            let duals = std::array::from_fn::<_, 3, _>(|i| Dual::<3>::variable(point[i], i));
+            let direct = formula.evaluate(&scope, &named.zip(duals).collect()).unwrap();
+            assert_eq!(program.gradients(&point).1[0], direct.gradient, "{text}");
+        }
+    }
+}
+
+#[test]
+fn gradients_of_powers() {
+    let scope = Scope::from_iter(["x", "y", "z"].map(|name| (name, Typing::NUMBER)));
+    let slope = |text: &str, x: f64| program(text, &scope).gradients(&[x, 1.0, 1.0]).1[0][0];
+    assert_eq!(slope("x^2", -3.0), -6.0);
+    assert_eq!(slope("x^3", 0.0), 0.0);
+    assert_eq!(slope("x^0.5", 4.0), 0.25);
+    assert_eq!(slope("x^-1", -2.0), -0.25);
+    assert_eq!(slope("x^(4 - 2)", -3.0), -6.0);
+    assert_eq!(slope("abs(x)", 0.0), 0.0);
+    assert_eq!(slope("max(0, x)", 0.0), 0.0);
+}
+
+#[test]
+fn parts_that_are_equal_are_recorded_once() {
+    let scope = Scope::from_iter(["x", "y", "z"].map(|name| (name, Typing::NUMBER)));
+    // x y, its sine and cosine, two sums
+    assert_eq!(program("sin(x*y) + sin(x*y) + cos(x*y)", &scope).operations(), 5);
+    // constants take no operation
+    assert_eq!(program("x*(2*pi/360)", &scope).operations(), 1);
+}
+
+#[test]
+fn a_power_of_one_half_is_the_square_root() {
+    let scope = Scope::from_iter(["x", "y", "z"].map(|name| (name, Typing::NUMBER)));
+    let undefined = |text: &str| program(text, &scope).first_undefined(&[-4.0, 1.0, 1.0]);
+    assert_eq!(undefined("x^(1/2)").as_deref(), Some("sqrt of -4"));
+    assert_eq!(undefined("x^0.25").as_deref(), Some("-4 ^ 0.25"));
+    assert_eq!(undefined("x^-3"), None);
+}
+
+/// What is undefined is named in short texts, however large or small its numbers.
+#[test]
+fn undefined_operations_are_named_in_short() {
+    let scope = Scope::from_iter(["x", "y", "z"].map(|name| (name, Typing::NUMBER)));
+    let undefined = |text: &str| program(text, &scope).first_undefined(&[1e308, -2.5e-9, 1.0]);
+    assert_eq!(undefined("x*10").as_deref(), Some("1e308 * 10"));
+    assert_eq!(undefined("sqrt(y)").as_deref(), Some("sqrt of -2.5e-9"));
+    assert_eq!(undefined("x + (1.7e308 - z)").as_deref(), Some("1e308 + 1.7e308"));
+}
+
+/// The inclined plane as formulas is the typed measurement: the same program, so the same bits.
+#[test]
+fn formulas_of_the_inclined_plane_are_the_typed_model() {
+    let typed = Typed::of::<Projection<f64>>().model().unwrap();
+    let scope: Scope = typed
+        .inputs
+        .iter()
+        .map(|input| (input.quantity.name.as_str(), Typing::in_unit(&input.quantity.unit)))
+        .collect();
+    let recorder = Recorder::default();
+    let values = recorded_values(&recorder, &typed.inputs, &[]).into_iter().collect();
+    let formulas = [
+        "abs(a_ref*sin(tilt)*cos(rotation))",
+        "abs(a_ref*sin(tilt)*sin(rotation))",
+        "abs(a_ref*cos(tilt))",
+    ];
+    let results: Vec<_> = formulas
+        .iter()
+        .zip(&typed.outputs)
+        .map(|(text, output)| {
+            let formula = Formula::parse(text).unwrap();
+            let typing = formula.check(&scope).unwrap();
+            assert_eq!(typing.dimension, Some(output.quantity.unit.dimension()));
+            in_unit(formula.record(&scope, &values).unwrap(), &output.quantity.unit)
+        })
+        .collect();
+    let program = recorder.program(variables(&typed.inputs, &[]), &results);
+    assert_eq!(program.operations(), typed.program.operations());
+    for point in [[10.0, 35.0, 20.0], [9.81, 0.0, 90.0], [-3.5, 123.4, 271.0]] {
+        let bits = |program: &Program| -> Vec<u64> {
+            program.evaluate(&point).iter().map(|y: &f64| y.to_bits()).collect()
+        };
+        assert_eq!(bits(&program), bits(&typed.program));
+        assert_eq!(program.gradients(&point), typed.program.gradients(&point));
+    }
+}

@@ -1,0 +1,159 @@
+//! Measurement models: named inputs with units, a function from inputs to outputs, named outputs.
+//!
+//! A [`Model`] is the same thing whether it was written as a Rust function ([`typed`]) or as
+//! formulas in a file: quantities on both sides and a [`Program`] between them.
+
+pub mod formula;
+mod program;
+mod schedule;
+mod slopes;
+mod trace;
+pub mod typed;
+pub use program::Node;
+pub use program::Program;
+pub use schedule::Place;
+pub use schedule::Schedule;
+pub(crate) use slopes::{Columns, Slope, Slopes};
+pub use trace::{Recorder, Traced};
+
+use std::sync::Arc;
+
+use crate::distribution::Distribution;
+use gumption_units::Unit;
+
+/// A named quantity with its unit.
+#[derive(Clone, Debug)]
+pub struct Quantity {
+    /// The name that equations use.
+    pub name: String,
+    /// The unit that its values are given and reported in.
+    pub unit: Unit,
+    /// What it is, in words.
+    pub about: String,
+}
+
+/// An input quantity: the sum of one or more variables of the program, its components.
+#[derive(Clone, Debug)]
+pub struct InputQuantity {
+    /// Name and unit.
+    pub quantity: Quantity,
+    /// How many consecutive variables of the program add up to it; one unless it has components.
+    pub parts: usize,
+}
+
+/// An output quantity (measurand).
+#[derive(Clone, Debug)]
+pub struct Output {
+    /// Name and unit.
+    pub quantity: Quantity,
+    /// The length of a turn in the output's unit, for phases: values are taken on the branch within
+    /// half a turn of the estimate.
+    pub period: Option<f64>,
+    /// The limits that a conforming value lies within, in the output's unit.
+    pub tolerance: Option<Tolerance>,
+    /// What was known about the values of the items before measuring, in the output's unit; for
+    /// global risks.
+    pub prior: Option<Arc<Distribution>>,
+    /// The risk of false acceptance that is wanted; simple acceptance without one.
+    pub risk: Option<f64>,
+    /// The smallest expanded uncertainty that the laboratory may state.
+    pub capability: Option<Capability>,
+}
+
+/// A laboratory's calibration and measurement capability (CMC), in the output's unit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Capability {
+    /// Share of the modulus of the estimate.
+    pub relative: f64,
+    /// What is added to that.
+    pub absolute: f64,
+    /// Whether a smaller expanded uncertainty is raised to it.
+    pub floor: bool,
+}
+
+impl Capability {
+    /// The smallest expanded uncertainty at an estimate.
+    pub fn at(&self, estimate: f64) -> f64 {
+        self.relative * estimate.abs() + self.absolute
+    }
+}
+
+/// Tolerance limits of an output; at least one is given (JCGM 106).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tolerance {
+    /// Lower limit.
+    pub lower: Option<f64>,
+    /// Upper limit.
+    pub upper: Option<f64>,
+}
+
+impl Tolerance {
+    /// The limits, infinite where there is none.
+    pub fn ends(&self) -> [f64; 2] {
+        [self.lower.unwrap_or(f64::NEG_INFINITY), self.upper.unwrap_or(f64::INFINITY)]
+    }
+
+    /// The limits moved inwards by a width.
+    pub fn narrowed(&self, width: f64) -> Self {
+        Self { lower: self.lower.map(|l| l + width), upper: self.upper.map(|u| u - width) }
+    }
+
+    /// Whether a value lies within the limits.
+    pub fn holds(&self, value: f64) -> bool {
+        self.lower.is_none_or(|lower| value >= lower) && self.upper.is_none_or(|u| value <= u)
+    }
+}
+
+/// A measurement model. The program's variables are the parts of the inputs, then the conditions,
+/// each in its own unit; its results are the outputs in their own units.
+#[derive(Clone, Debug)]
+pub struct Model {
+    /// The input quantities.
+    pub inputs: Vec<InputQuantity>,
+    /// The conditions of the measurement: quantities that are set and known.
+    pub conditions: Vec<Quantity>,
+    /// The output quantities.
+    pub outputs: Vec<Output>,
+    /// The function between them.
+    pub program: Program,
+}
+
+/// The recorded values of a model's inputs and conditions, in SI units, by name.
+pub fn recorded_values<'r>(
+    recorder: &'r Recorder,
+    inputs: &[InputQuantity],
+    conditions: &[Quantity],
+) -> Vec<(String, Traced<'r>)> {
+    let mut next = 0;
+    let mut variable = || {
+        next += 1;
+        recorder.variable(next - 1)
+    };
+    let mut values = Vec::with_capacity(inputs.len() + conditions.len());
+    for input in inputs {
+        let mut sum = variable();
+        for _ in 1..input.parts {
+            sum = sum + variable();
+        }
+        values.push((input.quantity.name.clone(), in_si(sum, &input.quantity.unit)));
+    }
+    for condition in conditions {
+        values.push((condition.name.clone(), in_si(variable(), &condition.unit)));
+    }
+    values
+}
+
+/// How many variables the program of these inputs and conditions has.
+pub fn variables(inputs: &[InputQuantity], conditions: &[Quantity]) -> usize {
+    inputs.iter().map(|input| input.parts).sum::<usize>() + conditions.len()
+}
+
+/// A value in a unit, converted to SI.
+pub fn in_si<'r>(value: Traced<'r>, unit: &Unit) -> Traced<'r> {
+    if unit.factor() == 1.0 { value } else { value * unit.factor() }
+}
+
+/// A value in SI, converted to a unit.
+pub fn in_unit<'r>(value: Traced<'r>, unit: &Unit) -> Traced<'r> {
+    if unit.factor() == 1.0 { value } else { value / unit.factor() }
+}

@@ -1,0 +1,206 @@
+//! What a model computes, written down as a list of operations.
+//!
+//! Typed models and formulas both end up here, so everything after this point (estimates,
+//! sensitivity coefficients, trials) is the same for both. Operations stand in an order in which
+//! each comes after its operands; equal operations on equal operands stand only once.
+
+use crate::number::{Binary, Dual, Number, Shortest, Unary};
+
+/// How many inputs one evaluation with dual numbers differentiates by.
+const GRADIENT_CHUNK: usize = 8;
+
+/// Variables from which on the way back from the outputs is taken, if these are few.
+const MANY: usize = 512;
+
+/// One operation, or a leaf. Operands are places of earlier nodes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Node {
+    Variable(usize),
+    Constant(f64),
+    Unary(Unary, usize),
+    Binary(Binary, usize, usize),
+}
+
+/// A function from variables to outputs.
+#[derive(Clone, Debug, Default)]
+pub struct Program {
+    pub nodes: Vec<Node>,
+    pub variables: usize,
+    pub outputs: Vec<usize>,
+}
+
+impl Program {
+    /// Number of variables.
+    pub fn variables(&self) -> usize {
+        self.variables
+    }
+
+    /// Number of outputs.
+    pub fn outputs(&self) -> usize {
+        self.outputs.len()
+    }
+
+    /// Number of operations, each counted once however often its result is used.
+    pub fn operations(&self) -> usize {
+        self.nodes.iter().filter(|n| matches!(n, Node::Unary(..) | Node::Binary(..))).count()
+    }
+
+    /// The outputs at the given values of the variables. A missing value is taken as 0.
+    pub fn evaluate<T: Number>(&self, variables: &[T]) -> Vec<T> {
+        let values = self.values(variables);
+        self.outputs.iter().map(|&o| values[o]).collect()
+    }
+
+    fn values<T: Number>(&self, variables: &[T]) -> Vec<T> {
+        let mut values: Vec<T> = Vec::with_capacity(self.nodes.len());
+        for node in &self.nodes {
+            values.push(match *node {
+                Node::Variable(v) => variables.get(v).copied().unwrap_or_else(|| T::constant(0.0)),
+                Node::Constant(c) => T::constant(c),
+                Node::Unary(operation, x) => values[x].unary(operation),
+                Node::Binary(operation, x, y) => values[x].binary(operation, values[y]),
+            });
+        }
+        values
+    }
+
+    /// The outputs and, for each output, its partial derivatives with respect to the variables
+    /// (JCGM 100, 5.1.3), exact to rounding.
+    pub fn gradients(&self, variables: &[f64]) -> (Vec<f64>, Vec<Vec<f64>>) {
+        let used = self.used_variables();
+        if self.goes_backward_from(used.len()) {
+            let (outputs, gradients) = self.gradients_backward(variables);
+            // where something is not finite, what it means is decided by dual numbers
+            if gradients.iter().flatten().all(|slope| slope.is_finite()) {
+                return (outputs, gradients);
+            }
+        }
+        self.gradients_forward(variables, &used)
+    }
+
+    /// Whether the way from the outputs back to the variables is the shorter one.
+    pub(crate) fn goes_backward(&self) -> bool {
+        self.goes_backward_from(self.used_variables().len())
+    }
+
+    fn goes_backward_from(&self, used: usize) -> bool {
+        used >= MANY && used >= GRADIENT_CHUNK * self.outputs.len()
+    }
+
+    /// With dual numbers, some variables at a time.
+    fn gradients_forward(&self, variables: &[f64], used: &[usize]) -> (Vec<f64>, Vec<Vec<f64>>) {
+        let outputs = self.evaluate(variables);
+        let mut gradients = vec![vec![0.0; self.variables]; self.outputs.len()];
+        for chunk in used.chunks(GRADIENT_CHUNK) {
+            let mut duals: Vec<Dual<GRADIENT_CHUNK>> =
+                variables.iter().map(|&v| Dual::constant(v)).collect();
+            for (place, &v) in chunk.iter().enumerate() {
+                if let Some(dual) = duals.get_mut(v) {
+                    *dual = Dual::variable(dual.value, place);
+                }
+            }
+            for (gradient, output) in gradients.iter_mut().zip(self.evaluate(&duals)) {
+                for (place, &v) in chunk.iter().enumerate() {
+                    gradient[v] = output.gradient[place];
+                }
+            }
+        }
+        (outputs, gradients)
+    }
+
+    /// From each output back to the variables: one pass over the operations for an output, however
+    /// many variables there are.
+    fn gradients_backward(&self, variables: &[f64]) -> (Vec<f64>, Vec<Vec<f64>>) {
+        let values: Vec<f64> = self.values(variables);
+        let gradients = self.outputs.iter().map(|&output| {
+            let mut gradient = vec![0.0; self.variables];
+            // what the output changes by with each operation's result
+            let mut slopes = vec![0.0; output + 1];
+            let mut needed = vec![false; output + 1];
+            (slopes[output], needed[output]) = (1.0, true);
+            for (place, node) in self.nodes[..=output].iter().enumerate().rev() {
+                if !needed[place] {
+                    continue;
+                }
+                let slope = slopes[place];
+                match *node {
+                    Node::Constant(_) => {}
+                    Node::Variable(v) => gradient[v] += slope,
+                    Node::Unary(operation, x) => {
+                        let [by_x] = Dual::<1>::variable(values[x], 0).unary(operation).gradient;
+                        slopes[x] += slope * by_x;
+                        needed[x] = true;
+                    }
+                    Node::Binary(operation, x, y) => {
+                        let [a, b] = [(x, 0), (y, 1)].map(|(x, i)| Dual::variable(values[x], i));
+                        let [by_x, by_y] = Dual::<2>::binary(a, operation, b).gradient;
+                        slopes[x] += slope * by_x;
+                        slopes[y] += slope * by_y;
+                        (needed[x], needed[y]) = (true, true);
+                    }
+                }
+            }
+            gradient
+        });
+        let gradients = gradients.collect();
+        (self.outputs.iter().map(|&output| values[output]).collect(), gradients)
+    }
+
+    /// The variables that some output depends on, in order.
+    fn used_variables(&self) -> Vec<usize> {
+        let reach = self.reach();
+        (0..self.variables).filter(|&v| reach.iter().any(|output| output[v])).collect()
+    }
+
+    /// For each output, whether it depends on each variable.
+    pub fn reach(&self) -> Vec<Vec<bool>> {
+        let reach_of = |output: usize| {
+            let mut reach = vec![false; self.variables];
+            let mut needed = vec![false; self.nodes.len()];
+            needed[output] = true;
+            for (place, node) in self.nodes.iter().enumerate().rev().filter(|(p, _)| *p <= output) {
+                if needed[place] {
+                    match *node {
+                        Node::Variable(v) => reach[v] = true,
+                        Node::Constant(_) => {}
+                        Node::Unary(_, x) => needed[x] = true,
+                        Node::Binary(_, x, y) => {
+                            needed[x] = true;
+                            needed[y] = true;
+                        }
+                    }
+                }
+            }
+            reach
+        };
+        self.outputs.iter().map(|&output| reach_of(output)).collect()
+    }
+
+    /// The first operation whose result is not finite although its operands are, in words such as
+    /// `sqrt of -0.25` or `1 / 0`; `None` if all is finite. An infinite constant that a model
+    /// uses on purpose (a filter that is absent) is not reported.
+    pub fn first_undefined(&self, variables: &[f64]) -> Option<String> {
+        let values = self.values(variables);
+        for (place, node) in self.nodes.iter().enumerate() {
+            if values[place].is_finite() {
+                continue;
+            }
+            match *node {
+                Node::Unary(operation, x) if values[x].is_finite() => {
+                    return Some(format!("{} of {}", operation.name(), Shortest(values[x])));
+                }
+                Node::Binary(operation, x, y) if values[x].is_finite() && values[y].is_finite() => {
+                    let name = operation.name();
+                    let (x, y) = (Shortest(values[x]), Shortest(values[y]));
+                    return Some(if operation.is_infix() {
+                        format!("{x} {name} {y}")
+                    } else {
+                        format!("{name} of {x} and {y}")
+                    });
+                }
+                _ => {}
+            }
+        }
+        None
+    }
+}

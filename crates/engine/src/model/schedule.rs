@@ -1,0 +1,252 @@
+//! A program made ready for columns of trials: what is constant is computed once, what no output
+//! needs is dropped, and every remaining step has registers to read from and to write to.
+
+use super::program::{Node, Program};
+use crate::number::{
+    Binary, Column, Number, Operand, Unary, apply_binary, apply_sin_cos, apply_unary,
+};
+
+/// One step over columns.
+#[derive(Clone, Copy, Debug)]
+enum Step {
+    Unary(Unary, usize, usize),
+    Binary(Binary, Operand, Operand, usize),
+    SinCos { angle: usize, sin: usize, cos: usize },
+}
+
+/// Where an output's column is found.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Place {
+    Register(usize),
+    /// The output is the same in all trials.
+    Constant(f64),
+}
+
+/// A program over columns.
+#[derive(Clone, Debug)]
+pub struct Schedule {
+    steps: Vec<Step>,
+    /// Number of registers, those of the varying variables first.
+    pub registers: usize,
+    /// For each varying variable, in order, whether an output depends on it.
+    pub used: Vec<bool>,
+    pub outputs: Vec<Place>,
+}
+
+impl Schedule {
+    /// `bound[v]` is the value of variable `v` where it is the same in all trials; the other
+    /// variables arrive in registers 0, 1, 2, … in their order.
+    pub fn new(program: &Program, bound: &[Option<f64>]) -> Self {
+        Self::with_variables(program, bound, false)
+    }
+
+    /// The same; the registers of the variables are never written to, so that one set of values can
+    /// be used again.
+    pub fn keeping_variables(program: &Program, bound: &[Option<f64>]) -> Self {
+        Self::with_variables(program, bound, true)
+    }
+
+    fn with_variables(program: &Program, bound: &[Option<f64>], keep: bool) -> Self {
+        let folded = fold(program, bound);
+        let needed = needed(program, &folded);
+        let mut register_of_variable = vec![usize::MAX; program.variables];
+        let mut registers = 0;
+        for (v, slot) in register_of_variable.iter_mut().enumerate() {
+            if bound.get(v).copied().flatten().is_none() {
+                *slot = registers;
+                registers += 1;
+            }
+        }
+
+        let mut used = vec![false; registers];
+        for (place, node) in program.nodes.iter().enumerate() {
+            if let Node::Variable(v) = *node
+                && needed[place]
+                && folded[place].is_none()
+            {
+                used[register_of_variable[v]] = true;
+            }
+        }
+
+        let mut last_use = last_uses(program, &folded, &needed);
+        for &output in &program.outputs {
+            last_use[output] = usize::MAX;
+        }
+        if keep {
+            for (last, node) in last_use.iter_mut().zip(&program.nodes) {
+                if matches!(node, Node::Variable(_)) {
+                    *last = usize::MAX;
+                }
+            }
+        }
+        let partner = sine_partners(program, &folded, &needed);
+
+        let mut register: Vec<usize> = vec![usize::MAX; program.nodes.len()];
+        let mut free: Vec<usize> = Vec::new();
+        let mut steps = Vec::new();
+        let operand = |register: &[usize], place: usize| match folded[place] {
+            Some(c) => Operand::Constant(c),
+            None => Operand::Register(register[place]),
+        };
+        for (place, node) in program.nodes.iter().enumerate() {
+            if !needed[place] || folded[place].is_some() {
+                continue;
+            }
+            let mut take = |free: &mut Vec<usize>| {
+                free.pop().unwrap_or_else(|| {
+                    registers += 1;
+                    registers - 1
+                })
+            };
+            let operands: [Option<usize>; 2] = match *node {
+                Node::Constant(_) => [None, None],
+                Node::Variable(v) => {
+                    register[place] = register_of_variable[v];
+                    [None, None]
+                }
+                Node::Unary(_, x) if register[place] != usize::MAX => [Some(x), None],
+                Node::Unary(operation, x) => {
+                    register[place] = take(&mut free);
+                    match partner[place] {
+                        Some(other) => {
+                            register[other] = take(&mut free);
+                            let (sin, cos) = if operation == Unary::Sin {
+                                (place, other)
+                            } else {
+                                (other, place)
+                            };
+                            steps.push(Step::SinCos {
+                                angle: register[x],
+                                sin: register[sin],
+                                cos: register[cos],
+                            });
+                        }
+                        None => steps.push(Step::Unary(operation, register[x], register[place])),
+                    }
+                    [Some(x), None]
+                }
+                Node::Binary(operation, x, y) => {
+                    let out = take(&mut free);
+                    register[place] = out;
+                    let (x_operand, y_operand) = (operand(&register, x), operand(&register, y));
+                    steps.push(Step::Binary(operation, x_operand, y_operand, out));
+                    [Some(x), (y != x).then_some(y)]
+                }
+            };
+            // a register is free once the last step that reads it has been written
+            for x in operands.into_iter().flatten() {
+                if last_use[x] == place && folded[x].is_none() {
+                    free.push(register[x]);
+                }
+            }
+        }
+        let outputs = program
+            .outputs
+            .iter()
+            .map(|&o| match folded[o] {
+                Some(c) => Place::Constant(c),
+                None => Place::Register(register[o]),
+            })
+            .collect();
+        Self { steps, registers, used, outputs }
+    }
+
+    /// Runs all steps on one column of trials.
+    #[inline(always)]
+    pub fn run(&self, registers: &mut [Column]) {
+        for step in &self.steps {
+            match *step {
+                Step::Unary(operation, x, out) => apply_unary(registers, operation, x, out),
+                Step::Binary(operation, x, y, out) => apply_binary(registers, operation, x, y, out),
+                Step::SinCos { angle, sin, cos } => apply_sin_cos(registers, angle, sin, cos),
+            }
+        }
+    }
+}
+
+/// The value of every node that is the same in all trials.
+fn fold(program: &Program, bound: &[Option<f64>]) -> Vec<Option<f64>> {
+    let mut folded: Vec<Option<f64>> = Vec::with_capacity(program.nodes.len());
+    for node in &program.nodes {
+        folded.push(match *node {
+            Node::Variable(v) => bound.get(v).copied().flatten(),
+            Node::Constant(c) => Some(c),
+            Node::Unary(operation, x) => folded[x].map(|x: f64| x.unary(operation)),
+            Node::Binary(operation, x, y) => match (folded[x], folded[y]) {
+                (Some(x), Some(y)) => Some(x.binary(operation, y)),
+                _ => None,
+            },
+        });
+    }
+    folded
+}
+
+/// The nodes that some output needs and that are not constant.
+pub(super) fn needed(program: &Program, folded: &[Option<f64>]) -> Vec<bool> {
+    let mut needed = vec![false; program.nodes.len()];
+    for &output in &program.outputs {
+        needed[output] = true;
+    }
+    for (place, node) in program.nodes.iter().enumerate().rev() {
+        if !needed[place] || folded[place].is_some() {
+            continue;
+        }
+        match *node {
+            Node::Variable(_) | Node::Constant(_) => {}
+            Node::Unary(_, x) => needed[x] = true,
+            Node::Binary(_, x, y) => {
+                needed[x] = true;
+                needed[y] = true;
+            }
+        }
+    }
+    needed
+}
+
+/// The last needed node that reads each node's value; a sine and a cosine of the same angle are
+/// computed at the first of the two, but counting the later one only keeps the angle longer.
+fn last_uses(program: &Program, folded: &[Option<f64>], needed: &[bool]) -> Vec<usize> {
+    let mut last_use = vec![0; program.nodes.len()];
+    for (place, node) in program.nodes.iter().enumerate() {
+        if !needed[place] || folded[place].is_some() {
+            continue;
+        }
+        match *node {
+            Node::Variable(_) | Node::Constant(_) => {}
+            Node::Unary(_, x) => last_use[x] = place,
+            Node::Binary(_, x, y) => {
+                last_use[x] = place;
+                last_use[y] = place;
+            }
+        }
+    }
+    last_use
+}
+
+/// For every needed sine the cosine of the same angle, and the other way round.
+fn sine_partners(program: &Program, folded: &[Option<f64>], needed: &[bool]) -> Vec<Option<usize>> {
+    let mut partner = vec![None; program.nodes.len()];
+    let mut sine_of = std::collections::HashMap::new();
+    let mut cosine_of = std::collections::HashMap::new();
+    for (place, node) in program.nodes.iter().enumerate() {
+        if !needed[place] || folded[place].is_some() {
+            continue;
+        }
+        match *node {
+            Node::Unary(Unary::Sin, x) => {
+                sine_of.insert(x, place);
+            }
+            Node::Unary(Unary::Cos, x) => {
+                cosine_of.insert(x, place);
+            }
+            _ => {}
+        }
+    }
+    for (x, &sine) in &sine_of {
+        if let Some(&cosine) = cosine_of.get(x) {
+            partner[sine] = Some(cosine);
+            partner[cosine] = Some(sine);
+        }
+    }
+    partner
+}

@@ -1,0 +1,114 @@
+//! Conformity with tolerance limits (JCGM 106): the probability that the value conforms, the
+//! specific risk of the decision, the acceptance limits for a wanted risk, and the global risks of
+//! deciding about many items of which a prior distribution is known.
+
+mod global;
+
+pub use global::GlobalRisks;
+use global::Inspection;
+
+use super::monte_carlo::MonteCarlo;
+use crate::distribution::special;
+use crate::model::{Output, Tolerance};
+
+/// How probable it is that an output lies within its tolerance limits, and what is decided.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Conformity {
+    /// The limits.
+    pub tolerance: Tolerance,
+    /// The estimate that is decided about: the mean of the trials.
+    pub estimate: f64,
+    /// The conformance probability (JCGM 106, 7): the share of trials within the limits.
+    pub probability: f64,
+    /// Numerical standard error of the probability.
+    pub numerical_standard_error: f64,
+    /// The risk of false acceptance that is wanted.
+    pub wanted_risk: Option<f64>,
+    /// The acceptance limits: the tolerance limits moved inwards by the guard band. `None` if no
+    /// value has so small a risk.
+    pub acceptance: Option<Tolerance>,
+    /// The width w of the guard band (JCGM 106, 8.3); 0 for simple acceptance (8.2).
+    pub guard_band: Option<f64>,
+    /// Whether the item is accepted: the estimate lies within the acceptance limits.
+    pub conforms: bool,
+    /// The global risks with these acceptance limits; `None` without a prior, or without a standard
+    /// uncertainty.
+    pub global: Option<GlobalRisks>,
+}
+
+impl Conformity {
+    /// The specific risk of the decision (JCGM 106, 9.3): that the accepted value does not conform,
+    /// or that the rejected one does.
+    pub fn specific_risk(&self) -> f64 {
+        if self.conforms { 1.0 - self.probability } else { self.probability }
+    }
+
+    /// The decision about an output from its trials; `None` without a tolerance. Guard bands and
+    /// global risks take the measured value to be normally distributed about the true one, with
+    /// `u` as standard uncertainty.
+    pub fn of(output: &Output, figures: &MonteCarlo, u: Option<f64>) -> Option<Self> {
+        let tolerance = output.tolerance?;
+        let p = figures.inside;
+        let u = figures.standard_uncertainty.or(u).filter(|u| u.is_finite() && *u > 0.0);
+        let limits = tolerance.ends();
+        let inspection = output.prior.as_deref().zip(u);
+        let inspection = inspection.map(|(prior, u)| Inspection::new(prior, u, limits));
+        let guard_band = match (output.risk, u, &inspection) {
+            (None, ..) => Some(0.0),
+            (Some(_), None, _) => None,
+            (Some(risk), Some(_), Some(inspection)) => inspection.guard_band(risk),
+            (Some(risk), Some(u), None) => guard_band(risk, u, limits),
+        };
+        let acceptance = guard_band.map(|width| tolerance.narrowed(width));
+        let acceptance_ends = acceptance.map(|acceptance| acceptance.ends());
+        let global = inspection.zip(acceptance_ends).map(|(of, ends)| of.risks(ends));
+        Some(Self {
+            tolerance,
+            estimate: figures.estimate,
+            probability: p,
+            numerical_standard_error: (p * (1.0 - p) / figures.trials as f64).sqrt(),
+            wanted_risk: output.risk,
+            acceptance,
+            guard_band,
+            conforms: acceptance.is_some_and(|acceptance| acceptance.holds(figures.estimate)),
+            global,
+        })
+    }
+}
+
+/// The guard band with which a value measured at an acceptance limit does not conform with at most
+/// this probability (JCGM 106, 8.3.2); `None` if the middle of the tolerance has a larger one.
+fn guard_band(risk: f64, u: f64, [lower, upper]: [f64; 2]) -> Option<f64> {
+    // what lies beyond the near limit and, where there is one, beyond the far one
+    let at = |width: f64| {
+        special::normal::sf(width / u) + special::normal::sf((upper - lower - width) / u)
+    };
+    let most = if (upper - lower).is_finite() { 0.5 * (upper - lower) } else { 40.0 * u };
+    if at(most) > risk {
+        return None;
+    }
+    Some(smallest(0.0, most, |width| at(width) <= risk))
+}
+
+/// The smallest width between two at which something holds, which it does at the larger one and
+/// goes on to do.
+fn smallest(mut low: f64, mut high: f64, holds: impl Fn(f64) -> bool) -> f64 {
+    if holds(low) {
+        return low;
+    }
+    for _ in 0..50 {
+        let middle = 0.5 * (low + high);
+        if holds(middle) {
+            high = middle
+        } else {
+            low = middle
+        }
+        if high - low <= 1e-9 * high {
+            break;
+        }
+    }
+    high
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,450 @@
+//! The evaluation of a task: both methods, every row, side by side.
+
+use std::collections::BTreeSet;
+use std::fmt;
+use std::sync::{Arc, Mutex, PoisonError};
+
+use rayon::prelude::*;
+
+use super::Control;
+use super::conformity::Conformity;
+use super::gum::{self, Gum, GumRow};
+use super::monte_carlo::{self, MonteCarlo, Request, Search, Undefined};
+use super::validate::{Validation, validate};
+use crate::distribution::{BLOCK, Correlation, CorrelationError, Joint};
+use crate::model::{Output, Program};
+use crate::number::{COLUMN, Column, Shortest};
+use crate::task::{Row, Settings, Task, Trials};
+
+/// The evaluation of a whole task.
+#[derive(Clone, Debug)]
+pub struct Evaluation {
+    /// The coverage probability used.
+    pub coverage_probability: f64,
+    /// The settings used.
+    pub settings: Settings,
+    /// One entry for each row of conditions.
+    pub rows: Vec<RowEvaluation>,
+    /// Whether declared correlations were taken as possible only within the rounding of their
+    /// coefficients.
+    pub rounded_correlations: bool,
+    /// The variables that are drawn through a Gaussian copula in some row, in order.
+    pub copula: Vec<usize>,
+    /// The largest change of a declared coefficient, within its rounding, that a copula needed.
+    pub copula_adjusted: f64,
+    /// Whether the run was stopped before all trials were made.
+    pub stopped: bool,
+}
+
+/// The evaluation of one row.
+#[derive(Clone, Debug)]
+pub struct RowEvaluation {
+    /// Values of the conditions.
+    pub conditions: Vec<f64>,
+    /// One entry for each output.
+    pub outputs: Vec<OutputEvaluation>,
+    /// Correlation coefficients between the outputs i < j: from the trials, or by the law of
+    /// propagation if there are none.
+    pub correlations: Vec<f64>,
+    /// Trials that were left out because an output was not finite.
+    pub undefined: Option<Undefined>,
+    /// The variables that are outputs of saved results, drawn as they varied together there.
+    pub together: Vec<Together>,
+    /// Coefficients that the copula of the trials does not give as they are, and what it gives.
+    pub copula_changes: Arc<Vec<(Correlation, f64)>>,
+}
+
+/// Variables that are outputs of one saved result and drawn from its trials.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Together {
+    /// The variables, in order.
+    pub variables: Vec<usize>,
+    /// How many trials the result holds.
+    pub trials: usize,
+}
+
+/// One output by both methods.
+#[derive(Clone, Debug)]
+pub struct OutputEvaluation {
+    /// By the law of propagation; `None` where a sensitivity coefficient is not finite.
+    pub gum: Option<Gum>,
+    /// By the Monte Carlo method; `None` without trials.
+    pub monte_carlo: Option<MonteCarlo>,
+    /// Their comparison.
+    pub validation: Option<Validation>,
+    /// The probability that the output conforms to its tolerance; `None` without a tolerance or
+    /// without trials.
+    pub conformity: Option<Conformity>,
+    /// The fewest degrees of freedom among the t distributions that the output depends on.
+    pub drawn_dof: f64,
+}
+
+/// The expanded uncertainty that a laboratory may state beside its capability.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stated {
+    /// The capability (CMC) at the estimate.
+    pub cmc: f64,
+    /// The expanded uncertainty to be stated.
+    pub expanded_uncertainty: f64,
+    /// Whether it was raised to the capability.
+    pub raised: bool,
+}
+
+impl OutputEvaluation {
+    /// The expanded uncertainty beside the laboratory's capability; `None` if there is none of
+    /// either. Of an output without a GUM side, or without a coverage factor, it is half the length
+    /// of the symmetric coverage interval.
+    pub fn stated(&self, output: &Output) -> Option<Stated> {
+        let capability = output.capability?;
+        let of_gum = || {
+            let gum = self.gum.as_ref()?;
+            Some((gum.estimate, gum.expanded_uncertainty()?))
+        };
+        let of_trials = || {
+            let figures = self.monte_carlo.as_ref()?;
+            let [low, high] = figures.symmetric_interval;
+            Some((figures.estimate, 0.5 * high - 0.5 * low))
+        };
+        let (estimate, expanded) = of_gum().or_else(of_trials)?;
+        let cmc = capability.at(estimate);
+        let raised = capability.floor && expanded < cmc;
+        let expanded_uncertainty = if raised { cmc } else { expanded };
+        Some(Stated { cmc, expanded_uncertainty, raised })
+    }
+}
+
+/// Why a task cannot be evaluated.
+#[derive(Clone, Debug, PartialEq)]
+pub enum EvaluationError {
+    /// Declared correlations that no joint distribution has, or that cannot be drawn.
+    Correlation {
+        /// What is wrong; the quantities are the task's variables.
+        error: CorrelationError,
+        /// The sentence, with their names.
+        message: String,
+    },
+    /// More trials are not finite than are allowed.
+    Undefined {
+        /// The row.
+        row: usize,
+        /// How many, out of how many, and the first one's drawn inputs.
+        undefined: Undefined,
+        /// Names and values of the varying inputs in the first such trial.
+        inputs: Vec<(String, f64)>,
+        /// The operation that gave no number.
+        operation: Option<String>,
+    },
+    /// More trials are not finite than are allowed, of which no more is known.
+    NotFinite {
+        /// Their share.
+        share: f64,
+    },
+    /// The thread pool could not be started.
+    Threads(String),
+}
+
+impl fmt::Display for EvaluationError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Correlation { message, .. } => f.write_str(message),
+            Self::Undefined { undefined, inputs, operation, .. } => {
+                let Undefined { count, trials, .. } = undefined;
+                write!(f, "{count} of {trials} trials have no finite result")?;
+                if let Some(operation) = operation {
+                    write!(f, "; the first is {operation}")?;
+                }
+                let at = inputs.iter().map(|(name, v)| format!("{name} = {}", Shortest(*v)));
+                let at: Vec<String> = at.collect();
+                if at.is_empty() { Ok(()) } else { write!(f, ", at {}", at.join(", ")) }
+            }
+            Self::NotFinite { share } => write!(
+                f,
+                "{} % of the trials have no finite result; `gumption run` names the first of them",
+                Shortest(100.0 * share)
+            ),
+            Self::Threads(error) => write!(f, "cannot start threads: {error}"),
+        }
+    }
+}
+
+impl std::error::Error for EvaluationError {}
+
+impl EvaluationError {
+    fn correlation(task: &Task, error: CorrelationError) -> Self {
+        let name = |v: usize| task.variables.get(v).map_or("", |v| v.name.as_str());
+        let message = error.describe(&|v| format!("`{}`", name(v)));
+        Self::Correlation { error, message }
+    }
+}
+
+/// The joint draw of a row.
+pub fn joint(task: &Task, row: &Row) -> Result<Arc<Joint>, EvaluationError> {
+    let joint = task.fits.joint(&row.distributions, &task.correlations);
+    joint.map_err(|error| EvaluationError::correlation(task, error))
+}
+
+/// Evaluates every row of a task by the law of propagation and by the Monte Carlo method, on all
+/// threads at once.
+///
+/// ```
+/// use gumption_engine::distribution::Input;
+/// use gumption_measurements::InclinedPlane;
+/// use gumption_engine::propagate::{Control, evaluate};
+/// use gumption_engine::task::{Settings, Task};
+///
+/// let plane = InclinedPlane {
+///     a_ref: Input::normal(10.0, 0.01, "m/s^2")?,
+///     tilt: Input::rectangular(35.0, 0.1, "deg")?,
+///     rotation: Input::constant(0.0, "deg")?,
+/// };
+/// let evaluation = evaluate(&Task::of(plane, Settings::default())?, &Control::default())?;
+/// let a_z = &evaluation.rows[0].outputs[2];
+/// // a_ref cos(35 deg) = 8.19152 m/s^2
+/// assert!((a_z.gum.as_ref().unwrap().estimate - 8.191_52).abs() < 1e-5);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// Contradictory correlations; more undefined trials than the settings allow.
+pub fn evaluate(task: &Task, control: &Control<'_>) -> Result<Evaluation, EvaluationError> {
+    in_pool(task, control, || evaluate_rows(task, control))?
+}
+
+/// Memory for the columns of all threads. Only models of tens of thousands of inputs or hundreds of
+/// outputs need so much on a machine of many cores.
+const MOST_COLUMNS: usize = 256 << 20;
+
+/// Runs `work` on the number of threads that the control asks for, or as many as have room for the
+/// columns of the task.
+pub fn in_pool<R: Send>(
+    task: &Task,
+    control: &Control<'_>,
+    work: impl FnOnce() -> R + Send,
+) -> Result<R, EvaluationError> {
+    let program = &task.model.program;
+    let columns = size_of::<Column>() * (program.variables() + program.operations())
+        + size_of::<[f64; BLOCK]>() * program.outputs();
+    let asked = match control.threads {
+        0 => std::thread::available_parallelism().map_or(1, usize::from),
+        threads => threads,
+    };
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(asked.min(MOST_COLUMNS / columns.max(1)).max(1))
+        .build()
+        .map_err(|error| EvaluationError::Threads(error.to_string()))?;
+    Ok(pool.install(work))
+}
+
+/// Among how many rows at most the memory for kept values is divided.
+const ROWS_AT_A_TIME: usize = 16;
+
+fn evaluate_rows(task: &Task, control: &Control<'_>) -> Result<Evaluation, EvaluationError> {
+    let reaches = reach(&task.model.program, task.variables.len());
+    let gum = gum::Rows::of(task);
+    // rows are evaluated at the same time and share the memory; how is a matter of the task alone,
+    // so that no figure depends on the number of threads
+    let memory = control.memory / task.rows.len().clamp(1, ROWS_AT_A_TIME);
+    let control = &Control { memory, ..*control };
+    let notes = Mutex::new(Notes::default());
+    // every row has its place from the start: a million of them are not to be held twice
+    let mut rows: Vec<Option<Result<RowEvaluation, EvaluationError>>> = Vec::new();
+    rows.resize_with(task.rows.len(), || None);
+    rows.par_chunks_mut(COLUMN).zip(task.rows.par_chunks(COLUMN)).enumerate().for_each(
+        |(chunk, (places, rows))| {
+            let linear = gum.evaluate_all(rows, control.path);
+            let rows = rows.par_iter().zip(linear).enumerate();
+            places.par_iter_mut().zip(rows).for_each(|(place, (number, (row, linear)))| {
+                let row = (chunk * COLUMN + number, row, linear);
+                *place = Some(evaluate_row(task, row, &reaches, control, &notes));
+            });
+        },
+    );
+    // the first row that failed, whichever was ready first
+    let rows = rows.into_iter().map_while(|row| row).collect::<Result<Vec<_>, _>>()?;
+    let notes = notes.into_inner().unwrap_or_else(PoisonError::into_inner);
+    Ok(Evaluation {
+        coverage_probability: task.settings.coverage.probability(),
+        settings: task.settings,
+        rows,
+        rounded_correlations: notes.rounded,
+        copula: notes.copula.into_iter().collect(),
+        copula_adjusted: notes.adjusted,
+        stopped: notes.stopped,
+    })
+}
+
+/// What the rows say of the whole.
+#[derive(Debug, Default)]
+struct Notes {
+    rounded: bool,
+    copula: BTreeSet<usize>,
+    adjusted: f64,
+    stopped: bool,
+}
+
+impl Notes {
+    fn add(&mut self, joint: &Joint, stopped: bool) {
+        self.rounded |= joint.rounded;
+        self.copula.extend(&joint.copula);
+        self.adjusted = self.adjusted.max(joint.adjusted);
+        self.stopped |= stopped;
+    }
+}
+
+fn evaluate_row(
+    task: &Task,
+    (number, row, mut linear): (usize, &Row, GumRow),
+    reaches: &[Vec<bool>],
+    control: &Control<'_>,
+    notes: &Mutex<Notes>,
+) -> Result<RowEvaluation, EvaluationError> {
+    let joint = joint(task, row)?;
+    let gums = std::mem::take(&mut linear.outputs);
+    let drawn_dof: Vec<f64> = reaches.iter().map(|reach| fewest_dof(reach, row)).collect();
+    let mut result = RowEvaluation {
+        conditions: row.conditions.clone(),
+        outputs: Vec::with_capacity(gums.len()),
+        correlations: Vec::new(),
+        undefined: None,
+        together: joint
+            .together()
+            .iter()
+            .map(|set| Together { variables: set.members.clone(), trials: set.trials() })
+            .collect(),
+        copula_changes: Arc::clone(&joint.changes),
+    };
+    let mut figures: Vec<Option<MonteCarlo>> = vec![None; gums.len()];
+    let mut stopped = false;
+    if task.settings.trials != Trials::Fixed(0) {
+        let mut trials = monte_carlo::Trials::new(task, row, &linear.estimates, &joint);
+        let finished = run(task, &mut trials, &gums, &drawn_dof, control);
+        stopped = finished.stopped;
+        if let Some(undefined) = finished.undefined {
+            if undefined.count as f64 > task.settings.allowed_undefined * undefined.trials as f64 {
+                return Err(explain(task, number, row, undefined));
+            }
+            result.undefined = Some(undefined);
+        }
+        if finished.trials > 0 {
+            figures = finished.outputs.into_iter().map(Some).collect();
+            result.correlations = finished.correlations;
+        }
+    }
+    if figures.iter().all(Option::is_none) {
+        result.correlations = linear.correlations();
+    }
+    notes.lock().unwrap_or_else(PoisonError::into_inner).add(&joint, stopped);
+    let evaluated = gums.into_iter().zip(figures).zip(drawn_dof).zip(&task.model.outputs);
+    for (((gum, monte_carlo), drawn_dof), output) in evaluated {
+        let conformity = monte_carlo.as_ref().and_then(|figures| {
+            let u = gum.as_ref().map(|gum| gum.standard_uncertainty);
+            Conformity::of(output, figures, u)
+        });
+        let validation = match (&gum, &monte_carlo) {
+            (Some(gum), Some(figures)) => validate(gum, figures, task.settings.digits),
+            _ => None,
+        };
+        result.outputs.push(OutputEvaluation {
+            gum,
+            monte_carlo,
+            validation,
+            conformity,
+            drawn_dof,
+        });
+    }
+    Ok(result)
+}
+
+/// The Monte Carlo run of a row, of a fixed or an adaptive number of trials.
+fn run(
+    task: &Task,
+    trials: &mut monte_carlo::Trials,
+    gums: &[Option<Gum>],
+    drawn_dof: &[f64],
+    control: &Control<'_>,
+) -> monte_carlo::Finished {
+    let settings = &task.settings;
+    let probability = settings.coverage.probability();
+    if let Trials::Fixed(count) = settings.trials {
+        let request = Request { trials: count, probability, drawn_dof };
+        return monte_carlo::run(trials, request, control);
+    }
+    let gum: Vec<f64> =
+        gums.iter().map(|gum| gum.as_ref().map_or(0.0, |g| g.standard_uncertainty)).collect();
+    let search = Search {
+        rule: settings.rule,
+        probability,
+        digits: settings.digits,
+        strictness: if settings.for_validation { 5.0 } else { 1.0 },
+        most: settings.max_trials,
+        drawn_dof,
+        gum: &gum,
+    };
+    let (count, ends) = monte_carlo::find_trials(trials, search, control);
+    let request = Request { trials: count, probability, drawn_dof };
+    // a search that was stopped still hands back the figures of the trials that it made
+    let stopped = control.is_stopped();
+    let control =
+        if stopped { Control { stop: None, progress: None, ..*control } } else { *control };
+    let mut finished = monte_carlo::run(trials, request, &control);
+    finished.stopped |= stopped;
+    for (figures, end) in finished.outputs.iter_mut().zip(ends) {
+        figures.adaptive = Some(end);
+    }
+    finished
+}
+
+/// For each output, the variables that it depends on.
+fn reach(program: &Program, variables: usize) -> Vec<Vec<bool>> {
+    program
+        .reach()
+        .into_iter()
+        .map(|mut reach| {
+            reach.truncate(variables);
+            reach
+        })
+        .collect()
+}
+
+fn fewest_dof(reach: &[bool], row: &Row) -> f64 {
+    row.distributions
+        .iter()
+        .zip(reach)
+        .filter(|(_, reached)| **reached)
+        .map(|(distribution, _)| distribution.drawn_dof())
+        .fold(f64::INFINITY, f64::min)
+}
+
+/// Names the first undefined trial's inputs and operation.
+fn explain(task: &Task, number: usize, row: &Row, undefined: Undefined) -> EvaluationError {
+    let mut drawn = undefined.first.iter().copied();
+    let mut inputs = Vec::new();
+    let mut values = Vec::with_capacity(task.model.program.variables());
+    for (variable, distribution) in task.variables.iter().zip(row.distributions.iter()) {
+        let value = distribution.constant().or_else(|| {
+            let value = drawn.next()?;
+            inputs.push((variable.name.clone(), value));
+            Some(value)
+        });
+        values.push(value.unwrap_or(f64::NAN));
+    }
+    values.extend(&row.conditions);
+    let operation = task.model.program.first_undefined(&values);
+    EvaluationError::Undefined { row: number, undefined, inputs, operation }
+}
+
+/// The hash over the bits of all trials of all rows (`gumption verify --paths`).
+///
+/// # Errors
+/// Correlations that cannot be drawn.
+pub fn trial_hash(task: &Task, trials: u64, control: &Control<'_>) -> Result<u64, EvaluationError> {
+    in_pool(task, control, || {
+        let mut hash = 0u64;
+        for row in &task.rows {
+            let estimates = gum::evaluate(task, row).estimates;
+            let made = monte_carlo::Trials::new(task, row, &estimates, &joint(task, row)?);
+            hash = hash.rotate_left(1) ^ monte_carlo::hash_trials(&made, trials, control.path);
+        }
+        Ok(hash)
+    })?
+}

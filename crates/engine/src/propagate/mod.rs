@@ -1,0 +1,28 @@
+//! Propagation: from what is known about the inputs to what is known about the outputs, by the law
+//! of propagation of uncertainty ([`gum`], JCGM 100) and by the Monte Carlo method
+//! ([`monte_carlo`], JCGM 101) at the same time, and the comparison of the two ([`validate`],
+//! JCGM 101, clause 8).
+
+mod again;
+mod budget;
+mod conformity;
+mod control;
+mod density;
+mod evaluation;
+pub mod gum;
+pub mod monte_carlo;
+mod origins;
+pub mod validate;
+mod warnings;
+
+pub use again::{for_each_block, histograms, joint_ranks, quantiles};
+pub use conformity::{Conformity, GlobalRisks};
+pub use control::Control;
+pub use evaluation::in_pool;
+pub use evaluation::joint;
+pub use evaluation::{
+    Evaluation, EvaluationError, OutputEvaluation, RowEvaluation, Stated, Together, evaluate,
+    trial_hash,
+};
+pub use origins::{Origins, linear, origins};
+pub use warnings::warnings;

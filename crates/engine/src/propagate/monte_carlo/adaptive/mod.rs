@@ -1,0 +1,197 @@
+//! How many trials are enough: blocks of trials are made until the figures are known to a numerical
+//! tolerance, by one of two rules.
+//!
+//! - JCGM 101, 7.9 adds blocks until twice the standard deviation of the mean of every figure is
+//!   within the tolerance.
+//! - Stein's two-stage rule (Wuebbeler, Harris, Cox, Elster, Metrologia 47 (2010) 317) makes
+//!   [`FIRST_STAGE`] blocks and takes from their scatter, with the t quantile of their number, how
+//!   many are needed for the tolerance to be met with a probability of at least 95 %.
+//!
+//! How often the figures are then really within the tolerance was measured with 1000 seeds on the
+//! sum of four normal quantities (JCGM 101, 9.2.2; `tests/all/adaptive.rs`):
+//!
+//! | rule | one digit | blocks | two digits | blocks |
+//! |---|---|---|---|---|
+//! | 7.9 | 100 % | 2.0 | 86.7 % | 5.1 |
+//! | Stein | 100 % | 10.0 | 99.3 % | 10.3 |
+//!
+//! The standard errors of the shares are below 1.1 %. 7.9 stops early where the first few blocks
+//! happen to agree.
+
+mod blocks;
+mod watch;
+
+use watch::Watch;
+
+use super::block::Trials;
+use super::fold::Plan;
+use crate::distribution::BLOCK;
+use crate::distribution::special::student;
+use crate::propagate::Control;
+use crate::task::StoppingRule;
+
+/// Figures of an output that are watched: estimate, standard uncertainty, ends of the interval.
+const FIGURES: usize = 4;
+
+/// Blocks that are computed at a time, of which the last may turn out not to be needed: this part of
+/// those that are there.
+const PART: u64 = 16;
+
+/// But no fewer and no more than so many.
+const WAVE: [u64; 2] = [4, 32];
+
+/// Blocks of the first stage of Stein's rule.
+pub const FIRST_STAGE: u64 = 10;
+
+/// The probability with which Stein's rule is to meet the tolerance.
+const CONFIDENCE: f64 = 0.95;
+
+/// How an adaptive run ended.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Adaptive {
+    /// The rule that stopped it.
+    pub rule: StoppingRule,
+    /// Trials in a block of the procedure: max(J, 10^4), J the least integer not below 100/(1 - p).
+    pub block_trials: u64,
+    /// Number of blocks; 0 if the largest number of trials is not even two blocks.
+    pub blocks: u64,
+    /// Numerical tolerance of the output's figures.
+    pub tolerance: f64,
+    /// Whether the rule was satisfied before the largest number of trials.
+    pub converged: bool,
+}
+
+/// What the procedure is asked for.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Search<'a> {
+    /// When to stop.
+    pub(crate) rule: StoppingRule,
+    /// Coverage probability.
+    pub(crate) probability: f64,
+    /// Significant digits of the standard uncertainty.
+    pub(crate) digits: u32,
+    /// The tolerance is divided by this (5 for the validation of clause 8.2).
+    pub(crate) strictness: f64,
+    /// The largest number of trials.
+    pub(crate) most: u64,
+    /// For each output the fewest degrees of freedom among the t distributions that it depends on.
+    pub(crate) drawn_dof: &'a [f64],
+    /// For each output the standard uncertainty by the law of propagation: it sets the tolerance
+    /// where the trials have none.
+    pub(crate) gum: &'a [f64],
+}
+
+impl Search<'_> {
+    /// The block size M of 7.9.4 b).
+    fn block_trials(&self) -> u64 {
+        // a coverage probability of 0.95 must give 2000 in spite of its rounding
+        let least = (100.0 / (1.0 - self.probability) * (1.0 - 1e-12)).ceil();
+        (least as u64).max(10_000)
+    }
+}
+
+/// Finds how many trials are needed. Gives their number and, for each output, how the procedure
+/// ended. `trials` hold what was computed of them, as far as the memory for kept values goes.
+pub(crate) fn find_trials(
+    trials: &mut Trials,
+    search: Search<'_>,
+    control: &Control<'_>,
+) -> (u64, Vec<Adaptive>) {
+    let size = search.block_trials();
+    let watches = vec![Watch::default(); trials.outputs()];
+    let mut blocks = Blocks {
+        trials,
+        search,
+        control,
+        size,
+        most: search.most / size,
+        made: 0,
+        fences: None,
+        watches,
+    };
+    // of blocks larger than that the scatter cannot be told within the largest number of trials
+    let (blocks_wanted, converged) = match search.rule {
+        _ if blocks.most < 2 => (0, false),
+        StoppingRule::Clause79 => blocks.until_stable(),
+        StoppingRule::Stein => blocks.two_stages(),
+    };
+    let end = |(output, watch): (usize, &Watch)| Adaptive {
+        rule: search.rule,
+        block_trials: size,
+        blocks: blocks_wanted,
+        tolerance: watch.tolerance(search, output),
+        converged,
+    };
+    let ends = blocks.watches.iter().enumerate().map(end).collect();
+    (if blocks_wanted == 0 { search.most } else { blocks_wanted * size }, ends)
+}
+
+/// The blocks made so far.
+struct Blocks<'a> {
+    trials: &'a mut Trials,
+    search: Search<'a>,
+    control: &'a Control<'a>,
+    /// Trials in each.
+    size: u64,
+    /// Their largest number.
+    most: u64,
+    made: u64,
+    /// Windows of the outputs, found with the first blocks.
+    fences: Option<Vec<Plan>>,
+    watches: Vec<Watch>,
+}
+
+impl Blocks<'_> {
+    /// Makes some more blocks and looks at them one after the other until `enough` says so.
+    fn make(&mut self, count: u64, enough: impl Fn(&Self) -> bool) -> bool {
+        let numbers = self.made..self.made + count;
+        let end = (numbers.end * self.size).div_ceil(BLOCK as u64);
+        self.trials.hold(self.control.path, end, self.control.memory);
+        let (search, control) = (self.search, self.control);
+        let fences =
+            self.fences.get_or_insert_with(|| blocks::fences(self.trials, search, control));
+        let found = blocks::figures(self.trials, numbers, self.size, fences, search, control);
+        for figures in found {
+            self.made += 1;
+            for (watch, figures) in self.watches.iter_mut().zip(figures) {
+                watch.add(figures, self.size);
+            }
+            if enough(self) {
+                return true;
+            }
+        }
+        false
+    }
+
+    /// JCGM 101, 7.9.4: the number of blocks, and whether they are enough.
+    fn until_stable(&mut self) -> (u64, bool) {
+        let is_stable = |blocks: &Self| {
+            let mut watches = blocks.watches.iter().enumerate();
+            blocks.made >= 2 && watches.all(|(o, watch)| watch.is_stable(blocks.search, o))
+        };
+        let mut stable = false;
+        while !stable && self.made < self.most && !self.control.is_stopped() {
+            let wave = (self.made / PART).clamp(WAVE[0], WAVE[1]).min(self.most - self.made);
+            stable = self.make(wave, is_stable);
+        }
+        (self.made, stable)
+    }
+
+    /// Stein's rule: the number of blocks, and whether so many may be made.
+    fn two_stages(&mut self) -> (u64, bool) {
+        let first = FIRST_STAGE.min(self.most);
+        self.make(first, |_| false);
+        let t = student::two_sided_factor(CONFIDENCE, first as f64 - 1.0);
+        let watches = self.watches.iter().enumerate();
+        let needed = watches.map(|(o, watch)| watch.blocks_needed(self.search, o, t));
+        let needed = needed.fold(0.0, f64::max).floor() + 1.0;
+        if self.control.is_stopped() {
+            return (self.made, false);
+        }
+        if needed <= self.most as f64 {
+            (first.max(needed as u64), true)
+        } else {
+            (self.most, false)
+        }
+    }
+}

@@ -1,0 +1,180 @@
+//! One block of trials: the inputs drawn, the model evaluated, the outputs handed over.
+
+use std::sync::Arc;
+
+use rayon::prelude::*;
+
+use crate::distribution::{BLOCK, Draws, Joint, StreamKey, Varying};
+use crate::model::{Place, Schedule};
+use crate::number::{COLUMN, CodePath, Column, Kernel};
+use crate::task::{Row, Sharing, Task};
+
+/// One row of a task made ready for trials.
+#[derive(Debug)]
+pub(crate) struct Trials {
+    schedule: Schedule,
+    /// The variables that vary, in the order of their registers.
+    varying: Varying,
+    registers: Vec<usize>,
+    keys: Vec<StreamKey>,
+    /// For each output, the branch that phases are taken on: its middle and the length of a turn.
+    branches: Vec<Option<(f64, f64)>>,
+    /// For each output its tolerance limits, infinite where there are none.
+    limits: Vec<[f64; 2]>,
+    /// The outputs' values in the first blocks, as far as they are held.
+    held: Vec<Box<[[f64; BLOCK]]>>,
+}
+
+/// Buffers of one thread, reused from block to block.
+#[derive(Debug)]
+pub(crate) struct Workspace {
+    registers: Vec<Column>,
+    /// The outputs' values in the block's trials.
+    pub outputs: Vec<[f64; BLOCK]>,
+}
+
+impl Trials {
+    /// A row of the task. `estimates` are the outputs' values at the estimates of the inputs, the
+    /// middle of a phase's branch; `joint` is the joint draw of the row's distributions.
+    pub(crate) fn new(task: &Task, row: &Row, estimates: &[f64], joint: &Arc<Joint>) -> Self {
+        let mut bound: Vec<Option<f64>> = row.distributions.iter().map(|d| d.constant()).collect();
+        let varying: Vec<usize> =
+            (0..row.distributions.len()).filter(|&v| bound[v].is_none()).collect();
+        bound.extend(row.conditions.iter().map(|&value| Some(value)));
+        let schedule = Schedule::new(&task.model.program, &bound);
+        let keys = varying
+            .iter()
+            .map(|&v| StreamKey::new(task.settings.seed, &stream_name(task, row, v)))
+            .collect();
+        let branches = task
+            .model
+            .outputs
+            .iter()
+            .zip(estimates)
+            .map(|(output, &middle)| {
+                output.period.map(|turn| (if middle.is_finite() { middle } else { 0.0 }, turn))
+            })
+            .collect();
+        let limits = task.model.outputs.iter().map(|output| {
+            let limits = output.tolerance.map(|t| (t.lower, t.upper)).unwrap_or_default();
+            [limits.0.unwrap_or(f64::NEG_INFINITY), limits.1.unwrap_or(f64::INFINITY)]
+        });
+        let limits = limits.collect();
+        Self {
+            registers: (0..varying.len()).collect(),
+            varying: Varying::new(&row.distributions, &varying, joint),
+            schedule,
+            keys,
+            branches,
+            limits,
+            held: Vec::new(),
+        }
+    }
+
+    /// Holds the values of the blocks before `end`, as far as `memory` (bytes) has room, so that they
+    /// need not be computed again.
+    pub(crate) fn hold(&mut self, path: CodePath, end: u64, memory: usize) {
+        let room = memory / (size_of::<[f64; BLOCK]>() * self.outputs().max(1));
+        let (first, end) = (self.held.len() as u64, end.min(room as u64));
+        let make = |workspace: &mut Workspace, block: u64| {
+            self.block(path, block, workspace);
+            workspace.outputs.clone().into_boxed_slice()
+        };
+        let blocks = (first..end).into_par_iter().map_init(|| self.workspace(), make);
+        let made: Vec<_> = blocks.collect();
+        self.held.extend(made);
+    }
+
+    pub(crate) fn workspace(&self) -> Workspace {
+        Workspace {
+            registers: vec![Column::ZERO; self.schedule.registers],
+            outputs: vec![[0.0; BLOCK]; self.schedule.outputs.len()],
+        }
+    }
+
+    pub(crate) fn limits(&self, output: usize) -> [f64; 2] {
+        self.limits.get(output).copied().unwrap_or([f64::NEG_INFINITY, f64::INFINITY])
+    }
+
+    pub(crate) fn outputs(&self) -> usize {
+        self.schedule.outputs.len()
+    }
+
+    /// Fills the workspace's outputs with the trials of block `block`.
+    pub(crate) fn block(&self, path: CodePath, block: u64, workspace: &mut Workspace) {
+        if let Some(held) = usize::try_from(block).ok().and_then(|block| self.held.get(block)) {
+            workspace.outputs.copy_from_slice(held);
+            return;
+        }
+        let path = path.or_baseline();
+        path.run(BlockKernel { path, trials: self, block, workspace });
+    }
+
+    /// The drawn values of the varying variables, in the order of the task's variables with
+    /// constants left out, in trial `trial` of block `block`.
+    pub(crate) fn inputs_of(&self, block: u64, trial: usize) -> Vec<f64> {
+        let mut registers = vec![Column::ZERO; self.schedule.registers];
+        let all = vec![true; self.varying.len()];
+        let mut draws = Draws::new(&self.varying, &self.keys, CodePath::best(), block);
+        for _ in 0..=trial / COLUMN {
+            draws.column(&mut registers, &self.registers, &all);
+        }
+        registers.iter().take(all.len()).map(|column| column.0[trial % COLUMN]).collect()
+    }
+}
+
+/// The stream of a variable: its name, and where rows have values of their own, what tells the
+/// rows apart.
+pub fn stream_name(task: &Task, row: &Row, variable: usize) -> String {
+    let name = &task.variables[variable].name;
+    match task.variables[variable].sharing {
+        Sharing::All => name.clone(),
+        Sharing::Row => format!("{name}#{:?}", row.conditions),
+        Sharing::Condition(c) => format!("{name}#{c}#{:?}", row.conditions.get(c)),
+    }
+}
+
+struct BlockKernel<'a> {
+    path: CodePath,
+    trials: &'a Trials,
+    block: u64,
+    workspace: &'a mut Workspace,
+}
+
+impl Kernel for BlockKernel<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let Self { path, trials, block, workspace } = self;
+        let Workspace { registers, outputs } = workspace;
+        let schedule = &trials.schedule;
+        let mut draws = Draws::new(&trials.varying, &trials.keys, path, block);
+        for first in (0..BLOCK).step_by(COLUMN) {
+            draws.column(registers, &trials.registers, &schedule.used);
+            schedule.run(registers);
+            for (output, place) in schedule.outputs.iter().enumerate() {
+                let out = &mut outputs[output][first..first + COLUMN];
+                match *place {
+                    Place::Register(register) => out.copy_from_slice(&registers[register].0),
+                    Place::Constant(value) => out.fill(value),
+                }
+                if let Some((middle, turn)) = trials.branches[output] {
+                    onto_branch(out, middle, turn);
+                }
+            }
+        }
+    }
+}
+
+/// Moves values by whole turns to within half a turn of the middle.
+#[inline(always)]
+pub fn onto_branch(values: &mut [f64], middle: f64, turn: f64) {
+    // adding and taking away 1.5 x 2^52 rounds to the nearest integer; phases of more turns than
+    // that have lost their angle anyway
+    const ROUND: f64 = 6_755_399_441_055_744.0;
+    for value in values {
+        let turns = ((*value - middle) / turn + ROUND) - ROUND;
+        *value -= turn * turns;
+    }
+}

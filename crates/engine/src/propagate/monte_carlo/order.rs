@@ -1,0 +1,86 @@
+//! Order statistics of all trials from the values that were kept.
+
+use super::shelves::Shelves;
+use super::windows::Windows;
+use crate::number::CodePath;
+
+/// The kept values, and which ranks they have among all trials.
+#[derive(Clone, Debug)]
+pub(crate) struct Order {
+    /// Number of all trials.
+    pub(crate) trials: u64,
+    shelves: Shelves,
+    /// Runs of kept values: first rank (from 1), place among the kept ones, length.
+    runs: Vec<Run>,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Run {
+    rank: u64,
+    place: usize,
+    length: usize,
+}
+
+impl Order {
+    /// From all values.
+    #[cfg(test)]
+    pub(crate) fn of_all(values: Vec<f64>) -> Self {
+        Self::new(CodePath::best(), values.len() as u64, &[&values], 0, &Windows::ALL)
+    }
+
+    /// From the values that `windows` keeps of `trials` many trials, in any order and any number of
+    /// parts; `below_median` of the trials lie below the window about the median.
+    pub(super) fn new(
+        path: CodePath,
+        trials: u64,
+        kept: &[&[f64]],
+        below_median: u64,
+        windows: &Windows,
+    ) -> Self {
+        let shelves = Shelves::new(path, kept, windows);
+        let [low, median, high] = shelves.regions();
+        let run = |rank: u64, place: usize, length: usize| Run { rank, place, length };
+        let runs = if windows.keep_all() {
+            vec![run(1, 0, low + median + high)]
+        } else {
+            vec![
+                run(1, 0, low),
+                run(below_median + 1, low, median),
+                run((trials + 1).saturating_sub(high as u64), low + median, high),
+            ]
+        };
+        Self { trials, shelves, runs }
+    }
+
+    /// The place of a rank among the kept values, and how many ranks from it on are kept.
+    fn place(&self, rank: u64) -> Option<(usize, usize)> {
+        self.runs.iter().find_map(|run| {
+            let offset = rank.checked_sub(run.rank)? as usize;
+            (offset < run.length).then(|| (run.place + offset, run.length - offset))
+        })
+    }
+
+    /// The order statistic of rank `rank`, counted from 1; `None` if it was not kept.
+    pub(crate) fn get(&mut self, rank: u64) -> Option<f64> {
+        let (place, _) = self.place(rank)?;
+        Some(self.shelves.at(place))
+    }
+
+    /// The median: the middle value, or the mean of the two middle ones.
+    pub(crate) fn median(&mut self) -> Option<f64> {
+        let (lower, upper) = (self.get(self.trials.div_ceil(2))?, self.get(self.trials / 2 + 1)?);
+        Some(if lower == upper { lower } else { 0.5 * lower + 0.5 * upper })
+    }
+
+    /// The least y(r + q) - y(r) over the ranks r from 1 to `count`, and its ends; of equally short
+    /// ones that with r nearest to `middle`. `None` if an order statistic was not kept.
+    pub(crate) fn closest(&mut self, q: u64, count: u64, middle: u64) -> Option<[f64; 2]> {
+        let length = usize::try_from(count).ok()?;
+        let (low, low_length) = self.place(1)?;
+        let (high, high_length) = self.place(q + 1)?;
+        if low_length < length || high_length < length {
+            return None;
+        }
+        self.shelves.closest(low, high, length, middle.saturating_sub(1) as usize)
+    }
+}

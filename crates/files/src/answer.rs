@@ -1,0 +1,101 @@
+//! The JSON answer of `gumption run`, from which results are taken for a comparison.
+
+use std::path::Path;
+
+use serde_json::{Map, Value};
+
+use super::problem::Log;
+use super::source::{Place, Source};
+use super::{Fault, bytes};
+use gumption_analysis::compare::Stated;
+
+/// An answer: its rows of conditions with their outputs.
+#[derive(Debug)]
+pub(super) struct Answer {
+    name: String,
+    rows: Vec<(Map<String, Value>, Map<String, Value>)>,
+}
+
+/// Conditions agree to this share.
+const SAME: f64 = 1e-9;
+
+/// Reads an answer; mistakes are reported.
+pub(super) fn read(log: &Log, path: &Path) -> Option<Answer> {
+    let name = path.display().to_string();
+    let report = |text: &str, fault: Fault| {
+        log.report_at(Place { source: Source::new(name.clone(), text), span: 0..0 }, fault);
+    };
+    let bytes = bytes::of_file(path, bytes::MOST)
+        .map_err(|message| report("", Fault::Unreadable { message }))
+        .ok()?;
+    let answer: Value = serde_json::from_slice(&bytes)
+        .map_err(|error| report("", Fault::NotJson { message: error.to_string() }))
+        .ok()?;
+    let object = |value: Option<&Value>| value.and_then(Value::as_object).cloned();
+    let rows = match answer.get("rows").and_then(Value::as_array) {
+        Some(rows) => rows
+            .iter()
+            .map(|row| Some((object(row.get("conditions"))?, object(row.get("outputs"))?)))
+            .collect(),
+        None => object(answer.get("outputs")).map(|outputs| vec![(Map::new(), outputs)]),
+    };
+    if rows.is_none() {
+        let reason = "this is not an answer of `gumption run --format json`".to_owned();
+        report("", Fault::Table { reason });
+    }
+    Some(Answer { name, rows: rows? })
+}
+
+impl Answer {
+    /// The names of the conditions.
+    pub(super) fn conditions(&self) -> Vec<&str> {
+        let first = self.rows.first();
+        first
+            .map(|(conditions, _)| conditions.keys().map(String::as_str).collect())
+            .unwrap_or_default()
+    }
+
+    /// The result of an output at some conditions: that of the GUM, or that of the trials where it
+    /// has none.
+    pub(super) fn result(&self, output: &str, at: &[(&str, f64)]) -> Result<Stated, String> {
+        let near = |a: f64, b: f64| (a - b).abs() <= SAME * a.abs().max(b.abs());
+        let mut rows = self.rows.iter().filter(|(conditions, _)| {
+            at.iter().all(|(name, value)| {
+                conditions.get(*name).and_then(Value::as_f64).is_some_and(|own| near(own, *value))
+            })
+        });
+        let name = &self.name;
+        let (Some((_, outputs)), None) = (rows.next(), rows.next()) else {
+            return Err(format!(
+                "not one row of `{name}` but none or several have these conditions; the table needs \
+                 a column for each condition"
+            ));
+        };
+        let Some(found) = outputs.get(output) else {
+            let known: Vec<&str> = outputs.keys().map(String::as_str).collect();
+            return Err(format!(
+                "`{name}` has no output `{output}`; the label names the output, one of {}",
+                known.join(", ")
+            ));
+        };
+        of_gum(found)
+            .or_else(|| of_trials(found))
+            .filter(|stated| {
+                stated.value.is_finite() && stated.expanded >= 0.0 && stated.factor > 0.0
+            })
+            .ok_or_else(|| format!("the output `{output}` of `{name}` has no expanded uncertainty"))
+    }
+}
+
+fn of_gum(output: &Value) -> Option<Stated> {
+    let number = |key: &str| output.get("gum")?.get(key)?.as_f64();
+    let (value, expanded) = (number("estimate")?, number("expanded_uncertainty")?);
+    Some(Stated { value, expanded, factor: number("coverage_factor")?, rounding: [0.0; 2] })
+}
+
+/// The factor is 2: expanded is 2 u.
+fn of_trials(output: &Value) -> Option<Stated> {
+    let number = |key: &str| output.get("monte_carlo")?.get(key)?.as_f64();
+    let (value, u) = (number("estimate")?, number("standard_uncertainty")?);
+    Some(Stated { value, expanded: 2.0 * u, factor: 2.0, rounding: [0.0; 2] })
+}

@@ -1,0 +1,115 @@
+//! A case of the gap diagnosis as a whole: a model file with observations and candidate effects.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use super::effects;
+use super::model_file::{Found, ModelReader, read_file, read_with};
+use super::problem::Problems;
+use super::results::Results;
+use super::source::Source;
+use super::{Fault, catalogue, prior, soundness};
+use gumption_engine::task::{Row, Task, Warning};
+use gumption_gap::Sim;
+use gumption_gap::{Case, Observed};
+
+/// The keys that only cases have; a file with one of them is meant as a case.
+pub(super) const KEYS: [&str; 4] = ["observations", "effects", "catalogue", "prior"];
+
+/// A case that was read and found right.
+#[derive(Debug)]
+pub struct CaseFile {
+    /// The case.
+    pub case: Case,
+    /// Notes on what was read.
+    pub warnings: Vec<Warning>,
+    /// The file's text.
+    pub source: Arc<Source>,
+    /// The content of the tables that were read, by name.
+    pub files: Vec<(String, Vec<u8>)>,
+}
+
+/// Reads and checks a case.
+///
+/// # Errors
+/// All mistakes of the file and its tables, in the order of their places.
+pub fn read(path: &Path) -> Result<CaseFile, Problems> {
+    read_file(path, &[], None, |reader| reader.case())
+}
+
+/// What a case's sim has in the rows of a table of conditions, which stands in the current folder.
+///
+/// # Errors
+/// All mistakes of the file and its tables, in the order of their places.
+pub fn read_at(path: &Path, conditions: &Path) -> Result<Vec<Row>, Problems> {
+    read_file(path, &[], Some(conditions), |reader| {
+        reader.found().map(|found| found.file.task.rows)
+    })
+}
+
+/// Reads and checks a case's text; `name` is used in messages, and tables are looked for in
+/// `folder`.
+///
+/// # Errors
+/// All mistakes of the text and its tables, in the order of their places.
+pub fn read_text(name: &str, text: &str, folder: &Path) -> Result<CaseFile, Problems> {
+    read_with(name, text, folder, (&[], None), |reader| reader.case())
+}
+
+/// What effects are read against: the sim, and what was measured.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Read<'a> {
+    pub(super) sim: &'a Sim,
+    pub(super) task: &'a Task,
+    pub(super) observed: &'a [Option<Observed>],
+}
+
+impl Found {
+    fn for_effects(&self) -> Read<'_> {
+        Read { sim: &self.sim, task: &self.file.task, observed: &self.observed }
+    }
+}
+
+impl ModelReader<'_> {
+    /// Reads the file as a case where it has a key that only cases have, else as a model.
+    pub(super) fn checked(&self) -> Option<()> {
+        if KEYS.iter().any(|key| self.root.get(key).is_some()) {
+            self.case().map(|_| ())
+        } else {
+            self.found().map(|_| ())
+        }
+    }
+
+    /// The case, unless the file has mistakes.
+    fn case(&self) -> Option<CaseFile> {
+        let found = self.found();
+        let prior = prior::read(&self.root);
+        if self.root.get("observations").is_none() {
+            let what = "a case of the gap diagnosis";
+            self.root.report(Fault::MissingKey { key: "observations", what });
+        }
+        let results = Results::new(self.folder);
+        let mut warnings = Vec::new();
+        let sim = found.as_ref().map(|found| &found.sim);
+        let own = match self.root.get("effects") {
+            Some(member) => effects::read(self.log, member, sim, &results, &mut warnings),
+            None => Some(Vec::new()),
+        };
+        let complete = own.is_some();
+        let mut placed = own.unwrap_or_default();
+        let read = found.as_ref().map(Found::for_effects);
+        let shipped =
+            catalogue::read(self.log, &self.root, read, &results, &mut placed, &mut warnings);
+        let read = read?;
+        effects::check_together(self.log, &placed, read.sim);
+        if let Some(data) = found.as_ref().and_then(|found| found.data.as_ref()) {
+            soundness::check(self.log, &read, &placed, data);
+        }
+        shipped.filter(|()| complete)?;
+        let Found { file, sim, observed, simulated, .. } = found?;
+        warnings.splice(0..0, file.warnings);
+        let candidates = placed.into_iter().map(|placed| placed.candidate).collect();
+        let case = Case { task: file.task, sim, observed, simulated, candidates, prior: prior? };
+        Some(CaseFile { case, warnings, source: file.source, files: file.files })
+    }
+}

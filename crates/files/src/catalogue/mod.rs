@@ -1,0 +1,234 @@
+//! The catalogue: ready-made effects that a case can ask for by name.
+//!
+//! They stand in `catalogue.json` in the form of a case file's effects. One name may stand there
+//! several times, for sims that name their quantities differently; those for any bench come last.
+//! `names` says what a quantity may be called in a sim. A key with `{amplitude}` or `{phase}` stands
+//! for one such key for each observed output of that kind, and a number of a prior may be a multiple
+//! of what was measured ([`Measured`](measured::Measured)).
+
+mod fit;
+mod listing;
+mod measured;
+#[cfg(test)]
+mod tests;
+
+use std::sync::Arc;
+
+pub use listing::{Listed, ListedParameter, Listing};
+
+use super::case::Read;
+use super::effects::{self, Placed};
+use super::json::{self, Json, Member, Node};
+use super::object::Object;
+use super::problem::Log;
+use super::results::Results;
+use super::source::Source;
+use super::{Fault, nearest};
+use fit::Misfit;
+use gumption_engine::task::Warning;
+
+/// The catalogue's text.
+const TEXT: &str = include_str!("catalogue.json");
+
+/// The bench of effects that fit any sim with the quantities that they need.
+const ANY_BENCH: &str = "any";
+
+/// The catalogue as it is written.
+struct Catalogue {
+    source: Arc<Source>,
+    names: Vec<(String, Vec<String>)>,
+    entries: Vec<Entry>,
+}
+
+/// One effect as it is written.
+#[derive(Clone, Debug)]
+struct Entry {
+    name: String,
+    bench: String,
+    /// Its members: parameters, overrides, about, source.
+    members: Vec<Member>,
+}
+
+impl Entry {
+    fn text(&self, key: &str) -> &str {
+        match self.members.iter().find(|member| member.key == key).map(|m| &m.value.value) {
+            Some(Json::Text(text)) => text,
+            _ => "",
+        }
+    }
+
+    /// The members of one of its objects.
+    fn object(&self, key: &str) -> &[Member] {
+        match self.members.iter().find(|member| member.key == key).map(|m| &m.value.value) {
+            Some(Json::Object(members)) => members,
+            _ => &[],
+        }
+    }
+}
+
+impl Catalogue {
+    /// The catalogue that ships with gumption; a test makes sure that nothing is left out.
+    fn shipped() -> Self {
+        let source = Source::new("catalogue", TEXT);
+        let root = json::parse(&source).ok().map(|node| node.value);
+        let mut names = Vec::new();
+        let mut entries = Vec::new();
+        for member in members(root) {
+            match member.key.as_str() {
+                "names" => names.extend(
+                    members(Some(member.value.value))
+                        .into_iter()
+                        .map(|member| (member.key, texts(&member.value))),
+                ),
+                _ => {
+                    if let Json::List(list) = member.value.value {
+                        entries.extend(list.into_iter().filter_map(entry));
+                    }
+                }
+            }
+        }
+        Self { source, names, entries }
+    }
+
+    /// What a quantity may be called in a sim.
+    fn alternatives<'c>(&'c self, name: &'c str) -> Vec<&'c str> {
+        match self.names.iter().find(|(of, _)| of == name) {
+            Some((_, alternatives)) => alternatives.iter().map(String::as_str).collect(),
+            None => vec![name],
+        }
+    }
+}
+
+fn members(value: Option<Json>) -> Vec<Member> {
+    match value {
+        Some(Json::Object(members)) => members,
+        _ => Vec::new(),
+    }
+}
+
+fn texts(node: &Node) -> Vec<String> {
+    let Json::List(list) = &node.value else { return Vec::new() };
+    let text = |node: &Node| match &node.value {
+        Json::Text(text) => Some(text.clone()),
+        _ => None,
+    };
+    list.iter().filter_map(text).collect()
+}
+
+fn entry(node: Node) -> Option<Entry> {
+    let mut entry = Entry { name: String::new(), bench: String::new(), members: Vec::new() };
+    for member in members(Some(node.value)) {
+        match (member.key.as_str(), &member.value.value) {
+            ("name", Json::Text(text)) => entry.name.clone_from(text),
+            ("bench", Json::Text(text)) => entry.bench.clone_from(text),
+            _ => entry.members.push(member),
+        }
+    }
+    (!entry.name.is_empty()).then_some(entry)
+}
+
+/// The catalogue as people and programs see it.
+///
+/// ```
+/// let catalogue = gumption_files::catalogue();
+/// assert!(catalogue.effects.iter().any(|effect| effect.name == "lateral-mode"));
+/// ```
+pub fn catalogue() -> Listing {
+    Listing::of(&Catalogue::shipped())
+}
+
+/// Adds the effects that a case asks for after its own. Without a sim, because the model has mistakes,
+/// only their names are checked.
+pub(super) fn read(
+    log: &Log,
+    root: &Object<'_>,
+    sim: Option<Read<'_>>,
+    results: &Results<'_>,
+    own: &mut Vec<Placed>,
+    warnings: &mut Vec<Warning>,
+) -> Option<()> {
+    if root.get("catalogue").is_none() {
+        return Some(());
+    }
+    let shipped = Catalogue::shipped();
+    let mut clean = true;
+    for node in root.list("catalogue")? {
+        let Json::Text(name) = &node.value else {
+            let what = "an element of `catalogue`".to_owned();
+            let (found, expected) = (node.value.kind(), "the name of an effect in quotes");
+            log.report(&node.span, Fault::WrongType { what, found, expected });
+            clean = false;
+            continue;
+        };
+        let fault = |reason: String| Fault::Effect { name: name.clone(), reason };
+        if !shipped.entries.iter().any(|entry| entry.name == *name) {
+            let known = shipped.entries.iter().map(|entry| entry.name.as_str());
+            let nearest = nearest(name, known).map(str::to_owned);
+            log.report(&node.span, Fault::UnknownEffect { name: name.clone(), nearest });
+            clean = false;
+        } else if own.iter().any(|other| other.candidate.effect.name == *name) {
+            let reason = "is there already: in `effects`, or a second time in `catalogue`; give \
+                          the own effect another name, or take one of them out";
+            log.report(&node.span, fault(reason.to_owned()));
+            clean = false;
+        } else if let Some(sim) = &sim {
+            match one(&shipped, name, sim, results, warnings) {
+                Ok(candidate) => own.push(Placed { candidate, place: node.span.clone() }),
+                Err(reason) => {
+                    log.report(&node.span, fault(reason));
+                    clean = false;
+                }
+            }
+        }
+    }
+    clean.then_some(())
+}
+
+/// The effect of that name for the sim, or why it cannot act there.
+fn one(
+    shipped: &Catalogue,
+    name: &str,
+    sim: &Read<'_>,
+    results: &Results<'_>,
+    warnings: &mut Vec<Warning>,
+) -> Result<gumption_gap::Candidate, String> {
+    let member = chosen(shipped, name, sim).map_err(|misfit| misfit.reason(shipped, sim.sim))?;
+    let log = Log::new(shipped.source.clone());
+    let read = effects::read_one(&log, &member, Some(sim.sim), results, warnings);
+    match read.filter(|_| log.is_clean()) {
+        Some(placed) => Ok(placed.candidate),
+        None => {
+            let problems = log.into_problems();
+            let first = problems.0.first().map(|problem| problem.fault.to_string());
+            Err(format!("of the catalogue cannot act on this sim: {}", first.unwrap_or_default()))
+        }
+    }
+}
+
+/// Of the entries of that name, the one that acts on most quantities of the sim; those of a bench
+/// come before those of any.
+fn chosen(shipped: &Catalogue, name: &str, sim: &Read<'_>) -> Result<Member, Box<Misfit>> {
+    let mut best: Option<(bool, usize, Member)> = None;
+    let mut nearest: Option<Box<Misfit>> = None;
+    for entry in shipped.entries.iter().filter(|entry| entry.name == name) {
+        let special = entry.bench != ANY_BENCH;
+        match fit::fit(shipped, entry, sim) {
+            Ok((count, member)) => {
+                let better =
+                    |(known, most, _): &(bool, usize, Member)| (special, count) > (*known, *most);
+                if best.as_ref().is_none_or(better) {
+                    best = Some((special, count, member));
+                }
+            }
+            Err(misfit) => {
+                if nearest.as_ref().is_none_or(|other| misfit.count() < other.count()) {
+                    nearest = Some(misfit);
+                }
+            }
+        }
+    }
+    match (best, nearest) {
+        (Some((_, _, member)), _) => Ok(member),
+        (None, nearest) => Err(nearest.unwrap_or_default()),
+    }
+}

@@ -1,0 +1,305 @@
+//! A certificate file: what is to be stated, of which models, in which form.
+
+mod particulars;
+mod rows;
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+use std::path::Path;
+use std::sync::Arc;
+
+use super::json::{self, Json, Node};
+use super::model_file::text_of;
+use super::object::Object;
+use super::problem::{Log, Problems};
+use super::source::Source;
+use super::{Fault, settings};
+use gumption_analysis::certificate::contents::{Certificate, Language, Rounding};
+use gumption_engine::task::{Coverage, Settings, Warning};
+use rows::Rows;
+
+/// The keys of a certificate file.
+const KEYS: [&str; 25] = [
+    "format",
+    "title",
+    "number",
+    "device",
+    "customer",
+    "laboratory",
+    "responsible",
+    "calibration_date",
+    "issue_date",
+    "place",
+    "environment",
+    "method",
+    "traceability",
+    "remarks",
+    "language",
+    "coverage_factor",
+    "coverage_probability",
+    "coverage_factor_fixed",
+    "rounding",
+    "digits",
+    "monte_carlo",
+    "conditions",
+    "shared_inputs",
+    "separate_inputs",
+    "rows",
+];
+
+/// Keys that only certificates have; a file with one of them, and without outputs, is meant as one.
+pub(crate) fn keys() -> [&'static str; 4] {
+    OWN
+}
+
+const OWN: [&str; 4] = ["rows", "device", "customer", "laboratory"];
+
+/// The most significant digits of a stated uncertainty.
+const MOST_DIGITS: u64 = 4;
+
+/// A certificate file that was read and found right, with its model files.
+#[derive(Debug)]
+pub struct CertificateFile {
+    /// The certificate.
+    pub certificate: Certificate,
+    /// The model files, as [`Asked::file`](gumption_analysis::certificate::contents::Asked) counts them.
+    pub models: Vec<CertifiedModel>,
+    /// Notes on what was read, each with the model file as its place.
+    pub warnings: Vec<Warning>,
+    /// The file's text.
+    pub source: Arc<Source>,
+    /// Where each row of the table stands in the file.
+    pub places: Vec<Range<usize>>,
+}
+
+/// A model file of a certificate.
+#[derive(Debug)]
+pub struct CertifiedModel {
+    /// The name, as the certificate file has it.
+    pub name: String,
+    /// Its text.
+    pub source: Arc<Source>,
+    /// The content of the tables that it reads, by name.
+    pub files: Vec<(String, Vec<u8>)>,
+}
+
+impl CertificateFile {
+    /// A mistake at a key of the file, or at its beginning if the key is not there. A dot goes into
+    /// an object: `device.serial_number`.
+    pub fn problem_at(&self, key: &str, fault: Fault) -> Problems {
+        let log = Log::new(self.source.clone());
+        log.report(&self.place_of(key), fault);
+        log.into_problems()
+    }
+
+    /// Mistakes at keys of the file that are not there: each is reported at the longest part of its
+    /// name that is.
+    pub fn missing(&self, keys: &[&'static str], what: &'static str) -> Problems {
+        let log = Log::new(self.source.clone());
+        for key in keys {
+            log.report(&self.place_of(key), Fault::MissingKey { key, what });
+        }
+        log.into_problems()
+    }
+
+    fn place_of(&self, key: &str) -> Range<usize> {
+        let whole = 0..self.source.text.find('\n').unwrap_or(self.source.text.len());
+        let Ok(mut node) = json::parse(&self.source) else {
+            return whole;
+        };
+        let mut place = whole;
+        for part in key.split('.') {
+            let Json::Object(members) = node.value else { break };
+            let Some(member) = members.into_iter().find(|member| member.key == part) else { break };
+            place = member.key_span;
+            node = member.value;
+        }
+        place
+    }
+}
+
+/// Reads and checks a certificate file and its model files.
+///
+/// # Errors
+/// All mistakes of the files, those of the certificate first.
+pub fn read(path: &Path) -> Result<CertificateFile, Problems> {
+    let name = path.display().to_string();
+    match text_of(path) {
+        Ok(text) => read_text(&name, &text, path.parent().unwrap_or_else(|| Path::new(""))),
+        Err(message) => {
+            let log = Log::new(Source::new(name, ""));
+            log.report(&(0..0), Fault::Unreadable { message });
+            Err(log.into_problems())
+        }
+    }
+}
+
+/// Reads and checks a certificate file's text; `name` is used in messages, and model files are looked
+/// for in `folder`.
+///
+/// # Errors
+/// All mistakes of the text and its model files, those of the certificate first.
+pub fn read_text(name: &str, text: &str, folder: &Path) -> Result<CertificateFile, Problems> {
+    let source = Source::new(name, text);
+    let log = Log::new(source.clone());
+    let file = match json::parse(&source) {
+        Ok(node) => {
+            let whole = 0..source.text.find('\n').unwrap_or(source.text.len());
+            Object::new(&log, "a certificate file", &node, &whole)
+                .and_then(|root| certificate(root, folder))
+        }
+        Err((span, fault)) => {
+            log.report(&span, fault);
+            None
+        }
+    };
+    match file {
+        Some(file) if log.is_clean() => Ok(file),
+        _ => Err(log.into_problems()),
+    }
+}
+
+/// Whether a text is meant as a certificate file.
+pub(super) fn is_meant(root: &Node) -> bool {
+    let Json::Object(members) = &root.value else { return false };
+    let has = |key: &str| members.iter().any(|member| member.key == key);
+    OWN.iter().any(|key| has(key)) && !has("outputs") && !has("result")
+}
+
+/// What is asked of every model.
+#[derive(Clone, Copy, Debug)]
+struct Asking {
+    coverage: Coverage,
+    /// Settings of the trials that beat those of the model files.
+    trials: Option<Settings>,
+}
+
+impl Asking {
+    fn apply(self, settings: &mut Settings) {
+        if let Some(own) = self.trials {
+            *settings = Settings {
+                trials: own.trials,
+                rule: own.rule,
+                max_trials: own.max_trials,
+                seed: own.seed,
+                digits: own.digits,
+                ..*settings
+            };
+        }
+        settings.coverage = self.coverage;
+    }
+}
+
+fn certificate(root: Object<'_>, folder: &Path) -> Option<CertificateFile> {
+    root.check_keys(&KEYS);
+    super::model_file::check_format(&root);
+    let particulars = particulars::read(&root);
+    let languages = languages(&root);
+    let rounding = named(&root, "rounding", Rounding::named, &Rounding::ALL.map(Rounding::name));
+    let digits = root.whole("digits", 1, MOST_DIGITS).unwrap_or(2);
+    // a whole probability or factor of the certificate, not of its models
+    let coverage = settings::coverage(&root).unwrap_or(Coverage::Factor {
+        factor: 2.0,
+        fixed: root.truth("coverage_factor_fixed").unwrap_or(false),
+    });
+    let trials = root.get("monte_carlo").map(|_| settings::read(&root));
+    let mut rows = Rows::new(root.log, folder, Asking { coverage, trials });
+    match root.required("rows").and_then(|_| root.list("rows")) {
+        Some([]) => {
+            let place = root.get("rows").map_or(root.place(), |member| &member.key_span);
+            root.log.report(place, Fault::NoValues { name: "rows".into() });
+        }
+        Some(list) => rows.read(list),
+        None => {}
+    }
+    let shown = texts(&root, "conditions");
+    for (name, span) in &shown {
+        rows.check_condition(name, span);
+    }
+    let (shared, separate) = (names(&root, "shared_inputs"), names(&root, "separate_inputs"));
+    for (name, span) in shared.iter().chain(&separate) {
+        rows.check_input(name, span);
+    }
+    if let Some((name, span)) = separate.iter().find(|(name, _)| shared.contains_key(*name)) {
+        let reason =
+            format!("`{name}` is in `shared_inputs` and in `separate_inputs`; take it out of one");
+        root.log.report(span, Fault::Certificate { reason });
+    }
+    let rows::Read { evaluations, lines, models, warnings, places } = rows.finish()?;
+    let certificate = Certificate {
+        particulars: particulars?,
+        languages,
+        rounding: rounding.unwrap_or_default(),
+        digits: u32::try_from(digits).unwrap_or(2),
+        evaluations,
+        lines,
+        shown: shown.into_iter().map(|(name, _)| name).collect(),
+        shared: shared.into_keys().collect(),
+        separate: separate.into_keys().collect(),
+    };
+    Some(CertificateFile { certificate, models, warnings, source: root.log.source.clone(), places })
+}
+
+/// A value by its name, if the key is there.
+fn named<T>(
+    object: &Object<'_>,
+    key: &'static str,
+    find: impl Fn(&str) -> Option<T>,
+    allowed: &[&str],
+) -> Option<T> {
+    let name = object.text(key)?;
+    let found = find(name);
+    if let (None, Some(member)) = (&found, object.get(key)) {
+        let allowed = allowed.iter().map(|name| (*name).to_owned()).collect();
+        let fault = Fault::NotOneOf { key: key.into(), found: name.to_owned(), allowed };
+        object.log.report(&member.value.span, fault);
+    }
+    found
+}
+
+/// One language or several, each once; English unless given.
+fn languages(root: &Object<'_>) -> Vec<Language> {
+    let mut languages = Vec::new();
+    for (code, span) in texts(root, "language") {
+        match Language::of_code(&code) {
+            Some(language) if !languages.contains(&language) => languages.push(language),
+            Some(_) => {
+                let reason = format!("the language `{code}` stands here a second time");
+                root.log.report(&span, Fault::Certificate { reason });
+            }
+            None => {
+                let allowed = Language::ALL.map(|language| language.code().to_owned()).to_vec();
+                let fault = Fault::NotOneOf { key: "language".into(), found: code, allowed };
+                root.log.report(&span, fault);
+            }
+        }
+    }
+    if languages.is_empty() {
+        languages.push(Language::English);
+    }
+    languages
+}
+
+/// A text or a list of texts, with their places.
+fn texts(object: &Object<'_>, key: &'static str) -> Vec<(String, Range<usize>)> {
+    let Some(member) = object.get(key) else { return Vec::new() };
+    let nodes = match &member.value.value {
+        Json::List(list) => list.as_slice(),
+        _ => std::slice::from_ref(&member.value),
+    };
+    let text = |node: &Node| match &node.value {
+        Json::Text(text) => Some((text.clone(), node.span.clone())),
+        other => {
+            let what = format!("`{key}`");
+            let fault = Fault::WrongType { what, found: other.kind(), expected: "a text" };
+            object.log.report(&node.span, fault);
+            None
+        }
+    };
+    nodes.iter().filter_map(text).collect()
+}
+
+/// Names with their places.
+fn names(root: &Object<'_>, key: &'static str) -> BTreeMap<String, Range<usize>> {
+    texts(root, key).into_iter().collect()
+}

@@ -1,0 +1,369 @@
+//! The rows of a certificate, and the models that they ask for.
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+use std::path::Path;
+
+use super::super::Fault;
+use super::super::json::{Json, Member, Node};
+use super::super::model_file::{self, ModelFile, Override};
+use super::super::nearest::nearest;
+use super::super::object::Object;
+use super::super::outputs;
+use super::super::problem::Log;
+use super::super::source::Place;
+use super::particulars::localized;
+use super::{Asking, CertifiedModel};
+use gumption_analysis::certificate::contents::{Asked, Line};
+use gumption_engine::model::Quantity;
+use gumption_engine::task::{Task, Warning};
+use gumption_units::Unit;
+
+/// The keys of a row.
+const KEYS: [&str; 7] = ["model", "output", "set", "nominal", "label", "cmc", "cmc_floor"];
+
+/// At most so many rows: their correlations are a matrix.
+const MOST_ROWS: usize = 1000;
+
+/// What the rows ask for.
+#[derive(Debug)]
+pub(super) struct Read {
+    pub(super) evaluations: Vec<Asked>,
+    pub(super) lines: Vec<Line>,
+    pub(super) models: Vec<CertifiedModel>,
+    pub(super) warnings: Vec<Warning>,
+    pub(super) places: Vec<Range<usize>>,
+}
+
+/// Rows that are being read.
+pub(super) struct Rows<'a> {
+    log: &'a Log,
+    folder: &'a Path,
+    asking: Asking,
+    /// The model files without replacements, by name; `None` after a mistake.
+    files: BTreeMap<String, Option<usize>>,
+    models: Vec<(CertifiedModel, Task)>,
+    evaluations: Vec<Asked>,
+    lines: Vec<Line>,
+    warnings: Vec<Warning>,
+    places: Vec<Range<usize>>,
+}
+
+impl<'a> Rows<'a> {
+    pub(super) fn new(log: &'a Log, folder: &'a Path, asking: Asking) -> Self {
+        Self {
+            log,
+            folder,
+            asking,
+            files: BTreeMap::new(),
+            models: Vec::new(),
+            evaluations: Vec::new(),
+            lines: Vec::new(),
+            warnings: Vec::new(),
+            places: Vec::new(),
+        }
+    }
+
+    /// Reads all rows; one with several rows of conditions becomes as many.
+    pub(super) fn read(&mut self, list: &'a [Node]) {
+        for node in list {
+            if self.log.is_full() {
+                return;
+            }
+            self.row(node);
+            if self.lines.len() > MOST_ROWS {
+                let fault = Fault::TooMany {
+                    what: "rows of a certificate",
+                    found: self.lines.len(),
+                    most: MOST_ROWS,
+                };
+                self.log.report(&node.span, fault);
+                return;
+            }
+        }
+    }
+
+    fn row(&mut self, node: &'a Node) -> Option<()> {
+        let row = Object::new(self.log, "a row", node, &node.span)?;
+        row.check_keys(&KEYS);
+        let model = row.required("model");
+        let output = row.required("output");
+        let name = model.and_then(|_| row.text("model"));
+        let (model, name) = (model?, name?);
+        let wanted = output.and_then(|_| row.text("output"));
+        let file = self.file(name, model)?;
+        let known: Vec<String> =
+            self.models[file].1.model.outputs.iter().map(|o| o.quantity.name.clone()).collect();
+        let (output, wanted) = (output?, wanted?);
+        let Some(place) = known.iter().position(|name| name == wanted) else {
+            let nearest = nearest(wanted, known.iter().map(String::as_str)).map(str::to_owned);
+            let fault =
+                Fault::UnknownOutput { name: wanted.to_owned(), nearest, known: known.into() };
+            self.log.report(&output.value.span, fault);
+            return None;
+        };
+        let (evaluation, rows) = self.evaluation(&row, file, name)?;
+        let quantity = self.evaluations[evaluation].task.model.outputs[place].clone();
+        let unit = &quantity.quantity.unit;
+        let capability = outputs::capability(&row, wanted, unit).or(quantity.capability);
+        let label = localized(&row, "label");
+        for at in rows {
+            let nominal = match row.get("nominal") {
+                Some(member) => Some(self.nominal(member, (evaluation, at), unit)?),
+                None => None,
+            };
+            let label = label.clone();
+            self.lines.push(Line {
+                evaluation,
+                row: at,
+                output: place,
+                label,
+                nominal,
+                capability,
+            });
+            self.places.push(node.span.clone());
+        }
+        Some(())
+    }
+
+    /// The place of a model file among those of the certificate.
+    fn file(&mut self, name: &str, member: &Member) -> Option<usize> {
+        if let Some(known) = self.files.get(name) {
+            return *known;
+        }
+        let found = self.model(name, member, &[]).map(|file| {
+            for warning in &file.warnings {
+                self.warnings.push(Warning { place: name.to_owned(), ..warning.clone() });
+            }
+            let ModelFile { task, source, files, .. } = file;
+            self.models.push((CertifiedModel { name: name.to_owned(), source, files }, task));
+            self.models.len() - 1
+        });
+        self.files.insert(name.to_owned(), found);
+        found
+    }
+
+    /// A model file with replacements; mistakes of the replacements are reported at `member`.
+    fn model(&self, name: &str, member: &Member, overrides: &[Override]) -> Option<ModelFile> {
+        let problems = match model_file::read(&self.folder.join(name), overrides) {
+            Ok(file) => return Some(file),
+            Err(problems) => problems,
+        };
+        for problem in problems.0 {
+            let here = &member.value.span;
+            match problem.fault {
+                Fault::Unreadable { message } => {
+                    let message = format!("`{name}`: {message}");
+                    self.log.report(here, Fault::Unreadable { message });
+                }
+                Fault::Override { text, reason } => {
+                    let reason = format!("`{text}`: {reason}");
+                    self.log.report(here, Fault::Certificate { reason });
+                }
+                fault => {
+                    self.log.report_at(Place { source: problem.source, span: problem.span }, fault);
+                }
+            }
+        }
+        None
+    }
+
+    /// The evaluation that a row asks for, and its rows of conditions.
+    fn evaluation(
+        &mut self,
+        row: &Object<'a>,
+        file: usize,
+        name: &str,
+    ) -> Option<(usize, Vec<usize>)> {
+        let mut set = Vec::new();
+        let mut chosen = Vec::new();
+        let member = row.get("set");
+        if let Some(member) = member {
+            let object = Object::new(self.log, "`set`", &member.value, &member.key_span)?;
+            for entry in object.members() {
+                let value = match &entry.value.value {
+                    Json::Number(text) | Json::Text(text) => text.clone(),
+                    other => {
+                        let what = format!("`{}`", entry.key);
+                        let expected = "a number, or a number with a unit in quotes";
+                        let fault = Fault::WrongType { what, found: other.kind(), expected };
+                        self.log.report(&entry.value.span, fault);
+                        return None;
+                    }
+                };
+                let plain = &self.models[file].1;
+                match self.condition(plain, entry, &value)? {
+                    Some(condition) => chosen.push(condition),
+                    None => set.push((entry.key.clone(), value)),
+                }
+            }
+        }
+        let same = |asked: &Asked| asked.file == file && asked.set == set;
+        let evaluation = match self.evaluations.iter().position(same) {
+            Some(evaluation) => evaluation,
+            None => {
+                let overrides: Vec<Override> = set
+                    .iter()
+                    .filter_map(|(name, value)| Override::parse(&format!("{name}={value}")))
+                    .collect();
+                let mut task = match (overrides.as_slice(), member) {
+                    ([], _) | (_, None) => self.models[file].1.clone(),
+                    (overrides, Some(member)) => self.model(name, member, overrides)?.task,
+                };
+                self.asking.apply(&mut task.settings);
+                self.evaluations.push(Asked { model: name.to_owned(), file, set, task });
+                self.evaluations.len() - 1
+            }
+        };
+        let task = &self.evaluations[evaluation].task;
+        let holds = |row: &usize| {
+            let conditions = &task.rows[*row].conditions;
+            chosen.iter().all(|(place, value)| is_same(conditions[*place], *value))
+        };
+        let rows: Vec<usize> = (0..task.rows.len()).filter(holds).collect();
+        if rows.is_empty() {
+            let reason =
+                "no row of the model's conditions has all of these values at once".to_owned();
+            let place = member.map_or(row.place(), |member| &member.value.span);
+            self.log.report(place, Fault::Certificate { reason });
+            return None;
+        }
+        Some((evaluation, rows))
+    }
+
+    /// The condition that an entry of `set` chooses, with its value, if the model has rows with that
+    /// value; nothing if something is to be replaced; `None` after a mistake.
+    fn condition(&self, task: &Task, entry: &Member, value: &str) -> Option<Option<(usize, f64)>> {
+        let named = |condition: &Quantity| condition.name == entry.key;
+        let Some(place) = task.model.conditions.iter().position(named) else {
+            return Some(None);
+        };
+        let (input, value) = (entry.key.clone(), value.to_owned());
+        let text = format!("{input}={value}");
+        let wanted = Override { text, input, field: None, value };
+        let found = match wanted.value_in(&task.model.conditions[place].unit) {
+            Ok(found) => found,
+            Err(Fault::Override { text, reason }) => {
+                let reason = format!("`{text}`: {reason}");
+                self.log.report(&entry.value.span, Fault::Certificate { reason });
+                return None;
+            }
+            Err(fault) => {
+                self.log.report(&entry.value.span, fault);
+                return None;
+            }
+        };
+        let known = task.rows.iter().any(|row| is_same(row.conditions[place], found));
+        Some(known.then_some((place, found)))
+    }
+
+    /// A nominal value in the output's unit: a number, or the name of a condition or an input.
+    fn nominal(
+        &self,
+        member: &Member,
+        (evaluation, row): (usize, usize),
+        unit: &Unit,
+    ) -> Option<f64> {
+        let refuse = |reason: String| {
+            self.log.report(&member.value.span, Fault::Certificate { reason });
+            None
+        };
+        let name = match &member.value.value {
+            Json::Number(text) => return text.parse().ok(),
+            Json::Text(name) => name,
+            other => {
+                let what = "`nominal`".to_owned();
+                let expected = "a number, or the name of a condition or an input";
+                let fault = Fault::WrongType { what, found: other.kind(), expected };
+                self.log.report(&member.value.span, fault);
+                return None;
+            }
+        };
+        let Asked { task, .. } = &self.evaluations[evaluation];
+        let Some((value, of)) = value_of(task, row, name) else {
+            return refuse(format!(
+                "there is no condition and no input `{name}` to take the nominal value from"
+            ));
+        };
+        match Unit::conversion_factor(of, unit) {
+            Ok(factor) => Some(value * factor),
+            Err(_) => refuse(format!(
+                "the nominal value `{name}` is in `{of}`, which cannot be converted to `{unit}`"
+            )),
+        }
+    }
+
+    /// Whether some model has a condition of that name.
+    pub(super) fn check_condition(&self, name: &str, span: &Range<usize>) {
+        let conditions = |task: &Task| -> Vec<String> {
+            task.model.conditions.iter().map(|condition| condition.name.clone()).collect()
+        };
+        let known: Vec<String> =
+            self.models.iter().flat_map(|(_, task)| conditions(task)).collect();
+        if !self.models.is_empty() && !known.iter().any(|known| known == name) {
+            let near = nearest(name, known.iter().map(String::as_str));
+            let near = near.map_or(String::new(), |near| format!("; did you mean `{near}`?"));
+            let reason = format!("no model of this certificate has a condition `{name}`{near}");
+            self.log.report(span, Fault::Certificate { reason });
+        }
+    }
+
+    /// Whether some model has an input or a component of that name.
+    pub(super) fn check_input(&self, name: &str, span: &Range<usize>) {
+        let quantities = |task: &'_ Task| -> Vec<String> {
+            let inputs = task.model.inputs.iter().map(|input| input.quantity.name.clone());
+            inputs.chain(task.variables.iter().map(|variable| variable.name.clone())).collect()
+        };
+        let known: Vec<String> =
+            self.models.iter().flat_map(|(_, task)| quantities(task)).collect();
+        if !known.is_empty() && !known.iter().any(|known| known == name) {
+            let nearest = nearest(name, known.iter().map(String::as_str)).map(str::to_owned);
+            self.log.report(span, Fault::NoSuchInput { name: name.to_owned(), nearest });
+        }
+    }
+
+    /// What was read, with only those rows of conditions that are asked for; `None` after a mistake.
+    pub(super) fn finish(mut self) -> Option<Read> {
+        if !self.log.is_clean() {
+            return None;
+        }
+        for (number, asked) in self.evaluations.iter_mut().enumerate() {
+            let mut lines: Vec<&mut Line> =
+                self.lines.iter_mut().filter(|line| line.evaluation == number).collect();
+            let mut used: Vec<usize> = lines.iter().map(|line| line.row).collect();
+            used.sort_unstable();
+            used.dedup();
+            for line in &mut lines {
+                line.row = used.binary_search(&line.row).unwrap_or(0);
+            }
+            let rows = std::mem::take(&mut asked.task.rows);
+            let kept = rows.into_iter().enumerate().filter(|(row, _)| used.contains(row));
+            asked.task.rows = kept.map(|(_, row)| row).collect();
+        }
+        let Self { models, evaluations, lines, warnings, places, .. } = self;
+        let models = models.into_iter().map(|(model, _)| model).collect();
+        Some(Read { evaluations, lines, models, warnings, places })
+    }
+}
+
+/// Whether two values of a condition are the same but for rounding.
+fn is_same(a: f64, b: f64) -> bool {
+    (a - b).abs() <= 1e-9 * a.abs().max(b.abs())
+}
+
+/// The value of a condition, or the estimate of an input, in a row; with its unit.
+fn value_of<'t>(task: &'t Task, row: usize, name: &str) -> Option<(f64, &'t Unit)> {
+    let at = task.rows.get(row)?;
+    if let Some(place) = task.model.conditions.iter().position(|c| c.name == name) {
+        return Some((*at.conditions.get(place)?, &task.model.conditions[place].unit));
+    }
+    let mut first = 0;
+    for input in &task.model.inputs {
+        if input.quantity.name == name {
+            let parts = at.distributions.get(first..first + input.parts)?;
+            return Some((parts.iter().map(|d| d.mean()).sum(), &input.quantity.unit));
+        }
+        first += input.parts;
+    }
+    None
+}

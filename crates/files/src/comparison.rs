@@ -1,0 +1,414 @@
+//! Tables of results to be compared: two results a row, or one result a laboratory.
+
+use std::path::Path;
+
+use super::problem::{Log, Problems};
+use super::source::{Place, Source};
+use super::text_table::TextTable;
+use super::{Fault, answer, bytes, table};
+use gumption_analysis::compare::{Laboratory, Pair, Stated};
+
+/// A table that was read and found right.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ComparisonTable {
+    /// Two results a row: columns `label`, `x1`, `U1`, `x2`, `U2` and perhaps `k1`, `k2`, `r`.
+    Pairs(Vec<Pair>),
+    /// One result a laboratory: columns `label`, `x`, `U` and perhaps `k`.
+    Laboratories {
+        /// The laboratories, in order.
+        laboratories: Vec<Laboratory>,
+        /// Their correlation coefficients, row by row; empty where they are independent.
+        correlations: Vec<Vec<f64>>,
+    },
+}
+
+/// What else is to be read.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct ComparisonOptions<'a> {
+    /// The JSON answer of a run whose results are the second ones.
+    pub against: Option<&'a Path>,
+    /// A table of correlation coefficients between laboratories.
+    pub correlations: Option<&'a Path>,
+}
+
+const OF_PAIRS: [&str; 8] = ["label", "x1", "U1", "x2", "U2", "k1", "k2", "r"];
+const OF_LABORATORIES: [&str; 4] = ["label", "x", "U", "k"];
+
+/// Coverage factor of a stated uncertainty unless the table has another.
+const USUAL_FACTOR: f64 = 2.0;
+
+/// At most so many laboratories: their covariance matrix is decomposed again and again.
+const MOST_LABORATORIES: usize = 200;
+
+/// Reads and checks a table: a CSV file, or the first sheet of an XLSX file.
+///
+/// # Errors
+/// All mistakes of the table, in the order of their places.
+pub fn read_comparison(
+    path: &Path,
+    options: ComparisonOptions<'_>,
+) -> Result<ComparisonTable, Problems> {
+    let name = path.display().to_string();
+    let text = bytes::of_file(path, bytes::MOST).and_then(|bytes| text_of(path, bytes));
+    match text {
+        Ok(text) => read_comparison_text(&name, &text, options),
+        Err(message) => {
+            let log = Log::new(Source::new(name, ""));
+            log.report(&(0..0), Fault::Unreadable { message });
+            Err(log.into_problems())
+        }
+    }
+}
+
+/// Reads and checks the text of a CSV table; `name` is used in messages.
+///
+/// # Errors
+/// All mistakes of the table, in the order of their places.
+pub fn read_comparison_text(
+    name: &str,
+    text: &str,
+    options: ComparisonOptions<'_>,
+) -> Result<ComparisonTable, Problems> {
+    let source = Source::new(name, text);
+    let log = Log::new(source.clone());
+    let table = TextTable::parse(&log, &source).and_then(|cells| {
+        let reader = Reader { log: &log, cells: &cells, options };
+        if cells.column("x1").is_some() { reader.pairs() } else { reader.laboratories() }
+    });
+    match table {
+        Some(table) if log.is_clean() => Ok(table),
+        _ => Err(log.into_problems()),
+    }
+}
+
+/// The text of a table; the first sheet of a workbook as CSV, line by line.
+fn text_of(path: &Path, bytes: Vec<u8>) -> Result<String, String> {
+    let is_workbook =
+        path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("xlsx"));
+    if is_workbook {
+        return sheet(bytes);
+    }
+    String::from_utf8(bytes).map_err(|_| "it is not UTF-8 text".to_owned())
+}
+
+fn sheet(bytes: Vec<u8>) -> Result<String, String> {
+    use calamine::{Data, Reader as _, Xlsx};
+    let failed = |error: calamine::XlsxError| format!("it is no workbook: {error}");
+    let mut workbook: Xlsx<_> = Xlsx::new(std::io::Cursor::new(bytes)).map_err(failed)?;
+    let range = match workbook.worksheet_range_at(0) {
+        Some(range) => range.map_err(failed)?,
+        None => return Err("the workbook has no sheet".to_owned()),
+    };
+    // lines are rows of the sheet
+    let above = range.start().map_or(0, |(row, _)| row);
+    let mut text = "\n".repeat(above as usize);
+    for row in range.rows() {
+        let cells: Vec<String> = row
+            .iter()
+            .map(|cell| match cell {
+                Data::String(text) if text.contains([',', '"', '\n']) => {
+                    format!("\"{}\"", text.replace('"', "\"\"").replace('\n', " "))
+                }
+                other => other.to_string(),
+            })
+            .collect();
+        let empty = cells.iter().all(String::is_empty);
+        text += &if empty { String::new() } else { cells.join(",") };
+        text.push('\n');
+    }
+    Ok(text)
+}
+
+struct Reader<'a> {
+    log: &'a Log,
+    cells: &'a TextTable,
+    options: ComparisonOptions<'a>,
+}
+
+impl Reader<'_> {
+    fn pairs(&self) -> Option<ComparisonTable> {
+        if let Some(path) = self.options.correlations {
+            let reason = format!(
+                "`{}` is for a table of laboratories (label, x, U); a table of pairs has its \
+                 coefficients in the column `r`",
+                path.display()
+            );
+            self.log.report_at(self.cells.header(), Fault::Table { reason });
+        }
+        let answer = match self.options.against {
+            Some(path) => Some(answer::read(self.log, path)?),
+            None => None,
+        };
+        let conditions: Vec<&str> = answer.iter().flat_map(|answer| answer.conditions()).collect();
+        let required: &[&str] = if answer.is_some() { &OF_PAIRS[..3] } else { &OF_PAIRS[..5] };
+        self.check_columns(required, &OF_PAIRS, &conditions)?;
+        if let (Some(_), Some(place)) =
+            (&answer, ["x2", "U2", "k2"].iter().find(|name| self.cells.column(name).is_some()))
+        {
+            let reason = format!("the column `{place}` comes from the run; take it out");
+            self.log.report_at(self.cells.header(), Fault::Table { reason });
+            return None;
+        }
+        let mut pairs = Vec::new();
+        for row in 0..self.cells.rows() {
+            let first = self.stated(row, ["x1", "U1", "k1"]);
+            let second = match &answer {
+                None => self.stated(row, ["x2", "U2", "k2"]),
+                Some(answer) => self.of_answer(row, answer, &conditions),
+            };
+            let correlation = self.number(row, "r").unwrap_or(Some(0.0));
+            let (Some(first), Some(second), Some(correlation)) = (first, second, correlation)
+            else {
+                continue;
+            };
+            if !(-1.0..=1.0).contains(&correlation) {
+                let range = "from -1 to 1";
+                let fault = Fault::OutOfRange { key: "r".into(), found: correlation, range };
+                self.log.report_at(self.place(row, "r"), fault);
+                continue;
+            }
+            let label = self.cells.text(row, "label").to_owned();
+            let pair = Pair { label, results: [first, second], correlation };
+            if pair.compare().is_none() {
+                let reason = "the difference has no uncertainty, so nothing can be compared";
+                self.log.report_at(self.place(row, "U1"), Fault::Table { reason: reason.into() });
+            }
+            pairs.push(pair);
+        }
+        Some(ComparisonTable::Pairs(pairs))
+    }
+
+    fn laboratories(&self) -> Option<ComparisonTable> {
+        if let Some(path) = self.options.against {
+            let reason = format!(
+                "`{}` is to be compared with a table with the columns label, x1, U1",
+                path.display()
+            );
+            self.log.report_at(self.cells.header(), Fault::Table { reason });
+            return None;
+        }
+        self.check_columns(&OF_LABORATORIES[..3], &OF_LABORATORIES, &[])?;
+        let count = self.cells.rows();
+        if count > MOST_LABORATORIES {
+            let fault =
+                Fault::TooMany { what: "laboratories", found: count, most: MOST_LABORATORIES };
+            self.log.report_at(self.cells.header(), fault);
+            return None;
+        }
+        let mut laboratories: Vec<Laboratory> = Vec::new();
+        for row in 0..count {
+            let Some(result) = self.stated(row, ["x", "U", "k"]) else {
+                continue;
+            };
+            if result.expanded == 0.0 {
+                let fault = Fault::NotPositive { key: "U".into(), found: 0.0 };
+                self.log.report_at(self.place(row, "U"), fault);
+            }
+            let label = self.cells.text(row, "label").to_owned();
+            if laboratories.iter().any(|other| other.label == label) {
+                let reason = format!("the laboratory `{label}` stands here a second time");
+                self.log.report_at(self.place(row, "label"), Fault::Table { reason });
+            }
+            laboratories.push(Laboratory { label, result });
+        }
+        if count < 2 {
+            let reason = "a comparison needs at least two laboratories".to_owned();
+            self.log.report_at(self.cells.header(), Fault::Table { reason });
+        }
+        let correlations = match self.options.correlations {
+            Some(path) => self.correlations(path, &laboratories)?,
+            None => Vec::new(),
+        };
+        Some(ComparisonTable::Laboratories { laboratories, correlations })
+    }
+
+    /// A matrix of coefficients in the order of the laboratories: a header of their names, then
+    /// the rows in that order.
+    fn correlations(&self, path: &Path, all: &[Laboratory]) -> Option<Vec<Vec<f64>>> {
+        let name = path.display().to_string();
+        let text = bytes::of_file(path, bytes::MOST).and_then(|bytes| text_of(path, bytes));
+        let source = Source::new(name.clone(), text.as_deref().unwrap_or(""));
+        let whole = || Place { source: source.clone(), span: 0..0 };
+        if let Err(message) = text {
+            self.log.report_at(whole(), Fault::Unreadable { message });
+            return None;
+        }
+        let matrix = match table::parse(&source) {
+            Ok(matrix) => matrix,
+            Err(faults) => {
+                faults.into_iter().for_each(|(place, fault)| self.log.report_at(place, fault));
+                return None;
+            }
+        };
+        let places: Vec<Option<usize>> = all
+            .iter()
+            .map(|laboratory| matrix.columns.iter().position(|name| *name == laboratory.label))
+            .collect();
+        let square = matrix.rows.len() == matrix.columns.len() && all.len() == matrix.columns.len();
+        let Some(places) = places.into_iter().collect::<Option<Vec<usize>>>().filter(|_| square)
+        else {
+            let reason = format!(
+                "a matrix of correlation coefficients has a header with the names of all {} \
+                 laboratories, and as many rows in that order",
+                all.len()
+            );
+            self.log.report_at(whole(), Fault::Table { reason });
+            return None;
+        };
+        let at = |i: usize, j: usize| matrix.rows[i][j];
+        for (i, j) in (0..places.len()).flat_map(|i| (0..=i).map(move |j| (i, j))) {
+            let (r, other) = (at(i, j), at(j, i));
+            if r != other || !(-1.0..=1.0).contains(&r) || (i == j && r != 1.0) {
+                let reason =
+                    "the coefficients must be symmetric, from -1 to 1, and 1 on the diagonal";
+                self.log.report_at(matrix.place(i, j), Fault::Table { reason: reason.into() });
+                return None;
+            }
+        }
+        Some(places.iter().map(|&i| places.iter().map(|&j| at(i, j)).collect()).collect())
+    }
+
+    fn check_columns(&self, required: &[&str], known: &[&str], more: &[&str]) -> Option<()> {
+        let list = |names: &[&str]| names.join(", ");
+        let missing: Vec<&str> =
+            required.iter().copied().filter(|name| self.cells.column(name).is_none()).collect();
+        if !missing.is_empty() {
+            let reason = format!(
+                "the table has no column {}; a table of pairs has {} (and perhaps k1, k2, r), one of \
+                 laboratories {} (and perhaps k)",
+                list(&missing),
+                list(&OF_PAIRS[..5]),
+                list(&OF_LABORATORIES[..3])
+            );
+            self.log.report_at(self.cells.header(), Fault::Table { reason });
+            return None;
+        }
+        let unknown =
+            |name: &&String| !known.contains(&name.as_str()) && !more.contains(&name.as_str());
+        if let Some(name) = self.cells.columns().iter().find(unknown) {
+            let reason = format!(
+                "the column `{name}` is not known; there are {}",
+                list(&[known, more].concat())
+            );
+            self.log.report_at(self.cells.header(), Fault::Table { reason });
+            return None;
+        }
+        Some(())
+    }
+
+    fn place(&self, row: usize, column: &str) -> Place {
+        self.cells.place(row, column)
+    }
+
+    /// The number in a cell: `None` where there is no such column, `Some(None)` after a mistake.
+    fn number(&self, row: usize, column: &str) -> Option<Option<f64>> {
+        self.cells.column(column)?;
+        let text = self.cells.number(row, column);
+        let value = text.parse::<f64>().ok().filter(|value| value.is_finite());
+        if value.is_none() {
+            let (column, found) = (column.to_owned(), self.cells.text(row, column).to_owned());
+            let place = self.place(row, &column);
+            self.log.report_at(place, Fault::Cell { row: row + 1, column, found });
+        }
+        Some(value)
+    }
+
+    /// A stated result of a row.
+    fn stated(&self, row: usize, [x, u, k]: [&str; 3]) -> Option<Stated> {
+        let (value, expanded) = (self.number(row, x)?, self.number(row, u)?);
+        let factor = self.number(row, k).unwrap_or(Some(USUAL_FACTOR));
+        let (value, expanded, factor) = (value?, expanded?, factor?);
+        if expanded < 0.0 {
+            let range = "at least 0";
+            let fault = Fault::OutOfRange { key: u.to_owned(), found: expanded, range };
+            self.log.report_at(self.place(row, u), fault);
+            return None;
+        }
+        if factor <= 0.0 {
+            let fault = Fault::NotPositive { key: k.to_owned(), found: factor };
+            self.log.report_at(self.place(row, k), fault);
+            return None;
+        }
+        let rounding = [x, u].map(|column| half_unit(&self.cells.number(row, column)));
+        Some(Stated { value, expanded, factor, rounding })
+    }
+
+    /// The run's result for a row: the output of that label, at the conditions of the row.
+    fn of_answer(
+        &self,
+        row: usize,
+        answer: &answer::Answer,
+        conditions: &[&str],
+    ) -> Option<Stated> {
+        let at: Vec<(&str, f64)> =
+            conditions.iter().filter_map(|name| Some((*name, self.number(row, name)??))).collect();
+        let found = answer.result(self.cells.text(row, "label"), &at);
+        found
+            .map_err(|reason| {
+                self.log.report_at(self.place(row, "label"), Fault::Table { reason });
+            })
+            .ok()
+    }
+}
+
+/// Half a unit of the last printed digit of a number.
+fn half_unit(text: &str) -> f64 {
+    let (mantissa, exponent) = match text.split_once(['e', 'E']) {
+        Some((mantissa, exponent)) => (mantissa, exponent.parse::<i32>().unwrap_or(0)),
+        None => (text, 0),
+    };
+    let decimals = mantissa.split_once('.').map_or(0, |(_, decimals)| decimals.trim().len() as i32);
+    // from its decimal form, which is the nearest number
+    format!("5e{}", exponent - decimals - 1).parse().unwrap_or(0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(text: &str) -> Result<ComparisonTable, Problems> {
+        read_comparison_text("t.csv", text, ComparisonOptions::default())
+    }
+
+    #[test]
+    fn half_units_of_printed_digits() {
+        for (text, half) in
+            [("423", 0.5), ("0.010", 0.0005), ("1.50e-3", 5e-6), ("-7.", 0.5), ("2e4", 5e3)]
+        {
+            assert_eq!(half_unit(text), half, "{text}");
+        }
+    }
+
+    #[test]
+    fn pairs_with_and_without_factors() {
+        let text = "label;x1;U1;x2;U2;k2\n\"a; b\";1,50;0,2;1,6;0,3;3\n# note\nc;1;0;2;1;2\n";
+        let Ok(ComparisonTable::Pairs(pairs)) = read(text) else { panic!() };
+        assert_eq!((pairs.len(), pairs[0].label.as_str()), (2, "a; b"));
+        let [a, b] = pairs[0].results;
+        assert_eq!((a.value, a.factor, a.rounding), (1.5, 2.0, [0.005, 0.05]));
+        assert_eq!((b.factor, b.rounding), (3.0, [0.05, 0.05]));
+    }
+
+    #[test]
+    fn mistakes_have_places() {
+        let said = |text: &str| read(text).unwrap_err().to_string();
+        let cases = [
+            ("label,x1,U1,x2,U2\na,1,,2,1\nb,1,1,x,1\n", "t.csv:2:4:"),
+            ("label,x1,U1,x2,U2\na,1,-1,2,1\n", "at least 0"),
+            ("label,x1,U1,x2,U2\na,1,0,2,0\n", "no uncertainty"),
+            ("label,x1,U1,x2,U2,r\na,1,1,2,1,2\n", "from -1 to 1"),
+            ("label,x1,U1,x2\na,1,1,2\n", "no column U2"),
+            ("label,x1,U1,x2,U2,K1\na,1,1,2,1,2\n", "`K1` is not known"),
+            ("label,x,U\na,1,1\n", "at least two laboratories"),
+            ("label,x,U\na,1,1\na,2,1\n", "a second time"),
+            ("label,x,U\na,1,0\nb,2,1\n", "t.csv:2:5:"),
+            ("label,x,U\na,1\n", "t.csv:2:1:"),
+            ("", "the table is empty"),
+        ];
+        for (text, expected) in cases {
+            let found = said(text);
+            assert!(found.contains(expected), "{text:?}: {found}");
+        }
+        assert_eq!(said("label,x1,U1,x2,U2\na,1,,2,1\nb,1,1,x,1\n").lines().count(), 2);
+    }
+}

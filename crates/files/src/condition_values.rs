@@ -1,0 +1,21 @@
+//! What estimates and widths of inputs see of the conditions.
+
+use std::fmt::Debug;
+
+use super::Fault;
+use gumption_engine::model::formula::Formula;
+use gumption_units::Unit;
+
+/// The conditions' values in one row, by name, in SI units; and how formulas of them are checked.
+pub(super) trait ConditionValues: Debug {
+    /// The number of rows.
+    fn rows(&self) -> usize;
+    /// Checks a formula of conditions for an estimate or width in `unit`.
+    fn check(&self, formula: &Formula, unit: &Unit) -> Result<(), Vec<Fault>>;
+    /// The formula's value in SI in a row.
+    fn value(&self, formula: &Formula, row: usize) -> f64;
+    /// The place of a condition of that name.
+    fn place(&self, name: &str) -> Option<usize>;
+    /// The names.
+    fn names(&self) -> Vec<String>;
+}

@@ -1,0 +1,327 @@
+//! The conditions of a measurement: a grid of values, or the rows of a table.
+
+use std::collections::HashMap;
+use std::ops::Range;
+use std::path::Path;
+
+use super::Fault;
+use super::json::{Json, Member};
+use super::object::Object;
+use super::problem::Log;
+use super::table::{self, Table};
+use gumption_engine::model::Quantity;
+use gumption_engine::model::formula::{Formula, FormulaError, Scope};
+use gumption_units::Unit;
+
+/// At most so many rows: a sweep of a million.
+const MOST_ROWS: usize = 1_000_000;
+
+/// Conditions with their rows of values, in their units.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Conditions {
+    pub(super) quantities: Vec<Quantity>,
+    pub(super) places: Vec<Range<usize>>,
+    pub(super) rows: Vec<Vec<f64>>,
+    /// The tables read: name and content.
+    pub(super) files: Vec<(String, Vec<u8>)>,
+    /// Names of those whose unit could not be read.
+    pub(super) without_unit: Vec<String>,
+    /// Whether the rows could not be read, so that nothing is known of the conditions.
+    pub(super) unreadable: bool,
+}
+
+impl Conditions {
+    /// The only row of a file without conditions.
+    pub(super) fn none() -> Self {
+        Self { rows: vec![Vec::new()], ..Self::default() }
+    }
+
+    /// The rows of a table, without any condition.
+    pub(super) fn rows_of(table: &Table) -> Self {
+        Self { rows: vec![Vec::new(); table.rows.len()], ..Self::default() }
+    }
+
+    /// A column of the data as a condition.
+    pub(super) fn add_column(
+        &mut self,
+        table: &Table,
+        name: &str,
+        unit: Unit,
+        named: &Range<usize>,
+    ) {
+        let place = table.columns.iter().position(|column| column == name);
+        self.places.push(named.clone());
+        self.quantities.push(Quantity { name: name.to_owned(), unit, about: String::new() });
+        for (row, data) in self.rows.iter_mut().zip(&table.rows) {
+            row.push(place.and_then(|place| data.get(place)).copied().unwrap_or(f64::NAN));
+        }
+    }
+
+    /// A condition with its unit, without values.
+    fn add(&mut self, member: &Member, condition: &Object<'_>) {
+        self.places.push(member.key_span.clone());
+        let unit = unit(condition, "unit").unwrap_or_else(|| {
+            self.without_unit.push(member.key.clone());
+            Unit::one()
+        });
+        let about = condition.text("about").unwrap_or("").to_owned();
+        self.quantities.push(Quantity { name: member.key.clone(), unit, about });
+    }
+}
+
+/// Reads `conditions`; paths are relative to `folder`. Conditions without values are columns of
+/// `data`, whose rows are then those of the conditions.
+pub(super) fn read(
+    log: &Log,
+    member: &Member,
+    folder: &Path,
+    data: Option<&Table>,
+) -> Option<Conditions> {
+    let object = Object::new(log, "`conditions`", &member.value, &member.key_span)?;
+    let file = object.get("file").filter(|file| matches!(file.value.value, Json::Text(_)));
+    match (file, data) {
+        (Some(file), Some(_)) => {
+            let reason = "the conditions of observations are columns of their table; in place of \
+                          `file` give the columns by their names, with units";
+            log.report(&file.key_span, Fault::Observation { reason: reason.to_owned() });
+            None
+        }
+        (Some(file), None) => from_table(&object, file, folder),
+        (None, Some(data)) => columns_of(&object, data),
+        (None, None) => grid(&object),
+    }
+}
+
+/// The unit at `key`, a plain number if it is not there.
+pub(super) fn unit(object: &Object<'_>, key: &str) -> Option<Unit> {
+    let Some(text) = object.text(key) else {
+        return object.get(key).is_none().then(Unit::one);
+    };
+    let span = object.get(key).map_or(object.place(), |member| &member.value.span);
+    parse_unit(object.log, text, span)
+}
+
+fn parse_unit(log: &Log, text: &str, span: &Range<usize>) -> Option<Unit> {
+    let parsed = Unit::parse(text);
+    log.value(span, parsed.map_err(|error| Fault::Unit { unit: text.to_owned(), error }))
+}
+
+/// The conditions in the rows of the data.
+fn columns_of(object: &Object<'_>, data: &Table) -> Option<Conditions> {
+    let log = object.log;
+    let mut conditions = Conditions::default();
+    let mut places = Vec::new();
+    for member in object.members() {
+        let Some(condition) = Object::new(log, "a condition", &member.value, &member.key_span)
+        else {
+            continue;
+        };
+        condition.check_keys(&["unit", "values", "about"]);
+        if let Some(values) = condition.get("values") {
+            let reason = format!(
+                "the condition `{}` has values of its own, but with observations it is the column of \
+                 that name; take `values` out",
+                member.key
+            );
+            log.report(&values.key_span, Fault::Observation { reason });
+        }
+        let place = data.columns.iter().position(|column| *column == member.key);
+        if place.is_none() {
+            let near = super::nearest(&member.key, data.columns.iter().map(String::as_str));
+            let reason = format!(
+                "`{}` has no column `{}` for this condition{}",
+                data.source.name,
+                member.key,
+                match near {
+                    Some(near) => format!("; did you mean `{near}`?"),
+                    None => format!("; its columns are {}", data.columns.join(", ")),
+                }
+            );
+            log.report(&member.key_span, Fault::Table { reason });
+        }
+        places.push(place);
+        conditions.add(member, &condition);
+    }
+    conditions.rows = data
+        .rows
+        .iter()
+        .map(|row| {
+            let value = |place: &Option<usize>| place.and_then(|place| row.get(place)).copied();
+            places.iter().map(|place| value(place).unwrap_or(1.0)).collect()
+        })
+        .collect();
+    Some(conditions)
+}
+
+fn grid(object: &Object<'_>) -> Option<Conditions> {
+    let log = object.log;
+    let mut conditions = Conditions::default();
+    let mut axes: Vec<Vec<f64>> = Vec::new();
+    for member in object.members() {
+        let Some(condition) = Object::new(log, "a condition", &member.value, &member.key_span)
+        else {
+            continue;
+        };
+        condition.check_keys(&["unit", "values", "about"]);
+        let values = if condition.get("values").is_some() {
+            condition.numbers("values")
+        } else {
+            condition.report(Fault::NoTable { name: member.key.clone() });
+            None
+        };
+        if values.as_ref().is_some_and(Vec::is_empty) {
+            condition.report(Fault::NoValues { name: member.key.clone() });
+        }
+        conditions.add(member, &condition);
+        // one value in the place of none, so that the inputs are checked all the same
+        axes.push(values.filter(|values| !values.is_empty()).unwrap_or_else(|| vec![1.0]));
+    }
+    if axes.is_empty() {
+        object.report(Fault::NoValues { name: "conditions".into() });
+    }
+    let count = axes.iter().try_fold(1usize, |n, axis| n.checked_mul(axis.len()));
+    let count = count.unwrap_or(usize::MAX);
+    if count > MOST_ROWS {
+        object.report(Fault::TooMany { what: "rows of conditions", found: count, most: MOST_ROWS });
+        return None;
+    }
+    // the last condition is the fastest
+    conditions.rows = (0..count)
+        .map(|number| {
+            let mut left = number;
+            let mut row: Vec<f64> = axes
+                .iter()
+                .rev()
+                .filter_map(|axis| {
+                    let value = axis.get(left % axis.len().max(1)).copied();
+                    left /= axis.len().max(1);
+                    value
+                })
+                .collect();
+            row.reverse();
+            row
+        })
+        .collect();
+    Some(conditions)
+}
+
+fn from_table(object: &Object<'_>, file: &Member, folder: &Path) -> Option<Conditions> {
+    object.check_keys(&["file", "units", "columns"]);
+    let log = object.log;
+    let name = object.text("file")?;
+    let table = table::read(log, folder, name, &file.value.span);
+    let units = match object.get("units") {
+        Some(member) => Object::new(log, "`units`", &member.value, &member.key_span),
+        None => None,
+    };
+    let (table, bytes) = table?;
+    if table.rows.len() > MOST_ROWS {
+        let found = table.rows.len();
+        object.report(Fault::TooMany { what: "rows of conditions", found, most: MOST_ROWS });
+        return None;
+    }
+    if let Some(units) = &units {
+        for member in units.members() {
+            if !table.columns.contains(&member.key) {
+                let known: Vec<String> = table.columns.clone();
+                let nearest = super::nearest(&member.key, known.iter().map(String::as_str));
+                let reason = format!(
+                    "`{}` has no column `{}`{}",
+                    table.source.name,
+                    member.key,
+                    nearest.map(|n| format!("; did you mean `{n}`?")).unwrap_or_default()
+                );
+                log.report(&member.key_span, Fault::Table { reason });
+            }
+        }
+    }
+    let table = match object.get("columns") {
+        Some(member) => only(object, member, table)?,
+        None => table,
+    };
+    let mut without_unit = Vec::new();
+    let quantities = table
+        .columns
+        .iter()
+        .map(|column| {
+            let unit = match &units {
+                Some(units) => unit(units, column).unwrap_or_else(|| {
+                    without_unit.push(column.clone());
+                    Unit::one()
+                }),
+                None => Unit::one(),
+            };
+            Quantity { name: column.clone(), unit, about: String::new() }
+        })
+        .collect();
+    let places = vec![file.value.span.clone(); table.columns.len()];
+    let (rows, files) = (table.rows, vec![(name.to_owned(), bytes)]);
+    Some(Conditions { quantities, places, rows, files, without_unit, unreadable: false })
+}
+
+/// The table with only those columns that are wanted, in their order.
+fn only(object: &Object<'_>, member: &Member, mut table: Table) -> Option<Table> {
+    let nodes = object.list("columns")?;
+    if nodes.is_empty() {
+        object.log.report(&member.value.span, Fault::NoValues { name: "columns".into() });
+        return None;
+    }
+    let mut places = Vec::new();
+    for node in nodes {
+        let Json::Text(name) = &node.value else {
+            let (what, found) = ("`columns`".to_owned(), node.value.kind());
+            let expected = "a list of names of columns";
+            object.log.report(&node.span, Fault::WrongType { what, found, expected });
+            return None;
+        };
+        match table.columns.iter().position(|column| *column == *name) {
+            Some(place) if places.contains(&place) => {
+                let reason = format!("the column `{name}` is named twice");
+                object.log.report(&node.span, Fault::Table { reason });
+                return None;
+            }
+            Some(place) => places.push(place),
+            None => {
+                let near = super::nearest(name, table.columns.iter().map(String::as_str));
+                let near = near.map(|near| format!("; did you mean `{near}`?")).unwrap_or_default();
+                let reason = format!("`{}` has no column `{name}`{near}", table.source.name);
+                object.log.report(&node.span, Fault::Table { reason });
+                return None;
+            }
+        }
+    }
+    table.columns = places.iter().map(|place| table.columns[*place].clone()).collect();
+    for row in &mut table.rows {
+        *row = places.iter().map(|place| row.get(*place).copied().unwrap_or(f64::NAN)).collect();
+    }
+    Some(table)
+}
+
+/// What parameters of effects see of the conditions: nothing.
+#[derive(Debug)]
+pub(super) struct NoConditions;
+
+impl super::condition_values::ConditionValues for NoConditions {
+    fn rows(&self) -> usize {
+        1
+    }
+
+    fn check(&self, formula: &Formula, _: &Unit) -> Result<(), Vec<Fault>> {
+        let faults = |errors: Vec<FormulaError>| {
+            errors.into_iter().map(|error| Fault::Formula { error }).collect::<Vec<_>>()
+        };
+        formula.check_names(&Scope::new()).map(|_| ()).map_err(faults)
+    }
+
+    fn value(&self, formula: &Formula, _: usize) -> f64 {
+        formula.evaluate(&Scope::new(), &HashMap::<String, f64>::new()).unwrap_or(f64::NAN)
+    }
+
+    fn place(&self, _: &str) -> Option<usize> {
+        None
+    }
+
+    fn names(&self) -> Vec<String> {
+        Vec::new()
+    }
+}

@@ -1,0 +1,260 @@
+//! Declared correlation coefficients.
+
+use std::collections::{HashMap, HashSet};
+use std::ops::Range;
+use std::path::Path;
+use std::sync::Arc;
+
+use super::Fault;
+use super::inputs::Inputs;
+use super::json::{Json, Node};
+use super::links;
+use super::nearest::nearest;
+use super::object::Object;
+use super::problem::Log;
+use super::{sharing, table};
+use gumption_engine::distribution::{Correlation, CorrelationError, Distribution, Fits};
+use gumption_engine::task::Warning;
+
+/// Reads `correlations` and `correlation_matrix` of the root object and checks that the quantities
+/// can have them in each of the rows; the joint draws are kept in `fits`. Those of saved results come
+/// with them, with notes. Tables that were read are added to `files`.
+pub(super) fn read(
+    root: &Object<'_>,
+    inputs: &Inputs,
+    rows: &Rows<'_>,
+    folder: &Path,
+    files: &mut Vec<(String, Vec<u8>)>,
+    fits: &Fits,
+) -> (Vec<Correlation>, Vec<Warning>) {
+    let (found, warnings) = links::links(inputs);
+    let place = |c: &Correlation| inputs.places.get(c.second).unwrap_or(root.place()).clone();
+    let places = found.iter().map(place).collect();
+    let shown = inputs.variables.iter().enumerate().filter(|(_, variable)| variable.shown);
+    let by_name = shown.map(|(place, variable)| (variable.name.as_str(), place)).collect();
+    let mut reader =
+        Reader { log: root.log, inputs, rows, by_name, found, pairs: HashSet::new(), places };
+    if let Some(list) = root.list("correlations") {
+        for node in list.iter().take_while(|_| !root.log.is_full()) {
+            reader.triple(node);
+        }
+    }
+    if let Some(member) = root.get("correlation_matrix") {
+        reader.matrix(root.log, member, folder, files);
+    }
+    if reader.are_shared_alike(root) {
+        reader.check(root, fits);
+    }
+    (reader.found, warnings)
+}
+
+/// The rows of conditions.
+pub(super) struct Rows<'a> {
+    /// Names of the conditions.
+    pub(super) conditions: Vec<String>,
+    /// Their values in every row.
+    pub(super) rows: &'a [Vec<f64>],
+}
+
+struct Reader<'a> {
+    log: &'a Log,
+    inputs: &'a Inputs,
+    rows: &'a Rows<'a>,
+    by_name: HashMap<&'a str, usize>,
+    found: Vec<Correlation>,
+    pairs: HashSet<(usize, usize)>,
+    places: Vec<Range<usize>>,
+}
+
+impl Reader<'_> {
+    fn triple(&mut self, node: &Node) {
+        let Json::List(items) = &node.value else {
+            return self.wrong(node);
+        };
+        let [first, second, coefficient] = items.as_slice() else {
+            return self.wrong(node);
+        };
+        let (Json::Text(a), Json::Text(b), Some(r)) =
+            (&first.value, &second.value, coefficient.number())
+        else {
+            return self.wrong(node);
+        };
+        let (a, b) = (self.variable(a, &first.span), self.variable(b, &second.span));
+        if let (Some(a), Some(b)) = (a, b) {
+            self.add(a, b, r, &coefficient.span);
+        }
+    }
+
+    fn wrong(&self, node: &Node) {
+        let reason = "a correlation is a list of two names and a coefficient, such as \
+                      [\"a\", \"b\", 0.5]";
+        self.log.report(&node.span, Fault::Correlation { reason: reason.to_owned() });
+    }
+
+    fn variable(&self, name: &str, span: &Range<usize>) -> Option<usize> {
+        let shown = |place: &usize| self.inputs.variables.get(*place).is_some_and(|v| v.shown);
+        let place = self.by_name.get(name).copied();
+        if place.is_none() {
+            let names = (0..self.inputs.variables.len())
+                .filter(shown)
+                .filter_map(|v| self.inputs.variables.get(v).map(|v| v.name.as_str()));
+            let nearest = nearest(name, names).map(str::to_owned);
+            self.log.report(span, Fault::NoSuchInput { name: name.to_owned(), nearest });
+        }
+        place
+    }
+
+    fn add(&mut self, a: usize, b: usize, r: f64, span: &Range<usize>) {
+        let name = |v: usize| self.inputs.variables.get(v).map_or("", |v| v.name.as_str());
+        let reason = if !(-1.0..=1.0).contains(&r) {
+            format!("the correlation coefficient is {r}, but must be from -1 to 1")
+        } else if a == b {
+            format!("`{}` is correlated with itself", name(a))
+        } else if links::is_linked(self.inputs, a, b) {
+            let (first, second) = (name(a).to_owned(), name(b).to_owned());
+            self.log.report(span, Fault::SavedCorrelation { first, second });
+            return;
+        } else if !self.pairs.insert((a.min(b), a.max(b))) {
+            format!("the correlation of `{}` and `{}` is given twice", name(a), name(b))
+        } else {
+            self.found.push(Correlation { first: a.min(b), second: a.max(b), coefficient: r });
+            self.places.push(span.clone());
+            return;
+        };
+        self.log.report(span, Fault::Correlation { reason });
+    }
+
+    fn matrix(
+        &mut self,
+        log: &Log,
+        member: &super::json::Member,
+        folder: &Path,
+        files: &mut Vec<(String, Vec<u8>)>,
+    ) {
+        let Some(object) =
+            Object::new(log, "`correlation_matrix`", &member.value, &member.key_span)
+        else {
+            return;
+        };
+        object.check_keys(&["names", "values", "file"]);
+        let (names, values, spans) = if let Some(file) = object.text("file") {
+            let place = object.get("file").map_or(object.place(), |m| &m.value.span).clone();
+            let Some((table, bytes)) = table::read(log, folder, file, &place) else {
+                return;
+            };
+            files.push((file.to_owned(), bytes));
+            let spans = vec![place.clone(); table.columns.len()];
+            (table.columns, table.rows, (spans, place))
+        } else {
+            let names = object.required("names").and_then(|_| object.list("names"));
+            let values = object.required("values").and_then(|_| object.list("values"));
+            let (Some(names), Some(values)) = (names, values) else {
+                return;
+            };
+            let texts = names.iter().map(|n| match &n.value {
+                Json::Text(text) => text.clone(),
+                _ => String::new(),
+            });
+            let rows = values.iter().map(|row| match &row.value {
+                Json::List(cells) => cells.iter().filter_map(Node::number).collect(),
+                _ => Vec::new(),
+            });
+            let spans = names.iter().map(|n| n.span.clone()).collect();
+            let place = object.get("values").map_or(object.place(), |m| &m.value.span).clone();
+            (texts.collect(), rows.collect(), (spans, place))
+        };
+        self.entries(&names, &values, &spans.0, &spans.1);
+    }
+
+    fn entries(
+        &mut self,
+        names: &[String],
+        values: &[Vec<f64>],
+        spans: &[Range<usize>],
+        place: &Range<usize>,
+    ) {
+        let n = names.len();
+        let report = |reason: String| self.log.report(place, Fault::Correlation { reason });
+        if values.len() != n || values.iter().any(|row| row.len() != n) {
+            return report(format!(
+                "the correlation matrix of {n} names must be {n} rows of {n} numbers"
+            ));
+        }
+        let entry =
+            |i: usize, j: usize| values.get(i).and_then(|row| row.get(j)).copied().unwrap_or(0.0);
+        for i in 0..n {
+            if entry(i, i) != 1.0 {
+                report(format!("the diagonal of the correlation matrix is 1, not {}", entry(i, i)));
+                return;
+            }
+            for j in 0..i {
+                if entry(i, j) != entry(j, i) {
+                    let (a, b) = (entry(i, j), entry(j, i));
+                    report(format!("the correlation matrix is not symmetric: {a} and {b}"));
+                    return;
+                }
+            }
+        }
+        let places: Vec<Option<usize>> =
+            names.iter().zip(spans).map(|(name, span)| self.variable(name, span)).collect();
+        for (j, b) in places.iter().enumerate() {
+            for (i, a) in places.iter().enumerate().take(j) {
+                if let (Some(a), Some(b)) = (a, b) {
+                    self.add(*a, *b, entry(i, j), place);
+                }
+            }
+        }
+    }
+
+    /// Whether correlated quantities have their values in common over the same rows.
+    fn are_shared_alike(&self, root: &Object<'_>) -> bool {
+        let coefficients = self.found.iter().zip(&self.places);
+        let linked = links::pairs(self.inputs);
+        let by_results: HashSet<(usize, usize)> = linked.iter().copied().collect();
+        let declared = coefficients
+            .map(|(c, place)| ((c.first, c.second), c.coefficient, place))
+            .filter(|(pair, r, _)| *r != 0.0 && !by_results.contains(pair))
+            .map(|(pair, _, place)| (pair, place, false));
+        let place = |pair: (usize, usize)| self.inputs.places.get(pair.1).unwrap_or(root.place());
+        let of_results = linked.iter().map(|&pair| (pair, place(pair), true));
+        let Rows { conditions, rows } = self.rows;
+        let mut alike = true;
+        for (pair, place, linked) in declared.chain(of_results) {
+            let reason = sharing::contradiction(self.inputs, pair, linked, conditions, rows);
+            if let Some(reason) = reason {
+                self.log.report(place, Fault::Correlation { reason });
+                alike = false;
+            }
+        }
+        alike
+    }
+
+    /// Whether the quantities can have these coefficients.
+    fn check(&self, root: &Object<'_>, fits: &Fits) {
+        let mut seen: Vec<CorrelationError> = Vec::new();
+        if !self.inputs.known.is_complete(self.inputs.variables.len()) {
+            return;
+        }
+        let mut before: Option<Arc<[Arc<Distribution>]>> = None;
+        for row in self.inputs.known.rows(self.rows.rows.len()) {
+            if before.as_ref().is_some_and(|before| Arc::ptr_eq(before, &row)) {
+                continue;
+            }
+            let joint = fits.joint(&row, &self.found);
+            before = Some(row);
+            let Err(error) = joint else {
+                continue;
+            };
+            if seen.contains(&error) {
+                continue;
+            }
+            seen.push(error.clone());
+            let name = |v: usize| {
+                format!("`{}`", self.inputs.variables.get(v).map_or("", |v| v.name.as_str()))
+            };
+            let place = self.found.iter().position(|c| error.concerns(c));
+            let place = place.and_then(|p| self.places.get(p)).unwrap_or(root.place());
+            self.log.report(place, Fault::Correlation { reason: error.describe(&name) });
+        }
+    }
+}

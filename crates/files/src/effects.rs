@@ -1,0 +1,270 @@
+//! The candidate effects of a case.
+
+use std::ops::Range;
+
+use super::conditions::NoConditions;
+use super::inputs::Inputs;
+use super::json::{Json, Member};
+use super::model_file::report_formula;
+use super::nearest;
+use super::object::Object;
+use super::problem::Log;
+use super::results::Results;
+use super::{Fault, inputs};
+use gumption_engine::distribution::Distribution;
+use gumption_engine::model::formula;
+use gumption_engine::model::formula::{Formula, FormulaError};
+use gumption_engine::task::Warning;
+use gumption_gap::Candidate;
+use gumption_gap::{Circular, Effect, Sim};
+
+/// At most so many effects: their pairs are tried as well.
+const MOST_EFFECTS: usize = 200;
+
+/// A candidate, and where the file names it.
+#[derive(Clone, Debug)]
+pub(super) struct Placed {
+    pub(super) candidate: Candidate,
+    pub(super) place: Range<usize>,
+}
+
+/// Reads `effects` for a sim. Without one, because the model has mistakes, what does not depend on it
+/// is checked, and nothing is given.
+pub(super) fn read(
+    log: &Log,
+    member: &Member,
+    sim: Option<&Sim>,
+    results: &Results<'_>,
+    warnings: &mut Vec<Warning>,
+) -> Option<Vec<Placed>> {
+    let object = Object::new(log, "`effects`", &member.value, &member.key_span)?;
+    let read: Vec<Option<Placed>> = object
+        .members()
+        .iter()
+        .take(MOST_EFFECTS + 1)
+        .map(|member| read_one(log, member, sim, results, warnings))
+        .collect();
+    read.into_iter().collect()
+}
+
+/// Reads one effect for a sim, as [`read`] does.
+pub(super) fn read_one(
+    log: &Log,
+    member: &Member,
+    sim: Option<&Sim>,
+    results: &Results<'_>,
+    warnings: &mut Vec<Warning>,
+) -> Option<Placed> {
+    let candidate = Reader { log, sim, results, warnings }.effect(member)?;
+    Some(Placed { candidate, place: member.key_span.clone() })
+}
+
+/// What the effects have in common: not too many, and no pair that needs each other.
+pub(super) fn check_together(log: &Log, placed: &[Placed], sim: &Sim) {
+    if let Some(excess) = placed.get(MOST_EFFECTS) {
+        let found = placed.len();
+        log.report(&excess.place, Fault::TooMany { what: "effects", found, most: MOST_EFFECTS });
+        return;
+    }
+    // only overrides that act before the outputs, and read other quantities, can need each other
+    let inner: Vec<&Placed> = placed
+        .iter()
+        .filter(|placed| {
+            let effect = &placed.candidate.effect;
+            effect.overrides.iter().any(|(name, formula)| {
+                let own =
+                    |used: &str| used == name || effect.parameters.iter().any(|p| p.name == used);
+                !sim.is_output(name) && formula.names().any(|(used, _)| !own(used))
+            })
+        })
+        .collect();
+    for (number, second) in inner.iter().enumerate() {
+        for first in inner.iter().take(number) {
+            let (one, other) = (&first.candidate.effect, &second.candidate.effect);
+            if let Err(circular) = sim.program(&[one, other]) {
+                let reason = format!(
+                    "and the effect `{}` together override quantities that need each other: {}",
+                    one.name,
+                    in_a_circle(&circular)
+                );
+                let fault = Fault::Effect { name: other.name.clone(), reason };
+                log.report(&second.place, fault);
+            }
+        }
+    }
+}
+
+/// "`a` needs `b` needs `a`"
+fn in_a_circle(circular: &Circular) -> String {
+    let names = circular.names.iter().chain(circular.names.first());
+    names.map(|name| format!("`{name}`")).collect::<Vec<_>>().join(" needs ")
+}
+
+struct Reader<'a> {
+    log: &'a Log,
+    sim: Option<&'a Sim>,
+    results: &'a Results<'a>,
+    warnings: &'a mut Vec<Warning>,
+}
+
+impl Reader<'_> {
+    fn effect(&mut self, member: &Member) -> Option<Candidate> {
+        let object = Object::new(self.log, "an effect", &member.value, &member.key_span)?;
+        object.check_keys(&["parameters", "overrides", "about", "source"]);
+        let fault =
+            |reason: &str| Fault::Effect { name: member.key.clone(), reason: reason.to_owned() };
+        if member.key.is_empty() || member.key.contains(['/', '+']) {
+            let reason = "cannot be called so: a name is not empty, and `/` and `+` join names in the answer";
+            self.log.report(&member.key_span, fault(reason));
+        }
+        let parameters = object.required("parameters");
+        let overrides = object.required("overrides");
+        let inputs = match parameters {
+            Some(of) if matches!(&of.value.value, Json::Object(members) if members.is_empty()) => {
+                let reason = "has no parameters; its size must be a quantity with a prior \
+                              distribution, or the data could not tell how large it is";
+                self.log.report(&of.value.span, fault(reason));
+                None
+            }
+            Some(of) => inputs::read(self.log, of, &NoConditions, &[], self.results),
+            None => None,
+        };
+        let overrides = Object::new(self.log, "`overrides`", &overrides?.value, &member.key_span)?;
+        if overrides.members().is_empty() {
+            overrides.report(fault("overrides nothing"));
+        }
+        let inputs = inputs?;
+        self.parameters(parameters, &inputs, fault);
+        let mut effect = Effect {
+            name: member.key.clone(),
+            parameters: inputs.quantities.iter().map(|input| input.quantity.clone()).collect(),
+            overrides: Vec::new(),
+        };
+        for member in overrides.members() {
+            if self.can_override(&effect, member)
+                && let Some(formula) = self.formula(member, &effect)
+            {
+                effect.overrides.push((member.key.clone(), formula));
+            }
+        }
+        if let Err(circular) = self.sim?.program(&[&effect]) {
+            let reason =
+                format!("overrides quantities that need each other: {}", in_a_circle(&circular));
+            let fault = Fault::Effect { name: effect.name.clone(), reason };
+            self.log.report(overrides.place(), fault);
+        }
+        let priors: Vec<Distribution> = priors(&inputs).cloned().collect();
+        (priors.len() == effect.parameters.len()).then(|| Candidate {
+            effect,
+            priors,
+            about: object.text("about").unwrap_or("").to_owned(),
+            source: object.text("source").unwrap_or("").to_owned(),
+        })
+    }
+
+    /// What parameters must be beyond inputs: one unknown value each, and not all of them known.
+    fn parameters(&self, written: Option<&Member>, inputs: &Inputs, fault: impl Fn(&str) -> Fault) {
+        for (quantity, place) in inputs.quantities.iter().zip(&inputs.quantity_places) {
+            let name = &quantity.quantity.name;
+            if quantity.parts != 1 {
+                let reason = "has a parameter with components; give it one distribution";
+                self.log.report(place, fault(reason));
+            } else if let Err(error) = formula::check_name(name) {
+                let (name, reason) = (name.to_owned(), error.to_string());
+                self.log.report(place, Fault::BadName { name, reason });
+            }
+        }
+        let written: &[Member] = match written.map(|member| &member.value.value) {
+            Some(Json::Object(members)) => members,
+            _ => &[],
+        };
+        for parameter in written {
+            let Json::Object(fields) = &parameter.value.value else { continue };
+            for field in fields {
+                if ["per", "type", "group", "evidence", "paired"].contains(&field.key.as_str()) {
+                    let reason = format!(
+                        "has a parameter with the key `{}`; a parameter is one unknown value for \
+                         all rows, and has `unit`, `about` and a distribution",
+                        field.key
+                    );
+                    self.log.report(&field.key_span, fault(&reason));
+                }
+            }
+        }
+        let mut priors = priors(inputs).peekable();
+        let known = priors.peek().is_some() && priors.all(|prior| prior.constant().is_some());
+        if let (true, Some(place)) = (known, inputs.quantity_places.first()) {
+            let reason = "has only constant parameters; its size must be a quantity with a prior \
+                          distribution, or the data could not tell how large it is";
+            self.log.report(place, fault(reason));
+        }
+    }
+
+    /// Whether the sim has the quantity of an override, and it is none that is known.
+    fn can_override(&self, effect: &Effect, member: &Member) -> bool {
+        let Some(sim) = self.sim else { return true };
+        let (name, known) = (&member.key, sim.overridable());
+        if known.contains(&name.as_str()) {
+            return true;
+        }
+        let reason = if sim.conditions.iter().any(|condition| condition.name == *name) {
+            format!(
+                "overrides the condition `{name}`, which is set and known; override a quantity that \
+                 is computed from it"
+            )
+        } else {
+            let hint = match nearest(name, known.iter().copied()) {
+                Some(near) => format!("; did you mean `{near}`?"),
+                None => format!("; it has {}", known.join(", ")),
+            };
+            format!("overrides `{name}`, which the sim does not have{hint}")
+        };
+        let fault = Fault::Effect { name: effect.name.clone(), reason };
+        self.log.report(&member.key_span, fault);
+        false
+    }
+
+    /// An override's formula: its names must be known; a dimension that does not fit is a warning.
+    fn formula(&mut self, member: &Member, effect: &Effect) -> Option<Formula> {
+        let Json::Text(text) = &member.value.value else {
+            let fault = Fault::WrongType {
+                what: format!("`{}`", member.key),
+                found: member.value.value.kind(),
+                expected: "a formula in quotes",
+            };
+            self.log.report(&member.value.span, fault);
+            return None;
+        };
+        let report = |error: FormulaError| report_formula(self.log, member, error);
+        let formula = Formula::parse(text).map_err(report).ok()?;
+        let sim = self.sim?;
+        let scope = effect.scope(&sim.scope);
+        if let Err(errors) = formula.check_names(&scope) {
+            errors.into_iter().for_each(report);
+            return None;
+        }
+        let own = sim.scope.get(&member.key).and_then(|typing| typing.dimension);
+        let misfit = match formula.check(&scope) {
+            Err(errors) => errors.first().map(ToString::to_string),
+            Ok(typing) => match (typing.dimension, own) {
+                (Some(found), Some(own)) if found != own => Some(format!(
+                    "the formula gives {}, but `{}` is {}",
+                    found.describe(),
+                    member.key,
+                    own.describe()
+                )),
+                _ => None,
+            },
+        };
+        if let Some(misfit) = misfit {
+            let text = format!("effect `{}`, override of `{}`: {misfit}", effect.name, member.key);
+            self.warnings.push(Warning::new("effect-dimension", &effect.name, text));
+        }
+        Some(formula)
+    }
+}
+
+/// What is known of the parameters beforehand.
+fn priors(inputs: &Inputs) -> impl Iterator<Item = &Distribution> {
+    (0..inputs.variables.len()).filter_map(|v| inputs.known.get(v, 0).map(|prior| &**prior))
+}

@@ -1,0 +1,74 @@
+//! Files that may be model files or result files.
+
+use std::path::Path;
+
+use super::json::{self, Json};
+use super::model_file::{ModelFile, read_text, text_of};
+use super::problem::{Log, Problem, Problems};
+use super::result_file::{ResultFile, read_result};
+use super::{Fault, Source};
+
+/// A model file or a result file that was read and found right.
+#[derive(Debug)]
+pub enum ModelOrResult {
+    /// A model file.
+    Model(Box<ModelFile>),
+    /// A saved result.
+    Result(ResultFile),
+}
+
+impl ModelOrResult {
+    /// The name that messages use.
+    pub fn name(&self) -> &str {
+        match self {
+            Self::Model(file) => &file.source.name,
+            Self::Result(file) => &file.source.name,
+        }
+    }
+}
+
+/// Reads and checks a file: one with the key `result` is a result file.
+///
+/// # Errors
+/// All mistakes of the file, in the order of their places.
+pub fn read_either(path: &Path) -> Result<ModelOrResult, Problems> {
+    let name = path.display().to_string();
+    match text_of(path) {
+        Ok(text) => read_either_text(&name, &text, path.parent().unwrap_or_else(|| Path::new(""))),
+        Err(message) => {
+            let log = Log::new(Source::new(name, ""));
+            log.report(&(0..0), Fault::Unreadable { message });
+            Err(log.into_problems())
+        }
+    }
+}
+
+/// Reads and checks a text as [`read_either`] does a file; `folder` is where a model file's tables
+/// are looked for.
+///
+/// # Errors
+/// All mistakes of the text, in the order of their places.
+pub fn read_either_text(name: &str, text: &str, folder: &Path) -> Result<ModelOrResult, Problems> {
+    let source = Source::new(name, text);
+    let is_result = json::parse(&source).is_ok_and(|node| match &node.value {
+        Json::Object(members) => members.iter().any(|member| member.key == "result"),
+        _ => false,
+    });
+    Ok(if is_result {
+        ModelOrResult::Result(read_result(name, text)?)
+    } else {
+        ModelOrResult::Model(Box::new(read_text(name, text, folder, &[])?))
+    })
+}
+
+impl ModelFile {
+    /// A mistake at a key of the root, or at the file's beginning if it is not there.
+    pub fn problem_at(&self, key: &str, fault: Fault) -> Problems {
+        let member = json::parse(&self.source).ok().and_then(|node| match node.value {
+            Json::Object(members) => members.into_iter().find(|member| member.key == key),
+            _ => None,
+        });
+        let span = member.map_or(0..0, |member| member.key_span);
+        Problems(vec![Problem { source: self.source.clone(), span, fault }])
+    }
+}

@@ -1,0 +1,485 @@
+//! The inputs of a file: quantities, their variables, and what is known about them in each row.
+
+use std::collections::HashSet;
+use std::ops::Range;
+use std::path::Path;
+
+use super::Fault;
+use super::condition_values::ConditionValues;
+use super::conditions::unit;
+use super::json::{Json, Member};
+use super::known::Known;
+use super::model_file::Override;
+use super::object::Object;
+use super::paired;
+use super::problem::Log;
+use super::results::Results;
+use super::samples;
+use super::shapes::{self, Estimate, Fields, Kind};
+use gumption_engine::distribution::{Constant, Distribution, Evaluation, Samples};
+use gumption_engine::model::formula::Formula;
+use gumption_engine::model::{InputQuantity, Quantity};
+use gumption_engine::task::{Evidence, Sharing, Variable, Warning};
+use gumption_units::Unit;
+
+/// At most so many variables.
+const MOST_VARIABLES: usize = 100_000;
+
+/// Keys of any input or component beside those of its distribution.
+const COMMON: [&str; 6] = ["distribution", "about", "type", "group", "unit", "per"];
+
+/// What was read.
+#[derive(Debug, Default)]
+pub(super) struct Inputs {
+    pub(super) quantities: Vec<InputQuantity>,
+    pub variables: Vec<Variable>,
+    /// The key of each variable, for messages.
+    pub(super) places: Vec<Range<usize>>,
+    /// The key of each quantity.
+    pub(super) quantity_places: Vec<Range<usize>>,
+    /// What is known about the variables in each row.
+    pub(super) known: Known,
+    pub(super) warnings: Vec<Warning>,
+    /// Quantities whose unit could not be read: they fit every dimension.
+    pub(super) without_unit: Vec<String>,
+    /// The files of samples that were read: name and content.
+    pub(super) files: Vec<(String, Vec<u8>)>,
+    /// The variables whose readings are said to be paired.
+    pub(super) paired: Vec<usize>,
+    /// Readings that distributions are to be tested against.
+    pub(super) evidence: Vec<Evidence>,
+}
+
+/// Where a quantity's estimate comes from.
+enum Source {
+    Own,
+    Fixed(f64),
+    Formula(Formula),
+}
+
+/// Reads `inputs`; saved results are looked up in `results`, and paths are relative to its folder.
+pub(super) fn read(
+    log: &Log,
+    member: &Member,
+    conditions: &dyn ConditionValues,
+    overrides: &[Override],
+    results: &Results<'_>,
+) -> Option<Inputs> {
+    let object = Object::new(log, "`inputs`", &member.value, &member.key_span)?;
+    let found = object.members().len();
+    if found > MOST_VARIABLES {
+        object.report(Fault::TooMany { what: "inputs", found, most: MOST_VARIABLES });
+        return None;
+    }
+    let mut inputs = Inputs::default();
+    for member in object.members() {
+        if log.is_full() {
+            break;
+        }
+        let Some(object) = Object::new(log, "an input", &member.value, &member.key_span) else {
+            continue;
+        };
+        let moved = overrides.iter().rev().find(|o| o.input == member.key && o.field.is_none());
+        let (name, folder) = (&member.key, results.folder);
+        Reader { object, name, conditions, moved, folder, results, inputs: &mut inputs }.input();
+    }
+    let found = inputs.variables.len();
+    if found > MOST_VARIABLES {
+        let what = "inputs and components";
+        object.report(Fault::TooMany { what, found, most: MOST_VARIABLES });
+        return None;
+    }
+    paired::apply(log, &mut inputs);
+    Some(inputs)
+}
+
+struct Reader<'a, 'i> {
+    object: Object<'a>,
+    name: &'a str,
+    conditions: &'a dyn ConditionValues,
+    moved: Option<&'a Override>,
+    folder: &'a Path,
+    results: &'a Results<'a>,
+    inputs: &'i mut Inputs,
+}
+
+impl<'a> Reader<'a, '_> {
+    fn input(&mut self) {
+        let object = self.object;
+        let unit = self.unit().unwrap_or_else(|| {
+            self.inputs.without_unit.push(self.name.to_owned());
+            Unit::one()
+        });
+        let quantity = Quantity {
+            name: self.name.to_owned(),
+            unit: unit.clone(),
+            about: object.text("about").unwrap_or("").to_owned(),
+        };
+        let first = self.inputs.variables.len();
+        if object.get("components").is_some() {
+            self.components(&unit);
+        } else {
+            self.single(&unit);
+        }
+        let parts = (self.inputs.variables.len() - first).max(1);
+        self.inputs.quantities.push(InputQuantity { quantity, parts });
+        self.inputs.quantity_places.push(object.place().clone());
+    }
+
+    /// The unit as given; without one that of a saved result, or 1.
+    fn unit(&self) -> Option<Unit> {
+        let object = &self.object;
+        let is_result = object.get("distribution").is_some_and(
+            |member| matches!(&member.value.value, Json::Text(name) if name == "result"),
+        );
+        match object.get("unit") {
+            None if is_result => self.results.unit(object),
+            _ => unit(object, "unit"),
+        }
+    }
+
+    /// The estimate's source: the command line, a formula of the conditions, or the own fields.
+    fn source(&self, key: &str, unit: &Unit) -> Option<Source> {
+        if let Some(moved) = self.moved {
+            let value = moved.value_in(unit);
+            return self.object.log.value(self.object.place(), value).map(Source::Fixed);
+        }
+        let Some(member) = self.object.get(key) else {
+            return Some(Source::Own);
+        };
+        let Json::Text(text) = &member.value.value else {
+            return Some(Source::Own);
+        };
+        let log = self.object.log;
+        let formula = log.value(
+            &member.value.span,
+            Formula::parse(text).map_err(|error| Fault::Formula { error }),
+        )?;
+        if let Err(faults) = self.conditions.check(&formula, unit) {
+            for fault in faults {
+                log.report(&member.value.span, fault);
+            }
+            return None;
+        }
+        Some(Source::Formula(formula))
+    }
+
+    /// The estimate in a row, in the quantity's unit.
+    fn estimate(&self, source: &Source, unit: &Unit, row: usize) -> Option<Estimate> {
+        let value = match source {
+            Source::Own => return Some(Estimate::Own),
+            Source::Fixed(value) => *value,
+            Source::Formula(formula) => unit.from_si(self.conditions.value(formula, row)),
+        };
+        if value.is_finite() {
+            return Some(Estimate::Given(value));
+        }
+        let place = self.object.get("mean").or_else(|| self.object.get("value"));
+        let place = place.map_or(self.object.place(), |member| &member.value.span);
+        self.object.log.report(place, Fault::EstimateUndefined { row: row + 1, found: value });
+        None
+    }
+
+    /// An input with one distribution.
+    fn single(&mut self, unit: &Unit) {
+        let object = self.object;
+        let Some(kind) = shapes::kind(&object) else {
+            return self.variable(self.name.to_owned(), &object, None, unit);
+        };
+        let mut known: Vec<&str> = COMMON.into_iter().chain(kind.fields.iter().copied()).collect();
+        known.push("evidence");
+        object.check_keys(&known);
+        self.evidence();
+        let variable = self.inputs.variables.len();
+        self.variable(self.name.to_owned(), &object, Some(kind), unit);
+        let key = if kind.name == "constant" { "value" } else { "mean" };
+        let Some(source) = self.source(key, unit) else {
+            return;
+        };
+        let samples = self.samples(&object, self.name, kind);
+        let (results, conditions) = (self.results, self.conditions);
+        let fields = |estimate, row| Fields {
+            object,
+            name: self.name,
+            unit,
+            estimate,
+            share_of: None,
+            samples: samples.as_ref(),
+            results,
+            at: Some((conditions, row)),
+        };
+        let mut zero_width = Vec::new();
+        let mut drawn: Vec<Distribution> = Vec::new();
+        let differs =
+            matches!(source, Source::Formula(_)) || shapes::has_width_of_row(&object, kind);
+        for row in 0..if differs { self.conditions.rows() } else { 1 } {
+            let estimate = self.estimate(&source, unit, row);
+            let Some(distribution) = estimate.and_then(|e| fields(e, row).distribution(kind))
+            else {
+                return;
+            };
+            if !["constant", "result"].contains(&kind.name) && distribution.constant().is_some() {
+                zero_width.push(row + 1);
+            }
+            drawn.push(distribution);
+        }
+        let same_elsewhere = !differs && self.conditions.rows() > 1;
+        if let Some(first) = zero_width.first() {
+            let text = format!(
+                "the width of `{}` follows its estimate and becomes 0 in row {first}{}; it is a \
+                 constant there",
+                self.name,
+                if zero_width.len() > 1 || same_elsewhere { " and others" } else { "" }
+            );
+            self.inputs.warnings.push(Warning::new("width-zero", self.name, text));
+        }
+        match drawn.pop() {
+            Some(distribution) if !differs => self.inputs.known.always(variable, distribution),
+            last => {
+                drawn.extend(last);
+                self.inputs.known.in_rows(variable, drawn);
+            }
+        }
+    }
+
+    /// Readings that the distribution is to be tested against.
+    fn evidence(&mut self) {
+        let log = self.object.log;
+        let Some(member) = self.object.get("evidence") else {
+            return;
+        };
+        let object = Object::new(log, "`evidence`", &member.value, &member.key_span);
+        let Some(object) = object else {
+            return;
+        };
+        object.check_keys(&["values", "file"]);
+        let name = format!("{}/evidence", self.name);
+        let files = &mut self.inputs.files;
+        let Some((readings, place)) = samples::numbers(&object, &name, self.folder, files) else {
+            return;
+        };
+        if readings.is_empty() {
+            log.report(place, Fault::NoValues { name });
+            return;
+        }
+        let variable = self.inputs.variables.len();
+        self.inputs.evidence.push(Evidence { variable, readings });
+    }
+
+    /// The samples of an input or component, if that is its shape.
+    fn samples(&mut self, object: &Object<'_>, name: &str, kind: &Kind) -> Option<Samples> {
+        if kind.name != "samples" {
+            return None;
+        }
+        samples::read(object, name, self.folder, &mut self.inputs.files)
+    }
+
+    /// Adds a variable of the budget.
+    fn variable(&mut self, name: String, object: &Object<'_>, kind: Option<&Kind>, unit: &Unit) {
+        let readings = kind.is_some_and(|kind| kind.name == "readings");
+        if readings && object.truth("paired") == Some(true) {
+            self.inputs.paired.push(self.inputs.variables.len());
+        }
+        let evaluation = match object.text("type") {
+            Some("A") => Evaluation::A,
+            Some("B") => Evaluation::B,
+            None if readings => Evaluation::A,
+            None => Evaluation::B,
+            Some(other) => {
+                let fault = Fault::NotOneOf {
+                    key: "type".into(),
+                    found: other.to_owned(),
+                    allowed: vec!["A".into(), "B".into()],
+                };
+                let place = object.get("type").map_or(object.place(), |m| &m.value.span);
+                object.log.report(place, fault);
+                Evaluation::B
+            }
+        };
+        let about = object.text("about").or_else(|| self.object.text("about")).unwrap_or("");
+        let sharing = self.sharing();
+        self.inputs.variables.push(Variable {
+            name,
+            unit: unit.clone(),
+            evaluation,
+            group: object.text("group").or_else(|| self.object.text("group")).map(str::to_owned),
+            about: about.to_owned(),
+            sharing,
+            shown: true,
+        });
+        self.inputs.places.push(object.place().clone());
+    }
+
+    /// `per`: which rows share a value.
+    fn sharing(&self) -> Sharing {
+        match self.object.text("per") {
+            None => Sharing::All,
+            Some("row") => Sharing::Row,
+            Some(name) => match self.conditions.place(name) {
+                Some(place) => Sharing::Condition(place),
+                None => {
+                    let mut allowed = self.conditions.names();
+                    allowed.push("row".to_owned());
+                    let fault =
+                        Fault::NotOneOf { key: "per".into(), found: name.to_owned(), allowed };
+                    let place =
+                        self.object.get("per").map_or(self.object.place(), |m| &m.value.span);
+                    self.object.log.report(place, fault);
+                    Sharing::All
+                }
+            },
+        }
+    }
+
+    /// An input that is the sum of an estimate and its components.
+    fn components(&mut self, unit: &Unit) {
+        let object = self.object;
+        object.check_keys(&["unit", "mean", "components", "about", "type", "group", "per"]);
+        // the estimate: a constant without a line of its own
+        let first = self.inputs.variables.len();
+        self.variable(self.name.to_owned(), &object, None, unit);
+        if let Some(base) = self.inputs.variables.last_mut() {
+            base.shown = false;
+        }
+        let parts = self.parts(unit);
+        let source = self.source("mean", unit);
+        let (Some(parts), Some(source)) = (parts, source) else {
+            return;
+        };
+        let readings: Vec<&Part<'_>> = parts.iter().filter(|p| p.kind.name == "readings").collect();
+        if readings.len() > 1 {
+            let reason = "is a second one of `readings`; at most one can be".to_owned();
+            object.report(Fault::Component { name: self.name.to_owned(), reason });
+            return;
+        }
+        let own_mean = match (&source, object.get("mean")) {
+            (Source::Own, Some(_)) => match object.number("mean") {
+                Some(mean) => Some(mean),
+                None => return,
+            },
+            (Source::Own, None) if readings.is_empty() => {
+                object.report(Fault::MissingKey { key: "mean", what: "an input with components" });
+                return;
+            }
+            _ => None,
+        };
+        let conditions = self.conditions;
+        let at = |row| (conditions, row);
+        let of_readings =
+            match readings.first().map(|part| part.distribution(unit, 0.0, self.results, at(0))) {
+                Some(Some(distribution)) => distribution.mean(),
+                Some(None) => return,
+                None => 0.0,
+            };
+        let differs = matches!(source, Source::Formula(_))
+            || parts.iter().any(|part| shapes::has_width_of_row(&part.object, part.kind));
+        let mut drawn: Vec<Vec<Distribution>> = vec![Vec::new(); 1 + parts.len()];
+        for row in 0..if differs { self.conditions.rows() } else { 1 } {
+            let total = match self.estimate(&source, unit, row) {
+                Some(Estimate::Own) => own_mean.unwrap_or(of_readings),
+                Some(Estimate::Given(value)) => value,
+                None => return,
+            };
+            let of_parts: Option<Vec<Distribution>> = parts
+                .iter()
+                .map(|part| part.distribution(unit, total, self.results, at(row)))
+                .collect();
+            let base = Constant::new(total - of_readings)
+                .map_err(|error| Fault::Distribution { name: self.name.to_owned(), error });
+            let base = object.log.value(object.place(), base);
+            let (Some(of_parts), Some(base)) = (of_parts, base) else {
+                return;
+            };
+            let row = std::iter::once(base.into()).chain(of_parts);
+            drawn.iter_mut().zip(row).for_each(|(drawn, distribution)| drawn.push(distribution));
+        }
+        for (part, mut drawn) in drawn.into_iter().enumerate() {
+            match drawn.pop() {
+                Some(distribution) if !differs => {
+                    self.inputs.known.always(first + part, distribution);
+                }
+                last => {
+                    drawn.extend(last);
+                    self.inputs.known.in_rows(first + part, drawn);
+                }
+            }
+        }
+    }
+
+    /// The components as written, each with a variable of its own; `None` if one is faulty.
+    fn parts(&mut self, unit: &Unit) -> Option<Vec<Part<'a>>> {
+        let object = self.object;
+        let list = object.list("components")?;
+        if list.len() > MOST_VARIABLES {
+            let (what, found) = ("components", list.len());
+            object.report(Fault::TooMany { what, found, most: MOST_VARIABLES });
+            return None;
+        }
+        let quantity = self.name;
+        let fault = |reason: String| Fault::Component { name: quantity.to_owned(), reason };
+        if list.is_empty() {
+            object.report(Fault::NoValues { name: format!("{}/components", self.name) });
+        }
+        let mut parts: Vec<Part<'a>> = Vec::new();
+        let mut names: HashSet<String> = HashSet::new();
+        for node in list {
+            if object.log.is_full() {
+                break;
+            }
+            let Some(component) = Object::new(object.log, "a component", node, &node.span) else {
+                continue;
+            };
+            let Some(name) = component.text("name") else {
+                if component.get("name").is_none() {
+                    component.report(fault("needs a `name`".to_owned()));
+                }
+                continue;
+            };
+            let full = format!("{}/{name}", self.name);
+            if name.is_empty() || name.contains('/') {
+                component.report(fault(format!("cannot have the name `{name}`")));
+            } else if !names.insert(full.clone()) {
+                component.report(fault(format!("has the name `{name}` of another one")));
+            } else if let Some(kind) = shapes::kind(&component) {
+                let mut known: Vec<&str> = vec!["name", "distribution", "about", "type", "group"];
+                known.extend(kind.fields);
+                component.check_keys(&known);
+                let samples = self.samples(&component, &full, kind);
+                parts.push(Part { object: component, full, kind, samples });
+            }
+        }
+        for part in &parts {
+            self.variable(part.full.clone(), &part.object, Some(part.kind), unit);
+        }
+        (parts.len() == list.len() && !list.is_empty()).then_some(parts)
+    }
+}
+
+/// A component as written.
+struct Part<'a> {
+    object: Object<'a>,
+    full: String,
+    kind: &'static Kind,
+    samples: Option<Samples>,
+}
+
+impl Part<'_> {
+    /// Its distribution where the quantity's estimate is `total`, of which a share may be its
+    /// width. A component's own mean is 0 unless it is given.
+    fn distribution(
+        &self,
+        unit: &Unit,
+        total: f64,
+        results: &Results<'_>,
+        at: (&dyn ConditionValues, usize),
+    ) -> Option<Distribution> {
+        let own = !self.kind.is_about_zero()
+            || ["mean", "value", "lower"].iter().any(|key| self.object.get(key).is_some());
+        let estimate = if own { Estimate::Own } else { Estimate::Given(0.0) };
+        let (object, name) = (self.object, self.full.as_str());
+        let samples = self.samples.as_ref();
+        let (share_of, at) = (Some(total), Some(at));
+        Fields { object, name, unit, estimate, share_of, samples, results, at }
+            .distribution(self.kind)
+    }
+}

@@ -1,0 +1,69 @@
+//! User files: read, validated, turned into tasks. Every mistake is a [`Problem`] with its place.
+//!
+//! Reading goes on after a mistake, so that all of a file's mistakes are reported at once; only
+//! text that is not JSON stops it.
+
+mod answer;
+pub mod bytes;
+mod case;
+mod catalogue;
+mod certificate;
+mod checked;
+mod comparison;
+mod condition_values;
+mod conditions;
+mod correlations;
+mod effects;
+mod either;
+mod fault;
+mod inputs;
+mod json;
+mod known;
+mod links;
+mod model_file;
+mod nearest;
+mod object;
+mod observations;
+mod outputs;
+mod paired;
+mod prior;
+mod problem;
+mod recipe;
+mod recording;
+mod result_file;
+mod results;
+mod samples;
+pub mod schema;
+mod settings;
+mod shapes;
+mod sharing;
+mod simulated;
+mod size;
+mod soundness;
+mod source;
+mod table;
+mod text_table;
+mod variant;
+mod width;
+
+pub use case::{CaseFile, read as read_case, read_at as read_case_at, read_text as read_case_text};
+pub use catalogue::{Listed, ListedParameter, Listing, catalogue};
+pub(crate) use certificate::keys as certificate_keys;
+pub use certificate::{
+    CertificateFile, CertifiedModel, read as read_certificate, read_text as read_certificate_text,
+};
+pub use checked::{check, check_text};
+pub use comparison::{ComparisonOptions, ComparisonTable, read_comparison, read_comparison_text};
+pub use either::{ModelOrResult, read_either, read_either_text};
+pub use fault::Fault;
+pub use model_file::{ModelFile, Override, Overrides, read, read_text};
+pub use nearest::nearest;
+pub use problem::{Problem, Problems};
+pub use recipe::{
+    Condition, OpenedRow, RecipeFile, RecipeRow, read as read_recipe, read_text as read_recipe_text,
+};
+pub(crate) use recipe::{OWN as RECIPE_KEY, STEPS};
+pub use recording::Recording;
+pub use result_file::{ResultFile, SavedOutput, read_result};
+pub use source::Source;
+pub use variant::NotCopied;

@@ -1,0 +1,98 @@
+//! The dependence of inputs that come from saved results.
+
+use super::inputs::Inputs;
+use gumption_engine::distribution::{Correlation, SavedResult};
+use gumption_engine::task::Warning;
+
+/// How many pairs a note names.
+const NAMED: usize = 6;
+
+/// The coefficients between inputs that are outputs of one result file, or that go back to common
+/// inputs, and notes on what is kept and what cannot be.
+pub(super) fn links(inputs: &Inputs) -> (Vec<Correlation>, Vec<Warning>) {
+    let (mut found, mut warnings) = (Vec::new(), Vec::new());
+    let saved = |q: usize| Some((q, inputs.known.get(q, 0)?.saved()?));
+    let saved: Vec<(usize, &SavedResult)> = (0..inputs.variables.len()).filter_map(saved).collect();
+    let name = |q: usize| inputs.variables.get(q).map_or("", |variable| variable.name.as_str());
+    let mut kept = Vec::new();
+    let mut old = Vec::new();
+    for (place, &(second, b)) in saved.iter().enumerate() {
+        for &(first, a) in saved.iter().take(place) {
+            let (of_a, of_b) = (a.origin(), b.origin());
+            let one_file = of_a.file == of_b.file && of_a.output != of_b.output;
+            if one_file && (of_a.ranks.is_none() || of_b.ranks.is_none()) {
+                old.push(format!("`{}` and `{}`", name(first), name(second)));
+            }
+            let coefficient = a.drawn_coefficient(b);
+            if let Some(coefficient) = coefficient.filter(|_| a.is_linked(b)) {
+                found.push(Correlation { first, second, coefficient });
+                if coefficient != 0.0 {
+                    kept.push(format!(
+                        "`{}` and `{}` ({coefficient:.3})",
+                        name(first),
+                        name(second)
+                    ));
+                }
+            } else if may_depend(a, b) {
+                let text = format!(
+                    "`{}` and `{}` may depend on each other, because their results go back to the \
+                     same model file, but one of them has no finite sensitivity coefficients, so \
+                     the dependence cannot be told; they are taken as independent",
+                    name(first),
+                    name(second)
+                );
+                warnings.push(Warning::new("result-dependence-unknown", name(second), text));
+            }
+        }
+    }
+    if !kept.is_empty() {
+        let text = format!("the correlation of saved results is kept: {}", some(&kept));
+        warnings.push(Warning::new("result-correlation", "", text));
+    }
+    if !old.is_empty() {
+        let text = format!(
+            "of {} only the correlation coefficients are known, not how they vary together, because \
+             their result was saved by an older version; save it again",
+            some(&old)
+        );
+        warnings.push(Warning::new("result-without-ranks", "", text));
+    }
+    (found, warnings)
+}
+
+/// The first of some pairs, and how many more there are.
+fn some(pairs: &[String]) -> String {
+    let more = pairs.len().saturating_sub(NAMED);
+    let rest = if more > 0 { format!(" and {more} more pairs") } else { String::new() };
+    pairs.iter().take(NAMED).cloned().collect::<Vec<_>>().join(", ") + &rest
+}
+
+/// Whether two results that are not linked come from the same model file, or one from a result of
+/// the other's, with the way between them unknown.
+fn may_depend(a: &SavedResult, b: &SavedResult) -> bool {
+    let (a, b) = (a.origin(), b.origin());
+    if a.linear && b.linear {
+        return false;
+    }
+    let models = |origin: &gumption_engine::distribution::Origin| {
+        let roots = origin.roots.iter().map(|(root, _)| root.name.model.clone());
+        roots.chain([origin.model.clone(), origin.file.clone()]).collect::<Vec<_>>()
+    };
+    let of_b = models(b);
+    models(a).iter().any(|model| of_b.contains(model))
+}
+
+/// The pairs of variables whose dependence comes from saved results.
+pub(super) fn pairs(inputs: &Inputs) -> Vec<(usize, usize)> {
+    let saved = |q: usize| Some((q, inputs.known.get(q, 0)?.saved()?));
+    let saved: Vec<(usize, &SavedResult)> = (0..inputs.variables.len()).filter_map(saved).collect();
+    let before = |place: usize| saved.iter().take(place);
+    let all = saved.iter().enumerate().flat_map(|(place, b)| before(place).map(move |a| (a, b)));
+    all.filter(|((_, a), (_, b))| a.is_linked(b)).map(|((a, _), (b, _))| (*a, *b)).collect()
+}
+
+/// Whether the dependence of two variables comes from saved results.
+pub(super) fn is_linked(inputs: &Inputs, first: usize, second: usize) -> bool {
+    let saved = |q: usize| inputs.known.get(q, 0).and_then(|d| d.saved());
+    saved(first).zip(saved(second)).is_some_and(|(a, b)| a.is_linked(b))
+}

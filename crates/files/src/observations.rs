@@ -1,0 +1,239 @@
+//! The observations of a case: the table of the data, and which column holds what.
+
+use std::ops::Range;
+use std::path::Path;
+
+use nalgebra::DMatrix;
+
+use super::Fault;
+use super::json::{Json, Member};
+use super::nearest;
+use super::object::Object;
+use super::problem::Log;
+use super::source::Place;
+use super::table::{self, Table};
+use gumption_gap::Observed;
+
+/// The data's table with the columns of the observed outputs.
+#[derive(Debug)]
+pub(super) struct Observations {
+    pub(super) table: Table,
+    pub(super) columns: Vec<Column>,
+    /// The content of the tables read, by name.
+    pub(super) files: Vec<(String, Vec<u8>)>,
+}
+
+/// What the table says of one output.
+#[derive(Debug)]
+pub(super) struct Column {
+    pub(super) output: String,
+    pub(super) place: Range<usize>,
+    pub(super) observed: Observed,
+    /// The column with somebody else's simulation of the output.
+    pub(super) simulated: Option<String>,
+}
+
+/// Reads `observations`; paths are relative to `folder`.
+pub(super) fn read(log: &Log, member: &Member, folder: &Path) -> Option<Observations> {
+    let object = Object::new(log, "`observations`", &member.value, &member.key_span)?;
+    object.check_keys(&["file", "columns"]);
+    let file = object.required("file")?;
+    let name = object.text("file")?;
+    let columns = object.required("columns");
+    let (table, bytes) = table::read(log, folder, name, &file.value.span)?;
+    let mut files = vec![(name.to_owned(), bytes)];
+    let columns = Object::new(log, "`columns`", &columns?.value, &member.key_span)?;
+    let reader = Reader { log, folder, table: &table };
+    let read: Vec<Option<Column>> =
+        columns.members().iter().map(|member| reader.column(member, &mut files)).collect();
+    if read.is_empty() {
+        columns.report(Fault::NoValues { name: "columns".into() });
+        return None;
+    }
+    let read = read.into_iter().collect::<Option<Vec<_>>>()?;
+    once_each(log, columns.members());
+    Some(Observations { table, columns: read, files })
+}
+
+/// A column of the data says one thing: it holds measured values, uncertainties or a simulation of
+/// one output.
+fn once_each(log: &Log, outputs: &[Member]) {
+    let mut known: Vec<(&str, &str, &str)> = Vec::new();
+    for output in outputs {
+        let Json::Object(fields) = &output.value.value else { continue };
+        for field in fields.iter().filter(|field| field.key != "sim_covariance") {
+            let Json::Text(column) = &field.value.value else { continue };
+            let earlier = known.iter().find(|(name, ..)| name == column);
+            // a standard uncertainty may be common to several outputs
+            let shared = |key: &str| key.ends_with("standard_uncertainty") && key == field.key;
+            if let Some((_, of, key)) = earlier.filter(|(_, _, key)| !shared(key)) {
+                let reason = format!(
+                    "the column `{column}` is `{key}` of `{of}` already, and cannot be `{}` of `{}`",
+                    field.key, output.key
+                );
+                log.report(&field.value.span, Fault::Observation { reason });
+            }
+            known.push((column, &output.key, &field.key));
+        }
+    }
+}
+
+struct Reader<'a> {
+    log: &'a Log,
+    folder: &'a Path,
+    table: &'a Table,
+}
+
+impl Reader<'_> {
+    fn column(&self, member: &Member, files: &mut Vec<(String, Vec<u8>)>) -> Option<Column> {
+        let object = Object::new(self.log, "an observed output", &member.value, &member.key_span)?;
+        object.check_keys(&[
+            "value",
+            "standard_uncertainty",
+            "sim",
+            "sim_standard_uncertainty",
+            "sim_covariance",
+        ]);
+        object.required("value")?;
+        let values = self.values(&object, "value");
+        let uncertainties = self.uncertainties(&object, "standard_uncertainty");
+        let simulated = object.text("sim");
+        if simulated.is_some() {
+            self.values(&object, "sim")?;
+        }
+        let simulation = self.uncertainties(&object, "sim_standard_uncertainty");
+        let covariance = self.covariance(&object, files);
+        for key in ["sim_standard_uncertainty", "sim_covariance"] {
+            if let (None, Some(member)) = (object.get("sim"), object.get(key)) {
+                let reason = format!("`{key}` belongs to the column that `sim` names");
+                self.log.report(&member.key_span, Fault::Observation { reason });
+            }
+        }
+        if object.get("sim_standard_uncertainty").is_some()
+            && let Some(member) = object.get("sim_covariance")
+        {
+            let (first, second) = ("sim_standard_uncertainty", "sim_covariance");
+            self.log.report(&member.key_span, Fault::Exclusive { first, second });
+        }
+        Some(Column {
+            output: member.key.clone(),
+            place: member.key_span.clone(),
+            observed: Observed {
+                values: values?,
+                standard_uncertainties: uncertainties?,
+                simulation_uncertainties: simulation?,
+                simulation_covariance: covariance?,
+            },
+            simulated: simulated.map(str::to_owned),
+        })
+    }
+
+    /// The column that `key` names.
+    fn values(&self, object: &Object<'_>, key: &str) -> Option<Vec<f64>> {
+        let name = object.text(key)?;
+        if let Some(place) = self.table.columns.iter().position(|column| column == name) {
+            return Some(
+                self.table.rows.iter().filter_map(|row| row.get(place).copied()).collect(),
+            );
+        }
+        let near = nearest(name, self.table.columns.iter().map(String::as_str));
+        let reason = format!(
+            "`{}` has no column `{name}`{}",
+            self.table.source.name,
+            match near {
+                Some(near) => format!("; did you mean `{near}`?"),
+                None => format!("; its columns are {}", self.table.columns.join(", ")),
+            }
+        );
+        let span = object.get(key).map_or(object.place(), |member| &member.value.span);
+        self.log.report(span, Fault::Table { reason });
+        None
+    }
+
+    /// A column of standard uncertainties, all above zero; none if the key is not there.
+    fn uncertainties(&self, object: &Object<'_>, key: &str) -> Option<Option<Vec<f64>>> {
+        if object.get(key).is_none() {
+            return Some(None);
+        }
+        let values = self.values(object, key)?;
+        if let Some((row, value)) = values.iter().enumerate().find(|(_, u)| **u <= 0.0) {
+            let reason = if values.iter().all(|u| *u == 0.0) {
+                "all standard uncertainties are zero; without the column the noise is estimated from \
+                 the data"
+                    .to_owned()
+            } else {
+                format!(
+                    "the standard uncertainty in row {} is {value}, but must be above zero",
+                    row + 1
+                )
+            };
+            let column = object.text(key).unwrap_or_default();
+            let place = self.place_of(column, row);
+            self.log.report_at(place, Fault::Observation { reason });
+            return None;
+        }
+        Some(Some(values))
+    }
+
+    /// The line of a row of the data.
+    fn place_of(&self, column: &str, row: usize) -> Place {
+        let place = self.table.columns.iter().position(|name| name == column).unwrap_or(0);
+        self.table.place(row, place)
+    }
+
+    fn covariance(
+        &self,
+        object: &Object<'_>,
+        files: &mut Vec<(String, Vec<u8>)>,
+    ) -> Option<Option<Vec<Vec<f64>>>> {
+        let Some(member) = object.get("sim_covariance") else {
+            return Some(None);
+        };
+        let Json::Text(name) = &member.value.value else {
+            object.text("sim_covariance")?;
+            return None;
+        };
+        let (matrix, bytes) = table::read(self.log, self.folder, name, &member.value.span)?;
+        files.push((name.clone(), bytes));
+        let rows = self.table.rows.len();
+        let square = matrix.rows.len() == rows && matrix.columns.len() == rows;
+        let symmetric = square
+            && (0..rows).all(|i| {
+                (0..i).all(|j| {
+                    let (a, b) = (matrix.rows[i][j], matrix.rows[j][i]);
+                    (a - b).abs() <= 1e-9 * (matrix.rows[i][i] * matrix.rows[j][j]).abs().sqrt()
+                })
+            });
+        if !symmetric {
+            let reason = format!(
+                "the covariance matrix `{name}` has {} rows and {} columns{}, but must be symmetric \
+                 with one row and column for each of the {rows} rows of the data",
+                matrix.rows.len(),
+                matrix.columns.len(),
+                if square { " and is not symmetric" } else { "" },
+            );
+            self.log.report(&member.value.span, Fault::Observation { reason });
+            return None;
+        }
+        if !is_covariance(&matrix.rows) {
+            let reason = format!(
+                "the matrix `{name}` is no covariance matrix: with some weights the variance of the \
+                 rows' weighted sum would be negative"
+            );
+            self.log.report(&member.value.span, Fault::Observation { reason });
+            return None;
+        }
+        Some(Some(matrix.rows))
+    }
+}
+
+/// Whether a symmetric matrix is positive semi-definite, but for the rounding of its numbers.
+fn is_covariance(rows: &[Vec<f64>]) -> bool {
+    let size = rows.len();
+    let value = |i: usize, j: usize| rows.get(i).and_then(|row| row.get(j)).copied().unwrap_or(0.0);
+    let largest = (0..size).map(|i| value(i, i)).fold(0.0, f64::max);
+    let slack = 1e-8 * largest;
+    let matrix =
+        DMatrix::from_fn(size, size, |i, j| value(i, j) + if i == j { slack } else { 0.0 });
+    largest > 0.0 && matrix.cholesky().is_some()
+}

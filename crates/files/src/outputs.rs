@@ -1,0 +1,161 @@
+//! The outputs of a file.
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use super::Fault;
+use super::conditions::unit;
+use super::json::{Json, Member};
+use super::object::Object;
+use super::problem::Log;
+use super::results::Results;
+use super::shapes::{self, Estimate, Fields};
+use super::width::Width;
+use gumption_engine::distribution::{Distribution, Invalid};
+use gumption_engine::model::{Capability, Output, Quantity, Tolerance};
+use gumption_units::Unit;
+
+/// Outputs with their places.
+#[derive(Debug, Default)]
+pub(super) struct Outputs {
+    pub outputs: Vec<Output>,
+    pub(super) places: Vec<Range<usize>>,
+    /// Where each output's unit stands.
+    pub(super) unit_places: Vec<Range<usize>>,
+    /// Names of those whose unit could not be read.
+    pub(super) without_unit: Vec<String>,
+}
+
+/// Reads `outputs`.
+pub(super) fn read(log: &Log, member: &Member, results: &Results<'_>) -> Option<Outputs> {
+    let object = Object::new(log, "`outputs`", &member.value, &member.key_span)?;
+    if object.members().is_empty() {
+        object.report(Fault::NoValues { name: "outputs".into() });
+    }
+    let mut outputs = Outputs::default();
+    for member in object.members().iter().take_while(|_| !log.is_full()) {
+        let Some(object) = Object::new(log, "an output", &member.value, &member.key_span) else {
+            continue;
+        };
+        object.check_keys(&["unit", "about", "periodic", "tolerance", "cmc", "cmc_floor"]);
+        let period = object.number("periodic");
+        if let (Some(period), Some(member)) = (period, object.get("periodic"))
+            && period <= 0.0
+        {
+            let fault = Fault::NotPositive { key: "periodic".into(), found: period };
+            log.report(&member.value.span, fault);
+        }
+        let unit = unit(&object, "unit").unwrap_or_else(|| {
+            outputs.without_unit.push(member.key.clone());
+            Unit::one()
+        });
+        let capability = capability(&object, &member.key, &unit);
+        let decision = Decision::read(&object, &unit, results);
+        let quantity = Quantity {
+            name: member.key.clone(),
+            unit,
+            about: object.text("about").unwrap_or("").to_owned(),
+        };
+        let unit_place = object.get("unit").map_or(&member.key_span, |m| &m.value.span);
+        let Decision { tolerance, prior, risk } = decision;
+        outputs.outputs.push(Output { quantity, period, tolerance, prior, risk, capability });
+        outputs.places.push(member.key_span.clone());
+        outputs.unit_places.push(unit_place.clone());
+    }
+    Some(outputs)
+}
+
+/// The laboratory's capability for an output, which is where the keys stand; `name` is for messages.
+pub(super) fn capability(output: &Object<'_>, name: &str, unit: &Unit) -> Option<Capability> {
+    let floor = output.truth("cmc_floor").unwrap_or(false);
+    let Some(member) = output.get("cmc") else {
+        if let Some(floor) = output.get("cmc_floor") {
+            let fault = Fault::OnlyWith { key: "cmc_floor", with: "cmc" };
+            output.log.report(&floor.key_span, fault);
+        }
+        return None;
+    };
+    let width = Width::read(&member.value, name, "cmc", unit);
+    let width = output.log.value(&member.value.span, width)?;
+    Some(Capability { relative: width.at(1.0) - width.at(0.0), absolute: width.at(0.0), floor })
+}
+
+/// What is to be decided about an output.
+#[derive(Debug, Default)]
+struct Decision {
+    tolerance: Option<Tolerance>,
+    prior: Option<Arc<Distribution>>,
+    risk: Option<f64>,
+}
+
+/// Shapes that a prior cannot have: it is about many items.
+const NO_PRIORS: [&str; 4] = ["constant", "readings", "samples", "result"];
+
+impl Decision {
+    fn read(output: &Object<'_>, unit: &Unit, results: &Results<'_>) -> Self {
+        let Some(member) = output.get("tolerance") else {
+            return Self::default();
+        };
+        let object = Object::new(output.log, "`tolerance`", &member.value, &member.key_span);
+        let Some(object) = object else {
+            return Self::default();
+        };
+        object.check_keys(&["lower", "upper", "prior", "risk"]);
+        let risk = object.number("risk");
+        if let (Some(risk), Some(member)) = (risk, object.get("risk"))
+            && !(risk > 0.0 && risk < 0.5)
+        {
+            let range = "above 0 and below 0.5";
+            let fault = Fault::OutOfRange { key: "risk".into(), found: risk, range };
+            object.log.report(&member.value.span, fault);
+        }
+        let prior = prior(&object, unit, results).map(Arc::new);
+        Self { tolerance: tolerance(&object), prior, risk }
+    }
+}
+
+/// What was known about the items before measuring.
+fn prior(tolerance: &Object<'_>, unit: &Unit, results: &Results<'_>) -> Option<Distribution> {
+    let member = tolerance.get("prior")?;
+    let object = Object::new(tolerance.log, "`prior`", &member.value, &member.key_span)?;
+    let kind = shapes::kind(&object)?;
+    if NO_PRIORS.contains(&kind.name) {
+        let allowed = shapes::KINDS.iter().map(|kind| kind.name);
+        let fault = Fault::NotOneOf {
+            key: "distribution".into(),
+            found: kind.name.to_owned(),
+            allowed: allowed.filter(|name| !NO_PRIORS.contains(name)).map(str::to_owned).collect(),
+        };
+        let place = object.get("distribution").map_or(object.place(), |m| &m.value.span);
+        object.log.report(place, fault);
+        return None;
+    }
+    let mut known = vec!["distribution", "about"];
+    known.extend(kind.fields);
+    object.check_keys(&known);
+    let (estimate, name) = (Estimate::Own, "prior");
+    Fields { object, name, unit, estimate, share_of: None, samples: None, results, at: None }
+        .distribution(kind)
+}
+
+/// The tolerance limits of an output.
+fn tolerance(object: &Object<'_>) -> Option<Tolerance> {
+    // null stands for a limit that is not there
+    let limit = |key: &str| match object.get(key).map(|m| &m.value.value) {
+        None | Some(Json::Null) => None,
+        Some(_) => object.number(key),
+    };
+    let (lower, upper) = (limit("lower"), limit("upper"));
+    match (lower, upper) {
+        (None, None) => {
+            object.report(Fault::NoValues { name: "tolerance".into() });
+            None
+        }
+        (Some(lower), Some(upper)) if lower >= upper => {
+            let error = Invalid::LimitsReversed { lower, upper };
+            object.report(Fault::Distribution { name: "tolerance".into(), error });
+            None
+        }
+        _ => Some(Tolerance { lower, upper }),
+    }
+}

@@ -1,0 +1,233 @@
+//! The channels of a recipe.
+
+use std::ops::Range;
+
+use super::super::Fault;
+use super::super::json::{Json, Member};
+use super::super::nearest::nearest;
+use super::super::object::{Object, whole_number};
+use super::super::problem::Log;
+use super::super::recording::{ColumnName, Conversion, Wanted};
+use super::quantity::{of_member, positive, unit};
+use super::recordings::RecordingFile;
+use super::{check_name, steps};
+use gumption_signal::Channel;
+use gumption_units::Unit;
+
+/// The keys of a channel.
+pub(super) const KEYS: [&str; 11] = [
+    "recording",
+    "column",
+    "unit",
+    "raw_unit",
+    "scale",
+    "sensitivity",
+    "offset",
+    "resolution",
+    "bits",
+    "range",
+    "steps",
+];
+
+/// A channel, as the recipe describes it.
+#[derive(Clone, Debug)]
+pub(super) struct ChannelFile {
+    pub(super) channel: Channel,
+    pub(super) recording: usize,
+    /// Units of the channel for one raw unit.
+    pub(super) gain: f64,
+    pub(super) place: Range<usize>,
+    pub(super) step_places: Vec<Range<usize>>,
+    column: ColumnName,
+    zero: f64,
+    range: Option<[f64; 2]>,
+}
+
+pub(super) fn read(root: &Object<'_>, recordings: &[RecordingFile]) -> Option<Vec<ChannelFile>> {
+    let member = root.required("channels")?;
+    let object = Object::new(root.log, "`channels`", &member.value, &member.key_span)?;
+    let read: Vec<Option<ChannelFile>> =
+        object.members().iter().map(|member| channel(root.log, member, recordings)).collect();
+    if read.is_empty() {
+        root.log.report(&member.key_span, Fault::NoValues { name: "channels".into() });
+        return None;
+    }
+    read.into_iter().collect()
+}
+
+fn channel(log: &Log, member: &Member, recordings: &[RecordingFile]) -> Option<ChannelFile> {
+    check_name(log, &member.key, &member.key_span);
+    let of = Object::new(log, "a channel", &member.value, &member.key_span)?;
+    of.check_keys(&KEYS);
+    let recording = recording(&of, recordings);
+    let column = of.required("column").and_then(|member| column(log, member));
+    let own = unit(&of, "unit", "1");
+    // what is not said to be in another unit is in the channel's, or in counts where it is scaled
+    let scaled = of.get("scale").is_some() || of.get("sensitivity").is_some();
+    let raw = match (of.get("raw_unit"), scaled, &own) {
+        (None, false, Some(own)) => Some(own.clone()),
+        _ => unit(&of, "raw_unit", "1"),
+    };
+    let scale = own.as_ref().zip(raw.as_ref()).and_then(|(own, raw)| scale(&of, own, raw));
+    let zero = of.number("offset").unwrap_or(0.0);
+    let range = range(&of);
+    let resolution = resolution(&of, range);
+    let steps = steps::read(&of, own.as_ref()?)?;
+    let (gain, scale_uncertainty) = scale?;
+    Some(ChannelFile {
+        channel: Channel {
+            name: member.key.clone(),
+            unit: steps.unit,
+            scale_uncertainty,
+            resolution: resolution * gain.abs(),
+            steps: steps.steps,
+        },
+        recording: recording?,
+        gain,
+        place: member.key_span.clone(),
+        step_places: steps.places,
+        column: column?,
+        zero,
+        range,
+    })
+}
+
+fn recording(of: &Object<'_>, recordings: &[RecordingFile]) -> Option<usize> {
+    let Some(member) = of.get("recording") else {
+        if recordings.len() != 1 {
+            of.required("recording");
+        }
+        return (recordings.len() == 1).then_some(0);
+    };
+    let name = of.text("recording")?;
+    let place = recordings.iter().position(|recording| recording.name == name);
+    if place.is_none() {
+        let near = nearest(name, recordings.iter().map(|recording| recording.name.as_str()));
+        let reason = match near {
+            Some(near) => format!("there is no recording `{name}`; did you mean `{near}`?"),
+            None => format!("there is no recording `{name}`"),
+        };
+        of.log.report(&member.value.span, Fault::Recipe { reason });
+    }
+    place
+}
+
+/// A column by its name, or by its number from 1.
+pub(super) fn column(log: &Log, member: &Member) -> Option<ColumnName> {
+    match &member.value.value {
+        Json::Text(name) => Some(ColumnName::Name(name.clone())),
+        Json::Number(text) => match whole_number(text).filter(|n| (1..=100_000).contains(n)) {
+            Some(number) => Some(ColumnName::Number(number as usize)),
+            None => {
+                let (key, found) = (member.key.clone(), text.clone());
+                let fault = Fault::NotWhole { key, found, least: 1, most: 100_000 };
+                log.report(&member.value.span, fault);
+                None
+            }
+        },
+        other => {
+            let what = format!("`{}`", member.key);
+            let expected = "the name of a column, or its number from 1";
+            let fault = Fault::WrongType { what, found: other.kind(), expected };
+            log.report(&member.value.span, fault);
+            None
+        }
+    }
+}
+
+/// Units of the channel for one raw unit, and the relative standard uncertainty of that.
+fn scale(of: &Object<'_>, own: &Unit, raw: &Unit) -> Option<(f64, f64)> {
+    let (key, member, divides) = match (of.get("scale"), of.get("sensitivity")) {
+        (Some(_), Some(second)) => {
+            let fault = Fault::Exclusive { first: "scale", second: "sensitivity" };
+            of.log.report(&second.key_span, fault);
+            return None;
+        }
+        (Some(member), None) => ("scale", member, false),
+        (None, Some(member)) => ("sensitivity", member, true),
+        (None, None) => {
+            let Ok(factor) = Unit::conversion_factor(raw, own) else {
+                if let Some(member) = of.get("raw_unit") {
+                    super::quantity::same_dimension(of, member, raw, own);
+                }
+                return None;
+            };
+            return Some((factor, 0.0));
+        }
+    };
+    let quantity = of_member(of, member, "1")?;
+    if quantity.value == 0.0 {
+        positive(of, key, &quantity);
+        return None;
+    }
+    let dimension = raw.dimension();
+    let becomes = if divides {
+        dimension.checked_div(quantity.unit.dimension())
+    } else {
+        dimension.checked_mul(quantity.unit.dimension())
+    };
+    if becomes != Some(own.dimension()) {
+        let expected = if divides { format!("{raw}/({own})") } else { format!("{own}/({raw})") };
+        let reason = format!(
+            "raw values in `{raw}` with a `{key}` in `{}` do not become `{own}`; its unit must be such \
+             as `{expected}`",
+            quantity.unit
+        );
+        of.log.report(&member.value.span, Fault::Recipe { reason });
+        return None;
+    }
+    let size = quantity.si();
+    let gain = if divides { raw.factor() / size } else { raw.factor() * size };
+    let relative = (quantity.standard_uncertainty / quantity.value).abs();
+    Some((own.from_si(gain), relative))
+}
+
+/// The limits of raw values.
+fn range(of: &Object<'_>) -> Option<[f64; 2]> {
+    let member = of.get("range")?;
+    let numbers = of.numbers("range")?;
+    match numbers.as_slice() {
+        [lower, upper] if lower < upper => Some([*lower, *upper]),
+        _ => {
+            let reason =
+                "`range` is the lowest and the highest raw value, in that order".to_owned();
+            of.log.report(&member.value.span, Fault::Recipe { reason });
+            None
+        }
+    }
+}
+
+/// The resolution in the raw unit; 0 where it is not known.
+fn resolution(of: &Object<'_>, range: Option<[f64; 2]>) -> f64 {
+    if let (Some(_), Some(second)) = (of.get("resolution"), of.get("bits")) {
+        let fault = Fault::Exclusive { first: "resolution", second: "bits" };
+        of.log.report(&second.key_span, fault);
+    }
+    if let Some(member) = of.get("resolution") {
+        let found = of.number("resolution").unwrap_or(0.0);
+        if found < 0.0 {
+            let fault = Fault::NotPositive { key: "resolution".into(), found };
+            of.log.report(&member.value.span, fault);
+        }
+        return found;
+    }
+    let (Some(member), Some(bits)) = (of.get("bits"), of.whole("bits", 1, 64)) else { return 0.0 };
+    match range {
+        Some([lower, upper]) => (upper - lower) / 2f64.powi(i32::try_from(bits).unwrap_or(64)),
+        None => {
+            if of.get("range").is_none() {
+                let fault = Fault::OnlyWith { key: "bits", with: "range" };
+                of.log.report(&member.key_span, fault);
+            }
+            0.0
+        }
+    }
+}
+
+impl ChannelFile {
+    /// Its column, and what its raw values become.
+    pub(super) fn wanted(&self) -> (Wanted, Conversion) {
+        let wanted = Wanted { column: self.column.clone(), channel: self.channel.name.clone() };
+        (wanted, Conversion { zero: self.zero, gain: self.gain, range: self.range })
+    }
+}

@@ -1,0 +1,449 @@
+//! A recipe file: which channels of which recordings, and what is taken from them.
+
+mod channels;
+mod quantity;
+mod recordings;
+mod rows;
+mod steps;
+
+use std::ops::Range;
+use std::path::Path;
+use std::sync::Arc;
+
+use super::Fault;
+use super::json::{self, Json, Node};
+use super::model_file::{check_format, text_of};
+use super::nearest::nearest;
+use super::object::Object;
+use super::problem::{Log, Problems};
+use super::recording::{self, Recording};
+use super::source::Source;
+use channels::ChannelFile;
+use gumption_engine::model::formula;
+use gumption_engine::task::Warning;
+use gumption_signal::{
+    Amplitude, Frequency, Method, PhaseUnit, Refused, Search, Settings, TimeBase, Track,
+};
+use gumption_units::Unit;
+use recordings::RecordingFile;
+pub(crate) use steps::ALL as STEPS;
+
+/// The keys of a recipe.
+const KEYS: [&str; 16] = [
+    "format",
+    "title",
+    "source",
+    "recordings",
+    "channels",
+    "reference",
+    "frequency",
+    "components",
+    "harmonics",
+    "method",
+    "amplitude",
+    "phase_unit",
+    "conditions",
+    "rows",
+    "trials",
+    "seed",
+];
+
+/// The key that only recipes have.
+pub(crate) const OWN: &str = "recordings";
+
+/// The highest multiple of a frequency.
+const MOST_MULTIPLE: u64 = 50;
+
+/// A condition of the recordings: a column of the answer.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Condition {
+    /// Its name.
+    pub name: String,
+    /// Its unit.
+    pub unit: Unit,
+}
+
+/// A row of a recipe: recordings that were made together.
+#[derive(Clone, Debug)]
+pub struct RecipeRow {
+    /// The frequencies, in hertz.
+    pub frequencies: Vec<Frequency>,
+    /// The values of the conditions, in their units.
+    pub conditions: Vec<f64>,
+    /// The file of each recording, and where it is named.
+    files: Vec<(String, Range<usize>)>,
+    /// The part that is used of each recording, in seconds.
+    parts: Vec<[Option<f64>; 2]>,
+    /// Where the frequency stands.
+    frequency_place: Range<usize>,
+}
+
+/// A recipe file that was read and found right; its recordings are not read yet.
+#[derive(Debug)]
+pub struct RecipeFile {
+    /// The title, if it has one.
+    pub title: Option<String>,
+    /// What is the same for all rows.
+    pub settings: Settings,
+    /// The conditions.
+    pub conditions: Vec<Condition>,
+    /// The name of the column of frequencies.
+    pub frequency: String,
+    /// The rows.
+    pub rows: Vec<RecipeRow>,
+    /// The file's text.
+    pub source: Arc<Source>,
+    recordings: Vec<RecordingFile>,
+    searches: Vec<Option<Search>>,
+    channels: Vec<ChannelFile>,
+}
+
+/// The recordings of a row, opened.
+#[derive(Debug)]
+pub struct OpenedRow {
+    /// What is the same for all rows, with the resolution that the files have.
+    pub settings: Settings,
+    /// The recordings with their channels.
+    pub tracks: Vec<Track<Recording>>,
+    /// The digest of each file, by its name.
+    pub digests: Vec<(String, String)>,
+    /// What to bear in mind about the recordings.
+    pub warnings: Vec<Warning>,
+    /// Which recordings the tracks are.
+    of: Vec<usize>,
+}
+
+/// Reads and checks a recipe file; its recordings are opened later.
+///
+/// # Errors
+/// All mistakes of the file.
+pub fn read(path: &Path) -> Result<RecipeFile, Problems> {
+    let name = path.display().to_string();
+    match text_of(path) {
+        Ok(text) => read_text(&name, &text, path.parent().unwrap_or_else(|| Path::new(""))),
+        Err(message) => {
+            let log = Log::new(Source::new(name, ""));
+            log.report(&(0..0), Fault::Unreadable { message });
+            Err(log.into_problems())
+        }
+    }
+}
+
+/// Reads and checks a recipe's text; its recordings are looked for in `folder`.
+///
+/// # Errors
+/// All mistakes of the text.
+pub fn read_text(name: &str, text: &str, folder: &Path) -> Result<RecipeFile, Problems> {
+    let source = Source::new(name, text);
+    let log = Log::new(source.clone());
+    let file = match json::parse(&source) {
+        Ok(node) => {
+            let whole = 0..source.text.find('\n').unwrap_or(source.text.len());
+            Object::new(&log, "a recipe", &node, &whole).and_then(|root| recipe(&root, folder))
+        }
+        Err((span, fault)) => {
+            log.report(&span, fault);
+            None
+        }
+    };
+    match file {
+        Some(file) if log.is_clean() => Ok(file),
+        _ => Err(log.into_problems()),
+    }
+}
+
+/// Whether a text is meant as a recipe.
+pub(super) fn is_meant(root: &Node) -> bool {
+    let Json::Object(members) = &root.value else { return false };
+    members.iter().any(|member| member.key == OWN)
+}
+
+/// Reads a recipe and all of its recordings.
+///
+/// # Errors
+/// All mistakes of the text, or the first of each row's recordings.
+pub(super) fn check_text(name: &str, text: &str, folder: &Path) -> Result<(), Problems> {
+    let file = read_text(name, text, folder)?;
+    let mut problems = Vec::new();
+    for row in 0..file.rows.len() {
+        if let Err(found) = file.open(row) {
+            problems.extend(found.0);
+        }
+    }
+    if problems.is_empty() { Ok(()) } else { Err(Problems(problems)) }
+}
+
+fn recipe(root: &Object<'_>, folder: &Path) -> Option<RecipeFile> {
+    root.check_keys(&KEYS);
+    check_format(root);
+    let title = root.text("title").map(str::to_owned);
+    root.text("source");
+    let recordings = recordings::read(root, folder);
+    let channels = channels::read(root, recordings.as_deref().unwrap_or(&[]));
+    let reference = reference(root, channels.as_deref().unwrap_or(&[]));
+    let method = named(root, "method", &Method::ALL, Method::name);
+    let amplitude = named(root, "amplitude", &Amplitude::ALL, Amplitude::name);
+    let phase = named(root, "phase_unit", &PhaseUnit::ALL, PhaseUnit::name);
+    let components = components(root);
+    let harmonics = root.whole("harmonics", 1, MOST_MULTIPLE).unwrap_or(5);
+    let trials = root.whole("trials", 0, 1_000_000).unwrap_or(2000);
+    let seed = root.whole("seed", 0, u64::MAX).unwrap_or(1);
+    let (rows, conditions, frequency) =
+        rows::read(root, recordings.as_deref().unwrap_or(&[]), method == Some(Method::Fft))?;
+    let (recordings, channels) = (recordings?, channels?);
+    let searches = recordings.iter().enumerate().map(|(number, of)| {
+        of.search.as_ref().and_then(|of| of.resolved(root.log, number, &channels))
+    });
+    let searches = searches.collect();
+    check_references(root.log, &channels, reference?);
+    let settings = Settings {
+        channels: channels.iter().map(|file| file.channel.clone()).collect(),
+        reference: reference?,
+        components: components?,
+        harmonics: u32::try_from(harmonics).unwrap_or(1),
+        method: method?,
+        amplitude: amplitude?,
+        phase: phase?,
+        trials,
+        seed,
+    };
+    let source = root.log.source.clone();
+    Some(RecipeFile {
+        title,
+        settings,
+        conditions,
+        frequency,
+        rows,
+        source,
+        recordings,
+        searches,
+        channels,
+    })
+}
+
+/// One of a few names; the default where the key is not there, nothing after a mistake.
+fn named<T: Copy + Default>(
+    root: &Object<'_>,
+    key: &'static str,
+    all: &[T],
+    name: impl Fn(T) -> &'static str,
+) -> Option<T> {
+    let Some(member) = root.get(key) else { return Some(T::default()) };
+    let text = root.text(key)?;
+    let found = all.iter().copied().find(|value| name(*value) == text);
+    if found.is_none() {
+        let allowed = all.iter().map(|value| name(*value).to_owned()).collect();
+        let fault = Fault::NotOneOf { key: key.into(), found: text.to_owned(), allowed };
+        root.log.report(&member.value.span, fault);
+    }
+    found
+}
+
+/// The multiples of the frequency, each once, in order; the first alone unless given.
+fn components(root: &Object<'_>) -> Option<Vec<u32>> {
+    let Some(member) = root.get("components") else { return Some(vec![1]) };
+    let list = root.numbers("components")?;
+    let whole =
+        |number: &f64| number.fract() == 0.0 && (1.0..=MOST_MULTIPLE as f64).contains(number);
+    if let Some(found) = list.iter().find(|number| !whole(number)) {
+        let found = gumption_engine::number::Shortest(*found).to_string();
+        let key = "components".to_owned();
+        let fault = Fault::NotWhole { key, found, least: 1, most: MOST_MULTIPLE };
+        root.log.report(&member.value.span, fault);
+        return None;
+    }
+    let mut multiples: Vec<u32> = list.iter().map(|number| *number as u32).collect();
+    multiples.sort_unstable();
+    multiples.dedup();
+    if multiples.is_empty() {
+        root.log.report(&member.key_span, Fault::NoValues { name: "components".into() });
+        return None;
+    }
+    Some(multiples)
+}
+
+/// The reference channel; none where the key is not there.
+fn reference(root: &Object<'_>, channels: &[ChannelFile]) -> Option<Option<usize>> {
+    let Some(member) = root.get("reference") else { return Some(None) };
+    let name = root.text("reference")?;
+    let place = channels.iter().position(|file| file.channel.name == name);
+    if place.is_none() {
+        let known = channels.iter().map(|file| file.channel.name.as_str());
+        let reason = match nearest(name, known) {
+            Some(near) => format!("there is no channel `{name}`; did you mean `{near}`?"),
+            None => format!("there is no channel `{name}`"),
+        };
+        root.log.report(&member.value.span, Fault::Recipe { reason });
+    }
+    place.map(Some)
+}
+
+/// Steps that need a reference have one, and it is another channel.
+fn check_references(log: &Log, channels: &[ChannelFile], reference: Option<usize>) {
+    for (number, file) in channels.iter().enumerate() {
+        for (step, place) in file.channel.steps.iter().zip(&file.step_places) {
+            let reason = match reference {
+                _ if !step.needs_reference() => continue,
+                None => format!("the step `{}` needs a `reference`", step.name()),
+                Some(reference) if reference == number => format!(
+                    "the step `{}` compares a channel with the reference; this is the reference",
+                    step.name()
+                ),
+                Some(_) => continue,
+            };
+            log.report(place, Fault::Recipe { reason });
+        }
+    }
+}
+
+/// A name of a channel, recording or condition.
+fn check_name(log: &Log, name: &str, place: &Range<usize>) {
+    if let Err(error) = formula::check_name(name) {
+        let (name, reason) = (name.to_owned(), error.to_string());
+        log.report(place, Fault::BadName { name, reason });
+    }
+}
+
+impl RecipeFile {
+    /// Reads the recordings of a row through, and checks every sample.
+    ///
+    /// # Errors
+    /// The first mistake of each recording, with line or sample and channel.
+    pub fn open(&self, row: usize) -> Result<OpenedRow, Problems> {
+        let log = Log::new(self.source.clone());
+        let mut opened = OpenedRow {
+            settings: self.settings.clone(),
+            tracks: Vec::new(),
+            digests: Vec::new(),
+            warnings: Vec::new(),
+            of: Vec::new(),
+        };
+        let Some(of_row) = self.rows.get(row) else { return Ok(opened) };
+        for (number, file) in self.recordings.iter().enumerate() {
+            let (Some((name, place)), Some([from, to])) =
+                (of_row.files.get(number), of_row.parts.get(number))
+            else {
+                continue;
+            };
+            let channels: Vec<usize> = (0..self.channels.len())
+                .filter(|c| self.channels[*c].recording == number)
+                .collect();
+            if channels.is_empty() {
+                continue;
+            }
+            let of = |channel: &usize| self.channels[*channel].wanted();
+            let slowest = of_row.frequencies.iter().filter_map(|f| f.hertz).min_by(f64::total_cmp);
+            let reading =
+                file.reading(name, channels.iter().map(of).collect(), slowest, *from, *to);
+            match recording::open(reading) {
+                Ok(recording) => {
+                    for channel in &channels {
+                        let gain = self.channels[*channel].gain;
+                        let of = &mut opened.settings.channels[*channel];
+                        // values of an integer format are steps of 1 unless the recipe knows better
+                        if recording.whole && of.resolution == 0.0 {
+                            of.resolution = gain.abs();
+                        }
+                    }
+                    opened.warnings.extend(recording.warnings.iter().cloned());
+                    opened.digests.push((name.clone(), recording.digest.clone()));
+                    let base = TimeBase {
+                        rate: recording.rate,
+                        start: recording.start,
+                        jitter: file.jitter,
+                        beside_frequency: None,
+                    };
+                    let search = self.searches.get(number).copied().flatten();
+                    opened.tracks.push(Track { passes: recording, base, channels, search });
+                    opened.of.push(number);
+                }
+                Err(reason) => {
+                    let reason = format!("`{name}`: {reason}");
+                    log.report(place, Fault::Recording { reason });
+                }
+            }
+        }
+        if log.is_clean() { Ok(opened) } else { Err(log.into_problems()) }
+    }
+
+    /// Why a row has no observation, as a mistake with its place.
+    pub fn refusal(&self, row: usize, refused: &Refused<String>) -> Problems {
+        let log = Log::new(self.source.clone());
+        let of_row = self.rows.get(row);
+        let file = |channel: usize| {
+            let recording = self.channels.get(channel).map_or(0, |file| file.recording);
+            of_row.and_then(|of| of.files.get(recording)).map_or("", |(name, _)| name.as_str())
+        };
+        let name =
+            |channel: usize| self.channels.get(channel).map_or("", |of| of.channel.name.as_str());
+        let place = |channel: usize| format!("`{}`, channel `{}`", file(channel), name(channel));
+        let own = self.channels.get(refused_channel(refused));
+        let mut span = of_row.map_or(0..0, |of| of.frequency_place.clone());
+        // products and quotients of what the recipe says: without the rounding of the last digits
+        let shortest = |value: f64| {
+            gumption_engine::number::Shortest(format!("{value:.11e}").parse().unwrap_or(value))
+        };
+        let reason = match refused {
+            Refused::Unreadable(reason) => reason.clone(),
+            Refused::AboveNyquist { channel, hertz, rate } => format!(
+                "{}: a component at {} Hz is not below half the sampling rate of {} Hz",
+                place(*channel),
+                shortest(*hertz),
+                shortest(*rate)
+            ),
+            Refused::LessThanOnePeriod { channel, hertz, periods } => format!(
+                "{}: the recording has {periods:.3} periods of {} Hz; one at least is needed",
+                place(*channel),
+                shortest(*hertz)
+            ),
+            Refused::NotApart { channel, samples } => format!(
+                "{}: {samples} samples are too few, or too short a time, to tell the frequencies and \
+                 their multiples apart",
+                place(*channel)
+            ),
+            Refused::NotFound { channel } => format!(
+                "{}: there is no oscillation whose frequency could be estimated",
+                place(*channel)
+            ),
+            Refused::Step { channel, step, reason } => {
+                if let Some(of) = own.and_then(|of| of.step_places.get(*step)) {
+                    span = of.clone();
+                }
+                format!("{}: {reason}", place(*channel))
+            }
+            Refused::Rate { channel, reason } => {
+                let recording = own.and_then(|of| self.recordings.get(of.recording));
+                if let Some(search) = recording.and_then(|of| of.search.as_ref()) {
+                    span = search.place.clone();
+                }
+                format!("{}: {reason}", place(*channel))
+            }
+            Refused::TooLong { channel, samples } => {
+                if let Some(of) = own {
+                    span = of.place.clone();
+                }
+                format!(
+                    "{}: {samples} samples are more than the {} that are held in memory for steps and \
+                     for the method `fft`; take a part with `from` and `to`",
+                    place(*channel),
+                    gumption_signal::MOST_HELD
+                )
+            }
+        };
+        log.report(&span, Fault::Recording { reason });
+        log.into_problems()
+    }
+}
+
+fn refused_channel<E>(refused: &Refused<E>) -> usize {
+    match refused {
+        Refused::Unreadable(_) => 0,
+        Refused::AboveNyquist { channel, .. }
+        | Refused::LessThanOnePeriod { channel, .. }
+        | Refused::NotApart { channel, .. }
+        | Refused::NotFound { channel }
+        | Refused::Step { channel, .. }
+        | Refused::Rate { channel, .. }
+        | Refused::TooLong { channel, .. } => *channel,
+    }
+}

@@ -1,0 +1,118 @@
+//! A value with its unit and, perhaps, its standard uncertainty.
+
+use super::super::Fault;
+use super::super::json::{Json, Member};
+use super::super::object::Object;
+use gumption_units::Unit;
+
+/// The keys of a quantity.
+pub(super) const KEYS: [&str; 3] = ["value", "unit", "standard_uncertainty"];
+
+/// A value and its standard uncertainty, with the unit that they are in.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Quantity {
+    pub(super) value: f64,
+    pub(super) standard_uncertainty: f64,
+    pub(super) unit: Unit,
+}
+
+impl Quantity {
+    /// In coherent SI units.
+    pub(super) fn si(&self) -> f64 {
+        self.unit.to_si(self.value)
+    }
+
+    /// The standard uncertainty in coherent SI units.
+    pub(super) fn si_uncertainty(&self) -> f64 {
+        self.unit.to_si(self.standard_uncertainty)
+    }
+}
+
+/// The quantity at `key`, a number in `default` or an object. Nothing where the key is not there or
+/// after a mistake.
+pub(super) fn quantity(object: &Object<'_>, key: &'static str, default: &str) -> Option<Quantity> {
+    let member = object.get(key)?;
+    let quantity = of_member(object, member, default)?;
+    let expected = Unit::parse(default).unwrap_or_default();
+    same_dimension(object, member, &quantity.unit, &expected).then_some(quantity)
+}
+
+/// The quantity of a member, of any dimension.
+pub(super) fn of_member(object: &Object<'_>, member: &Member, default: &str) -> Option<Quantity> {
+    if let Some(value) = member.value.number() {
+        let unit = Unit::parse(default).unwrap_or_default();
+        return Some(Quantity { value, standard_uncertainty: 0.0, unit });
+    }
+    if !matches!(member.value.value, Json::Object(_)) {
+        let what = format!("`{}`", member.key);
+        let expected = "a number, or an object with `value` and `unit`";
+        let fault = Fault::WrongType { what, found: member.value.value.kind(), expected };
+        object.log.report(&member.value.span, fault);
+        return None;
+    }
+    let inner = Object::new(object.log, "a quantity", &member.value, &member.key_span)?;
+    inner.check_keys(&KEYS);
+    of_object(&inner, default)
+}
+
+/// The quantity that an object is, whose keys were checked.
+pub(super) fn of_object(inner: &Object<'_>, default: &str) -> Option<Quantity> {
+    inner.required("value")?;
+    let value = inner.number("value")?;
+    let unit = unit(inner, "unit", default)?;
+    let standard_uncertainty = uncertainty(inner)?;
+    Some(Quantity { value, standard_uncertainty, unit })
+}
+
+/// `standard_uncertainty`, zero where it is not there.
+pub(super) fn uncertainty(inner: &Object<'_>) -> Option<f64> {
+    let Some(member) = inner.get("standard_uncertainty") else { return Some(0.0) };
+    let found = inner.number("standard_uncertainty")?;
+    if found >= 0.0 {
+        return Some(found);
+    }
+    let key = "standard_uncertainty".to_owned();
+    inner.log.report(&member.value.span, Fault::OutOfRange { key, found, range: "0 or above" });
+    None
+}
+
+/// The unit at `key`.
+pub(super) fn unit(object: &Object<'_>, key: &'static str, default: &str) -> Option<Unit> {
+    let Some(member) = object.get(key) else { return Unit::parse(default).ok() };
+    let text = object.text(key)?;
+    let parsed = Unit::parse(text);
+    let fault = |error| Fault::Unit { unit: text.to_owned(), error };
+    object.log.value(&member.value.span, parsed.map_err(fault))
+}
+
+/// Whether a unit has the dimension that is expected; a mistake where it has not.
+pub(super) fn same_dimension(
+    object: &Object<'_>,
+    member: &Member,
+    found: &Unit,
+    expected: &Unit,
+) -> bool {
+    let same = found.is_compatible(expected);
+    if !same {
+        let fault = Fault::WrongDimension {
+            name: member.key.clone(),
+            found: found.text().to_owned(),
+            found_as: found.dimension().describe(),
+            expected: expected.text().to_owned(),
+            expected_as: expected.dimension().describe(),
+        };
+        object.log.report(&member.value.span, fault);
+    }
+    same
+}
+
+/// A number above zero at `key`, already read.
+pub(super) fn positive(object: &Object<'_>, key: &'static str, quantity: &Quantity) -> bool {
+    let found = quantity.value;
+    if found <= 0.0
+        && let Some(member) = object.get(key)
+    {
+        object.log.report(&member.value.span, Fault::NotPositive { key: key.into(), found });
+    }
+    found > 0.0
+}

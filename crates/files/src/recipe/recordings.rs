@@ -1,0 +1,228 @@
+//! The recordings of a recipe.
+
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+use super::super::Fault;
+use super::super::json::{Json, Member};
+use super::super::object::Object;
+use super::super::problem::Log;
+use super::super::recording::{ColumnName, Conversion, Reading, Wanted};
+use super::channels::{ChannelFile, column};
+use super::check_name;
+use super::quantity::{positive, quantity, unit};
+use gumption_signal::{Measured, Search};
+
+/// The keys of a recording.
+pub(super) const KEYS: [&str; 7] =
+    ["file", "sampling_rate", "time", "time_unit", "jitter", "from", "to"];
+
+/// The keys of a search for the sampling rate.
+const SEARCH: [&str; 5] = ["channel", "frequency", "from", "to", "step"];
+
+/// The search for a sampling rate, as the recipe describes it.
+#[derive(Clone, Debug)]
+pub(super) struct SearchFile {
+    channel: String,
+    /// Where it is named.
+    pub(super) place: Range<usize>,
+    frequency: Option<Measured>,
+    between: [f64; 2],
+    step: f64,
+}
+
+/// A recording, as the recipe describes it.
+#[derive(Clone, Debug)]
+pub(super) struct RecordingFile {
+    pub(super) name: String,
+    pub(super) place: Range<usize>,
+    /// The file and where it is named, where it is the same for all rows.
+    pub(super) file: Option<(String, Range<usize>)>,
+    pub(super) from: Option<f64>,
+    pub(super) to: Option<f64>,
+    /// The rms deviation of instants, in seconds.
+    pub(super) jitter: f64,
+    folder: PathBuf,
+    /// How the sampling rate is found, where it is.
+    pub(super) search: Option<SearchFile>,
+    rate: Option<Measured>,
+    time: Option<(ColumnName, f64)>,
+}
+
+pub(super) fn read(root: &Object<'_>, folder: &Path) -> Option<Vec<RecordingFile>> {
+    let member = root.required("recordings")?;
+    let object = Object::new(root.log, "`recordings`", &member.value, &member.key_span)?;
+    let mut recordings = Vec::new();
+    for member in object.members() {
+        check_name(root.log, &member.key, &member.key_span);
+        let Some(of) = Object::new(root.log, "a recording", &member.value, &member.key_span) else {
+            continue;
+        };
+        of.check_keys(&KEYS);
+        let search = search(&of);
+        let found = search.as_ref().map(|of| Measured {
+            value: f64::midpoint(of.between[0], of.between[1]),
+            standard_uncertainty: 0.0,
+            degrees_of_freedom: f64::INFINITY,
+        });
+        let rate =
+            if searched(&of).is_some() { None } else { quantity(&of, "sampling_rate", "Hz") };
+        let rate = rate.filter(|rate| positive(&of, "sampling_rate", rate)).map(|rate| Measured {
+            value: rate.si(),
+            standard_uncertainty: rate.si_uncertainty(),
+            degrees_of_freedom: f64::INFINITY,
+        });
+        let seconds = |key| quantity(&of, key, "s").map(|quantity| quantity.si());
+        let jitter = quantity(&of, "jitter", "s")
+            .filter(|jitter| jitter.value == 0.0 || positive(&of, "jitter", jitter));
+        let unit = unit(&of, "time_unit", "s");
+        if let (Some(unit), Some(member)) = (&unit, of.get("time_unit")) {
+            let second = gumption_units::Unit::parse("s").unwrap_or_default();
+            super::quantity::same_dimension(&of, member, unit, &second);
+            if of.get("time").is_none() {
+                let fault = Fault::OnlyWith { key: "time_unit", with: "time" };
+                root.log.report(&member.key_span, fault);
+            }
+        }
+        let time = of.get("time").and_then(|member| column(root.log, member));
+        let (from, to) = (seconds("from"), seconds("to"));
+        check_part(&of, from, to);
+        recordings.push(RecordingFile {
+            name: member.key.clone(),
+            place: member.key_span.clone(),
+            file: of
+                .text("file")
+                .zip(of.get("file").map(|m| m.value.span.clone()))
+                .map(|(name, place)| (name.to_owned(), place)),
+            from,
+            to,
+            jitter: jitter.map_or(0.0, |jitter| jitter.si()),
+            folder: folder.to_owned(),
+            rate: rate.or(found),
+            search,
+            time: time.zip(unit.map(|unit| unit.factor())),
+        });
+    }
+    if recordings.is_empty() && object.members().is_empty() {
+        root.log.report(&member.key_span, Fault::NoValues { name: "recordings".into() });
+    }
+    (recordings.len() == object.members().len()).then_some(recordings)
+}
+
+/// The search within `sampling_rate`, if there is one.
+fn searched<'a>(of: &Object<'a>) -> Option<(&'a Member, &'a [Member])> {
+    match &of.get("sampling_rate")?.value.value {
+        Json::Object(members) => {
+            members.iter().find(|member| member.key == "search").map(|m| (m, &members[..]))
+        }
+        _ => None,
+    }
+}
+
+fn search(of: &Object<'_>) -> Option<SearchFile> {
+    let (member, all) = searched(of)?;
+    if let Some(other) = all.iter().find(|other| other.key != "search") {
+        let fault = Fault::UnknownKey {
+            key: other.key.clone(),
+            what: "a sampling rate that is searched",
+            nearest: None,
+            known: vec!["search"],
+        };
+        of.log.report(&other.key_span, fault);
+    }
+    let of = Object::new(of.log, "a search", &member.value, &member.key_span)?;
+    of.check_keys(&SEARCH);
+    let place = of.required("channel").map(|member| member.value.span.clone());
+    let channel = of.text("channel")?.to_owned();
+    let hertz = |key: &'static str| {
+        let found = quantity(&of, key, "Hz")?;
+        positive(&of, key, &found).then_some(found)
+    };
+    let frequency = match of.get("frequency") {
+        Some(_) => {
+            let found = hertz("frequency")?;
+            Some(Measured {
+                value: found.si(),
+                standard_uncertainty: found.si_uncertainty(),
+                degrees_of_freedom: f64::INFINITY,
+            })
+        }
+        None => None,
+    };
+    let step = if of.get("step").is_some() { hertz("step")?.si() } else { 1.0 };
+    of.required("from")?;
+    of.required("to")?;
+    let (from, to) = (hertz("from")?.si(), hertz("to")?.si());
+    if to <= from {
+        let reason = format!(
+            "`to` is {} Hz, but must be above `from`, {} Hz",
+            gumption_engine::number::Shortest(to),
+            gumption_engine::number::Shortest(from)
+        );
+        of.log.report(&of.get("to")?.value.span, Fault::Recipe { reason });
+        return None;
+    }
+    Some(SearchFile { channel, place: place?, frequency, between: [from, to], step })
+}
+
+impl SearchFile {
+    /// The search, in one of the channels of its recording.
+    pub(super) fn resolved(
+        &self,
+        log: &Log,
+        recording: usize,
+        channels: &[ChannelFile],
+    ) -> Option<Search> {
+        let at =
+            |file: &ChannelFile| file.channel.name == self.channel && file.recording == recording;
+        let channel = channels.iter().position(at);
+        if channel.is_none() {
+            let reason = format!("this recording has no channel `{}`", self.channel);
+            log.report(&self.place, Fault::Recipe { reason });
+        }
+        Some(Search {
+            channel: channel?,
+            frequency: self.frequency,
+            between: self.between,
+            step: self.step,
+        })
+    }
+}
+
+/// The part that is used must have a length.
+pub(super) fn check_part(object: &Object<'_>, from: Option<f64>, to: Option<f64>) {
+    if let (Some(from), Some(to)) = (from, to)
+        && to <= from
+        && let Some(member) = object.get("to")
+    {
+        let found = gumption_engine::number::Shortest(to);
+        let reason = format!(
+            "`to` is {found} s, but must be after `from`, {} s",
+            gumption_engine::number::Shortest(from)
+        );
+        object.log.report(&member.value.span, Fault::Recipe { reason });
+    }
+}
+
+impl RecordingFile {
+    /// How to read one of its files.
+    pub(super) fn reading(
+        &self,
+        name: &str,
+        channels: Vec<(Wanted, Conversion)>,
+        slowest: Option<f64>,
+        from: Option<f64>,
+        to: Option<f64>,
+    ) -> Reading {
+        Reading {
+            path: self.folder.join(name),
+            name: name.to_owned(),
+            channels,
+            time: self.time.clone(),
+            rate: self.rate,
+            from,
+            to,
+            slowest,
+        }
+    }
+}

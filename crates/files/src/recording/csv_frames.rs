@@ -1,0 +1,199 @@
+//! Frames of a CSV file: `,` or `;` (then with decimal commas) or tabs, with or without a header,
+//! lines that begin with `#` skipped.
+
+use std::io::{self, BufRead, BufReader, Cursor, Read};
+
+use csv::{ByteRecord, Reader};
+
+use super::{BLOCK, ColumnName, Frames, Wanted, place};
+use crate::nearest;
+
+/// Longer cells are cut in messages.
+const LONGEST: usize = 40;
+
+type Whole<R> = io::Chain<Cursor<Vec<u8>>, BufReader<R>>;
+
+/// Frames of a text.
+pub(super) struct CsvFrames<R> {
+    reader: Reader<Whole<R>>,
+    record: ByteRecord,
+    /// Whether `record` holds a frame that was not given yet.
+    waiting: bool,
+    comma: bool,
+    cells: usize,
+    /// The place of each wanted column.
+    places: Vec<usize>,
+    wanted: Vec<Wanted>,
+    samples: u64,
+    /// Lines before the reader's first.
+    skipped: u64,
+}
+
+impl<R: Read> CsvFrames<R> {
+    pub(super) fn new(reader: R, wanted: Vec<Wanted>) -> Result<Self, String> {
+        let mut reader = BufReader::new(reader);
+        let mut line = Vec::new();
+        let mut skipped = 0;
+        // the first line that is no comment shows the separator
+        loop {
+            line.clear();
+            let limit = &mut reader.by_ref().take(1 << 20);
+            let count = limit.read_until(b'\n', &mut line).map_err(|e| e.to_string())?;
+            if count == 0 {
+                return Err("it is empty; a recording has a line for each sample".to_owned());
+            }
+            if line.starts_with(b"\xef\xbb\xbf") {
+                line.drain(..3);
+            }
+            let text = line.trim_ascii();
+            if !text.is_empty() && !text.starts_with(b"#") {
+                break;
+            }
+            skipped += 1;
+        }
+        if line.contains(&0) {
+            return Err("it is not a text; WAV and NumPy files end in `.wav` and `.npy`".to_owned());
+        }
+        let comma = line.contains(&b';');
+        let delimiter = match (comma, line.contains(&b'\t')) {
+            (true, _) => b';',
+            (false, true) => b'\t',
+            _ => b',',
+        };
+        let reader = csv::ReaderBuilder::new()
+            .delimiter(delimiter)
+            .has_headers(false)
+            .flexible(true)
+            .comment(Some(b'#'))
+            .buffer_capacity(1 << 18)
+            .from_reader(Cursor::new(line).chain(reader));
+        let mut frames = Self {
+            reader,
+            record: ByteRecord::new(),
+            waiting: false,
+            comma,
+            cells: 0,
+            places: Vec::new(),
+            wanted,
+            samples: 0,
+            skipped,
+        };
+        frames.begin()?;
+        Ok(frames)
+    }
+
+    /// Reads the header, or finds that there is none.
+    fn begin(&mut self) -> Result<(), String> {
+        self.next()?;
+        self.cells = self.record.len();
+        let header = self.record.iter().any(|cell| number(cell, self.comma).is_none());
+        let names: Vec<String> = self
+            .record
+            .iter()
+            .map(|cell| String::from_utf8_lossy(cell.trim_ascii()).into_owned())
+            .collect();
+        self.waiting = !header;
+        for wanted in &self.wanted {
+            let found = match &wanted.column {
+                ColumnName::Number(number) if *number <= self.cells => number - 1,
+                ColumnName::Number(number) => {
+                    return Err(format!("it has {} columns, so no column {number}", self.cells));
+                }
+                ColumnName::Name(name) if !header => {
+                    return Err(format!(
+                        "it has no header, so no column `{name}`; give the number of the column, from \
+                         1 to {}",
+                        self.cells
+                    ));
+                }
+                ColumnName::Name(name) => {
+                    let same: Vec<usize> =
+                        (0..names.len()).filter(|place| names[*place] == *name).collect();
+                    match same.as_slice() {
+                        [place] => *place,
+                        [] => {
+                            let near = nearest(name, names.iter().map(String::as_str));
+                            let hint = match near {
+                                Some(near) => format!("did you mean `{near}`?"),
+                                None => format!("its columns are {}", names.join(", ")),
+                            };
+                            return Err(format!("it has no column `{name}`; {hint}"));
+                        }
+                        _ => return Err(format!("its header has the name `{name}` twice")),
+                    }
+                }
+            };
+            self.places.push(found);
+        }
+        Ok(())
+    }
+
+    /// The next record; false at the end.
+    fn next(&mut self) -> Result<bool, String> {
+        self.reader.read_byte_record(&mut self.record).map_err(|error| error.to_string())
+    }
+
+    fn line(&self) -> u64 {
+        self.skipped + self.record.position().map_or(0, csv::Position::line)
+    }
+
+    fn frame(&mut self, columns: &mut [Vec<f64>]) -> Result<(), String> {
+        self.samples += 1;
+        if self.record.len() != self.cells {
+            return Err(format!(
+                "line {} (sample {}) has {} cells, but the lines before have {}",
+                self.line(),
+                self.samples,
+                self.record.len(),
+                self.cells
+            ));
+        }
+        for ((column, at), wanted) in columns.iter_mut().zip(&self.places).zip(&self.wanted) {
+            let cell = self.record.get(*at).unwrap_or(b"");
+            match number(cell, self.comma).filter(|value| value.is_finite()) {
+                Some(value) => column.push(value),
+                None => {
+                    let (line, place) = (self.line(), place(self.samples, &wanted.channel));
+                    let text = String::from_utf8_lossy(cell.trim_ascii()).into_owned();
+                    return Err(if text.is_empty() {
+                        format!("line {line} ({place}): the cell is empty; a value is missing")
+                    } else {
+                        let text: String = text.chars().take(LONGEST).collect();
+                        format!("line {line} ({place}): `{text}` is not a finite number")
+                    });
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+impl<R: Read> Frames for CsvFrames<R> {
+    fn read(&mut self, columns: &mut [Vec<f64>]) -> Result<(), String> {
+        for _ in 0..BLOCK {
+            if !self.waiting && !self.next()? {
+                break;
+            }
+            self.waiting = false;
+            // a line of blanks is none
+            if self.record.len() == 1
+                && self.record.get(0).is_some_and(|c| c.trim_ascii().is_empty())
+                && self.cells > 1
+            {
+                continue;
+            }
+            self.frame(columns)?;
+        }
+        Ok(())
+    }
+}
+
+/// The number in a cell.
+fn number(cell: &[u8], comma: bool) -> Option<f64> {
+    let text = std::str::from_utf8(cell).ok()?.trim();
+    if comma && text.contains(',') {
+        text.replace(',', ".").parse().ok()
+    } else {
+        text.parse().ok()
+    }
+}

@@ -1,0 +1,223 @@
+//! Recordings: CSV, WAV and NumPy files as streams of blocks, checked sample by sample.
+
+mod csv_frames;
+mod npy_frames;
+mod scan;
+mod wav_frames;
+
+use std::cell::RefCell;
+use std::fs::File;
+use std::io::{self, Read};
+use std::path::{Path, PathBuf};
+use std::rc::Rc;
+
+use sha2::{Digest, Sha256};
+
+use gumption_engine::task::Warning;
+use gumption_signal::{BLOCK, Each, Held, Measured, Passes, in_blocks};
+
+/// Values that are held in memory at most, over all channels of a recording (256 MiB); a longer
+/// recording is read again for each pass.
+const MOST_IN_MEMORY: u64 = 1 << 25;
+
+/// A column of a recording.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) enum ColumnName {
+    /// By its name in the header.
+    Name(String),
+    /// By its number, from 1.
+    Number(usize),
+}
+
+/// A column that is wanted, and the channel that it is for.
+#[derive(Clone, Debug)]
+pub(super) struct Wanted {
+    pub(super) column: ColumnName,
+    pub(super) channel: String,
+}
+
+/// What a channel's raw values become, and where they saturate.
+#[derive(Clone, Debug)]
+pub(super) struct Conversion {
+    /// The raw value that means zero.
+    pub(super) zero: f64,
+    /// Units of the channel for one raw unit.
+    pub(super) gain: f64,
+    /// The limits of raw values.
+    pub(super) range: Option<[f64; 2]>,
+}
+
+/// How a recording is to be read.
+#[derive(Clone, Debug)]
+pub(super) struct Reading {
+    pub(super) path: PathBuf,
+    /// The name in messages.
+    pub(super) name: String,
+    pub(super) channels: Vec<(Wanted, Conversion)>,
+    /// The column of instants, and how many seconds its unit is.
+    pub(super) time: Option<(ColumnName, f64)>,
+    /// The sampling rate in hertz that the recipe states.
+    pub(super) rate: Option<Measured>,
+    /// The part that is used, in seconds.
+    pub(super) from: Option<f64>,
+    pub(super) to: Option<f64>,
+    /// The lowest frequency of the recipe, in hertz.
+    pub(super) slowest: Option<f64>,
+}
+
+/// A recording that was read through once and found right.
+#[derive(Debug)]
+pub struct Recording {
+    reading: Reading,
+    /// The first frame that is used, and how many are.
+    first: u64,
+    frames: u64,
+    held: Option<Held>,
+    /// The sampling rate, in hertz.
+    pub(super) rate: Measured,
+    /// The instant of the first frame that is used, in seconds.
+    pub(super) start: f64,
+    /// SHA-256 of the file, in hexadecimal.
+    pub(super) digest: String,
+    /// The step of whole numbers, where the file holds those.
+    pub(super) whole: bool,
+    pub(super) warnings: Vec<Warning>,
+}
+
+/// A source of frames: raw values of the wanted columns, the column of instants last if there is one.
+trait Frames {
+    /// The sampling rate that the file states, in hertz.
+    fn rate(&self) -> Option<f64> {
+        None
+    }
+
+    /// Whether the values are whole numbers of an integer format.
+    fn whole(&self) -> bool {
+        false
+    }
+
+    /// Reads up to [`BLOCK`] frames into the columns, which are empty before; none at the end.
+    fn read(&mut self, columns: &mut [Vec<f64>]) -> Result<(), String>;
+}
+
+/// Reads a recording through, and checks it.
+///
+/// # Errors
+/// A sentence with line or sample, and channel.
+pub(super) fn open(reading: Reading) -> Result<Recording, String> {
+    scan::scan(reading)
+}
+
+impl Reading {
+    /// The columns to read.
+    fn wanted(&self) -> Vec<Wanted> {
+        let time = self
+            .time
+            .iter()
+            .map(|(column, _)| Wanted { column: column.clone(), channel: "the time".to_owned() });
+        self.channels.iter().map(|(wanted, _)| wanted.clone()).chain(time).collect()
+    }
+
+    fn frames<'r>(&self, reader: impl Read + 'r) -> Result<Box<dyn Frames + 'r>, String> {
+        let wanted = self.wanted();
+        let extension = self.path.extension().and_then(|e| e.to_str()).unwrap_or("");
+        match extension.to_ascii_lowercase().as_str() {
+            "wav" | "wave" => Ok(Box::new(wav_frames::WavFrames::new(reader, wanted)?)),
+            "npy" => Ok(Box::new(npy_frames::NpyFrames::new(reader, wanted)?)),
+            _ => Ok(Box::new(csv_frames::CsvFrames::new(reader, wanted)?)),
+        }
+    }
+}
+
+impl Passes for Recording {
+    type Error = String;
+
+    fn frames(&self) -> u64 {
+        self.frames
+    }
+
+    fn pass(&mut self, each: &mut Each<'_>) -> Result<(), String> {
+        if let Some(held) = &self.held {
+            in_blocks(&held.channels, each);
+            return Ok(());
+        }
+        let file = opened(&self.reading.path)?;
+        let mut frames = self.reading.frames(io::BufReader::with_capacity(1 << 20, file))?;
+        let count = self.reading.wanted().len();
+        let mut columns = vec![Vec::with_capacity(BLOCK); count];
+        let mut waiting: Vec<Vec<f64>> = vec![Vec::new(); self.reading.channels.len()];
+        let (mut at, mut given) = (0u64, 0u64);
+        loop {
+            columns.iter_mut().for_each(Vec::clear);
+            frames.read(&mut columns)?;
+            let length = columns.first().map_or(0, Vec::len) as u64;
+            let from = self.first.saturating_sub(at).min(length) as usize;
+            let to = (self.first + self.frames).saturating_sub(at).min(length) as usize;
+            for ((values, (_, conversion)), raw) in
+                waiting.iter_mut().zip(&self.reading.channels).zip(&columns)
+            {
+                let used = raw.get(from..to).unwrap_or(&[]);
+                values.extend(used.iter().map(|raw| conversion.of(*raw)));
+            }
+            at += length;
+            let done = length == 0 || at >= self.first + self.frames;
+            let ready = waiting.first().map_or(0, Vec::len);
+            let give = if done { ready } else { ready / BLOCK * BLOCK };
+            // blocks begin at the same frames as those of a recording in memory
+            for start in (0..give).step_by(BLOCK) {
+                let end = (start + BLOCK).min(give);
+                let block: Vec<&[f64]> =
+                    waiting.iter().map(|values| values.get(start..end).unwrap_or(&[])).collect();
+                each(given, &block);
+                given += (end - start) as u64;
+            }
+            waiting.iter_mut().for_each(|values| {
+                values.drain(..give);
+            });
+            if done {
+                return if given == self.frames {
+                    Ok(())
+                } else {
+                    Err("it became shorter while it was read".to_owned())
+                };
+            }
+        }
+    }
+}
+
+impl Conversion {
+    fn of(&self, raw: f64) -> f64 {
+        (raw - self.zero) * self.gain
+    }
+}
+
+fn opened(path: &Path) -> Result<File, String> {
+    let file = File::open(path).map_err(|error| error.to_string())?;
+    match file.metadata() {
+        Ok(data) if data.is_dir() => Err("it is a folder".to_owned()),
+        _ => Ok(file),
+    }
+}
+
+/// A reader that keeps the digest of what went through it.
+struct Digesting<R> {
+    inner: R,
+    digest: Rc<RefCell<Sha256>>,
+}
+
+impl<R: Read> Read for Digesting<R> {
+    fn read(&mut self, bytes: &mut [u8]) -> io::Result<usize> {
+        let count = self.inner.read(bytes)?;
+        self.digest.borrow_mut().update(bytes.get(..count).unwrap_or(&[]));
+        Ok(count)
+    }
+}
+
+/// "sample 12, channel `a`"; samples count from 1.
+fn place(sample: u64, channel: &str) -> String {
+    if channel == "the time" {
+        format!("sample {sample}, the time")
+    } else {
+        format!("sample {sample}, channel `{channel}`")
+    }
+}

@@ -1,0 +1,377 @@
+//! The first reading of a recording: is it whole, evenly spaced and not saturated?
+
+use std::cell::RefCell;
+use std::io::{self, BufReader, Read};
+use std::rc::Rc;
+
+use sha2::{Digest, Sha256};
+
+use super::{BLOCK, Digesting, Held, MOST_IN_MEMORY, Measured, Reading, Recording, opened, place};
+use gumption_engine::number::Shortest;
+use gumption_engine::task::Warning;
+
+/// Equal values at the highest or lowest value that make a channel suspect, at least.
+const LEAST_RUN: u64 = 5;
+
+/// Scatter of instants, relative to the interval, that is said.
+const SCATTER: f64 = 0.02;
+
+pub(super) fn scan(reading: Reading) -> Result<Recording, String> {
+    let digest = Rc::new(RefCell::new(Sha256::new()));
+    let file = Digesting { inner: opened(&reading.path)?, digest: digest.clone() };
+    let mut reader = BufReader::with_capacity(1 << 20, file);
+    let channels = reading.channels.len();
+    let (stated, whole, mut scanned) = {
+        let mut frames = reading.frames(&mut reader)?;
+        let stated = frames.rate();
+        let rate = reading.rate.map(|rate| rate.value).or(stated);
+        if rate.is_none() && reading.time.is_none() {
+            return Err("its sampling rate is not known; state `sampling_rate`, or name the \
+                        column of instants in `time`"
+                .to_owned());
+        }
+        let mut scanned = Scanned::new(&reading, rate);
+        let mut columns = vec![Vec::with_capacity(BLOCK); reading.wanted().len()];
+        loop {
+            columns.iter_mut().for_each(Vec::clear);
+            frames.read(&mut columns)?;
+            if columns.first().is_none_or(Vec::is_empty) {
+                break;
+            }
+            scanned.block(&columns)?;
+        }
+        (stated, frames.whole(), scanned)
+    };
+    // what stands behind the last frame belongs to the file too
+    io::copy(&mut reader.by_ref(), &mut io::sink()).map_err(|error| error.to_string())?;
+    if scanned.all == 0 {
+        return Err("it has no samples".to_owned());
+    }
+    if scanned.kept < 2 {
+        return Err(format!(
+            "of its {} samples {} lie between `from` and `to`; two at least are needed",
+            scanned.all, scanned.kept
+        ));
+    }
+    let rate = scanned.rate(stated);
+    let mut warnings = scanned.suspects(rate.value, channels);
+    if let Some(scatter) = scanned.clock.as_ref().map(Clock::scatter)
+        && scatter * rate.value > SCATTER
+    {
+        let text = format!(
+            "`{}`: the instants of the time column scatter by {:.2} % of the sampling interval (rms) \
+             about even spacing; if the samples really were taken then, state it as `jitter`",
+            reading.name,
+            scatter * rate.value * 100.0
+        );
+        warnings.push(Warning::new("uneven-instants", reading.name.clone(), text));
+    }
+    let start = match &scanned.clock {
+        Some(clock) => clock.first,
+        None => scanned.first as f64 / rate.value,
+    };
+    let held = scanned.held.take().map(|channels| Held { channels });
+    let (first, frames) = (scanned.first, scanned.kept);
+    let digest = digest.borrow().clone().finalize();
+    let digest = digest.iter().map(|byte| format!("{byte:02x}")).collect();
+    Ok(Recording { first, frames, held, rate, start, digest, whole, warnings, reading })
+}
+
+/// What was seen so far.
+struct Scanned<'r> {
+    reading: &'r Reading,
+    /// The sampling rate where it is not that of the instants.
+    known: Option<f64>,
+    all: u64,
+    first: u64,
+    kept: u64,
+    held: Option<Vec<Vec<f64>>>,
+    extremes: Vec<[Extreme; 2]>,
+    /// The smallest step between neighbours, and the value before, of each channel.
+    steps: Vec<(f64, f64)>,
+    beyond: Vec<u64>,
+    clock: Option<Clock>,
+}
+
+/// The highest or lowest value, the longest run of it, and where that begins.
+#[derive(Clone, Copy)]
+struct Extreme {
+    sign: f64,
+    value: f64,
+    run: u64,
+    longest: u64,
+    at: u64,
+}
+
+impl Extreme {
+    fn see(&mut self, value: f64, sample: u64) {
+        let value = self.sign * value;
+        if value > self.value {
+            *self = Self { value, run: 1, longest: 1, at: sample, ..*self };
+        } else if value == self.value {
+            self.run += 1;
+            if self.run > self.longest {
+                (self.longest, self.at) = (self.run, sample + 1 - self.run);
+            }
+        } else {
+            self.run = 0;
+        }
+    }
+}
+
+impl<'r> Scanned<'r> {
+    fn new(reading: &'r Reading, known: Option<f64>) -> Self {
+        let channels = reading.channels.len();
+        let extreme = |sign| Extreme { sign, value: f64::NEG_INFINITY, run: 0, longest: 0, at: 0 };
+        Self {
+            reading,
+            known,
+            all: 0,
+            first: 0,
+            kept: 0,
+            held: Some(vec![Vec::new(); channels]),
+            extremes: vec![[extreme(1.0), extreme(-1.0)]; channels],
+            steps: vec![(f64::INFINITY, f64::NAN); channels],
+            beyond: vec![0; channels],
+            clock: None,
+        }
+    }
+
+    fn block(&mut self, columns: &[Vec<f64>]) -> Result<(), String> {
+        let length = columns.first().map_or(0, Vec::len);
+        let mut used = 0..0;
+        for i in 0..length {
+            let sample = self.all + i as u64;
+            let instant = match (&self.reading.time, columns.last().and_then(|c| c.get(i))) {
+                (Some((_, unit)), Some(time)) => Some(time * unit),
+                _ => None,
+            };
+            let at = instant.or(self.known.map(|rate| sample as f64 / rate)).unwrap_or(0.0);
+            if self.reading.from.is_some_and(|from| at < from)
+                || self.reading.to.is_some_and(|to| at > to)
+            {
+                continue;
+            }
+            if let Some(instant) = instant {
+                match &mut self.clock {
+                    Some(clock) => clock.see(instant, sample)?,
+                    None => self.clock = Some(Clock::new(instant)),
+                }
+            }
+            if self.kept == 0 && used.is_empty() {
+                self.first = sample;
+            }
+            if used.is_empty() {
+                used = i..i;
+            }
+            used.end = i + 1;
+        }
+        for (channel, raw) in columns.iter().take(self.reading.channels.len()).enumerate() {
+            let values = raw.get(used.clone()).unwrap_or(&[]);
+            self.channel(channel, values, self.all + used.start as u64)?;
+        }
+        self.all += length as u64;
+        self.kept += used.len() as u64;
+        if self.kept * self.reading.channels.len() as u64 > MOST_IN_MEMORY {
+            self.held = None;
+        }
+        Ok(())
+    }
+
+    fn channel(&mut self, channel: usize, values: &[f64], first: u64) -> Result<(), String> {
+        let (wanted, conversion) = &self.reading.channels[channel];
+        let (least, before) = &mut self.steps[channel];
+        let beyond = &mut self.beyond[channel];
+        let [high, low] = &mut self.extremes[channel];
+        for (sample, value) in (first..).zip(values) {
+            if let Some([lower, upper]) = conversion.range {
+                *beyond = if *value <= lower || *value >= upper { *beyond + 1 } else { 0 };
+                if *beyond == 2 {
+                    return Err(format!(
+                        "{}: the channel is saturated: two values in a row at or beyond its range, {} \
+                         to {}",
+                        place(sample + 1, &wanted.channel),
+                        Shortest(lower),
+                        Shortest(upper)
+                    ));
+                }
+            }
+            high.see(*value, sample);
+            low.see(*value, sample);
+            let step = (value - *before).abs();
+            if step > 0.0 && step < *least {
+                *least = step;
+            }
+            *before = *value;
+        }
+        if let Some(held) = &mut self.held {
+            held[channel].extend(values.iter().map(|value| conversion.of(*value)));
+        }
+        Ok(())
+    }
+
+    /// The sampling rate: that of the recipe, else of the instants, else of the file.
+    fn rate(&self, stated: Option<f64>) -> Measured {
+        let exact = |value: f64| Measured {
+            value,
+            standard_uncertainty: 0.0,
+            degrees_of_freedom: f64::INFINITY,
+        };
+        match (self.reading.rate, &self.clock) {
+            (Some(rate), _) => rate,
+            (None, Some(clock)) => clock.rate(),
+            (None, None) => exact(stated.unwrap_or(f64::NAN)),
+        }
+    }
+
+    /// Channels that stay at their highest or lowest value for longer than a sine of the recipe's
+    /// lowest frequency and their resolution would.
+    fn suspects(&self, rate: f64, channels: usize) -> Vec<Warning> {
+        let mut warnings = Vec::new();
+        for channel in 0..channels {
+            let (wanted, _) = &self.reading.channels[channel];
+            let ends = &self.extremes[channel];
+            let amplitude = (ends[0].value + ends[1].value) / 2.0;
+            if amplitude <= 0.0 {
+                let text = format!(
+                    "`{}`, channel `{}`: all values are {}",
+                    self.reading.name,
+                    wanted.channel,
+                    Shortest(ends[0].value)
+                );
+                warnings.push(Warning::new("flat-channel", wanted.channel.clone(), text));
+                continue;
+            }
+            let Some(hertz) = self.reading.slowest else { continue };
+            let natural = (2.0 * self.steps[channel].0 / amplitude).sqrt()
+                / (std::f64::consts::PI * hertz)
+                * rate;
+            let suspect = ends
+                .iter()
+                .filter(|end| end.longest >= LEAST_RUN && end.longest as f64 > 3.0 * natural + 2.0)
+                .max_by_key(|end| end.longest);
+            if let Some(end) = suspect {
+                let text = format!(
+                    "`{}`, {}: {} values in a row are {}, the {} of the recording; the channel may be \
+                     saturated",
+                    self.reading.name,
+                    place(end.at + 1, &wanted.channel),
+                    end.longest,
+                    Shortest(end.sign * end.value),
+                    if end.sign > 0.0 { "highest" } else { "lowest" }
+                );
+                warnings.push(Warning::new("saturated", wanted.channel.clone(), text));
+            }
+        }
+        warnings
+    }
+}
+
+/// Instants of samples: in order, without jumps, and their straight line of least squares.
+struct Clock {
+    first: f64,
+    last: f64,
+    count: u64,
+    interval: f64,
+    /// Sums over samples of the deviation d from the first interval's line: i, i^2 are known.
+    sum: f64,
+    moment: f64,
+    squares: f64,
+}
+
+impl Clock {
+    fn new(first: f64) -> Self {
+        Self { first, last: first, count: 1, interval: 0.0, sum: 0.0, moment: 0.0, squares: 0.0 }
+    }
+
+    /// The next instant; `sample` counts from 0.
+    fn see(&mut self, instant: f64, sample: u64) -> Result<(), String> {
+        let step = instant - self.last;
+        if self.count == 1 {
+            self.interval = step;
+        }
+        let mean =
+            if self.count > 1 { (self.last - self.first) / (self.count - 1) as f64 } else { step };
+        let what = if step <= 0.0 {
+            "runs backwards"
+        } else if step > 1.5 * mean || step < 0.5 * mean {
+            "jumps"
+        } else {
+            let deviation = instant - self.first - self.interval * self.count as f64;
+            self.sum += deviation;
+            self.moment += deviation * self.count as f64;
+            self.squares += deviation * deviation;
+            self.last = instant;
+            self.count += 1;
+            return Ok(());
+        };
+        Err(format!(
+            "sample {}: the time {what}, from {} s to {} s, where steps of {:.6e} s are usual",
+            sample + 1,
+            Shortest(self.last),
+            Shortest(instant),
+            mean.abs()
+        ))
+    }
+
+    /// Slope of the deviations, and their scatter about the line, in seconds.
+    fn line(&self) -> (f64, f64) {
+        let n = self.count as f64;
+        let middle = (n - 1.0) / 2.0;
+        let spread = n * (n * n - 1.0) / 12.0;
+        let slope = (self.moment - middle * self.sum) / spread;
+        let left = self.squares - self.sum * self.sum / n - slope * slope * spread;
+        let scatter = if n > 2.0 { (left.max(0.0) / (n - 2.0)).sqrt() } else { 0.0 };
+        (slope, scatter)
+    }
+
+    fn scatter(&self) -> f64 {
+        self.line().1
+    }
+
+    fn rate(&self) -> Measured {
+        let (slope, scatter) = self.line();
+        let n = self.count as f64;
+        let interval = self.interval + slope;
+        let of_interval = scatter * (12.0 / (n * (n * n - 1.0))).sqrt();
+        Measured {
+            value: 1.0 / interval,
+            standard_uncertainty: of_interval / (interval * interval),
+            degrees_of_freedom: (n - 2.0).max(1.0),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn instants_give_the_rate_and_its_uncertainty() {
+        let mut clock = Clock::new(10.0);
+        // an interval of 1/1612 s, printed with 5 decimals: rounding of 10 us
+        for i in 1..20_000u32 {
+            let instant = 10.0 + f64::from(i) / 1612.0;
+            clock.see((instant * 1e5).round() / 1e5, u64::from(i)).unwrap();
+        }
+        let rate = clock.rate();
+        assert!((rate.value - 1612.0).abs() < 3.0 * rate.standard_uncertainty, "{rate:?}");
+        // 10 us/sqrt(12); rounding errors of a line are spread evenly
+        assert!((clock.scatter() / (1e-5 / 12f64.sqrt()) - 1.0).abs() < 0.02);
+    }
+
+    #[test]
+    fn jumps_and_steps_back_are_named() {
+        let after = |instant: f64| {
+            let mut clock = Clock::new(0.0);
+            for i in 1..5u32 {
+                clock.see(f64::from(i) * 0.1, u64::from(i)).unwrap();
+            }
+            clock.see(instant, 5)
+        };
+        assert!(after(0.5).is_ok());
+        assert!(after(0.6).unwrap_err().contains("sample 6: the time jumps"));
+        assert!(after(0.3).unwrap_err().contains("runs backwards"));
+        assert!(after(0.42).unwrap_err().contains("jumps"));
+    }
+}

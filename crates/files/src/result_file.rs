@@ -1,0 +1,491 @@
+//! Result files: what `gumption run --save` writes, read and checked.
+
+use std::sync::Arc;
+
+use sha2::{Digest, Sha256};
+
+use super::Fault;
+use super::conditions::unit;
+use super::json::{self, Json, Node};
+use super::object::Object;
+use super::problem::{Log, Problems};
+use super::source::Source;
+use gumption_engine::distribution::{
+    Constant, Distribution, Origin, Root, RootCorrelation, RootName, Saved, SavedResult, Scores,
+};
+use gumption_units::Unit;
+
+/// At most so many quantiles of an output.
+const MOST_QUANTILES: u64 = 1_000_001;
+
+/// At most so many ranks of an output.
+const MOST_RANKS: usize = 1_000_000;
+
+/// At most so many trials behind a result.
+const MOST_TRIALS: u64 = 1_000_000_000_000;
+
+/// A result file that was read and found right.
+#[derive(Clone, Debug)]
+pub struct ResultFile {
+    /// The title of the model that was evaluated.
+    pub title: String,
+    /// The coverage probability of its intervals; `None` if the file does not say.
+    pub coverage_probability: Option<f64>,
+    /// The outputs, in order.
+    pub outputs: Vec<SavedOutput>,
+    /// The inputs that the outputs go back to.
+    pub inputs: Vec<Root>,
+    /// Correlation coefficients between inputs.
+    pub input_correlations: Vec<RootCorrelation>,
+    /// SHA-256 of the model file that was evaluated, in hexadecimal.
+    pub model: Arc<str>,
+    /// The file's text.
+    pub source: Arc<Source>,
+}
+
+/// An output of a result file.
+#[derive(Clone, Debug)]
+pub struct SavedOutput {
+    /// Its name.
+    pub name: String,
+    /// Its unit.
+    pub unit: Unit,
+    /// What is known of it: a saved result, or a constant.
+    pub distribution: Distribution,
+    /// The coverage factor k of its expanded uncertainty; `None` where that is not defined.
+    pub coverage_factor: Option<f64>,
+    /// Sensitivity coefficients to the file's inputs, in output unit per input unit; `None` where
+    /// they are not finite.
+    pub sensitivities: Option<Vec<f64>>,
+}
+
+fn sha256(bytes: &[u8]) -> String {
+    Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
+/// Reads and checks the text of a result file; `name` is used in messages.
+///
+/// # Errors
+/// All mistakes of the text, in the order of their places.
+pub fn read_result(name: &str, text: &str) -> Result<ResultFile, Problems> {
+    let source = Source::new(name, text);
+    let log = Log::new(source.clone());
+    // results are told apart by their content
+    let hash = sha256(text.as_bytes());
+    let result = match json::parse(&source) {
+        Ok(node) => {
+            let whole = 0..source.text.find('\n').unwrap_or(source.text.len());
+            Object::new(&log, "a result file", &node, &whole)
+                .and_then(|root| Reader { log: &log, root, hash: &hash }.read())
+        }
+        Err((span, fault)) => {
+            log.report(&span, fault);
+            None
+        }
+    };
+    match result {
+        Some(result) if log.is_clean() => Ok(result),
+        _ => Err(log.into_problems()),
+    }
+}
+
+struct Reader<'a> {
+    log: &'a Log,
+    root: Object<'a>,
+    hash: &'a str,
+}
+
+/// The whole file's part of an origin.
+struct Common {
+    scores: Scores,
+    roots: Vec<Root>,
+    correlations: Arc<[RootCorrelation]>,
+    siblings: Vec<(String, String, f64)>,
+    model: Arc<str>,
+}
+
+impl<'a> Reader<'a> {
+    fn read(&self) -> Option<ResultFile> {
+        let root = &self.root;
+        if root.truth("result") != Some(true) {
+            if self.log.is_clean() {
+                let file = self.log.source.name.clone();
+                let place = root.get("result").map_or(root.place(), |member| &member.value.span);
+                self.log.report(place, Fault::NotResult { file });
+            }
+            return None;
+        }
+        let format = root.needed("format")?;
+        if format.value.number() != Some(1.0) {
+            let found = match &format.value.value {
+                Json::Number(text) | Json::Text(text) => text.clone(),
+                other => other.kind().to_owned(),
+            };
+            self.log.report(&format.value.span, Fault::UnknownFormat { found });
+            return None;
+        }
+        let member = root.needed("outputs")?;
+        root.text("gumption");
+        let title = root.text("title").unwrap_or("").to_owned();
+        let coverage_probability = self.coverage_probability();
+        let common = self.common()?;
+        let object = Object::new(self.log, "`outputs`", &member.value, &member.key_span)?;
+        self.check_ranks(&object);
+        let found: Vec<SavedOutput> = object
+            .members()
+            .iter()
+            .filter_map(|member| {
+                let what = "an output of a result file";
+                let object = Object::new(self.log, what, &member.value, &member.key_span)?;
+                self.output(&member.key, &object, &common)
+            })
+            .collect();
+        self.log.is_clean().then(|| ResultFile {
+            title,
+            coverage_probability,
+            outputs: found,
+            inputs: common.roots,
+            input_correlations: common.correlations.to_vec(),
+            model: common.model,
+            source: self.log.source.clone(),
+        })
+    }
+
+    /// Whether all outputs that have ranks have as many.
+    fn check_ranks(&self, outputs: &Object<'a>) {
+        let mut first = None;
+        for member in outputs.members() {
+            let Json::Object(members) = &member.value.value else {
+                continue;
+            };
+            let Some(ranks) = members.iter().find(|member| member.key == "ranks") else {
+                continue;
+            };
+            if let Json::List(list) = &ranks.value.value
+                && *first.get_or_insert(list.len()) != list.len()
+            {
+                let reason = "all outputs of a file have as many ranks, those of the same trials";
+                self.log.report(&ranks.value.span, Fault::SavedEntry { reason });
+            }
+        }
+    }
+
+    /// The ranks of an output: each whole number from 1 to their count once, here counted from 0.
+    fn ranks(&self, object: &Object<'a>) -> Option<Arc<[u32]>> {
+        let member = object.get("ranks")?;
+        let list = object.numbers("ranks")?;
+        let mut seen = vec![false; list.len()];
+        let ranks = list.iter().map(|&rank| {
+            let place = rank - 1.0;
+            let fits = rank.fract() == 0.0 && place >= 0.0 && place < list.len() as f64;
+            let seen = seen.get_mut(place as usize).filter(|_| fits)?;
+            (!std::mem::replace(seen, true)).then_some(place as u32)
+        });
+        let ranks: Option<Vec<u32>> = ranks.collect();
+        if ranks.is_none() || list.len() < 2 || list.len() > MOST_RANKS {
+            let reason = "ranks are each whole number from 1 to their count once, two to a million";
+            self.log.report(&member.value.span, Fault::SavedEntry { reason });
+            return None;
+        }
+        ranks.map(Arc::from)
+    }
+
+    fn coverage_probability(&self) -> Option<f64> {
+        let key = "coverage_probability";
+        let found = self.root.number(key)?;
+        if found <= 0.0 || found >= 1.0 {
+            let place = self.root.get(key).map_or(self.root.place(), |member| &member.value.span);
+            self.log.report(place, Fault::NotProbability { key: key.to_owned(), found });
+        }
+        Some(found)
+    }
+
+    fn common(&self) -> Option<Common> {
+        let root = &self.root;
+        let origin = root.needed("provenance")?;
+        let origin = Object::new(self.log, "`provenance`", &origin.value, &origin.key_span)?;
+        origin.needed("model_sha256")?;
+        let model: Arc<str> = origin.text("model_sha256")?.into();
+        origin.whole("seed", 0, u64::MAX);
+        origin.whole("trials", 0, MOST_TRIALS);
+        if let Some(files) = origin.get("files") {
+            let files = Object::new(self.log, "`files`", &files.value, &files.key_span)?;
+            for member in files.members() {
+                files.text(&member.key);
+            }
+        }
+        let scores = root.needed("scores")?;
+        let scores = Object::new(self.log, "`scores`", &scores.value, &scores.key_span)?;
+        for key in ["from", "step", "count"] {
+            scores.needed(key);
+        }
+        let step = scores.number("step");
+        if let (Some(step), Some(member)) = (step.filter(|s| *s <= 0.0), scores.get("step")) {
+            let fault = Fault::NotPositive { key: "step".into(), found: step };
+            self.log.report(&member.value.span, fault);
+        }
+        let count = scores.whole("count", 2, MOST_QUANTILES);
+        let from = scores.number("from");
+        let roots = self.roots();
+        let (from, step, count, roots) = (from?, step?, count?, roots?);
+        Some(Common {
+            scores: Scores { from, step, count: count as usize },
+            correlations: self.root_correlations(&roots).into(),
+            siblings: self.siblings(),
+            roots,
+            model,
+        })
+    }
+
+    fn roots(&self) -> Option<Vec<Root>> {
+        self.root.needed("inputs")?;
+        let list = self.root.list("inputs")?;
+        let mut roots = Vec::with_capacity(list.len());
+        for node in list {
+            let object = Object::new(self.log, "an input of a result file", node, &node.span)?;
+            for key in ["model_sha256", "name", "estimate", "standard_uncertainty"] {
+                object.needed(key);
+            }
+            let name = RootName {
+                model: object.text("model_sha256")?.into(),
+                name: object.text("name")?.into(),
+            };
+            roots.push(Root {
+                name,
+                unit: object.text("unit").unwrap_or("").to_owned(),
+                distribution: object.text("distribution").unwrap_or("").to_owned(),
+                estimate: object.number("estimate")?,
+                standard_uncertainty: positive(&object, "standard_uncertainty")?,
+                standard_deviation: or_infinite(&object, "standard_deviation"),
+                dof: or_infinite(&object, "dof"),
+            });
+        }
+        Some(roots)
+    }
+
+    /// `[[i, j, r], …]` of places in `inputs`, counted from 0.
+    fn root_correlations(&self, roots: &[Root]) -> Vec<RootCorrelation> {
+        let list = self.root.list("input_correlations").unwrap_or_default();
+        let mut found = Vec::new();
+        for node in list {
+            let numbers: Option<Vec<f64>> = match &node.value {
+                Json::List(items) => items.iter().map(Node::number).collect(),
+                _ => None,
+            };
+            let place = |x: f64| {
+                let known = x.fract() == 0.0 && x >= 0.0 && x < roots.len() as f64;
+                known.then(|| roots[x as usize].name.clone())
+            };
+            let entry = numbers.as_deref().and_then(|numbers| match *numbers {
+                [i, j, coefficient] if (-1.0..=1.0).contains(&coefficient) && i != j => {
+                    Some(RootCorrelation { first: place(i)?, second: place(j)?, coefficient })
+                }
+                _ => None,
+            });
+            if entry.is_none() {
+                let reason = "two places in `inputs`, counted from 0, and a coefficient from -1 \
+                              to 1 are needed here";
+                self.log.report(&node.span, Fault::SavedEntry { reason });
+            }
+            found.extend(entry);
+        }
+        found
+    }
+
+    /// `[["a", "b", r], …]`; a coefficient that does not exist is null.
+    fn siblings(&self) -> Vec<(String, String, f64)> {
+        let list = self.root.list("output_correlations").unwrap_or_default();
+        let mut found = Vec::new();
+        for node in list {
+            let entry = match &node.value {
+                Json::List(items) => match items.as_slice() {
+                    [first, second, r] => match (&first.value, &second.value, &r.value) {
+                        (Json::Text(_), Json::Text(_), Json::Null) => continue,
+                        (Json::Text(a), Json::Text(b), Json::Number(_)) => r
+                            .number()
+                            .filter(|r| (-1.0..=1.0).contains(r))
+                            .map(|r| (a.clone(), b.clone(), r)),
+                        _ => None,
+                    },
+                    _ => None,
+                },
+                _ => None,
+            };
+            if entry.is_none() {
+                let reason = "two names of outputs and a coefficient from -1 to 1 are needed here";
+                self.log.report(&node.span, Fault::SavedEntry { reason });
+            }
+            found.extend(entry);
+        }
+        found
+    }
+
+    fn output(&self, name: &str, object: &Object<'a>, common: &Common) -> Option<SavedOutput> {
+        for key in ["unit", "estimate", "standard_uncertainty", "quantiles"] {
+            object.needed(key);
+        }
+        let unit = unit(object, "unit");
+        let estimate = object.number("estimate");
+        let u = object.number("standard_uncertainty");
+        let dof = or_infinite(object, "dof");
+        let dof = if self.is_undefined(object) { f64::NAN } else { dof };
+        // for people and other programs; here they are only checked
+        if object.get("expanded_uncertainty").is_some_and(|m| m.value.value != Json::Null) {
+            object.number("expanded_uncertainty");
+        }
+        for (key, nullable) in
+            [("interval", true), ("symmetric_interval", false), ("shortest_interval", false)]
+        {
+            self.check_interval(object, key, nullable);
+        }
+        let quantiles = object.numbers("quantiles");
+        let (unit, estimate, u, quantiles) = (unit?, estimate?, u?, quantiles?);
+        let place = object.get("quantiles").map_or(object.place(), |member| &member.value.span);
+        let constant = u == 0.0 && quantiles.windows(2).all(|pair| pair[0] == pair[1]);
+        let sensitivities = self.sensitivities(object, common.roots.len())?;
+        let ranks = self.ranks(object);
+        let saved = Saved {
+            estimate,
+            standard_uncertainty: u,
+            standard_deviation: match u {
+                0.0 => 0.0,
+                _ => or_infinite(object, "standard_deviation"),
+            },
+            dof,
+            drawn_dof: or_infinite(object, "drawn_dof"),
+        };
+        let made = if constant {
+            Constant::new(estimate).map(Distribution::from)
+        } else {
+            let origin = self.origin(name, unit.text(), &saved, sensitivities.as_deref(), common);
+            let origin = Origin { ranks, ..origin };
+            SavedResult::new(saved, common.scores, &quantiles, origin).map(Distribution::from)
+        };
+        let made = made.map_err(|error| {
+            let place = object.get(error.parameter()).map_or(place, |member| &member.value.span);
+            self.log.report(place, Fault::Distribution { name: name.to_owned(), error });
+        });
+        Some(SavedOutput {
+            name: name.to_owned(),
+            unit,
+            distribution: made.ok()?,
+            coverage_factor: optional(object, "coverage_factor"),
+            sensitivities,
+        })
+    }
+
+    /// Whether the degrees of freedom are said to be undefined.
+    fn is_undefined(&self, object: &Object<'a>) -> bool {
+        const ALLOWED: [&str; 3] = ["finite", "infinite", "undefined"];
+        let status = object.text("dof_status");
+        if let (Some(member), Some(found)) = (object.get("dof_status"), status)
+            && !ALLOWED.contains(&found)
+        {
+            let (key, found) = ("dof_status".to_owned(), found.to_owned());
+            let allowed = ALLOWED.map(str::to_owned).to_vec();
+            self.log.report(&member.value.span, Fault::NotOneOf { key, found, allowed });
+        }
+        status == Some("undefined")
+    }
+
+    fn check_interval(&self, object: &Object<'a>, key: &str, nullable: bool) {
+        let Some(member) = object.get(key) else {
+            return;
+        };
+        if nullable && member.value.value == Json::Null {
+            return;
+        }
+        if object.numbers(key).is_some_and(|ends| ends.len() != 2) {
+            let reason = "two ends of an interval are needed here";
+            self.log.report(&member.value.span, Fault::SavedEntry { reason });
+        }
+    }
+
+    /// The sensitivity coefficients in the order of `inputs`; inside, `None` for null.
+    #[allow(clippy::option_option)]
+    fn sensitivities(&self, object: &Object<'a>, inputs: usize) -> Option<Option<Vec<f64>>> {
+        let member = object.needed("sensitivities")?;
+        if member.value.value == Json::Null {
+            return Some(None);
+        }
+        let numbers = object.numbers("sensitivities")?;
+        if numbers.len() != inputs {
+            let reason = "as many sensitivity coefficients as `inputs` are needed here";
+            self.log.report(&member.value.span, Fault::SavedEntry { reason });
+            return None;
+        }
+        Some(Some(numbers))
+    }
+
+    fn origin(
+        &self,
+        name: &str,
+        unit: &str,
+        saved: &Saved,
+        sensitivities: Option<&[f64]>,
+        common: &Common,
+    ) -> Origin {
+        let linear = sensitivities.is_some();
+        let roots = match sensitivities {
+            Some(sensitivities) => {
+                let weights = common.roots.iter().zip(sensitivities).filter(|(_, c)| **c != 0.0);
+                let weight = |root: &Root, c: f64| {
+                    c * root.standard_uncertainty / saved.standard_uncertainty
+                };
+                weights.map(|(root, &c)| (root.clone(), weight(root, c))).collect()
+            }
+            None => {
+                let root = Root {
+                    name: RootName { model: self.hash.into(), name: name.into() },
+                    unit: unit.to_owned(),
+                    distribution: "result".to_owned(),
+                    estimate: saved.estimate,
+                    standard_uncertainty: saved.standard_uncertainty,
+                    standard_deviation: saved.standard_deviation,
+                    dof: saved.dof,
+                };
+                vec![(root, 1.0)]
+            }
+        };
+        let sibling = |(a, b, r): &(String, String, f64)| match (a == name, b == name) {
+            (true, false) => Some((b.clone(), *r)),
+            (false, true) => Some((a.clone(), *r)),
+            _ => None,
+        };
+        Origin {
+            file: self.hash.into(),
+            output: name.to_owned(),
+            roots,
+            linear,
+            correlations: common.correlations.clone(),
+            siblings: common.siblings.iter().filter_map(sibling).collect(),
+            model: common.model.clone(),
+            ranks: None,
+        }
+    }
+}
+
+/// A number above zero.
+fn positive(object: &Object<'_>, key: &str) -> Option<f64> {
+    let found = object.number(key)?;
+    if found > 0.0 {
+        return Some(found);
+    }
+    let place = object.get(key).map_or(object.place(), |member| &member.value.span);
+    object.log.report(place, Fault::NotPositive { key: key.to_owned(), found });
+    None
+}
+
+/// A number above zero; `None` for null or nothing.
+fn optional(object: &Object<'_>, key: &str) -> Option<f64> {
+    object.get(key).filter(|member| member.value.value != Json::Null)?;
+    positive(object, key)
+}
+
+/// A number above zero; null or nothing for infinite.
+fn or_infinite(object: &Object<'_>, key: &str) -> f64 {
+    match object.get(key).map(|member| &member.value.value) {
+        None | Some(Json::Null) => f64::INFINITY,
+        Some(_) => positive(object, key).unwrap_or(f64::INFINITY),
+    }
+}

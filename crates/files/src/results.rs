@@ -1,0 +1,134 @@
+//! Saved results as inputs: the outputs of result files that a model file names.
+
+use std::cell::RefCell;
+use std::collections::HashMap;
+use std::path::Path;
+use std::sync::Arc;
+
+use super::json::Node;
+use super::nearest::nearest;
+use super::object::Object;
+use super::problem::{Log, Problems};
+use super::result_file::{ResultFile, SavedOutput, read_result};
+use super::source::Place;
+use super::{Fault, bytes};
+use gumption_engine::distribution::Distribution;
+use gumption_units::Unit;
+
+/// The result files that a model file names, each read once.
+#[derive(Debug)]
+pub(super) struct Results<'a> {
+    pub(super) folder: &'a Path,
+    read: RefCell<HashMap<String, Option<Arc<ResultFile>>>>,
+    /// The content of the files, by name.
+    pub(super) files: RefCell<Vec<(String, Vec<u8>)>>,
+}
+
+impl<'a> Results<'a> {
+    /// Paths are relative to `folder`.
+    pub(crate) fn new(folder: &'a Path) -> Self {
+        Self { folder, read: RefCell::default(), files: RefCell::default() }
+    }
+
+    /// The unit of the result that an input names, for an input without a unit of its own.
+    pub(super) fn unit(&self, input: &Object<'_>) -> Option<Unit> {
+        Some(self.output(input)?.unit)
+    }
+
+    /// The distribution of the result that an input names, in `unit`. A component is a difference,
+    /// for which degrees Celsius and kelvins are the same.
+    pub(super) fn distribution(
+        &self,
+        input: &Object<'_>,
+        name: &str,
+        unit: &Unit,
+        component: bool,
+    ) -> Option<Distribution> {
+        let output = self.output(input)?;
+        let place = input.get("unit").or_else(|| input.get("output"));
+        let place = place.map_or(input.place(), |member| &member.value.span);
+        let factor = Unit::conversion_factor(&output.unit, unit).ok();
+        let Some(factor) = factor.filter(|f| f.is_finite() && *f > 0.0) else {
+            let fault = Fault::WrongDimension {
+                name: name.to_owned(),
+                found: unit.to_string(),
+                found_as: unit.dimension().describe(),
+                expected: output.unit.to_string(),
+                expected_as: output.unit.dimension().describe(),
+            };
+            input.log.report(place, fault);
+            return None;
+        };
+        if output.unit.is_celsius() != unit.is_celsius() && !component {
+            let (found, saved) = (unit.to_string(), output.unit.to_string());
+            input.log.report(place, Fault::SavedCelsius { name: output.name, found, saved });
+            return None;
+        }
+        if factor == 1.0 {
+            return Some(output.distribution);
+        }
+        let converted = match &output.distribution {
+            Distribution::SavedResult(saved) => saved.scaled(factor).map(Distribution::from),
+            other => other.moved_to(factor * other.mean()),
+        };
+        let fault = |error| Fault::Distribution { name: name.to_owned(), error };
+        input.log.value(place, converted.map_err(fault))
+    }
+
+    /// The output that `file` and `output` of an input name.
+    fn output(&self, input: &Object<'_>) -> Option<SavedOutput> {
+        let (file, output) = (input.required("file"), input.required("output"));
+        let (file, output) = (file?, output?);
+        let (name, wanted) = (input.text("file")?, input.text("output")?);
+        let known = self.read.borrow().get(name).cloned();
+        let result = match known {
+            Some(result) => result?,
+            None => {
+                let result = self.load(input.log, name, &file.value).map(Arc::new);
+                self.read.borrow_mut().insert(name.to_owned(), result.clone());
+                result?
+            }
+        };
+        let found = result.outputs.iter().find(|output| output.name == wanted).cloned();
+        if found.is_none() {
+            let names = result.outputs.iter().map(|output| output.name.as_str());
+            let fault = Fault::NoSuchResult {
+                file: name.to_owned(),
+                name: wanted.to_owned(),
+                nearest: nearest(wanted, names.clone()).map(str::to_owned),
+                known: names.map(str::to_owned).collect(),
+            };
+            input.log.report(&output.value.span, fault);
+        }
+        found
+    }
+
+    /// Reads a file; its mistakes are reported with their places in it.
+    fn load(&self, log: &Log, name: &str, place: &Node) -> Option<ResultFile> {
+        let unreadable = |message: String| {
+            let message = format!("`{name}`: {message}");
+            log.report(&place.span, Fault::Unreadable { message });
+            None
+        };
+        let bytes = match bytes::of_file(&self.folder.join(name), bytes::MOST) {
+            Ok(bytes) => bytes,
+            Err(message) => return unreadable(message),
+        };
+        let Ok(text) = std::str::from_utf8(&bytes) else {
+            return unreadable("it is not UTF-8 text".to_owned());
+        };
+        match read_result(name, text) {
+            Ok(result) => {
+                self.files.borrow_mut().push((name.to_owned(), bytes));
+                Some(result)
+            }
+            Err(Problems(problems)) => {
+                for problem in problems {
+                    let place = Place { source: problem.source, span: problem.span };
+                    log.report_at(place, problem.fault);
+                }
+                None
+            }
+        }
+    }
+}

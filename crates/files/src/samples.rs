@@ -1,0 +1,174 @@
+//! The samples of an empirical distribution: a list in the model file, or a file with one number a
+//! line.
+
+use std::ops::Range;
+use std::path::Path;
+
+use super::object::Object;
+use super::source::{Place, Source};
+use super::{Fault, bytes};
+use gumption_engine::distribution::Samples;
+
+/// At most so many faulty lines are reported; a file of something else has nothing but those.
+const MOST_FAULTS: usize = 10;
+
+/// Longer texts are cut in messages.
+const LONGEST: usize = 40;
+
+/// Reads the samples of the input or component `name` from `values`, or from `file` in `folder`,
+/// whose content is added to `files`.
+pub(super) fn read(
+    object: &Object<'_>,
+    name: &str,
+    folder: &Path,
+    files: &mut Vec<(String, Vec<u8>)>,
+) -> Option<Samples> {
+    let (values, place) = numbers(object, name, folder, files)?;
+    let samples = Samples::new(values);
+    let fault = |error| Fault::Distribution { name: name.to_owned(), error };
+    object.log.value(place, samples.map_err(fault))
+}
+
+/// The numbers of the object's `values` or of its `file` in `folder`, whose content is added to
+/// `files`, and where they are named; `name` is what they belong to.
+pub(crate) fn numbers<'a>(
+    object: &Object<'a>,
+    name: &str,
+    folder: &Path,
+    files: &mut Vec<(String, Vec<u8>)>,
+) -> Option<(Vec<f64>, &'a Range<usize>)> {
+    match (object.get("file"), object.get("values")) {
+        (Some(_), Some(second)) => {
+            let fault = Fault::Exclusive { first: "file", second: "values" };
+            object.log.report(&second.key_span, fault);
+            None
+        }
+        (Some(member), None) => {
+            let values = from_file(object, object.text("file")?, folder, files)?;
+            Some((values, &member.value.span))
+        }
+        (None, Some(member)) => Some((object.numbers("values")?, &member.value.span)),
+        (None, None) => {
+            object.report(Fault::NoValues { name: name.to_owned() });
+            None
+        }
+    }
+}
+
+fn from_file(
+    object: &Object<'_>,
+    file: &str,
+    folder: &Path,
+    files: &mut Vec<(String, Vec<u8>)>,
+) -> Option<Vec<f64>> {
+    let unreadable = |message: String| {
+        // a file that is not there is named where the model file names it
+        let place = object.get("file").map_or(object.place(), |member| &member.value.span);
+        let message = format!("`{file}`: {message}");
+        object.log.report(place, Fault::Unreadable { message });
+    };
+    let bytes = bytes::of_file(&folder.join(file), bytes::MOST_OF_SAMPLES);
+    let bytes = bytes.map_err(&unreadable).ok()?;
+    let Ok(text) = std::str::from_utf8(&bytes) else {
+        unreadable("it is not UTF-8 text".to_owned());
+        return None;
+    };
+    let source = Source::new(file, text);
+    let numbers = match parse(&source.text) {
+        Ok(numbers) => numbers,
+        Err(faults) => {
+            for (span, fault) in faults {
+                object.log.report_at(Place { source: source.clone(), span }, fault);
+            }
+            return None;
+        }
+    };
+    if !files.iter().any(|(known, _)| known == file) {
+        files.push((file.to_owned(), bytes));
+    }
+    Some(numbers)
+}
+
+type Faults = Vec<(Range<usize>, Fault)>;
+
+/// The numbers of a text, one a line; empty lines and those that begin with `#` are skipped.
+fn parse(text: &str) -> Result<Vec<f64>, Faults> {
+    let mut numbers = Vec::new();
+    let mut faults = Vec::new();
+    let mut start = 0;
+    for line in text.split_inclusive('\n') {
+        let content = line.trim();
+        let indent = line.len() - line.trim_start().len();
+        if !content.is_empty() && !content.starts_with('#') {
+            match content.parse::<f64>() {
+                Ok(number) if number.is_finite() => numbers.push(number),
+                _ => {
+                    let span = start + indent..start + indent + content.len();
+                    let found = content.chars().take(LONGEST).collect();
+                    faults.push((span, Fault::Sample { found }));
+                }
+            }
+        }
+        if faults.len() == MOST_FAULTS {
+            break;
+        }
+        start += line.len();
+    }
+    if faults.is_empty() { Ok(numbers) } else { Err(faults) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{ModelFile, Problems, read as read_model};
+
+    /// A model of two inputs and a component with samples from `s.txt` of that content.
+    fn model(content: &str) -> Result<ModelFile, Problems> {
+        let folder = tempfile::tempdir().unwrap();
+        let samples = r#""distribution": "samples", "file": "s.txt""#;
+        let text = format!(
+            r#"{{"inputs": {{"a": {{{samples}}}, "b": {{"mean": 0, "components":
+            [{{"name": "c", {samples}}}]}}}},
+            "equations": {{"y": "a + b"}}, "outputs": {{"y": {{}}}}}}"#
+        );
+        std::fs::write(folder.path().join("m.json"), text).unwrap();
+        if !content.is_empty() {
+            std::fs::write(folder.path().join("s.txt"), content).unwrap();
+        }
+        read_model(&folder.path().join("m.json"), &[])
+    }
+
+    #[test]
+    fn a_file_is_read_from_the_folder_of_the_model_and_recorded_once() {
+        let file = model("1\n3\n").unwrap();
+        assert_eq!(file.files, vec![("s.txt".to_owned(), b"1\n3\n".to_vec())]);
+        let distributions = &file.task.rows[0].distributions;
+        let means: Vec<f64> = distributions.iter().map(|d| d.mean()).collect();
+        assert_eq!(means, vec![2.0, 0.0, 2.0]);
+    }
+
+    #[test]
+    fn faults_name_the_file_and_the_line() {
+        let problems = model("1\n2\nvolt\n").unwrap_err().to_string();
+        assert!(problems.starts_with("s.txt:3:1: `volt` is not a finite number"), "{problems}");
+        let problems = model("").unwrap_err().to_string();
+        assert!(problems.contains("m.json:1:") && problems.contains("`s.txt`:"), "{problems}");
+        let problems = model("1\n1\n").unwrap_err().to_string();
+        assert!(problems.contains("all 2 samples are equal"), "{problems}");
+    }
+
+    #[test]
+    fn one_number_a_line() {
+        assert_eq!(parse("# volts\r\n1\r\n\r\n 2.5e-3 \n-7").unwrap(), vec![1.0, 2.5e-3, -7.0]);
+        assert_eq!(parse("").unwrap(), Vec::<f64>::new());
+    }
+
+    #[test]
+    fn faulty_lines_know_their_places() {
+        let text = "1\n  1,5\nnan\n";
+        let faults = parse(text).unwrap_err();
+        let places: Vec<&str> = faults.iter().map(|(span, _)| &text[span.clone()]).collect();
+        assert_eq!(places, vec!["1,5", "nan"]);
+        assert_eq!(parse(&"x\n".repeat(1000)).unwrap_err().len(), MOST_FAULTS);
+    }
+}

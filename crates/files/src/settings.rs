@@ -1,0 +1,137 @@
+//! Coverage and Monte Carlo settings of a file.
+
+use super::Fault;
+use super::json::Json;
+use super::object::{Object, whole_number};
+use gumption_engine::task::{Coverage, Settings, StoppingRule, Trials};
+
+/// At most so many trials.
+pub(super) const MOST_TRIALS: u64 = 1_000_000_000_000;
+
+/// Reads the settings of the root object; what is not there has its default.
+pub(super) fn read(root: &Object<'_>) -> Settings {
+    let mut settings = Settings::default();
+    if let Some(coverage) = coverage(root) {
+        settings.coverage = coverage;
+    }
+    if let Some(member) = root.get("allow_undefined")
+        && let Some(share) = root.number("allow_undefined")
+    {
+        if (0.0..=1.0).contains(&share) {
+            settings.allowed_undefined = share;
+        } else {
+            let fault = Fault::NotProbability { key: "allow_undefined".into(), found: share };
+            root.log.report(&member.value.span, fault);
+        }
+    }
+    let Some(member) = root.get("monte_carlo") else {
+        return settings;
+    };
+    let Some(object) = Object::new(root.log, "`monte_carlo`", &member.value, &member.key_span)
+    else {
+        return settings;
+    };
+    object.check_keys(&["trials", "rule", "seed", "digits", "max_trials"]);
+    if let Some(trials) = trials(&object) {
+        settings.trials = trials;
+    }
+    if let Some(rule) = rule(&object) {
+        settings.rule = rule;
+    }
+    if let Some(seed) = object.whole("seed", 0, u64::MAX) {
+        settings.seed = seed;
+    }
+    if let Some(digits) = object.whole("digits", 1, 15) {
+        settings.digits = u32::try_from(digits).unwrap_or(2);
+    }
+    if let Some(most) = object.whole("max_trials", 20_000, MOST_TRIALS) {
+        settings.max_trials = most;
+    }
+    settings
+}
+
+fn trials(object: &Object<'_>) -> Option<Trials> {
+    let member = object.get("trials")?;
+    match &member.value.value {
+        Json::Text(text) if text == "adaptive" => Some(Trials::Adaptive),
+        Json::Text(text) => {
+            let fault = Fault::NotOneOf {
+                key: "trials".into(),
+                found: text.clone(),
+                allowed: vec!["adaptive".into(), "a whole number such as 1000000".into()],
+            };
+            object.log.report(&member.value.span, fault);
+            None
+        }
+        Json::Number(text) => {
+            let count = whole_number(text).filter(|&n| n != 1 && n <= MOST_TRIALS);
+            if count.is_none() {
+                let fault = Fault::NotTrials { found: text.clone(), most: MOST_TRIALS };
+                object.log.report(&member.value.span, fault);
+            }
+            count.map(Trials::Fixed)
+        }
+        _ => {
+            object.number("trials");
+            None
+        }
+    }
+}
+
+/// When an adaptive run stops.
+fn rule(object: &Object<'_>) -> Option<StoppingRule> {
+    let name = object.text("rule")?;
+    let rule = StoppingRule::named(name);
+    if let (None, Some(member)) = (rule, object.get("rule")) {
+        let fault = Fault::NotOneOf {
+            key: "rule".into(),
+            found: name.to_owned(),
+            allowed: StoppingRule::ALL.map(|rule| rule.name().to_owned()).to_vec(),
+        };
+        object.log.report(&member.value.span, fault);
+    }
+    rule
+}
+
+/// The coverage that a root object asks for, if it does.
+pub(super) fn coverage(root: &Object<'_>) -> Option<Coverage> {
+    let fixed = root.truth("coverage_factor_fixed").unwrap_or(false);
+    match (root.get("coverage_probability"), root.get("coverage_factor")) {
+        (Some(_), Some(second)) => {
+            let fault =
+                Fault::Exclusive { first: "coverage_probability", second: "coverage_factor" };
+            root.log.report(&second.key_span, fault);
+            None
+        }
+        (Some(member), None) => {
+            let p = root.number("coverage_probability")?;
+            if p > 0.0 && p < 1.0 {
+                Some(Coverage::Probability(p))
+            } else {
+                let fault = Fault::NotProbability { key: "coverage_probability".into(), found: p };
+                root.log.report(&member.value.span, fault);
+                None
+            }
+        }
+        (None, Some(member)) => {
+            let factor = root.number("coverage_factor")?;
+            // beyond 8 the probability is 1 in double precision
+            if factor > 0.0 && factor <= 8.0 {
+                Some(Coverage::Factor { factor, fixed })
+            } else {
+                let range = "above 0 and at most 8";
+                let fault =
+                    Fault::OutOfRange { key: "coverage_factor".into(), found: factor, range };
+                root.log.report(&member.value.span, fault);
+                None
+            }
+        }
+        (None, None) => {
+            if let Some(member) = root.get("coverage_factor_fixed") {
+                let fault = Fault::MissingKey { key: "coverage_factor", what: "the file" };
+                root.log.report(&member.key_span, fault);
+            }
+            None
+        }
+    }
+}

@@ -1,0 +1,488 @@
+//! From the fields of an input to its distribution.
+
+use std::ops::Range;
+
+use super::Fault;
+use super::condition_values::ConditionValues;
+use super::json::Json;
+use super::nearest::nearest;
+use super::object::Object;
+use super::results::Results;
+use super::width::Width;
+use gumption_engine::distribution::{
+    Arcsine, Beta, Constant, CurvilinearTrapezoid, Distribution, Exponential, Gamma, Invalid,
+    LogUniform, Lognormal, Normal, PoissonCount, Readings, Rectangular, Samples, StudentT,
+    Trapezoidal, Triangular, special,
+};
+use gumption_engine::model::formula::Formula;
+use gumption_units::Unit;
+
+/// A shape that files can name: its canonical name, its other names, its fields.
+#[derive(Debug)]
+pub(super) struct Kind {
+    pub(super) name: &'static str,
+    aliases: &'static [&'static str],
+    pub(super) fields: &'static [&'static str],
+}
+
+const LIMITS: [&str; 5] = ["mean", "half_width", "semi_range", "lower", "upper"];
+
+/// The shapes, in the order of the contract.
+pub(super) const KINDS: [Kind; 17] = [
+    Kind { name: "constant", aliases: &[], fields: &["value"] },
+    Kind {
+        name: "normal",
+        aliases: &["gaussian"],
+        fields: &["mean", "std", "expanded", "k", "p", "dof"],
+    },
+    Kind {
+        name: "rectangular",
+        aliases: &["uniform"],
+        fields: &[LIMITS[0], LIMITS[1], LIMITS[2], LIMITS[3], LIMITS[4], "dof"],
+    },
+    Kind {
+        name: "triangular",
+        aliases: &[],
+        fields: &[LIMITS[0], LIMITS[1], LIMITS[2], LIMITS[3], LIMITS[4], "mode"],
+    },
+    Kind {
+        name: "trapezoidal",
+        aliases: &[],
+        fields: &[LIMITS[0], LIMITS[1], LIMITS[2], LIMITS[3], LIMITS[4], "beta"],
+    },
+    Kind {
+        name: "curvilinear-trapezoid",
+        aliases: &[],
+        fields: &["lower", "upper", "inexactness"],
+    },
+    Kind { name: "arcsine", aliases: &["u-shaped"], fields: &LIMITS },
+    Kind { name: "t", aliases: &["student-t"], fields: &["mean", "scale", "dof"] },
+    Kind { name: "readings", aliases: &[], fields: &["values", "paired"] },
+    Kind { name: "exponential", aliases: &[], fields: &["mean"] },
+    Kind { name: "gamma", aliases: &[], fields: &["shape", "rate"] },
+    Kind { name: "lognormal", aliases: &[], fields: &["mean", "std"] },
+    Kind { name: "beta", aliases: &[], fields: &["alpha", "beta", "lower", "upper"] },
+    Kind { name: "log-uniform", aliases: &[], fields: &["lower", "upper"] },
+    Kind { name: "poisson-count", aliases: &[], fields: &["count"] },
+    Kind { name: "samples", aliases: &[], fields: &["file", "values"] },
+    Kind { name: "result", aliases: &[], fields: &["file", "output"] },
+];
+
+/// The distribution, if its standard uncertainty is a number: widths near the largest and the least
+/// doubles have squares beyond them.
+fn with_uncertainty(distribution: Distribution) -> Result<Distribution, Invalid> {
+    let (parameter, value) = ("the standard uncertainty", distribution.standard_uncertainty());
+    if !value.is_finite() {
+        Err(Invalid::NotFinite { parameter, value })
+    } else if value <= 0.0 && distribution.constant().is_none() {
+        Err(Invalid::NotPositive { parameter, value })
+    } else {
+        Ok(distribution)
+    }
+}
+
+/// The largest count of events; one more is still a whole number in double precision.
+const MOST_COUNT: u64 = 999_999_999_999_999;
+
+impl Kind {
+    /// Whether a component of this shape is about 0 unless it says otherwise. Shapes of positive
+    /// quantities and those without a field for their estimate are where their fields put them.
+    pub(super) fn is_about_zero(&self) -> bool {
+        let located = ["mean", "value"].iter().any(|key| self.fields.contains(key));
+        self.name == "result" || (located && !matches!(self.name, "exponential" | "lognormal"))
+    }
+}
+
+/// Keys of inputs and components that do not belong to a shape.
+const KEYS: [&str; 9] =
+    ["name", "distribution", "about", "type", "group", "unit", "per", "evidence", "components"];
+
+/// The shape that an object names.
+pub(super) fn kind(object: &Object<'_>) -> Option<&'static Kind> {
+    let Some(member) = object.required("distribution") else {
+        // it may be misspelt; nothing else can be said of the keys
+        let fields = KINDS.iter().flat_map(|kind| kind.fields).copied();
+        object.check_keys(&KEYS.into_iter().chain(fields).collect::<Vec<_>>());
+        return None;
+    };
+    let name = object.text("distribution")?;
+    let found = KINDS.iter().find(|kind| kind.name == name || kind.aliases.contains(&name));
+    if found.is_none() {
+        let known = KINDS.iter().flat_map(|k| std::iter::once(&k.name).chain(k.aliases)).copied();
+        let nearest = nearest(name, known).map(str::to_owned);
+        let fault = Fault::UnknownDistribution { name: name.to_owned(), nearest };
+        object.log.report(&member.value.span, fault);
+    }
+    found
+}
+
+/// Where an input's estimate comes from.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Estimate {
+    /// From its own fields.
+    Own,
+    /// From elsewhere: a formula of the conditions, an override, or 0 for a component.
+    Given(f64),
+}
+
+/// What reading a distribution needs to know.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Fields<'a> {
+    pub(super) object: Object<'a>,
+    pub(super) name: &'a str,
+    pub(super) unit: &'a Unit,
+    pub(super) estimate: Estimate,
+    /// What a relative width is a share of, if not of the own estimate.
+    pub(super) share_of: Option<f64>,
+    /// The samples, where the shape has any: read once for all rows.
+    pub(super) samples: Option<&'a Samples>,
+    /// The saved results that inputs name.
+    pub(super) results: &'a Results<'a>,
+    /// The conditions and the row of them that this is for, where a width may be a formula of them.
+    pub(super) at: Option<(&'a dyn ConditionValues, usize)>,
+}
+
+/// The fields that are widths.
+const WIDTHS: [&str; 5] = ["std", "expanded", "scale", "half_width", "semi_range"];
+
+/// The formula of conditions that a width is: a text that begins with a name, as no specification
+/// does.
+fn formula_of_width(object: &Object<'_>, key: &str) -> Option<String> {
+    match &object.get(key)?.value.value {
+        Json::Text(text)
+            if text.trim_start().starts_with(|c: char| c.is_alphabetic() || c == '_') =>
+        {
+            Some(text.clone())
+        }
+        _ => None,
+    }
+}
+
+/// Whether a width of the object is a formula of conditions, so that it differs from row to row.
+pub(super) fn has_width_of_row(object: &Object<'_>, kind: &Kind) -> bool {
+    WIDTHS.iter().any(|key| kind.fields.contains(key) && formula_of_width(object, key).is_some())
+}
+
+impl<'a> Fields<'a> {
+    /// The distribution, with what cannot be reported.
+    pub(super) fn distribution(&self, kind: &Kind) -> Option<Distribution> {
+        match kind.name {
+            "constant" => {
+                let value = self.estimate("value")?;
+                self.made(Constant::new(value))
+            }
+            "normal" => self.normal(),
+            "rectangular" => {
+                let (mean, half_width, _) = self.limits()?;
+                let dof = self.dof();
+                let Some(half_width) = half_width else {
+                    return self.made(Constant::new(mean));
+                };
+                self.made(Rectangular::new(mean, half_width).and_then(|shape| match dof {
+                    Some(dof) => shape.with_dof(dof),
+                    None => Ok(shape),
+                }))
+            }
+            "triangular" => self.triangular(),
+            "trapezoidal" => {
+                let beta = self.number("beta");
+                let (mean, half_width, _) = self.limits()?;
+                match half_width {
+                    Some(half_width) => self.made(Trapezoidal::new(mean, half_width, beta?)),
+                    None => self.made(Constant::new(mean)),
+                }
+            }
+            "arcsine" => match self.limits()? {
+                (mean, Some(half_width), _) => self.made(Arcsine::new(mean, half_width)),
+                (mean, None, _) => self.made(Constant::new(mean)),
+            },
+            "curvilinear-trapezoid" => {
+                let (lower, upper) = (self.number("lower"), self.number("upper"));
+                let inexactness = self.number("inexactness");
+                self.moved(CurvilinearTrapezoid::new(lower?, upper?, inexactness?))
+            }
+            "t" => {
+                let mean = self.estimate("mean");
+                let scale = self.width("scale", mean?)?;
+                let dof = self.object.required("dof").and_then(|_| self.object.number("dof"));
+                match scale {
+                    Some(scale) => self.made(StudentT::new(mean?, scale, dof?)),
+                    None => self.made(Constant::new(mean?)),
+                }
+            }
+            "exponential" => {
+                let mean = self.estimate("mean")?;
+                self.made(Exponential::new(mean))
+            }
+            "gamma" => {
+                let (shape, rate) = (self.number("shape"), self.number("rate"));
+                self.moved(Gamma::new(shape?, rate?))
+            }
+            "lognormal" => {
+                let mean = self.estimate("mean")?;
+                match self.width("std", mean)? {
+                    Some(std) => self.made(Lognormal::new(mean, std)),
+                    None => self.made(Constant::new(mean)),
+                }
+            }
+            "beta" => {
+                let (alpha, beta) = (self.number("alpha"), self.number("beta"));
+                let (lower, upper) = (self.number_or("lower", 0.0), self.number_or("upper", 1.0));
+                self.moved(Beta::between(alpha?, beta?, lower?, upper?))
+            }
+            "log-uniform" => {
+                let (lower, upper) = (self.number("lower"), self.number("upper"));
+                self.moved(LogUniform::new(lower?, upper?))
+            }
+            "poisson-count" => {
+                self.object.required("count")?;
+                self.moved(PoissonCount::new(self.object.whole("count", 0, MOST_COUNT)?))
+            }
+            "samples" => self.moved(Ok(self.samples?.clone())),
+            "result" => {
+                let component = self.share_of.is_some();
+                let results = self.results;
+                let saved = results.distribution(&self.object, self.name, self.unit, component)?;
+                self.moved(Ok(saved))
+            }
+            _ => {
+                self.object.required("values")?;
+                let values = self.object.numbers("values")?;
+                self.moved(Readings::new(values))
+            }
+        }
+    }
+
+    /// The shape, moved to an estimate that comes from elsewhere.
+    fn moved<S: Into<Distribution>>(&self, shape: Result<S, Invalid>) -> Option<Distribution> {
+        let shape = self.made(shape)?;
+        match self.estimate {
+            Estimate::Own => Some(shape),
+            Estimate::Given(estimate) => self.made(shape.moved_to(estimate)),
+        }
+    }
+
+    /// A number that must be there.
+    fn number(&self, key: &'static str) -> Option<f64> {
+        self.object.required(key)?;
+        self.object.number(key)
+    }
+
+    /// A number that may be left out.
+    fn number_or(&self, key: &str, default: f64) -> Option<f64> {
+        if self.object.get(key).is_some() { self.object.number(key) } else { Some(default) }
+    }
+
+    fn normal(&self) -> Option<Distribution> {
+        let mean = self.estimate("mean");
+        let dof = self.dof();
+        let mut divisor = 1.0;
+        for key in ["k", "p"] {
+            if let (Some(member), None) = (self.object.get(key), self.object.get("expanded")) {
+                let fault = Fault::OnlyWith { key, with: "expanded" };
+                self.object.log.report(&member.key_span, fault);
+            }
+        }
+        let std = match (self.object.get("std"), self.object.get("expanded")) {
+            (Some(_), Some(second)) => {
+                let fault = Fault::Exclusive { first: "std", second: "expanded" };
+                self.object.log.report(&second.key_span, fault);
+                return None;
+            }
+            (_, Some(_)) => {
+                let factor = self.coverage_factor(dof);
+                divisor = factor.unwrap_or(1.0);
+                self.width("expanded", mean?)?.zip(factor).map(|(expanded, k)| expanded / k)
+            }
+            _ => self.width("std", mean?)?,
+        };
+        match std {
+            Some(std) => {
+                let normal = Normal::with_dof(mean?, std, dof.unwrap_or(f64::INFINITY));
+                self.made(normal.and_then(|normal| normal.stated_with(divisor)))
+            }
+            None => self.made(Constant::new(mean?)),
+        }
+    }
+
+    /// The k of an expanded uncertainty: given, or from p and the degrees of freedom.
+    fn coverage_factor(&self, dof: Option<f64>) -> Option<f64> {
+        match (self.object.get("k"), self.object.get("p")) {
+            (Some(_), Some(second)) => {
+                let fault = Fault::Exclusive { first: "k", second: "p" };
+                self.object.log.report(&second.key_span, fault);
+                None
+            }
+            (Some(member), None) => {
+                let k = self.object.number("k")?;
+                if k > 0.0 {
+                    Some(k)
+                } else {
+                    let fault = Fault::NotPositive { key: "k".into(), found: k };
+                    self.object.log.report(&member.value.span, fault);
+                    None
+                }
+            }
+            (None, Some(member)) => {
+                let p = self.object.number("p")?;
+                if p > 0.0 && p < 1.0 {
+                    let dof = dof.unwrap_or(f64::INFINITY);
+                    Some(special::student::two_sided_factor(p, dof))
+                } else {
+                    let fault = Fault::NotProbability { key: "p".into(), found: p };
+                    self.object.log.report(&member.value.span, fault);
+                    None
+                }
+            }
+            (None, None) => {
+                let place =
+                    self.object.get("expanded").map_or(self.object.place(), |m| &m.key_span);
+                self.object.log.report(place, Fault::NoCoverage { name: self.name.to_owned() });
+                None
+            }
+        }
+    }
+
+    fn triangular(&self) -> Option<Distribution> {
+        let (mean, half_width, limits) = self.limits()?;
+        let Some(half_width) = half_width else {
+            return self.made(Constant::new(mean));
+        };
+        let Some([lower, upper]) = limits else {
+            if let Some(mode) = self.object.get("mode") {
+                let fault = Fault::MissingKey { key: "lower", what: "an input with a `mode`" };
+                self.object.log.report(&mode.key_span, fault);
+            }
+            return self.made(Triangular::new(mean, half_width));
+        };
+        let mode = self.object.number("mode");
+        self.moved(Triangular::between(lower, upper, mode))
+    }
+
+    /// Middle, half-width (`None` where a specification became 0) and, if given so, the limits.
+    #[allow(clippy::type_complexity)]
+    fn limits(&self) -> Option<(f64, Option<f64>, Option<[f64; 2]>)> {
+        let object = &self.object;
+        if object.get("lower").is_none() && object.get("upper").is_none() {
+            let key = if object.get("semi_range").is_some() { "semi_range" } else { "half_width" };
+            if let (Some(_), Some(second)) = (object.get("half_width"), object.get("semi_range")) {
+                let fault = Fault::Exclusive { first: "half_width", second: "semi_range" };
+                object.log.report(&second.key_span, fault);
+            }
+            let mean = self.estimate("mean")?;
+            return Some((mean, self.width(key, mean)?, None));
+        }
+        for key in ["mean", "half_width", "semi_range"] {
+            if let Some(second) = object.get(key) {
+                let fault = Fault::Exclusive { first: "lower", second: key };
+                object.log.report(&second.key_span, fault);
+                return None;
+            }
+        }
+        let lower = object.required("lower").and_then(|_| object.number("lower"));
+        let upper = object.required("upper").and_then(|_| object.number("upper"));
+        let (lower, upper) = (lower?, upper?);
+        if lower >= upper {
+            return self.made(Rectangular::between(lower, upper)).and(None);
+        }
+        let middle = match self.estimate {
+            Estimate::Own => 0.5 * lower + 0.5 * upper,
+            Estimate::Given(estimate) => estimate,
+        };
+        Some((middle, Some(0.5 * upper - 0.5 * lower), Some([lower, upper])))
+    }
+
+    /// The estimate from `key`, or from elsewhere.
+    fn estimate(&self, key: &'static str) -> Option<f64> {
+        match self.estimate {
+            Estimate::Given(estimate) => Some(estimate),
+            Estimate::Own => {
+                self.object.required(key)?;
+                self.object.number(key)
+            }
+        }
+    }
+
+    /// The width at `key`; inside, `None` where a specification becomes 0 at this estimate.
+    #[allow(clippy::option_option)]
+    fn width(&self, key: &'static str, estimate: f64) -> Option<Option<f64>> {
+        let member = self.object.required(key)?;
+        let at = self.at.filter(|(conditions, _)| !conditions.names().is_empty());
+        if let (Some(text), Some(at)) = (formula_of_width(&self.object, key), at) {
+            return self.width_of_row(key, &text, at);
+        }
+        let read = Width::read(&member.value, self.name, key, self.unit);
+        let width = self.object.log.value(&member.value.span, read)?;
+        let value = width.at(self.share_of.unwrap_or(estimate));
+        if value == 0.0 && width.is_relative_only() { Some(None) } else { Some(Some(value)) }
+    }
+
+    /// The width that a formula of conditions gives in a row; inside, `None` where it is 0.
+    #[allow(clippy::option_option)]
+    fn width_of_row(
+        &self,
+        key: &'static str,
+        text: &str,
+        (conditions, row): (&dyn ConditionValues, usize),
+    ) -> Option<Option<f64>> {
+        let (log, place) = (self.object.log, self.place_of(key));
+        let formula = Formula::parse(text).map_err(|error| Fault::Formula { error });
+        let formula = log.value(&place, formula)?;
+        if row == 0
+            && let Err(faults) = conditions.check(&formula, self.unit)
+        {
+            for mut fault in faults {
+                if let Fault::WrongDimension { name, .. } = &mut fault {
+                    key.clone_into(name);
+                }
+                log.report(&place, fault);
+            }
+            return None;
+        }
+        let width = self.unit.from_si(conditions.value(&formula, row));
+        if width == 0.0 {
+            return Some(None);
+        }
+        if width > 0.0 && width.is_finite() {
+            return Some(Some(width));
+        }
+        let (name, found) = (self.name.to_owned(), text.to_owned());
+        let reason = format!(
+            "it is {} in row {} of the conditions",
+            gumption_engine::number::Shortest(width),
+            row + 1
+        );
+        log.report(&place, Fault::Width { name, found, reason });
+        None
+    }
+
+    fn dof(&self) -> Option<f64> {
+        self.object.number("dof")
+    }
+
+    fn made<S: Into<Distribution>>(&self, shape: Result<S, Invalid>) -> Option<Distribution> {
+        match shape.map(S::into).and_then(with_uncertainty) {
+            Ok(distribution) => Some(distribution),
+            Err(error) => {
+                let place = self.place_of(error.parameter());
+                let name = self.name.to_owned();
+                self.object.log.report(&place, Fault::Distribution { name, error });
+                None
+            }
+        }
+    }
+
+    /// The place of a parameter's value, or of the input's name.
+    fn place_of(&self, parameter: &str) -> Range<usize> {
+        let other = match parameter {
+            "std" => "expanded",
+            "half_width" => "semi_range",
+            other => other,
+        };
+        let member = self.object.get(parameter).or_else(|| self.object.get(other));
+        member.map_or_else(|| self.object.place().clone(), |m| m.value.span.clone())
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,103 @@
+//! What a case must be as a whole: enough data, and values of the sim at all of them.
+
+use super::Fault;
+use super::case::Read;
+use super::effects::Placed;
+use super::problem::Log;
+use super::table::Table;
+use gumption_gap::Effect;
+
+/// Checks a case that was read.
+pub(super) fn check(log: &Log, read: &Read<'_>, placed: &[Placed], data: &Table) {
+    enough(log, read, placed, data);
+    if defined(log, read, data) {
+        for placed in placed {
+            defined_with(log, read, placed, data);
+        }
+    }
+}
+
+/// More unknown quantities than measured values leave nothing to tell them by.
+fn enough(log: &Log, read: &Read<'_>, placed: &[Placed], data: &Table) {
+    let rows = data.rows.len();
+    let values = rows * read.observed.iter().flatten().count();
+    for placed in placed {
+        let Effect { name, parameters, .. } = &placed.candidate.effect;
+        if values < parameters.len() {
+            let reason = format!(
+                "has {} parameters, but the data have only {values} measured value{}; no effect can \
+                 be told from fewer values than it has parameters",
+                parameters.len(),
+                if values == 1 { "" } else { "s" }
+            );
+            log.report(&placed.place, Fault::Effect { name: name.clone(), reason });
+        }
+    }
+    let unknown = |observed: &&gumption_gap::Observed| observed.standard_uncertainties.is_none();
+    if rows < 2 && read.observed.iter().flatten().any(|observed| unknown(&observed)) {
+        let reason = "the data have one row and no standard uncertainties; the noise can be \
+                      estimated from several rows only"
+            .to_owned();
+        log.report_at(data.place(0, 0), Fault::Observation { reason });
+    }
+}
+
+/// Whether the sim has a value for every measured one.
+fn defined(log: &Log, read: &Read<'_>, data: &Table) -> bool {
+    let found = undefined(read, None);
+    if let Some((row, output, why)) = &found {
+        let reason = format!(
+            "at the conditions of row {} of the data the sim gives no finite number for \
+             `{output}`{why}",
+            row + 1
+        );
+        log.report_at(data.place(*row, 0), Fault::Observation { reason });
+    }
+    found.is_none()
+}
+
+/// Whether an effect leaves the sim a value for every measured one.
+fn defined_with(log: &Log, read: &Read<'_>, placed: &Placed, data: &Table) {
+    if let Some((row, output, why)) = undefined(read, Some(placed)) {
+        let line = data.place(row, 0);
+        let (line, _) = line.source.position(line.span.start);
+        let reason = format!(
+            "gives no finite number for `{output}` at the conditions of row {} of the data (line \
+             {line} of `{}`), its parameters at their medians{why}",
+            row + 1,
+            data.source.name
+        );
+        let name = placed.candidate.effect.name.clone();
+        log.report(&placed.place, Fault::Effect { name, reason });
+    }
+}
+
+/// The first row and observed output without a finite value, and the operation that gave none.
+fn undefined(read: &Read<'_>, placed: Option<&Placed>) -> Option<(usize, String, String)> {
+    let candidate = placed.map(|placed| &placed.candidate);
+    let effects: Vec<&Effect> = candidate.iter().map(|candidate| &candidate.effect).collect();
+    // what is circular has been reported
+    let program = read.sim.program(&effects).ok()?;
+    let parameters: Vec<f64> = candidate
+        .map(|candidate| candidate.priors.iter().map(|prior| prior.quantile(0.5)).collect())
+        .unwrap_or_default();
+    for (number, row) in read.task.rows.iter().enumerate() {
+        let estimates = row.distributions.iter().map(|distribution| distribution.mean());
+        let variables: Vec<f64> =
+            estimates.chain(row.conditions.iter().copied()).chain(parameters.clone()).collect();
+        let values = program.evaluate(&variables);
+        let faulty = read
+            .sim
+            .outputs
+            .iter()
+            .zip(values)
+            .zip(read.observed)
+            .find(|((_, value), observed)| observed.is_some() && !value.is_finite());
+        if let Some(((output, _), _)) = faulty {
+            let operation = program.first_undefined(&variables);
+            let why = operation.map(|operation| format!(": {operation}")).unwrap_or_default();
+            return Some((number, output.quantity.name.clone(), why));
+        }
+    }
+    None
+}

@@ -1,0 +1,177 @@
+//! Widths as laboratories write them: a number in the input's unit, or a specification such as
+//! `0.02 % + 0.005 % of 10 V + 2 uV`.
+
+use super::Fault;
+use super::json::{Json, Node};
+use gumption_units::Unit;
+
+/// A width that may follow the estimate: `relative` times its modulus, plus `absolute`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Width {
+    relative: f64,
+    absolute: f64,
+}
+
+impl Width {
+    /// The width at an estimate, both in the input's unit.
+    pub(super) fn at(self, estimate: f64) -> f64 {
+        self.relative * estimate.abs() + self.absolute
+    }
+
+    /// Whether the width is typed as a specification, so that it may become 0 with the estimate.
+    pub(super) fn is_relative_only(self) -> bool {
+        self.absolute == 0.0 && self.relative > 0.0
+    }
+
+    /// Reads the width of the input `name`, whose unit is `unit`.
+    pub(super) fn read(node: &Node, name: &str, key: &str, unit: &Unit) -> Result<Self, Fault> {
+        match &node.value {
+            Json::Number(_) => {
+                let absolute = node.number().unwrap_or(f64::NAN);
+                if absolute > 0.0 {
+                    Ok(Self { relative: 0.0, absolute })
+                } else {
+                    Err(Fault::NotPositive { key: key.to_owned(), found: absolute })
+                }
+            }
+            Json::Text(text) => Self::specification(text, unit).map_err(|reason| Fault::Width {
+                name: name.to_owned(),
+                found: text.clone(),
+                reason,
+            }),
+            other => Err(Fault::WrongType {
+                what: format!("`{key}`"),
+                found: other.kind(),
+                expected: "a number or a specification such as \"0.02 % + 2 uV\"",
+            }),
+        }
+    }
+
+    fn specification(text: &str, unit: &Unit) -> Result<Self, String> {
+        let mut width = Self { relative: 0.0, absolute: 0.0 };
+        for term in terms(text) {
+            let (value, rest) = number(term)?;
+            if value.is_nan() || value < 0.0 || value.is_infinite() {
+                return Err(format!("`{term}` is not a positive share or value"));
+            }
+            match share(rest) {
+                Some((factor, "")) => {
+                    if unit.is_relative() || unit.is_celsius() {
+                        return Err(format!(
+                            "for an input in `{unit}` it is not clear what `{term}` is of: write \
+                             `{term} of reading`, or a value with its unit"
+                        ));
+                    }
+                    width.relative += value * factor;
+                }
+                Some((factor, "reading")) => width.relative += value * factor,
+                Some((factor, range)) => {
+                    let (full, range_unit) = number(range)?;
+                    width.absolute += value * factor * converted(full, range_unit, unit, range)?;
+                }
+                None => width.absolute += converted(value, rest, unit, term)?,
+            }
+        }
+        if width.relative > 0.0 || width.absolute > 0.0 {
+            Ok(width)
+        } else {
+            Err("it is zero; a width is above zero".to_owned())
+        }
+    }
+}
+
+/// The terms between plus signs; the plus of an exponent (1e+3) does not separate.
+fn terms(text: &str) -> Vec<&str> {
+    let mut terms = Vec::new();
+    let mut start = 0;
+    let bytes = text.as_bytes();
+    for (at, _) in text.match_indices('+') {
+        let exponent = at >= 2
+            && bytes.get(at - 1).is_some_and(|b| matches!(b, b'e' | b'E'))
+            && bytes.get(at - 2).is_some_and(u8::is_ascii_digit)
+            && bytes.get(at + 1).is_some_and(u8::is_ascii_digit);
+        if !exponent {
+            terms.push(text.get(start..at).unwrap_or("").trim());
+            start = at + 1;
+        }
+    }
+    terms.push(text.get(start..).unwrap_or("").trim());
+    terms
+}
+
+/// The number at the start of a term, and what follows it.
+fn number(term: &str) -> Result<(f64, &str), String> {
+    let longest = term
+        .char_indices()
+        .map(|(at, c)| at + c.len_utf8())
+        .take_while(|&end| end <= 40)
+        .filter_map(|end| {
+            let text = term.get(..end)?;
+            let plain = !text.chars().any(|c| c.is_alphabetic() && !matches!(c, 'e' | 'E'));
+            if plain { Some((text.parse::<f64>().ok()?, end)) } else { None }
+        })
+        .last();
+    let Some((value, end)) = longest else {
+        let shown = if term.is_empty() { "an empty term".to_owned() } else { format!("`{term}`") };
+        return Err(format!("{shown} does not begin with a number"));
+    };
+    Ok((value, term.get(end..).unwrap_or("").trim()))
+}
+
+/// Whether the rest of a term is a share, of which size, and what it is of (`""` if not said).
+fn share(rest: &str) -> Option<(f64, &str)> {
+    let (factor, after) = [("%", 1e-2), ("ppm", 1e-6), ("ppb", 1e-9)]
+        .into_iter()
+        .find_map(|(sign, factor)| Some((factor, rest.strip_prefix(sign)?)))?;
+    if after.is_empty() {
+        return Some((factor, ""));
+    }
+    let of = after.trim_start().strip_prefix("of")?;
+    of.starts_with(char::is_whitespace).then(|| (factor, of.trim()))
+}
+
+fn converted(value: f64, text: &str, unit: &Unit, term: &str) -> Result<f64, String> {
+    if text.is_empty() {
+        return if unit.dimension().is_none() && !unit.is_relative() {
+            Ok(value)
+        } else {
+            Err(format!("`{term}` has no unit; write for example `{term} {unit}`"))
+        };
+    }
+    let given = Unit::parse(text).map_err(|error| format!("in `{term}`: {error}"))?;
+    let factor = Unit::conversion_factor(&given, unit)
+        .map_err(|_| format!("`{text}` in `{term}` cannot be converted to the unit `{unit}`"))?;
+    Ok(value * factor)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(text: &str, unit: &str) -> Result<Width, String> {
+        Width::specification(text, &Unit::parse(unit).unwrap())
+    }
+
+    #[test]
+    fn a_multimeter_specification() {
+        let width = read("0.02 % + 0.005 % of 10 V + 2 uV", "V").unwrap();
+        assert!((width.at(-5.0) - (0.001 + 0.0005 + 2e-6)).abs() < 1e-15);
+        assert!(
+            (read("50 ppm of reading + 1e-3 mV", "V").unwrap().at(2.0) - 1.01e-4).abs() < 1e-15
+        );
+        assert!((read("3", "").unwrap().at(7.0) - 3.0).abs() < 1e-15);
+        assert!((read("1e+1 mV", "V").unwrap().at(7.0) - 0.01).abs() < 1e-15);
+    }
+
+    #[test]
+    fn what_cannot_be_read_is_explained() {
+        assert!(read("0.02 % + 3", "V").unwrap_err().contains("no unit"));
+        assert!(read("1 %", "degC").unwrap_err().contains("of reading"));
+        assert!(read("2 s", "V").unwrap_err().contains("converted"));
+        assert!(read("", "V").unwrap_err().contains("empty"));
+        assert!(read("0 %", "V").unwrap_err().contains("zero"));
+        assert!(read("1 % + ", "V").unwrap_err().contains("empty"));
+        assert!(read("-1 %", "V").is_err());
+        assert!(read("1 furlong", "m").unwrap_err().contains("furlong"));
+    }
+}

@@ -1,0 +1,65 @@
+//! The verdict alone: what a blind check asks of many data sets.
+
+use super::diagnose::{Weighed, hypotheses, prediction};
+use super::diagnosis::{Hypothesis, Predicted, Verdict};
+use super::posterior::Effort;
+use super::shrink;
+use crate::Case;
+use gumption_engine::task::Row;
+
+/// A diagnosis without regions, cross-validation and advice.
+#[derive(Clone, Debug)]
+pub struct Answer {
+    /// The hypothesis of highest posterior probability.
+    pub verdict: Verdict,
+    /// All hypotheses, most probable first.
+    pub hypotheses: Vec<Hypothesis>,
+    /// Corrected predictions at the case's own rows.
+    pub predicted: Vec<Predicted>,
+    /// Posterior expectation of the fraction of the gap that the correction removes.
+    pub claimed_fraction: f64,
+}
+
+/// The standard deviation of the noise of every measured value, output by output: as stated, or as
+/// the case's own data tell.
+pub fn noise(case: &Case, seed: u64) -> Vec<Vec<f64>> {
+    let data = super::data::Data::new(case);
+    let stated: Option<Vec<Vec<f64>>> = data.uncertainties.into_iter().collect();
+    stated.unwrap_or_else(|| {
+        let weighed = Weighed::new(case, seed, Effort::QUICK, &|_| {});
+        let outputs = weighed.setup.data.outputs.len();
+        (0..outputs)
+            .map(|output| {
+                let own = weighed.variances.iter().skip(output).step_by(outputs);
+                own.map(|variance| variance.sqrt()).collect()
+            })
+            .collect()
+    })
+}
+
+/// What the sim says of every observed output in every row at the inputs' estimates.
+pub fn nominal(case: &Case) -> Vec<Vec<f64>> {
+    let data = super::data::Data::new(case);
+    (0..data.outputs.len())
+        .map(|output| data.point_of.iter().map(|&p| data.points[p].nominal[output]).collect())
+        .collect()
+}
+
+/// Weighs the hypotheses of a case.
+pub fn answer(case: &Case, seed: u64) -> Answer {
+    let weighed = Weighed::new(case, seed, Effort::QUICK, &|_| {});
+    let rows: Vec<Row> = case.task.rows.clone();
+    let group = weighed.group();
+    Answer {
+        verdict: weighed.verdict(&group),
+        hypotheses: hypotheses(&weighed.setup, &weighed.posterior, super::diagnose::coverage(case)),
+        predicted: prediction(&weighed.setup, &weighed.discrepancy, &weighed.posterior, &rows),
+        claimed_fraction: shrink::claim(
+            &weighed.setup,
+            &weighed.discrepancy,
+            &weighed.posterior,
+            &weighed.correction,
+            &weighed.variances,
+        ),
+    }
+}

@@ -1,0 +1,71 @@
+//! A case of the gap diagnosis: a sim, what was measured, and the effects that may be missing.
+
+use crate::{Effect, Sim};
+use gumption_engine::distribution::Distribution;
+use gumption_engine::task::Task;
+
+/// A sim with measured data and candidate effects.
+#[derive(Clone, Debug)]
+pub struct Case {
+    /// The sim at the conditions of every row of the data.
+    pub task: Task,
+    /// The sim in a form that effects can override.
+    pub sim: Sim,
+    /// What was measured of each output of the sim, in the order of the outputs; `None` where an
+    /// output was not observed.
+    pub observed: Vec<Option<Observed>>,
+    /// How many of the last conditions are columns of somebody else's simulation rather than
+    /// conditions of the measurement.
+    pub simulated: usize,
+    /// The candidate effects.
+    pub candidates: Vec<Candidate>,
+    /// The prior probabilities.
+    pub prior: Prior,
+}
+
+/// Measured values of one output, a row of the data each, in the output's unit.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Observed {
+    /// The values.
+    pub values: Vec<f64>,
+    /// Their standard uncertainties; without them the noise is estimated from the data.
+    pub standard_uncertainties: Option<Vec<f64>>,
+    /// Standard uncertainties of somebody else's simulation of the same rows.
+    pub simulation_uncertainties: Option<Vec<f64>>,
+    /// Covariance matrix of somebody else's simulation of the same rows.
+    pub simulation_covariance: Option<Vec<Vec<f64>>>,
+}
+
+/// An effect with what is known of its parameters beforehand.
+#[derive(Clone, Debug)]
+pub struct Candidate {
+    /// The effect.
+    pub effect: Effect,
+    /// The prior distribution of each parameter, in its unit.
+    pub priors: Vec<Distribution>,
+    /// What it is, in words.
+    pub about: String,
+    /// Where it comes from.
+    pub source: String,
+}
+
+/// Prior probabilities; they sum to one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Prior {
+    /// No gap.
+    pub none: f64,
+    /// One effect, shared equally among them.
+    pub one: f64,
+    /// Two effects, shared equally among the pairs.
+    pub two: f64,
+    /// Three effects, shared equally among the triples.
+    pub three: f64,
+    /// A gap that no candidate makes.
+    pub unexplained: f64,
+}
+
+impl Prior {
+    /// The prior of a file that says nothing of it.
+    pub const DEFAULT: Self =
+        Self { none: 0.15, one: 0.55, two: 0.15, three: 0.0, unexplained: 0.15 };
+}

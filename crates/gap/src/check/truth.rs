@@ -1,0 +1,193 @@
+//! A truth drawn from the hypotheses, and data that it makes at a case's design.
+
+use serde::{Deserialize, Serialize};
+
+use crate::Case;
+use crate::Effect;
+use crate::data::{Data, Spread};
+use crate::latent::Map;
+use crate::mixture::standard_normals;
+use crate::{correlated, setup};
+use gumption_engine::distribution::StreamKey;
+use gumption_engine::number::{COLUMN, Column};
+
+/// What makes the data.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum TruthKind {
+    /// The sim alone.
+    None,
+    /// Effects of the catalogue.
+    Catalogue,
+    /// An effect that is then taken out of the catalogue.
+    Withheld,
+}
+
+/// A sealed truth.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Truth {
+    /// Its kind.
+    pub kind: TruthKind,
+    /// Names of the effects.
+    pub effects: Vec<String>,
+    /// Their parameters, `effect/parameter`, in the parameters' units.
+    pub parameters: Vec<(String, f64)>,
+    /// For each observed output and row the value without noise.
+    pub values: Vec<Vec<f64>>,
+    /// Root mean square of what the effects change, in standard uncertainties of the data.
+    pub gap: f64,
+}
+
+/// Normal scores, one at a time.
+struct Scores {
+    key: StreamKey,
+    block: u64,
+    column: Column,
+    left: usize,
+}
+
+impl Scores {
+    fn new(seed: u64, number: u64) -> Self {
+        let key = StreamKey::new(seed, &format!("gap-check/{number}"));
+        Self { key, block: 0, column: Column::ZERO, left: 0 }
+    }
+
+    fn next(&mut self) -> f64 {
+        if self.left == 0 {
+            standard_normals(&mut self.key.block(self.block), &mut self.column);
+            self.block += 1;
+            self.left = COLUMN;
+        }
+        self.left -= 1;
+        self.column.0[self.left]
+    }
+
+    /// A number uniform on (0, 1).
+    fn uniform(&mut self) -> f64 {
+        gumption_engine::distribution::special::normal::cdf(self.next())
+    }
+
+    fn choice(&mut self, count: usize) -> usize {
+        ((self.uniform() * count as f64) as usize).min(count.saturating_sub(1))
+    }
+}
+
+/// Draws a truth of a case and the data that it makes; `noise` is the standard deviation of every
+/// measured value, output by output.
+pub fn truth(case: &Case, noise: &[Vec<f64>], seed: u64, number: u64) -> (Truth, Vec<Vec<f64>>) {
+    let mut scores = Scores::new(seed, number);
+    let (kind, effects) = choose(case, &mut scores);
+    make(case, noise, kind, &effects, scores)
+}
+
+/// Data that certain effects make.
+#[cfg(test)]
+pub(crate) fn truth_with(
+    case: &Case,
+    noise: &[Vec<f64>],
+    effects: &[usize],
+    seed: u64,
+    number: u64,
+) -> (Truth, Vec<Vec<f64>>) {
+    make(case, noise, TruthKind::Catalogue, effects, Scores::new(seed, number))
+}
+
+fn make(
+    case: &Case,
+    noise: &[Vec<f64>],
+    kind: TruthKind,
+    effects: &[usize],
+    mut scores: Scores,
+) -> (Truth, Vec<Vec<f64>>) {
+    let data = Data::new(case);
+    let spread = Spread::new(case, &data);
+    let chosen: Vec<_> = effects.iter().map(|&e| &case.candidates[e]).collect();
+    let acting: Vec<&Effect> = chosen.iter().map(|candidate| &candidate.effect).collect();
+    let mut parameters = Vec::new();
+    for candidate in &chosen {
+        for (quantity, prior) in candidate.effect.parameters.iter().zip(&candidate.priors) {
+            let name = format!("{}/{}", candidate.effect.name, quantity.name);
+            parameters.push((name, drawn(&Map::of(prior), scores.next())));
+        }
+    }
+    let inputs = inputs(case, &data, &spread, &mut scores);
+    let with = case.sim.program(&acting).unwrap_or_default();
+    let without = &case.task.model.program;
+    let mut values = vec![Vec::with_capacity(data.rows()); data.outputs.len()];
+    let mut measured = values.clone();
+    let (mut squares, mut count) = (0.0, 0usize);
+    for row in 0..data.rows() {
+        let mut variables = inputs[row].clone();
+        variables.extend(&case.task.rows[row].conditions);
+        let plain = without.evaluate(&variables);
+        variables.extend(parameters.iter().map(|(_, value)| *value));
+        let changed = with.evaluate(&variables);
+        for (place, &output) in data.outputs.iter().enumerate() {
+            let u = noise[place][row];
+            values[place].push(changed[output]);
+            measured[place].push(changed[output] + u * scores.next());
+            squares += ((changed[output] - plain[output]) / u).powi(2);
+            count += 1;
+        }
+    }
+    let names = chosen.iter().map(|candidate| candidate.effect.name.clone()).collect();
+    let gap = (squares / count.max(1) as f64).sqrt();
+    (Truth { kind, effects: names, parameters, values, gap }, measured)
+}
+
+/// The value at the probability of a standard normal score.
+fn drawn(map: &Map, normal: f64) -> f64 {
+    map.value(map.score_of(normal))
+}
+
+/// The hypothesis that is true.
+fn choose(case: &Case, scores: &mut Scores) -> (TruthKind, Vec<usize>) {
+    let prior = case.prior;
+    let count = case.candidates.len();
+    let place = scores.uniform() * (prior.none + prior.one + prior.two + prior.unexplained);
+    let one = scores.choice(count);
+    let two = scores.choice(count.saturating_sub(1));
+    if count == 0 || place < prior.none {
+        (TruthKind::None, Vec::new())
+    } else if place < prior.none + prior.one {
+        (TruthKind::Catalogue, vec![one])
+    } else if place < prior.none + prior.one + prior.two && count > 1 {
+        let other = if two >= one { two + 1 } else { two };
+        (TruthKind::Catalogue, vec![one.min(other), one.max(other)])
+    } else {
+        (TruthKind::Withheld, vec![one])
+    }
+}
+
+/// The inputs' true values in every row.
+fn inputs(case: &Case, data: &Data, spread: &Spread, scores: &mut Scores) -> Vec<Vec<f64>> {
+    let variables = case.task.variables.len();
+    let shared: Vec<usize> = (0..variables).filter(|&v| spread.shared[v].is_none()).collect();
+    let independent: Vec<f64> = shared.iter().map(|_| scores.next()).collect();
+    let root = correlated::matrix(case, &shared).and_then(|matrix| matrix.cholesky());
+    let root = root.map(|root| root.l());
+    let mixed = |i: usize| match &root {
+        Some(root) => (0..=i).map(|j| root[(i, j)] * independent[j]).sum(),
+        None => independent[i],
+    };
+    let mut inputs = vec![vec![0.0; variables]; data.rows()];
+    for v in 0..variables {
+        let maps = setup::maps(case, data, v);
+        let own: Vec<f64> = match &spread.shared[v] {
+            None => {
+                let place = shared.iter().position(|&known| known == v).unwrap_or(0);
+                vec![mixed(place); data.rows()]
+            }
+            Some(groups) => {
+                let levels = groups.iter().max().map_or(0, |most| most + 1);
+                let of_level: Vec<f64> = (0..levels).map(|_| scores.next()).collect();
+                groups.iter().map(|&group| of_level[group]).collect()
+            }
+        };
+        for (row, score) in own.into_iter().enumerate() {
+            let map = if maps.len() > 1 { &maps[data.point_of[row]] } else { &maps[0] };
+            inputs[row][v] = drawn(map, score);
+        }
+    }
+    inputs
+}

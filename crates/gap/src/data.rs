@@ -1,0 +1,175 @@
+//! What was measured and what the sim says of it, row by row.
+
+use std::collections::HashMap;
+
+use crate::Case;
+use gumption_engine::task::Sharing;
+
+/// The data of a case beside the sim's estimates.
+#[derive(Clone, Debug)]
+pub(crate) struct Data {
+    /// The observed outputs, as places in the sim's outputs.
+    pub outputs: Vec<usize>,
+    /// For each of them the length of a turn, for phases.
+    pub(crate) turns: Vec<Option<f64>>,
+    /// For each of them the measured values.
+    pub(crate) values: Vec<Vec<f64>>,
+    /// For each of them the standard uncertainties of measured values and of a simulation that came
+    /// with the data, in quadrature; `None` where the noise is to be estimated.
+    pub(crate) uncertainties: Vec<Option<Vec<f64>>>,
+    /// The distinct conditions.
+    pub(crate) points: Vec<Point>,
+    /// The point of each row.
+    pub(crate) point_of: Vec<usize>,
+    /// The row of the case that each row is.
+    pub(crate) ids: Vec<usize>,
+}
+
+/// Conditions at which there are one or more rows.
+#[derive(Clone, Debug)]
+pub(crate) struct Point {
+    /// The rows.
+    pub(crate) rows: Vec<usize>,
+    /// For each observed output what the sim says at the inputs' estimates.
+    pub(crate) nominal: Vec<f64>,
+    /// For each observed output its partial derivatives with respect to the variables.
+    pub(crate) gradients: Vec<Vec<f64>>,
+}
+
+impl Data {
+    /// All rows of a case.
+    pub(crate) fn new(case: &Case) -> Self {
+        Self::of(case, (0..case.task.rows.len()).collect())
+    }
+
+    /// Some rows of a case.
+    pub(crate) fn of(case: &Case, ids: Vec<usize>) -> Self {
+        let outputs: Vec<usize> =
+            (0..case.observed.len()).filter(|&output| case.observed[output].is_some()).collect();
+        let observed: Vec<_> = case.observed.iter().flatten().collect();
+        let mut points: Vec<Point> = Vec::new();
+        let mut known: HashMap<Vec<u64>, usize> = HashMap::new();
+        let mut point_of = Vec::with_capacity(ids.len());
+        for (number, &id) in ids.iter().enumerate() {
+            let row = &case.task.rows[id];
+            let key = row.conditions.iter().map(|value| value.to_bits()).collect();
+            let place = *known.entry(key).or_insert_with(|| {
+                let mut variables: Vec<f64> =
+                    row.distributions.iter().map(|distribution| distribution.mean()).collect();
+                let inputs = variables.len();
+                variables.extend(&row.conditions);
+                let (values, gradients) = case.task.model.program.gradients(&variables);
+                let gradient = |&output: &usize| gradients[output][..inputs].to_vec();
+                points.push(Point {
+                    rows: Vec::new(),
+                    nominal: outputs.iter().map(|&output| values[output]).collect(),
+                    gradients: outputs.iter().map(gradient).collect(),
+                });
+                points.len() - 1
+            });
+            points[place].rows.push(number);
+            point_of.push(place);
+        }
+        let in_quadrature = |of: &&crate::Observed| {
+            let own = of.standard_uncertainties.as_ref()?;
+            let other = of.simulation_uncertainties.as_ref();
+            let both = |&id: &usize| other.map_or(own[id], |other| own[id].hypot(other[id]));
+            Some(ids.iter().map(both).collect())
+        };
+        Self {
+            turns: outputs.iter().map(|&output| case.sim.outputs[output].period).collect(),
+            values: observed
+                .iter()
+                .map(|observed| ids.iter().map(|&id| observed.values[id]).collect())
+                .collect(),
+            uncertainties: observed.iter().map(in_quadrature).collect(),
+            outputs,
+            points,
+            point_of,
+            ids,
+        }
+    }
+
+    /// Number of rows.
+    pub(crate) fn rows(&self) -> usize {
+        self.point_of.len()
+    }
+
+    /// Number of measured values.
+    pub(crate) fn len(&self) -> usize {
+        self.rows() * self.outputs.len()
+    }
+
+    /// A measured value less a value of the sim, for phases within half a turn.
+    pub(crate) fn residual(&self, output: usize, row: usize, sim: f64) -> f64 {
+        let residual = self.values[output][row] - sim;
+        match self.turns[output] {
+            Some(turn) => residual - turn * (residual / turn).round(),
+            None => residual,
+        }
+    }
+
+    /// The residuals against the sim at the inputs' estimates, output by output.
+    pub(crate) fn nominal_residuals(&self) -> Vec<Vec<f64>> {
+        (0..self.outputs.len())
+            .map(|output| {
+                self.point_of
+                    .iter()
+                    .enumerate()
+                    .map(|(row, &point)| {
+                        self.residual(output, row, self.points[point].nominal[output])
+                    })
+                    .collect()
+            })
+            .collect()
+    }
+}
+
+/// Standard deviations of the variables in every row, and which rows share a value.
+#[derive(Clone, Debug)]
+pub(crate) struct Spread {
+    /// For each variable its standard deviation at each point.
+    pub(crate) deviations: Vec<Vec<f64>>,
+    /// For each variable the rows that share its value: `None` for all rows, else a number for each
+    /// row.
+    pub(crate) shared: Vec<Option<Vec<usize>>>,
+}
+
+impl Spread {
+    pub(crate) fn new(case: &Case, data: &Data) -> Self {
+        let variables = case.task.variables.len();
+        let deviations = (0..variables)
+            .map(|variable| {
+                let of = |point: &Point| {
+                    let row = point.rows.first().and_then(|&row| case.task.rows.get(data.ids[row]));
+                    row.and_then(|row| row.distributions.get(variable)).map_or(
+                        0.0,
+                        |distribution| {
+                            let deviation = distribution.standard_deviation();
+                            if deviation.is_finite() {
+                                deviation
+                            } else {
+                                distribution.standard_uncertainty()
+                            }
+                        },
+                    )
+                };
+                data.points.iter().map(of).collect()
+            })
+            .collect();
+        let shared = case.task.variables.iter().map(|variable| match variable.sharing {
+            Sharing::All => None,
+            Sharing::Row => Some((0..data.rows()).collect()),
+            Sharing::Condition(place) => {
+                let mut levels: HashMap<u64, usize> = HashMap::new();
+                let mut level = |row: &gumption_engine::task::Row| {
+                    let value = row.conditions.get(place).copied().unwrap_or(0.0);
+                    let next = levels.len();
+                    *levels.entry(value.to_bits()).or_insert(next)
+                };
+                Some(data.ids.iter().map(|&id| level(&case.task.rows[id])).collect())
+            }
+        });
+        Self { deviations, shared: shared.collect() }
+    }
+}

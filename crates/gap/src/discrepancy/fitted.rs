@@ -1,0 +1,408 @@
+//! The evidence of a discrepancy where the noise is estimated from the data as well.
+//!
+//! At each amplitude the noise is integrated out about its most probable value (Laplace), which is
+//! accurate because a standard deviation from many residuals is nearly lognormal. Repeats go in as
+//! their mean and the sum of squares about it.
+
+use std::sync::Arc;
+
+use nalgebra::{DMatrix, DVector};
+use rayon::prelude::*;
+
+use super::{AMPLITUDES, Discrepancy, Unexplained, Weighted, weigh};
+use crate::covariance::triangle;
+use crate::latent::{EDGE, Role, ln_prior};
+use crate::likelihood::{HALF_LN_TWO_PI, root_in_place};
+use crate::setup::Setup;
+
+/// Points of the integral over the logarithm of the amplitude.
+const STEPS: usize = 14;
+
+/// Half the step of differences in the scores, by which a quantity's map is differentiated.
+const STEP: f64 = 1e-4;
+
+const MOST_STEPS: usize = 20;
+
+/// A gain in the logarithm of the density that is not worth another step.
+const ENOUGH: f64 = 1e-3;
+
+/// Every so many-th amplitude is tried first.
+const COARSE: usize = 4;
+
+/// Forms whose evidence is lower than what leads by this factor's logarithm make no difference.
+const HOPELESS: f64 = 12.0;
+
+/// Between two amplitudes that are tried, a factor of 3.73 apart, the density may be higher than at
+/// either by this factor's logarithm for each feature: with the peak a factor of 1.68 above the lower
+/// one, where -ln a - (1/a^2)/2 has fallen by as much on both sides.
+const PER_FEATURE: f64 = 0.4;
+
+/// The evidence; forms that cannot come near `floor` or near the best of them are left at a few
+/// amplitudes.
+pub(crate) fn evidence(
+    discrepancy: &Discrepancy,
+    setup: &Setup<'_>,
+    residuals: &[f64],
+    floor: f64,
+) -> Unexplained {
+    let noise: Vec<&Role> = setup.roles.iter().filter(|role| role.is_noise()).collect();
+    // from the largest amplitude on, where the noise is least
+    let at = |place: usize, steps: &[usize]| -> Vec<(f64, Weighted)> {
+        let form = &discrepancy.forms[place];
+        let features = form.features(setup, &discrepancy.axes);
+        let problem = Problem::new(setup, &features, &noise, residuals);
+        let mut scores = vec![0.0; noise.len()];
+        let mut part = |step: &usize| {
+            let share = (*step as f64 + 0.5) / STEPS as f64;
+            let amplitude = AMPLITUDES[0] * (AMPLITUDES[1] / AMPLITUDES[0]).powf(share);
+            let ln = problem.integrate(amplitude, &mut scores);
+            let variances = problem.variances(&scores);
+            let own = problem.means.iter().map(|mean| variances[mean.value]);
+            let multiplier = amplitude * problem.scale(own);
+            let ln = ln + form.ln_weight - (STEPS as f64).ln();
+            let variances = Some(Arc::new(variances));
+            (ln, Weighted { form: place, multiplier, weight: 0.0, base: None, variances })
+        };
+        steps.iter().rev().map(&mut part).collect()
+    };
+    let is_coarse = |step: &usize| step % COARSE == 1;
+    let (coarse, fine): (Vec<usize>, Vec<usize>) = (0..STEPS).partition(is_coarse);
+    let mut parts: Vec<Vec<(f64, Weighted)>> =
+        (0..discrepancy.forms.len()).into_par_iter().map(|place| at(place, &coarse)).collect();
+    let best = |parts: &[(f64, Weighted)]| {
+        parts.iter().map(|(ln, _)| *ln).fold(f64::NEG_INFINITY, f64::max)
+    };
+    let leads = parts.iter().map(|parts| best(parts)).fold(floor, f64::max);
+    parts.par_iter_mut().enumerate().for_each(|(place, parts)| {
+        let features = discrepancy.forms[place].nodes.rank() * setup.data.outputs.len();
+        if best(parts) + PER_FEATURE * features as f64 > leads - HOPELESS {
+            parts.extend(at(place, &fine));
+        }
+    });
+    weigh(parts.into_iter().flatten().collect())
+}
+
+struct Problem<'p> {
+    setup: &'p Setup<'p>,
+    noise: &'p [&'p Role],
+    /// Repeats are one mean each.
+    means: Vec<Mean>,
+    /// The discrepancy's features at each mean, then the shared inputs' basis.
+    rows: Vec<Vec<f64>>,
+    features: usize,
+    /// For each mean the variance of the discrepancy at unit variance of the function.
+    own: Vec<f64>,
+    touched: f64,
+}
+
+/// The mean of values that differ by nothing but noise.
+struct Mean {
+    /// Place of the first of them.
+    value: usize,
+    count: f64,
+    residual: f64,
+    /// Sum of the squared deviations from the mean.
+    squares: f64,
+}
+
+/// The logarithm of the density at scores of the noise, with its gradient and expected information.
+struct Local {
+    ln: f64,
+    gradient: DVector<f64>,
+    information: DMatrix<f64>,
+}
+
+impl<'p> Problem<'p> {
+    fn new(
+        setup: &'p Setup<'p>,
+        features: &DMatrix<f64>,
+        noise: &'p [&'p Role],
+        residuals: &[f64],
+    ) -> Self {
+        let means = means(setup, residuals);
+        let basis = &setup.linear.basis;
+        let row = |mean: &Mean| -> Vec<f64> {
+            let features = features.row(mean.value);
+            features.iter().copied().chain(basis.iter().map(|column| column[mean.value])).collect()
+        };
+        let rows: Vec<Vec<f64>> = means.iter().map(row).collect();
+        let features = features.ncols();
+        let own: Vec<f64> =
+            rows.iter().map(|row| row[..features].iter().map(|f| f * f).sum()).collect();
+        let touched = own.iter().zip(&means).filter(|(own, _)| **own > 0.0).map(|(_, m)| m.count);
+        let touched = touched.sum::<f64>().max(1.0);
+        Self { setup, noise, means, rows, features, own, touched }
+    }
+
+    /// Variance of a value's noise, and its derivatives by the scores over it.
+    fn variance(&self, value: usize, scores: &[f64], slopes: &mut [f64]) -> f64 {
+        let output = value % self.setup.data.outputs.len();
+        let known = self.setup.linear.variances[value];
+        let ln_size = self.setup.ln_sizes[value];
+        let (mut ln, mut found) = (0.0, false);
+        slopes.fill(0.0);
+        for ((role, &score), slope) in self.noise.iter().zip(scores).zip(slopes.iter_mut()) {
+            let (map, factor) = match role {
+                Role::Noise { output: of, map } if *of == output => (map, 1.0),
+                Role::Power { output: of, map } if *of == output => (map, ln_size),
+                _ => continue,
+            };
+            found |= matches!(role, Role::Noise { .. });
+            ln += factor * map.value(score);
+            *slope = factor * (map.value(score + STEP) - map.value(score - STEP)) / STEP;
+        }
+        if !found {
+            return known;
+        }
+        let own = (2.0 * ln).exp();
+        slopes.iter_mut().for_each(|slope| *slope *= own / (own + known));
+        own + known
+    }
+
+    /// Variance of the noise by value.
+    fn variances(&self, scores: &[f64]) -> Vec<f64> {
+        let mut slopes = vec![0.0; scores.len()];
+        let values = 0..self.setup.linear.variances.len();
+        values.map(|value| self.variance(value, scores, &mut slopes)).collect()
+    }
+
+    /// What unit variance is multiplied by for an amplitude of one standard uncertainty; `own` are
+    /// variances of the noise by mean.
+    fn scale(&self, variances: impl Iterator<Item = f64>) -> f64 {
+        let means = self.own.iter().zip(&self.means).zip(variances);
+        let squares: f64 = means.map(|((own, mean), v)| mean.count * own / v).sum();
+        (self.touched / squares.max(f64::MIN_POSITIVE)).sqrt()
+    }
+
+    /// Logarithm of likelihood times prior of the scores, without the prior's constant, with its
+    /// gradient; and the expected information, where the directions that the discrepancy can follow
+    /// are taken as either wholly free or not at all.
+    fn local(&self, amplitude: f64, scores: &[f64]) -> Local {
+        let d = scores.len();
+        let order = self.rows.first().map_or(0, Vec::len);
+        let mut slopes = vec![0.0; d];
+        let mut variances = Vec::with_capacity(self.means.len());
+        let mut all_slopes = Vec::with_capacity(self.means.len() * d);
+        for mean in &self.means {
+            variances.push(self.variance(mean.value, scores, &mut slopes));
+            all_slopes.extend_from_slice(&slopes);
+        }
+        let multiplier = amplitude * self.scale(variances.iter().copied());
+        let mut inner = vec![0.0; triangle(order)];
+        for i in 0..order {
+            inner[triangle(i) + i] = 1.0;
+        }
+        let mut products = vec![0.0; order];
+        let mut whitened = Vec::with_capacity(self.rows.len() * order);
+        let mut ln = 0.0;
+        for ((mean, row), &variance) in self.means.iter().zip(&self.rows).zip(&variances) {
+            let root = (mean.count / variance).sqrt();
+            let first = whitened.len();
+            whitened.extend(row[..self.features].iter().map(|f| multiplier * root * f));
+            whitened.extend(row[self.features..].iter().map(|b| root * b));
+            let row = &whitened[first..];
+            let white = mean.residual * root;
+            ln -= 0.5 * (mean.count * variance.ln() + mean.squares / variance + white * white);
+            ln -= mean.count * HALF_LN_TWO_PI;
+            for i in 0..order {
+                let factor = row[i];
+                if factor != 0.0 {
+                    products[i] += factor * white;
+                    let sums = &mut inner[triangle(i)..=triangle(i) + i];
+                    for (sum, other) in sums.iter_mut().zip(row) {
+                        *sum += factor * other;
+                    }
+                }
+            }
+        }
+        ln -= root_in_place(&mut inner, order);
+        forward(&inner, &mut products);
+        ln += 0.5 * products.iter().map(|y| y * y).sum::<f64>();
+        backward(&inner, &mut products);
+        let mut gradient = DVector::zeros(d);
+        let mut information = DMatrix::zeros(d, d);
+        let (mut leverages, mut weight) = (0.0, 0.0);
+        let mut follows = DVector::zeros(d);
+        let mut solved = vec![0.0; order];
+        for (n, (mean, &variance)) in self.means.iter().zip(&variances).enumerate() {
+            let row = &whitened[n * order..(n + 1) * order];
+            let slopes = &all_slopes[n * d..(n + 1) * d];
+            solved.copy_from_slice(row);
+            forward(&inner, &mut solved);
+            let leverage: f64 = solved.iter().map(|y| y * y).sum();
+            leverages += leverage;
+            let fitted: f64 = row.iter().zip(&products).map(|(w, b)| w * b).sum();
+            let rest = mean.residual * (mean.count / variance).sqrt() - fitted;
+            let excess = rest * rest + mean.squares / variance - (mean.count - leverage);
+            let share = mean.count * self.own[n] / variance;
+            weight += share;
+            for i in 0..d {
+                gradient[i] += 0.5 * slopes[i] * excess;
+                follows[i] += share * slopes[i];
+                for j in 0..=i {
+                    information[(i, j)] += 0.5 * (mean.count - leverage) * slopes[i] * slopes[j];
+                }
+            }
+        }
+        // the discrepancy's size follows the noise
+        follows /= weight.max(f64::MIN_POSITIVE);
+        let taken = (leverages - shared(&inner, self.features, order)).max(0.0);
+        let square: f64 = products[..self.features].iter().map(|b| b * b).sum();
+        for i in 0..d {
+            gradient[i] += 0.5 * follows[i] * (square - taken);
+            for j in 0..=i {
+                information[(i, j)] += 0.5 * taken * follows[i] * follows[j];
+                information[(j, i)] = information[(i, j)];
+            }
+        }
+        for (i, (role, &score)) in self.noise.iter().zip(scores).enumerate() {
+            ln += ln_prior(role.is_bounded(), score);
+            if !role.is_bounded() {
+                gradient[i] -= score;
+                information[(i, i)] += 1.0;
+            }
+        }
+        Local { ln, gradient, information }
+    }
+
+    /// The integral over the scores of the noise; `scores` are where to start, and become the most
+    /// probable ones.
+    fn integrate(&self, amplitude: f64, scores: &mut [f64]) -> f64 {
+        let mut here = self.local(amplitude, scores);
+        let mut damping = 1e-4;
+        for _ in 0..MOST_STEPS {
+            let mut damped = here.information.clone();
+            for i in 0..scores.len() {
+                damped[(i, i)] = damped[(i, i)] * (1.0 + damping) + 1e-6;
+            }
+            let Some(root) = damped.cholesky() else { break };
+            let step = root.solve(&here.gradient);
+            if step.dot(&here.gradient) < 2.0 * ENOUGH {
+                break;
+            }
+            let next: Vec<f64> = scores
+                .iter()
+                .zip(step.iter())
+                .map(|(score, step)| (score + step.clamp(-1.0, 1.0)).clamp(-EDGE, EDGE))
+                .collect();
+            let there = self.local(amplitude, &next);
+            if there.ln >= here.ln {
+                let gain = there.ln - here.ln;
+                scores.copy_from_slice(&next);
+                here = there;
+                damping *= 0.1;
+                if gain < ENOUGH {
+                    break;
+                }
+            } else {
+                damping = (damping * 30.0).max(1e-2);
+            }
+        }
+        let determinant = here.information.determinant();
+        here.ln - 0.5 * if determinant > 0.0 { determinant.ln() } else { 0.0 }
+    }
+}
+
+/// Repeats that have the same variance and the same share of the shared inputs, together.
+fn means(setup: &Setup<'_>, residuals: &[f64]) -> Vec<Mean> {
+    let outputs = setup.data.outputs.len();
+    let linear = &setup.linear;
+    let alike = |a: usize, b: usize| {
+        linear.variances[a] == linear.variances[b]
+            && linear.basis.iter().all(|column| column[a] == column[b])
+    };
+    let mut means: Vec<Mean> = Vec::new();
+    for point in &setup.data.points {
+        for output in 0..outputs {
+            let first = means.len();
+            for &row in &point.rows {
+                let (value, residual) = (row * outputs + output, residuals[row * outputs + output]);
+                match means[first..].iter_mut().find(|mean| alike(mean.value, value)) {
+                    Some(mean) => {
+                        let before = residual - mean.residual;
+                        mean.count += 1.0;
+                        mean.residual += before / mean.count;
+                        mean.squares += before * (residual - mean.residual);
+                    }
+                    None => means.push(Mean { value, count: 1.0, residual, squares: 0.0 }),
+                }
+            }
+        }
+    }
+    means
+}
+
+/// Solves with a lower root in place.
+fn forward(root: &[f64], y: &mut [f64]) {
+    for i in 0..y.len() {
+        let (done, rest) = y.split_at_mut(i);
+        let row = &root[triangle(i)..triangle(i) + i];
+        let sum: f64 = row.iter().zip(done.iter()).map(|(a, b)| a * b).sum();
+        rest[0] = (rest[0] - sum) / root[triangle(i) + i];
+    }
+}
+
+/// Solves with the transpose of a lower root in place.
+fn backward(root: &[f64], y: &mut [f64]) {
+    for i in (0..y.len()).rev() {
+        y[i] /= root[triangle(i) + i];
+        let (done, rest) = y.split_at_mut(i);
+        for (out, factor) in done.iter_mut().zip(&root[triangle(i)..triangle(i) + i]) {
+            *out -= factor * rest[0];
+        }
+    }
+}
+
+/// How many of the shared inputs' directions the data decide: their number less the trace of their
+/// block of the inverse.
+fn shared(root: &[f64], first: usize, order: usize) -> f64 {
+    let mut trace = 0.0;
+    let mut column = vec![0.0; order];
+    for j in first..order {
+        column.fill(0.0);
+        column[j] = 1.0;
+        forward(root, &mut column);
+        trace += column[j..].iter().map(|y| y * y).sum::<f64>();
+    }
+    (order - first) as f64 - trace
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Problem;
+    use crate::discrepancy::{Discrepancy, by_rows};
+    use crate::latent::Role;
+    use crate::setup::Setup;
+    use crate::tests::line;
+
+    #[test]
+    fn gradients_are_those_of_differences() {
+        let input = r#""a": {"unit": "", "distribution": "normal", "mean": 1, "std": 0.3}"#;
+        let case = line(input, false);
+        let setup = Setup::new(&case);
+        let discrepancy = Discrepancy::new(&setup);
+        let noise: Vec<&Role> = setup.roles.iter().filter(|role| role.is_noise()).collect();
+        let residuals = by_rows(&setup.data.nominal_residuals());
+        for form in discrepancy.forms.iter().step_by(5) {
+            let features = form.features(&setup, &discrepancy.axes);
+            let problem = Problem::new(&setup, &features, &noise, &residuals);
+            for amplitude in [3.0, 30.0] {
+                let scores = vec![0.4; noise.len()];
+                let local = problem.local(amplitude, &scores);
+                for i in 0..scores.len() {
+                    let at = |step: f64| {
+                        let mut moved = scores.clone();
+                        moved[i] += step;
+                        problem.local(amplitude, &moved).ln
+                    };
+                    let slope = (at(1e-4) - at(-1e-4)) / 2e-4;
+                    // truncation: 1e-8 times the third derivative, of the order of the value itself
+                    // times the cube of the score's share of the logarithm, some 100
+                    let miss = local.gradient[i] - slope;
+                    let scale = slope.abs().max(1.0);
+                    assert!(miss.abs() < 1e-5 * scale, "{:?} {miss} of {slope}", form.term);
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,162 @@
+//! A term with a length, factored for a design.
+
+use std::borrow::Cow;
+
+use nalgebra::{DMatrix, DVector};
+use rayon::prelude::*;
+
+use super::LENGTHS;
+use super::features::{Axes, Coordinates, Nodes, sites};
+use super::grammar::{Term, terms};
+use crate::covariance::dot;
+use crate::setup::Setup;
+
+/// Data with more values than this have their features computed when they are needed and not kept.
+const MOST_KEPT: usize = 4000;
+
+/// A term with a length.
+#[derive(Debug)]
+pub(crate) struct Form {
+    pub(crate) term: Term,
+    pub(crate) length: f64,
+    /// Logarithm of its prior weight among all forms.
+    pub(crate) ln_weight: f64,
+    pub nodes: Nodes,
+    /// What unit variance is multiplied by: for an amplitude of one standard uncertainty where those
+    /// are known.
+    pub(crate) scale: f64,
+    /// The features of the data's values, unless there are too many.
+    features: Option<DMatrix<f64>>,
+    factored: Option<Factored>,
+}
+
+/// A form in the metric of the residuals, with the noise known.
+#[derive(Debug)]
+struct Factored {
+    /// Eigenvalues of the features' covariance.
+    eigenvalues: Vec<f64>,
+    /// Takes residuals, whitened by the blocks, to scores along the eigenvectors.
+    projector: DMatrix<f64>,
+}
+
+/// The forms for a design that are `wanted`.
+pub(crate) fn forms(
+    setup: &Setup<'_>,
+    axes: &Axes,
+    wanted: &(dyn Fn(&Term, f64) -> bool + Sync),
+) -> Vec<Form> {
+    let terms = terms(setup.case, &setup.data);
+    let ln_term = -(terms.len() as f64).ln();
+    let sites = sites(setup.case, &setup.data);
+    let with_lengths: Vec<(&Term, f64, f64)> = terms
+        .iter()
+        .flat_map(|term| {
+            let lengths = if term.is_smooth() { &LENGTHS[..] } else { &LENGTHS[..1] };
+            let ln_weight = ln_term - (lengths.len() as f64).ln();
+            lengths.iter().map(move |&length| (term, length, ln_weight))
+        })
+        .filter(|(term, length, _)| wanted(term, *length))
+        .collect();
+    with_lengths
+        .into_par_iter()
+        .map(|(term, length, ln_weight)| {
+            let outputs = setup.data.outputs.len();
+            let coordinates = Coordinates::new(term, axes, &sites, outputs);
+            let nodes = Nodes::new(term, length, &coordinates, setup.linear.fitted);
+            let roots = coordinates.roots(term, length, &nodes);
+            let features = coordinates.features(&roots, setup.data.len());
+            let touched: Vec<usize> = coordinates.touched().collect();
+            let mut scale = 1.0;
+            if !setup.linear.fitted {
+                let squares: f64 = touched
+                    .iter()
+                    .map(|&value| {
+                        features.row(value).norm_squared() / setup.linear.variances[value]
+                    })
+                    .sum();
+                scale = (touched.len().max(1) as f64 / squares.max(f64::MIN_POSITIVE)).sqrt();
+            }
+            let features = features * scale;
+            let keep = setup.data.len() <= MOST_KEPT;
+            Form {
+                term: term.clone(),
+                length,
+                ln_weight,
+                nodes,
+                scale,
+                factored: (keep && !setup.linear.fitted)
+                    .then(|| factored(setup, &features))
+                    .flatten(),
+                features: keep.then_some(features),
+            }
+        })
+        .collect()
+}
+
+impl Form {
+    /// The features of the data's values, a row each, times the scale.
+    pub(crate) fn features(&self, setup: &Setup<'_>, axes: &Axes) -> Cow<'_, DMatrix<f64>> {
+        if let Some(features) = &self.features {
+            return Cow::Borrowed(features);
+        }
+        let sites = sites(setup.case, &setup.data);
+        let coordinates = Coordinates::new(&self.term, axes, &sites, setup.data.outputs.len());
+        let roots = coordinates.roots(&self.term, self.length, &self.nodes);
+        Cow::Owned(coordinates.features(&roots, setup.data.len()) * self.scale)
+    }
+
+    /// Eigenvalues, and the scores of residuals that are whitened by the blocks.
+    pub(crate) fn scores(
+        &self,
+        setup: &Setup<'_>,
+        axes: &Axes,
+        whitened: &DVector<f64>,
+    ) -> (Vec<f64>, DVector<f64>) {
+        if let Some(factored) = &self.factored {
+            return (factored.eigenvalues.clone(), &factored.projector * whitened);
+        }
+        let features = self.features(setup, axes);
+        let Some((gram, white, cross)) = gram(setup, &features) else {
+            return (Vec::new(), DVector::zeros(0));
+        };
+        let eigen = gram.symmetric_eigen();
+        let products =
+            white.tr_mul(whitened) - cross.tr_mul(&setup.linear.project(whitened.as_slice()));
+        let eigenvalues = eigen.eigenvalues.iter().map(|value| value.max(0.0)).collect();
+        (eigenvalues, eigen.eigenvectors.tr_mul(&products))
+    }
+}
+
+/// Products of the features that shared inputs cannot make, the whitened features, and what shared
+/// inputs make of them.
+fn gram(
+    setup: &Setup<'_>,
+    features: &DMatrix<f64>,
+) -> Option<(DMatrix<f64>, DMatrix<f64>, DMatrix<f64>)> {
+    let covariance = &setup.linear;
+    let mut white = DMatrix::zeros(features.nrows(), features.ncols());
+    for (column, mut out) in features.column_iter().zip(white.column_iter_mut()) {
+        let whitened = covariance.whiten_blocks(column.as_slice());
+        out.copy_from(&DVector::from_vec(whitened));
+    }
+    let k = covariance.basis.len();
+    let products = DMatrix::from_fn(k, white.ncols(), |i, j| {
+        dot(&covariance.basis[i], white.column(j).as_slice())
+    });
+    let cross = covariance.inner.solve_lower_triangular(&products)?;
+    Some((white.tr_mul(&white) - cross.tr_mul(&cross), white, cross))
+}
+
+fn factored(setup: &Setup<'_>, features: &DMatrix<f64>) -> Option<Factored> {
+    let (gram, white, cross) = gram(setup, features)?;
+    let covariance = &setup.linear;
+    let k = covariance.basis.len();
+    let basis = DMatrix::from_fn(k, white.nrows(), |i, j| covariance.basis[i][j]);
+    let half = covariance.inner.solve_lower_triangular(&basis)?;
+    let projector = white.transpose() - cross.tr_mul(&half);
+    let eigen = gram.symmetric_eigen();
+    Some(Factored {
+        projector: eigen.eigenvectors.tr_mul(&projector),
+        eigenvalues: eigen.eigenvalues.iter().map(|value| value.max(0.0)).collect(),
+    })
+}

@@ -1,0 +1,214 @@
+//! The hypothesis "unexplained": the sim plus a random discrepancy that no candidate makes.
+//!
+//! The discrepancy is one term of a small grammar ([`grammar`]), all of equal weight; its amplitude
+//! is log-uniform from 3 to 300 standard uncertainties. Each term is a Gaussian process, so that its
+//! evidence is exact.
+
+mod features;
+mod fitted;
+mod form;
+mod grammar;
+
+pub(crate) use features::{Axes, Coordinates, Site};
+pub(crate) use form::{Form, forms};
+use grammar::Term;
+
+use std::sync::Arc;
+
+use nalgebra::DVector;
+use rayon::prelude::*;
+
+use super::evidence::ln_add;
+use super::likelihood::HALF_LN_TWO_PI;
+use super::predict;
+use super::search::Mode;
+use super::setup::Setup;
+use gumption_engine::task::Row;
+
+/// The lengths over which a smooth discrepancy varies, as shares of the range of what it is a
+/// function of.
+pub(crate) const LENGTHS: [f64; 6] = [0.05, 0.12, 0.29, 0.7, 1.7, 4.0];
+
+/// Amplitudes in standard uncertainties (root mean square over the values that are touched).
+const AMPLITUDES: [f64; 2] = [3.0, 300.0];
+
+/// Points of the integral over the logarithm of the amplitude.
+const AMPLITUDE_STEPS: usize = 48;
+
+/// The amplitudes of the integral: midpoints, equally probable.
+pub(crate) fn amplitudes() -> impl Iterator<Item = f64> {
+    let [lower, upper] = AMPLITUDES;
+    (0..AMPLITUDE_STEPS).map(move |step| {
+        let share = (step as f64 + 0.5) / AMPLITUDE_STEPS as f64;
+        lower * (upper / lower).powf(share)
+    })
+}
+
+/// The forms of a discrepancy for a design, ready for any data of it.
+#[derive(Debug)]
+pub(crate) struct Discrepancy {
+    pub(crate) axes: Axes,
+    pub(crate) forms: Vec<Form>,
+}
+
+/// What data say of the discrepancy.
+#[derive(Clone, Debug)]
+pub(crate) struct Unexplained {
+    /// Logarithm of the evidence.
+    pub(crate) ln_evidence: f64,
+    /// Forms with amplitudes and posterior weights (of all; those that weigh little are left out),
+    /// heaviest first.
+    pub(crate) kinds: Vec<Weighted>,
+}
+
+/// A form with an amplitude.
+#[derive(Clone, Debug)]
+pub(crate) struct Weighted {
+    /// Place of the form.
+    pub(crate) form: usize,
+    /// What the form's features are multiplied by.
+    pub(crate) multiplier: f64,
+    /// Posterior weight among all.
+    pub(crate) weight: f64,
+    /// The effects that act beside the discrepancy, if any.
+    pub(crate) base: Option<Arc<Base>>,
+    /// Variances of the noise by value, where they were estimated.
+    pub(crate) variances: Option<Arc<Vec<f64>>>,
+}
+
+/// Effects that a discrepancy comes on top of.
+#[derive(Clone, Debug)]
+pub(crate) struct Base {
+    /// Places of the candidates.
+    pub(crate) effects: Vec<usize>,
+    /// Scores of all unknown quantities, those of the inputs and the noise at 0.
+    pub(crate) scores: Vec<f64>,
+    /// What is said of the data, row by row.
+    pub(crate) values: Vec<f64>,
+}
+
+impl Base {
+    /// The effects of a hypothesis at one of its modes, the inputs at their estimates.
+    pub(crate) fn at(setup: &Setup<'_>, effects: &[usize], mode: &Mode) -> Option<Self> {
+        let mut scores = mode.scores.clone();
+        scores.iter_mut().take(setup.roles.len()).for_each(|score| *score = 0.0);
+        let rows: Vec<Row> =
+            setup.data.ids.iter().map(|&id| setup.case.task.rows[id].clone()).collect();
+        let values = predict::values(setup, effects, &[scores.clone()], &rows);
+        let first = |draws: Vec<f64>| draws.first().copied();
+        let values: Option<Vec<f64>> = values.into_iter().flatten().map(first).collect();
+        Some(Self { effects: effects.to_vec(), scores, values: values? })
+    }
+
+    /// What is left of the data of a setup, row by row.
+    pub(crate) fn residuals(&self, setup: &Setup<'_>) -> Vec<f64> {
+        let outputs = setup.data.outputs.len();
+        let of = |(value, sim): (usize, &f64)| {
+            setup.data.residual(value % outputs, value / outputs, *sim)
+        };
+        self.values.iter().enumerate().map(of).collect()
+    }
+}
+
+impl Unexplained {
+    /// The same beside effects.
+    pub(crate) fn beside(mut self, base: Base) -> Self {
+        let base = Arc::new(base);
+        for kind in &mut self.kinds {
+            kind.base = Some(base.clone());
+        }
+        self
+    }
+
+    /// Adds other forms, whose evidence has this prior share; those here have the rest.
+    pub(crate) fn joined(self, others: Vec<(f64, Arc<Base>, Self)>, rest: f64) -> Self {
+        let mut parts: Vec<(f64, Weighted)> = Vec::new();
+        let mut add = |ln: f64, base: Option<&Arc<Base>>, kinds: Vec<Weighted>| {
+            for kind in kinds {
+                let own = ln + kind.weight.max(f64::MIN_POSITIVE).ln();
+                parts.push((own, Weighted { base: base.cloned(), ..kind }));
+            }
+        };
+        add(rest.ln() + self.ln_evidence, None, self.kinds);
+        for (ln_share, base, other) in others {
+            add(ln_share + other.ln_evidence, Some(&base), other.kinds);
+        }
+        weigh(parts)
+    }
+}
+
+impl Discrepancy {
+    pub(crate) fn new(setup: &Setup<'_>) -> Self {
+        let axes = Axes::new(setup.case, &setup.data);
+        let forms = forms(setup, &axes, &|_, _| true);
+        Self { axes, forms }
+    }
+
+    /// For a part of the data: the forms that all of them leave probable.
+    pub(crate) fn for_part(&self, part: &Setup<'_>, found: &Unexplained) -> Self {
+        let axes = Axes::new(part.case, &part.data);
+        let own: Vec<&Form> = found.kinds.iter().map(|kind| &self.forms[kind.form]).collect();
+        let wanted =
+            |term: &Term, length: f64| own.iter().any(|f| f.term == *term && f.length == length);
+        let forms = forms(part, &axes, &wanted);
+        if forms.is_empty() { Self::new(part) } else { Self { axes, forms } }
+    }
+
+    /// The evidence of residuals (row by row, outputs fastest) of a setup's data. What lies far below
+    /// `floor`, a logarithm of evidence, need not be known well.
+    pub(crate) fn evidence(&self, setup: &Setup<'_>, residuals: &[f64], floor: f64) -> Unexplained {
+        if setup.linear.fitted {
+            return fitted::evidence(self, setup, residuals, floor);
+        }
+        let whitened = setup.linear.whiten_blocks(residuals);
+        let base = ln_normal(setup, &whitened);
+        let whitened = DVector::from_column_slice(&whitened);
+        let ln_amplitude = -(AMPLITUDE_STEPS as f64).ln();
+        let of_form = |(place, form): (usize, &Form)| {
+            let (eigenvalues, scores) = form.scores(setup, &self.axes, &whitened);
+            let mut parts: Vec<(f64, Weighted)> = Vec::with_capacity(AMPLITUDE_STEPS);
+            for amplitude in amplitudes() {
+                let a = amplitude * amplitude;
+                let mut ln = base + form.ln_weight + ln_amplitude;
+                for (eigenvalue, score) in eigenvalues.iter().zip(scores.iter()) {
+                    let growth = 1.0 + a * eigenvalue;
+                    ln += 0.5 * (a * score * score / growth - growth.ln());
+                }
+                let kind = Weighted {
+                    form: place,
+                    multiplier: amplitude,
+                    weight: 0.0,
+                    variances: None,
+                    base: None,
+                };
+                parts.push((ln, kind));
+            }
+            parts
+        };
+        let parts: Vec<_> = self.forms.par_iter().enumerate().map(of_form).collect();
+        weigh(parts.into_iter().flatten().collect())
+    }
+}
+
+/// Normalizes kinds given with the logarithms of their evidence.
+fn weigh(mut parts: Vec<(f64, Weighted)>) -> Unexplained {
+    let ln_evidence = parts.iter().fold(f64::NEG_INFINITY, |sum, (ln, _)| ln_add(sum, *ln));
+    parts.retain(|(ln, _)| *ln > ln_evidence - 7.0);
+    parts.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let weighted =
+        |(ln, kind): (f64, Weighted)| Weighted { weight: (ln - ln_evidence).exp(), ..kind };
+    Unexplained { ln_evidence, kinds: parts.into_iter().map(weighted).collect() }
+}
+
+/// Values of outputs as one list, row by row, outputs fastest.
+pub(crate) fn by_rows(values: &[Vec<f64>]) -> Vec<f64> {
+    let rows = values.first().map_or(0, Vec::len);
+    (0..rows).flat_map(|row| values.iter().map(move |output| output[row])).collect()
+}
+
+/// The logarithm of the density of residuals, whitened by the blocks, without any discrepancy.
+pub(crate) fn ln_normal(setup: &Setup<'_>, whitened: &[f64]) -> f64 {
+    let projected = setup.linear.project(whitened);
+    let square = super::covariance::dot(whitened, whitened) - projected.norm_squared();
+    -0.5 * square - setup.linear.half_ln_det - whitened.len() as f64 * HALF_LN_TWO_PI
+}

@@ -1,0 +1,103 @@
+//! Probabilities that know how well their integrals are known.
+
+use gumption_engine::distribution::{StreamKey, special};
+use gumption_engine::number::COLUMN;
+
+/// An error of a logarithm below this changes no probability by more than about 0.0003.
+const NEGLIGIBLE: f64 = 0.05;
+
+/// A hypothesis with less than this probability changes the others by less than they are known.
+const LEAST: f64 = 1e-3;
+
+/// Draws of the errors.
+const DRAWS: usize = 16 * COLUMN;
+
+/// The logarithm of prior times evidence of a hypothesis, and how well it is known.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Known {
+    /// Prior times evidence, as a logarithm.
+    pub(super) ln: f64,
+    /// Standard error of that logarithm.
+    pub(super) error: f64,
+    /// Effective number of draws that the standard error rests on.
+    pub(super) effective: f64,
+}
+
+/// The posterior probabilities, averaged over the errors of the evidences. An error estimated from
+/// n effective draws is distributed like t with n - 1 degrees of freedom, so that a probability
+/// that rests on few draws comes out less sure.
+pub(super) fn averaged(hypotheses: &[Known], seed: u64) -> Vec<f64> {
+    let plain = shares(&hypotheses.iter().map(|known| known.ln).collect::<Vec<_>>());
+    let in_doubt: Vec<usize> = (0..hypotheses.len())
+        .filter(|&h| plain[h] > LEAST && hypotheses[h].error > NEGLIGIBLE)
+        .collect();
+    if in_doubt.is_empty() {
+        return plain;
+    }
+    let errors: Vec<Vec<f64>> = in_doubt.iter().map(|&h| errors(hypotheses[h], seed, h)).collect();
+    let mut sums = vec![0.0; hypotheses.len()];
+    let mut ln: Vec<f64> = hypotheses.iter().map(|known| known.ln).collect();
+    for draw in 0..DRAWS {
+        for (&h, errors) in in_doubt.iter().zip(&errors) {
+            ln[h] = hypotheses[h].ln + errors[draw];
+        }
+        for (sum, share) in sums.iter_mut().zip(shares(&ln)) {
+            *sum += share / DRAWS as f64;
+        }
+    }
+    sums
+}
+
+fn errors(known: Known, seed: u64, hypothesis: usize) -> Vec<f64> {
+    let dof = (known.effective - 1.0).max(1.0);
+    let key = StreamKey::new(seed, "gap/doubt");
+    let mut stream = key.block(hypothesis as u64);
+    let mut errors = Vec::with_capacity(DRAWS);
+    while errors.len() < DRAWS {
+        let mut uniform = [0.0; COLUMN];
+        stream.uniform(&mut uniform);
+        errors.extend(uniform.map(|p| known.error * special::student::quantile(p, dof)));
+    }
+    errors
+}
+
+/// The shares of numbers given by their logarithms.
+fn shares(ln: &[f64]) -> Vec<f64> {
+    let most = ln.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    if !most.is_finite() {
+        return vec![0.0; ln.len()];
+    }
+    let own: Vec<f64> = ln.iter().map(|ln| (ln - most).exp()).collect();
+    let total: f64 = own.iter().sum();
+    own.into_iter().map(|own| own / total).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Known, averaged};
+
+    fn known(ln: f64, error: f64, effective: f64) -> Known {
+        Known { ln, error, effective }
+    }
+
+    #[test]
+    fn well_known_evidences_keep_their_shares() {
+        let got = averaged(&[known(3f64.ln(), 0.01, 4000.0), known(0.0, 0.0, 0.0)], 1);
+        assert!((got[0] - 0.75).abs() < 1e-12 && (got[1] - 0.25).abs() < 1e-12, "{got:?}");
+    }
+
+    #[test]
+    fn a_poor_integral_is_less_sure() {
+        // independent: E[1/(1 + exp(-(4 + 2 t)))] for t with 4 degrees of freedom is 0.90480 by
+        // numerical integration, against 0.98201 without doubt; 2048 draws of a spread of 0.194
+        // scatter by 0.0043, five times which is allowed
+        let got = averaged(&[known(4.0, 2.0, 5.0), known(0.0, 0.0, 0.0)], 1);
+        assert!((got[0] - 0.90480).abs() < 0.0215, "{got:?}");
+        assert!((got[0] + got[1] - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn nothing_known_is_nothing_said() {
+        assert_eq!(averaged(&[known(f64::NEG_INFINITY, 0.0, 0.0)], 1), [0.0]);
+    }
+}

@@ -1,0 +1,217 @@
+//! The evidence of a hypothesis: the probability density of the data, integrated over everything
+//! that is unknown, by adaptive multiple importance sampling (Cornuet, Marin, Mira, Robert 2012,
+//! Scandinavian Journal of Statistics 39, 798).
+
+use super::latent::bounded_from_normal;
+use super::likelihood::Likelihood;
+use super::mixture::{Mixture, ln_priors, standard_normals};
+use super::ridge;
+use super::roam::roam;
+use super::search::{self, Mode};
+use gumption_engine::distribution::StreamKey;
+use gumption_engine::number::{COLUMN, Column};
+
+/// Draws of the prior from which the search starts.
+const SCREENED: usize = 4;
+
+/// An integral that is being refined.
+#[derive(Clone, Debug)]
+pub(crate) struct Evidence {
+    unknowns: usize,
+    key: StreamKey,
+    /// The modes found.
+    pub(crate) modes: Vec<Mode>,
+    mixtures: Vec<(Mixture, usize)>,
+    /// Columns of drawn scores.
+    pub(crate) columns: Vec<Vec<Column>>,
+    /// For each draw the logarithm of prior density (without its constant) times likelihood.
+    ln_targets: Vec<f64>,
+    /// For each draw the logarithm of the sum over mixtures of columns drawn times density.
+    ln_proposals: Vec<f64>,
+    /// Normalized weights of the draws.
+    pub(crate) weights: Vec<f64>,
+    /// Logarithm of the evidence.
+    pub(crate) ln_evidence: f64,
+    /// Its standard error.
+    pub(crate) error: f64,
+    /// Effective number of draws.
+    pub(crate) effective: f64,
+}
+
+impl Evidence {
+    /// Finds the modes and draws once from them. `seeds` are points to start from beside draws of
+    /// the prior.
+    pub(crate) fn begin(
+        likelihood: &Likelihood<'_>,
+        key: StreamKey,
+        seeds: &[Vec<f64>],
+        starts: usize,
+    ) -> Self {
+        let unknowns = likelihood.unknowns();
+        let mut evidence = Self {
+            unknowns,
+            key,
+            modes: Vec::new(),
+            mixtures: Vec::new(),
+            columns: Vec::new(),
+            ln_targets: Vec::new(),
+            ln_proposals: Vec::new(),
+            weights: Vec::new(),
+            ln_evidence: f64::NEG_INFINITY,
+            error: f64::INFINITY,
+            effective: 0.0,
+        };
+        let mut points = vec![vec![0.0; unknowns]];
+        points.extend_from_slice(seeds);
+        points.extend(evidence.screened(likelihood, starts));
+        evidence.modes = search::modes(likelihood, &points, 10);
+        let mixture = Mixture::at_modes(&likelihood.bounded(), &evidence.modes);
+        evidence.draw(likelihood, mixture, 2);
+        evidence
+    }
+
+    /// The most likely of draws of the prior, far from each other.
+    fn screened(&self, likelihood: &Likelihood<'_>, starts: usize) -> Vec<Vec<f64>> {
+        if self.unknowns == 0 || starts == 0 {
+            return Vec::new();
+        }
+        let bounded = likelihood.bounded();
+        let mut drawn: Vec<(f64, Vec<f64>)> = Vec::new();
+        for block in 0..SCREENED {
+            let mut stream = self.key.block(u64::MAX - block as u64);
+            let mut scores = vec![Column::ZERO; self.unknowns];
+            for (column, bounded) in scores.iter_mut().zip(&bounded) {
+                standard_normals(&mut stream, column);
+                if *bounded {
+                    column.0 = column.0.map(bounded_from_normal);
+                }
+            }
+            let likelihoods = likelihood.log_likelihood(&scores, COLUMN);
+            drawn.extend(
+                likelihoods
+                    .iter()
+                    .enumerate()
+                    .map(|(lane, &ln)| (ln, scores.iter().map(|column| column.0[lane]).collect())),
+            );
+        }
+        drawn.sort_by(|a, b| b.0.total_cmp(&a.0));
+        let mut chosen: Vec<Vec<f64>> = Vec::new();
+        let apart = 0.35 * (self.unknowns as f64).sqrt();
+        for (ln, point) in drawn {
+            let near = chosen.iter().any(|other| {
+                let squares: f64 = point.iter().zip(other).map(|(a, b)| (a - b) * (a - b)).sum();
+                squares.sqrt() < apart
+            });
+            if !near && ln.is_finite() {
+                chosen.push(point);
+                if chosen.len() == starts {
+                    break;
+                }
+            }
+        }
+        chosen
+    }
+
+    /// One more step: the proposal is adapted to what was drawn, and more is drawn from it.
+    pub(crate) fn refine(&mut self, likelihood: &Likelihood<'_>, columns: usize) {
+        let Some((last, _)) = self.mixtures.last() else { return };
+        let mixture = last.adapted(&self.columns, &self.weights);
+        self.draw(likelihood, mixture, columns);
+    }
+
+    /// Draws along the ridges of the posterior in the quantities after the first `shared` ones.
+    pub(crate) fn along_ridges(&mut self, likelihood: &Likelihood<'_>, shared: usize) {
+        if let Some(mixture) = ridge::mixture(likelihood, &self.modes, shared) {
+            self.draw(likelihood, mixture, 4);
+            self.refine(likelihood, 4);
+        }
+    }
+
+    /// Lets walkers roam from what was drawn, and draws from a mixture fitted to where they went.
+    pub(crate) fn roam(&mut self, likelihood: &Likelihood<'_>, generations: usize) {
+        if self.unknowns == 0 || self.effective == 0.0 {
+            return;
+        }
+        let drawn = super::predict::resampled(self, COLUMN);
+        let mut start = vec![Column::ZERO; self.unknowns];
+        for (lane, draw) in drawn.iter().enumerate() {
+            for (column, score) in start.iter_mut().zip(draw) {
+                column.0[lane] = *score;
+            }
+        }
+        let key = StreamKey::new(u64::from(self.columns.len() as u32), "gap/roam");
+        let visited = roam(likelihood, start, generations, key);
+        let count = if self.unknowns > 2 { 12 } else { 6 };
+        if let Some(mixture) = Mixture::fitted(&likelihood.bounded(), &visited, count) {
+            self.draw(likelihood, mixture, 4);
+        }
+    }
+
+    /// Number of unknown quantities.
+    pub(crate) fn unknowns(&self) -> usize {
+        self.unknowns
+    }
+
+    fn draw(&mut self, likelihood: &Likelihood<'_>, mixture: Mixture, columns: usize) {
+        let first = self.columns.len();
+        let ln_count = (columns as f64).ln();
+        // the new mixture's density at the old draws
+        for (scores, sums) in self.columns.iter().zip(self.ln_proposals.chunks_mut(COLUMN)) {
+            for (sum, ln) in sums.iter_mut().zip(mixture.ln_density(scores)) {
+                *sum = ln_add(*sum, ln + ln_count);
+            }
+        }
+        self.mixtures.push((mixture, columns));
+        for number in 0..columns {
+            let mut stream = self.key.block((first + number) as u64);
+            let Some((mixture, _)) = self.mixtures.last() else { return };
+            let scores = mixture.draw(&mut stream);
+            let likelihoods = likelihood.log_likelihood(&scores, COLUMN);
+            let mut sums = [f64::NEG_INFINITY; COLUMN];
+            for (mixture, columns) in &self.mixtures {
+                let ln_count = (*columns as f64).ln();
+                for (sum, ln) in sums.iter_mut().zip(mixture.ln_density(&scores)) {
+                    *sum = ln_add(*sum, ln + ln_count);
+                }
+            }
+            self.ln_proposals.extend(sums);
+            let priors = ln_priors(&likelihood.bounded(), &scores);
+            self.ln_targets
+                .extend(likelihoods.into_iter().zip(priors).map(|(ln, prior)| ln + prior));
+            self.columns.push(scores);
+        }
+        self.weigh();
+    }
+
+    fn weigh(&mut self) {
+        let ln_total = (self.columns.len() as f64).ln();
+        let ln_weights: Vec<f64> = self
+            .ln_targets
+            .iter()
+            .zip(&self.ln_proposals)
+            .map(|(target, proposal)| target - proposal + ln_total)
+            .collect();
+        let most = ln_weights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let count = ln_weights.len() as f64;
+        if !most.is_finite() {
+            self.weights = vec![0.0; ln_weights.len()];
+            self.ln_evidence = f64::NEG_INFINITY;
+            return;
+        }
+        self.weights = ln_weights.iter().map(|ln| (ln - most).exp()).collect();
+        let sum: f64 = self.weights.iter().sum();
+        let squares: f64 = self.weights.iter().map(|w| w * w).sum();
+        self.ln_evidence = most + (sum / count).ln();
+        self.effective = sum * sum / squares;
+        self.error = (1.0 / self.effective - 1.0 / count).max(0.0).sqrt();
+        for weight in &mut self.weights {
+            *weight /= sum;
+        }
+    }
+}
+
+/// The logarithm of the sum of two numbers given by their logarithms.
+pub(crate) fn ln_add(a: f64, b: f64) -> f64 {
+    let (most, least) = if a > b { (a, b) } else { (b, a) };
+    if most == f64::NEG_INFINITY { most } else { most + (least - most).exp().ln_1p() }
+}

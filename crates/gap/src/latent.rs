@@ -1,0 +1,121 @@
+//! The unknown quantities of a hypothesis, each as a score of zero mean and unit variance.
+//!
+//! A rectangular or log-uniform quantity is linear (or its logarithm is) in a score that is
+//! rectangular itself, so that ridges of the posterior stay straight; every other quantity is the
+//! quantile of its prior at the probability of a standard normal score.
+
+use super::likelihood::HALF_LN_TWO_PI;
+use gumption_engine::distribution::{Distribution, special};
+
+/// How a score becomes a value.
+#[derive(Clone, Debug)]
+pub(crate) enum Map {
+    Normal { mean: f64, deviation: f64 },
+    Uniform { lower: f64, width: f64 },
+    LogUniform { ln_lower: f64, ln_ratio: f64 },
+    Other(Distribution),
+}
+
+/// What an unknown quantity is.
+#[derive(Clone, Debug)]
+pub(crate) enum Role {
+    /// A variable of the program: an input of the sim or a parameter of an effect. Its prior at each
+    /// point of the data, or one for all of them.
+    Variable { place: usize, maps: Vec<Map> },
+    /// The logarithm of an output's standard deviation of noise, in the output's unit.
+    Noise { output: usize, map: Map },
+    /// The power of the sim's value that an output's noise is proportional to.
+    Power { output: usize, map: Map },
+}
+
+impl Map {
+    pub(crate) fn of(distribution: &Distribution) -> Self {
+        match distribution {
+            Distribution::Normal(_) if distribution.is_drawn_normal() => Self::Normal {
+                mean: distribution.mean(),
+                deviation: distribution.standard_uncertainty(),
+            },
+            Distribution::Rectangular(_) => {
+                let (lower, upper) = (distribution.quantile(0.25), distribution.quantile(0.75));
+                let width = 2.0 * (upper - lower);
+                Self::Uniform { lower: lower - 0.25 * width, width }
+            }
+            Distribution::LogUniform(_) => {
+                let (lower, upper) =
+                    (distribution.quantile(0.25).ln(), distribution.quantile(0.75).ln());
+                let ln_ratio = 2.0 * (upper - lower);
+                Self::LogUniform { ln_lower: lower - 0.25 * ln_ratio, ln_ratio }
+            }
+            other => Self::Other(other.clone()),
+        }
+    }
+
+    /// Whether the score is rectangular, within [`EDGE`] of 0, and not standard normal.
+    pub(crate) fn is_bounded(&self) -> bool {
+        matches!(self, Self::Uniform { .. } | Self::LogUniform { .. })
+    }
+
+    /// The score that a standard normal one stands for.
+    pub(crate) fn score_of(&self, normal: f64) -> f64 {
+        if self.is_bounded() { bounded_from_normal(normal) } else { normal }
+    }
+
+    /// The value of a score.
+    pub(crate) fn value(&self, score: f64) -> f64 {
+        let share = 0.5 + score / (2.0 * EDGE);
+        match self {
+            Self::Normal { mean, deviation } => mean + deviation * score,
+            Self::Uniform { lower, width } => lower + width * share,
+            Self::LogUniform { ln_lower, ln_ratio } => (ln_lower + ln_ratio * share).exp(),
+            Self::Other(distribution) if score > 0.0 => {
+                distribution.quantile_upper(special::normal::sf(score).max(f64::MIN_POSITIVE))
+            }
+            Self::Other(distribution) => {
+                distribution.quantile(special::normal::cdf(score).max(f64::MIN_POSITIVE))
+            }
+        }
+    }
+}
+
+/// Where rectangular scores end: they have unit variance.
+pub(crate) const EDGE: f64 = 1.732_050_807_568_877_2;
+
+/// The logarithm of the density of a rectangular score, times the root of two pi as that of a normal
+/// one is given everywhere.
+pub(crate) const LN_BOUNDED: f64 = HALF_LN_TWO_PI - 1.242_453_324_894_000_3;
+
+/// The rectangular score at the probability of a standard normal one.
+pub(crate) fn bounded_from_normal(normal: f64) -> f64 {
+    EDGE * (2.0 * special::normal::cdf(normal) - 1.0)
+}
+
+/// The logarithm of the prior density of a score, times the root of two pi.
+pub(crate) fn ln_prior(bounded: bool, score: f64) -> f64 {
+    if !bounded {
+        -0.5 * score * score
+    } else if score.abs() <= EDGE {
+        LN_BOUNDED
+    } else {
+        f64::NEG_INFINITY
+    }
+}
+
+impl Role {
+    /// Its prior, at the first point of the data.
+    fn map(&self) -> Option<&Map> {
+        match self {
+            Self::Variable { maps, .. } => maps.first(),
+            Self::Noise { map, .. } | Self::Power { map, .. } => Some(map),
+        }
+    }
+
+    /// Whether its score is rectangular.
+    pub(crate) fn is_bounded(&self) -> bool {
+        self.map().is_some_and(Map::is_bounded)
+    }
+
+    /// Whether it belongs to the noise and not to the sim.
+    pub(crate) fn is_noise(&self) -> bool {
+        !matches!(self, Self::Variable { .. })
+    }
+}

@@ -1,0 +1,344 @@
+//! A mixture of t distributions to draw the unknown quantities of a hypothesis from.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::covariance::triangle;
+use super::latent::{bounded_from_normal, ln_prior};
+use super::search::Mode;
+use gumption_engine::distribution::{Normal, Stream};
+use gumption_engine::number::{COLUMN, Column};
+
+/// Degrees of freedom of the components: heavier tails than those of a posterior, so that no draw
+/// can carry most of the weight.
+const DOF: usize = 6;
+
+/// The share of the prior itself among the components: no region is left out altogether.
+const DEFENCE: f64 = 0.04;
+
+/// Components whose weight is lower than the largest by this factor's logarithm are left out.
+const DEPTH: f64 = 7.0;
+
+/// A mixture of t distributions and the prior.
+#[derive(Clone, Debug)]
+pub(crate) struct Mixture {
+    unknowns: usize,
+    /// For each unknown quantity whether its prior is rectangular.
+    bounded: Vec<bool>,
+    components: Vec<Component>,
+}
+
+#[derive(Clone, Debug)]
+struct Component {
+    share: f64,
+    mean: Vec<f64>,
+    /// Lower Cholesky root of the scale matrix, row by row of the triangle.
+    root: Vec<f64>,
+    /// Its inverse.
+    inverse: Vec<f64>,
+    /// Logarithm of the density at the mean.
+    ln_peak: f64,
+}
+
+impl Component {
+    fn new(share: f64, mean: Vec<f64>, scale: &DMatrix<f64>) -> Option<Self> {
+        let d = mean.len();
+        let root = scale.clone().cholesky()?.l();
+        let inverse = root.clone().solve_lower_triangular(&DMatrix::identity(d, d))?;
+        let lower = |matrix: &DMatrix<f64>| {
+            (0..d).flat_map(|i| (0..=i).map(move |j| (i, j))).map(|(i, j)| matrix[(i, j)]).collect()
+        };
+        let (nu, dim) = (DOF as f64, d as f64);
+        let ln_peak = libm::lgamma(0.5 * (nu + dim))
+            - libm::lgamma(0.5 * nu)
+            - 0.5 * dim * (nu * std::f64::consts::PI).ln()
+            - (0..d).map(|i| root[(i, i)].ln()).sum::<f64>();
+        (ln_peak.is_finite()).then(|| Self {
+            share,
+            mean,
+            root: lower(&root),
+            inverse: lower(&inverse),
+            ln_peak,
+        })
+    }
+
+    /// The squared distance of each lane from the mean, in the metric of the scale.
+    #[inline]
+    fn distances(&self, scores: &[Column], out: &mut Column) {
+        let d = self.mean.len();
+        out.0.fill(0.0);
+        for i in 0..d {
+            let mut y = [0.0; COLUMN];
+            for j in 0..=i {
+                let (factor, mean) = (self.inverse[triangle(i) + j], self.mean[j]);
+                for lane in 0..COLUMN {
+                    y[lane] += factor * (scores[j].0[lane] - mean);
+                }
+            }
+            for lane in 0..COLUMN {
+                out.0[lane] += y[lane] * y[lane];
+            }
+        }
+    }
+}
+
+impl Mixture {
+    /// A component at each mode, with a share as its neighbourhood has of the posterior in the
+    /// Gaussian approximation.
+    pub(crate) fn at_modes(bounded: &[bool], modes: &[Mode]) -> Self {
+        let unknowns = bounded.len();
+        let best = modes.iter().map(|mode| mode.cost).fold(f64::INFINITY, f64::min);
+        let mut components = Vec::new();
+        for mode in modes {
+            let Some(inverse) = mode.information.clone().try_inverse() else { continue };
+            let half_ln_det = 0.5 * inverse.determinant().max(f64::MIN_POSITIVE).ln();
+            let share = (0.7 * (best - mode.cost) + half_ln_det).max(-600.0).exp();
+            components.extend(Component::new(share, mode.scores.clone(), &inverse));
+        }
+        let mut mixture = Self { unknowns, bounded: bounded.to_vec(), components };
+        mixture.normalize();
+        mixture
+    }
+
+    /// Components with these logarithms of weights, means and scales.
+    pub(crate) fn of(bounded: &[bool], components: Vec<(f64, Vec<f64>, DMatrix<f64>)>) -> Self {
+        let most = components.iter().map(|(ln, ..)| *ln).fold(f64::NEG_INFINITY, f64::max);
+        let components = components
+            .into_iter()
+            .filter(|(ln, ..)| *ln > most - DEPTH)
+            .filter_map(|(ln, mean, scale)| Component::new((ln - most).exp(), mean, &scale))
+            .collect();
+        let mut mixture = Self { unknowns: bounded.len(), bounded: bounded.to_vec(), components };
+        mixture.normalize();
+        mixture
+    }
+
+    /// A mixture of about `count` components fitted to points of equal weight.
+    pub(crate) fn fitted(bounded: &[bool], columns: &[Vec<Column>], count: usize) -> Option<Self> {
+        let d = bounded.len();
+        let points: Vec<Vec<f64>> = columns
+            .iter()
+            .flat_map(|column| {
+                (0..COLUMN).map(move |lane| column.iter().map(|c| c.0[lane]).collect::<Vec<f64>>())
+            })
+            .collect();
+        let n = points.len() as f64;
+        let mean: Vec<f64> =
+            (0..d).map(|i| points.iter().map(|point| point[i]).sum::<f64>() / n).collect();
+        let covariance = DMatrix::from_fn(d, d, |i, j| {
+            let products = points.iter().map(|point| (point[i] - mean[i]) * (point[j] - mean[j]));
+            products.sum::<f64>() / n + if i == j { 1e-12 } else { 0.0 }
+        });
+        let whole = Component::new(1.0, mean, &covariance)?;
+        let distance = |a: &[f64], b: &[f64]| -> f64 {
+            (0..d)
+                .map(|i| {
+                    let y: f64 =
+                        (0..=i).map(|j| whole.inverse[triangle(i) + j] * (a[j] - b[j])).sum();
+                    y * y
+                })
+                .sum()
+        };
+        // centres as far from each other as points are, then the mean of what is nearest to each
+        let mut centres = vec![whole.mean.clone()];
+        let mut nearest: Vec<f64> =
+            points.iter().map(|point| distance(point, &centres[0])).collect();
+        while centres.len() < count {
+            let far = (0..points.len()).max_by(|&a, &b| nearest[a].total_cmp(&nearest[b]))?;
+            centres.push(points[far].clone());
+            for (nearest, point) in nearest.iter_mut().zip(&points) {
+                *nearest = nearest.min(distance(point, &points[far]));
+            }
+        }
+        for _ in 0..3 {
+            let mut sums = vec![(0.0, vec![0.0; d]); count];
+            for point in &points {
+                let own = (0..count).min_by(|&a, &b| {
+                    distance(point, &centres[a]).total_cmp(&distance(point, &centres[b]))
+                })?;
+                sums[own].0 += 1.0;
+                sums[own].1.iter_mut().zip(point).for_each(|(sum, x)| *sum += x);
+            }
+            for (centre, (weight, sum)) in centres.iter_mut().zip(sums) {
+                if weight > 0.0 {
+                    *centre = sum.into_iter().map(|sum| sum / weight).collect();
+                }
+            }
+        }
+        let shrink = (count as f64).powf(-2.0 / d.max(1) as f64);
+        let components = centres
+            .into_iter()
+            .filter_map(|centre| Component::new(1.0, centre, &(&covariance * shrink)))
+            .collect();
+        let mut mixture = Self { unknowns: d, bounded: bounded.to_vec(), components };
+        mixture.normalize();
+        let weights = vec![1.0 / n; points.len()];
+        for _ in 0..6 {
+            mixture = mixture.adapted(columns, &weights);
+        }
+        (!mixture.components.is_empty()).then_some(mixture)
+    }
+
+    fn normalize(&mut self) {
+        let sum: f64 = self.components.iter().map(|component| component.share).sum();
+        if sum <= 0.0 || sum.is_nan() {
+            self.components.clear();
+        }
+        for component in &mut self.components {
+            component.share *= (1.0 - DEFENCE) / sum;
+        }
+    }
+
+    /// Draws a column of points.
+    pub(crate) fn draw(&self, stream: &mut Stream) -> Vec<Column> {
+        let d = self.unknowns;
+        let mut normals = vec![Column::ZERO; d.max(1) + DOF];
+        for column in &mut normals {
+            standard_normals(stream, column);
+        }
+        let mut choice = [0.0; COLUMN];
+        stream.uniform(&mut choice);
+        let mut scores = vec![Column::ZERO; d];
+        for lane in 0..COLUMN {
+            let mut left = choice[lane];
+            let component = self.components.iter().find(|component| {
+                left -= component.share;
+                left < 0.0
+            });
+            match component {
+                None => {
+                    for i in 0..d {
+                        let normal = normals[i].0[lane];
+                        scores[i].0[lane] =
+                            if self.bounded[i] { bounded_from_normal(normal) } else { normal };
+                    }
+                }
+                Some(component) => {
+                    let squares: f64 =
+                        normals[d.max(1)..].iter().map(|n| n.0[lane] * n.0[lane]).sum();
+                    let stretch = (DOF as f64 / squares).sqrt();
+                    for i in 0..d {
+                        let sum: f64 = (0..=i)
+                            .map(|j| component.root[triangle(i) + j] * normals[j].0[lane])
+                            .sum();
+                        scores[i].0[lane] = component.mean[i] + stretch * sum;
+                    }
+                }
+            }
+        }
+        scores
+    }
+
+    /// The logarithm of the density at a column of points, relative to the standard normal density
+    /// without its constant: ln q + d/2 ln(2 pi).
+    pub(crate) fn ln_density(&self, scores: &[Column]) -> [f64; COLUMN] {
+        let half = 0.5 * (DOF + self.unknowns) as f64;
+        let constant = self.unknowns as f64 * super::likelihood::HALF_LN_TWO_PI;
+        let ln_priors = ln_priors(&self.bounded, scores);
+        let prior = if self.components.is_empty() { 1.0 } else { DEFENCE };
+        let mut terms: Vec<[f64; COLUMN]> = vec![ln_priors.map(|ln| prior.ln() + ln)];
+        let mut distances = Column::ZERO;
+        for component in &self.components {
+            component.distances(scores, &mut distances);
+            let ln = component.share.max(f64::MIN_POSITIVE).ln() + component.ln_peak + constant;
+            terms.push(distances.0.map(|m| ln - half * (m / DOF as f64).ln_1p()));
+        }
+        let mut out = [0.0; COLUMN];
+        for lane in 0..COLUMN {
+            let most = terms.iter().map(|term| term[lane]).fold(f64::NEG_INFINITY, f64::max);
+            let sum: f64 = terms.iter().map(|term| (term[lane] - most).exp()).sum();
+            out[lane] = most + sum.ln();
+        }
+        out
+    }
+
+    /// The mixture after one step of expectation maximization towards weighted points (Cappe, Douc,
+    /// Guillin, Marin, Robert 2008, Statistics and Computing 18, 447, with t components).
+    pub(crate) fn adapted(&self, columns: &[Vec<Column>], weights: &[f64]) -> Self {
+        let d = self.unknowns;
+        let count = self.components.len();
+        let mut shares = vec![0.0; count];
+        let mut squared = vec![0.0; count];
+        let mut scales = vec![0.0; count];
+        let mut means = vec![DVector::<f64>::zeros(d); count];
+        let mut products = vec![DMatrix::<f64>::zeros(d, d); count];
+        let half = 0.5 * (DOF + d) as f64;
+        let mut distances = vec![Column::ZERO; count];
+        for (scores, weights) in columns.iter().zip(weights.chunks(COLUMN)) {
+            for (component, distances) in self.components.iter().zip(&mut distances) {
+                component.distances(scores, distances);
+            }
+            for (lane, &weight) in weights.iter().enumerate() {
+                if weight <= 0.0 {
+                    continue;
+                }
+                let ln = |k: usize| {
+                    let component = &self.components[k];
+                    component.share.max(f64::MIN_POSITIVE).ln() + component.ln_peak
+                        - half * (distances[k].0[lane] / DOF as f64).ln_1p()
+                };
+                let most = (0..count).map(ln).fold(f64::NEG_INFINITY, f64::max);
+                let sum: f64 = (0..count).map(|k| (ln(k) - most).exp()).sum();
+                for k in 0..count {
+                    let part = weight * (ln(k) - most).exp() / sum;
+                    if part < 1e-12 {
+                        continue;
+                    }
+                    let pull = part * (DOF + d) as f64 / (DOF as f64 + distances[k].0[lane]);
+                    shares[k] += part;
+                    squared[k] += part * part;
+                    scales[k] += pull;
+                    for i in 0..d {
+                        let x = scores[i].0[lane] - self.components[k].mean[i];
+                        means[k][i] += pull * x;
+                        for j in 0..=i {
+                            let y = scores[j].0[lane] - self.components[k].mean[j];
+                            products[k][(i, j)] += pull * x * y;
+                        }
+                    }
+                }
+            }
+        }
+        let mut components = Vec::new();
+        for (k, old) in self.components.iter().enumerate() {
+            if shares[k] < 1e-3 {
+                continue;
+            }
+            let effective = shares[k] * shares[k] / squared[k].max(f64::MIN_POSITIVE);
+            let shift = &means[k] / scales[k];
+            let mut scale = DMatrix::from_fn(d, d, |i, j| {
+                products[k][(i.max(j), i.min(j))] / shares[k]
+                    - shift[i] * shift[j] * scales[k] / shares[k]
+            });
+            // few points say little of a shape: the old one counts as some more
+            let faith = effective / (effective + 2.0 * d as f64);
+            let before = DMatrix::from_fn(d, d, |i, j| {
+                (0..=i.min(j)).map(|m| old.root[triangle(i) + m] * old.root[triangle(j) + m]).sum()
+            });
+            scale = scale * faith + before * (1.0 - faith);
+            let mean = old.mean.iter().zip(shift.iter()).map(|(m, s)| m + faith * s).collect();
+            match Component::new(shares[k], mean, &scale) {
+                Some(component) => components.push(component),
+                None => components.push(Component { share: shares[k], ..old.clone() }),
+            }
+        }
+        let mut mixture = Self { unknowns: d, bounded: self.bounded.clone(), components };
+        mixture.normalize();
+        mixture
+    }
+}
+
+/// The logarithm of the prior density at a column of points, without the constant of normal scores.
+pub(crate) fn ln_priors(bounded: &[bool], scores: &[Column]) -> [f64; COLUMN] {
+    let mut sums = [0.0; COLUMN];
+    for (bounded, column) in bounded.iter().zip(scores) {
+        for (sum, score) in sums.iter_mut().zip(&column.0) {
+            *sum += ln_prior(*bounded, *score);
+        }
+    }
+    sums
+}
+
+/// Fills a column with standard normal draws.
+pub(crate) fn standard_normals(stream: &mut Stream, column: &mut Column) {
+    Normal::standard_draw(stream, column);
+}

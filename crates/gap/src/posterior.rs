@@ -1,0 +1,330 @@
+//! The posterior probabilities of all hypotheses.
+
+use std::sync::Arc;
+
+use rayon::prelude::*;
+
+use super::covariance::dot;
+use super::discrepancy::{Base, Discrepancy, Unexplained, by_rows};
+use super::doubt;
+use super::evidence::{Evidence, ln_add};
+use super::likelihood::Likelihood;
+use super::setup::Setup;
+use gumption_engine::distribution::{StreamKey, special};
+
+/// A hypothesis that effects explain the data: none of them, or one or more together.
+#[derive(Debug)]
+pub(crate) struct Hypothesis {
+    /// Places of the candidates that act.
+    pub(crate) effects: Vec<usize>,
+    /// Prior probability.
+    pub(crate) prior: f64,
+    /// Its evidence.
+    pub(crate) evidence: Evidence,
+    /// Posterior probability.
+    pub(crate) probability: f64,
+}
+
+/// All hypotheses with their probabilities.
+#[derive(Debug)]
+pub(crate) struct Posterior {
+    pub(crate) hypotheses: Vec<Hypothesis>,
+    pub(crate) unexplained: Unexplained,
+    /// Prior probability of "unexplained".
+    pub(crate) prior: f64,
+    /// Posterior probability of "unexplained".
+    pub(crate) probability: f64,
+}
+
+/// How much is computed.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Effort {
+    /// Starts of the search for modes.
+    pub(crate) starts: usize,
+    /// The standard error of a probability that is good enough.
+    pub(crate) error: f64,
+    /// Generations of walkers.
+    pub(crate) generations: usize,
+    /// Refinements at most.
+    pub(crate) rounds: usize,
+    /// The effective number of draws of hypotheses that are reported in detail.
+    pub(crate) effective: f64,
+}
+
+impl Effort {
+    pub(crate) const FULL: Self =
+        Self { starts: 16, error: 0.005, generations: 240, rounds: 24, effective: 1000.0 };
+    /// Less where every draw costs a pass over much data: there the posterior is narrow and nearly
+    /// normal, so that few draws serve as well.
+    fn for_values(self, values: usize) -> Self {
+        if values <= MANY_VALUES {
+            return self;
+        }
+        Self { starts: 0, generations: 0, rounds: 3, effective: 60.0, error: 0.03 }
+    }
+
+    pub(crate) const QUICK: Self =
+        Self { starts: 8, error: 0.015, generations: 120, rounds: 12, effective: 400.0 };
+}
+
+/// Hypotheses above this probability are looked at from end to end.
+const LEADING: f64 = 0.01;
+
+/// With more values than this, modes are searched in a part of the data first.
+const MANY_VALUES: usize = 20_000;
+
+/// Values of that part.
+const PART: usize = 2000;
+
+/// Seeds for a pair: the modes of its parts beside each other.
+fn seeds(setup: &Setup<'_>, effects: &[usize], singles: &[Hypothesis]) -> Vec<Vec<f64>> {
+    let shared = setup.roles.len();
+    let unknowns =
+        shared + effects.iter().map(|&e| setup.case.candidates[e].priors.len()).sum::<usize>();
+    let of = |effect: usize| {
+        singles
+            .iter()
+            .find(|single| single.effects == [effect])
+            .map(|single| &single.evidence.modes)
+    };
+    let mut seeds = Vec::new();
+    for &one in effects {
+        for mode in of(one).into_iter().flatten().take(2) {
+            let mut seed = vec![0.0; unknowns];
+            seed[..shared].copy_from_slice(&mode.scores[..shared]);
+            let own = setup.parameters(effects, one);
+            seed[own].copy_from_slice(&mode.scores[shared..]);
+            for &other in effects.iter().filter(|other| **other != one) {
+                let places = setup.parameters(effects, other);
+                for mode in of(other).into_iter().flatten().take(2) {
+                    let mut both = seed.clone();
+                    both[places.clone()].copy_from_slice(&mode.scores[shared..]);
+                    seeds.push(both);
+                }
+            }
+            seeds.push(seed);
+        }
+    }
+    seeds
+}
+
+/// Weighs all hypotheses against the data of a setup.
+pub(crate) fn posterior(
+    setup: &Setup<'_>,
+    discrepancy: &Discrepancy,
+    seed: u64,
+    effort: Effort,
+    progress: &(dyn Fn(f64) + Sync),
+) -> Posterior {
+    let count = setup.case.candidates.len();
+    let effort = effort.for_values(setup.data.len());
+    let part = (setup.data.len() > MANY_VALUES).then(|| setup.thinned(PART));
+    let prior = setup.case.prior;
+    let mut wanted: Vec<Vec<usize>> = vec![Vec::new()];
+    wanted.extend((0..count).map(|effect| vec![effect]));
+    let begin = |effects: Vec<usize>, singles: &[Hypothesis]| {
+        let likelihood = setup.likelihood(&effects);
+        let name: Vec<&str> =
+            effects.iter().map(|&e| setup.case.candidates[e].effect.name.as_str()).collect();
+        let key = StreamKey::new(seed, &format!("gap/{}", name.join("+")));
+        let mut seeds = seeds(setup, &effects, singles);
+        if let Some(part) = &part {
+            let found = Evidence::begin(&part.likelihood(&effects), key, &seeds, 16);
+            seeds = found.modes.into_iter().take(3).map(|mode| mode.scores).collect();
+        }
+        let starts = effort.starts;
+        let evidence = Evidence::begin(&likelihood, key, &seeds, starts);
+        let share = |of: f64, count: usize| if count == 0 { 0.0 } else { of / count as f64 };
+        let prior = match effects.len() {
+            0 => prior.none,
+            1 => share(prior.one, count),
+            2 => share(prior.two, count * count.saturating_sub(1) / 2),
+            _ => share(prior.three, count * count.saturating_sub(1) * count.saturating_sub(2) / 6),
+        };
+        Hypothesis { effects, prior, evidence, probability: 0.0 }
+    };
+    let mut hypotheses: Vec<Hypothesis> =
+        wanted.into_par_iter().map(|effects| begin(effects, &[])).collect();
+    progress(0.2);
+    let residuals = by_rows(&setup.data.nominal_residuals());
+    let unexplained =
+        discrepancy.evidence(setup, &residuals, floor(&hypotheses, prior.unexplained));
+    progress(0.3);
+    if prior.two > 0.0 {
+        let pairs: Vec<Vec<usize>> =
+            (0..count).flat_map(|a| (a + 1..count).map(move |b| vec![a, b])).collect();
+        let of_pairs: Vec<Hypothesis> =
+            pairs.into_par_iter().map(|effects| begin(effects, &hypotheses)).collect();
+        hypotheses.extend(of_pairs);
+    }
+    progress(0.6);
+    let mut posterior =
+        Posterior { hypotheses, unexplained, prior: prior.unexplained, probability: 0.0 };
+    posterior.weigh();
+    // the leading hypotheses are looked at from end to end
+    let leads = |h: &&mut Hypothesis| h.probability > LEADING && !h.effects.is_empty();
+    posterior.hypotheses.par_iter_mut().filter(leads).for_each(|hypothesis| {
+        let likelihood = setup.likelihood(&hypothesis.effects);
+        if effort.generations > 0 {
+            hypothesis.evidence.along_ridges(&likelihood, setup.roles.len());
+        }
+        hypothesis.evidence.roam(&likelihood, effort.generations);
+    });
+    posterior.weigh();
+    for round in 0..effort.rounds {
+        let open: Vec<bool> = posterior
+            .hypotheses
+            .iter()
+            .map(|hypothesis| hypothesis.is_open(effort.error))
+            .collect();
+        if !open.iter().any(|open| *open) {
+            break;
+        }
+        posterior.hypotheses.par_iter_mut().zip(open).filter(|(_, open)| *open).for_each(
+            |(hypothesis, _)| {
+                let likelihood: Likelihood<'_> = setup.likelihood(&hypothesis.effects);
+                let columns = (2 + round / 2).min(8);
+                hypothesis.evidence.refine(&likelihood, columns);
+            },
+        );
+        posterior.weigh();
+        progress(0.6 + 0.4 * (round + 1) as f64 / effort.rounds as f64);
+    }
+    posterior.guard(setup, discrepancy);
+    // what is reported in detail deserves smooth intervals
+    for _ in 0..effort.rounds {
+        let worth = |h: &Hypothesis| {
+            h.probability > 0.05 && !h.effects.is_empty() && h.evidence.effective < effort.effective
+        };
+        if !posterior.hypotheses.iter().any(worth) {
+            break;
+        }
+        posterior.hypotheses.par_iter_mut().filter(|h| worth(h)).for_each(|hypothesis| {
+            let likelihood = setup.likelihood(&hypothesis.effects);
+            hypothesis.evidence.refine(&likelihood, 4);
+        });
+        posterior.weigh();
+    }
+    posterior.doubt(seed);
+    progress(1.0);
+    posterior
+}
+
+impl Hypothesis {
+    /// Whether its probability is not yet known well enough.
+    fn is_open(&self, error: f64) -> bool {
+        let p = self.probability;
+        if self.evidence.error == 0.0 || self.prior == 0.0 {
+            return false;
+        }
+        // what one more standard error, or a region that was missed by few draws, could change
+        let own = self.evidence.error.min(3.0);
+        let poor = self.evidence.effective < 60.0;
+        p * (1.0 - p) * own > error || (p > 0.02 && poor) || (poor && p * 20.0 > error)
+    }
+}
+
+/// The logarithm of a prior probability times an evidence.
+fn ln_weight(prior: f64, ln_evidence: f64) -> f64 {
+    if prior > 0.0 { prior.ln() + ln_evidence } else { f64::NEG_INFINITY }
+}
+
+/// The evidence of "unexplained" that would make it as probable as the leading hypothesis.
+fn floor(hypotheses: &[Hypothesis], prior: f64) -> f64 {
+    let ln = |h: &Hypothesis| h.prior.max(f64::MIN_POSITIVE).ln() + h.evidence.ln_evidence;
+    let most = hypotheses.iter().map(ln).fold(f64::NEG_INFINITY, f64::max);
+    most - prior.max(f64::MIN_POSITIVE).ln()
+}
+
+/// Share of "unexplained" in which an effect of the catalogue acts as well.
+const BESIDE_AN_EFFECT: f64 = 0.2;
+
+/// Hypotheses that are tried with a discrepancy beside them, at most.
+const MOST_GUARDED: usize = 4;
+
+/// A hypothesis is tried with a discrepancy beside it if its most probable point leaves residuals as
+/// large as these with less than this probability.
+const DOUBTFUL: f64 = 0.02;
+
+impl Posterior {
+    /// The posterior predictive check: where the leading hypotheses fit badly, each is tried with a
+    /// discrepancy beside it, which counts as "unexplained". Without it the least bad name would
+    /// win, however badly it fits.
+    fn guard(&mut self, setup: &Setup<'_>, discrepancy: &Discrepancy) {
+        let mut leading: Vec<usize> = (0..self.hypotheses.len())
+            .filter(|&h| {
+                let hypothesis = &self.hypotheses[h];
+                !hypothesis.effects.is_empty() && hypothesis.probability > 1e-3
+            })
+            .collect();
+        leading.sort_by(|&a, &b| {
+            self.hypotheses[b].probability.total_cmp(&self.hypotheses[a].probability)
+        });
+        leading.truncate(MOST_GUARDED);
+        let count = setup.case.candidates.len();
+        let all = count + count * count.saturating_sub(1) / 2;
+        let ln_share = (BESIDE_AN_EFFECT / all.max(1) as f64).ln();
+        let floor = floor(&self.hypotheses, self.prior);
+        let others: Vec<(f64, Arc<Base>, Unexplained)> = leading
+            .into_iter()
+            .filter_map(|h| {
+                let hypothesis = &self.hypotheses[h];
+                let mode = hypothesis.evidence.modes.first()?;
+                let base = Base::at(setup, &hypothesis.effects, mode)?;
+                let residuals = base.residuals(setup);
+                if !setup.linear.fitted {
+                    let whitened = setup.linear.whiten_blocks(&residuals);
+                    let projected = setup.linear.project(&whitened);
+                    let chi2 = dot(&whitened, &whitened) - projected.norm_squared();
+                    let dof = 0.5 * whitened.len() as f64;
+                    if special::gamma::ln_sf(0.5 * chi2, dof) > DOUBTFUL.ln() {
+                        return None;
+                    }
+                }
+                let ln = ln_share + mode.ln_occam(setup.roles.len());
+                let own = discrepancy.evidence(setup, &residuals, floor - ln);
+                Some((ln, Arc::new(base), own))
+            })
+            .collect();
+        let alone = std::mem::replace(
+            &mut self.unexplained,
+            Unexplained { ln_evidence: f64::NEG_INFINITY, kinds: Vec::new() },
+        );
+        self.unexplained = alone.joined(others, 1.0 - BESIDE_AN_EFFECT);
+        self.weigh();
+    }
+
+    /// Probabilities from priors and evidences.
+    fn weigh(&mut self) {
+        let unexplained = ln_weight(self.prior, self.unexplained.ln_evidence);
+        let total = self.hypotheses.iter().fold(unexplained, |sum, hypothesis| {
+            ln_add(sum, ln_weight(hypothesis.prior, hypothesis.evidence.ln_evidence))
+        });
+        for hypothesis in &mut self.hypotheses {
+            let own = ln_weight(hypothesis.prior, hypothesis.evidence.ln_evidence);
+            hypothesis.probability = (own - total).exp();
+        }
+        self.probability = (unexplained - total).exp();
+    }
+
+    /// Averages the probabilities over the errors of the integrals.
+    fn doubt(&mut self, seed: u64) {
+        let known = |prior: f64, evidence: f64, error: f64, effective: f64| doubt::Known {
+            ln: ln_weight(prior, evidence),
+            error,
+            effective,
+        };
+        let mut all: Vec<doubt::Known> = self
+            .hypotheses
+            .iter()
+            .map(|h| known(h.prior, h.evidence.ln_evidence, h.evidence.error, h.evidence.effective))
+            .collect();
+        all.push(known(self.prior, self.unexplained.ln_evidence, 0.0, 0.0));
+        let averaged = doubt::averaged(&all, seed);
+        let mut averaged = averaged.into_iter();
+        for (hypothesis, own) in self.hypotheses.iter_mut().zip(&mut averaged) {
+            hypothesis.probability = own;
+        }
+        self.probability = averaged.next().unwrap_or(0.0);
+    }
+}

@@ -1,0 +1,357 @@
+//! Where the gap lies: a scan over outputs and intervals of each condition.
+//!
+//! A region's statistic is how much of the squared residuals goes when its values are left out, the
+//! shared inputs being free to explain the rest. How surprising the most surprising region is comes
+//! from the same scan of data without a gap.
+
+use rayon::prelude::*;
+
+use super::covariance::{root_of, triangle};
+use super::diagnosis::Region;
+use super::setup::Setup;
+use crate::mixture::standard_normals;
+use gumption_engine::distribution::StreamKey;
+use gumption_engine::distribution::special;
+use gumption_engine::number::{COLUMN, Column};
+
+/// Conditions with more levels than this are scanned in so many bins.
+const MOST_LEVELS: usize = 40;
+
+/// Simulated data sets without a gap.
+const SIMULATED: usize = 512;
+
+/// A region is named if data without a gap have one as surprising with at most this probability. It
+/// is a little below 5 % because it is itself estimated from the simulated sets.
+const NAMED: f64 = 0.04;
+
+/// At most so many regions are named.
+const MOST_REGIONS: usize = 4;
+
+/// The regions of a design.
+struct Design {
+    values: usize,
+    /// Number of shared unknowns.
+    shared: usize,
+    /// For each value the products that region sums need: those of the basis with itself.
+    basis: Vec<Vec<f64>>,
+    axes: Vec<Axis>,
+}
+
+/// Values sorted into bins of a condition, for one output or all.
+struct Axis {
+    output: Option<usize>,
+    condition: Option<usize>,
+    /// Values in each bin.
+    bins: Vec<Vec<usize>>,
+    /// Least and largest condition of each bin.
+    ranges: Vec<[f64; 2]>,
+    /// Sums of products of the basis, cumulated over the bins.
+    products: Vec<Vec<f64>>,
+    counts: Vec<usize>,
+}
+
+/// Names the regions that depart. `variances` are those of the values without shared inputs.
+pub(crate) fn regions(setup: &Setup<'_>, variances: &[f64], seed: u64) -> Vec<Region> {
+    let residuals = super::discrepancy::by_rows(&setup.data.nominal_residuals());
+    let white: Vec<f64> = residuals.iter().zip(variances).map(|(r, v)| r / v.sqrt()).collect();
+    let design = Design::new(setup, variances);
+    let null: Vec<f64> = (0..SIMULATED / COLUMN)
+        .into_par_iter()
+        .flat_map(|block| {
+            let drawn = design.simulated(StreamKey::new(seed, "gap/where"), block as u64);
+            drawn
+                .iter()
+                .map(|white| design.scan(white, &[]).map_or(0.0, |best| best.surprise))
+                .collect::<Vec<_>>()
+        })
+        .collect();
+    let mut found: Vec<Region> = Vec::new();
+    let mut taken: Vec<usize> = Vec::new();
+    let total: f64 = white.iter().map(|z| z * z).sum::<f64>() - white.len() as f64;
+    while found.len() < MOST_REGIONS {
+        let Some(best) = design.scan(&white, &taken) else { break };
+        let beyond = null.iter().filter(|surprise| **surprise >= best.surprise).count();
+        let by_rank = (1 + beyond) as f64 / (1 + null.len()) as f64;
+        // beyond all simulated sets the bound of all regions together tells more
+        let bound = design.regions() as f64 * (-best.surprise).exp();
+        let p_value = if beyond == 0 { by_rank.min(bound) } else { by_rank };
+        if p_value > NAMED {
+            break;
+        }
+        let axis = &design.axes[best.axis];
+        let values: Vec<usize> = axis.bins[best.from..=best.to].iter().flatten().copied().collect();
+        let own: f64 = values.iter().map(|&v| white[v] * white[v] - 1.0).sum();
+        let whole = best.from == 0 && best.to + 1 == axis.bins.len();
+        found.push(Region {
+            output: axis.output,
+            range: axis
+                .condition
+                .filter(|_| !whole)
+                .map(|condition| (condition, [axis.ranges[best.from][0], axis.ranges[best.to][1]])),
+            p_value,
+            share_of_gap: if total > 0.0 { (own / total).clamp(0.0, 1.0) } else { 0.0 },
+            mean_z: values.iter().map(|&v| white[v]).sum::<f64>() / values.len().max(1) as f64,
+        });
+        taken.extend(values);
+        if whole && axis.output.is_none() {
+            break;
+        }
+    }
+    found
+}
+
+/// The most surprising region of some data.
+struct Best {
+    axis: usize,
+    from: usize,
+    to: usize,
+    /// Minus the logarithm of the region's own probability.
+    surprise: f64,
+}
+
+impl Design {
+    fn new(setup: &Setup<'_>, variances: &[f64]) -> Self {
+        let count = setup.data.outputs.len();
+        let values = setup.data.len();
+        let basis: Vec<Vec<f64>> = setup
+            .linear
+            .raw_basis
+            .iter()
+            .map(|column| column.iter().zip(variances).map(|(c, v)| c / v.sqrt()).collect())
+            .collect();
+        let conditions = setup.case.sim.conditions.len() - setup.case.simulated;
+        let mut outputs: Vec<Option<usize>> = (0..count).map(Some).collect();
+        if count > 1 {
+            outputs.push(None);
+        }
+        let mut design = Self { values, shared: basis.len(), basis, axes: Vec::new() };
+        for &output in &outputs {
+            let mut any = false;
+            for condition in 0..conditions {
+                let bins = bins(setup, condition);
+                if bins.len() < 2 {
+                    continue;
+                }
+                any = true;
+                design.add(output, Some(condition), bins, count);
+            }
+            if !any {
+                let rows = (0..setup.data.rows()).collect();
+                design.add(output, None, vec![(rows, [0.0, 0.0])], count);
+            }
+        }
+        design
+    }
+
+    fn add(
+        &mut self,
+        output: Option<usize>,
+        condition: Option<usize>,
+        bins: Vec<(Vec<usize>, [f64; 2])>,
+        count: usize,
+    ) {
+        let of_bin = |rows: &Vec<usize>| -> Vec<usize> {
+            let of_row = |&row: &usize| {
+                (0..count)
+                    .filter(move |o| output.is_none_or(|own| own == *o))
+                    .map(move |o| row * count + o)
+            };
+            rows.iter().flat_map(of_row).collect()
+        };
+        let ranges = bins.iter().map(|(_, range)| *range).collect();
+        let bins: Vec<Vec<usize>> = bins.iter().map(|(rows, _)| of_bin(rows)).collect();
+        let mut products = vec![vec![0.0; triangle(self.shared)]];
+        let mut counts = vec![0];
+        for bin in &bins {
+            let mut sums = products.last().cloned().unwrap_or_default();
+            for &value in bin {
+                for i in 0..self.shared {
+                    for j in 0..=i {
+                        sums[triangle(i) + j] += self.basis[i][value] * self.basis[j][value];
+                    }
+                }
+            }
+            products.push(sums);
+            counts.push(counts.last().copied().unwrap_or(0) + bin.len());
+        }
+        self.axes.push(Axis { output, condition, bins, ranges, products, counts });
+    }
+
+    /// Number of regions.
+    fn regions(&self) -> usize {
+        self.axes.iter().map(|axis| triangle(axis.bins.len())).sum()
+    }
+
+    /// Whitened residuals of data without a gap.
+    fn simulated(&self, key: StreamKey, block: u64) -> Vec<Vec<f64>> {
+        let mut stream = key.block(block);
+        let mut draws = vec![vec![0.0; self.values]; COLUMN];
+        let mut column = Column::ZERO;
+        for value in 0..self.values {
+            standard_normals(&mut stream, &mut column);
+            for (draw, normal) in draws.iter_mut().zip(&column.0) {
+                draw[value] = *normal;
+            }
+        }
+        for basis in &self.basis {
+            standard_normals(&mut stream, &mut column);
+            for (draw, normal) in draws.iter_mut().zip(&column.0) {
+                for (value, factor) in draw.iter_mut().zip(basis) {
+                    *value += normal * factor;
+                }
+            }
+        }
+        draws
+    }
+
+    /// The most surprising region; values that are `taken` count as left out already.
+    fn scan(&self, white: &[f64], taken: &[usize]) -> Option<Best> {
+        let k = self.shared;
+        let mut out = vec![false; self.values];
+        for &value in taken {
+            out[value] = true;
+        }
+        // sums over all values that are in
+        let mut square = 0.0;
+        let mut cross = vec![0.0; k];
+        let mut inner = vec![0.0; triangle(k)];
+        for i in 0..k {
+            inner[triangle(i) + i] = 1.0;
+        }
+        for value in (0..self.values).filter(|&value| !out[value]) {
+            square += white[value] * white[value];
+            for i in 0..k {
+                cross[i] += self.basis[i][value] * white[value];
+                for j in 0..=i {
+                    inner[triangle(i) + j] += self.basis[i][value] * self.basis[j][value];
+                }
+            }
+        }
+        let all = square - explained(&inner, &cross, k);
+        let mut best: Option<Best> = None;
+        for (number, axis) in self.axes.iter().enumerate() {
+            let bins = axis.bins.len();
+            let mut squares = vec![0.0; bins + 1];
+            let mut crosses = vec![vec![0.0; k]; bins + 1];
+            let mut counts = axis.counts.clone();
+            let mut products = std::borrow::Cow::Borrowed(&axis.products);
+            if !taken.is_empty() {
+                let mut without = axis.products.clone();
+                let (mut less, mut fewer) = (vec![0.0; triangle(k)], 0);
+                for (b, bin) in axis.bins.iter().enumerate() {
+                    for &value in bin.iter().filter(|&&value| out[value]) {
+                        fewer += 1;
+                        for i in 0..k {
+                            for j in 0..=i {
+                                less[triangle(i) + j] +=
+                                    self.basis[i][value] * self.basis[j][value];
+                            }
+                        }
+                    }
+                    counts[b + 1] -= fewer;
+                    for (sum, less) in without[b + 1].iter_mut().zip(&less) {
+                        *sum -= less;
+                    }
+                }
+                products = std::borrow::Cow::Owned(without);
+            }
+            for (b, bin) in axis.bins.iter().enumerate() {
+                squares[b + 1] = squares[b];
+                crosses[b + 1] = crosses[b].clone();
+                for &value in bin.iter().filter(|&&value| !out[value]) {
+                    squares[b + 1] += white[value] * white[value];
+                    for i in 0..k {
+                        crosses[b + 1][i] += self.basis[i][value] * white[value];
+                    }
+                }
+            }
+            let mut rest_inner = vec![0.0; triangle(k)];
+            let mut rest_cross = vec![0.0; k];
+            for from in 0..bins {
+                for to in from..bins {
+                    let count = counts[to + 1] - counts[from];
+                    // what is named once is not named again as a part of something larger
+                    let whole = axis.counts[to + 1] - axis.counts[from];
+                    if count == 0 || count < whole {
+                        continue;
+                    }
+                    for (rest, ((all, up), low)) in rest_inner
+                        .iter_mut()
+                        .zip(inner.iter().zip(&products[to + 1]).zip(&products[from]))
+                    {
+                        *rest = all - (up - low);
+                    }
+                    for (rest, ((all, up), low)) in rest_cross
+                        .iter_mut()
+                        .zip(cross.iter().zip(&crosses[to + 1]).zip(&crosses[from]))
+                    {
+                        *rest = all - (up - low);
+                    }
+                    let rest = square
+                        - (squares[to + 1] - squares[from])
+                        - explained(&rest_inner, &rest_cross, k);
+                    let gone = (all - rest).max(0.0);
+                    // a cheap bound spares most regions the tail of the chi-square distribution
+                    let bounded =
+                        count > 1 && best.as_ref().is_some_and(|best| 0.5 * gone < best.surprise);
+                    if bounded {
+                        continue;
+                    }
+                    let surprise = -special::gamma::ln_sf(0.5 * gone, 0.5 * count as f64);
+                    if best.as_ref().is_none_or(|best| surprise > best.surprise) {
+                        best = Some(Best { axis: number, from, to, surprise });
+                    }
+                }
+            }
+        }
+        best
+    }
+}
+
+/// The part of the squared residuals that shared unknowns explain.
+fn explained(inner: &[f64], cross: &[f64], k: usize) -> f64 {
+    if k == 0 {
+        return 0.0;
+    }
+    let root = root_of(inner, k);
+    let mut y = vec![0.0; k];
+    let mut sum = 0.0;
+    for i in 0..k {
+        let mut value = cross[i];
+        for j in 0..i {
+            value -= root[triangle(i) + j] * y[j];
+        }
+        y[i] = value / root[triangle(i) + i];
+        sum += y[i] * y[i];
+    }
+    sum
+}
+
+/// The rows at each level of a condition, in order; many levels are put together.
+fn bins(setup: &Setup<'_>, condition: usize) -> Vec<(Vec<usize>, [f64; 2])> {
+    let value = |row: usize| setup.case.task.rows[setup.data.ids[row]].conditions[condition];
+    let mut rows: Vec<usize> = (0..setup.data.rows()).collect();
+    rows.sort_by(|&a, &b| value(a).total_cmp(&value(b)));
+    let mut levels: Vec<(Vec<usize>, [f64; 2])> = Vec::new();
+    for row in rows {
+        match levels.last_mut() {
+            Some((level, range)) if range[1] == value(row) => level.push(row),
+            _ => levels.push((vec![row], [value(row); 2])),
+        }
+    }
+    if levels.len() <= MOST_LEVELS {
+        return levels;
+    }
+    let mut joined: Vec<(Vec<usize>, [f64; 2])> = Vec::new();
+    let count = levels.len();
+    for (number, (rows, range)) in levels.into_iter().enumerate() {
+        let bin = number * MOST_LEVELS / count;
+        if joined.len() <= bin {
+            joined.push((rows, range));
+        } else if let Some((all, whole)) = joined.last_mut() {
+            all.extend(rows);
+            whole[1] = range[1];
+        }
+    }
+    joined
+}

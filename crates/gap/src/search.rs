@@ -1,0 +1,390 @@
+//! Modes of the posterior of a hypothesis: damped Fisher scoring from many starts side by side.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::covariance::{Covariance, triangle};
+use super::latent::EDGE;
+use super::likelihood::{HALF_LN_TWO_PI, Likelihood, Visitor};
+use gumption_engine::number::{COLUMN, Column};
+
+/// The step of differences, in standard normal scores: the truncation error is of its order and the
+/// rounding error about 1e-11 over it.
+const STEP: f64 = 1e-5;
+
+/// Normal scores are kept within this of 0; the prior probability beyond is below 1e-15.
+const FARTHEST: f64 = 8.0;
+
+const MOST_STEPS: usize = 30;
+
+/// Modes whose density is lower than the best's by this factor's logarithm are left out.
+const DEPTH: f64 = 14.0;
+
+/// A local maximum of the posterior density.
+#[derive(Clone, Debug)]
+pub(crate) struct Mode {
+    /// The scores.
+    pub(crate) scores: Vec<f64>,
+    /// Minus the logarithm of prior density times likelihood, without the prior's constant; here the
+    /// prior of every score is taken as normal.
+    pub(crate) cost: f64,
+    /// Expected information of data and prior together.
+    pub(crate) information: DMatrix<f64>,
+}
+
+impl Mode {
+    /// The logarithm of the likelihood there.
+    pub(crate) fn ln_likelihood(&self) -> f64 {
+        -self.cost + 0.5 * self.scores.iter().map(|score| score * score).sum::<f64>()
+    }
+
+    /// The logarithm of the share of the prior of the quantities after the first `shared` ones that
+    /// the data leave, in the Gaussian approximation.
+    pub(crate) fn ln_occam(&self, shared: usize) -> f64 {
+        let own: f64 = self.scores.iter().skip(shared).map(|score| score * score).sum();
+        let ln_det = |matrix: DMatrix<f64>| {
+            matrix.cholesky().map_or(0.0, |root| 2.0 * root.l().diagonal().map(f64::ln).sum())
+        };
+        let first = self.information.view((0, 0), (shared, shared)).into_owned();
+        -0.5 * (own + ln_det(self.information.clone()) - ln_det(first))
+    }
+}
+
+/// The cost at a point with its gradient and information.
+#[derive(Clone, Debug)]
+struct Local {
+    cost: f64,
+    gradient: DVector<f64>,
+    information: DMatrix<f64>,
+}
+
+struct Walker {
+    scores: Vec<f64>,
+    local: Local,
+    /// The score that stays as it is, if any.
+    held: Option<usize>,
+    damping: f64,
+    done: bool,
+}
+
+/// The modes that are reached from `starts`, best first, at most `most` of them.
+pub(crate) fn modes(likelihood: &Likelihood<'_>, starts: &[Vec<f64>], most: usize) -> Vec<Mode> {
+    let starts = starts.iter().map(|scores| (None, scores.clone())).collect();
+    let mut walkers = Walker::at(likelihood, starts);
+    let farthest = farthest(likelihood);
+    for step in 0..MOST_STEPS {
+        // the laggards are given up: they end where a better walker is, or in a worse mode
+        if step == 8 || step == 16 {
+            let best = walkers.iter().map(|walker| walker.local.cost).fold(f64::INFINITY, f64::min);
+            let slack: f64 = if step == 8 { 60.0 } else { 25.0 };
+            walkers.retain(|walker| walker.local.cost < best + slack.max(0.3 * best.abs().sqrt()));
+            merge(&mut walkers);
+        }
+        if !advance(likelihood, &mut walkers, &farthest) {
+            break;
+        }
+    }
+    merge(&mut walkers);
+    let best = walkers.first().map_or(f64::INFINITY, |walker| walker.local.cost);
+    walkers.retain(|walker| walker.local.cost < best + DEPTH);
+    walkers.truncate(most);
+    walkers.into_iter().map(Walker::mode).collect()
+}
+
+/// The best points with one score held at its value in the start; the held score with each.
+pub(crate) fn profile(
+    likelihood: &Likelihood<'_>,
+    starts: &[(usize, Vec<f64>)],
+) -> Vec<(usize, Mode)> {
+    let farthest = farthest(likelihood);
+    let within = |scores: &Vec<f64>| -> Vec<f64> {
+        scores.iter().zip(&farthest).map(|(score, most)| score.clamp(-most, *most)).collect()
+    };
+    let starts = starts.iter().map(|(held, scores)| (Some(*held), within(scores))).collect();
+    let mut walkers = Walker::at(likelihood, starts);
+    for _ in 0..MOST_STEPS {
+        if !advance(likelihood, &mut walkers, &farthest) {
+            break;
+        }
+    }
+    walkers.into_iter().filter_map(|walker| Some((walker.held?, walker.mode()))).collect()
+}
+
+/// Information without what it says about one score, which is held.
+pub(crate) fn freed(information: &DMatrix<f64>, held: usize) -> DMatrix<f64> {
+    let mut freed = information.clone();
+    freed.row_mut(held).fill(0.0);
+    freed.column_mut(held).fill(0.0);
+    freed[(held, held)] = 1.0;
+    freed
+}
+
+fn farthest(likelihood: &Likelihood<'_>) -> Vec<f64> {
+    likelihood.bounded().iter().map(|b| if *b { EDGE } else { FARTHEST }).collect()
+}
+
+/// One step of all walkers that are not done; whether there were any.
+fn advance(likelihood: &Likelihood<'_>, walkers: &mut [Walker], farthest: &[f64]) -> bool {
+    let active: Vec<usize> = (0..walkers.len()).filter(|&w| !walkers[w].done).collect();
+    let proposals: Vec<Vec<f64>> = active.iter().map(|&w| walkers[w].proposal(farthest)).collect();
+    for ((&w, proposal), local) in active.iter().zip(&proposals).zip(locals(likelihood, &proposals))
+    {
+        walkers[w].decide(proposal, local);
+    }
+    !active.is_empty()
+}
+
+/// Sorts by cost and drops walkers that stand where a better one does.
+fn merge(walkers: &mut Vec<Walker>) {
+    walkers.sort_by(|a, b| a.local.cost.total_cmp(&b.local.cost));
+    let mut kept: Vec<Walker> = Vec::new();
+    for walker in walkers.drain(..) {
+        let same = kept.iter().any(|other| {
+            let difference = DVector::from_iterator(
+                walker.scores.len(),
+                walker.scores.iter().zip(&other.scores).map(|(a, b)| a - b),
+            );
+            let distance = (&other.local.information * &difference).dot(&difference);
+            distance < 0.5 * walker.scores.len() as f64
+        });
+        if !same {
+            kept.push(walker);
+        }
+    }
+    *walkers = kept;
+}
+
+impl Walker {
+    /// Walkers at starts where the likelihood is finite, with the scores that are held.
+    fn at(likelihood: &Likelihood<'_>, starts: Vec<(Option<usize>, Vec<f64>)>) -> Vec<Self> {
+        let (held, points): (Vec<_>, Vec<_>) = starts.into_iter().unzip();
+        let locals = locals(likelihood, &points);
+        points
+            .into_iter()
+            .zip(held)
+            .zip(locals)
+            .filter(|(_, local)| local.cost.is_finite())
+            .map(|((scores, held), local)| Self { scores, local, held, damping: 1e-2, done: false })
+            .collect()
+    }
+
+    fn mode(self) -> Mode {
+        let Local { cost, information, .. } = self.local;
+        Mode { scores: self.scores, cost, information }
+    }
+
+    fn proposal(&self, farthest: &[f64]) -> Vec<f64> {
+        let Local { gradient, information, .. } = &self.local;
+        let mut gradient = gradient.clone();
+        let mut damped = match self.held {
+            Some(held) => {
+                gradient[held] = 0.0;
+                freed(information, held)
+            }
+            None => information.clone(),
+        };
+        for i in 0..damped.nrows() {
+            damped[(i, i)] *= 1.0 + self.damping;
+        }
+        let step = damped.cholesky().map(|root| root.solve(&gradient));
+        let step = step.unwrap_or(gradient);
+        let to = |((score, step), most): ((&f64, &f64), &f64)| (score - step).clamp(-most, *most);
+        self.scores.iter().zip(step.iter()).zip(farthest).map(to).collect()
+    }
+
+    fn decide(&mut self, proposal: &[f64], local: Local) {
+        if local.cost < self.local.cost {
+            self.done = self.local.cost - local.cost < 1e-3 && self.damping < 1.0;
+            self.scores.clear();
+            self.scores.extend_from_slice(proposal);
+            self.local = local;
+            self.damping = (self.damping * 0.2).max(1e-9);
+        } else {
+            self.damping *= 8.0;
+            self.done = self.damping > 1e6;
+        }
+    }
+}
+
+/// Cost, gradient and information at many points.
+fn locals(likelihood: &Likelihood<'_>, points: &[Vec<f64>]) -> Vec<Local> {
+    let unknowns = likelihood.unknowns();
+    let group = unknowns + 1;
+    let together = (COLUMN / group).max(1);
+    let mut locals = Vec::with_capacity(points.len());
+    for points in points.chunks(together) {
+        let lanes = points.len() * group;
+        let mut scores = vec![Column::ZERO; unknowns];
+        for (number, point) in points.iter().enumerate() {
+            for (i, (column, &score)) in scores.iter_mut().zip(point).enumerate() {
+                column.0[number * group..(number + 1) * group].fill(score);
+                column.0[number * group + 1 + i] += STEP;
+            }
+        }
+        let mut moments = Moments::new(likelihood, points.len());
+        likelihood.visit(&scores, lanes, &mut moments);
+        let all = moments.groups.iter().zip(points);
+        locals.extend(all.map(|(group, point)| {
+            group.local(likelihood.covariance, likelihood.data.len(), point)
+        }));
+    }
+    locals
+}
+
+/// Sums for the points of one column.
+struct Moments<'l> {
+    basis: &'l [Vec<f64>],
+    fitted: bool,
+    noise: Vec<bool>,
+    groups: Vec<Group>,
+}
+
+/// Sums for one point.
+struct Group {
+    square: f64,
+    half_ln_variances: f64,
+    gradient: Vec<f64>,
+    information: Vec<f64>,
+    /// Products of the basis with the residual, then with its derivatives.
+    products: Vec<f64>,
+    inner: Vec<f64>,
+    slopes: Vec<f64>,
+    ln_slopes: Vec<f64>,
+}
+
+impl<'l> Moments<'l> {
+    fn new(likelihood: &'l Likelihood<'_>, points: usize) -> Self {
+        let unknowns = likelihood.unknowns();
+        let basis = &likelihood.covariance.basis;
+        let fitted = likelihood.covariance.fitted;
+        let group = || Group {
+            square: 0.0,
+            half_ln_variances: 0.0,
+            gradient: vec![0.0; unknowns],
+            information: vec![0.0; triangle(unknowns)],
+            products: vec![0.0; basis.len() * (unknowns + 1)],
+            inner: vec![0.0; if fitted { triangle(basis.len()) } else { 0 }],
+            slopes: vec![0.0; unknowns],
+            ln_slopes: vec![0.0; unknowns],
+        };
+        Self {
+            basis,
+            fitted,
+            noise: likelihood.roles.iter().map(super::latent::Role::is_noise).collect(),
+            groups: (0..points).map(|_| group()).collect(),
+        }
+    }
+}
+
+impl Visitor for Moments<'_> {
+    #[inline(always)]
+    fn row(&mut self, row: usize, residuals: &[Column], ln_variances: &[Column]) {
+        let outputs = residuals.len();
+        let unknowns = self.noise.len();
+        for (output, (residual, ln_variance)) in residuals.iter().zip(ln_variances).enumerate() {
+            for (number, group) in self.groups.iter_mut().enumerate() {
+                let lane = number * (unknowns + 1);
+                let r = residual.0[lane];
+                group.square += r * r;
+                for t in 0..unknowns {
+                    group.slopes[t] =
+                        if self.noise[t] { 0.0 } else { (residual.0[lane + 1 + t] - r) / STEP };
+                }
+                for t in 0..unknowns {
+                    let slope = group.slopes[t];
+                    group.gradient[t] += r * slope;
+                    for s in 0..=t {
+                        group.information[triangle(t) + s] += slope * group.slopes[s];
+                    }
+                }
+                if self.fitted {
+                    let ln = ln_variance.0[lane];
+                    group.half_ln_variances += 0.5 * ln;
+                    for t in 0..unknowns {
+                        group.ln_slopes[t] = if self.noise[t] {
+                            (ln_variance.0[lane + 1 + t] - ln) / STEP
+                        } else {
+                            0.0
+                        };
+                    }
+                    for t in 0..unknowns {
+                        let slope = group.ln_slopes[t];
+                        if slope != 0.0 {
+                            group.gradient[t] += 0.5 * (1.0 - r * r) * slope;
+                            for s in 0..=t {
+                                group.information[triangle(t) + s] +=
+                                    0.5 * slope * group.ln_slopes[s];
+                            }
+                        }
+                    }
+                }
+                if self.basis.is_empty() {
+                    continue;
+                }
+                let place = row * outputs + output;
+                let root = if self.fitted { (-0.5 * ln_variance.0[lane]).exp() } else { 1.0 };
+                for (i, column) in self.basis.iter().enumerate() {
+                    let factor = column[place] * root;
+                    if factor == 0.0 {
+                        continue;
+                    }
+                    let products = &mut group.products[i * (unknowns + 1)..];
+                    products[0] += factor * r;
+                    for t in 0..unknowns {
+                        products[1 + t] += factor * group.slopes[t];
+                    }
+                    if self.fitted {
+                        for (j, other) in self.basis.iter().enumerate().take(i + 1) {
+                            group.inner[triangle(i) + j] += factor * root * other[place];
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+impl Group {
+    fn local(&self, covariance: &Covariance, values: usize, point: &[f64]) -> Local {
+        let unknowns = point.len();
+        let k = covariance.basis.len();
+        let mut square = self.square;
+        let mut half_ln_det = covariance.half_ln_det + self.half_ln_variances;
+        let mut gradient = DVector::from_column_slice(&self.gradient);
+        let mut information = DMatrix::from_fn(unknowns, unknowns, |i, j| {
+            self.information[triangle(i.max(j)) + i.min(j)]
+        });
+        if k > 0 {
+            let inner = if covariance.fitted {
+                let mut root = self.inner.clone();
+                for i in 0..k {
+                    root[triangle(i) + i] += 1.0;
+                }
+                half_ln_det += super::likelihood::root_in_place(&mut root, k);
+                DMatrix::from_fn(k, k, |i, j| if j <= i { root[triangle(i) + j] } else { 0.0 })
+            } else {
+                covariance.inner.clone()
+            };
+            let products =
+                DMatrix::from_fn(k, unknowns + 1, |i, j| self.products[i * (unknowns + 1) + j]);
+            if let Some(y) = inner.solve_lower_triangular(&products) {
+                let first = y.column(0);
+                let others = y.columns(1, unknowns);
+                square -= first.norm_squared();
+                gradient -= others.transpose() * first;
+                information -= others.transpose() * others;
+            }
+        }
+        let prior: f64 = point.iter().map(|score| score * score).sum();
+        for (i, score) in point.iter().enumerate() {
+            gradient[i] += score;
+            information[(i, i)] += 1.0;
+        }
+        let cost = 0.5 * (square + prior) + half_ln_det + values as f64 * HALF_LN_TWO_PI;
+        let cost = if cost.is_finite() && gradient.iter().all(|g| g.is_finite()) {
+            cost
+        } else {
+            f64::INFINITY
+        };
+        Local { cost, gradient, information }
+    }
+}

@@ -1,0 +1,253 @@
+//! A case made ready: data, covariance, and which quantities are unknown whatever the hypothesis.
+
+use super::correlated;
+use super::covariance::Covariance;
+use super::data::{Data, Spread};
+use super::latent::{Map, Role};
+use super::likelihood::Likelihood;
+use crate::Case;
+use crate::Effect;
+use gumption_engine::distribution::Distribution;
+
+/// Inputs whose whole effect on the data is below so many standard uncertainties act linearly as far
+/// as anybody can tell, and are integrated out exactly.
+const NEGLIGIBLE: f64 = 0.3;
+
+/// At most so many inputs are unknown quantities of their own; the others act linearly.
+const MOST_UNKNOWN_INPUTS: usize = 12;
+
+/// Noise is taken to be proportional to a power of the sim's size where that spans this factor.
+const SPAN_FOR_POWER: f64 = 3.0;
+
+/// What all hypotheses of a case have in common.
+#[derive(Debug)]
+pub(crate) struct Setup<'c> {
+    pub(crate) case: &'c Case,
+    pub(crate) data: Data,
+    pub(crate) spread: Spread,
+    /// With the inputs that act linearly integrated out.
+    pub(crate) covariance: Covariance,
+    /// With all inputs integrated out as if they acted linearly.
+    pub(crate) linear: Covariance,
+    /// The inputs that are unknown quantities of their own.
+    pub(crate) unknown_inputs: Vec<usize>,
+    /// Unknown quantities of every hypothesis: inputs, then noise.
+    pub(crate) roles: Vec<Role>,
+    mixing: Option<Vec<Vec<f64>>>,
+    pub(crate) ln_sizes: Vec<f64>,
+}
+
+impl<'c> Setup<'c> {
+    pub(crate) fn new(case: &'c Case) -> Self {
+        let data = Data::new(case);
+        let spread = Spread::new(case, &data);
+        let unknown_inputs = unknown_inputs(case, &data, &spread);
+        let ln_sizes = ln_sizes(&data);
+        let residuals = data.nominal_residuals();
+        let fitted = (0..residuals.len()).filter(|&output| data.uncertainties[output].is_none());
+        let noise: Vec<Role> =
+            fitted.flat_map(|output| noise(output, &residuals[output], &data, &ln_sizes)).collect();
+        Self::with_data_and_inputs(case, data, unknown_inputs, noise)
+    }
+
+    /// With other data of the case, and the unknown quantities of all of them.
+    pub(crate) fn with_data_and_inputs(
+        case: &'c Case,
+        data: Data,
+        unknown_inputs: Vec<usize>,
+        noise: Vec<Role>,
+    ) -> Self {
+        let spread = Spread::new(case, &data);
+        let varying: Vec<usize> = (0..case.task.variables.len())
+            .filter(|&v| spread.deviations[v].iter().any(|deviation| *deviation > 0.0))
+            .collect();
+        let others: Vec<usize> =
+            varying.iter().copied().filter(|v| !unknown_inputs.contains(v)).collect();
+        let covariance = Covariance::new(case, &data, &spread, &others);
+        let linear = Covariance::new(case, &data, &spread, &varying);
+        let ln_sizes = ln_sizes(&data);
+        let mut roles: Vec<Role> = unknown_inputs
+            .iter()
+            .map(|&place| Role::Variable { place, maps: maps(case, &data, place) })
+            .collect();
+        roles.extend(noise);
+        let mixing = correlated::matrix(case, &unknown_inputs)
+            .and_then(|matrix| matrix.cholesky())
+            .map(|root| {
+                let root = root.l();
+                let row = |i: usize| (0..root.ncols()).map(|j| root[(i, j)]).collect();
+                (0..root.nrows()).map(row).collect()
+            });
+        Self { case, data, spread, covariance, linear, unknown_inputs, roles, mixing, ln_sizes }
+    }
+
+    /// The likelihood with these effects acting.
+    pub(crate) fn likelihood(&self, effects: &[usize]) -> Likelihood<'_> {
+        let candidates: Vec<_> = effects.iter().map(|&e| &self.case.candidates[e]).collect();
+        let acting: Vec<&Effect> = candidates.iter().map(|candidate| &candidate.effect).collect();
+        // circular pairs were refused when the case was read
+        let program = self.case.sim.program(&acting).unwrap_or_default();
+        let first = self.case.task.variables.len() + self.case.sim.conditions.len();
+        let parameters = candidates.iter().flat_map(|candidate| &candidate.priors).enumerate();
+        let mut roles = self.roles.clone();
+        roles.extend(parameters.map(|(place, prior)| Role::Variable {
+            place: first + place,
+            maps: vec![Map::of(prior)],
+        }));
+        let mixing = self.mixing.as_ref().map(|rows| {
+            (0..roles.len())
+                .map(|i| {
+                    let mut row = vec![0.0; roles.len()];
+                    match rows.get(i) {
+                        Some(own) => row[..own.len()].copy_from_slice(own),
+                        None => row[i] = 1.0,
+                    }
+                    row
+                })
+                .collect()
+        });
+        Likelihood::new(
+            self.case,
+            &self.data,
+            &self.covariance,
+            &program,
+            roles,
+            mixing,
+            self.ln_sizes.clone(),
+        )
+    }
+
+    /// About so many values, evenly spread over the rows.
+    pub(crate) fn thinned(&self, values: usize) -> Self {
+        let step = (self.data.len() / values.max(1)).max(1);
+        let ids = self.data.ids.iter().step_by(step).copied().collect();
+        let data = Data::of(self.case, ids);
+        Self::with_data_and_inputs(self.case, data, self.unknown_inputs.clone(), self.noise_roles())
+    }
+
+    /// The unknown quantities of the noise.
+    pub(crate) fn noise_roles(&self) -> Vec<Role> {
+        self.roles.iter().filter(|role| role.is_noise()).cloned().collect()
+    }
+
+    /// Places of an effect's parameters among the unknown quantities of a hypothesis.
+    pub(crate) fn parameters(&self, effects: &[usize], effect: usize) -> std::ops::Range<usize> {
+        let count = |e: &usize| self.case.candidates[*e].priors.len();
+        let before: usize = effects.iter().take_while(|e| **e != effect).map(count).sum();
+        let first = self.roles.len() + before;
+        first..first + count(&effect)
+    }
+}
+
+/// The prior of an input at every point, or once if it is the same at all.
+pub(crate) fn maps(case: &Case, data: &Data, variable: usize) -> Vec<Map> {
+    let of =
+        |row: usize| -> &Distribution { &case.task.rows[data.ids[row]].distributions[variable] };
+    // normal scores are what declared correlations join
+    let correlated =
+        case.task.correlations.iter().any(|c| c.first == variable || c.second == variable);
+    let map = |row: usize| match Map::of(of(row)) {
+        bounded if bounded.is_bounded() && correlated => Map::Other(of(row).clone()),
+        map => map,
+    };
+    let rows: Vec<usize> =
+        data.points.iter().filter_map(|point| point.rows.first().copied()).collect();
+    let first = rows.first().map(|&row| of(row));
+    if rows.iter().all(|&row| Some(of(row)) == first) {
+        rows.first().map(|&row| map(row)).into_iter().collect()
+    } else {
+        rows.iter().map(|&row| map(row)).collect()
+    }
+}
+
+/// Shared inputs that matter, those that matter most first.
+fn unknown_inputs(case: &Case, data: &Data, spread: &Spread) -> Vec<usize> {
+    let residuals = data.nominal_residuals();
+    let scales: Vec<f64> = residuals
+        .iter()
+        .map(|residuals| {
+            let squares: f64 = residuals.iter().map(|r| r * r).sum();
+            1e-3 * (squares / residuals.len().max(1) as f64).sqrt()
+        })
+        .collect();
+    let influence = |v: usize| {
+        let mut sum = 0.0;
+        for (row, &point) in data.point_of.iter().enumerate() {
+            for output in 0..data.outputs.len() {
+                let effect = data.points[point].gradients[output][v] * spread.deviations[v][point];
+                let u = match &data.uncertainties[output] {
+                    Some(u) => u[row],
+                    None => scales[output],
+                };
+                sum += (effect / u).powi(2);
+            }
+        }
+        sum.sqrt()
+    };
+    let mut ranked: Vec<(f64, usize)> = (0..case.task.variables.len())
+        .filter(|&v| spread.shared[v].is_none())
+        .filter(|&v| spread.deviations[v].iter().any(|deviation| *deviation > 0.0))
+        .map(|v| (influence(v), v))
+        .filter(|(influence, _)| *influence > NEGLIGIBLE || !influence.is_finite())
+        .collect();
+    ranked.sort_by(|a, b| b.0.total_cmp(&a.0));
+    ranked.truncate(MOST_UNKNOWN_INPUTS);
+    let mut chosen: Vec<usize> = ranked.into_iter().map(|(_, v)| v).collect();
+    // an input that is correlated with an unknown one is unknown as well
+    for correlation in &case.task.correlations {
+        let (first, second) = (correlation.first, correlation.second);
+        for (one, other) in [(first, second), (second, first)] {
+            let shared = spread.shared.get(other).is_some_and(Option::is_none);
+            if chosen.contains(&one) && !chosen.contains(&other) && shared {
+                chosen.push(other);
+            }
+        }
+    }
+    chosen.sort_unstable();
+    chosen
+}
+
+/// For each value the logarithm of the sim's size relative to its geometric mean over the rows.
+fn ln_sizes(data: &Data) -> Vec<f64> {
+    let count = data.outputs.len();
+    let mut ln_sizes = vec![0.0; data.len()];
+    for output in 0..count {
+        let size = |point: usize| data.points[point].nominal[output].abs();
+        let most = (0..data.points.len()).map(size).fold(0.0, f64::max);
+        let least = (0..data.points.len())
+            .map(size)
+            .filter(|size| *size > 1e-9 * most)
+            .fold(f64::INFINITY, f64::min);
+        if most <= 0.0 || !least.is_finite() {
+            continue;
+        }
+        let ln = |row: usize| size(data.point_of[row]).max(least).ln();
+        let mean = (0..data.rows()).map(ln).sum::<f64>() / data.rows().max(1) as f64;
+        for row in 0..data.rows() {
+            ln_sizes[row * count + output] = ln(row) - mean;
+        }
+    }
+    ln_sizes
+}
+
+/// The noise of an output without stated uncertainties: its standard deviation is log-uniform over
+/// all sizes that the data allow, and it may grow with the sim's size.
+fn noise(output: usize, residuals: &[f64], data: &Data, ln_sizes: &[f64]) -> Vec<Role> {
+    let rms = |values: &mut dyn Iterator<Item = f64>| {
+        let (count, squares) = values.fold((0usize, 0.0), |(n, sum), v| (n + 1, sum + v * v));
+        (squares / count.max(1) as f64).sqrt()
+    };
+    let scale = rms(&mut residuals.iter().copied())
+        .max(1e-12 * rms(&mut data.values[output].iter().copied()))
+        .max(f64::MIN_POSITIVE.sqrt());
+    let ln_lower = (1e-6 * scale).ln();
+    let mut roles =
+        vec![Role::Noise { output, map: Map::Uniform { lower: ln_lower, width: (3e6f64).ln() } }];
+    let sizes = ln_sizes.iter().skip(output).step_by(data.outputs.len().max(1));
+    let (least, most) =
+        sizes.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), &ln| (a.min(ln), b.max(ln)));
+    if most - least > SPAN_FOR_POWER.ln() {
+        roles.push(Role::Power { output, map: Map::Uniform { lower: 0.0, width: 1.0 } });
+    }
+    roles
+}

@@ -1,0 +1,456 @@
+//! How far the gap shrinks with the verdict's correction, on conditions that were not fitted.
+
+use rayon::prelude::*;
+
+use super::data::Data;
+use super::diagnosis::{RowGap, Shrinkage, Shrunk, ValueGap};
+use super::discrepancy::{Base, Discrepancy, Weighted, by_rows};
+use super::evidence::Evidence;
+use super::likelihood::HALF_LN_TWO_PI;
+use super::posterior::Posterior;
+use super::predict::{self, Normals, Values};
+use super::setup::Setup;
+use gumption_engine::distribution::StreamKey;
+use gumption_engine::task::Row;
+
+/// Blocks of conditions that are left out in turn.
+const BLOCKS: usize = 6;
+
+/// Draws of the posterior that a prediction is averaged over.
+const DRAWS: usize = 192;
+
+/// Below this gap, in standard uncertainties, a removed fraction is a ratio of two noises.
+const MEANINGFUL: f64 = 3.0;
+
+/// What is added to the sim.
+#[derive(Clone, Debug)]
+pub(crate) enum Correction {
+    /// Effects, or none of them.
+    Effects(Vec<usize>),
+    /// A discrepancy.
+    Unexplained,
+}
+
+/// Shrinkage, and the data row by row. `variances` are those of the noise by value.
+pub(crate) fn shrinkage(
+    setup: &Setup<'_>,
+    discrepancy: &Discrepancy,
+    posterior: &Posterior,
+    correction: &Correction,
+    variances: &[f64],
+    probability: f64,
+    seed: u64,
+) -> (Shrinkage, Vec<RowGap>) {
+    let data = &setup.data;
+    let outputs = data.outputs.len();
+    let rows: Vec<Row> = data.ids.iter().map(|&id| setup.case.task.rows[id].clone()).collect();
+    let before = by_rows(&data.nominal_residuals());
+    let blocks = blocks(setup);
+    // without each block in turn
+    let left_out: Vec<(Vec<usize>, Fold)> = blocks
+        .par_iter()
+        .map(|block| (block.clone(), fold(setup, discrepancy, posterior, correction, block, seed)))
+        .collect();
+    let mut predicted = vec![(0.0, 0.0); data.len()];
+    let mut gain = 0.0;
+    for (block, fold) in &left_out {
+        for (n, &row) in block.iter().enumerate() {
+            for output in 0..outputs {
+                predicted[row * outputs + output] = fold.predicted[n][output];
+            }
+        }
+        let noise: Vec<f64> = block
+            .iter()
+            .flat_map(|&row| (0..outputs).map(move |output| variances[row * outputs + output]))
+            .collect();
+        let measured: Vec<f64> = block
+            .iter()
+            .flat_map(|&row| (0..outputs).map(move |output| data.values[output][row]))
+            .collect();
+        gain +=
+            fold.density.ln_density(&measured, &noise) - fold.base.ln_density(&measured, &noise);
+    }
+    let linear: Vec<f64> =
+        rows.iter().flat_map(|row| predict::linear_variances(setup, row)).collect();
+    let nominal_variances = input_variances(setup);
+    let after: Vec<f64> = (0..data.len())
+        .map(|value| data.residual(value % outputs, value / outputs, predicted[value].0))
+        .collect();
+    let of_rows: Vec<RowGap> = rows
+        .iter()
+        .enumerate()
+        .map(|(row, of)| RowGap {
+            conditions: of.conditions.clone(),
+            outputs: (0..outputs)
+                .map(|output| {
+                    let value = row * outputs + output;
+                    let noise = variances[value];
+                    ValueGap {
+                        measured: data.values[output][row],
+                        u: noise.sqrt(),
+                        before: before[value],
+                        u_before: (noise + nominal_variances[value]).sqrt(),
+                        after: after[value],
+                        u_after: (noise + predicted[value].1 + linear[value]).sqrt(),
+                    }
+                })
+                .collect(),
+        })
+        .collect();
+    // the noise as it happened to be, from the whole fit: it is in `after` as well
+    let fitted = in_sample(setup, discrepancy, posterior, correction, &rows);
+    let scaled = |values: &[f64], weights: &[f64]| -> Vec<f64> {
+        values.iter().zip(weights).map(|(r, v)| r * r / v).collect()
+    };
+    let (before2, after2) = (scaled(&before, variances), scaled(&after, variances));
+    let noise2: Vec<f64> = (0..data.len())
+        .map(|value| {
+            let (mean, variance) = fitted[value / outputs][value % outputs];
+            let residual = data.residual(value % outputs, value / outputs, mean);
+            (residual * residual + variance) / variances[value]
+        })
+        .collect();
+    let n = data.len() as f64;
+    let mean = |squares: &[f64]| squares.iter().sum::<f64>() / squares.len().max(1) as f64;
+    // noise in standard uncertainties is 1 but for chance
+    let chance = 2.0 * (2.0 / n).sqrt();
+    let floor2 = mean(&noise2).clamp(1.0 - chance.min(0.5), 1.0 + chance);
+    let all = shrunk(mean(&before2), mean(&after2), floor2);
+    let per_output = (0..outputs)
+        .map(|output| {
+            let of = |values: &[f64]| -> f64 {
+                mean(
+                    &values.iter().skip(output).step_by(outputs).map(|r| r * r).collect::<Vec<_>>(),
+                )
+            };
+            let noise: Vec<f64> = variances.iter().skip(output).step_by(outputs).copied().collect();
+            shrunk(of(&before), of(&after), mean(&noise) * floor2)
+        })
+        .collect();
+    let claimed = claimed(setup, &fitted, variances);
+    let within = |squares: &[f64], variance: &dyn Fn(&ValueGap) -> f64| {
+        let held = of_rows
+            .iter()
+            .flat_map(|row| &row.outputs)
+            .zip(squares)
+            .filter(|(value, residual)| residual.abs() <= 2.0 * variance(value))
+            .count();
+        held as f64 / n
+    };
+    let shrinkage = Shrinkage {
+        rms_after_interval: interval(&after2, probability, seed),
+        meaningful: all.rms_before * all.rms_before - 1.0 >= MEANINGFUL * MEANINGFUL,
+        claimed_fraction: claimed,
+        chi2_per_dof: [
+            normalized(&of_rows, |value| value.before / value.u_before),
+            normalized(&of_rows, |value| value.after / value.u_after),
+        ],
+        within: [within(&before, &|value| value.u_before), within(&after, &|value| value.u_after)],
+        log_density_gain: gain,
+        blocks: blocks.len(),
+        outputs: per_output,
+        all,
+    };
+    (shrinkage, of_rows)
+}
+
+/// Mean square of normalized residuals.
+fn normalized(rows: &[RowGap], z: impl Fn(&ValueGap) -> f64) -> f64 {
+    let squares: Vec<f64> =
+        rows.iter().flat_map(|row| &row.outputs).map(|value| z(value).powi(2)).collect();
+    squares.iter().sum::<f64>() / squares.len().max(1) as f64
+}
+
+fn shrunk(before2: f64, after2: f64, floor2: f64) -> Shrunk {
+    let removable = before2 - floor2;
+    let fraction = if removable > 0.0 { (before2 - after2) / removable } else { 0.0 };
+    Shrunk {
+        rms_before: before2.sqrt(),
+        rms_after: after2.sqrt(),
+        noise_floor: floor2.sqrt(),
+        removed_fraction: fraction.clamp(0.0, 1.0),
+    }
+}
+
+/// The posterior expectation of the fraction of the gap that a correction removes.
+pub(crate) fn claim(
+    setup: &Setup<'_>,
+    discrepancy: &Discrepancy,
+    posterior: &Posterior,
+    correction: &Correction,
+    variances: &[f64],
+) -> f64 {
+    let rows: Vec<Row> =
+        setup.data.ids.iter().map(|&id| setup.case.task.rows[id].clone()).collect();
+    let fitted = in_sample(setup, discrepancy, posterior, correction, &rows);
+    claimed(setup, &fitted, variances)
+}
+
+/// The posterior expectation of the removed fraction of the gap without noise.
+fn claimed(setup: &Setup<'_>, fitted: &Normals, variances: &[f64]) -> f64 {
+    let outputs = setup.data.outputs.len();
+    let (mut left, mut gap) = (0.0, 0.0);
+    for value in 0..variances.len() {
+        let (mean, variance) = fitted[value / outputs][value % outputs];
+        let nominal =
+            setup.data.points[setup.data.point_of[value / outputs]].nominal[value % outputs];
+        let shift = mean - nominal;
+        left += variance / variances[value];
+        gap += (shift * shift + variance) / variances[value];
+    }
+    if gap > 0.0 { (1.0 - left / gap).clamp(0.0, 1.0) } else { 0.0 }
+}
+
+/// Variances of the sim's values from all inputs, by the law of propagation.
+pub(crate) fn input_variances(setup: &Setup<'_>) -> Vec<f64> {
+    let data = &setup.data;
+    let outputs = data.outputs.len();
+    (0..data.len())
+        .map(|value| {
+            let (row, output) = (value / outputs, value % outputs);
+            let point = data.point_of[row];
+            let gradients = &data.points[point].gradients[output];
+            (0..gradients.len())
+                .map(|v| (gradients[v] * setup.spread.deviations[v][point]).powi(2))
+                .sum()
+        })
+        .collect()
+}
+
+/// What the correction says of the data that it was fitted to.
+fn in_sample(
+    setup: &Setup<'_>,
+    discrepancy: &Discrepancy,
+    posterior: &Posterior,
+    correction: &Correction,
+    rows: &[Row],
+) -> Normals {
+    match correction {
+        Correction::Effects(effects) => {
+            let own = posterior.hypotheses.iter().find(|h| h.effects == *effects);
+            own.map_or_else(Vec::new, |own| {
+                let draws = predict::resampled(&own.evidence, draws_for(rows.len()));
+                moments(&predict::values(setup, effects, &draws, rows))
+            })
+        }
+        Correction::Unexplained => {
+            predict::unexplained(setup, discrepancy, top(&posterior.unexplained.kinds), rows)
+        }
+    }
+}
+
+/// The kinds that make up nearly all of the weight.
+pub(crate) fn top(kinds: &[Weighted]) -> &[Weighted] {
+    let mut sum = 0.0;
+    let total: f64 = kinds.iter().map(|kind| kind.weight).sum();
+    let enough = kinds.iter().position(|kind| {
+        sum += kind.weight;
+        sum > 0.95 * total
+    });
+    &kinds[..enough.map_or(kinds.len(), |last| last + 1).min(40)]
+}
+
+/// Fewer draws for long records, so that memory stays small.
+pub(crate) fn draws_for(rows: usize) -> usize {
+    if rows > 5000 { 32 } else { DRAWS }
+}
+
+/// Means and variances over draws.
+pub(crate) fn moments(values: &Values) -> Normals {
+    let of = |draws: &Vec<f64>| {
+        let n = draws.len().max(1) as f64;
+        let mean = draws.iter().sum::<f64>() / n;
+        let square = draws.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / n;
+        (mean, square)
+    };
+    values.iter().map(|row| row.iter().map(of).collect()).collect()
+}
+
+/// What is predicted of a block of rows from all others.
+struct Fold {
+    predicted: Normals,
+    density: Density,
+    base: Density,
+}
+
+/// A predictive density of a block.
+enum Density {
+    /// A mixture over draws, each a value for every measured one.
+    Draws(Vec<Vec<f64>>),
+    /// Independent normal values.
+    Normal(Vec<(f64, f64)>),
+}
+
+impl Density {
+    fn of(values: &Values) -> Self {
+        let draws = values.first().and_then(|row| row.first()).map_or(0, Vec::len);
+        let flat: Vec<&Vec<f64>> = values.iter().flatten().collect();
+        Self::Draws((0..draws).map(|d| flat.iter().map(|value| value[d]).collect()).collect())
+    }
+
+    fn ln_density(&self, measured: &[f64], noise: &[f64]) -> f64 {
+        let ln = |mean: f64, value: f64, variance: f64| {
+            -0.5 * ((value - mean).powi(2) / variance + variance.ln()) - HALF_LN_TWO_PI
+        };
+        match self {
+            Self::Draws(draws) => {
+                let each: Vec<f64> = draws
+                    .iter()
+                    .map(|draw| {
+                        draw.iter().zip(measured).zip(noise).map(|((m, y), v)| ln(*m, *y, *v)).sum()
+                    })
+                    .collect();
+                let most = each.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+                let sum: f64 = each.iter().map(|ln| (ln - most).exp()).sum();
+                most + (sum / each.len().max(1) as f64).ln()
+            }
+            Self::Normal(values) => values
+                .iter()
+                .zip(measured)
+                .zip(noise)
+                .map(|(((mean, variance), y), v)| ln(*mean, *y, variance + v))
+                .sum(),
+        }
+    }
+}
+
+fn fold(
+    setup: &Setup<'_>,
+    discrepancy: &Discrepancy,
+    posterior: &Posterior,
+    correction: &Correction,
+    block: &[usize],
+    seed: u64,
+) -> Fold {
+    let others: Vec<usize> = (0..setup.data.rows())
+        .filter(|row| block.binary_search(row).is_err())
+        .map(|row| setup.data.ids[row])
+        .collect();
+    let rows: Vec<Row> =
+        block.iter().map(|&row| setup.case.task.rows[setup.data.ids[row]].clone()).collect();
+    let part = Setup::with_data_and_inputs(
+        setup.case,
+        Data::of(setup.case, others),
+        setup.unknown_inputs.clone(),
+        setup.noise_roles(),
+    );
+    let of = |effects: &Vec<usize>| {
+        let likelihood = part.likelihood(effects);
+        let whole = posterior.hypotheses.iter().find(|h| h.effects == *effects);
+        let seeds: Vec<Vec<f64>> = whole
+            .map(|h| h.evidence.modes.iter().map(|mode| mode.scores.clone()).collect())
+            .unwrap_or_default();
+        let key = StreamKey::new(seed, "gap/without a block");
+        let many = part.data.len() > 20_000;
+        let mut evidence = Evidence::begin(&likelihood, key, &seeds, if many { 0 } else { 4 });
+        for _ in 0..6 {
+            if evidence.effective > 150.0 || many && evidence.effective > 30.0 {
+                break;
+            }
+            evidence.refine(&likelihood, 2);
+        }
+        let draws = predict::resampled(&evidence, draws_for(rows.len()));
+        predict::values(&part, effects, &draws, &rows)
+    };
+    let none = of(&Vec::new());
+    match correction {
+        Correction::Effects(effects) => {
+            let values = if effects.is_empty() { none.clone() } else { of(effects) };
+            Fold {
+                predicted: moments(&values),
+                density: Density::of(&values),
+                base: Density::of(&none),
+            }
+        }
+        Correction::Unexplained => {
+            let discrepancy = discrepancy.for_part(&part, &posterior.unexplained);
+            // an effect that acts beside the discrepancy is fitted anew as well
+            let base = posterior.unexplained.kinds.first().and_then(|kind| kind.base.as_ref());
+            let base = base.and_then(|base| {
+                let seeds: Vec<Vec<f64>> = posterior
+                    .hypotheses
+                    .iter()
+                    .filter(|h| h.effects == base.effects)
+                    .flat_map(|h| h.evidence.modes.iter().map(|mode| mode.scores.clone()))
+                    .collect();
+                let likelihood = part.likelihood(&base.effects);
+                let key = StreamKey::new(seed, "gap/without a block");
+                let evidence = Evidence::begin(&likelihood, key, &seeds, 0);
+                Base::at(&part, &base.effects, evidence.modes.first()?)
+            });
+            let residuals = match &base {
+                Some(base) => base.residuals(&part),
+                None => by_rows(&part.data.nominal_residuals()),
+            };
+            let mut found = discrepancy.evidence(&part, &residuals, f64::NEG_INFINITY);
+            if let Some(base) = base {
+                found = found.beside(base);
+            }
+            let predicted = predict::unexplained(&part, &discrepancy, top(&found.kinds), &rows);
+            let density = Density::Normal(predicted.iter().flatten().copied().collect());
+            Fold { predicted, density, base: Density::of(&none) }
+        }
+    }
+}
+
+/// Rows in blocks of whole levels of the condition with the most levels, or in their order. Levels
+/// take turns, so that what is left out lies between conditions that are not.
+fn blocks(setup: &Setup<'_>) -> Vec<Vec<usize>> {
+    let rows = setup.data.rows();
+    let conditions = setup.case.sim.conditions.len() - setup.case.simulated;
+    let value = |row: usize, condition: usize| {
+        setup.case.task.rows[setup.data.ids[row]].conditions[condition]
+    };
+    let levels = |condition: usize| {
+        let mut values: Vec<f64> = (0..rows).map(|row| value(row, condition)).collect();
+        values.sort_by(f64::total_cmp);
+        values.dedup();
+        values
+    };
+    let widest =
+        (0..conditions).max_by_key(|&condition| (levels(condition).len(), conditions - condition));
+    let Some(condition) = widest.filter(|&condition| levels(condition).len() > 1) else {
+        let count = BLOCKS.min(rows);
+        return (0..count).map(|b| (0..rows).filter(|row| row % count == b).collect()).collect();
+    };
+    let levels = levels(condition);
+    let count = BLOCKS.min(levels.len());
+    let block_of =
+        |row: usize| levels.partition_point(|level| *level < value(row, condition)) % count;
+    let mut blocks = vec![Vec::new(); count];
+    for row in 0..rows {
+        blocks[block_of(row)].push(row);
+    }
+    blocks
+}
+
+/// Coverage interval of the root mean square of values with these squares: bootstrap.
+fn interval(squares: &[f64], probability: f64, seed: u64) -> [f64; 2] {
+    const RESAMPLED: usize = 1000;
+    let count = squares.len();
+    if count == 0 {
+        return [0.0, 0.0];
+    }
+    let mut stream = StreamKey::new(seed, "gap/bootstrap").block(0);
+    let mut uniform = [0.0; 128];
+    let mut left = 0;
+    let resamples = if count > 20_000 { 100 } else { RESAMPLED };
+    let mut roots: Vec<f64> = (0..resamples)
+        .map(|_| {
+            let mut sum = 0.0;
+            for _ in 0..count {
+                if left == 0 {
+                    stream.uniform(&mut uniform);
+                    left = uniform.len();
+                }
+                left -= 1;
+                sum += squares[((uniform[left] * count as f64) as usize).min(count - 1)];
+            }
+            (sum / count as f64).sqrt()
+        })
+        .collect();
+    roots.sort_by(f64::total_cmp);
+    let tail = 0.5 * (1.0 - probability);
+    let at = |p: f64| roots[((p * resamples as f64) as usize).min(resamples - 1)];
+    [at(tail), at(1.0 - tail)]
+}

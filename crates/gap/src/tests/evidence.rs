@@ -1,0 +1,100 @@
+//! Evidences of models that are linear in everything unknown, which are exact normal densities.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::{line, ln_normal};
+use crate::discrepancy::{Discrepancy, by_rows};
+use crate::evidence::Evidence;
+use crate::posterior::{Effort, posterior};
+use crate::setup::Setup;
+use gumption_engine::distribution::StreamKey;
+
+const INPUT: &str = r#""a": {"unit": "", "distribution": "normal", "mean": 1, "std": 0.3}"#;
+
+/// The exact evidence with effects: mean and covariance of the data before they are seen.
+fn exact(effects: &[usize]) -> f64 {
+    let case = line(INPUT, true);
+    let setup = Setup::new(&case);
+    let mut residuals = DVector::from_vec(by_rows(&setup.data.nominal_residuals()));
+    let u = [0.1f64, 0.1, 0.12, 0.1, 0.2, 0.1];
+    let x = |value: usize| (value / 2) as f64;
+    let mut columns: Vec<Vec<f64>> =
+        vec![(0..12usize).map(|v| 0.3 * if v.is_multiple_of(2) { 1.0 } else { x(v) }).collect()];
+    if effects.contains(&0) {
+        columns.push((0..12usize).map(|v| if v.is_multiple_of(2) { 0.4 } else { 0.0 }).collect());
+    }
+    if effects.contains(&1) {
+        let sign = |v: usize| if v.is_multiple_of(2) { 1.0 } else { -1.0 };
+        columns.push((0..12).map(|v| 0.3 * sign(v) * x(v)).collect());
+        // the prior mean of the slope is 0.1
+        for v in 0..12 {
+            residuals[v] -= 0.1 * sign(v) * x(v);
+        }
+    }
+    let covariance = DMatrix::from_fn(12, 12, |i, j| {
+        let noise = if i == j { u[i / 2] * u[i / 2] } else { 0.0 };
+        noise + columns.iter().map(|column| column[i] * column[j]).sum::<f64>()
+    });
+    ln_normal(&residuals, &covariance)
+}
+
+#[test]
+fn linear_evidences_are_exact() {
+    let case = line(INPUT, true);
+    let setup = Setup::new(&case);
+    for effects in [vec![], vec![0], vec![1], vec![0, 1]] {
+        let likelihood = setup.likelihood(&effects);
+        let mut evidence = Evidence::begin(&likelihood, StreamKey::new(5, "test"), &[], 8);
+        for _ in 0..6 {
+            evidence.refine(&likelihood, 4);
+        }
+        let exact = exact(&effects);
+        // five standard errors; the seed is fixed, so that this fails always or never
+        assert!(evidence.error < 0.02, "{}", evidence.error);
+        assert!(
+            (evidence.ln_evidence - exact).abs() < 5.0 * evidence.error,
+            "{effects:?}: {} +- {}, exact {exact}",
+            evidence.ln_evidence,
+            evidence.error
+        );
+    }
+}
+
+/// Walkers and what is drawn after them do not change the evidence.
+#[test]
+fn roaming_leaves_the_evidence_as_it_is() {
+    let case = line(INPUT, true);
+    let setup = Setup::new(&case);
+    let likelihood = setup.likelihood(&[0, 1]);
+    let mut evidence = Evidence::begin(&likelihood, StreamKey::new(6, "test"), &[], 8);
+    evidence.roam(&likelihood, 120);
+    let exact = exact(&[0, 1]);
+    assert!((evidence.ln_evidence - exact).abs() < 5.0 * evidence.error + 1e-3);
+    assert!(evidence.effective > 200.0);
+}
+
+/// The probabilities are priors times evidences, and sum to one.
+#[test]
+fn probabilities_follow_from_exact_evidences() {
+    let case = line(INPUT, true);
+    let setup = Setup::new(&case);
+    let discrepancy = Discrepancy::new(&setup);
+    let found = posterior(&setup, &discrepancy, 1, Effort::FULL, &|_| {});
+    let sum: f64 = found.hypotheses.iter().map(|h| h.probability).sum::<f64>() + found.probability;
+    assert!((sum - 1.0).abs() < 1e-12);
+    // relative to "none", whose prior is 0.15, one effect has 0.55/2 and the pair 0.15
+    let weight = |effects: &[usize]| {
+        let prior = match effects.len() {
+            0 | 2 => 0.15,
+            _ => 0.275,
+        };
+        prior * exact(effects).exp()
+    };
+    let none = found.hypotheses.iter().find(|h| h.effects.is_empty()).unwrap().probability;
+    for hypothesis in &found.hypotheses {
+        let ratio = hypothesis.probability / none;
+        let wanted = weight(&hypothesis.effects) / weight(&[]);
+        // evidences are known to some 0.05; "none" has one unknown quantity
+        assert!((ratio / wanted).ln().abs() < 0.25, "{:?} {ratio} {wanted}", hypothesis.effects);
+    }
+}

@@ -1,0 +1,40 @@
+//! Reports of the audit of Type B assumptions, one file for each format.
+
+mod csv;
+mod figure;
+mod html;
+mod json;
+mod sheets;
+mod table;
+#[cfg(test)]
+mod tests;
+mod words;
+
+pub use csv::csv;
+pub use html::html;
+pub use json::json;
+pub use table::table;
+
+use crate::Provenance;
+use gumption_analysis::assumptions::Audit;
+use gumption_engine::task::{Task, Warning};
+
+/// Everything that a report of an audit may show.
+#[derive(Clone, Copy, Debug)]
+pub struct Report<'a> {
+    /// What was audited.
+    pub task: &'a Task,
+    /// The results.
+    pub audit: &'a Audit,
+    /// Notes, in order.
+    pub warnings: &'a [Warning],
+    /// Where it comes from.
+    pub provenance: &'a Provenance,
+}
+
+impl Report<'_> {
+    /// The name of a variable.
+    fn name(&self, variable: usize) -> &str {
+        self.task.variables.get(variable).map_or("", |variable| &variable.name)
+    }
+}

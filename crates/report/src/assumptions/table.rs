@@ -1,0 +1,34 @@
+//! The page for a terminal.
+
+use super::{Report, sheets, words};
+use crate::{Grid, WIDTH, wrapped};
+
+/// The audit as a page: for each output the figures as stated, what every assumption does, and what
+/// other shapes do; then what the readings say.
+pub fn table(report: &Report<'_>) -> String {
+    let mut heading = wrapped(&words::title(report)) + &wrapped(&words::settings(report));
+    heading += &words::contradicted(report).map(|said| wrapped(&said)).unwrap_or_default();
+    let mut page = vec![heading];
+    for (number, row) in report.audit.rows.iter().enumerate() {
+        for (output, of) in row.outputs.iter().enumerate() {
+            let mut text = section(&words::heading(report, number, output));
+            text += &wrapped(&words::baseline(report, output, of));
+            text += &wrapped(&words::verdict(report, of));
+            text += &format!("\n{}", Grid::of(&sheets::widths(report, of)).render(WIDTH));
+            if let Some(shapes) = sheets::shapes(report, of) {
+                text += &format!("\nwith another shape\n{}", Grid::of(&shapes).render(WIDTH));
+            }
+            page.push(text);
+        }
+    }
+    if let Some(evidence) = sheets::evidence(report) {
+        let table = Grid::of(&evidence).render(WIDTH);
+        page.push(section("Readings") + &table + &wrapped(words::EVIDENCE));
+    }
+    page.push(wrapped(words::MOVES) + &wrapped(words::SHAPES) + &wrapped(words::SOBOL));
+    page.join("\n")
+}
+
+fn section(title: &str) -> String {
+    format!("{title}\n{}\n", "═".repeat(title.chars().count()))
+}

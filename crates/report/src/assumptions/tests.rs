@@ -1,0 +1,39 @@
+//! The page shows the figures of the audit.
+
+use super::{Report, json, table};
+use crate::Provenance;
+use gumption_analysis::assumptions::{Question, audit};
+use gumption_engine::propagate::Control;
+use gumption_files::read_text;
+
+/// Every index and change of the page is that of the JSON answer, rounded once.
+#[test]
+fn a_page_and_its_figures() {
+    let text = r#"{"title": "Two lengths", "inputs": {
+        "a": {"unit": "mm", "distribution": "rectangular", "mean": 10, "half_width": 0.3,
+              "evidence": {"values": [9.9, 10.1, 10.25, 9.8, 10.0, 10.4]}},
+        "b": {"unit": "mm", "distribution": "normal", "mean": 5, "std": 0.02}},
+        "equations": {"l": "a + b"}, "outputs": {"l": {"unit": "mm"}}}"#;
+    let file = read_text("m.json", text, std::path::Path::new(""), &[]).unwrap();
+    let question = Question { trials: 50_000, allowed: 0.05 };
+    let found = audit(&file.task, &file.evidence, question, &Control::default()).unwrap().unwrap();
+    let provenance = Provenance::default();
+    let report = Report {
+        task: &file.task,
+        audit: &found,
+        warnings: &found.warnings,
+        provenance: &provenance,
+    };
+    let page = table(&report);
+    insta::assert_snapshot!(page);
+    let answer: serde_json::Value = serde_json::from_str(&json(&report)).unwrap();
+    let a = &answer["outputs"]["l"]["inputs"][0];
+    let percent = |value: &serde_json::Value| 100.0 * value.as_f64().unwrap();
+    let rows: Vec<Vec<&str>> = page.lines().map(|line| line.split_whitespace().collect()).collect();
+    let row = rows.iter().find(|row| row.first() == Some(&"a")).unwrap();
+    let shown = |place: usize| row[place].trim_start_matches('+').parse::<f64>().unwrap();
+    assert!((shown(2) - percent(&a["share"])).abs() <= 0.05);
+    assert!((shown(3) - a["sobol_first"].as_f64().unwrap()).abs() <= 0.005);
+    assert!((shown(5) - percent(&a["halved"]["change_of_half_length"])).abs() <= 0.05);
+    assert!(page.contains("too narrow") && page.contains("a (rectangular, "));
+}

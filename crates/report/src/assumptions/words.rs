@@ -1,0 +1,119 @@
+//! The sentences of an audit.
+
+use super::Report;
+use crate::number::{coarser, place, rounded, to};
+use crate::{conditions_text, grouped, plain};
+use gumption_analysis::assumptions::{InputAudit, OutputAudit, Verdict};
+
+pub(super) const MOVES: &str = "Changes are those of half the length of the coverage interval, \
+    relative to the stated assumptions, from the same random numbers; a change below 0.05 % or \
+    within twice its numerical standard error is none seen. Allowed is how far the width may be wrong until that \
+    length moves by more than the limit.";
+
+pub(super) const SHAPES: &str = "Kept is the standard uncertainty u (of a t its scale) or the limits \
+    (of a normal distribution or t two standard deviations about the mean).";
+
+pub(super) const SOBOL: &str = "Sobol indices (Jansen's estimators) are shares of the variance: \
+    first-order what an input does by itself, total with all that it does together with others. \
+    Where they depart from the share of the linear budget, the model is not linear.";
+
+pub(super) const EVIDENCE: &str = "The p-value (Anderson-Darling) is that of the stated distribution \
+    as it stands, centre and width. Supported is the width of that shape about the stated centre. \
+    Too narrow: a reading outside the limits, or the whole 95 % interval above the stated width. Too \
+    wide: the interval at 99 % below it. Wrong shape: a p-value below 0.01. Fewer than five readings \
+    tell nothing.";
+
+pub(super) fn title(report: &Report<'_>) -> String {
+    let title = plain(&report.task.title);
+    if title.is_empty() { "Type B assumptions".to_owned() } else { title }
+}
+
+pub(super) fn settings(report: &Report<'_>) -> String {
+    let audit = report.audit;
+    format!(
+        "Type B assumptions; {} trials of each variant, seed {}, coverage probability {} %, limit \
+         {} %",
+        grouped(audit.question.trials),
+        report.task.settings.seed,
+        percent(audit.coverage_probability),
+        percent(audit.question.allowed)
+    )
+}
+
+pub(super) fn percent(share: f64) -> String {
+    let text = rounded(100.0 * share, -2);
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
+/// The output with its row of conditions.
+pub(super) fn heading(report: &Report<'_>, row: usize, output: usize) -> String {
+    let name = report.task.model.outputs.get(output).map_or("", |o| o.quantity.name.as_str());
+    let conditions = report.audit.rows.get(row).map_or(&[][..], |row| &row.conditions);
+    if !report.task.swept {
+        return plain(name);
+    }
+    format!("{} at {}", plain(name), conditions_text(&report.task.model.conditions, conditions))
+}
+
+/// The figures with everything as stated.
+pub(super) fn baseline(report: &Report<'_>, output: usize, of: &OutputAudit) -> String {
+    let unit = report.task.model.outputs.get(output).map_or("", |o| o.quantity.unit.text());
+    let unit = if matches!(unit.trim(), "" | "1") { String::new() } else { format!(" {unit}") };
+    let [low, high] = of.baseline.symmetric_interval;
+    let u = of.baseline.standard_uncertainty;
+    let digits = u.and_then(|u| place(u, 2)).or(coarser(place(high - low, 3), None));
+    let p = percent(report.audit.coverage_probability);
+    let interval = format!("{p} % interval {} to {}{unit}", to(low, digits), to(high, digits));
+    match u {
+        Some(u) => format!("As stated: u = {}{unit}, {interval}.", to(u, place(u, 2))),
+        None => format!("As stated: no standard uncertainty, {interval}."),
+    }
+}
+
+/// Which shapes matter.
+pub(super) fn verdict(report: &Report<'_>, of: &OutputAudit) -> String {
+    let limit = report.audit.question.allowed;
+    let mut matter: Vec<(&InputAudit, f64)> = of
+        .inputs
+        .iter()
+        .filter_map(|input| Some((input, input.largest_change()?)))
+        .filter(|(_, change)| change.abs() > limit)
+        .collect();
+    matter.sort_by(|a, b| b.1.abs().total_cmp(&a.1.abs()));
+    let asked = of.inputs.iter().any(|input| !input.alternatives.is_empty());
+    let limit = percent(limit);
+    if !asked {
+        return "No input has a shape that was assumed.".to_owned();
+    }
+    if matter.is_empty() {
+        return format!(
+            "No assumed shape matters: none moves the interval by more than {limit} %."
+        );
+    }
+    let names: Vec<String> = matter
+        .iter()
+        .map(|(input, change)| {
+            let name = plain(report.name(input.variable));
+            let sign = if *change > 0.0 { "+" } else { "" };
+            format!(
+                "{name} ({}, {sign}{} %)",
+                input.distribution.name(),
+                rounded(100.0 * change, -1)
+            )
+        })
+        .collect();
+    format!("Shapes that matter, by more than {limit} %: {}.", names.join(", "))
+}
+
+/// The readings that speak against an assumption.
+pub(super) fn contradicted(report: &Report<'_>) -> Option<String> {
+    let against = report
+        .audit
+        .evidence
+        .iter()
+        .filter(|of| !matches!(of.verdict, Verdict::Consistent | Verdict::TooFew));
+    let said: Vec<String> = against
+        .map(|of| format!("{} is {}", plain(report.name(of.variable)), of.verdict.words()))
+        .collect();
+    (!said.is_empty()).then(|| format!("The readings contradict: {}.", said.join(", ")))
+}

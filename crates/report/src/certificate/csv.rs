@@ -1,0 +1,59 @@
+//! One line for each row of the table, as stated, for spreadsheets.
+
+use super::Report;
+use super::stated::{self, Stated};
+use crate::csv::{number, text};
+
+const COLUMNS: [&str; 15] = [
+    "row",
+    "quantity",
+    "conditions",
+    "nominal",
+    "value",
+    "expanded_uncertainty",
+    "unit",
+    "coverage_factor",
+    "dof",
+    "coverage_probability",
+    "interval_low",
+    "interval_high",
+    "basis",
+    "standard_uncertainty",
+    "model",
+];
+
+/// The rows as comma-separated values: value, expanded uncertainty, coverage factor and interval
+/// rounded as they are stated, the standard uncertainty in full. An empty cell stands for what is
+/// infinite or not defined.
+pub fn csv(report: &Report<'_>) -> String {
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    let mut written = writer.write_record(COLUMNS);
+    for row in stated::rows(report) {
+        written = written.and_then(|()| writer.write_record(record(report, &row)));
+    }
+    // writing to memory cannot fail, and all records have as many cells
+    debug_assert!(written.is_ok(), "{written:?}");
+    String::from_utf8(writer.into_inner().unwrap_or_default()).unwrap_or_default()
+}
+
+fn record(report: &Report<'_>, row: &Stated<'_>) -> Vec<String> {
+    let ends = row.interval(report).map(|ends| ends.map(|end| end.text));
+    let [low, high] = ends.unwrap_or_default();
+    vec![
+        row.number.to_string(),
+        text(&row.name(&report.certificate.languages)),
+        text(&row.circumstances(report).join(", ")),
+        number(row.line.nominal),
+        row.value().text,
+        row.expanded().text,
+        text(row.quantity.unit.text()),
+        row.factor().text,
+        number(row.dof().value),
+        number(row.statement.coverage_probability),
+        low,
+        high,
+        row.statement.basis.name().to_owned(),
+        number(Some(row.statement.standard_uncertainty)),
+        text(&row.asked.model),
+    ]
+}

@@ -1,0 +1,137 @@
+//! The certificate as a Digital Calibration Certificate (DCC) of the Physikalisch-Technische
+//! Bundesanstalt, version 3.1.2, with numbers and units in D-SI.
+//!
+//! Each output is one result with a list of quantities over its rows: conditions and nominal values,
+//! the measured values with their expanded uncertainties, and for rows whose distribution is not
+//! normal their coverage intervals. The files that the certificate was made of, and its JSON answer,
+//! are attached as bytes.
+
+mod people;
+mod results;
+mod statements;
+mod unit;
+mod xml;
+
+use super::{Report, particulars};
+use gumption_analysis::certificate::contents::{Certificate, Language, Localized};
+use people::contact;
+use xml::Xml;
+
+/// Keys of the certificate file that a DCC cannot do without, and that are not there.
+pub type Needed = Vec<&'static str>;
+
+/// What a DCC needs beyond what the certificate file says; nothing if it is complete.
+pub fn needed(certificate: &Certificate) -> Needed {
+    let of = &certificate.particulars;
+    let mut missing = Vec::new();
+    let mut need = |key: &'static str, there: bool| {
+        if !there {
+            missing.push(key);
+        }
+    };
+    need("number", of.number.is_some());
+    match &of.device {
+        None => need("device", false),
+        Some(device) => {
+            need("device.manufacturer", device.manufacturer.is_some());
+            let numbered = device.serial_number.is_some() || device.customer_number.is_some();
+            need("device.serial_number", numbered);
+        }
+    }
+    match &of.customer {
+        None => need("customer", false),
+        Some(party) => {
+            need("customer.email", party.email.is_some());
+            need("customer.city", party.city.is_some());
+        }
+    }
+    match &of.laboratory {
+        None => need("laboratory", false),
+        Some(party) => {
+            need("laboratory.email", party.email.is_some());
+            need("laboratory.city", party.city.is_some());
+            need("laboratory.country", party.country.is_some());
+        }
+    }
+    need("responsible", of.responsible.is_some());
+    need("calibration_date", of.calibrated.is_some());
+    missing
+}
+
+/// The certificate as XML, valid against the schema of DCC 3.1.2 if nothing is
+/// [`needed`]. It ends in a newline.
+pub fn dcc(report: &Report<'_>) -> String {
+    let languages = report.certificate.languages.as_slice();
+    let mut xml = Xml::new();
+    let root = [
+        ("xmlns:dcc", "https://ptb.de/dcc"),
+        ("xmlns:si", "https://ptb.de/si"),
+        ("xmlns:xsi", "http://www.w3.org/2001/XMLSchema-instance"),
+        ("xsi:schemaLocation", "https://ptb.de/dcc https://ptb.de/dcc/v3.1.2/dcc.xsd"),
+        ("schemaVersion", "3.1.2"),
+    ];
+    xml.within("dcc:digitalCalibrationCertificate", &root, |xml| {
+        xml.element("dcc:administrativeData", |xml| administrative(xml, report, languages));
+        xml.element("dcc:measurementResults", |xml| results::write(xml, report, languages));
+    });
+    xml.finish()
+}
+
+fn administrative(xml: &mut Xml, report: &Report<'_>, languages: &[Language]) {
+    let of = &report.certificate.particulars;
+    xml.element("dcc:dccSoftware", software);
+    xml.element("dcc:coreData", |xml| {
+        let country = of.laboratory.as_ref().and_then(|party| party.country.as_deref());
+        xml.leaf("dcc:countryCodeISO3166_1", country.unwrap_or_default());
+        for language in languages {
+            xml.leaf("dcc:usedLangCodeISO639_1", language.code());
+        }
+        let first = languages.first().map_or("en", |language| language.code());
+        xml.leaf("dcc:mandatoryLangCodeISO639_1", first);
+        xml.leaf("dcc:uniqueIdentifier", of.number.as_deref().unwrap_or_default());
+        if let Some([first, last]) = &of.calibrated {
+            xml.leaf("dcc:beginPerformanceDate", first);
+            xml.leaf("dcc:endPerformanceDate", last);
+        }
+        xml.leaf("dcc:performanceLocation", of.place.name());
+    });
+    xml.element("dcc:items", |xml| xml.element("dcc:item", |xml| people::item(xml, of, languages)));
+    xml.element("dcc:calibrationLaboratory", |xml| {
+        if let Some(party) = &of.laboratory {
+            if let Some(code) = &party.code {
+                xml.leaf("dcc:calibrationLaboratoryCode", code);
+            }
+            xml.element("dcc:contact", |xml| contact(xml, party, languages));
+        }
+    });
+    xml.element("dcc:respPersons", |xml| {
+        xml.element("dcc:respPerson", |xml| {
+            let name = Localized::plain(of.responsible.clone().unwrap_or_default());
+            xml.element("dcc:person", |xml| xml.text("dcc:name", &name, languages));
+            xml.leaf("dcc:mainSigner", "true");
+        });
+    });
+    if let Some(party) = &of.customer {
+        xml.element("dcc:customer", |xml| contact(xml, party, languages));
+    }
+    xml.element("dcc:statements", |xml| statements::write(xml, report, languages));
+}
+
+/// This program.
+fn software(xml: &mut Xml) {
+    xml.element("dcc:software", |xml| {
+        xml.element("dcc:name", |xml| xml.leaf("dcc:content", "gumption"));
+        xml.leaf("dcc:release", &format!("v{}", env!("CARGO_PKG_VERSION")));
+        xml.leaf("dcc:type", "application");
+    });
+}
+
+/// The title in one language.
+fn title(report: &Report<'_>) -> Localized {
+    report
+        .certificate
+        .particulars
+        .title
+        .clone()
+        .unwrap_or_else(|| Localized::plain(particulars::title(report)))
+}

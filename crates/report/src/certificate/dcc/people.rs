@@ -1,0 +1,59 @@
+//! The device, and whom to ask.
+
+use super::xml::Xml;
+use gumption_analysis::certificate::contents::{Language, Localized, Particulars, Party};
+
+/// The device that was calibrated.
+pub(super) fn item(xml: &mut Xml, of: &Particulars, languages: &[Language]) {
+    let Some(device) = &of.device else { return };
+    xml.text("dcc:name", &device.name, languages);
+    let manufacturer = Localized::plain(device.manufacturer.clone().unwrap_or_default());
+    xml.element("dcc:manufacturer", |xml| xml.text("dcc:name", &manufacturer, languages));
+    if let Some(model) = &device.model {
+        xml.leaf("dcc:model", model);
+    }
+    let numbers = [
+        ("manufacturer", &device.serial_number, ["Serial number", "Seriennummer"]),
+        ("customer", &device.customer_number, ["Customer's number", "Nummer des Auftraggebers"]),
+    ];
+    xml.element("dcc:identifications", |xml| {
+        for (issuer, number, name) in numbers {
+            let Some(number) = number else { continue };
+            xml.element("dcc:identification", |xml| {
+                xml.leaf("dcc:issuer", issuer);
+                xml.leaf("dcc:value", number);
+                xml.text("dcc:name", &both(name), languages);
+            });
+        }
+    });
+}
+
+/// A laboratory or a customer.
+pub(super) fn contact(xml: &mut Xml, party: &Party, languages: &[Language]) {
+    xml.text("dcc:name", &Localized::plain(party.name.clone()), languages);
+    xml.leaf("dcc:eMail", party.email.as_deref().unwrap_or_default());
+    if let Some(phone) = &party.phone {
+        xml.leaf("dcc:phone", phone);
+    }
+    let parts = [
+        ("dcc:city", &party.city),
+        ("dcc:countryCode", &party.country),
+        ("dcc:postCode", &party.post_code),
+        ("dcc:street", &party.street),
+        ("dcc:streetNo", &party.street_number),
+    ];
+    xml.element("dcc:location", |xml| {
+        for (name, part) in parts {
+            if let Some(part) = part {
+                xml.leaf(name, part);
+            }
+        }
+    });
+}
+
+/// A text in English and in German.
+pub(super) fn both(texts: [&str; 2]) -> Localized {
+    let languages = [Language::English, Language::German];
+    let texts = languages.into_iter().zip(texts);
+    Localized { texts: texts.map(|(of, text)| (Some(of), text.to_owned())).collect() }
+}

@@ -1,0 +1,266 @@
+//! The results of a DCC: for each output lists over its rows, and the files behind them.
+
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+
+use super::people::both;
+use super::unit::{is_of_the_si, unit};
+use super::xml::Xml;
+use crate::certificate::stated;
+use crate::certificate::stated::Stated;
+use crate::certificate::{Report, json, sentences, words};
+use crate::number::exact;
+use gumption_analysis::certificate::Basis;
+use gumption_analysis::certificate::contents::{Language, Localized};
+use gumption_engine::model::Quantity;
+use gumption_units::Unit;
+
+pub(super) fn write(xml: &mut Xml, report: &Report<'_>, languages: &[Language]) {
+    let of = &report.certificate.particulars;
+    xml.element("dcc:measurementResult", |xml| {
+        xml.text("dcc:name", &super::title(report), languages);
+        xml.element("dcc:usedMethods", |xml| {
+            if let Some(method) = &of.method {
+                let name = both(["Method of calibration", "Kalibrierverfahren"]);
+                xml.element("dcc:usedMethod", |xml| {
+                    xml.text("dcc:name", &name, languages);
+                    xml.text("dcc:description", method, languages);
+                });
+            }
+            xml.within("dcc:usedMethod", &[("refType", "basic_uncertainty")], |xml| {
+                let name = both(["Uncertainty of measurement", "Messunsicherheit"]);
+                xml.text("dcc:name", &name, languages);
+                for norm in ["JCGM 100:2008", "JCGM 101:2008", "EA-4/02 M:2022"] {
+                    xml.leaf("dcc:norm", norm);
+                }
+            });
+        });
+        xml.element("dcc:usedSoftware", super::software);
+        if let Some(environment) = &of.environment {
+            xml.element("dcc:influenceConditions", |xml| {
+                xml.element("dcc:influenceCondition", |xml| {
+                    xml.text("dcc:name", &both(["Environment", "Umgebungsbedingungen"]), languages);
+                    xml.element("dcc:data", |xml| xml.text("dcc:text", environment, languages));
+                });
+            });
+        }
+        xml.element("dcc:results", |xml| {
+            for rows in groups(report) {
+                xml.element("dcc:result", |xml| result(xml, report, &rows, languages));
+            }
+            xml.element("dcc:result", |xml| attachments(xml, report, languages));
+        });
+    });
+}
+
+/// The rows of each output, in order of first appearance.
+fn groups<'a>(report: &Report<'a>) -> Vec<Vec<Stated<'a>>> {
+    let mut groups: Vec<Vec<Stated<'a>>> = Vec::new();
+    for row in stated::rows(report) {
+        let same = |group: &&mut Vec<Stated<'_>>| {
+            group.first().is_some_and(|first| {
+                let (a, b) = (first.quantity, row.quantity);
+                a.name == b.name && a.unit.text() == b.unit.text()
+            })
+        };
+        match groups.iter_mut().find(same) {
+            Some(group) => group.push(row),
+            None => groups.push(vec![row]),
+        }
+    }
+    groups
+}
+
+fn result(xml: &mut Xml, report: &Report<'_>, rows: &[Stated<'_>], languages: &[Language]) {
+    let Some(first) = rows.first() else { return };
+    xml.text("dcc:name", &Localized::plain(first.quantity.name.clone()), languages);
+    let described = |language: &Language| {
+        let mut lines: Vec<String> = Vec::new();
+        if !first.quantity.about.trim().is_empty() {
+            lines.push(first.quantity.about.trim().to_owned());
+        }
+        lines.extend(rows.iter().map(|row| named(report, row, *language)));
+        (Some(*language), lines.join("; "))
+    };
+    let about = Localized { texts: languages.iter().map(described).collect() };
+    xml.text("dcc:description", &about, languages);
+    xml.element("dcc:data", |xml| {
+        xml.element("dcc:list", |xml| {
+            conditions(xml, report, rows, languages);
+            nominal(xml, rows, languages);
+            measured(xml, rows, languages);
+            intervals(xml, report, rows, languages);
+        });
+    });
+}
+
+/// `row 3: a_x, tilt = 35 deg`
+fn named(report: &Report<'_>, row: &Stated<'_>, language: Language) -> String {
+    let mut parts = vec![row.name(&[language])];
+    parts.extend(row.circumstances(report));
+    format!("{} {}: {}", words::of(language).row, row.number, parts.join(", "))
+}
+
+/// A list of numbers in one unit.
+fn list(xml: &mut Xml, values: &[String], of: &Unit, inside: impl FnOnce(&mut Xml)) {
+    xml.element("si:realListXMLList", |xml| {
+        xml.leaf("si:valueXMLList", &values.join(" "));
+        xml.leaf("si:unitXMLList", &unit(of));
+        inside(xml);
+    });
+}
+
+/// What a unit outside of the SI is, where the list has one.
+fn explained(xml: &mut Xml, of: &Unit) {
+    if is_of_the_si(of) {
+        return;
+    }
+    xml.element("dcc:measurementMetaData", |xml| {
+        xml.element("dcc:metaData", |xml| {
+            let dimension = of.dimension();
+            let size = exact(of.factor());
+            let si = if dimension.is_none() { "1".to_owned() } else { dimension.to_string() };
+            xml.leaf("dcc:nonSIDefinition", &format!("{} = {size} {si}", of.text()));
+            xml.leaf("dcc:nonSIUnit", of.text());
+        });
+    });
+}
+
+/// The conditions that all rows show.
+fn conditions(xml: &mut Xml, report: &Report<'_>, rows: &[Stated<'_>], languages: &[Language]) {
+    let Some(first) = rows.first() else { return };
+    for (condition, _) in first.shown(report) {
+        let value = |row: &Stated<'_>| {
+            let same = |(c, _): &(&Quantity, f64)| {
+                c.name == condition.name && c.unit.text() == condition.unit.text()
+            };
+            row.shown(report).into_iter().find(same).map(|(_, value)| exact(value))
+        };
+        let Some(values) = rows.iter().map(value).collect::<Option<Vec<String>>>() else {
+            continue;
+        };
+        xml.element("dcc:quantity", |xml| {
+            xml.text("dcc:name", &Localized::plain(condition.name.clone()), languages);
+            list(xml, &values, &condition.unit, |_| ());
+            explained(xml, &condition.unit);
+        });
+    }
+}
+
+fn nominal(xml: &mut Xml, rows: &[Stated<'_>], languages: &[Language]) {
+    let values: Option<Vec<String>> = rows.iter().map(|row| row.line.nominal.map(exact)).collect();
+    let (Some(values), Some(first)) = (values, rows.first()) else { return };
+    xml.within("dcc:quantity", &[("refType", "basic_nominalValue")], |xml| {
+        xml.text("dcc:name", &both(["Nominal value", "Nennwert"]), languages);
+        list(xml, &values, &first.quantity.unit, |_| ());
+        explained(xml, &first.quantity.unit);
+    });
+}
+
+/// The measured values with their expanded uncertainties.
+fn measured(xml: &mut Xml, rows: &[Stated<'_>], languages: &[Language]) {
+    let Some(first) = rows.first() else { return };
+    let texts = |of: fn(&Stated<'_>) -> String| -> Vec<String> { rows.iter().map(of).collect() };
+    xml.within("dcc:quantity", &[("refType", "basic_measuredValue")], |xml| {
+        xml.text("dcc:name", &both(["Measured value", "Messwert"]), languages);
+        list(xml, &texts(|row| row.value().text), &first.quantity.unit, |xml| {
+            // D-SI has no coverage factor below 1
+            if rows.iter().any(|row| row.statement.coverage_factor < 1.0) {
+                return;
+            }
+            xml.element("si:expandedUncXMLList", |xml| {
+                let expanded = texts(|row| row.expanded().text);
+                xml.leaf("si:uncertaintyXMLList", &expanded.join(" "));
+                let factors = texts(|row| row.factor().text);
+                xml.leaf("si:coverageFactorXMLList", &factors.join(" "));
+                xml.leaf("si:coverageProbabilityXMLList", &texts(probability).join(" "));
+                xml.leaf("si:distributionXMLList", &texts(distribution).join(" "));
+            });
+        });
+        explained(xml, &first.quantity.unit);
+    });
+}
+
+/// A probability; where none is stated that of a normal distribution, which D-SI asks for.
+fn probability(row: &Stated<'_>) -> String {
+    let stated = row.statement.coverage_probability;
+    exact(stated.unwrap_or_else(|| row.asked.task.settings.coverage.probability()))
+}
+
+fn distribution(row: &Stated<'_>) -> String {
+    match row.statement.basis {
+        Basis::Normal => "normal",
+        Basis::Student => "t",
+        Basis::Fixed | Basis::Shortest => "other",
+    }
+    .to_owned()
+}
+
+/// The coverage intervals of the rows that have one.
+fn intervals(xml: &mut Xml, report: &Report<'_>, rows: &[Stated<'_>], languages: &[Language]) {
+    let rows: Vec<(&Stated<'_>, [String; 2])> = rows
+        .iter()
+        .filter_map(|row| Some((row, row.interval(report)?.map(|end| end.text))))
+        .collect();
+    let Some((first, _)) = rows.first() else { return };
+    let numbers: Vec<usize> = rows.iter().map(|(row, _)| row.number).collect();
+    xml.within("dcc:quantity", &[("refType", "basic_measuredValue")], |xml| {
+        let rows_of = |language: &Language| {
+            let said = sentences::about(&numbers, words::of(*language));
+            (Some(*language), said.trim_end_matches([':', ' ']).to_owned())
+        };
+        let name = both(["Coverage interval", "Überdeckungsintervall"]);
+        xml.text("dcc:name", &name, languages);
+        let about = Localized { texts: languages.iter().map(rows_of).collect() };
+        xml.text("dcc:description", &about, languages);
+        let texts = |of: &dyn Fn(&Stated<'_>, &[String; 2]) -> String| -> String {
+            let texts: Vec<String> = rows.iter().map(|(row, ends)| of(row, ends)).collect();
+            texts.join(" ")
+        };
+        let values: Vec<String> = rows.iter().map(|(row, _)| row.value().text).collect();
+        list(xml, &values, &first.quantity.unit, |xml| {
+            xml.element("si:coverageIntervalXMLList", |xml| {
+                let u = texts(&|row, _| exact(row.statement.standard_uncertainty));
+                xml.leaf("si:standardUncXMLList", &u);
+                xml.leaf("si:intervalMinXMLList", &texts(&|_, ends| ends[0].clone()));
+                xml.leaf("si:intervalMaxXMLList", &texts(&|_, ends| ends[1].clone()));
+                xml.leaf("si:coverageProbabilityXMLList", &texts(&|row, _| probability(row)));
+                xml.leaf("si:distributionXMLList", &texts(&|row, _| distribution(row)));
+            });
+        });
+        explained(xml, &first.quantity.unit);
+    });
+}
+
+/// The files that the certificate was made of, and its answer for programs.
+fn attachments(xml: &mut Xml, report: &Report<'_>, languages: &[Language]) {
+    let name = both(["Files of the evaluation", "Dateien der Auswertung"]);
+    xml.text("dcc:name", &name, languages);
+    xml.element("dcc:data", |xml| {
+        let answer = json(report);
+        let mut add = |about: [&str; 2], name: &str, kind: &str, bytes: &[u8]| {
+            xml.element("dcc:byteData", |xml| {
+                xml.text("dcc:name", &both(about), languages);
+                // the name of the file alone: who saves it chooses the folder
+                let file = name.rsplit(['/', '\\']).next().unwrap_or(name);
+                if file != name {
+                    let named = Localized::plain(name);
+                    xml.text("dcc:description", &named, languages);
+                }
+                xml.leaf("dcc:fileName", file);
+                xml.leaf("dcc:mimeType", kind);
+                xml.leaf("dcc:dataBase64", &STANDARD.encode(bytes));
+            });
+        };
+        const JSON: &str = "application/json";
+        add(["Result", "Ergebnis"], "result.json", JSON, answer.as_bytes());
+        let certificate = ["Certificate file", "Kalibrierscheindatei"];
+        add(certificate, "certificate.json", JSON, report.text.as_bytes());
+        for model in report.models {
+            add(["Model file", "Modelldatei"], model.name, JSON, model.text.as_bytes());
+            for (name, bytes) in model.tables {
+                add(["Table", "Tabelle"], name, "application/octet-stream", bytes);
+            }
+        }
+    });
+}

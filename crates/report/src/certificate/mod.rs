@@ -1,0 +1,74 @@
+//! Calibration certificates, one file for each format; all of them state the same rounded figures.
+
+mod csv;
+mod dcc;
+mod document;
+mod json;
+mod particulars;
+mod sentences;
+mod sheets;
+mod stated;
+mod words;
+mod workbook;
+
+pub use csv::csv;
+pub use dcc::{Needed, dcc, needed};
+pub use json::json;
+pub use workbook::xlsx;
+
+use super::document as look;
+use gumption_analysis::certificate::Issued;
+use gumption_analysis::certificate::contents::Certificate;
+use gumption_engine::task::Warning;
+
+/// Everything that a certificate may show.
+#[derive(Clone, Copy, Debug)]
+pub struct Report<'a> {
+    /// What was asked for.
+    pub certificate: &'a Certificate,
+    /// The results.
+    pub issued: &'a Issued,
+    /// The model files, in the order of the certificate's.
+    pub models: &'a [Model<'a>],
+    /// The text of the certificate file.
+    pub text: &'a str,
+    /// Its SHA-256, in hexadecimal.
+    pub digest: &'a str,
+    /// Warnings and notes, in order.
+    pub warnings: &'a [Warning],
+}
+
+/// A model file of a certificate.
+#[derive(Clone, Debug)]
+pub struct Model<'a> {
+    /// The name, as the certificate file has it.
+    pub name: &'a str,
+    /// Its text.
+    pub text: &'a str,
+    /// Its SHA-256, in hexadecimal.
+    pub digest: String,
+    /// The content of the tables that it reads, by name.
+    pub tables: &'a [(String, Vec<u8>)],
+    /// SHA-256 of every one of them, by name.
+    pub files: Vec<(String, String)>,
+}
+
+/// The certificate as a page of at most 100 columns for a terminal.
+pub fn table(report: &Report<'_>) -> String {
+    look::text(&document::of(report))
+}
+
+/// The certificate in GitHub Flavored Markdown.
+pub fn markdown(report: &Report<'_>) -> String {
+    look::markdown(&document::of(report))
+}
+
+/// The certificate as a LaTeX file for `article` with `booktabs` and `siunitx`.
+pub fn latex(report: &Report<'_>) -> String {
+    look::latex(&document::of(report))
+}
+
+/// The certificate as one HTML file that needs nothing else.
+pub fn html(report: &Report<'_>) -> String {
+    look::html(&document::of(report))
+}

@@ -1,0 +1,140 @@
+//! The sentences that a certificate's uncertainties ask for.
+
+use super::Report;
+use super::stated::{self, Stated};
+use super::words::{self, Words};
+use crate::number::exact;
+use gumption_analysis::certificate::Basis;
+use gumption_analysis::certificate::contents::{Language, Rounding};
+
+/// The statement of coverage in a language.
+pub(super) fn coverage(report: &Report<'_>, language: Language) -> Vec<String> {
+    let words = words::of(language);
+    let rows = stated::rows(report);
+    let mut said = Vec::new();
+    let mut say = |sentence: &str, holds: &dyn Fn(&Stated<'_>) -> bool| {
+        let of: Vec<usize> = rows.iter().filter(|row| holds(row)).map(|row| row.number).collect();
+        match of.len() {
+            0 => {}
+            count if count == rows.len() => said.push(sentence.to_owned()),
+            _ => said.push(about(&of, words) + sentence),
+        }
+    };
+    for kind in kinds(&rows) {
+        say(&kind.sentence(words), &|row| kind.holds(row));
+    }
+    say(words.propagation, &|row| row.statement.basis != Basis::Shortest);
+    say(words.raised, &|row| row.statement.limit.is_some_and(|limit| limit.raised));
+    say(words.confirmed, &|row| row.found.validation.is_some_and(|v| v.gum_valid == Some(true)));
+    said.push(words.time.to_owned());
+    said.push(rounding(report, words));
+    said
+}
+
+/// A kind of statement: rows of one kind share a sentence.
+#[derive(Clone, Debug, PartialEq)]
+struct Kind {
+    basis: Basis,
+    probability: Option<f64>,
+    /// The factor, where the sentence names it.
+    factor: Option<String>,
+}
+
+impl Kind {
+    fn of(row: &Stated<'_>) -> Self {
+        let named = matches!(row.statement.basis, Basis::Normal | Basis::Fixed);
+        Self {
+            basis: row.statement.basis,
+            probability: row.statement.coverage_probability,
+            factor: named.then(|| row.factor().text),
+        }
+    }
+
+    fn holds(&self, row: &Stated<'_>) -> bool {
+        Self::of(row) == *self
+    }
+
+    fn sentence(&self, words: &Words) -> String {
+        let sentence = match self.basis {
+            Basis::Normal => words.normal,
+            Basis::Student => words.student,
+            Basis::Fixed => words.fixed,
+            Basis::Shortest => words.shortest,
+        };
+        let factor = self.factor.as_deref().unwrap_or_default();
+        sentence.replace("{k}", factor).replace("{p}", &probability(self.probability, words))
+    }
+}
+
+fn kinds(rows: &[Stated<'_>]) -> Vec<Kind> {
+    let mut kinds: Vec<Kind> = Vec::new();
+    for kind in rows.iter().map(Kind::of) {
+        if !kinds.contains(&kind) {
+            kinds.push(kind);
+        }
+    }
+    kinds
+}
+
+/// "approximately 95 %" for 0.9545, which accreditation practice prints so (EA-4/02, 5.1).
+fn probability(p: Option<f64>, words: &Words) -> String {
+    match p {
+        Some(0.9545) => words.approximately.replace("{p}", "95 %"),
+        Some(p) => format!("{} %", exact(stated::percent(p))),
+        None => String::new(),
+    }
+}
+
+/// "Rows 1, 2 and 5: "
+pub(super) fn about(rows: &[usize], words: &Words) -> String {
+    let [one, several] = words.rows;
+    let beginning = if rows.len() == 1 { one } else { several };
+    beginning.replace("{rows}", &listed(rows, words))
+}
+
+/// "1, 2 and 5"; consecutive rows as "1 - 4".
+fn listed(rows: &[usize], words: &Words) -> String {
+    let mut runs: Vec<(usize, usize)> = Vec::new();
+    for &row in rows {
+        match runs.last_mut() {
+            Some((_, last)) if *last + 1 == row => *last = row,
+            _ => runs.push((row, row)),
+        }
+    }
+    let mut parts: Vec<String> = Vec::new();
+    for (first, last) in runs {
+        match last - first {
+            0 => parts.push(first.to_string()),
+            1 => parts.extend([first.to_string(), last.to_string()]),
+            _ => parts.push(format!("{first} to {last}").replace(" to ", "\u{2013}")),
+        }
+    }
+    match parts.split_last() {
+        Some((last, [])) => last.clone(),
+        Some((last, rest)) => format!("{}{}{last}", rest.join(", "), words.and),
+        None => String::new(),
+    }
+}
+
+fn rounding(report: &Report<'_>, words: &Words) -> String {
+    let digits = match report.certificate.digits {
+        1 => words.digits[0].to_owned(),
+        digits => words.digits[1].replace("{digits}", &digits.to_string()),
+    };
+    let rule = Rounding::ALL.iter().position(|rule| *rule == report.certificate.rounding);
+    let rule = rule.map_or("", |rule| words.rules[rule]);
+    words.rounding.replace("{digits}", &digits).replace("{rule}", rule)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lists_of_rows() {
+        let words = words::of(Language::English);
+        assert_eq!(listed(&[1], words), "1");
+        assert_eq!(listed(&[1, 2], words), "1 and 2");
+        assert_eq!(listed(&[1, 3, 4, 5, 9], words), "1, 3–5 and 9");
+    }
+}

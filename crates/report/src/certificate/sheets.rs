@@ -1,0 +1,148 @@
+//! The tables of a certificate.
+
+use super::Report;
+use super::stated::{self, Stated};
+use super::words::{Words, stacked};
+use crate::number::{exact, rounded};
+use crate::plain;
+use crate::sheet::{Figure, Sheet};
+use gumption_engine::model::Quantity;
+
+/// Rows up to which a page shows the matrix of their correlation coefficients.
+pub(super) const MOST_CORRELATED: usize = 12;
+
+/// Decimal place of correlation coefficients (JCGM 100, 7.2.6).
+const COEFFICIENT_PLACE: i32 = -3;
+
+/// The result table.
+pub(super) fn results(report: &Report<'_>) -> Sheet {
+    let languages = &report.certificate.languages;
+    let rows = stated::rows(report);
+    let header = |word: fn(&Words) -> &'static str| stacked(languages, word);
+    let mut sheet = Sheet::default();
+    sheet.numbers(&header(|w| w.row), rows.iter().map(|row| row.number.to_string()));
+    sheet.text(&header(|w| w.quantity), rows.iter().map(|row| row.name(languages)));
+    conditions(&mut sheet, report, &rows, &header(|w| w.conditions));
+    if rows.iter().any(|row| row.line.nominal.is_some()) {
+        sheet.figures(&header(|w| w.nominal), rows.iter().map(Stated::nominal));
+    }
+    sheet.figures(&header(|w| w.value), rows.iter().map(Stated::value));
+    sheet.figures(&header(|w| w.expanded), rows.iter().map(Stated::expanded));
+    sheet.units(&header(|w| w.unit), rows.iter().map(|row| plain(row.quantity.unit.text())));
+    sheet.figures("k", rows.iter().map(Stated::factor));
+    sheet.figures("ν_eff", rows.iter().map(Stated::dof));
+    sheet.figures(&header(|w| w.probability), rows.iter().map(Stated::percent));
+    let ends: Vec<Option<[Figure; 2]>> = rows.iter().map(|row| row.interval(report)).collect();
+    if ends.iter().any(Option::is_some) {
+        let end = |place: usize| {
+            let ends = ends.iter();
+            ends.map(move |ends| match ends {
+                Some(ends) => ends[place].clone(),
+                None => Figure { text: String::new(), value: None },
+            })
+        };
+        sheet.figures(&header(|w| w.low), end(0));
+        sheet.figures(&header(|w| w.high), end(1));
+    }
+    sheet
+}
+
+/// Conditions up to which each has a column of its own.
+const MOST_COLUMNS: usize = 3;
+
+/// A column for each condition, empty where a row does not have it, and one for what is replaced; if
+/// there are many conditions, a column of all in words.
+fn conditions(sheet: &mut Sheet, report: &Report<'_>, rows: &[Stated<'_>], header: &str) {
+    let named = |quantity: &Quantity| match plain(quantity.unit.text()).as_str() {
+        "" | "1" => plain(&quantity.name),
+        unit => format!("{}\nin {unit}", plain(&quantity.name)),
+    };
+    let mut names: Vec<String> = Vec::new();
+    for (quantity, _) in rows.iter().flat_map(|row| row.shown(report)) {
+        let name = named(quantity);
+        if !names.contains(&name) {
+            names.push(name);
+        }
+    }
+    if names.len() > MOST_COLUMNS {
+        let text = |row: &Stated<'_>| row.circumstances(report).join(", ");
+        sheet.text(header, rows.iter().map(text));
+        return;
+    }
+    let replaced = |row: &Stated<'_>| match row.line.label {
+        Some(_) => String::new(),
+        None => row.replaced().join(", "),
+    };
+    if rows.iter().any(|row| !replaced(row).is_empty()) {
+        sheet.text(header, rows.iter().map(replaced));
+    }
+    for name in names {
+        let value = |row: &Stated<'_>| {
+            let shown = row.shown(report);
+            match shown.iter().find(|(quantity, _)| named(quantity) == name) {
+                Some((_, value)) => Figure::of(*value, exact(*value)),
+                None => Figure { text: String::new(), value: None },
+            }
+        };
+        sheet.figures(&name, rows.iter().map(value));
+    }
+}
+
+/// The upper triangle of the correlation coefficients between the rows.
+pub(super) fn correlations(report: &Report<'_>) -> Sheet {
+    let matrix = &report.issued.correlations;
+    let count = matrix.len();
+    let mut sheet = Sheet::default();
+    sheet.text("r", (1..count).map(|row| row.to_string()));
+    for column in 1..count {
+        let cells =
+            matrix.iter().take(count - 1).enumerate().map(|(row, coefficients)| match coefficients
+                .get(column)
+            {
+                _ if row >= column => Figure { text: String::new(), value: None },
+                Some(Some(r)) => coefficient(*r),
+                _ => Figure::missing(),
+            });
+        sheet.figures(&(column + 1).to_string(), cells);
+    }
+    sheet
+}
+
+/// A coefficient; what is nearly 1 keeps the digits in which it differs from it.
+fn coefficient(r: f64) -> Figure {
+    let apart = 1.0 - r.abs();
+    let place = if apart > 1e-9 && apart < 0.01 {
+        apart.log10().floor() as i32 - 1
+    } else {
+        COEFFICIENT_PLACE
+    };
+    let text = rounded(r, place);
+    Figure::of(text.parse().unwrap_or(r), text)
+}
+
+/// Whether some rows vary together.
+pub(super) fn are_correlated(report: &Report<'_>) -> bool {
+    let matrix = &report.issued.correlations;
+    let seen = |r: &Option<f64>| r.is_some_and(|r| r.abs() >= 0.0005);
+    matrix.iter().enumerate().any(|(i, row)| row.iter().take(i).any(seen))
+}
+
+/// The unrounded figures, for workbooks.
+pub(super) fn unrounded(report: &Report<'_>) -> Sheet {
+    let rows = stated::rows(report);
+    let column = |value: fn(&Stated<'_>) -> Option<f64>| -> Vec<Figure> {
+        rows.iter().map(|row| Figure::rounded(value(row), |value| value.to_string())).collect()
+    };
+    let mut sheet = Sheet::default();
+    sheet.numbers("row", rows.iter().map(|row| row.number.to_string()));
+    sheet.text("quantity", rows.iter().map(|row| plain(&row.quantity.name)));
+    sheet.units("unit", rows.iter().map(|row| plain(row.quantity.unit.text())));
+    sheet.figures("value", column(|row| Some(row.statement.value)));
+    sheet.figures("standard uncertainty", column(|row| Some(row.statement.standard_uncertainty)));
+    sheet.figures("expanded uncertainty", column(|row| Some(row.statement.expanded_uncertainty)));
+    sheet.figures("coverage factor", column(|row| Some(row.statement.coverage_factor)));
+    sheet.figures("interval from", column(|row| row.statement.interval.map(|ends| ends[0])));
+    sheet.figures("interval to", column(|row| row.statement.interval.map(|ends| ends[1])));
+    sheet.text("basis", rows.iter().map(|row| row.statement.basis.name().to_owned()));
+    sheet
+}

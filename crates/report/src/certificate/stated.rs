@@ -1,0 +1,155 @@
+//! The rows of a certificate as texts, rounded once for all formats.
+
+use super::Report;
+use crate::number::{exact, rounded};
+use crate::sheet::Figure;
+use crate::{conditions_text, plain};
+use gumption_analysis::certificate::Statement;
+use gumption_analysis::certificate::contents::{Asked, Language, Line};
+use gumption_engine::model::Quantity;
+use gumption_engine::propagate::OutputEvaluation;
+use gumption_engine::propagate::gum::Dof;
+
+/// Degrees of freedom that are printed as infinitely many.
+const MOST_DOF: f64 = 10_000.0;
+
+/// A row of the table.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Stated<'a> {
+    /// Its number, from 1.
+    pub(super) number: usize,
+    pub(super) line: &'a Line,
+    pub(super) asked: &'a Asked,
+    /// What is measured.
+    pub(super) quantity: &'a Quantity,
+    /// Values of the conditions.
+    pub(super) conditions: &'a [f64],
+    pub(super) statement: &'a Statement,
+    /// The evaluation of the output.
+    pub(super) found: &'a OutputEvaluation,
+}
+
+/// All rows.
+pub(super) fn rows<'a>(report: &Report<'a>) -> Vec<Stated<'a>> {
+    let Report { certificate, issued, .. } = *report;
+    let lines = certificate.lines.iter().zip(&issued.statements).enumerate();
+    let rows = lines.filter_map(|(number, (line, statement))| {
+        let asked = certificate.evaluations.get(line.evaluation)?;
+        let row = issued.evaluations.get(line.evaluation)?.rows.get(line.row)?;
+        Some(Stated {
+            number: number + 1,
+            line,
+            asked,
+            quantity: &asked.task.model.outputs.get(line.output)?.quantity,
+            conditions: &row.conditions,
+            statement,
+            found: row.outputs.get(line.output)?,
+        })
+    });
+    rows.collect()
+}
+
+impl Stated<'_> {
+    /// What the row is called.
+    pub(super) fn name(&self, languages: &[Language]) -> String {
+        match &self.line.label {
+            Some(label) => plain(&label.all(languages).join(" / ")),
+            None => plain(&self.quantity.name),
+        }
+    }
+
+    fn place(&self) -> Option<i32> {
+        self.statement.rounded.map(|to| to.place)
+    }
+
+    /// A figure in the unit of the row, rounded before, at the place of the expanded uncertainty.
+    fn at_place(&self, value: f64) -> Figure {
+        Figure::of(value, self.place().map_or_else(|| exact(value), |place| rounded(value, place)))
+    }
+
+    pub(super) fn value(&self) -> Figure {
+        self.at_place(self.statement.rounded_value())
+    }
+
+    pub(super) fn expanded(&self) -> Figure {
+        match self.statement.rounded {
+            Some(to) => Figure::of(to.value, rounded(to.value, to.place)),
+            None => Figure::of(0.0, "0".to_owned()),
+        }
+    }
+
+    /// The ends of the interval, where there is one.
+    pub(super) fn interval(&self, report: &Report<'_>) -> Option<[Figure; 2]> {
+        let ends = self.statement.rounded_interval(report.certificate.rounding)?;
+        Some(ends.map(|end| self.at_place(end)))
+    }
+
+    pub(super) fn factor(&self) -> Figure {
+        let factor = self.statement.coverage_factor;
+        let text = rounded(factor, -2);
+        Figure::of(text.parse().unwrap_or(factor), text)
+    }
+
+    /// Effective degrees of freedom, their integer part (JCGM 100, G.4.1).
+    pub(super) fn dof(&self) -> Figure {
+        match self.statement.dof {
+            Dof::Finite(dof) if dof >= MOST_DOF => Figure { text: "∞".to_owned(), value: None },
+            Dof::Infinite => Figure { text: "∞".to_owned(), value: None },
+            Dof::Undefined => Figure::missing(),
+            Dof::Finite(dof) if dof >= 1.0 => {
+                let whole = (dof * (1.0 + 1e-9)).floor();
+                Figure::of(whole, rounded(whole, 0))
+            }
+            Dof::Finite(dof) => Figure::of(dof, rounded(dof, -2)),
+        }
+    }
+
+    /// The coverage probability in percent.
+    pub(super) fn percent(&self) -> Figure {
+        Figure::rounded(self.statement.coverage_probability.map(percent), exact)
+    }
+
+    pub(super) fn nominal(&self) -> Figure {
+        Figure::rounded(self.line.nominal, exact)
+    }
+
+    /// The conditions that the table shows, with their values.
+    pub(super) fn shown(&self, report: &Report<'_>) -> Vec<(&Quantity, f64)> {
+        let shown = &report.certificate.shown;
+        let conditions = self.asked.task.model.conditions.iter().zip(self.conditions);
+        conditions
+            .filter(|(condition, _)| shown.is_empty() || shown.contains(&condition.name))
+            .map(|(condition, value)| (condition, *value))
+            .collect()
+    }
+
+    /// Replacements and shown conditions in words, on one line; a row with a label of its own says
+    /// nothing of replacements.
+    pub(super) fn circumstances(&self, report: &Report<'_>) -> Vec<String> {
+        let mut parts = if self.line.label.is_some() { Vec::new() } else { self.replaced() };
+        let shown = self.shown(report);
+        let (quantities, values): (Vec<Quantity>, Vec<f64>) =
+            shown.into_iter().map(|(quantity, value)| (quantity.clone(), value)).unzip();
+        let conditions = conditions_text(&quantities, &values);
+        parts.extend((!conditions.is_empty()).then_some(conditions));
+        parts
+    }
+
+    /// Replacements of the row, as `tilt = 35 deg`.
+    pub(super) fn replaced(&self) -> Vec<String> {
+        let unit = |name: &str| {
+            let input = self.asked.task.model.inputs.iter().find(|i| i.quantity.name == name);
+            input.map(|input| plain(input.quantity.unit.text())).filter(|unit| unit != "1")
+        };
+        let one = |(name, value): &(String, String)| match (value.parse::<f64>(), unit(name)) {
+            (Ok(_), Some(unit)) => format!("{} = {} {unit}", plain(name), plain(value)),
+            _ => format!("{} = {}", plain(name), plain(value)),
+        };
+        self.asked.set.iter().map(one).collect()
+    }
+}
+
+/// A share in percent, without the digits that its binary form adds.
+pub(super) fn percent(share: f64) -> f64 {
+    (1e12 * share).round() / 1e10
+}

@@ -1,0 +1,53 @@
+//! The certificate as a workbook.
+
+use std::io;
+
+use super::{Report, particulars, sentences, sheets};
+use crate::workbook::{Book, failed};
+
+/// The certificate as a workbook: a sheet with the certificate, whose cells hold the stated figures,
+/// one with the figures before rounding, and one with the correlation coefficients of the rows.
+///
+/// # Errors
+/// Those of the format, such as too many rows.
+pub fn xlsx(report: &Report<'_>) -> io::Result<Vec<u8>> {
+    let languages = &report.certificate.languages;
+    let title = particulars::title(report);
+    let mut book = Book::new(&title).map_err(failed)?;
+    let mut write = || {
+        let mut leaf = book.leaf("Certificate")?;
+        leaf.title(0, &title)?;
+        let mut row = 2;
+        for (name, text) in particulars::lines(report) {
+            leaf.line(row, &format!("{name}: {text}"))?;
+            row += 1;
+        }
+        row = leaf.table(row + 1, &sheets::results(report))? + 1;
+        for language in languages {
+            for said in sentences::coverage(report, *language) {
+                leaf.line(row, &said)?;
+                row += 1;
+            }
+            row += 1;
+        }
+        leaf.line(row, &format!("gumption {}", env!("CARGO_PKG_VERSION")))?;
+        leaf.line(row + 1, &format!("certificate file, SHA-256: {}", report.digest))?;
+        row += 2;
+        for model in report.models {
+            leaf.line(row, &format!("{}, SHA-256: {}", model.name, model.digest))?;
+            row += 1;
+        }
+        book.push(leaf)?;
+        let mut leaf = book.leaf("Unrounded")?;
+        leaf.table(0, &sheets::unrounded(report))?;
+        book.push(leaf)?;
+        if sheets::are_correlated(report) {
+            let mut leaf = book.leaf("Correlations")?;
+            leaf.table(0, &sheets::correlations(report))?;
+            book.push(leaf)?;
+        }
+        Ok(())
+    };
+    write().map_err(failed)?;
+    book.bytes().map_err(failed)
+}

@@ -1,0 +1,64 @@
+//! One line for each comparison, in full precision, for spreadsheets.
+
+use super::Compare;
+use crate::csv::{number, text};
+
+/// The rows as comma-separated values; of laboratories those of the degrees of equivalence.
+pub fn csv(compare: &Compare) -> String {
+    let mut records: Vec<Vec<String>> = Vec::new();
+    let header = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect();
+    let numbers = |values: &[f64]| -> Vec<String> {
+        values.iter().map(|value| number(Some(*value))).collect()
+    };
+    match compare {
+        Compare::Pairs { compared, rounding, .. } => {
+            let mut names = vec!["label", "difference", "U", "en", "zeta", "probability"];
+            names.extend(rounding.then_some(["range_low", "range_high"]).into_iter().flatten());
+            names.push("compatible");
+            records.push(header(&names));
+            for row in compared {
+                let figures =
+                    [row.difference, row.expanded, row.normalized_error, row.zeta, row.probability];
+                let mut record = vec![text(&row.label)];
+                record.extend(numbers(&figures));
+                record.extend(numbers(if *rounding { &row.range } else { &[] }));
+                record.push(row.is_compatible().to_string());
+                records.push(record);
+            }
+        }
+        Compare::Laboratories(comparison) => {
+            records.push(header(&[
+                "label",
+                "x",
+                "difference",
+                "U",
+                "en",
+                "zeta",
+                "probability",
+                "compatible",
+                "in_reference",
+            ]));
+            for row in &comparison.rows {
+                let mut record = vec![text(&row.label)];
+                record.extend(numbers(&[
+                    row.value,
+                    row.difference,
+                    row.expanded,
+                    row.normalized_error,
+                    row.zeta,
+                    row.probability,
+                ]));
+                record.push((row.normalized_error <= 1.0).to_string());
+                record.push(row.member.to_string());
+                records.push(record);
+            }
+        }
+    }
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    for record in &records {
+        // writing to memory cannot fail, and all records have as many cells
+        let written = writer.write_record(record);
+        debug_assert!(written.is_ok(), "{written:?}");
+    }
+    String::from_utf8(writer.into_inner().unwrap_or_default()).unwrap_or_default()
+}

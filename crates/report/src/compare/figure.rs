@@ -1,0 +1,74 @@
+//! Results with their uncertainties as a strip.
+
+use plotters::element::{Circle, Rectangle};
+use plotters::style::Color;
+
+use super::Compare;
+use crate::html::{Drawing, WIDTH};
+use crate::plain;
+use crate::plot::{
+    AFTER, Area, Axis, BEFORE, Drawn, EVEN, INK, STRIP_AXIS, Strip, line, px, stroke, svg,
+};
+use gumption_analysis::compare::FACTOR;
+
+/// Height of a row in pixels, and space beside the bars.
+const ROW: f64 = 24.0;
+const LEFT: f64 = 170.0;
+const RIGHT: f64 = 24.0;
+
+/// A row of the figure: name, value, expanded uncertainty, and whether it stands out.
+type Bar = (String, f64, f64, bool);
+
+/// Values of laboratories with their U and the reference band, or differences with their U and
+/// zero.
+pub(super) fn draw(compare: &Compare) -> Drawing {
+    match compare {
+        Compare::Pairs { compared, .. } => {
+            let bars = compared
+                .iter()
+                .map(|row| (plain(&row.label), row.difference, row.expanded, !row.is_compatible()));
+            let caption = "Difference of the two results with its expanded uncertainty (k = 2). A bar \
+                           that does not reach 0 (vermilion) is a pair that is not compatible.";
+            strip(&bars.collect::<Vec<Bar>>(), [0.0, 0.0], "difference", caption)
+        }
+        Compare::Laboratories(comparison) => {
+            let bars = comparison
+                .rows
+                .iter()
+                .map(|row| (plain(&row.label), row.value, row.expanded_stated, !row.member));
+            let of = &comparison.reference;
+            let half = FACTOR * of.standard_uncertainty;
+            let caption = "Results with their expanded uncertainties as stated, and the reference \
+                           value with its own (band, k = 2). Vermilion: not in the reference value.";
+            let band = [of.value - half, of.value + half];
+            strip(&bars.collect::<Vec<Bar>>(), band, "result", caption)
+        }
+    }
+}
+
+fn strip(bars: &[Bar], band: [f64; 2], label: &str, caption: &str) -> Drawing {
+    let ends = bars.iter().flat_map(|(_, value, u, _)| [value - u, value + u]).chain(band);
+    let [low, high] =
+        ends.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)]);
+    let margin = if high > low { 0.04 * (high - low) } else { 1.0 };
+    let axis = Axis::linear(low - margin, high + margin);
+    let bottom = 4.0 + ROW * bars.len() as f64;
+    let strip = Strip { axis: &axis, from: LEFT, to: WIDTH - RIGHT };
+    let drawn = svg(WIDTH, bottom + STRIP_AXIS, |area: &Area<'_>| -> Drawn {
+        let [from, to] = band.map(|end| strip.x(end));
+        let corners = [(px(from), px(0.0)), (px(to), px(bottom))];
+        area.draw(&Rectangle::new(corners, EVEN.mix(0.35).filled()))?;
+        strip.draw(area, 0.0, bottom, label)?;
+        let middle = 0.5 * (from + to);
+        line(area, [(middle, 0.0), (middle, bottom)], stroke(INK, 1.0))?;
+        for (row, (name, value, u, out)) in bars.iter().enumerate() {
+            let y = 4.0 + ROW * (row as f64 + 0.5);
+            let colour = if *out { BEFORE } else { AFTER };
+            strip.name(area, name, y)?;
+            strip.interval(area, [value - u, value + u], y, colour)?;
+            area.draw(&Circle::new((px(strip.x(*value)), px(y)), px(3.5), colour.filled()))?;
+        }
+        Ok(())
+    });
+    Drawing { svg: drawn, caption: caption.to_owned() }
+}

@@ -1,0 +1,41 @@
+//! Reports of comparisons, one file for each format.
+
+mod csv;
+mod figure;
+mod json;
+mod page;
+mod sheets;
+mod words;
+
+pub use csv::csv;
+pub use json::json;
+pub use page::{html, markdown, table};
+
+use gumption_analysis::compare::{Compared, Comparison, Pair};
+
+/// What is reported.
+#[derive(Clone, Debug)]
+pub enum Compare {
+    /// Results two by two.
+    Pairs {
+        /// The results.
+        pairs: Vec<Pair>,
+        /// Their comparisons, in the same order.
+        compared: Vec<Compared>,
+        /// Whether the range that printed digits allow is asked for.
+        rounding: bool,
+    },
+    /// The results of many laboratories.
+    Laboratories(Comparison),
+}
+
+impl Compare {
+    /// Whether everything is compatible: all normalized errors at most 1, and laboratories
+    /// consistent.
+    pub fn is_compatible(&self) -> bool {
+        match self {
+            Self::Pairs { compared, .. } => compared.iter().all(Compared::is_compatible),
+            Self::Laboratories(comparison) => comparison.all.is_consistent(),
+        }
+    }
+}

@@ -1,0 +1,68 @@
+//! The pages for a terminal, for a browser, and for GitHub.
+
+use maud::html;
+
+use super::{Compare, figure, sheets, words};
+use crate::html::{figure as numbered, page, table as html_table};
+use crate::sheet::Sheet;
+use crate::{Grid, WIDTH, wrapped};
+
+fn sheet(compare: &Compare) -> Sheet {
+    match compare {
+        Compare::Pairs { pairs, compared, rounding } => sheets::pairs(pairs, compared, *rounding),
+        Compare::Laboratories(comparison) => sheets::laboratories(comparison),
+    }
+}
+
+fn notes(compare: &Compare) -> Vec<&'static str> {
+    match compare {
+        Compare::Pairs { rounding: true, .. } => vec![words::PAIRS, words::ROUNDING],
+        Compare::Pairs { .. } => vec![words::PAIRS],
+        Compare::Laboratories(_) => vec![words::LABORATORIES],
+    }
+}
+
+/// The comparison as a page of text.
+pub fn table(compare: &Compare) -> String {
+    let paragraphs = |of: &[&str]| of.iter().map(|text| wrapped(text)).collect::<String>();
+    let verdict = words::verdict(compare);
+    let verdict: Vec<&str> = verdict.iter().map(String::as_str).collect();
+    let table = Grid::of(&sheet(compare)).render(WIDTH);
+    [paragraphs(&verdict), table, paragraphs(&notes(compare))].join("\n")
+}
+
+/// The comparison as one HTML file that needs nothing else.
+pub fn html(compare: &Compare) -> String {
+    let title = words::title(compare);
+    let drawing = figure::draw(compare);
+    let body = html! {
+        h1 { (title) }
+        div.verdict { @for said in words::verdict(compare) { p { (said) } } }
+        (html_table(&sheet(compare)))
+        (numbered(1, drawing.svg, &drawing.caption))
+        @for note in notes(compare) { p { (note) } }
+        p.settings { "gumption " (env!("CARGO_PKG_VERSION")) }
+    };
+    page(&title, &body)
+}
+
+/// The comparison as Markdown, as GitHub shows it.
+pub fn markdown(compare: &Compare) -> String {
+    let cell = |text: &str| text.replace('\\', "\\\\").replace('|', "\\|").replace('\n', " ");
+    let sheet = sheet(compare);
+    let row = |cells: Vec<String>| format!("| {} |\n", cells.join(" | "));
+    let mut text = format!("# {}\n\n", words::title(compare));
+    text += &(words::verdict(compare).join(" ") + "\n\n");
+    text += &row(sheet.columns.iter().map(|column| cell(&column.header)).collect());
+    let rule = sheet.columns.iter().map(|c| if c.is_numeric() { "---:" } else { "---" }.to_owned());
+    text += &row(rule.collect());
+    for number in 0..sheet.rows() {
+        let cells =
+            sheet.columns.iter().map(|c| c.cells.get(number).map_or(String::new(), |t| cell(t)));
+        text += &row(cells.collect());
+    }
+    for note in notes(compare) {
+        text += &format!("\n{note}\n");
+    }
+    text
+}

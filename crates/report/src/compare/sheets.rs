@@ -1,0 +1,87 @@
+//! The tables of a comparison.
+
+use crate::number::{MISSING, exact, place, rounded, significant, to, with_uncertainty};
+use crate::plain;
+use crate::sheet::Sheet;
+use gumption_analysis::compare::{Compared, Comparison, Pair, Row, Stated};
+
+/// Decimal places of scores.
+const SCORE: i32 = -2;
+
+/// Decimal places of probabilities.
+const PROBABILITY: i32 = -3;
+
+/// Significant digits of expanded uncertainties.
+const DIGITS: u32 = 2;
+
+/// Results two by two.
+pub(super) fn pairs(pairs: &[Pair], compared: &[Compared], rounding: bool) -> Sheet {
+    let mut sheet = Sheet::default();
+    sheet.text("", compared.iter().map(|row| plain(&row.label)));
+    for (which, name) in ["first", "second"].into_iter().enumerate() {
+        sheet.text(name, pairs.iter().map(|pair| stated(&pair.results[which])));
+    }
+    let of = |row: &Compared| with_uncertainty(row.difference, row.expanded, DIGITS);
+    sheet.numbers("difference", compared.iter().map(|row| of(row).0));
+    sheet.numbers("U", compared.iter().map(|row| of(row).1));
+    sheet.numbers("En", compared.iter().map(|row| score(row.normalized_error)));
+    if rounding {
+        sheet
+            .text("En by the digits", compared.iter().map(|row| row.range.map(score).join(" to ")));
+    }
+    sheet.numbers("zeta", compared.iter().map(|row| score(row.zeta)));
+    sheet.numbers("probability", compared.iter().map(|row| probability(row.probability)));
+    sheet.text("compatible", compared.iter().map(|row| yes(row.is_compatible())));
+    sheet
+}
+
+/// Degrees of equivalence.
+pub(super) fn laboratories(comparison: &Comparison) -> Sheet {
+    let rows = &comparison.rows;
+    let mut sheet = Sheet::default();
+    sheet.text("laboratory", rows.iter().map(|row| plain(&row.label)));
+    let own = |row: &Row| with_uncertainty(row.value, row.expanded_stated, DIGITS);
+    sheet.numbers("x", rows.iter().map(|row| own(row).0));
+    sheet.numbers("U(x)", rows.iter().map(|row| own(row).1));
+    let of = |row: &Row| with_uncertainty(row.difference, row.expanded, DIGITS);
+    sheet.numbers("difference", rows.iter().map(|row| of(row).0));
+    sheet.numbers("U", rows.iter().map(|row| of(row).1));
+    sheet.numbers("En", rows.iter().map(|row| score(row.normalized_error)));
+    sheet.numbers("zeta", rows.iter().map(|row| score(row.zeta)));
+    sheet.numbers("probability", rows.iter().map(|row| probability(row.probability)));
+    sheet.text("compatible", rows.iter().map(|row| yes(row.normalized_error <= 1.0)));
+    sheet.text("in the\nreference", rows.iter().map(|row| yes(row.member)));
+    sheet
+}
+
+/// A result as stated: to the place of its printed digits, or of its uncertainty.
+fn stated(of: &Stated) -> String {
+    let [own, of_u] = of.rounding.map(|half| place(2.0 * half, 1));
+    let fine = place(of.expanded, DIGITS + 1);
+    let (x, u) = (to(of.value, own.or(fine)), to(of.expanded, of_u.or(fine)));
+    let factor =
+        if of.factor == 2.0 { String::new() } else { format!(", k = {}", factor(of.factor)) };
+    format!("{x} ± {u}{factor}")
+}
+
+fn factor(k: f64) -> String {
+    if k.fract() == 0.0 { exact(k) } else { significant(k, 3) }
+}
+
+pub(super) fn score(value: f64) -> String {
+    if value.is_infinite() { "any".to_owned() } else { rounded(value, SCORE) }
+}
+
+pub(super) fn probability(p: f64) -> String {
+    if p.is_nan() {
+        MISSING.to_owned()
+    } else if p < 0.001 {
+        "<0.001".to_owned()
+    } else {
+        rounded(p, PROBABILITY)
+    }
+}
+
+fn yes(is: bool) -> String {
+    if is { "yes" } else { "no" }.to_owned()
+}

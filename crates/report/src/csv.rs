@@ -1,0 +1,141 @@
+//! One line for each output and row of conditions, in full precision, for spreadsheets.
+
+use std::io::{self, Write};
+
+use super::Report;
+use super::number::MISSING;
+use gumption_engine::propagate::gum::Dof;
+use gumption_engine::propagate::{OutputEvaluation, RowEvaluation};
+use gumption_engine::task::Task;
+
+const COLUMNS: [&str; 18] = [
+    "output",
+    "unit",
+    "gum_estimate",
+    "gum_standard_uncertainty",
+    "dof",
+    "coverage_factor",
+    "expanded_uncertainty",
+    "gum_low",
+    "gum_high",
+    "mc_trials",
+    "mc_estimate",
+    "mc_standard_uncertainty",
+    "mc_median",
+    "mc_symmetric_low",
+    "mc_symmetric_high",
+    "mc_shortest_low",
+    "mc_shortest_high",
+    "gum_valid",
+];
+
+/// The results as comma-separated values: a header, then one line for each output in each row of
+/// conditions. Numbers have full precision; an empty cell stands for what is infinite or not
+/// defined.
+///
+/// A text that a spreadsheet would take for a formula gets an apostrophe in front.
+pub fn csv(report: &Report<'_>) -> String {
+    let mut bytes = Vec::new();
+    // writing to memory cannot fail, and all records have as many cells
+    let written = write_csv(report, &mut bytes);
+    debug_assert!(written.is_ok(), "{written:?}");
+    String::from_utf8(bytes).unwrap_or_default()
+}
+
+/// Writes what [`csv()`] gives, line by line.
+///
+/// # Errors
+/// Those of the writer.
+pub fn write_csv(report: &Report<'_>, out: impl Write) -> io::Result<()> {
+    let Report { task, evaluation, .. } = report;
+    let mut writer = csv::Writer::from_writer(out);
+    let conditions = task.model.conditions.iter().filter(|_| task.swept);
+    let names = conditions.map(|condition| text(&condition.name));
+    let header: Vec<String> = names.chain(COLUMNS.map(str::to_owned)).collect();
+    writer.write_record(&header)?;
+    for row in &evaluation.rows {
+        for record in records(task, row) {
+            writer.write_record(&record)?;
+        }
+    }
+    writer.flush()
+}
+
+fn records<'a>(task: &'a Task, row: &'a RowEvaluation) -> impl Iterator<Item = Vec<String>> + 'a {
+    let conditions: Vec<String> = (0..task.model.conditions.len())
+        .filter(|_| task.swept)
+        .map(|place| number(row.conditions.get(place).copied()))
+        .collect();
+    task.model.outputs.iter().zip(&row.outputs).map(move |(output, figures)| {
+        let mut record = conditions.clone();
+        record.push(text(&output.quantity.name));
+        record.push(text(output.quantity.unit.text()));
+        record.extend(cells(figures));
+        record
+    })
+}
+
+fn cells(output: &OutputEvaluation) -> [String; 16] {
+    let gum = output.gum.as_ref();
+    let figures = output.monte_carlo.as_ref();
+    let interval = gum.and_then(|gum| gum.interval());
+    let dof = gum.and_then(|gum| match gum.dof {
+        Dof::Finite(dof) => Some(dof),
+        Dof::Infinite | Dof::Undefined => None,
+    });
+    let valid = output.validation.and_then(|validation| validation.gum_valid);
+    [
+        number(gum.map(|gum| gum.estimate)),
+        number(gum.map(|gum| gum.standard_uncertainty)),
+        number(dof),
+        number(gum.and_then(|gum| gum.coverage_factor)),
+        number(gum.and_then(|gum| gum.expanded_uncertainty())),
+        number(interval.map(|[low, _]| low)),
+        number(interval.map(|[_, high]| high)),
+        figures.map(|figures| figures.trials.to_string()).unwrap_or_default(),
+        number(figures.map(|figures| figures.estimate)),
+        number(figures.and_then(|figures| figures.standard_uncertainty)),
+        number(figures.map(|figures| figures.median)),
+        number(figures.map(|figures| figures.symmetric_interval[0])),
+        number(figures.map(|figures| figures.symmetric_interval[1])),
+        number(figures.map(|figures| figures.shortest_interval[0])),
+        number(figures.map(|figures| figures.shortest_interval[1])),
+        valid.map(|valid| valid.to_string()).unwrap_or_default(),
+    ]
+}
+
+/// A table as comma-separated values: numbers whose unrounded values are known in full precision,
+/// everything else as a page shows it. An empty cell stands for what is not defined.
+#[cfg_attr(not(test), expect(dead_code, reason = "tables of reports to come"))]
+pub(crate) fn of_sheet(sheet: &super::sheet::Sheet) -> String {
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    let mut written = writer.write_record(sheet.columns.iter().map(|column| column.title()));
+    for row in 0..sheet.rows() {
+        let cells = sheet.columns.iter().map(|column| match column.value(row) {
+            Some(value) => number(Some(value)),
+            None if !column.is_numeric() => text(column.cell(row)),
+            None if column.cell(row) == MISSING => String::new(),
+            None => column.cell(row).to_owned(),
+        });
+        written = written.and_then(|()| writer.write_record(cells));
+    }
+    // writing to memory cannot fail, and all records have as many cells
+    debug_assert!(written.is_ok(), "{written:?}");
+    writer.into_inner().ok().and_then(|bytes| String::from_utf8(bytes).ok()).unwrap_or_default()
+}
+
+/// Shortest text that reads back as the same number.
+pub(super) fn number(value: Option<f64>) -> String {
+    match value {
+        Some(value) if value.is_finite() => {
+            let text = format!("{value:?}");
+            text.strip_suffix(".0").map_or(text.clone(), str::to_owned)
+        }
+        _ => String::new(),
+    }
+}
+
+pub(crate) fn text(text: &str) -> String {
+    let formula = text.starts_with(['=', '+', '-', '@', '\t', '\r', '\n']);
+    if formula { format!("'{text}") } else { text.to_owned() }
+}

@@ -1,0 +1,48 @@
+//! A document as one HTML file that needs nothing else.
+
+use maud::{Markup, html};
+
+use super::{Block, Document};
+use crate::html::{figure, page_in, raised, table};
+
+/// The whole page.
+pub(crate) fn html(document: &Document) -> String {
+    let mut figures = 0;
+    let body = html! {
+        h1 { (document.title) }
+        @for line in &document.subtitle { p.settings { (line) } }
+        @for part in &document.blocks { (block(part, &mut figures)) }
+    };
+    let language = if document.language.is_empty() { "en" } else { document.language };
+    page_in(language, &document.title, &body)
+}
+
+fn block(block: &Block, figures: &mut usize) -> Markup {
+    match block {
+        Block::Section(title) => html! { h2 { (raised(title)) } },
+        Block::Text(text) => html! { p { (raised(text)) } },
+        Block::Verdict(sentences) => html! {
+            div.verdict {
+                @for (place, sentence) in sentences.iter().enumerate() {
+                    @let sentence = raised(sentence);
+                    @if place == 0 { p { strong { (sentence) } } } @else { p { (sentence) } }
+                }
+            }
+        },
+        Block::List(items) => html! { ul { @for item in items { li { (raised(item)) } } } },
+        Block::Table(sheet) => table(sheet),
+        Block::Figure(drawing) => {
+            *figures += 1;
+            figure(*figures, drawing.svg.clone(), &drawing.caption)
+        }
+        Block::Listing { about, text } => html! {
+            p { (about) }
+            pre { code { (printable(text)) } }
+        },
+    }
+}
+
+/// A text without the characters that no page may have.
+fn printable(text: &str) -> String {
+    text.chars().filter(|c| !c.is_control() || matches!(c, '\n' | '\t')).collect()
+}

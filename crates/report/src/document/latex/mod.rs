@@ -1,0 +1,227 @@
+//! A document as a LaTeX file that a plain TeX Live compiles: `article`, tables by `booktabs`,
+//! numbers and units by `siunitx`.
+
+mod text;
+mod unit;
+
+use super::{Block, Document};
+use crate::sheet::{Column, Kind, Sheet};
+use text::escaped;
+
+/// Rows from which on a table may break over pages.
+const LONG: usize = 30;
+
+/// Letters in a text column before it becomes a paragraph of this many.
+const PARAGRAPH: usize = 30;
+
+/// Width of a letter at the usual size of tables, in millimetres.
+const LETTER: f64 = 1.65;
+
+/// Letters in a line at each size of a table, at most.
+const SIZES: [(usize, &str); 3] = [(98, "\\small"), (116, "\\footnotesize"), (136, "\\scriptsize")];
+
+/// The whole document, ending in a newline.
+pub(crate) fn latex(document: &Document) -> String {
+    let mut units = unit::Declared::default();
+    let mut body: Vec<String> =
+        document.blocks.iter().map(|part| block(part, &mut units)).collect();
+    body.retain(|part| !part.is_empty());
+    let subtitle: Vec<String> = document.subtitle.iter().map(|line| escaped(line)).collect();
+    let mut parts = vec![
+        "\\documentclass[10pt,a4paper]{article}".to_owned(),
+        "\\usepackage[utf8]{inputenc}".to_owned(),
+        "\\usepackage[margin=18mm]{geometry}".to_owned(),
+        "\\usepackage{array,longtable,booktabs,siunitx}".to_owned(),
+    ];
+    parts.extend(units.lines());
+    parts.extend([
+        "\\sisetup{table-align-exponent=false}".to_owned(),
+        "\\setlength{\\parindent}{0pt}".to_owned(),
+        "\\setlength{\\parskip}{0.6ex plus 0.2ex}".to_owned(),
+        "\\setlength{\\LTleft}{0pt}".to_owned(),
+        "\\setlength{\\LTpre}{0.6ex}".to_owned(),
+        "\\emergencystretch=3em".to_owned(),
+        format!("\\title{{{}}}", escaped(&document.title)),
+        format!("\\author{{\\normalsize {}}}", subtitle.join(" \\\\ \\normalsize ")),
+        "\\date{}".to_owned(),
+        "\\begin{document}".to_owned(),
+        "\\maketitle".to_owned(),
+        String::new(),
+    ]);
+    parts.join("\n") + "\n" + &body.join("\n\n") + "\n\n\\end{document}\n"
+}
+
+fn block(block: &Block, units: &mut unit::Declared) -> String {
+    match block {
+        Block::Section(title) => format!("\\section*{{{}}}", escaped(title)),
+        Block::Text(text) => escaped(text),
+        Block::Verdict(sentences) => {
+            let stressed = |(place, sentence): (usize, &String)| {
+                let sentence = escaped(sentence);
+                if place == 0 { format!("\\textbf{{{sentence}}}") } else { sentence }
+            };
+            let lines: Vec<String> = sentences.iter().enumerate().map(stressed).collect();
+            format!("\\begin{{quote}}\n{}\n\\end{{quote}}", lines.join("\n\n"))
+        }
+        Block::List(items) => {
+            let items: Vec<String> =
+                items.iter().map(|item| format!("\\item {}", escaped(item))).collect();
+            format!("\\begin{{itemize}}\n{}\n\\end{{itemize}}", items.join("\n"))
+        }
+        Block::Table(sheet) => table(sheet, units),
+        Block::Figure(_) => String::new(),
+        Block::Listing { about, text } => {
+            let lines: Vec<String> = text.lines().map(listed).collect();
+            format!(
+                "{}\n\n{{\\ttfamily\\scriptsize\\raggedright\n{}\\par}}",
+                escaped(about),
+                lines.join("\\\\\n")
+            )
+        }
+    }
+}
+
+/// A line of a listing with its indentation.
+fn listed(line: &str) -> String {
+    let text = line.trim_start();
+    let spaces = line.chars().count() - text.chars().count();
+    format!("\\hspace*{{{}em}}{}\\strut", 0.5 * spaces as f64, escaped(text))
+}
+
+fn table(sheet: &Sheet, units: &mut unit::Declared) -> String {
+    let widths: Vec<usize> = sheet.columns.iter().map(width).collect();
+    let letters = widths.iter().sum::<usize>() + 2 * widths.len().saturating_sub(1);
+    let size = SIZES.iter().find(|(most, _)| letters <= *most).map_or("\\tiny", |(_, size)| size);
+    let columns: Vec<String> =
+        sheet.columns.iter().zip(&widths).map(|(column, width)| form(column, *width)).collect();
+    let line = |cells: Vec<String>| cells.join(" & ") + " \\\\";
+    let header = match sheet.has_headers() {
+        true => format!("{}\n\\midrule\n", line(sheet.columns.iter().map(header).collect())),
+        false => String::new(),
+    };
+    let mut rows: Vec<String> = (0..sheet.rows())
+        .map(|row| line(sheet.columns.iter().map(|column| cell(column, row, units)).collect()))
+        .collect();
+    if sheet.footer && rows.len() > 1 {
+        rows.insert(rows.len() - 1, "\\midrule".to_owned());
+    }
+    let form = format!("@{{}}{}@{{}}", columns.join(""));
+    let rows = rows.join("\n");
+    if sheet.rows() > LONG {
+        format!(
+            "{{{size}\n\\begin{{longtable}}{{{form}}}\n\\toprule\n{header}\\endhead\n\
+             \\bottomrule\n\\endfoot\n{rows}\n\\end{{longtable}}}}"
+        )
+    } else {
+        format!(
+            "\\medskip\n{{{size}\n\\begin{{tabular}}{{{form}}}\n\\toprule\n{header}{rows}\n\
+             \\bottomrule\n\\end{{tabular}}\\par}}\n\\medskip"
+        )
+    }
+}
+
+/// Letters that a column needs.
+fn width(column: &Column) -> usize {
+    let lines = column.header.lines().chain(column.cells.iter().map(String::as_str));
+    let longest = lines.map(|line| line.chars().count()).max().unwrap_or(0);
+    if column.kind != Kind::Text {
+        return longest;
+    }
+    // a word that is longer cannot be broken
+    let words = column.cells.iter().flat_map(|cell| cell.split_whitespace());
+    let word = words.map(|word| word.chars().count()).max().unwrap_or(0);
+    longest.min(PARAGRAPH.max(word))
+}
+
+/// The form of a column.
+fn form(column: &Column, width: usize) -> String {
+    match column.kind {
+        Kind::Numbers => number_format(column),
+        Kind::Units => "l".to_owned(),
+        Kind::Text if column.cells.iter().any(|cell| cell.chars().count() > width) => {
+            let millimetres = (LETTER * width as f64).round();
+            format!(">{{\\raggedright\\arraybackslash}}p{{{millimetres}mm}}")
+        }
+        Kind::Text => "l".to_owned(),
+    }
+}
+
+/// How many digits a column of numbers reserves.
+fn number_format(column: &Column) -> String {
+    let (mut whole, mut decimals, mut power) = (1, 0, None::<usize>);
+    let (mut signed, mut power_signed) = (false, false);
+    for cell in column.cells.iter().filter(|cell| is_number(cell)) {
+        let (mantissa, exponent) = cell.split_once('e').unwrap_or((cell, ""));
+        let (before, after) = mantissa.split_once('.').unwrap_or((mantissa, ""));
+        signed |= before.starts_with('-');
+        whole = whole.max(before.trim_start_matches('-').len());
+        decimals = decimals.max(after.len());
+        if !exponent.is_empty() {
+            power_signed |= exponent.starts_with('-');
+            power = power.max(Some(exponent.trim_start_matches('-').len()));
+        }
+    }
+    let sign = |negative: bool| if negative { "-" } else { "" };
+    let power = power.map(|digits| format!("e{}{}", sign(power_signed), "1".repeat(digits).len()));
+    let (sign, power) = (sign(signed), power.unwrap_or_default());
+    format!("S[table-format={sign}{whole}.{decimals}{power}]")
+}
+
+/// Whether `siunitx` reads a cell as a number.
+fn is_number(cell: &str) -> bool {
+    cell.parse::<f64>().is_ok_and(f64::is_finite) && !cell.starts_with(['+', '.'])
+}
+
+fn header(column: &Column) -> String {
+    let lines: Vec<String> = column.header.lines().map(escaped).collect();
+    let side = if column.is_numeric() { "r" } else { "l" };
+    match lines.as_slice() {
+        [] => "{}".to_owned(),
+        [line] => format!("{{{line}}}"),
+        lines => format!("{{\\shortstack[{side}]{{{}}}}}", lines.join(" \\\\ ")),
+    }
+}
+
+fn cell(column: &Column, row: usize, units: &mut unit::Declared) -> String {
+    let text = column.cell(row);
+    match column.kind {
+        Kind::Text => escaped(text),
+        Kind::Units if text.trim().is_empty() => String::new(),
+        Kind::Units => units.unit(text),
+        Kind::Numbers if is_number(text) => text.to_owned(),
+        Kind::Numbers if text.is_empty() => String::new(),
+        Kind::Numbers => format!("{{{}}}", escaped(text)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_reserve_their_digits() {
+        let mut sheet = Sheet::default();
+        let cells = ["10.05", "-3.1234", "1.2e-17", "-", ""].map(str::to_owned);
+        sheet.numbers("standard\nuncertainty", cells);
+        sheet.units("unit", ["m/s^2", "psi", "", "%", "1"].map(str::to_owned));
+        sheet.text("a_b", ["100 %", "x_1 & y", "", "", ""].map(str::to_owned));
+        let mut units = unit::Declared::default();
+        insta::assert_snapshot!(table(&sheet, &mut units), @r"
+        \medskip
+        {\small
+        \begin{tabular}{@{}S[table-format=-2.4e-2]ll@{}}
+        \toprule
+        {\shortstack[r]{standard \\ uncertainty}} & {unit} & {a\_b} \\
+        \midrule
+        10.05 & \unit{\metre\per\second\squared} & 100 \% \\
+        -3.1234 & \unit{\gumptionpsi} & x\_1 \& y \\
+        1.2e-17 &  &  \\
+        {--} & \unit{\percent} &  \\
+         & 1 &  \\
+        \bottomrule
+        \end{tabular}\par}
+        \medskip
+        ");
+        assert_eq!(units.lines(), [r"\DeclareSIUnit{\gumptionpsi}{psi}"]);
+    }
+}

@@ -1,0 +1,137 @@
+//! A document as GitHub shows it: GitHub Flavored Markdown, without HTML.
+
+use super::{Block, Document};
+use crate::number::align;
+use crate::sheet::{Column, Sheet};
+
+/// The whole document, ending in a newline.
+pub(crate) fn markdown(document: &Document) -> String {
+    let mut parts = vec![format!("# {}", escaped(&document.title))];
+    // two spaces at the end of a line break it
+    let lines: Vec<String> = document.subtitle.iter().map(|line| escaped(line)).collect();
+    parts.push(lines.join("  \n"));
+    parts.extend(document.blocks.iter().map(block));
+    parts.retain(|part| !part.is_empty());
+    parts.join("\n\n") + "\n"
+}
+
+fn block(block: &Block) -> String {
+    match block {
+        Block::Section(title) => format!("## {}", escaped(title)),
+        Block::Text(text) => escaped(text),
+        Block::Verdict(sentences) => {
+            let stressed = |(place, sentence): (usize, &String)| {
+                let sentence = escaped(sentence);
+                if place == 0 { format!("> **{sentence}**") } else { format!("> {sentence}") }
+            };
+            let lines: Vec<String> = sentences.iter().enumerate().map(stressed).collect();
+            lines.join("\n>\n")
+        }
+        Block::List(items) => {
+            let items: Vec<String> =
+                items.iter().map(|item| format!("- {}", escaped(item))).collect();
+            items.join("\n")
+        }
+        Block::Table(sheet) => table(sheet),
+        Block::Figure(_) => String::new(),
+        Block::Listing { about, text } => listing(about, text),
+    }
+}
+
+/// A table whose source is aligned as well.
+fn table(sheet: &Sheet) -> String {
+    let columns: Vec<Vec<String>> = sheet.columns.iter().map(cells).collect();
+    let rows = sheet.rows();
+    let line = |cells: Vec<String>| format!("| {} |", cells.join(" | "));
+    let mut lines = Vec::with_capacity(rows + 2);
+    lines.push(line(columns.iter().map(|cells| cells[0].clone()).collect()));
+    let rules = sheet.columns.iter().zip(&columns).map(|(column, cells)| {
+        let dashes = "-".repeat(cells[0].chars().count().max(2) - 1);
+        if column.is_numeric() { format!("{dashes}:") } else { format!("{dashes}-") }
+    });
+    lines.push(line(rules.collect()));
+    for row in 1..=rows {
+        lines.push(line(columns.iter().map(|cells| cells[row].clone()).collect()));
+    }
+    lines.join("\n")
+}
+
+/// The header and the cells of a column, all of one width.
+fn cells(column: &Column) -> Vec<String> {
+    let numeric = column.is_numeric();
+    let body: Vec<String> = column.cells.iter().map(|cell| escaped(cell)).collect();
+    let body = if numeric { align(&body) } else { body };
+    let cells: Vec<String> = std::iter::once(escaped(&column.title())).chain(body).collect();
+    let width = cells.iter().map(|cell| cell.chars().count()).max().unwrap_or(0).max(3);
+    cells
+        .into_iter()
+        .map(|cell| if numeric { format!("{cell:>width$}") } else { format!("{cell:<width$}") })
+        .collect()
+}
+
+/// A text as it is, between fences that are longer than any in it.
+fn listing(about: &str, text: &str) -> String {
+    let longest = text.split(|c| c != '`').map(str::len).max().unwrap_or(0);
+    let fence = "`".repeat(longest.max(2) + 1);
+    format!("{}\n\n{fence}\n{}\n{fence}", escaped(about), text.trim_end())
+}
+
+/// A text of which no character means anything: on one line, what would be markup behind a
+/// backslash. An underscore within a word means nothing by itself.
+fn escaped(text: &str) -> String {
+    let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    let mut out = String::with_capacity(text.len());
+    let mut before: Option<char> = None;
+    let mut letters = text.chars().peekable();
+    while let Some(letter) = letters.next() {
+        let in_word = |c: Option<char>| c.is_some_and(char::is_alphanumeric);
+        let starts_list = before.is_none() && letters.peek().is_none_or(|next| *next == ' ');
+        let means_something = match letter {
+            '\\' | '`' | '*' | '[' | ']' | '<' | '>' | '|' | '~' | '$' | '&' => true,
+            '_' => !(in_word(before) && in_word(letters.peek().copied())),
+            '#' => before.is_none(),
+            '-' | '+' if text.len() > 1 => starts_list,
+            _ => false,
+        };
+        if means_something {
+            out.push('\\');
+        }
+        out.push(letter);
+        before = Some(letter);
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nothing_of_a_text_is_markup() {
+        assert_eq!(escaped("a_ref in m/s^2"), "a_ref in m/s^2");
+        assert_eq!(escaped("_a_ * b | c"), r"\_a\_ \* b \| c");
+        assert_eq!(escaped("1 < 2 & $x$ [a](b) `c`"), r"1 \< 2 \& \$x\$ \[a\](b) \`c\`");
+        assert_eq!(escaped("# no title\nand no second line"), r"\# no title and no second line");
+        assert_eq!(escaped("- no list"), r"\- no list");
+        assert_eq!(escaped("-"), "-");
+        assert_eq!(escaped("-3.5"), "-3.5");
+    }
+
+    #[test]
+    fn tables_have_a_rule_and_cells_of_one_width() {
+        let mut sheet = Sheet::default();
+        sheet.text("name", ["x".to_owned(), "long | name".to_owned()]);
+        sheet.numbers("standard\nuncertainty", ["1.5".to_owned(), "-".to_owned()]);
+        insta::assert_snapshot!(table(&sheet), @r"
+        | name         | standard uncertainty |
+        | ------------ | -------------------: |
+        | x            |                  1.5 |
+        | long \| name |                  -   |
+        ");
+    }
+
+    #[test]
+    fn a_listing_cannot_be_ended_from_inside() {
+        assert!(listing("text", "a\n````\nb").ends_with("\n`````\na\n````\nb\n`````"));
+    }
+}

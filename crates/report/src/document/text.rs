@@ -1,0 +1,90 @@
+//! A document as a page of text for a terminal.
+
+use super::{Block, Document};
+use crate::sheet::{Kind, Sheet};
+use crate::{Grid, WIDTH, plain, wrapped};
+
+/// Letters that a text keeps on a line, however narrow the page is.
+const LEAST_TEXT: usize = 10;
+
+/// The whole document, ending in a newline; what has no form in text is left out.
+pub(crate) fn text(document: &Document) -> String {
+    let mut parts = vec![heading(&document.title, '═')];
+    parts.push(document.subtitle.iter().map(|line| wrapped(line)).collect());
+    parts.extend(document.blocks.iter().map(block));
+    parts.retain(|part| !part.is_empty());
+    parts.join("\n")
+}
+
+fn heading(title: &str, rule: char) -> String {
+    let title = plain(title);
+    let rule: String = std::iter::repeat_n(rule, title.chars().count().min(WIDTH)).collect();
+    format!("{}{rule}\n", wrapped(&title))
+}
+
+fn block(block: &Block) -> String {
+    match block {
+        Block::Section(title) => heading(title, '─'),
+        Block::Text(text) => wrapped(text),
+        Block::Verdict(sentences) => sentences.iter().map(|said| wrapped(said)).collect(),
+        Block::List(items) => items.iter().map(|item| wrapped(&format!("- {item}"))).collect(),
+        Block::Table(sheet) if !sheet.has_headers() => Grid::of(sheet).bare(WIDTH),
+        Block::Table(sheet) => grid(sheet).render(WIDTH),
+        Block::Figure(_) => String::new(),
+        Block::Listing { about, text } => format!("{}{}\n", wrapped(about), text.trim_end()),
+    }
+}
+
+/// A table whose texts wrap only where they are long.
+fn grid(sheet: &Sheet) -> Grid {
+    let mut grid = Grid::default();
+    for column in &sheet.columns {
+        let cells = column.cells.iter().cloned();
+        match column.kind {
+            Kind::Numbers => grid.numbers(&column.header, cells),
+            Kind::Text => grid.text_from(&column.header, LEAST_TEXT, cells),
+            Kind::Units => grid.units(&column.header, cells),
+        }
+    }
+    grid
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_document_is_a_page() {
+        let mut document = Document { title: "Title".to_owned(), ..Document::default() };
+        let mut sheet = Sheet::default();
+        sheet.text("", ["a".to_owned()]);
+        sheet.text("", ["b".to_owned()]);
+        document.table(sheet);
+        document.section("Results");
+        let mut sheet = Sheet::default();
+        sheet.numbers("value", ["1.5".to_owned(), "10".to_owned()]);
+        sheet.units("unit", ["m/s^2".to_owned(), "m".to_owned()]);
+        document.table(sheet);
+        document.text("A sentence.");
+        document.blocks.push(Block::List(vec!["one".to_owned(), "two".to_owned()]));
+        insta::assert_snapshot!(text(&document), @r"
+        Title
+        ═════
+
+        a  b
+
+        Results
+        ───────
+
+        value  unit
+        ────────────
+          1.5  m/s^2
+         10    m
+
+        A sentence.
+
+        - one
+        - two
+        ");
+    }
+}

@@ -1,0 +1,78 @@
+//! The whole document.
+
+use super::{Shown, figures, repeat, results, sweep};
+use crate::document::{Block, Document};
+use crate::sheet::Sheet;
+use crate::table;
+use crate::table::correlations;
+use crate::{Report, plain};
+use gumption_engine::propagate::RowEvaluation;
+use gumption_engine::task::Task;
+
+/// The document of an evaluation: for one row of conditions everything about each output, for a
+/// sweep a table and a figure for each.
+pub(super) fn of(report: &Report<'_>, shown: &Shown<'_>) -> Document {
+    let Report { task, evaluation, warnings, .. } = *report;
+    let title = plain(&task.title);
+    let mut document = Document {
+        title: if title.is_empty() { "Measurement uncertainty".to_owned() } else { title },
+        ..Document::default()
+    };
+    document.subtitle.push(table::settings_text(evaluation));
+    document.subtitle.extend(table::at(task, evaluation));
+    document.subtitle.extend(table::stopped(evaluation));
+    match evaluation.rows.as_slice() {
+        [row] => {
+            for output in 0..row.outputs.len() {
+                results::section(&mut document, report, shown, output);
+            }
+            together(&mut document, task, row);
+        }
+        _ => sweep::sections(&mut document, report),
+    }
+    if let Some(sheet) = quantities(task) {
+        document.section("Quantities");
+        document.table(sheet);
+    }
+    if let Some(drawing) = figures::inputs(task) {
+        document.section("What is known about the inputs");
+        document.figure(Some(drawing));
+    }
+    if !warnings.is_empty() {
+        document.section("Notes");
+        let notes = warnings.iter().map(|warning| plain(&warning.text));
+        document.blocks.push(Block::List(notes.collect()));
+    }
+    repeat::section(&mut document, report, shown);
+    document
+}
+
+/// How the outputs vary together, and the trials that were left out.
+fn together(document: &mut Document, task: &Task, row: &RowEvaluation) {
+    match correlations::found(task, row) {
+        Some(correlations::Coefficients::Matrix { sheet, .. }) => {
+            document.section("Correlation of the outputs");
+            document.table(sheet);
+        }
+        Some(correlations::Coefficients::TooMany(said)) => {
+            document.section("Correlation of the outputs");
+            document.text(said);
+        }
+        None => {}
+    }
+    if let Some(said) = table::left_out(row) {
+        document.sentence(&said);
+    }
+}
+
+/// What the quantities are, in words.
+fn quantities(task: &Task) -> Option<Sheet> {
+    let entries = table::quantities(task);
+    if entries.is_empty() {
+        return None;
+    }
+    let mut sheet = Sheet::default();
+    sheet.text("quantity", entries.iter().map(|(name, _)| plain(name)));
+    sheet.text("what it is", entries.iter().map(|(_, about)| plain(about)));
+    Some(sheet)
+}

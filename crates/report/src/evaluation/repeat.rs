@@ -1,0 +1,47 @@
+//! Everything that is needed to get the same answer again.
+
+use super::Shown;
+use crate::document::{Block, Document};
+use crate::sheet::Sheet;
+use crate::{Report, plain};
+use gumption_engine::task::Trials;
+
+/// Program, settings, digests, and the text of the model file where the page shows it.
+pub(super) fn section(document: &mut Document, report: &Report<'_>, shown: &Shown<'_>) {
+    document.section("To repeat this");
+    let lines = lines(report, shown);
+    let mut sheet = Sheet::default();
+    sheet.text("what", lines.iter().map(|(name, _)| name.clone()));
+    sheet.text("value", lines.into_iter().map(|(_, value)| value));
+    document.table(sheet);
+    document
+        .text("The same program, files and seed give the same figures on any number of threads.");
+    let model = shown.model;
+    if !model.trim().is_empty() {
+        let about = "The model file:".to_owned();
+        document.blocks.push(Block::Listing { about, text: model.to_owned() });
+    }
+}
+
+/// Names and values.
+pub(super) fn lines(report: &Report<'_>, shown: &Shown<'_>) -> Vec<(String, String)> {
+    let Report { evaluation, provenance, .. } = report;
+    let settings = &evaluation.settings;
+    let trials = match settings.trials {
+        Trials::Fixed(trials) => trials.to_string(),
+        Trials::Adaptive => format!("adaptive, by rule {}", settings.rule.name()),
+    };
+    let mut lines = vec![
+        ("program".to_owned(), format!("gumption {}", env!("CARGO_PKG_VERSION"))),
+        ("seed".to_owned(), settings.seed.to_string()),
+        ("trials".to_owned(), trials),
+        ("coverage probability".to_owned(), evaluation.coverage_probability.to_string()),
+        ("digits".to_owned(), settings.digits.to_string()),
+        ("model file, SHA-256".to_owned(), provenance.model_sha256.clone()),
+    ];
+    lines.extend(shown.replaced.iter().map(|text| ("replaced".to_owned(), plain(text))));
+    let digest =
+        |(name, digest): &(String, String)| (format!("{}, SHA-256", plain(name)), digest.clone());
+    lines.extend(provenance.files.iter().map(digest));
+    lines
+}

@@ -1,0 +1,148 @@
+//! An evaluation as a workbook: the GUM budget in live formulas, so that an auditor can change what
+//! is known about an input and see y, u and U follow, and the Monte Carlo figures as they are.
+
+mod budget;
+mod inputs;
+mod model;
+mod results;
+mod tape;
+
+use std::io;
+
+use rust_xlsxwriter::XlsxError;
+
+use self::tape::Tape;
+use super::{Shown, repeat};
+use crate::table::correlations;
+use crate::table::correlations::Coefficients;
+use crate::workbook::{Book, failed};
+use crate::{Report, plain, table};
+use gumption_engine::propagate::RowEvaluation;
+
+/// Lines of all budgets together, at most; of longer ones only the results are written.
+const MOST_LINES: usize = 50_000;
+
+/// Cells of all models together, at most; of larger ones the sensitivity coefficients are numbers.
+const MOST_CELLS: usize = 100_000;
+
+/// Results of a workbook, at most: one for each output in each row of conditions. Workbooks are made
+/// in memory, and so many take half a gigabyte.
+pub const MOST_RESULTS: usize = 100_000;
+
+/// The evaluation as the bytes of an XLSX file.
+///
+/// # Errors
+/// More results than [`MOST_RESULTS`].
+pub fn xlsx(report: &Report<'_>, shown: &Shown<'_>) -> io::Result<Vec<u8>> {
+    write(report, shown).map_err(failed)
+}
+
+fn write(report: &Report<'_>, shown: &Shown<'_>) -> Result<Vec<u8>, XlsxError> {
+    let task = report.task;
+    let mut book = Book::new(&plain(&task.title))?;
+    let mut results = book.leaf("Results")?;
+    if lines(report) > MOST_LINES {
+        results::write(&mut results, report, &[])?;
+        book.push(results)?;
+        return about(book, report, shown);
+    }
+    // formulas of the results refer to the budgets behind them
+    let mut inputs = book.leaf("Inputs")?;
+    let places = inputs::write(&mut inputs, report)?;
+    let tapes = tapes(report);
+    let mut sensitivities = Vec::new();
+    let mut steps = None;
+    if let Some(tapes) = &tapes {
+        let mut leaf = book.leaf("Model")?;
+        sensitivities = model::write(&mut leaf, report, tapes, &places)?;
+        steps = Some(leaf);
+    }
+    let mut budgets = Vec::new();
+    let mut totals = Vec::new();
+    for (output, declared) in task.model.outputs.iter().enumerate() {
+        let mut leaf = book.leaf(&format!("Budget {}", plain(&declared.quantity.name)))?;
+        let live = budget::Live { inputs: &places, model: &sensitivities };
+        totals.push(budget::write(&mut leaf, report, output, &live)?);
+        budgets.push(leaf);
+    }
+    results::write(&mut results, report, &totals)?;
+    for leaf in [results, inputs].into_iter().chain(budgets).chain(steps) {
+        book.push(leaf)?;
+    }
+    if let [row] = report.evaluation.rows.as_slice()
+        && let Some(Coefficients::Matrix { sheet, .. }) = correlations::found(task, row)
+    {
+        let mut leaf = book.leaf("Correlations")?;
+        leaf.title(0, "Correlation of the outputs")?;
+        leaf.table(2, &sheet)?;
+        book.push(leaf)?;
+    }
+    about(book, report, shown)
+}
+
+/// The lines of all budgets.
+fn lines(report: &Report<'_>) -> usize {
+    let of_row = |row: &RowEvaluation| -> usize {
+        let gums = row.outputs.iter().filter_map(|output| output.gum.as_ref());
+        gums.map(|gum| gum.budget().count() + gum.correlations().count() + 12).sum()
+    };
+    let rows = &report.evaluation.rows;
+    let inputs = rows.len() * (report.task.variables.len() + 6);
+    rows.iter().map(of_row).sum::<usize>() + inputs
+}
+
+/// The models of all rows; `None` where a spreadsheet could not follow them.
+fn tapes(report: &Report<'_>) -> Option<Vec<Tape>> {
+    let program = &report.task.model.program;
+    let each = program.nodes.len().saturating_mul(4 + program.outputs.len());
+    if each.saturating_mul(report.task.rows.len()) > MOST_CELLS {
+        return None;
+    }
+    let mut all = Vec::new();
+    for row in &report.task.rows {
+        let mut values: Vec<f64> = row.distributions.iter().map(|d| d.mean()).collect();
+        values.extend(&row.conditions);
+        all.push(Tape::of(program, &values)?);
+    }
+    Some(all)
+}
+
+/// What is needed to get the same answer again.
+fn about(mut book: Book, report: &Report<'_>, shown: &Shown<'_>) -> Result<Vec<u8>, XlsxError> {
+    let mut leaf = book.leaf("About")?;
+    leaf.title(0, "To repeat this")?;
+    let mut row = 2;
+    for (name, value) in repeat::lines(report, shown) {
+        leaf.text(row, 0, &name)?;
+        leaf.text(row, 1, &value)?;
+        row += 1;
+    }
+    if !report.warnings.is_empty() {
+        leaf.title(row + 1, "Notes")?;
+        row += 2;
+        for warning in report.warnings {
+            leaf.line(row, &plain(&warning.text))?;
+            row += 1;
+        }
+    }
+    let quantities = table::quantities(report.task);
+    if !quantities.is_empty() {
+        leaf.title(row + 1, "Quantities")?;
+        row += 2;
+        for (name, about) in quantities {
+            leaf.text(row, 0, &plain(name))?;
+            leaf.text(row, 1, &plain(about))?;
+            row += 1;
+        }
+    }
+    if !shown.model.trim().is_empty() {
+        leaf.title(row + 1, "The model file")?;
+        row += 2;
+        for line in shown.model.lines() {
+            leaf.code(row, line)?;
+            row += 1;
+        }
+    }
+    book.push(leaf)?;
+    book.bytes()
+}

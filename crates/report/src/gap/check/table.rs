@@ -1,0 +1,46 @@
+//! The page of a blind check for a terminal.
+
+use super::super::table::section;
+use super::design::Design;
+use super::{confusion, sheets, words};
+use crate::{Grid, WIDTH, wrapped};
+use gumption_gap::check::Report;
+
+/// The scores of a blind check as a page of at most 100 columns: what was done, the scores, whether
+/// probabilities mean what they say, the most frequent wrong verdicts, and the smallest effects that
+/// are found.
+pub fn table(design: &Design, report: &Report) -> String {
+    let mut page = vec![heading(design, report)];
+    page.push(section("What was done") + &wrapped(&words::done(design, report)));
+    let scores = Grid::of(&sheets::scores(report)).render(WIDTH);
+    page.push(section("Scores") + &scores + &wrapped(words::RIGHT) + &wrapped(words::SCORES));
+    let reliability = Grid::of(&sheets::reliability(report)).render(WIDTH);
+    page.push(
+        section("Do probabilities mean what they say?")
+            + &reliability
+            + &wrapped(&words::reliability(report)),
+    );
+    page.push(section("Wrong verdicts") + &wrong(report));
+    if let Some(sheet) = sheets::smallest(report) {
+        let smallest = Grid::of(&sheet).render(WIDTH);
+        page.push(section("Smallest effects found") + &smallest + &wrapped(words::SMALLEST));
+    }
+    page.join("\n")
+}
+
+/// Title, settings and how often the verdict was right.
+fn heading(design: &Design, report: &Report) -> String {
+    let heading = wrapped(&words::title(design)) + &wrapped(&words::settings(report));
+    heading + "\n" + &wrapped(&words::verdict(report))
+}
+
+fn wrong(report: &Report) -> String {
+    let wrong = confusion::wrong(report);
+    match sheets::wrong(&wrong) {
+        Some(sheet) => {
+            let rest = words::left_out(&wrong).map(|said| wrapped(&said));
+            Grid::of(&sheet).render(WIDTH) + &rest.unwrap_or_default()
+        }
+        None => wrapped(words::NONE_WRONG),
+    }
+}

@@ -1,0 +1,189 @@
+//! The residuals of one output before and after the correction, over each condition.
+
+use plotters::element::{Circle, PathElement, Polygon};
+use plotters::style::{Color, RGBColor};
+
+use super::super::residuals::{self, Over, Residual};
+use super::super::words;
+use super::{Drawing, WIDTH};
+use crate::plain;
+use crate::plot::{AFTER, Area, Axis, BEFORE, Chart, Drawn, INK, Panel, faded, px, stroke, svg};
+use gumption_gap::Diagnosis;
+
+/// Height of a row of panels in pixels.
+const HEIGHT: f64 = 185.0;
+
+/// Half-width of the band in standard uncertainties.
+const BAND: f64 = 2.0;
+
+/// Standard uncertainties that differ by more than this factor are what residuals are divided by.
+const UNEQUAL: f64 = 10.0;
+
+/// More values than this are drawn as ranges of neighbours, in so many strokes.
+const POINTS: usize = 1500;
+const STROKES: usize = 240;
+
+/// A point: the condition, the residual and its standard uncertainty.
+type Point = (f64, f64, f64);
+
+/// Which residual and standard uncertainty are meant.
+type Of = fn(&Residual) -> (f64, f64);
+
+/// Two panels for each condition that varies; `None` without values.
+pub(super) fn draw(diagnosis: &Diagnosis, output: usize) -> Option<Drawing> {
+    let named = diagnosis.outputs.get(output)?;
+    let varying = residuals::varying(diagnosis);
+    let over: Vec<Over> = if varying.is_empty() {
+        vec![Over::Row]
+    } else {
+        varying.into_iter().map(Over::Condition).collect()
+    };
+    let own = residuals::of(diagnosis, output, *over.first()?);
+    if own.is_empty() {
+        return None;
+    }
+    let divided = is_unequal(&own);
+    let label = if divided { "residual / u".to_owned() } else { unit_label(diagnosis, output) };
+    let total = HEIGHT * over.len() as f64;
+    let many = own.len() > POINTS;
+    let drawn = svg(WIDTH, total, |area| {
+        for (rows, over) in area.split_evenly((over.len(), 1)).iter().zip(&over) {
+            let points = residuals::of(diagnosis, output, *over);
+            let along = match over {
+                Over::Condition(place) => words::axis(&diagnosis.conditions[*place]),
+                Over::Row => "number of the row".to_owned(),
+            };
+            let sides = rows.split_evenly((1, 2));
+            let both: [(&str, RGBColor, Of); 2] =
+                [("before", BEFORE, |r| r.before), ("after", AFTER, |r| r.after)];
+            for (side, (title, colour, of)) in sides.iter().zip(both) {
+                let points: Vec<Point> = points
+                    .iter()
+                    .map(|residual| {
+                        let (value, u) = of(residual);
+                        let scale = if divided { u } else { 1.0 };
+                        (residual.x, value / scale, u / scale)
+                    })
+                    .collect();
+                half(side, title, &points, (along.clone(), label.clone()), colour)?;
+            }
+        }
+        Ok(())
+    });
+    let marks = if many {
+        "Each stroke spans the residuals of neighbouring values."
+    } else {
+        "Full dots lie further from zero than twice their own standard uncertainty."
+    };
+    let scale = if divided {
+        ", over their standard uncertainties, which differ too much between the rows for one scale"
+    } else {
+        ""
+    };
+    let caption = format!(
+        "Residuals of {}, measured less predicted{scale}, before (left) and after the correction \
+         (right, each predicted by a fit without its own block of conditions). Band: two standard \
+         uncertainties of the residuals on either side of zero, those of the noise and of the inputs \
+         on the left, of the noise and of what was fitted on the right. The two sides have scales of \
+         their own. {marks}",
+        plain(&named.name)
+    );
+    Some(Drawing { svg: drawn, caption })
+}
+
+fn unit_label(diagnosis: &Diagnosis, output: usize) -> String {
+    match words::unit(&diagnosis.outputs[output].unit) {
+        Some(unit) => format!("residual in {unit}"),
+        None => "residual".to_owned(),
+    }
+}
+
+fn is_unequal(residuals: &[Residual]) -> bool {
+    let [least, most] = residuals
+        .iter()
+        .flat_map(|residual| [residual.before.1, residual.after.1])
+        .fold([f64::INFINITY, 0.0], |[a, b]: [f64; 2], u| [a.min(u), b.max(u)]);
+    least > 0.0 && most > UNEQUAL * least
+}
+
+/// One panel.
+fn half(
+    area: &Area<'_>,
+    title: &str,
+    points: &[Point],
+    (along, label): (String, String),
+    colour: RGBColor,
+) -> Drawn {
+    let x = Axis::over(points.iter().map(|(x, ..)| *x));
+    let y = Axis::about_zero(points.iter().flat_map(|(_, value, u)| [*value, BAND * u]));
+    let panel = Panel { x: (&x, along), y: (&y, label), marks: [6, 5], title: title.to_owned() };
+    let chart = panel.draw(area)?;
+    band(&chart, &x, points)?;
+    let [from, to] = x.ends();
+    chart
+        .plotting_area()
+        .draw(&PathElement::new(vec![(from, 0.0), (to, 0.0)], faded(INK, 0.7, 0.75)))?;
+    if points.len() > POINTS {
+        return strokes(&chart, &x, points, colour);
+    }
+    for (at, value, u) in points {
+        let place = (x.position(*at), *value);
+        let outside = value.abs() > BAND * u;
+        let style = if outside { colour.filled() } else { stroke(colour, 1.25) };
+        chart.plotting_area().draw(&Circle::new(place, px(2.75), style))?;
+    }
+    Ok(())
+}
+
+/// Neighbouring values together, so that there are at most so many groups.
+fn groups(points: &[Point], most: usize) -> Vec<Vec<Point>> {
+    let mut sorted = points.to_vec();
+    sorted.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let levels: Vec<Vec<Point>> =
+        sorted.chunk_by(|a, b| a.0 == b.0).map(<[Point]>::to_vec).collect();
+    let size = levels.len().div_ceil(most).max(1);
+    levels.chunks(size).map(<[Vec<Point>]>::concat).collect()
+}
+
+/// Twice the root mean square of the standard uncertainties at each value of the condition.
+fn band(chart: &Chart<'_>, x: &Axis, points: &[Point]) -> Drawn {
+    let groups = groups(points, STROKES);
+    let edge: Vec<(f64, f64)> = groups
+        .iter()
+        .map(|group| {
+            let count = group.len() as f64;
+            let mean = group.iter().map(|(x, ..)| x).sum::<f64>() / count;
+            let square = group.iter().map(|(.., u)| u * u).sum::<f64>() / count;
+            (x.position(mean), BAND * square.sqrt())
+        })
+        .collect();
+    let (Some(first), Some(last)) = (edge.first(), edge.last()) else { return Ok(()) };
+    // to both ends of the panel
+    let [from, to] = x.ends();
+    let upper: Vec<(f64, f64)> = std::iter::once((from, first.1))
+        .chain(edge.iter().copied())
+        .chain([(to, last.1)])
+        .collect();
+    let lower: Vec<(f64, f64)> = upper.iter().map(|(x, y)| (*x, -y)).collect();
+    let around: Vec<(f64, f64)> =
+        upper.iter().copied().chain(lower.iter().rev().copied()).collect();
+    chart.plotting_area().draw(&Polygon::new(around, INK.mix(0.1).filled()))?;
+    for edge in [upper, lower] {
+        let style = faded(INK, 0.45, 0.75);
+        chart.plotting_area().draw(&PathElement::new(edge, style))?;
+    }
+    Ok(())
+}
+
+/// The range of the residuals of neighbouring values.
+fn strokes(chart: &Chart<'_>, x: &Axis, points: &[Point], colour: RGBColor) -> Drawn {
+    for group in groups(points, STROKES) {
+        let mean = group.iter().map(|(x, ..)| x).sum::<f64>() / group.len() as f64;
+        let [least, most] = group
+            .iter()
+            .fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], (_, r, _)| [a.min(*r), b.max(*r)]);
+        let ends = vec![(x.position(mean), least), (x.position(mean), most)];
+        chart.plotting_area().draw(&PathElement::new(ends, stroke(colour, 1.5)))?;
+    }
+    Ok(())
+}

@@ -1,0 +1,21 @@
+//! Reports of the gap diagnosis, one file for each format.
+pub mod check;
+mod check_json;
+mod csv;
+mod digits;
+mod html;
+mod json;
+mod residuals;
+mod sheets;
+mod table;
+mod terminal;
+mod words;
+
+pub use check_json::check_json;
+pub use csv::csv;
+pub use html::html;
+pub use json::json;
+pub use table::table;
+
+#[cfg(test)]
+mod tests;

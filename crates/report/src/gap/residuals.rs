@@ -1,0 +1,62 @@
+//! The residuals of one output over one condition, as figures show them.
+
+use gumption_gap::{Diagnosis, ValueGap};
+
+/// One residual before and after the correction, each with its standard uncertainty.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Residual {
+    /// Value of the condition.
+    pub(super) x: f64,
+    /// Before: residual and standard uncertainty.
+    pub(super) before: (f64, f64),
+    /// After.
+    pub(super) after: (f64, f64),
+}
+
+/// What residuals are drawn over: a condition by its place, or the number of the row where no
+/// condition varies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Over {
+    Condition(usize),
+    Row,
+}
+
+/// The distinct values of a condition in the data, in order.
+pub(super) fn levels(diagnosis: &Diagnosis, condition: usize) -> Vec<f64> {
+    let rows = diagnosis.rows.iter();
+    let mut levels: Vec<f64> =
+        rows.filter_map(|row| row.conditions.get(condition).copied()).collect();
+    levels.sort_by(f64::total_cmp);
+    levels.dedup();
+    levels
+}
+
+/// The conditions that vary.
+pub(super) fn varying(diagnosis: &Diagnosis) -> Vec<usize> {
+    let conditions = 0..diagnosis.conditions.len();
+    conditions.filter(|&condition| levels(diagnosis, condition).len() > 1).collect()
+}
+
+/// The condition with most levels.
+pub(super) fn finest(diagnosis: &Diagnosis) -> Over {
+    let varying = varying(diagnosis).into_iter();
+    // of equals the first
+    let finest = varying.rev().max_by_key(|&condition| levels(diagnosis, condition).len());
+    finest.map_or(Over::Row, Over::Condition)
+}
+
+/// The residuals of an output.
+pub(super) fn of(diagnosis: &Diagnosis, output: usize, over: Over) -> Vec<Residual> {
+    let rows = diagnosis.rows.iter().enumerate();
+    rows.filter_map(|(number, row)| {
+        let x = match over {
+            Over::Condition(place) => *row.conditions.get(place)?,
+            Over::Row => (number + 1) as f64,
+        };
+        let ValueGap { before, u_before, after, u_after, .. } = *row.outputs.get(output)?;
+        let numbers = [x, before, u_before, after, u_after];
+        let found = Residual { x, before: (before, u_before), after: (after, u_after) };
+        numbers.iter().all(|number| number.is_finite()).then_some(found)
+    })
+    .collect()
+}

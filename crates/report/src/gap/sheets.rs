@@ -1,0 +1,184 @@
+//! The tables of a diagnosis.
+
+use super::digits::{self, p_value, probability, share, tenths};
+use super::words;
+use crate::number::{MISSING, place, rounded, significant, to, with_uncertainty};
+use crate::plain;
+use crate::sheet::Sheet;
+use gumption_gap::{Diagnosis, Hypothesis, Kind, Named, Parameter, Predicted, Shrunk};
+
+/// So much of the probability is shown by name, in so many lines at most.
+const SHOWN_PROBABILITY: f64 = 0.999;
+const SHOWN: usize = 8;
+
+fn missing() -> String {
+    MISSING.to_owned()
+}
+
+/// Where the gap lies; `None` where no region stands out.
+pub(super) fn regions(diagnosis: &Diagnosis) -> Option<Sheet> {
+    let regions = &diagnosis.regions;
+    if regions.is_empty() {
+        return None;
+    }
+    let mut sheet = Sheet::default();
+    sheet.text("", (0..regions.len()).map(words::letter));
+    sheet.text("output", regions.iter().map(|region| words::output_of(diagnosis, region)));
+    sheet.text("conditions", regions.iter().map(|region| words::range_of(diagnosis, region)));
+    sheet.numbers("p", regions.iter().map(|region| p_value(region.p_value)));
+    sheet.numbers("share", regions.iter().map(|region| share(region.share_of_gap)));
+    sheet.numbers("mean z", regions.iter().map(|region| tenths(region.mean_z)));
+    Some(sheet)
+}
+
+/// The hypotheses that are shown by name: the most probable ones.
+pub(super) fn shown(diagnosis: &Diagnosis) -> &[Hypothesis] {
+    let mut sum = 0.0;
+    let before = diagnosis.hypotheses.iter().take(SHOWN).take_while(|hypothesis| {
+        let wanted = sum < SHOWN_PROBABILITY;
+        sum += hypothesis.probability;
+        wanted
+    });
+    let count = before.count();
+    diagnosis.hypotheses.get(..count).unwrap_or_default()
+}
+
+/// The most probable hypotheses.
+pub(super) fn hypotheses(diagnosis: &Diagnosis) -> Sheet {
+    let shown = shown(diagnosis);
+    let evidence = |hypothesis: &Hypothesis| {
+        let Hypothesis { log_evidence, error, effective, .. } = *hypothesis;
+        if error > 0.0 && error.is_finite() {
+            let (value, error) = with_uncertainty(log_evidence, error, digits::UNCERTAINTY);
+            [value, error, rounded(effective, 0)]
+        } else {
+            [rounded(log_evidence, -2), missing(), missing()]
+        }
+    };
+    let evidence: Vec<[String; 3]> = shown.iter().map(evidence).collect();
+    let column = |place: usize| evidence.iter().map(move |cells| cells[place].clone());
+    let mut sheet = Sheet::default();
+    sheet.text("hypothesis", shown.iter().map(|h| words::hypothesis(h.effects.as_deref())));
+    sheet.numbers("prior", shown.iter().map(|h| significant(h.prior, 2)));
+    sheet.numbers("probability", shown.iter().map(|h| probability(h.probability)));
+    sheet.numbers("ln evidence", column(0));
+    sheet.numbers("standard\nerror", column(1));
+    sheet.numbers("effective\ndraws", column(2));
+    sheet
+}
+
+/// How many hypotheses the table leaves out, in words.
+pub(super) fn left_out(diagnosis: &Diagnosis) -> Option<String> {
+    let rest = diagnosis.hypotheses.get(shown(diagnosis).len()..).unwrap_or_default();
+    if rest.is_empty() {
+        return None;
+    }
+    let sum = rest.iter().map(|hypothesis| hypothesis.probability).sum();
+    let they = if rest.len() == 1 { "other hypothesis has" } else { "other hypotheses have" };
+    Some(format!("{} {they} the probability {} together.", rest.len(), probability(sum)))
+}
+
+/// The hypothesis of the verdict.
+pub(super) fn winner(diagnosis: &Diagnosis) -> Option<&Hypothesis> {
+    let verdict = &diagnosis.verdict;
+    let explained = verdict.kind != Kind::Unexplained;
+    let wanted = explained.then_some(&verdict.effects);
+    diagnosis.hypotheses.iter().find(|hypothesis| hypothesis.effects.as_ref() == wanted)
+}
+
+/// A parameter as it is printed: estimate, standard uncertainty and the ends of the interval.
+pub(super) fn parameter(parameter: &Parameter) -> [String; 4] {
+    let Parameter { estimate, standard_uncertainty: u, interval: [low, high], .. } = *parameter;
+    let place = place(u, digits::UNCERTAINTY);
+    [to(estimate, place), to(u, place), to(low, place), to(high, place)]
+}
+
+/// The parameters of the verdict's effects; `None` where there are none.
+pub(super) fn parameters(diagnosis: &Diagnosis) -> Option<Sheet> {
+    let parameters = &winner(diagnosis)?.parameters;
+    if parameters.is_empty() {
+        return None;
+    }
+    let figures: Vec<[String; 4]> = parameters.iter().map(parameter).collect();
+    let column = |place: usize| figures.iter().map(move |cells| cells[place].clone());
+    let mut sheet = Sheet::default();
+    sheet.text("parameter", parameters.iter().map(|parameter| plain(&parameter.name)));
+    let unit = |parameter: &Parameter| words::unit(&parameter.unit).unwrap_or_default();
+    sheet.text("unit", parameters.iter().map(unit));
+    sheet.numbers("estimate", column(0));
+    sheet.numbers("standard\nuncertainty", column(1));
+    sheet.numbers("interval\nfrom", column(2));
+    sheet.numbers("\nto", column(3));
+    Some(sheet)
+}
+
+/// How far the gap shrinks.
+pub(super) fn shrinkage(diagnosis: &Diagnosis) -> Sheet {
+    let shrinkage = &diagnosis.shrinkage;
+    let fraction = |shrunk: &Shrunk| {
+        if shrinkage.meaningful { share(shrunk.removed_fraction) } else { missing() }
+    };
+    let rms = |name: String, unit: String, shrunk: &Shrunk| {
+        let floor = shrunk.noise_floor;
+        let [before, after] =
+            [shrunk.rms_before, shrunk.rms_after].map(|value| digits::beside(value, floor));
+        [name, unit, before, after, digits::beside(floor, floor), fraction(shrunk)]
+    };
+    let mut lines = vec![rms("rms residual, all outputs".into(), "u".into(), &shrinkage.all)];
+    for (named, shrunk) in diagnosis.outputs.iter().zip(&shrinkage.outputs) {
+        let unit = words::unit(&named.unit).unwrap_or_default();
+        lines.push(rms(format!("rms residual of {}", plain(&named.name)), unit, shrunk));
+    }
+    let pair = |name: &str, [before, after]: [f64; 2], digits: fn(f64) -> String| {
+        let name = name.to_owned();
+        [name, String::new(), digits(before), digits(after), missing(), missing()]
+    };
+    let hundredths = |value: f64| rounded(value, -2);
+    lines.push(pair("chi-square per degree of freedom", shrinkage.chi2_per_dof, hundredths));
+    lines.push(pair("share of values with |En| <= 1", shrinkage.within, share));
+    let column = |place: usize| lines.iter().map(move |line| line[place].clone());
+    let mut sheet = Sheet::default();
+    sheet.text("", column(0));
+    sheet.text("unit", column(1));
+    sheet.numbers("before", column(2));
+    sheet.numbers("after", column(3));
+    sheet.numbers("noise\nfloor", column(4));
+    sheet.numbers("fraction\nremoved", column(5));
+    sheet
+}
+
+/// Corrected predictions of one output. Conditions that would not fit stand in one column.
+pub(super) fn prediction(
+    diagnosis: &Diagnosis,
+    rows: &[Predicted],
+    output: usize,
+    joined: bool,
+) -> Sheet {
+    let conditions = &diagnosis.conditions;
+    let mut sheet = Sheet::default();
+    if joined {
+        sheet.text("conditions", rows.iter().map(|row| words::at(conditions, &row.conditions)));
+    } else {
+        for (place, named) in conditions.iter().enumerate() {
+            let value = |row: &Predicted| {
+                row.conditions.get(place).map_or_else(missing, |&value| digits::condition(value))
+            };
+            sheet.numbers(&header(named), rows.iter().map(value));
+        }
+    }
+    let figures: Vec<(String, String)> = rows
+        .iter()
+        .map(|row| match row.outputs.get(output) {
+            Some(&(value, u)) => with_uncertainty(value, u, digits::UNCERTAINTY),
+            None => (missing(), missing()),
+        })
+        .collect();
+    sheet.numbers("estimate", figures.iter().map(|(value, _)| value.clone()));
+    sheet.numbers("standard\nuncertainty", figures.into_iter().map(|(_, u)| u));
+    sheet
+}
+
+fn header(named: &Named) -> String {
+    let name = plain(&named.name);
+    words::unit(&named.unit).map_or(name.clone(), |unit| format!("{name}\nin {unit}"))
+}

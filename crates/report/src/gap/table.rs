@@ -1,0 +1,88 @@
+//! The page for a terminal.
+
+use super::{sheets, terminal, words};
+use crate::{Grid, WIDTH, wrapped};
+use gumption_gap::{Diagnosis, Predicted};
+
+/// The diagnosis as a page of at most 100 columns: the verdict, whether there is a gap, where, which
+/// hypotheses there are, the parameters of the verdict, how far the gap shrinks, what to measure
+/// next, predictions if there are any, notes, and a plot of the residuals before and after for each
+/// output.
+pub fn table(diagnosis: &Diagnosis) -> String {
+    let mut page = vec![heading(diagnosis)];
+    page.push(section("Is there a gap?") + &wrapped(&words::gap(diagnosis)));
+    page.push(section("Where?") + &regions(diagnosis));
+    page.push(section("Which effect?") + &hypotheses(diagnosis));
+    if let Some(parameters) = sheets::parameters(diagnosis) {
+        page.push(section("Parameters of the verdict") + &Grid::of(&parameters).render(WIDTH));
+    }
+    page.push(section("How far does it shrink?") + &shrinkage(diagnosis));
+    page.push(section("What to measure next") + &wrapped(&words::next(diagnosis)));
+    if let Some(rows) = &diagnosis.prediction {
+        page.push(section("Corrected prediction") + &predictions(diagnosis, rows));
+    }
+    let plots = terminal::plots(diagnosis);
+    if !plots.is_empty() {
+        page.push(
+            section("Residuals over their standard uncertainty u, before and after")
+                + &plots.join("\n"),
+        );
+    }
+    let notes = paragraphs(words::notes(diagnosis));
+    if !notes.is_empty() {
+        page.push(section("Notes") + &notes);
+    }
+    page.join("\n")
+}
+
+/// Title, settings and the verdict.
+fn heading(diagnosis: &Diagnosis) -> String {
+    let mut heading = wrapped(&words::title(diagnosis)) + &wrapped(&words::settings(diagnosis));
+    heading.push('\n');
+    heading += &wrapped(&words::verdict(diagnosis));
+    heading += &words::look_alikes(diagnosis).map(|said| wrapped(&said)).unwrap_or_default();
+    heading
+}
+
+/// The title of a section, underlined.
+pub(super) fn section(title: &str) -> String {
+    format!("{title}\n{}\n", "═".repeat(title.chars().count()))
+}
+
+fn paragraphs(sentences: Vec<String>) -> String {
+    sentences.iter().map(|sentence| wrapped(sentence)).collect()
+}
+
+fn regions(diagnosis: &Diagnosis) -> String {
+    match sheets::regions(diagnosis) {
+        Some(sheet) => Grid::of(&sheet).render(WIDTH) + &wrapped(words::REGIONS),
+        None => wrapped(words::NO_REGION),
+    }
+}
+
+fn hypotheses(diagnosis: &Diagnosis) -> String {
+    let mut text = Grid::of(&sheets::hypotheses(diagnosis)).render(WIDTH);
+    text += &sheets::left_out(diagnosis).map(|said| wrapped(&said)).unwrap_or_default();
+    text
+}
+
+fn shrinkage(diagnosis: &Diagnosis) -> String {
+    let mut text = Grid::of(&sheets::shrinkage(diagnosis)).render(WIDTH);
+    text += &paragraphs(words::shrinkage(diagnosis));
+    text += &paragraphs(words::noise(diagnosis));
+    text
+}
+
+/// One table for each output.
+fn predictions(diagnosis: &Diagnosis, rows: &[Predicted]) -> String {
+    let one = |output: usize| {
+        let title = wrapped(&words::axis(&diagnosis.outputs[output]));
+        let mut table = Grid::of(&sheets::prediction(diagnosis, rows, output, false));
+        if table.natural_width() > WIDTH {
+            table = Grid::of(&sheets::prediction(diagnosis, rows, output, true));
+        }
+        title + &table.render(WIDTH)
+    };
+    let tables: Vec<String> = (0..diagnosis.outputs.len()).map(one).collect();
+    tables.join("\n")
+}

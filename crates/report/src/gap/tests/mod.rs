@@ -1,0 +1,345 @@
+//! What reports of a diagnosis look like, and that their numbers are those of the JSON answer.
+
+mod check;
+mod csv;
+mod html;
+mod table;
+
+use serde_json::Value;
+
+use crate::Provenance;
+use gumption_gap::{
+    Diagnosis, Gap, Hypothesis, Kind, Named, NextMeasurement, Noise, Note, Parameter, Predicted,
+    Region, RowGap, Shrinkage, Shrunk, ValueGap, Verdict,
+};
+
+fn named(name: &str, unit: &str) -> Named {
+    Named { name: name.to_owned(), unit: unit.to_owned() }
+}
+
+fn strings(names: &[&str]) -> Vec<String> {
+    names.iter().map(|name| (*name).to_owned()).collect()
+}
+
+fn parameter(name: &str, unit: &str, [estimate, u, low, high]: [f64; 4]) -> Parameter {
+    Parameter {
+        name: name.to_owned(),
+        unit: unit.to_owned(),
+        estimate,
+        standard_uncertainty: u,
+        interval: [low, high],
+    }
+}
+
+fn hypothesis(
+    effects: Option<&[&str]>,
+    figures: [f64; 5],
+    parameters: Vec<Parameter>,
+) -> Hypothesis {
+    let [prior, probability, log_evidence, error, effective] = figures;
+    let effects = effects.map(strings);
+    Hypothesis {
+        effects,
+        prior,
+        probability,
+        log_evidence,
+        error,
+        effective,
+        best_log_likelihood: 0.0,
+        fitted: parameters.len(),
+        parameters,
+    }
+}
+
+/// Rows over a frequency in octaves and two tilts; the gap grows with the frequency.
+fn rows(count: usize) -> Vec<RowGap> {
+    let row = |number: usize| {
+        let f = 0.5 * 2_f64.powi((number / 2) as i32 % 10);
+        let tilt = [0.0, 35.0][number % 2];
+        // a fixed pattern in place of noise
+        let noise = 0.03 * ((number * 7 % 11) as f64 - 5.0);
+        let value = |gap: f64| ValueGap {
+            measured: 5.0 + gap + noise,
+            u: 0.05,
+            before: gap + noise,
+            u_before: 0.06,
+            after: noise,
+            u_after: 0.055,
+        };
+        RowGap { conditions: vec![f, tilt], outputs: vec![value(0.004 * f), value(0.0)] }
+    };
+    (0..count).map(row).collect()
+}
+
+/// A diagnosis with everything in it.
+fn diagnosis() -> Diagnosis {
+    let low_pass =
+        || parameter("low-pass/fc", "Hz", [46.319_515, 1.372_947, 43.600_42, 48.749_874]);
+    let delay = parameter("delay/tau", "ms", [-0.012_345, 0.004_567, -0.021_5, -0.003_2]);
+    let shrunk = |rms_before, rms_after, noise_floor, removed_fraction| Shrunk {
+        rms_before,
+        rms_after,
+        noise_floor,
+        removed_fraction,
+    };
+    Diagnosis {
+        title: "Two outputs of a bench".to_owned(),
+        outputs: vec![named("a_x", "m/s^2"), named("ratio", "")],
+        conditions: vec![named("f", "Hz"), named("tilt", "deg")],
+        gap: Gap { present: true, p_value: Some(8.836_58e-47), chi2: 346.237_98, dof: 40.0 },
+        regions: vec![
+            Region {
+                output: Some(0),
+                range: Some((0, [64.0, 256.0])),
+                p_value: 5.413_141e-49,
+                share_of_gap: 0.984_827,
+                mean_z: 4.022_039,
+            },
+            Region {
+                output: None,
+                range: None,
+                p_value: 0.0123,
+                share_of_gap: 0.1234,
+                mean_z: -0.567,
+            },
+        ],
+        verdict: Verdict {
+            kind: Kind::Explained,
+            effects: strings(&["low-pass"]),
+            probability: 0.877_777_86,
+            group: vec![strings(&["low-pass"]), strings(&["low-pass", "delay"])],
+            group_probability: 0.987_777_86,
+        },
+        hypotheses: vec![
+            hypothesis(
+                Some(&["low-pass"]),
+                [0.078_571, 0.877_777_86, 63.091_823, 0.027_252, 215.104],
+                vec![low_pass()],
+            ),
+            hypothesis(
+                Some(&["low-pass", "delay"]),
+                [0.007_142_857, 0.11, 62.313_915, 0.112_549, 71.58],
+                vec![low_pass(), delay],
+            ),
+            hypothesis(None, [0.15, 0.012, 55.209_461, 0.0, 0.0], vec![]),
+            hypothesis(Some(&[]), [0.15, 0.000_222_14, -1_234.567_89, 0.005_43, 60.0], vec![]),
+            hypothesis(Some(&["delay"]), [0.078_571, 3.1e-54, -2000.0, 0.5, 99.0], vec![]),
+        ],
+        shrinkage: Shrinkage {
+            all: shrunk(4.489_181, 1.061_558, 1.053_037, 0.999_054),
+            outputs: vec![
+                shrunk(0.343_56, 0.066_662, 0.059_902, 0.992_524),
+                shrunk(0.111_315, 0.053_378, 0.059_902, 1.0),
+            ],
+            rms_after_interval: [0.851_58, 1.262_605],
+            claimed_fraction: 0.998_283,
+            meaningful: true,
+            chi2_per_dof: [13.784_69, 1.018_084],
+            within: [0.5, 0.958_333],
+            log_density_gain: 162.715_87,
+            blocks: 6,
+        },
+        next: Some(NextMeasurement {
+            separates: [strings(&["low-pass"]), strings(&["low-pass", "delay"])],
+            conditions: vec![300.123_456_789, 35.0],
+            expected_log_odds: 4.2345,
+        }),
+        prediction: Some(vec![
+            Predicted {
+                conditions: vec![1.0, 0.0],
+                outputs: vec![(2.065_512, 0.006_01), (1.0, 0.1)],
+            },
+            Predicted { conditions: vec![400.0, 35.0], outputs: vec![(1561.2, 13.4), (1.1, 0.12)] },
+        ]),
+        rows: rows(20),
+        noise: vec![Noise { output: 1, standard_uncertainty: 0.051_234, power: 0.25 }],
+        notes: vec![Note { code: "few-conditions", text: "There are only few conditions.".into() }],
+        probability: 0.95,
+        seed: 1,
+    }
+}
+
+/// A diagnosis whose names are long and hostile.
+fn hostile() -> Diagnosis {
+    let mut hostile = diagnosis();
+    let name = |text: &str| {
+        format!(
+            "{text}<script>alert('&amp;')</script>\"\u{1b}[31m\u{202e}{}",
+            "long-name ".repeat(9)
+        )
+    };
+    hostile.title = name("title");
+    for named in hostile.outputs.iter_mut().chain(&mut hostile.conditions) {
+        *named = Named { name: name(&named.name).replace(' ', "_"), unit: name("unit") };
+    }
+    for hypothesis in &mut hostile.hypotheses {
+        for effect in hypothesis.effects.iter_mut().flatten() {
+            *effect = name(effect);
+        }
+        for parameter in &mut hypothesis.parameters {
+            parameter.name = name(&parameter.name);
+            parameter.unit = name("unit");
+        }
+    }
+    let groups = hostile.verdict.group.iter_mut().flatten();
+    for effect in groups.chain(&mut hostile.verdict.effects) {
+        *effect = name(effect);
+    }
+    if let Some(next) = &mut hostile.next {
+        next.separates.iter_mut().flatten().for_each(|effect| *effect = name(effect));
+    }
+    hostile.notes[0].text = name("note");
+    hostile
+}
+
+/// What is hardly there: one row, no conditions, nothing estimated, nothing finite.
+fn bare() -> Diagnosis {
+    let mut bare = diagnosis();
+    bare.title = String::new();
+    bare.conditions.clear();
+    bare.regions.clear();
+    bare.gap = Gap { present: false, p_value: None, chi2: f64::NAN, dof: 0.0 };
+    bare.verdict = Verdict {
+        kind: Kind::None,
+        effects: Vec::new(),
+        probability: 1.0,
+        group: vec![Vec::new()],
+        group_probability: 1.0,
+    };
+    bare.hypotheses =
+        vec![hypothesis(Some(&[]), [1.0, 1.0, f64::NEG_INFINITY, f64::INFINITY, 0.0], vec![])];
+    bare.rows = rows(1);
+    bare.rows[0].conditions.clear();
+    for value in &mut bare.rows[0].outputs {
+        *value =
+            ValueGap { u: 0.0, before: 0.0, u_before: 0.0, after: 0.0, u_after: 0.0, ..*value };
+    }
+    let nothing =
+        Shrunk { rms_before: 0.0, rms_after: 0.0, noise_floor: 0.0, removed_fraction: 0.0 };
+    bare.shrinkage.all = nothing;
+    bare.shrinkage.outputs = vec![nothing; 2];
+    bare.shrinkage.rms_after_interval = [0.0, 0.0];
+    bare.shrinkage.meaningful = false;
+    bare.next = None;
+    bare.prediction = Some(Vec::new());
+    bare.noise.clear();
+    bare.notes.clear();
+    bare
+}
+
+/// The verdict "unexplained".
+fn unexplained() -> Diagnosis {
+    let mut unexplained = diagnosis();
+    unexplained.verdict = Verdict {
+        kind: Kind::Unexplained,
+        effects: Vec::new(),
+        probability: 0.99,
+        group: Vec::new(),
+        group_probability: 0.99,
+    };
+    unexplained.next = None;
+    unexplained
+}
+
+/// A record of many rows.
+fn many() -> Diagnosis {
+    let mut many = diagnosis();
+    many.rows = rows(6000);
+    for (number, row) in many.rows.iter_mut().enumerate() {
+        row.conditions[0] = 1e-3 * number as f64;
+    }
+    many
+}
+
+fn provenance() -> Provenance {
+    Provenance {
+        model_sha256: "0123abcd".to_owned(),
+        files: vec![("data.csv".to_owned(), "4567".to_owned())],
+    }
+}
+
+fn json(diagnosis: &Diagnosis) -> Value {
+    serde_json::from_str(&super::json(diagnosis)).unwrap()
+}
+
+/// Whether a printed number is the exact one, rounded once to the digits that are printed.
+#[track_caller]
+fn assert_rounded(printed: &str, exact: &Value) {
+    let exact = exact.as_f64().unwrap_or_else(|| panic!("{exact} for {printed}"));
+    let read: f64 = printed.parse().unwrap_or_else(|_| panic!("`{printed}` for {exact}"));
+    let (mantissa, exponent) = printed.split_once('e').unwrap_or((printed, "0"));
+    let decimals = mantissa.split_once('.').map_or(0, |(_, decimals)| decimals.len()) as i32;
+    let exponent: i32 = exponent.parse().unwrap();
+    let mut place = exponent - decimals;
+    // zeros at the end of a whole number may stand for digits that are not given
+    if decimals == 0 {
+        place += mantissa.len() as i32 - mantissa.trim_end_matches('0').len() as i32;
+    }
+    let half = 0.5 * 10_f64.powi(place);
+    assert!((read - exact).abs() <= half * (1.0 + 1e-9), "`{printed}` for {exact}");
+    assert!(printed == "0" || read != 0.0 || exact.abs() <= half, "`{printed}` for {exact}");
+}
+
+/// Compares the cells of the tables with the JSON answer; `cells` gives the cells of the line that
+/// begins with a text, numbers only.
+fn assert_agreement(answer: &Value, cells: &dyn Fn(&str) -> Vec<String>) {
+    let check = |line: &str, exact: &[&Value]| {
+        let cells = cells(line);
+        assert_eq!(cells.len(), exact.len(), "{line}: {cells:?}");
+        for (printed, exact) in cells.iter().zip(exact) {
+            assert_rounded(printed, exact);
+        }
+    };
+    for (place, letter) in ["A", "B"].iter().enumerate() {
+        let region = &answer["where"][place];
+        check(letter, &[&region["p_value"], &region["share_of_gap"], &region["mean_z"]]);
+    }
+    for (place, name) in ["low-pass", "low-pass + delay"].iter().enumerate() {
+        let own = &answer["hypotheses"][place];
+        let keys = ["prior", "probability", "log_evidence", "standard_error", "ess"];
+        check(name, &keys.map(|key| &own[key]));
+    }
+    let own = &answer["hypotheses"][2];
+    check("unexplained", &["prior", "probability", "log_evidence"].map(|key| &own[key]));
+    let own = &answer["hypotheses"][0]["parameters"]["low-pass/fc"];
+    let [low, high] = [0, 1].map(|end| &own["interval"][end]);
+    check("low-pass/fc", &[&own["estimate"], &own["standard_uncertainty"], low, high]);
+    let shrinks = &answer["shrinks"];
+    let keys = ["rms_before", "rms_after", "noise_floor", "removed_fraction"];
+    check("rms residual, all outputs", &keys.map(|key| &shrinks[key]));
+    for name in ["a_x", "ratio"] {
+        let own = &shrinks["outputs"][name];
+        check(&format!("rms residual of {name}"), &keys.map(|key| &own[key]));
+    }
+    let pair = |of: &str| ["before", "after"].map(|when| &shrinks[format!("{of}_{when}")]);
+    check("chi-square per degree of freedom", &pair("chi2_per_dof"));
+    check("share of values with |En| <= 1", &pair("within"));
+}
+
+/// Compares what the sentences say with the JSON answer.
+fn assert_sentences(answer: &Value, text: &str) {
+    let after = |words: &str| {
+        let rest = text.split_once(words).unwrap_or_else(|| panic!("`{words}` in {text}")).1;
+        let rest = rest.trim_start();
+        let end = rest.find([' ', ')', ',', ';']).unwrap_or(rest.len());
+        rest[..end].trim_end_matches('.').to_owned()
+    };
+    assert_rounded(&after("explains it (probability"), &answer["verdict"]["probability"]);
+    let group = &answer["verdict"]["group_probability"];
+    assert_rounded(&after("All of them together have the probability"), group);
+    assert_rounded(&after("in variances of the repeats with"), &answer["gap"]["dof"]);
+    assert_rounded(&after("sum of squares"), &answer["gap"]["chi2"]);
+    assert_rounded(&after("degrees of freedom, p ="), &answer["gap"]["p_value"]);
+    let shrinks = &answer["shrinks"];
+    assert_rounded(&after("after lies between"), &shrinks["rms_after_interval"][0]);
+    assert_rounded(&after("and 1"), &serde_json::json!(0.26)); // 1.26, the other end
+    assert_rounded(&after("left out rises by"), &shrinks["log_density_gain"]);
+    assert_rounded(&after("is expected to be"), &shrinks["claimed_fraction"]);
+    assert_rounded(&after("left its own block of conditions out ("), &shrinks["blocks"]);
+    let next = &answer["next_measurement"];
+    assert_rounded(&after("low-pass + delay is f ="), &next["conditions"]["f"]);
+    assert_rounded(&after("is expected to change by"), &next["expected_log_odds"]);
+    let noise = &answer["noise"]["ratio"];
+    assert_rounded(&after("Estimated noise of ratio:"), &noise["standard_uncertainty"]);
+    assert_rounded(&after("growing with the power"), &noise["power"]);
+}

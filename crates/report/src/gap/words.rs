@@ -1,0 +1,287 @@
+//! The answer in sentences.
+
+use super::digits::{condition, p_equals, percent, probability, share, tenths};
+use crate::number::{exact, place, rounded, significant};
+use crate::plain;
+use gumption_gap::{Diagnosis, Kind, Named, Region};
+
+/// Odds below this power of e are none at all.
+const WORTH_SAYING: f64 = 0.01;
+
+/// Odds below this power of e are not worth a measurement.
+const WORTH_MEASURING: f64 = 1.0;
+
+/// What a hypothesis is called.
+pub(super) fn hypothesis(effects: Option<&[String]>) -> String {
+    match effects {
+        None => "unexplained".to_owned(),
+        Some([]) => "none".to_owned(),
+        Some(effects) => effects.iter().map(|name| plain(name)).collect::<Vec<_>>().join(" + "),
+    }
+}
+
+/// A hypothesis in a list of several.
+fn quoted(effects: &[String]) -> String {
+    if effects.is_empty() { "no gap".to_owned() } else { hypothesis(Some(effects)) }
+}
+
+/// The title of the page.
+pub(super) fn title(diagnosis: &Diagnosis) -> String {
+    let title = plain(&diagnosis.title);
+    if title.is_empty() { "Diagnosis of the gap between sim and data".to_owned() } else { title }
+}
+
+/// The verdict in one plain sentence.
+pub(super) fn verdict(diagnosis: &Diagnosis) -> String {
+    let verdict = &diagnosis.verdict;
+    let how_sure = format!("(probability {})", probability(verdict.probability));
+    match verdict.kind {
+        Kind::None if diagnosis.notes.iter().any(|note| note.code == "scatter") => format!(
+            "There is no gap that an effect or a discrepancy explains {how_sure}, but the data \
+             scatter by more than their uncertainties."
+        ),
+        Kind::None => {
+            format!("There is no gap: the uncertainties explain the data {how_sure}.")
+        }
+        Kind::Unexplained => {
+            format!("There is a gap, and none of the candidate effects explains it {how_sure}.")
+        }
+        Kind::Explained => {
+            let names: Vec<String> = verdict.effects.iter().map(|name| plain(name)).collect();
+            match names.as_slice() {
+                [name] => format!("There is a gap, and {name} explains it {how_sure}."),
+                names => format!(
+                    "There is a gap, and {} together explain it {how_sure}.",
+                    names.join(" and ")
+                ),
+            }
+        }
+    }
+}
+
+/// The hypotheses that the data cannot tell from the verdict, if there are any.
+pub(super) fn look_alikes(diagnosis: &Diagnosis) -> Option<String> {
+    let verdict = &diagnosis.verdict;
+    let others: Vec<String> = verdict.group.iter().skip(1).map(|effects| quoted(effects)).collect();
+    if others.is_empty() {
+        return None;
+    }
+    Some(format!(
+        "These data cannot tell it from: {}. All of them together have the probability {}.",
+        others.join("; "),
+        probability(verdict.group_probability)
+    ))
+}
+
+/// The conditions of the whole page.
+pub(super) fn settings(diagnosis: &Diagnosis) -> String {
+    format!(
+        "{} rows of data; intervals at {}; seed {}",
+        diagnosis.rows.len(),
+        percent(diagnosis.probability),
+        diagnosis.seed
+    )
+}
+
+/// Whether the residuals are larger than the uncertainties explain.
+pub(super) fn gap(diagnosis: &Diagnosis) -> String {
+    let gap = diagnosis.gap;
+    let Some(p) = gap.p_value else {
+        return "The noise is estimated from the residuals themselves, so there is no test of \
+                whether they are larger than it."
+            .to_owned();
+    };
+    let (chi2, dof) = (tenths(gap.chi2), exact(gap.dof));
+    if diagnosis.noise.is_empty() {
+        format!(
+            "Chi-square test of all residuals together, in the metric of their covariance: chi-square \
+             {chi2} with {dof} degrees of freedom, {}, the probability of residuals as large as these \
+             without a gap.",
+            p_equals(p)
+        )
+    } else {
+        format!(
+            "F test of lack of fit, means of repeated rows against their scatter: sum of squares \
+             {chi2} in variances of the repeats with {dof} degrees of freedom, {}, the probability of \
+             means as far from the sim as these without a gap.",
+            p_equals(p)
+        )
+    }
+}
+
+/// What is said where no region stands out.
+pub(super) const NO_REGION: &str =
+    "No region of the conditions stands out beyond what chance does in data without a gap.";
+
+/// What the p-values of regions are.
+pub(super) const REGIONS: &str = "p: probability that data without a gap have a region as \
+     surprising anywhere. Share: of the excess of the squared residuals. Mean z: mean of the \
+     residuals over their standard uncertainties.";
+
+/// The letter of a region, which figures have too.
+pub(super) fn letter(number: usize) -> String {
+    let letter = u8::try_from(number % 26).unwrap_or(0) + b'A';
+    char::from(letter).to_string()
+}
+
+/// The output that a region is about.
+pub(super) fn output_of(diagnosis: &Diagnosis, region: &Region) -> String {
+    let named = region.output.and_then(|output| diagnosis.outputs.get(output));
+    named.map_or_else(|| "all outputs".to_owned(), |named| plain(&named.name))
+}
+
+/// The range of a region.
+pub(super) fn range_of(diagnosis: &Diagnosis, region: &Region) -> String {
+    let found =
+        region.range.and_then(|(place, range)| Some((diagnosis.conditions.get(place)?, range)));
+    let Some((named, [from, to])) = found else { return "everywhere".to_owned() };
+    let name = plain(&named.name);
+    if from == to {
+        return format!("{name} = {}", in_unit(&condition(from), named));
+    }
+    format!("{name} from {} to {}", condition(from), in_unit(&condition(to), named))
+}
+
+/// A number with the unit of its quantity, if that has a name.
+pub(super) fn in_unit(number: &str, named: &Named) -> String {
+    match unit(&named.unit) {
+        Some(unit) => format!("{number} {unit}"),
+        None => number.to_owned(),
+    }
+}
+
+/// A unit that has a name.
+pub(super) fn unit(text: &str) -> Option<String> {
+    let text = plain(text);
+    (!matches!(text.as_str(), "" | "1")).then_some(text)
+}
+
+/// `f in Hz`.
+pub(super) fn axis(named: &Named) -> String {
+    match unit(&named.unit) {
+        Some(unit) => format!("{} in {unit}", plain(&named.name)),
+        None => plain(&named.name),
+    }
+}
+
+/// `f = 10 Hz, tilt = 35 deg`.
+pub(super) fn at(conditions: &[Named], values: &[f64]) -> String {
+    let parts = conditions.iter().zip(values).map(|(named, &value)| {
+        format!("{} = {}", plain(&named.name), in_unit(&condition(value), named))
+    });
+    parts.collect::<Vec<_>>().join(", ")
+}
+
+/// What the table of shrinkage does not say.
+pub(super) fn shrinkage(diagnosis: &Diagnosis) -> Vec<String> {
+    let shrinkage = &diagnosis.shrinkage;
+    let [low, high] = shrinkage.rms_after_interval;
+    let digits = place(0.5 * (high - low), 2).unwrap_or(-2);
+    let mut said = Vec::new();
+    if diagnosis.verdict.kind == Kind::None {
+        said.push(
+            "There is nothing to correct; before and after differ by the inputs alone.".to_owned(),
+        );
+    } else if !shrinkage.meaningful {
+        said.push(
+            "The gap is below 3 standard uncertainties of the data, so no removed fraction is \
+             stated: it would be a ratio of two noises."
+                .to_owned(),
+        );
+    }
+    if diagnosis.verdict.kind == Kind::Unexplained {
+        said.push(
+            "The correction is a discrepancy fitted to the data, since no effect explains the gap."
+                .to_owned(),
+        );
+    }
+    said.push(format!(
+        "Every value was predicted by a fit that left its own block of conditions out ({} blocks). \
+         The root mean square of all outputs after lies between {} and {} standard uncertainties \
+         ({} interval).",
+        shrinkage.blocks,
+        rounded(low, digits),
+        rounded(high, digits),
+        percent(diagnosis.probability),
+    ));
+    if diagnosis.verdict.kind != Kind::None {
+        let claim = if shrinkage.meaningful {
+            format!(
+                " At the case's own conditions the fraction removed is expected to be {}.",
+                share(shrinkage.claimed_fraction)
+            )
+        } else {
+            String::new()
+        };
+        said.push(format!(
+            "The logarithm of the predictive density of what was left out rises by {}.{claim}",
+            tenths(shrinkage.log_density_gain)
+        ));
+    }
+    said
+}
+
+/// What to measure next.
+pub(super) fn next(diagnosis: &Diagnosis) -> String {
+    let Some(next) = &diagnosis.next else {
+        return match diagnosis.verdict.kind {
+            Kind::Unexplained => {
+                "No candidate effect explains the gap, so there are none to tell apart. Look for \
+                 another effect, which acts where the residuals are large."
+            }
+            Kind::None | Kind::Explained => {
+                "No other hypothesis is probable enough to be worth a measurement against it."
+            }
+        }
+        .to_owned();
+    };
+    let [own, rival] = next.separates.each_ref().map(|effects| quoted(effects));
+    let gain = next.expected_log_odds;
+    if gain < WORTH_SAYING {
+        return format!(
+            "No one row at these conditions or between them tells {own} from {rival}: the logarithm \
+             of the odds is expected to change by less than {WORTH_SAYING} everywhere."
+        );
+    }
+    let none = next.separates.first().is_some_and(Vec::is_empty);
+    let truth = if none { "there is none".to_owned() } else { format!("{own} is true") };
+    let mut said = format!(
+        "The best place for one more row that tells {own} from {rival} is {}: if {truth}, the \
+         logarithm of the odds is expected to change by {} there.",
+        at(&diagnosis.conditions, &next.conditions),
+        significant(gain, 2)
+    );
+    if gain < WORTH_MEASURING {
+        said.push_str(
+            " That is little: one row does not decide, and where the two differ lies outside these \
+             conditions or below this noise.",
+        );
+    }
+    said
+}
+
+/// The estimated noise of outputs, a sentence each.
+pub(super) fn noise(diagnosis: &Diagnosis) -> Vec<String> {
+    let sentence = |noise: &gumption_gap::Noise| {
+        let named = diagnosis.outputs.get(noise.output)?;
+        let value = significant(noise.standard_uncertainty, 2);
+        let size = in_unit(&value, named);
+        let name = plain(&named.name);
+        Some(if noise.power == 0.0 {
+            format!("Estimated noise of {name}: {size}.")
+        } else {
+            format!(
+                "Estimated noise of {name}: {size} at the sim's typical size, growing with the \
+                 power {} of it.",
+                rounded(noise.power, -2)
+            )
+        })
+    };
+    diagnosis.noise.iter().filter_map(sentence).collect()
+}
+
+/// What to bear in mind, without what the section on shrinkage says by itself.
+pub(super) fn notes(diagnosis: &Diagnosis) -> Vec<String> {
+    let notes = diagnosis.notes.iter().filter(|note| note.code != "small-gap");
+    notes.map(|note| plain(&note.text)).collect()
+}

@@ -1,0 +1,541 @@
+//! The answer for programs.
+
+use std::io::{self, Write};
+
+use serde::ser::SerializeMap;
+use serde::{Serialize, Serializer};
+
+use super::Report;
+use super::subtotals::Subtotals;
+use gumption_engine::propagate::gum::{BudgetLine, CorrelationLine, Dof, Gum};
+use gumption_engine::propagate::monte_carlo::{MonteCarlo, NumericalError};
+use gumption_engine::propagate::{
+    Conformity, Evaluation, OutputEvaluation, RowEvaluation, Stated, validate,
+};
+use gumption_engine::task::{Task, Trials, Warning};
+
+/// The answer as JSON, keys in a fixed order, numbers in the shortest text that reads back as the
+/// same number, `null` for what is infinite or not defined. It ends in a newline.
+///
+/// The same evaluation gives the same bytes always.
+pub fn json(report: &Report<'_>) -> String {
+    let mut bytes = Vec::new();
+    // writing to memory cannot fail, and no map has keys that are not text
+    let written = write_json(report, &mut bytes);
+    debug_assert!(written.is_ok(), "{written:?}");
+    String::from_utf8(bytes).unwrap_or_default()
+}
+
+/// Writes what [`json`] gives, piece by piece: it may be much larger than the evaluation.
+///
+/// # Errors
+/// Those of the writer.
+pub fn write_json(report: &Report<'_>, mut out: impl Write) -> io::Result<()> {
+    serde_json::to_writer_pretty(&mut out, &Answer::of(report))?;
+    out.write_all(b"\n")
+}
+
+#[derive(Serialize)]
+struct Answer<'a> {
+    gumption: &'static str,
+    title: &'a str,
+    coverage_probability: f64,
+    #[serde(skip_serializing_if = "is_false")]
+    stopped: bool,
+    #[serde(flatten)]
+    results: Results<'a>,
+    warnings: Vec<Remark<'a>>,
+    provenance: Origin<'a>,
+}
+
+#[derive(Serialize)]
+#[serde(untagged)]
+enum Results<'a> {
+    Single(Figures<'a>),
+    Swept { rows: Rows<'a> },
+}
+
+/// The rows of a sweep, made one by one.
+struct Rows<'a> {
+    task: &'a Task,
+    evaluation: &'a Evaluation,
+}
+
+impl Serialize for Rows<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let Self { task, evaluation } = *self;
+        serializer.collect_seq(evaluation.rows.iter().map(|row| {
+            let names = task.model.conditions.iter().map(|condition| condition.name.as_str());
+            let conditions = names.zip(row.conditions.iter().copied()).collect();
+            let figures = Figures::of(task, row, evaluation.stopped);
+            Row { conditions: Map(conditions), figures }
+        }))
+    }
+}
+
+#[derive(Serialize)]
+struct Row<'a> {
+    conditions: Map<&'a str, f64>,
+    #[serde(flatten)]
+    figures: Figures<'a>,
+}
+
+#[derive(Serialize)]
+struct Figures<'a> {
+    outputs: Outputs<'a>,
+    output_correlations: Pairs<'a>,
+}
+
+/// The outputs of a row, made one by one.
+struct Outputs<'a> {
+    task: &'a Task,
+    row: &'a RowEvaluation,
+    stopped: bool,
+}
+
+impl Serialize for Outputs<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let Self { task, row, stopped } = *self;
+        let outputs = task.model.outputs.iter().zip(&row.outputs);
+        serializer.collect_map(outputs.map(|(output, evaluation)| {
+            let side = Output {
+                unit: output.quantity.unit.text(),
+                gum: evaluation.gum.as_ref().map(|gum| GumSide::of(task, gum)),
+                monte_carlo: MonteCarloSide::of(task, row, evaluation, stopped),
+                validation: evaluation.validation.map(Validation::from),
+                conformity: evaluation.conformity.map(|conformity| ConformitySide::of(&conformity)),
+                cmc: CmcSide::of(output, evaluation),
+            };
+            (&output.quantity.name, side)
+        }))
+    }
+}
+
+/// The correlation coefficients of the outputs i < j.
+struct Pairs<'a> {
+    task: &'a Task,
+    row: &'a RowEvaluation,
+}
+
+impl Serialize for Pairs<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let names = || self.task.model.outputs.iter().map(|output| &output.quantity.name);
+        let pairs = names().enumerate().flat_map(|(i, a)| names().skip(i + 1).map(move |b| (a, b)));
+        serializer.collect_seq(pairs.zip(&self.row.correlations).map(|((a, b), r)| (a, b, r)))
+    }
+}
+
+#[derive(Serialize)]
+struct Output<'a> {
+    unit: &'a str,
+    gum: Option<GumSide<'a>>,
+    monte_carlo: Option<MonteCarloSide>,
+    validation: Option<Validation>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    conformity: Option<ConformitySide>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    cmc: Option<CmcSide>,
+}
+
+#[derive(Serialize)]
+struct GumSide<'a> {
+    estimate: f64,
+    standard_uncertainty: f64,
+    dof: Option<f64>,
+    dof_status: &'static str,
+    coverage_factor: Option<f64>,
+    expanded_uncertainty: Option<f64>,
+    interval: Option<[f64; 2]>,
+    budget: Lines<'a>,
+    subtotals: Vec<Subtotal<'a>>,
+}
+
+/// The lines of a budget, made one by one.
+struct Lines<'a> {
+    task: &'a Task,
+    gum: &'a Gum,
+}
+
+impl Serialize for Lines<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let Self { task, gum } = *self;
+        let inputs = gum.budget().filter_map(|line| InputLine::of(task, &line));
+        let coefficients = gum.correlations().filter_map(|line| CoefficientLine::of(task, &line));
+        serializer.collect_seq(inputs.map(Line::Input).chain(coefficients.map(Line::Coefficient)))
+    }
+}
+
+#[derive(Serialize)]
+#[serde(untagged)]
+enum Line<'a> {
+    Input(InputLine<'a>),
+    Coefficient(CoefficientLine<'a>),
+}
+
+#[derive(Serialize)]
+struct InputLine<'a> {
+    input: &'a str,
+    estimate: f64,
+    standard_uncertainty: f64,
+    distribution: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    drawn_as: Option<&'static str>,
+    r#type: &'static str,
+    group: Option<&'a str>,
+    dof: Option<f64>,
+    sensitivity: f64,
+    contribution: f64,
+    share: f64,
+}
+
+#[derive(Serialize)]
+struct CoefficientLine<'a> {
+    /// Always null: the line belongs to two inputs.
+    input: (),
+    correlation: [&'a str; 2],
+    coefficient: f64,
+    /// Always null.
+    contribution: (),
+    share: f64,
+}
+
+#[derive(Serialize)]
+#[serde(untagged)]
+enum Subtotal<'a> {
+    Group { group: Option<&'a str>, share: f64 },
+    Type { r#type: &'static str, share: f64 },
+}
+
+#[derive(Serialize)]
+struct MonteCarloSide {
+    trials: u64,
+    seed: u64,
+    #[serde(skip_serializing_if = "is_false")]
+    stopped: bool,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    undefined_share: Option<f64>,
+    estimate: f64,
+    standard_uncertainty: Option<f64>,
+    median: f64,
+    symmetric_interval: [f64; 2],
+    shortest_interval: [f64; 2],
+    shortest_exact: bool,
+    skewness: Option<f64>,
+    excess_kurtosis: Option<f64>,
+    numerical_standard_error: ErrorSide,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    adaptive: Option<AdaptiveSide>,
+}
+
+#[derive(Serialize)]
+struct ConformitySide {
+    lower: Option<f64>,
+    upper: Option<f64>,
+    probability: f64,
+    numerical_standard_error: f64,
+    conforms: bool,
+    specific_risk: Risks,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    global_risk: Option<Risks>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    guard_band: Option<GuardBand>,
+}
+
+/// Risks of deciding wrongly; `null` for the decision that was not taken.
+#[derive(Serialize)]
+struct Risks {
+    false_acceptance: Option<f64>,
+    false_rejection: Option<f64>,
+}
+
+/// The guard band for a wanted risk; `null` where no value has so small a one.
+#[derive(Serialize)]
+struct GuardBand {
+    risk: f64,
+    width: Option<f64>,
+    lower: Option<f64>,
+    upper: Option<f64>,
+}
+
+impl ConformitySide {
+    fn of(conformity: &Conformity) -> Self {
+        let specific = conformity.specific_risk();
+        let accepted = conformity.conforms;
+        let acceptance = conformity.acceptance;
+        Self {
+            lower: conformity.tolerance.lower,
+            upper: conformity.tolerance.upper,
+            probability: conformity.probability,
+            numerical_standard_error: conformity.numerical_standard_error,
+            conforms: accepted,
+            specific_risk: Risks {
+                false_acceptance: accepted.then_some(specific),
+                false_rejection: (!accepted).then_some(specific),
+            },
+            global_risk: conformity.global.map(|risks| Risks {
+                false_acceptance: Some(risks.false_acceptance),
+                false_rejection: Some(risks.false_rejection),
+            }),
+            guard_band: conformity.wanted_risk.map(|risk| GuardBand {
+                risk,
+                width: conformity.guard_band,
+                lower: acceptance.and_then(|limits| limits.lower),
+                upper: acceptance.and_then(|limits| limits.upper),
+            }),
+        }
+    }
+}
+
+/// The laboratory's capability, and what may be stated.
+#[derive(Serialize)]
+struct CmcSide {
+    cmc: f64,
+    expanded_uncertainty: f64,
+    raised: bool,
+}
+
+impl CmcSide {
+    fn of(output: &gumption_engine::model::Output, evaluation: &OutputEvaluation) -> Option<Self> {
+        let stated = evaluation.stated(output)?;
+        let Stated { cmc, expanded_uncertainty, raised } = stated;
+        Some(Self { cmc, expanded_uncertainty, raised })
+    }
+}
+
+/// The number of trials that was asked for.
+#[derive(Serialize)]
+#[serde(untagged)]
+enum Asked {
+    Number(u64),
+    Word(&'static str),
+}
+
+#[derive(Serialize)]
+struct AdaptiveSide {
+    rule: &'static str,
+    block_trials: u64,
+    blocks: u64,
+    tolerance: f64,
+    converged: bool,
+}
+
+#[derive(Serialize)]
+struct ErrorSide {
+    estimate: Option<f64>,
+    standard_uncertainty: Option<f64>,
+    median: f64,
+    symmetric_interval: [f64; 2],
+    shortest_interval: [f64; 2],
+    skewness: Option<f64>,
+    excess_kurtosis: Option<f64>,
+}
+
+#[derive(Serialize)]
+struct Validation {
+    digits: u32,
+    tolerance: f64,
+    d_low: f64,
+    d_high: f64,
+    gum_valid: Option<bool>,
+}
+
+#[derive(Serialize)]
+struct Remark<'a> {
+    code: &'static str,
+    r#where: &'a str,
+    text: &'a str,
+}
+
+#[derive(Serialize)]
+struct Origin<'a> {
+    model_sha256: &'a str,
+    seed: u64,
+    trials: Asked,
+    files: Map<&'a str, &'a str>,
+}
+
+impl<'a> Answer<'a> {
+    fn of(report: &Report<'a>) -> Self {
+        let Report { task, evaluation, warnings, provenance } = *report;
+        let results = match evaluation.rows.first() {
+            Some(row) if !task.swept => Results::Single(Figures::of(task, row, evaluation.stopped)),
+            _ => Results::Swept { rows: Rows { task, evaluation } },
+        };
+        let trials = match evaluation.settings.trials {
+            Trials::Fixed(trials) => Asked::Number(trials),
+            Trials::Adaptive => Asked::Word("adaptive"),
+        };
+        let files = provenance.files.iter().map(|(name, sha)| (name.as_str(), sha.as_str()));
+        Self {
+            gumption: env!("CARGO_PKG_VERSION"),
+            title: &task.title,
+            coverage_probability: evaluation.coverage_probability,
+            stopped: evaluation.stopped,
+            results,
+            warnings: warnings.iter().map(Remark::of).collect(),
+            provenance: Origin {
+                model_sha256: &provenance.model_sha256,
+                seed: evaluation.settings.seed,
+                trials,
+                files: Map(files.collect()),
+            },
+        }
+    }
+}
+
+impl<'a> Figures<'a> {
+    fn of(task: &'a Task, row: &'a RowEvaluation, stopped: bool) -> Self {
+        let outputs = Outputs { task, row, stopped };
+        Self { outputs, output_correlations: Pairs { task, row } }
+    }
+}
+
+impl<'a> GumSide<'a> {
+    fn of(task: &'a Task, gum: &'a Gum) -> Self {
+        let (dof, dof_status) = match gum.dof {
+            Dof::Finite(dof) => (Some(dof), "finite"),
+            Dof::Infinite => (None, "infinite"),
+            Dof::Undefined => (None, "undefined"),
+        };
+        let Subtotals { groups, types } = Subtotals::of(task, gum);
+        let groups = groups.into_iter().map(|(group, share)| Subtotal::Group { group, share });
+        let types = types.map(|(kind, share)| Subtotal::Type { r#type: kind.letter(), share });
+        Self {
+            estimate: gum.estimate,
+            standard_uncertainty: gum.standard_uncertainty,
+            dof,
+            dof_status,
+            coverage_factor: gum.coverage_factor,
+            expanded_uncertainty: gum.expanded_uncertainty(),
+            interval: gum.interval(),
+            budget: Lines { task, gum },
+            subtotals: groups.chain(types).collect(),
+        }
+    }
+}
+
+impl<'a> InputLine<'a> {
+    fn of(task: &'a Task, line: &BudgetLine) -> Option<Self> {
+        let variable = task.variables.get(line.variable)?;
+        Some(Self {
+            input: &variable.name,
+            estimate: line.estimate,
+            standard_uncertainty: line.standard_uncertainty,
+            distribution: line.distribution,
+            drawn_as: line.drawn_as_t.then_some("t"),
+            r#type: variable.evaluation.letter(),
+            group: variable.group.as_deref(),
+            dof: line.dof.is_finite().then_some(line.dof),
+            sensitivity: line.sensitivity,
+            contribution: line.contribution,
+            share: line.share,
+        })
+    }
+}
+
+impl<'a> CoefficientLine<'a> {
+    fn of(task: &'a Task, line: &CorrelationLine) -> Option<Self> {
+        let [a, b] = line.variables.map(|place| task.variables.get(place));
+        Some(Self {
+            input: (),
+            correlation: [&a?.name, &b?.name],
+            coefficient: line.coefficient,
+            contribution: (),
+            share: line.share,
+        })
+    }
+}
+
+impl MonteCarloSide {
+    fn of(
+        task: &Task,
+        row: &RowEvaluation,
+        output: &OutputEvaluation,
+        stopped: bool,
+    ) -> Option<Self> {
+        let figures: &MonteCarlo = output.monte_carlo.as_ref()?;
+        let undefined = row.undefined.as_ref();
+        Some(Self {
+            trials: figures.trials,
+            seed: task.settings.seed,
+            stopped,
+            undefined_share: undefined
+                .map(|left_out| left_out.count as f64 / left_out.trials as f64),
+            estimate: figures.estimate,
+            standard_uncertainty: figures.standard_uncertainty,
+            median: figures.median,
+            symmetric_interval: figures.symmetric_interval,
+            shortest_interval: figures.shortest_interval,
+            shortest_exact: figures.shortest_exact,
+            skewness: figures.skewness,
+            excess_kurtosis: figures.excess_kurtosis,
+            numerical_standard_error: ErrorSide::from(figures.errors),
+            adaptive: figures.adaptive.map(|end| AdaptiveSide {
+                rule: end.rule.name(),
+                block_trials: end.block_trials,
+                blocks: end.blocks,
+                tolerance: end.tolerance,
+                converged: end.converged,
+            }),
+        })
+    }
+}
+
+impl From<NumericalError> for ErrorSide {
+    fn from(errors: NumericalError) -> Self {
+        let NumericalError {
+            estimate,
+            standard_uncertainty,
+            median,
+            symmetric_interval,
+            shortest_interval,
+            skewness,
+            excess_kurtosis,
+        } = errors;
+        Self {
+            estimate,
+            standard_uncertainty,
+            median,
+            symmetric_interval,
+            shortest_interval,
+            skewness,
+            excess_kurtosis,
+        }
+    }
+}
+
+impl From<validate::Validation> for Validation {
+    fn from(validation: validate::Validation) -> Self {
+        let validate::Validation { digits, tolerance, d_low, d_high, gum_valid } = validation;
+        Self { digits, tolerance, d_low, d_high, gum_valid }
+    }
+}
+
+impl<'a> Remark<'a> {
+    fn of(warning: &'a Warning) -> Self {
+        Self { code: warning.code, r#where: &warning.place, text: &warning.text }
+    }
+}
+
+/// Pairs that become an object in their own order.
+pub(super) struct Map<K, V>(pub(super) Vec<(K, V)>);
+
+impl<K, V> Default for Map<K, V> {
+    fn default() -> Self {
+        Self(Vec::new())
+    }
+}
+
+impl<K: Serialize, V: Serialize> Serialize for Map<K, V> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(Some(self.0.len()))?;
+        for (key, value) in &self.0 {
+            map.serialize_entry(key, value)?;
+        }
+        map.end()
+    }
+}
+
+fn is_false(value: &bool) -> bool {
+    !value
+}

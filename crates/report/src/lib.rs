@@ -1,0 +1,61 @@
+//! Reports: what an evaluation looks like, one file for each format.
+
+pub mod assumptions;
+pub mod certificate;
+pub mod compare;
+mod csv;
+mod document;
+mod evaluation;
+pub mod gap;
+mod html;
+mod json;
+pub mod number;
+pub mod observe;
+mod plot;
+mod samples;
+mod saved;
+mod sheet;
+mod si;
+mod subtotals;
+mod table;
+mod tree;
+mod workbook;
+
+pub use csv::{csv, write_csv};
+pub use evaluation::{MOST_RESULTS, Shown, histograms, html, latex, markdown, xlsx};
+pub use json::{json, write_json};
+pub use samples::Samples;
+pub use saved::saved;
+pub use table::Grid;
+pub use table::WIDTH;
+pub use table::wrapped;
+pub use table::{Column, Style, table, write_table};
+pub(crate) use table::{conditions_text, grouped, plain};
+
+use gumption_engine::propagate::Evaluation;
+use gumption_engine::task::{Task, Warning};
+
+/// Where a result comes from: enough to repeat it.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Provenance {
+    /// SHA-256 of the model file, in hexadecimal.
+    pub model_sha256: String,
+    /// SHA-256 of every other file that was read, by its name as the model file has it.
+    pub files: Vec<(String, String)>,
+}
+
+/// Everything that a report may show.
+#[derive(Clone, Copy, Debug)]
+pub struct Report<'a> {
+    /// What was evaluated.
+    pub task: &'a Task,
+    /// The results.
+    pub evaluation: &'a Evaluation,
+    /// Warnings and notes, in order.
+    pub warnings: &'a [Warning],
+    /// Where it comes from.
+    pub provenance: &'a Provenance,
+}
+
+#[cfg(test)]
+mod tests;

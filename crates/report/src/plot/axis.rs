@@ -1,0 +1,185 @@
+//! An axis: where values lie on it, and at which it is marked.
+
+use crate::number::{exact, rounded};
+
+/// Positive values that span more than this factor may be spaced geometrically.
+const WIDE: f64 = 8.0;
+
+/// Ratios must vary by less than this share of how much differences do (squares of relative
+/// deviations).
+const CLEARLY: f64 = 0.5;
+
+/// Free space at each end, as a share of the axis.
+const MARGIN: f64 = 0.04;
+
+/// A linear or logarithmic axis.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Axis {
+    /// Whether positions are decimal logarithms.
+    log: bool,
+    /// Positions of its ends.
+    ends: [f64; 2],
+}
+
+impl Axis {
+    /// An axis over all values, logarithmic where the distinct ones are spaced geometrically.
+    pub(crate) fn over(values: impl IntoIterator<Item = f64>) -> Self {
+        let mut levels: Vec<f64> = values.into_iter().filter(|value| value.is_finite()).collect();
+        levels.sort_by(f64::total_cmp);
+        levels.dedup();
+        let log = is_geometric(&levels);
+        let position = |value: f64| if log { value.log10() } else { value };
+        let (Some(&first), Some(&last)) = (levels.first(), levels.last()) else {
+            return Self { log: false, ends: [0.0, 1.0] };
+        };
+        let (from, to) = (position(first), position(last));
+        let margin = match MARGIN * (to - from) {
+            0.0 => 0.5 * from.abs().max(1.0),
+            margin => margin,
+        };
+        Self { log, ends: [from - margin, to + margin] }
+    }
+
+    /// A linear axis between two values.
+    pub(crate) fn linear(from: f64, to: f64) -> Self {
+        Self { log: false, ends: [from, to] }
+    }
+
+    /// A linear axis as far below zero as above it.
+    pub(crate) fn about_zero(values: impl IntoIterator<Item = f64>) -> Self {
+        let farthest =
+            values.into_iter().filter(|v| v.is_finite()).map(f64::abs).fold(0.0, f64::max);
+        let end = if farthest > 0.0 { 1.08 * farthest } else { 1.0 };
+        Self::linear(-end, end)
+    }
+
+    /// A logarithmic axis between two positive values.
+    pub(crate) fn logarithmic(from: f64, to: f64) -> Self {
+        Self { log: true, ends: [from.log10(), to.log10()] }
+    }
+
+    /// Where a value lies.
+    pub(crate) fn position(&self, value: f64) -> f64 {
+        if self.log { value.log10() } else { value }
+    }
+
+    /// The positions of both ends.
+    pub(crate) fn ends(&self) -> [f64; 2] {
+        self.ends
+    }
+
+    /// Round values to mark, about so many at most: their positions and texts.
+    pub(crate) fn marks(&self, most: usize) -> Vec<(f64, String)> {
+        let most = most.max(2);
+        if self.log {
+            let [from, to] = self.ends.map(|end| 10_f64.powf(end));
+            for digits in [[1.0, 2.0, 5.0].as_slice(), &[1.0, 3.0], &[1.0]] {
+                let marks = decades(self.ends, digits);
+                if (3..=most).contains(&marks.len()) {
+                    return marks.into_iter().map(|value| (value.log10(), exact(value))).collect();
+                }
+            }
+            let decades = decades(self.ends, &[1.0]);
+            if decades.len() > most {
+                let step = decades.len().div_ceil(most);
+                let marks = decades.into_iter().step_by(step);
+                return marks.map(|value| (value.log10(), exact(value))).collect();
+            }
+            return steps([from, to], most)
+                .into_iter()
+                .filter(|(value, _)| *value > 0.0)
+                .map(|(value, text)| (value.log10(), text))
+                .collect();
+        }
+        steps(self.ends, most)
+    }
+}
+
+/// Whether distinct positive values, in order, are spaced more evenly by ratios than by differences.
+fn is_geometric(levels: &[f64]) -> bool {
+    let (Some(&first), Some(&last)) = (levels.first(), levels.last()) else { return false };
+    if levels.len() < 3 || first <= 0.0 || last / first < WIDE {
+        return false;
+    }
+    let unevenness = |position: &dyn Fn(f64) -> f64| {
+        let steps: Vec<f64> =
+            levels.windows(2).map(|pair| position(pair[1]) - position(pair[0])).collect();
+        let mean = steps.iter().sum::<f64>() / steps.len() as f64;
+        let square = steps.iter().map(|step| (step / mean - 1.0).powi(2)).sum::<f64>();
+        square / steps.len() as f64
+    };
+    unevenness(&f64::ln) < CLEARLY * unevenness(&|value| value)
+}
+
+/// Multiples of powers of ten between two positions of a logarithmic axis.
+fn decades(ends: [f64; 2], digits: &[f64]) -> Vec<f64> {
+    let powers = ends[0].floor() as i32..=ends[1].ceil() as i32;
+    let all = powers.flat_map(|power| {
+        // from its decimal form, which is the nearest number
+        digits.iter().filter_map(move |digit| format!("{digit}e{power}").parse::<f64>().ok())
+    });
+    all.filter(|value| (ends[0]..=ends[1]).contains(&value.log10())).collect()
+}
+
+/// Multiples of 1, 2 or 5 times a power of ten between two values.
+fn steps(ends: [f64; 2], most: usize) -> Vec<(f64, String)> {
+    let span = ends[1] - ends[0];
+    if !span.is_finite() || span <= 0.0 {
+        return Vec::new();
+    }
+    let rough = span / most as f64;
+    let mut power = rough.log10().floor() as i32;
+    let digit = [1.0, 2.0, 5.0].into_iter().find(|digit| digit * 10_f64.powi(power) >= rough);
+    let digit = digit.unwrap_or_else(|| {
+        power += 1;
+        1.0
+    });
+    let step = digit * 10_f64.powi(power);
+    let (first, last) = ((ends[0] / step).ceil() as i64, (ends[1] / step).floor() as i64);
+    (first..=last)
+        .map(|count| {
+            let value = count as f64 * step;
+            (value, rounded(value, power))
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn texts(axis: &Axis, most: usize) -> Vec<String> {
+        axis.marks(most).into_iter().map(|(_, text)| text).collect()
+    }
+
+    #[test]
+    fn round_marks() {
+        assert_eq!(texts(&Axis::linear(-0.31, 0.31), 5), ["-0.2", "0.0", "0.2"]);
+        assert_eq!(texts(&Axis::linear(35.0, 91.0), 6), ["40", "50", "60", "70", "80", "90"]);
+        assert_eq!(texts(&Axis::linear(0.0, 3.1e6), 4), ["0", "1000000", "2000000", "3000000"]);
+    }
+
+    #[test]
+    fn geometric_levels_get_a_logarithmic_axis() {
+        let axis = Axis::over([0.5, 1.0, 2.0, 4.0, 8.0, 16.0]);
+        assert!(axis.log);
+        assert_eq!(texts(&axis, 8), ["0.5", "1", "2", "5", "10"]);
+        assert!(!Axis::over((1..=10).map(f64::from)).log);
+        assert!(!Axis::over([0.0, 1.0, 10.0, 100.0]).log);
+        // the third octaves of a shaker, with nominal values
+        let axis = Axis::over([5.0, 6.3, 8.0, 10.0, 12.5, 16.0, 20.0, 25.0, 31.5, 40.0, 50.0]);
+        assert!(axis.log);
+        assert_eq!(texts(&axis, 8), ["5", "10", "20", "50"]);
+        assert_eq!(
+            texts(&Axis::logarithmic(1e-3, 1e9), 5),
+            ["0.001", "1", "1000", "1000000", "1e9"]
+        );
+    }
+
+    #[test]
+    fn one_value_has_room() {
+        let axis = Axis::over([80.0]);
+        assert!(axis.ends()[0] < 80.0 && axis.ends()[1] > 80.0);
+        assert!(!axis.marks(5).is_empty());
+    }
+}

@@ -1,0 +1,254 @@
+//! Result files: what a later evaluation needs to take an output for an input.
+
+use std::io;
+
+use serde::Serialize;
+use serde_json::ser::{Formatter, PrettyFormatter, Serializer};
+
+use super::Report;
+use super::json::Map;
+use gumption_engine::distribution::{RootName, Scores};
+use gumption_engine::propagate::gum::Dof;
+use gumption_engine::propagate::monte_carlo::MonteCarlo;
+use gumption_engine::propagate::{Origins, OutputEvaluation, RowEvaluation};
+use gumption_engine::task::Task;
+
+/// The result file of an evaluation's first row. `quantiles` are those of each output's trials over
+/// [`Scores::WRITTEN`], `ranks` those of each output in trials that stand for all of them. Numbers are in the shortest text that reads back as the same number, `null`
+/// is for what is infinite or not defined.
+///
+/// The same evaluation gives the same bytes always.
+pub fn saved(
+    report: &Report<'_>,
+    origins: &Origins,
+    quantiles: &[Vec<f64>],
+    ranks: &[Vec<u32>],
+) -> String {
+    let Some(row) = report.evaluation.rows.first() else {
+        return String::new();
+    };
+    let file = File::of(report, row, origins, quantiles, ranks);
+    let mut bytes = Vec::new();
+    let mut serializer = Serializer::with_formatter(&mut bytes, Layout::default());
+    // writing to memory does not fail, and all keys are text
+    let written = file.serialize(&mut serializer).is_ok();
+    let mut text = String::from_utf8(bytes).ok().filter(|_| written).unwrap_or_default();
+    text.push('\n');
+    text
+}
+
+#[derive(Serialize)]
+struct File<'a> {
+    format: u32,
+    /// Always true: what tells a result file.
+    result: bool,
+    gumption: &'static str,
+    title: &'a str,
+    coverage_probability: f64,
+    outputs: Map<&'a str, Output<'a>>,
+    output_correlations: Vec<(&'a str, &'a str, f64)>,
+    /// Entry k of `quantiles` belongs to the probability Phi(from + k step).
+    scores: ScoresSide,
+    /// The inputs that `sensitivities` are to, in order.
+    inputs: Vec<Input<'a>>,
+    /// Places in `inputs`, counted from 0, and a coefficient.
+    input_correlations: Vec<(usize, usize, f64)>,
+    provenance: Origin<'a>,
+}
+
+#[derive(Serialize)]
+struct ScoresSide {
+    from: f64,
+    step: f64,
+    count: usize,
+}
+
+#[derive(Serialize)]
+struct Output<'a> {
+    unit: &'a str,
+    estimate: f64,
+    standard_uncertainty: f64,
+    dof: Option<f64>,
+    dof_status: &'static str,
+    coverage_factor: Option<f64>,
+    expanded_uncertainty: Option<f64>,
+    interval: Option<[f64; 2]>,
+    /// Standard deviation of the trials.
+    standard_deviation: Option<f64>,
+    /// The fewest degrees of freedom of a t distribution that the trials depend on.
+    drawn_dof: Option<f64>,
+    symmetric_interval: [f64; 2],
+    shortest_interval: [f64; 2],
+    sensitivities: Option<&'a [f64]>,
+    quantiles: &'a [f64],
+    /// Entry i of all outputs is of the same trial.
+    #[serde(skip_serializing_if = "<[u32]>::is_empty")]
+    ranks: &'a [u32],
+}
+
+#[derive(Serialize)]
+struct Input<'a> {
+    model_sha256: &'a str,
+    name: &'a str,
+    unit: &'a str,
+    distribution: &'a str,
+    estimate: f64,
+    standard_uncertainty: f64,
+    /// Standard deviation of the drawn values.
+    standard_deviation: Option<f64>,
+    dof: Option<f64>,
+}
+
+#[derive(Serialize)]
+struct Origin<'a> {
+    model_sha256: &'a str,
+    seed: u64,
+    trials: u64,
+    files: Map<&'a str, &'a str>,
+}
+
+impl<'a> File<'a> {
+    fn of(
+        report: &Report<'a>,
+        row: &'a RowEvaluation,
+        origins: &'a Origins,
+        quantiles: &'a [Vec<f64>],
+        ranks: &'a [Vec<u32>],
+    ) -> Self {
+        let Report { task, evaluation, provenance, .. } = *report;
+        let names: Vec<&str> =
+            task.model.outputs.iter().map(|output| output.quantity.name.as_str()).collect();
+        let pairs = (0..names.len()).flat_map(|i| (i + 1..names.len()).map(move |j| (i, j)));
+        let found = row.outputs.iter().enumerate().filter_map(|(place, output)| {
+            let sensitivities = origins.sensitivities.get(place)?.as_deref();
+            // a single output varies with no other
+            let ranks =
+                ranks.get(place).filter(|_| ranks.iter().filter(|r| !r.is_empty()).count() > 1);
+            let ranks = ranks.map_or(&[][..], Vec::as_slice);
+            let tables = (quantiles.get(place)?.as_slice(), ranks);
+            let side = Output::of(task, place, output, sensitivities, tables)?;
+            Some((*names.get(place)?, side))
+        });
+        let place = |name: &RootName| origins.roots.iter().position(|root| root.name == *name);
+        let coefficients = origins.correlations.iter();
+        let coefficients =
+            coefficients.filter_map(|c| Some((place(&c.first)?, place(&c.second)?, c.coefficient)));
+        let Scores { from, step, count } = Scores::WRITTEN;
+        let files = provenance.files.iter().map(|(name, sha)| (name.as_str(), sha.as_str()));
+        let trials = row.outputs.iter().find_map(|output| output.monte_carlo.as_ref());
+        Self {
+            format: 1,
+            result: true,
+            gumption: env!("CARGO_PKG_VERSION"),
+            title: &task.title,
+            coverage_probability: evaluation.coverage_probability,
+            outputs: Map(found.collect()),
+            output_correlations: pairs
+                .zip(&row.correlations)
+                .map(|((i, j), &r)| (names[i], names[j], r))
+                .collect(),
+            scores: ScoresSide { from, step, count },
+            inputs: origins
+                .roots
+                .iter()
+                .map(|root| Input {
+                    model_sha256: &root.name.model,
+                    name: &root.name.name,
+                    unit: &root.unit,
+                    distribution: &root.distribution,
+                    estimate: root.estimate,
+                    standard_uncertainty: root.standard_uncertainty,
+                    standard_deviation: finite(root.standard_deviation),
+                    dof: finite(root.dof),
+                })
+                .collect(),
+            input_correlations: coefficients.collect(),
+            provenance: Origin {
+                model_sha256: &provenance.model_sha256,
+                seed: evaluation.settings.seed,
+                trials: trials.map_or(0, |figures| figures.trials),
+                files: Map(files.collect()),
+            },
+        }
+    }
+}
+
+impl<'a> Output<'a> {
+    fn of(
+        task: &'a Task,
+        place: usize,
+        output: &OutputEvaluation,
+        sensitivities: Option<&'a [f64]>,
+        (quantiles, ranks): (&'a [f64], &'a [u32]),
+    ) -> Option<Self> {
+        let figures: &MonteCarlo = output.monte_carlo.as_ref()?;
+        // without sensitivities, the figures of the trials
+        let gum = output.gum.as_ref().filter(|_| sensitivities.is_some());
+        let (dof, dof_status) = match gum.map(|gum| gum.dof) {
+            Some(Dof::Finite(dof)) => (Some(dof), "finite"),
+            Some(Dof::Infinite) => (None, "infinite"),
+            None if output.drawn_dof.is_infinite() => (None, "infinite"),
+            Some(Dof::Undefined) | None => (None, "undefined"),
+        };
+        let spread = figures.standard_uncertainty;
+        Some(Self {
+            unit: task.model.outputs.get(place)?.quantity.unit.text(),
+            estimate: gum.map_or(figures.estimate, |gum| gum.estimate),
+            standard_uncertainty: gum.map(|gum| gum.standard_uncertainty).or(spread)?,
+            dof,
+            dof_status,
+            coverage_factor: gum.and_then(|gum| gum.coverage_factor),
+            expanded_uncertainty: gum.and_then(|gum| gum.expanded_uncertainty()),
+            interval: gum.and_then(|gum| gum.interval()),
+            standard_deviation: spread,
+            drawn_dof: finite(output.drawn_dof),
+            symmetric_interval: figures.symmetric_interval,
+            shortest_interval: figures.shortest_interval,
+            sensitivities,
+            quantiles,
+            ranks,
+        })
+    }
+}
+
+fn finite(value: f64) -> Option<f64> {
+    value.is_finite().then_some(value)
+}
+
+/// Objects over several lines, lists on one.
+#[derive(Default)]
+struct Layout(PrettyFormatter<'static>);
+
+impl Formatter for Layout {
+    fn begin_array_value<W: ?Sized + io::Write>(
+        &mut self,
+        w: &mut W,
+        first: bool,
+    ) -> io::Result<()> {
+        w.write_all(if first { b"" } else { b", " })
+    }
+
+    fn begin_object<W: ?Sized + io::Write>(&mut self, w: &mut W) -> io::Result<()> {
+        self.0.begin_object(w)
+    }
+
+    fn end_object<W: ?Sized + io::Write>(&mut self, w: &mut W) -> io::Result<()> {
+        self.0.end_object(w)
+    }
+
+    fn begin_object_key<W: ?Sized + io::Write>(
+        &mut self,
+        w: &mut W,
+        first: bool,
+    ) -> io::Result<()> {
+        self.0.begin_object_key(w, first)
+    }
+
+    fn begin_object_value<W: ?Sized + io::Write>(&mut self, w: &mut W) -> io::Result<()> {
+        self.0.begin_object_value(w)
+    }
+
+    fn end_object_value<W: ?Sized + io::Write>(&mut self, w: &mut W) -> io::Result<()> {
+        self.0.end_object_value(w)
+    }
+}

@@ -1,0 +1,372 @@
+//! The uncertainty budget of one output, and what follows from it.
+
+use super::columns::{self, Column};
+use super::grid::Grid;
+use super::{WIDTH, coverage_text, has_name, in_unit, text};
+use crate::number::{exact, place, rounded, significant, with_uncertainty};
+use crate::sheet::{Figure, Kind, Sheet};
+use crate::subtotals::Subtotals;
+use gumption_engine::model::Quantity;
+use gumption_engine::propagate::gum::{BudgetLine, CorrelationLine, Dof, Gum};
+use gumption_engine::task::{Settings, Task};
+use gumption_units::Unit;
+
+/// Significant digits of sensitivity coefficients.
+const SENSITIVITY_DIGITS: u32 = 4;
+
+/// Units and distributions up to this width stay in one line.
+const WORD: usize = 12;
+
+/// Correlation coefficients with a line each, at most; the shares of more are added up.
+const MOST_COEFFICIENTS: usize = 500;
+
+/// Degrees of freedom above this are written as a power of ten.
+const MANY: f64 = 1e7;
+
+/// The header of the column of units.
+const UNIT: &str = "unit";
+
+/// The usual columns: their headers as words, and broken for pages that would become too wide.
+const HEADERS: [[&str; 2]; 9] = [
+    ["quantity"; 2],
+    ["estimate"; 2],
+    ["standard\nuncertainty", "standard\nuncer-\ntainty"],
+    [UNIT; 2],
+    ["distribution", "distri-\nbution"],
+    ["dof"; 2],
+    ["sensitivity\ncoefficient", "sensi-\ntivity"],
+    ["contribution", "contri-\nbution"],
+    ["share\nin %"; 2],
+];
+
+/// The budget of one output, and what it is written with.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Budget<'a> {
+    pub(crate) task: &'a Task,
+    pub(crate) output: &'a Quantity,
+    pub(crate) gum: &'a Gum,
+    pub(crate) digits: u32,
+}
+
+/// A column of the budget.
+#[derive(Clone, Debug)]
+pub(super) struct Field {
+    /// The header as words, and broken.
+    pub(super) headers: [&'static str; 2],
+    pub(super) layout: Layout,
+    /// The cells: inputs, correlation coefficients, the output.
+    pub(super) cells: Vec<String>,
+}
+
+/// How cells are set.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Layout {
+    /// Texts that wrap if the page is too narrow.
+    Text,
+    /// Texts that wrap only above a width.
+    TextFrom(usize),
+    /// Numbers, which never wrap.
+    Numbers,
+}
+
+impl Budget<'_> {
+    /// The budget with the combined standard uncertainty as its last line, subtotals, degrees of
+    /// freedom, coverage factor and expanded uncertainty.
+    pub(super) fn table(&self, settings: &Settings, columns: &[Column]) -> String {
+        let Self { task, output, gum, digits } = *self;
+        let mut page = self.grids(columns);
+        page += &text::wrapped(&legend(output, columns));
+        page += &text::wrapped(&subtotals(task, gum).unwrap_or_default());
+        page.push('\n');
+        page + &conclusion(settings, output, gum, digits)
+    }
+
+    /// One table, or two where the further columns leave no room for it.
+    fn grids(&self, columns: &[Column]) -> String {
+        let usual = self.usual_fields();
+        let further = columns::fields(self, columns);
+        let fits = |grid: &Grid| grid.least_width() <= WIDTH;
+        let whole = grid(&arranged(&usual, &further));
+        if further.is_empty() || fits(&whole) {
+            return whole.render(WIDTH);
+        }
+        let names = usual.first().cloned();
+        let apart: Vec<Field> =
+            names.into_iter().chain(further.into_iter().map(|(_, field)| field)).collect();
+        grid(&usual).render(WIDTH) + "\n" + &grid(&apart).render(WIDTH)
+    }
+
+    /// The same table without a look, with the further columns in their places.
+    pub(crate) fn sheet(&self, columns: &[Column]) -> Sheet {
+        let fields = arranged(&self.usual_fields(), &columns::fields(self, columns));
+        let mut sheet = Sheet { footer: true, ..Sheet::default() };
+        for Field { headers: [header, _], layout, cells } in fields {
+            let kind = match layout {
+                _ if header == UNIT => Kind::Units,
+                Layout::Numbers => Kind::Numbers,
+                Layout::Text | Layout::TextFrom(_) => Kind::Text,
+            };
+            sheet.push(header, cells, kind);
+        }
+        sheet
+    }
+
+    fn usual_fields(&self) -> Vec<Field> {
+        let Self { task, output, gum, digits } = *self;
+        let lines = lines(task, output, gum, digits);
+        let field = |(place, headers): (usize, [&'static str; 2])| Field {
+            headers,
+            layout: match place {
+                0 => Layout::Text,
+                3 | 4 => Layout::TextFrom(WORD),
+                _ => Layout::Numbers,
+            },
+            cells: lines.iter().map(|line| line[place].clone()).collect(),
+        };
+        HEADERS.into_iter().enumerate().map(field).collect()
+    }
+}
+
+/// The further fields among the usual ones, each behind the field of its place.
+fn arranged(usual: &[Field], further: &[(usize, Field)]) -> Vec<Field> {
+    let mut fields = Vec::new();
+    for (place, field) in usual.iter().enumerate() {
+        fields.push(field.clone());
+        let behind = further.iter().filter(|(behind, _)| *behind == place);
+        fields.extend(behind.map(|(_, field)| field.clone()));
+    }
+    fields
+}
+
+/// The table with headers as words if that fits, else with broken ones.
+fn grid(fields: &[Field]) -> Grid {
+    let [words, broken] = [0, 1].map(|form| {
+        let mut grid = Grid::with_footer();
+        for Field { headers, layout, cells } in fields {
+            let (header, cells) = (headers[form], cells.iter().cloned());
+            match *layout {
+                Layout::Text => grid.text(header, cells),
+                Layout::TextFrom(width) => grid.text_from(header, width, cells),
+                Layout::Numbers => grid.numbers(header, cells),
+            }
+        }
+        grid
+    });
+    if words.natural_width() <= WIDTH { words } else { broken }
+}
+
+/// The cells of a line.
+type Line = [String; 9];
+
+fn lines(task: &Task, output: &Quantity, gum: &Gum, digits: u32) -> Vec<Line> {
+    let inputs = gum.budget().filter_map(|line| {
+        let variable = task.variables.get(line.variable)?;
+        let (estimate, uncertainty) =
+            with_uncertainty(line.estimate, line.standard_uncertainty, digits);
+        Some([
+            text::plain(&variable.name),
+            estimate,
+            uncertainty,
+            text::plain(variable.unit.text()),
+            distribution(&line),
+            dof(line.dof),
+            significant(line.sensitivity, SENSITIVITY_DIGITS),
+            significant(line.contribution, digits),
+            percent(line.share),
+        ])
+    });
+    let mut lines: Vec<Line> = inputs.chain(coefficients(task, gum)).collect();
+    let (estimate, combined) = with_uncertainty(gum.estimate, gum.standard_uncertainty, digits);
+    let mut total = Line::default();
+    total[0] = text::plain(&output.name);
+    total[1] = estimate;
+    total[2] = combined.clone();
+    total[3] = text::plain(output.unit.text());
+    total[4] = "combined".to_owned();
+    total[5] = effective(gum.dof, false);
+    total[7] = combined;
+    total[8] = percent(if gum.standard_uncertainty > 0.0 { 1.0 } else { 0.0 });
+    lines.push(total);
+    lines
+}
+
+/// The lines of the correlation coefficients; a single one if there are very many.
+fn coefficients(task: &Task, gum: &Gum) -> Vec<Line> {
+    let count = gum.correlations().count();
+    if count > MOST_COEFFICIENTS {
+        let mut cells = Line::default();
+        cells[0] = format!("{} coefficients", text::grouped(count as u64));
+        cells[4] = "correlation".to_owned();
+        cells[8] = percent(gum.correlations().map(|line| line.share).sum());
+        return vec![cells];
+    }
+    let line = |line: CorrelationLine| {
+        let [a, b] = line.variables.map(|place| task.variables.get(place));
+        let mut cells = Line::default();
+        cells[0] = format!("r({}, {})", text::plain(&a?.name), text::plain(&b?.name));
+        cells[1] = exact(line.coefficient);
+        cells[4] = "correlation".to_owned();
+        cells[8] = percent(line.share);
+        Some(cells)
+    };
+    gum.correlations().filter_map(line).collect()
+}
+
+/// How many lines the correlation coefficients have.
+pub(super) fn coefficient_lines(gum: &Gum) -> usize {
+    let count = gum.correlations().count();
+    if count > MOST_COEFFICIENTS { 1 } else { count }
+}
+
+fn distribution(line: &BudgetLine) -> String {
+    if line.drawn_as_t {
+        format!("{} (drawn as t)", line.distribution)
+    } else {
+        line.distribution.to_owned()
+    }
+}
+
+/// What the columns mean.
+pub(crate) fn legend(output: &Quantity, columns: &[Column]) -> String {
+    let mut legend = if has_name(&output.unit) {
+        let unit = output.unit.text();
+        format!(
+            "sensitivity coefficients in {unit} per unit of the quantity, contributions in {unit}"
+        )
+    } else {
+        "sensitivity coefficients per unit of the quantity".to_owned()
+    };
+    if columns.contains(&Column::Relative) {
+        let name = &output.name;
+        legend += &format!(
+            "; relative: standard uncertainty to the modulus of the estimate; of y: \
+             contribution to the modulus of {name}"
+        );
+    }
+    legend
+}
+
+/// Shares by group and by type, where there is more than one of them.
+pub(crate) fn subtotals(task: &Task, gum: &Gum) -> Option<String> {
+    let Subtotals { groups, types } = Subtotals::of(task, gum);
+    let entry = |name: &str, share: f64| format!("{} {} %", text::plain(name), percent(share));
+    let mut sums = Vec::new();
+    if groups.iter().any(|(group, _)| group.is_some()) {
+        let named = groups.iter().map(|&(group, share)| entry(group.unwrap_or("no group"), share));
+        sums.push(named.collect::<Vec<_>>().join(", "));
+    }
+    let both = types.iter().all(|(kind, _)| {
+        let mut lines = gum.budget().filter(|line| line.contribution > 0.0);
+        lines.any(|line| task.variables.get(line.variable).is_some_and(|v| v.evaluation == *kind))
+    });
+    if both {
+        let [a, b] = types.map(|(kind, share)| entry(&format!("type {}", kind.letter()), share));
+        sums.push(format!("{a}, {b}"));
+    }
+    if sums.is_empty() {
+        return None;
+    }
+    if gum.is_correlated() {
+        sums.push(entry("correlations", gum.correlations().map(|line| line.share).sum()));
+    }
+    Some(format!("subtotals: {}", sums.join("; ")))
+}
+
+/// A figure that follows from the budget.
+#[derive(Clone, Debug)]
+pub(crate) struct Conclusion<'a> {
+    pub(crate) name: &'static str,
+    pub(crate) figure: Figure,
+    /// Its unit, if it has one.
+    pub(crate) unit: Option<&'a Unit>,
+    /// What is said behind it.
+    pub(crate) remark: String,
+}
+
+/// Combined standard uncertainty, degrees of freedom, coverage factor, expanded uncertainty.
+pub(crate) fn conclusions<'a>(
+    settings: &Settings,
+    output: &'a Quantity,
+    gum: &Gum,
+    digits: u32,
+) -> [Conclusion<'a>; 4] {
+    let conclusion = |name, figure| Conclusion { name, figure, unit: None, remark: String::new() };
+    let (_, combined) = with_uncertainty(gum.estimate, gum.standard_uncertainty, digits);
+    let (factor, remark) = match gum.coverage_factor {
+        Some(factor) => (
+            Figure::of(factor, rounded(factor, -2)),
+            format!("for {}", coverage_text(settings.coverage)),
+        ),
+        None => {
+            let text = "not defined for these degrees of freedom".to_owned();
+            (Figure { text, value: None }, String::new())
+        }
+    };
+    let dof = match gum.dof {
+        Dof::Finite(dof) => Some(dof),
+        Dof::Infinite | Dof::Undefined => None,
+    };
+    let dof = Figure { text: effective(gum.dof, settings.real_dof), value: dof };
+    let expanded = gum.expanded_uncertainty();
+    let unit = expanded.map(|_| &output.unit);
+    let expanded = match expanded {
+        Some(expanded) => Figure::of(expanded, significant(expanded, digits)),
+        None => Figure { text: "not defined".to_owned(), value: None },
+    };
+    [
+        Conclusion {
+            unit: Some(&output.unit),
+            ..conclusion(
+                "combined standard uncertainty",
+                Figure::of(gum.standard_uncertainty, combined),
+            )
+        },
+        conclusion("effective degrees of freedom", dof),
+        Conclusion { remark, ..conclusion("coverage factor", factor) },
+        Conclusion { unit, ..conclusion("expanded uncertainty", expanded) },
+    ]
+}
+
+fn conclusion(settings: &Settings, output: &Quantity, gum: &Gum, digits: u32) -> String {
+    let entries = conclusions(settings, output, gum, digits).map(|found| {
+        let text = match found.unit {
+            Some(unit) => in_unit(&found.figure.text, unit),
+            None => format!("{} {}", found.figure.text, found.remark),
+        };
+        (found.name, text)
+    });
+    let entries: Vec<_> = entries.iter().map(|(name, text)| (*name, text.as_str())).collect();
+    text::definitions(&entries)
+}
+
+/// The effective degrees of freedom: their integer part, with which the coverage factor is taken,
+/// unless that is asked for at the real number or is zero.
+fn effective(value: Dof, real: bool) -> String {
+    match value {
+        Dof::Undefined => "undefined".to_owned(),
+        Dof::Infinite => dof(f64::INFINITY),
+        Dof::Finite(value) => {
+            let whole = (value * (1.0 + 1e-9)).floor();
+            if real || whole < 1.0 { significant(value, 4) } else { dof(whole) }
+        }
+    }
+}
+
+/// Degrees of freedom of one line.
+fn dof(value: f64) -> String {
+    if value == f64::INFINITY {
+        "∞".to_owned()
+    } else if value.is_nan() {
+        "undefined".to_owned()
+    } else if value < MANY && value.fract() != 0.0 {
+        rounded(value, place(value, 3).unwrap_or(0).min(-1))
+    } else if value < MANY {
+        exact(value)
+    } else {
+        significant(value, 2)
+    }
+}
+
+fn percent(share: f64) -> String {
+    rounded(100.0 * share, -1)
+}

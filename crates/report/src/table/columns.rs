@@ -1,0 +1,161 @@
+//! Columns of the budget that are shown on request.
+
+use super::budget::{Budget, Field, Layout, coefficient_lines};
+use super::text;
+use crate::number::{MISSING, exact, significant};
+use gumption_engine::propagate::gum::BudgetLine;
+use gumption_engine::task::Variable;
+use gumption_units::Unit;
+
+/// Significant digits of divisors: 1.732, 2.449.
+const DIVISOR_DIGITS: usize = 4;
+
+/// Significant digits of stated widths, which come back from u(x_i) and its divisor. The one of
+/// readings is computed and has those of the page.
+const WIDTH_DIGITS: usize = 6;
+
+/// Sources of uncertainty up to this width stay in one line, groups up to the other.
+const ABOUT_WIDTH: usize = 16;
+const GROUP_WIDTH: usize = 12;
+
+/// A column of the budget that is shown on request.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Column {
+    /// The stated width: half-width of the limits, expanded or standard uncertainty.
+    Width,
+    /// What the stated width is divided by to give the standard uncertainty.
+    Divisor,
+    /// Standard uncertainty and contribution relative to the estimates, in per cent.
+    Relative,
+    /// Type A or B.
+    Type,
+    /// The group for subtotals.
+    Group,
+    /// The source of uncertainty, in words.
+    About,
+}
+
+/// Places of the usual columns.
+const ESTIMATE: usize = 1;
+const UNCERTAINTY: usize = 2;
+const DISTRIBUTION: usize = 4;
+const CONTRIBUTION: usize = 7;
+const SHARE: usize = 8;
+
+impl Column {
+    /// All of them, in the order of the table.
+    pub const ALL: [Self; 6] =
+        [Self::Width, Self::Divisor, Self::Relative, Self::Type, Self::Group, Self::About];
+
+    /// The name that the command line uses.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Width => "width",
+            Self::Divisor => "divisor",
+            Self::Relative => "relative",
+            Self::Type => "type",
+            Self::Group => "group",
+            Self::About => "about",
+        }
+    }
+
+    /// The column of that name.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|column| column.name() == name)
+    }
+}
+
+/// The fields of the wanted columns, each with the place of the usual column that it stands behind.
+pub(super) fn fields(budget: &Budget<'_>, wanted: &[Column]) -> Vec<(usize, Field)> {
+    let wanted = Column::ALL.into_iter().filter(|column| wanted.contains(column));
+    wanted.flat_map(|column| of(budget, column)).collect()
+}
+
+fn of(budget: &Budget<'_>, column: Column) -> Vec<(usize, Field)> {
+    let Budget { gum, digits, output, .. } = *budget;
+    let numbers = |headers, cells| Field { headers, layout: Layout::Numbers, cells };
+    let blank = String::new;
+    match column {
+        Column::Width => {
+            let width = |line: &BudgetLine, _: &Variable| {
+                let width = line.divisor.map(|divisor| divisor * line.standard_uncertainty);
+                match width {
+                    Some(width) if line.distribution == "readings" => significant(width, digits),
+                    Some(width) => exact(to_digits(width, WIDTH_DIGITS)),
+                    None => missing(),
+                }
+            };
+            vec![(ESTIMATE, numbers(["value ±"; 2], cells(budget, width, blank())))]
+        }
+        Column::Divisor => {
+            let divisor = |line: &BudgetLine, _: &Variable| {
+                let divisor = line.divisor.map(|divisor| to_digits(divisor, DIVISOR_DIGITS));
+                divisor.map_or_else(missing, exact)
+            };
+            vec![(ESTIMATE, numbers(["divisor"; 2], cells(budget, divisor, blank())))]
+        }
+        Column::Relative => {
+            let of_estimate = ["relative\nin %", "rela-\ntive\nin %"];
+            let of_y = ["of y\nin %"; 2];
+            let own = |line: &BudgetLine, variable: &Variable| {
+                relative(line.standard_uncertainty, line.estimate, &variable.unit, digits)
+            };
+            let share = |value: f64| relative(value, gum.estimate, &output.unit, digits);
+            let contribution = |line: &BudgetLine, _: &Variable| share(line.contribution);
+            let total = share(gum.standard_uncertainty);
+            vec![
+                (UNCERTAINTY, numbers(of_estimate, cells(budget, own, total.clone()))),
+                (CONTRIBUTION, numbers(of_y, cells(budget, contribution, total))),
+            ]
+        }
+        Column::Type => {
+            let letter =
+                |_: &BudgetLine, variable: &Variable| variable.evaluation.letter().to_owned();
+            let cells = cells(budget, letter, blank());
+            vec![(DISTRIBUTION, Field { headers: ["type"; 2], layout: Layout::Text, cells })]
+        }
+        Column::Group => {
+            let group = |_: &BudgetLine, variable: &Variable| {
+                text::plain(variable.group.as_deref().unwrap_or_default())
+            };
+            let (cells, layout) = (cells(budget, group, blank()), Layout::TextFrom(GROUP_WIDTH));
+            vec![(SHARE, Field { headers: ["group"; 2], layout, cells })]
+        }
+        Column::About => {
+            let about = |_: &BudgetLine, variable: &Variable| text::plain(&variable.about);
+            let (cells, layout) = (cells(budget, about, blank()), Layout::TextFrom(ABOUT_WIDTH));
+            vec![(SHARE, Field { headers: ["source of\nuncertainty"; 2], layout, cells })]
+        }
+    }
+}
+
+/// The cells of all inputs, none for the correlation coefficients, that of the output.
+fn cells(
+    budget: &Budget<'_>,
+    of_input: impl Fn(&BudgetLine, &Variable) -> String,
+    total: String,
+) -> Vec<String> {
+    let Budget { task, gum, .. } = *budget;
+    let inputs = gum.budget().filter_map(|line| {
+        let variable = task.variables.get(line.variable)?;
+        Some(of_input(&line, variable))
+    });
+    let coefficients = std::iter::repeat_n(String::new(), coefficient_lines(gum));
+    inputs.chain(coefficients).chain([total]).collect()
+}
+
+/// A value relative to the modulus of an estimate, in per cent. A share of a temperature in degrees
+/// Celsius says nothing, and there is none of zero.
+fn relative(value: f64, estimate: f64, unit: &Unit, digits: u32) -> String {
+    let share = 100.0 * value / estimate.abs();
+    if unit.is_celsius() || !share.is_finite() { missing() } else { significant(share, digits) }
+}
+
+/// A value rounded to significant digits.
+fn to_digits(value: f64, digits: usize) -> f64 {
+    format!("{value:.*e}", digits.saturating_sub(1)).parse().unwrap_or(value)
+}
+
+fn missing() -> String {
+    MISSING.to_owned()
+}

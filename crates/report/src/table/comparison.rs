@@ -1,0 +1,310 @@
+//! The two methods side by side, and the verdict of JCGM 101, clause 8.
+
+use super::grid::Grid;
+use super::{WIDTH, in_unit, text};
+use crate::number::{MISSING, coarser, exact, justified, place, rounded, significant, to};
+use crate::sheet::Sheet;
+use gumption_engine::model::{Output, Quantity, Tolerance};
+use gumption_engine::propagate::gum::Gum;
+use gumption_engine::propagate::monte_carlo::{Adaptive, FIRST_STAGE, MonteCarlo};
+use gumption_engine::propagate::validate::Validation;
+use gumption_engine::propagate::{Conformity, OutputEvaluation};
+use gumption_engine::task::StoppingRule;
+
+/// What is said of a shortest interval that is not exact.
+pub(crate) const NEARLY_SHORTEST: &str =
+    "the shortest interval is that of the trials within 1e-5 u";
+
+/// Decimal place of skewness and kurtosis.
+const SHAPE_PLACE: i32 = -2;
+
+/// The figures of both methods with the numerical standard errors of the Monte Carlo ones, and the
+/// verdict; nothing without trials and without a GUM interval.
+pub(super) fn table(output: &Quantity, figures: &OutputEvaluation, digits: u32) -> Option<String> {
+    let gum = figures.gum.as_ref();
+    let Some(monte_carlo) = &figures.monte_carlo else {
+        let said = gum.and_then(|gum| interval_text(output, gum, digits));
+        return said.map(|said| text::wrapped(&said));
+    };
+    let lines = lines(gum, monte_carlo, digits);
+    let mut grid = Grid::default();
+    grid.text("", lines.iter().map(|line| line.names[0].to_owned()));
+    grid.numbers("GUM", lines.iter().map(|line| line.gum.clone()));
+    grid.numbers("Monte Carlo", lines.iter().map(|line| line.monte_carlo.clone()));
+    grid.numbers("numerical\nstandard error", lines.iter().map(|line| line.error.clone()));
+    let mut page = grid.render(WIDTH);
+    if !monte_carlo.shortest_exact {
+        page += &text::wrapped(NEARLY_SHORTEST);
+    }
+    if let Some(end) = &monte_carlo.adaptive {
+        page += &text::wrapped(&stability(output, end, monte_carlo.trials));
+    }
+    page.push('\n');
+    page += &text::wrapped(&verdict(output, figures, monte_carlo));
+    if let Some(found) = &figures.conformity {
+        page += &conformity(output, found).map(|said| text::wrapped(&said)).concat();
+    }
+    Some(page)
+}
+
+/// What may be stated beside the laboratory's capability.
+pub(crate) fn capability(output: &Output, figures: &OutputEvaluation) -> Option<String> {
+    let stated = figures.stated(output)?;
+    let unit = &output.quantity.unit;
+    let number = |value: f64| in_unit(&significant(value, 3), unit);
+    let (cmc, expanded) = (number(stated.cmc), number(stated.expanded_uncertainty));
+    Some(if stated.raised {
+        format!(
+            "The laboratory's capability (CMC) is {cmc}; U is raised to it: {expanded} is to be stated."
+        )
+    } else if stated.expanded_uncertainty < stated.cmc {
+        format!("U = {expanded} is below the laboratory's capability (CMC) of {cmc}.")
+    } else {
+        format!("The laboratory's capability (CMC) is {cmc}; U = {expanded} can be stated.")
+    })
+}
+
+/// Conformity with the output's tolerance: its probability, the rule and the decision, the risks.
+pub(crate) fn conformity(output: &Quantity, found: &Conformity) -> [String; 3] {
+    [conformity_text(output, found), rule_text(output, found), risks_text(found)]
+}
+
+/// The probability of conformity with the output's tolerance.
+fn conformity_text(output: &Quantity, found: &Conformity) -> String {
+    let error = 100.0 * found.numerical_standard_error;
+    let probability = justified(100.0 * found.probability, Some(-2), error);
+    let side = if found.tolerance.holds(found.estimate) { "within" } else { "outside" };
+    format!(
+        "Tolerance {}: the estimate lies {side}, and the value conforms with a probability of {probability} % \
+         (numerical standard error {} %).",
+        limits_text(output, &found.tolerance, None),
+        significant(error, 1)
+    )
+}
+
+/// Limits with the unit; to a decimal place if there is one.
+fn limits_text(output: &Quantity, limits: &Tolerance, place: Option<i32>) -> String {
+    let text = |limit: f64| place.map_or_else(|| limit.to_string(), |place| rounded(limit, place));
+    let limits = match (limits.lower.map(text), limits.upper.map(text)) {
+        (Some(lower), Some(upper)) => format!("from {lower} to {upper}"),
+        (Some(lower), None) => format!("from {lower} on"),
+        (None, Some(upper)) => format!("up to {upper}"),
+        (None, None) => String::new(),
+    };
+    in_unit(&limits, &output.unit)
+}
+
+/// The decision rule and the decision.
+fn rule_text(output: &Quantity, found: &Conformity) -> String {
+    let decision = if found.conforms { "accepted" } else { "rejected" };
+    let Some(risk) = found.wanted_risk else {
+        return format!(
+            "Decision rule: simple acceptance (JCGM 106, 8.2), accepted where the estimate lies \
+             within the tolerance. Decision: {decision}."
+        );
+    };
+    let kind = if found.global.is_some() { "global" } else { "specific" };
+    let wanted = format!("a {kind} risk of false acceptance of at most {} %", percentage(risk));
+    let (Some(width), Some(acceptance)) = (found.guard_band, found.acceptance) else {
+        return format!(
+            "Decision rule: guarded acceptance (JCGM 106, 8.3) for {wanted}; no value has so small \
+             a one. Decision: {decision}."
+        );
+    };
+    let digits = place(width, 3);
+    format!(
+        "Decision rule: guarded acceptance (JCGM 106, 8.3) for {wanted}: guard band {}, accepted {}. \
+         Decision: {decision}.",
+        in_unit(&to(width, digits), &output.unit),
+        limits_text(output, &acceptance, digits)
+    )
+}
+
+/// Specific and global risks.
+fn risks_text(found: &Conformity) -> String {
+    let wrong = if found.conforms { "does not conform" } else { "conforms all the same" };
+    let error = 100.0 * found.numerical_standard_error;
+    let specific = justified(100.0 * found.specific_risk(), Some(-2), error);
+    let mut text = format!("Specific risk that the value {wrong}: {specific} %.");
+    if let Some(risks) = found.global {
+        text += &format!(
+            " Global risks with the prior, for normally distributed errors: false acceptance {} %, \
+             false rejection {} %.",
+            significant(100.0 * risks.false_acceptance, 3),
+            significant(100.0 * risks.false_rejection, 3)
+        );
+    }
+    text
+}
+
+/// A share in percent, as exactly as it was given.
+fn percentage(share: f64) -> String {
+    exact((1e12 * share).round() / 1e10)
+}
+
+/// How the adaptive procedure ended, after how many trials, and why.
+pub(crate) fn stability(output: &Quantity, end: &Adaptive, trials: u64) -> String {
+    let Adaptive { rule, block_trials, blocks, tolerance, converged } = *end;
+    let tolerance = in_unit(&significant(tolerance, 1), &output.unit);
+    let trials = text::grouped(trials);
+    let block = text::grouped(block_trials);
+    let made = format!("{trials} trials, {blocks} blocks of {block}");
+    let rule = match rule {
+        StoppingRule::Clause79 => "JCGM 101, 7.9",
+        StoppingRule::Stein => "Stein's two-stage rule",
+    };
+    match end.rule {
+        _ if blocks == 0 => format!(
+            "{rule}: {trials} trials are the most that may be made, and two blocks of {block} would \
+             be needed to say how far the figures scatter"
+        ),
+        StoppingRule::Clause79 if converged => format!(
+            "{rule}: all figures of all outputs are stable after {made}, here to {tolerance}"
+        ),
+        StoppingRule::Clause79 => format!("{rule}: not yet stable to {tolerance} after {made}"),
+        StoppingRule::Stein if converged => format!(
+            "{rule}: by the scatter of the first {FIRST_STAGE} blocks {made}, are enough for all \
+             figures of all outputs, here to {tolerance}, each with a probability of 95 %"
+        ),
+        StoppingRule::Stein => format!(
+            "{rule}: by the scatter of the first blocks more than {made}, would be needed, here for \
+             {tolerance}"
+        ),
+    }
+}
+
+/// A figure by both methods.
+pub(crate) struct Line {
+    /// Its name, and its name where it does not stand below another.
+    names: [&'static str; 2],
+    gum: String,
+    monte_carlo: String,
+    error: String,
+}
+
+const SYMMETRIC_LOW: [&str; 2] =
+    ["coverage interval, symmetric: from", "coverage interval, symmetric: from"];
+const SYMMETRIC_HIGH: [&str; 2] =
+    ["                              to", "coverage interval, symmetric: to"];
+const SHORTEST_LOW: [&str; 2] =
+    ["coverage interval, shortest:  from", "coverage interval, shortest: from"];
+const SHORTEST_HIGH: [&str; 2] =
+    ["                              to", "coverage interval, shortest: to"];
+
+/// The figures of both methods side by side; `None` without trials.
+pub(crate) fn sheet(figures: &OutputEvaluation, digits: u32) -> Option<Sheet> {
+    let lines = lines(figures.gum.as_ref(), figures.monte_carlo.as_ref()?, digits);
+    let mut sheet = Sheet::default();
+    sheet.text("figure", lines.iter().map(|line| line.names[1].to_owned()));
+    sheet.numbers("GUM", lines.iter().map(|line| line.gum.clone()));
+    sheet.numbers("Monte Carlo", lines.iter().map(|line| line.monte_carlo.clone()));
+    sheet.numbers("numerical\nstandard error", lines.iter().map(|line| line.error.clone()));
+    Some(sheet)
+}
+
+fn lines(gum: Option<&Gum>, figures: &MonteCarlo, digits: u32) -> Vec<Line> {
+    let uncertainty = gum.map(|gum| gum.standard_uncertainty);
+    let own = figures.standard_uncertainty.or(uncertainty);
+    let gum_place = uncertainty.and_then(|u| place(u, digits));
+    let own_place = own.and_then(|u| place(u, digits)).or(gum_place);
+    let errors = &figures.errors;
+    let line =
+        |names: [&'static str; 2], gum: Option<f64>, value: Option<f64>, error: Option<f64>| Line {
+            names,
+            gum: gum.map_or_else(|| MISSING.to_owned(), |value| to(value, gum_place)),
+            monte_carlo: value.map_or_else(
+                || MISSING.to_owned(),
+                |value| justified(value, own_place, error.unwrap_or(f64::NAN)),
+            ),
+            error: error
+                .filter(|error| !error.is_nan())
+                .map_or_else(|| MISSING.to_owned(), |error| significant(error, 1)),
+        };
+    let ends = |[low, high]: [f64; 2]| (Some(low), Some(high));
+    let (gum_low, gum_high) = gum.and_then(Gum::interval).map_or((None, None), ends);
+    let (low, high) = ends(figures.symmetric_interval);
+    let (low_error, high_error) = ends(errors.symmetric_interval);
+    let (short_low, short_high) = ends(figures.shortest_interval);
+    let (short_low_error, short_high_error) = ends(errors.shortest_interval);
+    let spread = figures.standard_uncertainty;
+    vec![
+        line(["estimate"; 2], gum.map(|gum| gum.estimate), Some(figures.estimate), errors.estimate),
+        line(["standard uncertainty"; 2], uncertainty, spread, errors.standard_uncertainty),
+        line(["median"; 2], None, Some(figures.median), Some(errors.median)),
+        line(SYMMETRIC_LOW, gum_low, low, low_error),
+        line(SYMMETRIC_HIGH, gum_high, high, high_error),
+        line(SHORTEST_LOW, None, short_low, short_low_error),
+        line(SHORTEST_HIGH, None, short_high, short_high_error),
+        shape("skewness", figures.skewness, errors.skewness),
+        shape("excess kurtosis", figures.excess_kurtosis, errors.excess_kurtosis),
+    ]
+}
+
+/// Skewness and kurtosis: two decimals, fewer where the numerical standard error says so.
+fn shape(name: &'static str, value: Option<f64>, error: Option<f64>) -> Line {
+    let missing = || MISSING.to_owned();
+    let figure = |value: f64| justified(value, Some(SHAPE_PLACE), error.unwrap_or(f64::NAN));
+    Line {
+        names: [name; 2],
+        gum: missing(),
+        monte_carlo: value.map_or_else(missing, figure),
+        error: error.map_or_else(missing, |error| significant(error, 1)),
+    }
+}
+
+/// The GUM interval alone, where there are no trials.
+pub(crate) fn interval_text(output: &Quantity, gum: &Gum, digits: u32) -> Option<String> {
+    let place = place(gum.standard_uncertainty, digits);
+    let [low, high] = gum.interval()?.map(|end| to(end, place));
+    let high = in_unit(&high, &output.unit);
+    Some(format!("coverage interval from {low} to {high}, by GUM alone"))
+}
+
+/// What JCGM 101, clause 8 says.
+pub(crate) fn verdict(
+    output: &Quantity,
+    figures: &OutputEvaluation,
+    monte_carlo: &MonteCarlo,
+) -> String {
+    let Some(validation) = &figures.validation else {
+        return "JCGM 101, clause 8: there is no GUM interval to compare; take the Monte Carlo one."
+            .to_owned();
+    };
+    let Validation { digits, tolerance, d_low, d_high, gum_valid } = *validation;
+    let [low_error, high_error] = monte_carlo.errors.symmetric_interval;
+    if low_error.is_nan() || high_error.is_nan() {
+        return format!(
+            "JCGM 101, clause 8: undecided whether the GUM interval is valid here: {} trials are so \
+             few that the ends of the Monte Carlo interval are the extreme ones.",
+            text::grouped(monte_carlo.trials)
+        );
+    }
+    let low = difference(d_low, low_error);
+    let high = in_unit(&difference(d_high, high_error), &output.unit);
+    let tolerance = in_unit(&significant(tolerance, 1), &output.unit);
+    let plural = if digits == 1 { "" } else { "s" };
+    let limit = format!("the numerical tolerance {tolerance} ({digits} digit{plural})");
+    let ends = format!("its ends lie d_low = {low} and d_high = {high} from the Monte Carlo ones");
+    match gum_valid {
+        Some(true) => {
+            format!("JCGM 101, clause 8: the GUM interval is valid here: {ends}, within {limit}.")
+        }
+        Some(false) => format!(
+            "JCGM 101, clause 8: the GUM interval is not valid here: {ends}, beyond {limit}. \
+             Take the Monte Carlo interval."
+        ),
+        None => format!(
+            "JCGM 101, clause 8: undecided whether the GUM interval is valid here: {ends}, too near \
+             to {limit} for {} trials to tell.",
+            text::grouped(monte_carlo.trials)
+        ),
+    }
+}
+
+/// The difference of two ends, to the digits that its numerical standard error justifies.
+fn difference(value: f64, error: f64) -> String {
+    match coarser(place(value, 2), place(error, 1)) {
+        Some(place) => rounded(value, place),
+        None => "0".to_owned(),
+    }
+}

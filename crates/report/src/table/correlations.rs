@@ -1,0 +1,87 @@
+//! Correlation coefficients between the outputs.
+
+use super::grid::Grid;
+use super::{WIDTH, text};
+use crate::number::justified;
+use crate::sheet::{Figure, Sheet};
+use gumption_engine::propagate::RowEvaluation;
+use gumption_engine::task::Task;
+
+/// Decimal place of the coefficients (JCGM 100, 7.2.6).
+const PLACE: i32 = -3;
+
+/// Pairs of outputs on a page, at most: those of 45 outputs.
+const MOST_PAIRS: usize = 1000;
+
+/// The coefficients as the upper triangle of their matrix or, if that is too wide, as a list.
+pub(super) fn table(task: &Task, row: &RowEvaluation) -> Option<String> {
+    match found(task, row)? {
+        Coefficients::Matrix { sheet, listed } => {
+            let grid = Grid::of(&sheet);
+            let fits = grid.natural_width() <= WIDTH;
+            Some(if fits { grid.render(WIDTH) } else { text::wrapped(&listed) })
+        }
+        Coefficients::TooMany(said) => Some(text::wrapped(&said)),
+    }
+}
+
+/// The coefficients of a row, ready for any page.
+pub(crate) enum Coefficients {
+    /// The upper triangle of their matrix, and the same as a sentence.
+    Matrix {
+        /// The matrix.
+        sheet: Sheet,
+        /// The sentence.
+        listed: String,
+    },
+    /// How many there are.
+    TooMany(String),
+}
+
+/// The coefficients of a row; `None` for a single output.
+pub(crate) fn found(task: &Task, row: &RowEvaluation) -> Option<Coefficients> {
+    let names: Vec<String> =
+        task.model.outputs.iter().map(|output| text::plain(&output.quantity.name)).collect();
+    if names.len() < 2 {
+        return None;
+    }
+    let pairs = row.correlations.len();
+    if pairs > MOST_PAIRS {
+        let pairs = text::grouped(pairs as u64);
+        let said = format!("{pairs} correlation coefficients of the outputs: --format json");
+        return Some(Coefficients::TooMany(said));
+    }
+    let trials = row.outputs.first()?.monte_carlo.as_ref().map(|figures| figures.trials);
+    let coefficients: Vec<Figure> =
+        row.correlations.iter().map(|&r| Figure::of(r, cell(r, trials))).collect();
+    let sheet = matrix(&names, &coefficients);
+    let pairs =
+        names.iter().enumerate().flat_map(|(i, a)| names.iter().skip(i + 1).map(move |b| (a, b)));
+    let listed = pairs.zip(&coefficients).map(|((a, b), r)| format!("r({a}, {b}) = {}", r.text));
+    Some(Coefficients::Matrix { sheet, listed: listed.collect::<Vec<_>>().join("; ") })
+}
+
+fn matrix(names: &[String], coefficients: &[Figure]) -> Sheet {
+    let mut sheet = Sheet::default();
+    sheet.text("correlation", names[..names.len() - 1].iter().cloned());
+    for j in 1..names.len() {
+        let cells = (0..names.len() - 1).map(|i| {
+            let place = pair(i, j, names.len());
+            let blank = Figure { text: String::new(), value: None };
+            place.and_then(|place| coefficients.get(place).cloned()).unwrap_or(blank)
+        });
+        sheet.figures(&names[j], cells);
+    }
+    sheet
+}
+
+/// The place of the pair i < j among all such pairs.
+fn pair(i: usize, j: usize, count: usize) -> Option<usize> {
+    (i < j).then(|| i * (2 * count - i - 1) / 2 + j - i - 1)
+}
+
+/// A coefficient from that many trials; its standard error is that of jointly normal outputs.
+fn cell(coefficient: f64, trials: Option<u64>) -> String {
+    let error = trials.map_or(0.0, |trials| (1.0 - coefficient.powi(2)) / (trials as f64).sqrt());
+    justified(coefficient, Some(PLACE), error)
+}

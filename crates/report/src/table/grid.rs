@@ -1,0 +1,217 @@
+//! Columns of texts and of numbers whose decimal points stand under each other.
+
+use std::ops::Range;
+
+use comfy_table::{
+    Cell, CellAlignment, ColumnConstraint, ContentArrangement, ContentLineStyle, LineStyle, Row,
+    Table, TableStyle, Width,
+};
+
+use crate::number::align;
+use crate::sheet::{Kind, Sheet};
+
+/// Spaces between columns.
+const GAP: u16 = 2;
+
+const LINE: char = '─';
+
+/// Rows below one header. Longer tables begin again with it, so that it stays in sight, and so that
+/// no more than this is laid out at a time.
+pub(super) const PAGE: usize = 1000;
+
+/// A table that is filled column by column.
+#[derive(Debug, Default)]
+pub struct Grid {
+    columns: Vec<Column>,
+    /// Whether the last row is set off by a line and kept to one line.
+    footer: bool,
+}
+
+#[derive(Debug)]
+struct Column {
+    header: String,
+    cells: Vec<String>,
+    alignment: CellAlignment,
+    constraint: Option<ColumnConstraint>,
+}
+
+impl Column {
+    /// The width that it needs where texts wrap as far as they may.
+    fn least_width(&self) -> usize {
+        match self.constraint {
+            Some(ColumnConstraint::LowerBoundary(Width::Fixed(width))) => {
+                self.width().min(usize::from(width.saturating_sub(GAP)))
+            }
+            _ => self.width(),
+        }
+    }
+
+    fn width(&self) -> usize {
+        let lines = self.header.lines().chain(self.cells.iter().map(String::as_str));
+        lines.map(|line| line.chars().count()).max().unwrap_or(0)
+    }
+}
+
+impl Grid {
+    /// A table whose last row is set off by a line and kept to one line.
+    pub(super) fn with_footer() -> Self {
+        Self { columns: Vec::new(), footer: true }
+    }
+
+    /// The table of a sheet.
+    pub fn of(sheet: &Sheet) -> Self {
+        let mut grid = Self { columns: Vec::new(), footer: sheet.footer };
+        for column in &sheet.columns {
+            let cells = column.cells.iter().cloned();
+            match column.kind {
+                Kind::Numbers => grid.numbers(&column.header, cells),
+                Kind::Text => grid.text(&column.header, cells),
+                Kind::Units => grid.units(&column.header, cells),
+            }
+        }
+        grid
+    }
+
+    /// A column of texts, which wrap if the page is too narrow.
+    pub fn text(&mut self, header: &str, cells: impl IntoIterator<Item = String>) {
+        self.push(header, cells.into_iter().collect(), CellAlignment::Left, None);
+    }
+
+    /// A column of units, which never wrap.
+    pub(crate) fn units(&mut self, header: &str, cells: impl IntoIterator<Item = String>) {
+        let constraint = Some(ColumnConstraint::ContentWidth);
+        self.push(header, cells.into_iter().collect(), CellAlignment::Left, constraint);
+    }
+
+    /// A column of texts that wrap only above a width.
+    pub(crate) fn text_from(
+        &mut self,
+        header: &str,
+        width: usize,
+        cells: impl IntoIterator<Item = String>,
+    ) {
+        self.text(header, cells);
+        if let Some(column) = self.columns.last_mut() {
+            let width = width.min(column.width()) as u16 + GAP;
+            column.constraint = Some(ColumnConstraint::LowerBoundary(Width::Fixed(width)));
+        }
+    }
+
+    /// A column of texts that wrap at a width of their own.
+    pub(super) fn text_within(
+        &mut self,
+        header: &str,
+        width: usize,
+        cells: impl IntoIterator<Item = String>,
+    ) {
+        let width = u16::try_from(width).unwrap_or(u16::MAX).saturating_add(GAP);
+        let constraint = ColumnConstraint::UpperBoundary(Width::Fixed(width));
+        let cells = cells.into_iter().collect();
+        self.push(header, cells, CellAlignment::Left, Some(constraint));
+    }
+
+    /// A column of numbers, which never wrap.
+    pub fn numbers(&mut self, header: &str, cells: impl IntoIterator<Item = String>) {
+        let cells: Vec<String> = cells.into_iter().collect();
+        let constraint = Some(ColumnConstraint::ContentWidth);
+        self.push(header, align(&cells), CellAlignment::Right, constraint);
+    }
+
+    fn push(
+        &mut self,
+        header: &str,
+        cells: Vec<String>,
+        alignment: CellAlignment,
+        constraint: Option<ColumnConstraint>,
+    ) {
+        self.columns.push(Column { header: header.to_owned(), cells, alignment, constraint });
+    }
+
+    /// The width that nothing wraps at.
+    pub(crate) fn natural_width(&self) -> usize {
+        let gaps = self.columns.len().saturating_sub(1) * usize::from(GAP);
+        self.columns.iter().map(Column::width).sum::<usize>() + gaps
+    }
+
+    /// The width at which texts that may wrap do so and nothing else does.
+    pub(super) fn least_width(&self) -> usize {
+        let gaps = self.columns.len().saturating_sub(1) * usize::from(GAP);
+        self.columns.iter().map(Column::least_width).sum::<usize>() + gaps
+    }
+
+    /// The table with its header, ending in a newline.
+    pub fn render(&self, width: usize) -> String {
+        let rows = self.rows();
+        let pages = (0..rows.max(1)).step_by(PAGE).map(|first| first..(first + PAGE).min(rows));
+        let pages: Vec<String> = pages.map(|page| self.page(width, page)).collect();
+        pages.join("\n")
+    }
+
+    fn rows(&self) -> usize {
+        self.columns.iter().map(|column| column.cells.len()).max().unwrap_or(0)
+    }
+
+    /// Some rows with the header above them.
+    fn page(&self, width: usize, rows: Range<usize>) -> String {
+        let ends = rows.end == self.rows();
+        let lines = self.lines(width, true, rows);
+        let header = self.columns.iter().map(|column| column.header.lines().count()).max();
+        // the line below the header, over the whole table
+        let rule = lines.get(header.unwrap_or(0).max(1)).cloned().unwrap_or_default();
+        let mut text = String::new();
+        let last = lines.len().saturating_sub(1);
+        for (place, line) in lines.iter().enumerate() {
+            if self.footer && ends && place == last {
+                text += &format!("{rule}\n");
+            }
+            text += &format!("{line}\n");
+        }
+        text
+    }
+
+    /// The table without a header, ending in a newline.
+    pub(crate) fn bare(&self, width: usize) -> String {
+        let rows = self.rows();
+        let pages = (0..rows).step_by(PAGE).map(|first| first..(first + PAGE).min(rows));
+        let lines = pages.flat_map(|page| self.lines(width, false, page));
+        lines.map(|line| line + "\n").collect()
+    }
+
+    fn lines(&self, width: usize, header: bool, rows: Range<usize>) -> Vec<String> {
+        let mut table = Table::new();
+        let mut style = TableStyle::new()
+            .header_lines(ContentLineStyle::none())
+            .content_lines(ContentLineStyle::none());
+        if header {
+            style = style.header_separator(LineStyle::none().fill(LINE));
+            table.set_header(
+                self.columns
+                    .iter()
+                    .map(|column| Cell::new(&column.header).set_alignment(column.alignment)),
+            );
+        }
+        table.load_style(style);
+        let width = u16::try_from(width).unwrap_or(u16::MAX);
+        table.set_content_arrangement(ContentArrangement::Dynamic).set_width(width);
+        let all = self.rows();
+        for place in rows {
+            let cells = self.columns.iter().map(|column| {
+                let text = column.cells.get(place).map(String::as_str).unwrap_or_default();
+                Cell::new(text).set_alignment(column.alignment)
+            });
+            let mut row = Row::from(cells.collect::<Vec<_>>());
+            if self.footer && place + 1 == all {
+                row.max_height(1);
+            }
+            table.add_row(row);
+        }
+        let last = self.columns.len().saturating_sub(1);
+        for (place, (column, wanted)) in table.column_iter_mut().zip(&self.columns).enumerate() {
+            column.set_padding((0, if place == last { 0 } else { GAP }));
+            if let Some(constraint) = wanted.constraint {
+                column.set_constraint(constraint);
+            }
+        }
+        table.lines().map(|line| line.trim_end().to_owned()).collect()
+    }
+}

@@ -1,0 +1,231 @@
+//! The page for a terminal.
+
+pub(super) mod budget;
+mod columns;
+pub(super) mod comparison;
+pub(super) mod correlations;
+mod grid;
+pub(super) mod sweep;
+mod text;
+
+pub use columns::Column;
+pub use grid::Grid;
+pub use text::wrapped;
+pub(crate) use text::{grouped, plain};
+
+use std::io::{self, Write};
+
+use self::budget::Budget;
+use super::Report;
+use gumption_engine::model::{InputQuantity, Output, Quantity};
+use gumption_engine::propagate::{Evaluation, OutputEvaluation, RowEvaluation};
+use gumption_engine::task::{Coverage, Settings, Task, Trials};
+use gumption_units::Unit;
+
+/// Characters in a line, at most.
+pub const WIDTH: usize = 100;
+
+/// How the page looks.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Style {
+    /// Significant digits of standard uncertainties, those of the settings unless given; estimates
+    /// are rounded to match.
+    pub digits: Option<u32>,
+    /// Columns of the budget beside the usual ones. Each has its own place, whatever the order here.
+    pub columns: Vec<Column>,
+}
+
+/// The results as a page of at most 100 columns: for each output the budget, the two methods side
+/// by side and what their comparison says. A sweep over conditions gives one table for each
+/// output with a line for each row of conditions.
+///
+/// Warnings are not part of the page; a run that was stopped is marked at its end.
+pub fn table(report: &Report<'_>, style: &Style) -> String {
+    let mut bytes = Vec::new();
+    let written = write_table(report, style, &mut bytes);
+    debug_assert!(written.is_ok(), "{written:?}");
+    String::from_utf8(bytes).unwrap_or_default()
+}
+
+/// Writes what [`table`] gives, part by part.
+///
+/// # Errors
+/// Those of the writer.
+pub fn write_table(report: &Report<'_>, style: &Style, mut out: impl Write) -> io::Result<()> {
+    let Report { task, evaluation, .. } = *report;
+    let digits = style.digits.unwrap_or(evaluation.settings.digits);
+    out.write_all(heading(task, evaluation).as_bytes())?;
+    let mut below = |part: String| {
+        out.write_all(b"\n")?;
+        out.write_all(part.as_bytes())
+    };
+    legend(task).into_iter().try_for_each(&mut below)?;
+    match evaluation.rows.as_slice() {
+        [row] => {
+            for (output, figures) in task.model.outputs.iter().zip(&row.outputs) {
+                below(section(task, evaluation, output, figures, digits, &style.columns))?;
+            }
+            let whole = correlations::table(task, row)
+                .into_iter()
+                .chain(left_out(row).map(|said| said + "\n"));
+            whole.into_iter().try_for_each(&mut below)?;
+        }
+        rows => sweep::tables(task, rows, digits).try_for_each(&mut below)?,
+    }
+    if let Some(said) = stopped(evaluation) {
+        below(said + "\n")?;
+    }
+    Ok(())
+}
+
+/// Title, coverage, trials; the conditions where there is one row of them.
+fn heading(task: &Task, evaluation: &Evaluation) -> String {
+    let mut heading = wrapped(&plain(&task.title)) + &wrapped(&settings_text(evaluation));
+    heading += &at(task, evaluation).map(|at| wrapped(&at)).unwrap_or_default();
+    heading
+}
+
+/// Coverage and trials.
+pub(super) fn settings_text(evaluation: &Evaluation) -> String {
+    let Settings { coverage, trials, seed, .. } = evaluation.settings;
+    let mut line = format!("coverage probability {}", coverage_text(coverage));
+    let each = if evaluation.rows.len() > 1 { " for each row" } else { "" };
+    match trials {
+        Trials::Fixed(0) => {}
+        Trials::Fixed(count) => {
+            line += &format!("; {} Monte Carlo trials{each}, seed {seed}", grouped(count));
+        }
+        Trials::Adaptive => {
+            line += &format!("; as many Monte Carlo trials{each} as are needed, seed {seed}");
+        }
+    }
+    line
+}
+
+/// The conditions where there is one row of them.
+pub(super) fn at(task: &Task, evaluation: &Evaluation) -> Option<String> {
+    let [row] = evaluation.rows.as_slice() else { return None };
+    task.swept.then(|| format!("at {}", conditions_text(&task.model.conditions, &row.conditions)))
+}
+
+/// What the quantities are, in words: inputs, their components where those say more, conditions.
+fn legend(task: &Task) -> Option<String> {
+    let entries = quantities(task);
+    (!entries.is_empty()).then(|| text::definitions(&entries))
+}
+
+/// Names of inputs, components and conditions with what they are, where that is said.
+pub(super) fn quantities(task: &Task) -> Vec<(&str, &str)> {
+    let mut variables = task.variables.iter();
+    let mut entries: Vec<(&str, &str)> = Vec::new();
+    for InputQuantity { quantity, parts } in &task.model.inputs {
+        if *parts != 1 {
+            entries.push((&quantity.name, &quantity.about));
+        }
+        let parts = variables.by_ref().take(*parts);
+        let own = parts.filter(|part| part.name == quantity.name || part.about != quantity.about);
+        entries.extend(own.map(|part| (part.name.as_str(), part.about.as_str())));
+    }
+    let conditions = task.model.conditions.iter();
+    entries.extend(conditions.map(|condition| (condition.name.as_str(), condition.about.as_str())));
+    entries.retain(|(_, about)| !about.trim().is_empty());
+    entries
+}
+
+/// What is said where there is none.
+pub(super) const NO_BUDGET: &str =
+    "There is no budget: the estimate or a sensitivity coefficient is not finite here.";
+
+/// Everything about one output.
+fn section(
+    task: &Task,
+    evaluation: &Evaluation,
+    output: &Output,
+    figures: &OutputEvaluation,
+    digits: u32,
+    columns: &[Column],
+) -> String {
+    let mut parts = vec![title(&output.quantity)];
+    match &figures.gum {
+        Some(gum) => {
+            let budget = Budget { task, output: &output.quantity, gum, digits };
+            parts.push(budget.table(&evaluation.settings, columns));
+        }
+        None => parts.push(wrapped(NO_BUDGET)),
+    }
+    parts.extend(comparison::table(&output.quantity, figures, digits));
+    parts.extend(comparison::capability(output, figures).map(|said| wrapped(&said)));
+    parts.join("\n")
+}
+
+/// Name, unit and words of an output, underlined.
+fn title(quantity: &Quantity) -> String {
+    let line = wrapped(&title_text(quantity));
+    let width = line.lines().map(|line| line.chars().count()).max().unwrap_or(0);
+    format!("{line}{}\n", "═".repeat(width.min(WIDTH)))
+}
+
+/// Name, unit and words of an output.
+pub(super) fn title_text(quantity: &Quantity) -> String {
+    let mut line = plain(&quantity.name);
+    if has_name(&quantity.unit) {
+        line += &format!(" in {}", plain(quantity.unit.text()));
+    }
+    if !quantity.about.trim().is_empty() {
+        line += &format!(": {}", plain(&quantity.about));
+    }
+    line
+}
+
+/// Trials that were left out because an output was not finite.
+pub(super) fn left_out(row: &RowEvaluation) -> Option<String> {
+    let undefined = row.undefined.as_ref()?;
+    let [count, trials] = [undefined.count, undefined.trials].map(grouped);
+    Some(format!("{count} of {trials} trials have no finite result and are left out"))
+}
+
+/// Whether the run was stopped, and when.
+pub(super) fn stopped(evaluation: &Evaluation) -> Option<String> {
+    let trials = grouped(trials_made(evaluation));
+    evaluation.stopped.then(|| format!("stopped after {trials} trials"))
+}
+
+/// The trials behind the figures, of all rows together.
+fn trials_made(evaluation: &Evaluation) -> u64 {
+    let outputs = evaluation.rows.iter().filter_map(|row| row.outputs.first());
+    outputs.filter_map(|output| output.monte_carlo.as_ref()).map(|figures| figures.trials).sum()
+}
+
+pub(super) fn coverage_text(coverage: Coverage) -> String {
+    match coverage {
+        Coverage::Factor { factor: 2.0, .. } => "approximately 95 %".to_owned(),
+        _ => {
+            // 99.73 % for K = 3, but 95 % for 0.95
+            let percent = 100.0 * coverage.probability();
+            let digits: f64 = format!("{percent:.4}").parse().unwrap_or(percent);
+            format!("{digits} %")
+        }
+    }
+}
+
+/// `f = 10 Hz, tilt = 35 deg`.
+pub(crate) fn conditions_text(conditions: &[Quantity], values: &[f64]) -> String {
+    let parts: Vec<String> = conditions
+        .iter()
+        .zip(values)
+        .map(|(condition, &value)| {
+            let value = in_unit(&super::number::exact(value), &condition.unit);
+            format!("{} = {value}", plain(&condition.name))
+        })
+        .collect();
+    parts.join(", ")
+}
+
+/// A number with its unit, if that has a name.
+pub(super) fn in_unit(number: &str, unit: &Unit) -> String {
+    if has_name(unit) { format!("{number} {}", plain(unit.text())) } else { number.to_owned() }
+}
+
+pub(super) fn has_name(unit: &Unit) -> bool {
+    !matches!(unit.text().trim(), "" | "1")
+}

@@ -1,0 +1,279 @@
+//! A sweep over conditions: one table for each output, one line for each row.
+
+use super::grid::{Grid, PAGE};
+use super::{WIDTH, conditions_text, has_name, text, title};
+use crate::number::{MISSING, align, exact, justified, place, rounded, significant, to};
+use crate::sheet::{Figure, Sheet};
+use gumption_engine::model::{Output, Quantity};
+use gumption_engine::propagate::gum::Gum;
+use gumption_engine::propagate::{OutputEvaluation, RowEvaluation};
+use gumption_engine::task::Task;
+
+/// The tables of all outputs, part by part, an empty line apart.
+pub(super) fn tables<'a>(
+    task: &'a Task,
+    rows: &'a [RowEvaluation],
+    digits: u32,
+) -> impl Iterator<Item = String> + 'a {
+    let conditions = &task.model.conditions;
+    let varying: Vec<usize> = (0..conditions.len()).filter(|&place| varies(rows, place)).collect();
+    let sweep = Sweep { task, rows, digits, has_trials: rows.iter().any(has_trials) };
+    let [wide, narrow] =
+        [WIDE, NARROW].map(|uncertainty| Layout { labels: Labels::Conditions, uncertainty });
+    let numbers = Layout { labels: Labels::Numbers, uncertainty: WIDE };
+    let layouts = [wide, narrow];
+    let layout =
+        layouts.into_iter().find(|layout| sweep.fits(*layout, &varying)).unwrap_or(numbers);
+    let by_number = matches!(layout.labels, Labels::Numbers).then(|| varying.clone());
+    let by_number = by_number.into_iter().flat_map(|varying| numbered(conditions, rows, varying));
+    let fixed = fixed(conditions, rows, &varying);
+    let outputs = task.model.outputs.iter().enumerate();
+    let tables = outputs.flat_map(move |(output, Output { quantity, .. })| {
+        let mut above = title(quantity) + "\n";
+        let varying = varying.clone();
+        let pages = (0..rows.len()).step_by(PAGE);
+        pages.map(move |first| {
+            let grid = sweep.grid(output, layout, &varying, first);
+            std::mem::take(&mut above) + &grid.render(WIDTH)
+        })
+    });
+    let last = text::wrapped(MORE);
+    fixed.into_iter().chain(by_number).chain(tables).chain([last])
+}
+
+/// What else there is of a sweep.
+pub(crate) const MORE: &str = "Budgets, shortest intervals, numerical standard errors and correlations of every row: \
+     --format json.";
+
+/// Inputs with a column of their own, at most.
+const MOST_SHARES: usize = 8;
+
+/// The shares of the variance in every row in per cent, of the inputs with the largest ones; `None`
+/// where none contributes.
+pub(crate) fn shares(task: &Task, rows: &[RowEvaluation], output: usize) -> Option<Sheet> {
+    let gums: Vec<Option<&Gum>> =
+        rows.iter().map(|row| row.outputs.get(output)?.gum.as_ref()).collect();
+    let mut largest = vec![0.0_f64; task.variables.len()];
+    for line in gums.iter().flatten().flat_map(|gum| gum.budget()) {
+        if let Some(share) = largest.get_mut(line.variable) {
+            *share = share.max(line.share);
+        }
+    }
+    let mut chosen: Vec<usize> = (0..largest.len()).filter(|&v| largest[v] > 0.0).collect();
+    chosen.sort_by(|&a, &b| largest[b].total_cmp(&largest[a]));
+    chosen.truncate(MOST_SHARES);
+    chosen.sort_unstable();
+    if chosen.is_empty() {
+        return None;
+    }
+    let mut sheet = Sheet::default();
+    for (place, condition) in task.model.conditions.iter().enumerate() {
+        let values = rows.iter().map(|row| row.conditions.get(place).copied());
+        sheet.figures(&header(condition), values.map(|value| Figure::rounded(value, exact)));
+    }
+    for variable in chosen {
+        let share = |gum: &Option<&Gum>| {
+            let mut lines = gum.as_ref()?.budget();
+            lines.find(|line| line.variable == variable).map(|line| 100.0 * line.share)
+        };
+        let name = task.variables.get(variable).map_or("", |variable| &variable.name);
+        let cells = gums.iter().map(|gum| Figure::rounded(share(gum), |v| rounded(v, -1)));
+        sheet.figures(&text::plain(name), cells);
+    }
+    Some(sheet)
+}
+
+/// The table of an output over the first rows of a sweep, without a look.
+pub(crate) fn sheet(task: &Task, rows: &[RowEvaluation], output: usize, digits: u32) -> Sheet {
+    let mut sheet = Sheet::default();
+    for (place, condition) in task.model.conditions.iter().enumerate() {
+        let values = rows.iter().map(|row| row.conditions.get(place).copied());
+        sheet.figures(&header(condition), values.map(|value| Figure::rounded(value, exact)));
+    }
+    let lines: Vec<[String; 7]> =
+        rows.iter().map(|row| line(row.outputs.get(output), digits)).collect();
+    let column = |place: usize| lines.iter().map(move |line| line[place].clone());
+    sheet.numbers("estimate", column(0));
+    sheet.numbers("standard\nuncertainty", column(1));
+    sheet.numbers("expanded\nuncertainty", column(2));
+    sheet.numbers("k", column(3));
+    if rows.iter().any(has_trials) {
+        sheet.numbers("Monte Carlo\nfrom", column(4));
+        sheet.numbers("to", column(5));
+        sheet.text("GUM\ninterval", column(6));
+    }
+    sheet
+}
+
+fn has_trials(row: &RowEvaluation) -> bool {
+    row.outputs.iter().any(|output| output.monte_carlo.is_some())
+}
+
+/// What the tables are made of.
+#[derive(Clone, Copy, Debug)]
+struct Sweep<'a> {
+    task: &'a Task,
+    rows: &'a [RowEvaluation],
+    digits: u32,
+    /// Whether there are trials in any row.
+    has_trials: bool,
+}
+
+/// How they are set.
+#[derive(Clone, Copy, Debug)]
+struct Layout {
+    labels: Labels,
+    /// The word below "standard" and "expanded".
+    uncertainty: &'static str,
+}
+
+/// The word below "standard" and "expanded", and its form for narrow columns.
+const WIDE: &str = "uncertainty";
+const NARROW: &str = "uncer-\ntainty";
+
+/// What stands at the start of a line.
+#[derive(Clone, Copy, Debug)]
+enum Labels {
+    /// The varying conditions.
+    Conditions,
+    /// The number of the row.
+    Numbers,
+}
+
+fn varies(rows: &[RowEvaluation], place: usize) -> bool {
+    let mut values = rows.iter().map(|row| row.conditions.get(place));
+    let first = values.next();
+    values.any(|value| Some(value) != first)
+}
+
+/// The conditions that are the same in all rows.
+fn fixed(conditions: &[Quantity], rows: &[RowEvaluation], varying: &[usize]) -> Option<String> {
+    let row = rows.first()?;
+    let (quantities, values) = chosen(conditions, row, |place| !varying.contains(&place));
+    (!quantities.is_empty())
+        .then(|| text::wrapped(&format!("at {}", conditions_text(&quantities, &values))))
+}
+
+/// The varying conditions of every row, by its number, page by page.
+fn numbered<'a>(
+    conditions: &'a [Quantity],
+    rows: &'a [RowEvaluation],
+    varying: Vec<usize>,
+) -> impl Iterator<Item = String> + 'a {
+    rows.chunks(PAGE).enumerate().map(move |(page, rows)| {
+        let mut grid = Grid::default();
+        grid.numbers("row", numbers(page * PAGE, rows.len()));
+        grid.text(
+            "conditions",
+            rows.iter().map(|row| {
+                let (quantities, values) =
+                    chosen(conditions, row, |place| varying.contains(&place));
+                conditions_text(&quantities, &values)
+            }),
+        );
+        grid.render(WIDTH)
+    })
+}
+
+/// The numbers of so many rows behind the first ones.
+fn numbers(before: usize, count: usize) -> impl Iterator<Item = String> {
+    (before + 1..=before + count).map(|number| number.to_string())
+}
+
+fn chosen(
+    conditions: &[Quantity],
+    row: &RowEvaluation,
+    keep: impl Fn(usize) -> bool,
+) -> (Vec<Quantity>, Vec<f64>) {
+    let all = conditions.iter().cloned().zip(row.conditions.iter().copied()).enumerate();
+    all.filter(|(place, _)| keep(*place)).map(|(_, condition)| condition).unzip()
+}
+
+impl Sweep<'_> {
+    /// Whether all tables fit the page.
+    fn fits(&self, layout: Layout, varying: &[usize]) -> bool {
+        (0..self.task.model.outputs.len()).all(|output| {
+            let mut pages = (0..self.rows.len()).step_by(PAGE);
+            pages.all(|first| self.grid(output, layout, varying, first).natural_width() <= WIDTH)
+        })
+    }
+
+    /// A page of the table of an output, which begins with the row at `first`: of a long sweep only
+    /// one is in memory.
+    fn grid(&self, output: usize, layout: Layout, varying: &[usize], first: usize) -> Grid {
+        let rows = self.rows.get(first..).unwrap_or_default();
+        let rows = &rows[..rows.len().min(PAGE)];
+        let mut grid = Grid::default();
+        match layout.labels {
+            Labels::Numbers => grid.numbers("row", numbers(first, rows.len())),
+            Labels::Conditions => {
+                for &place in varying {
+                    let Some(condition) = self.task.model.conditions.get(place) else { continue };
+                    let values = rows.iter().map(|row| row.conditions.get(place).copied());
+                    grid.numbers(&header(condition), values.map(|v| v.map_or_else(missing, exact)));
+                }
+            }
+        }
+        let lines: Vec<[String; 7]> =
+            rows.iter().map(|row| line(row.outputs.get(output), self.digits)).collect();
+        let column = |place: usize| lines.iter().map(move |line| line[place].clone());
+        let uncertainty = layout.uncertainty;
+        grid.numbers("estimate", column(0));
+        grid.numbers(&format!("standard\n{uncertainty}"), column(1));
+        grid.numbers(&format!("expanded\n{uncertainty}"), column(2));
+        grid.numbers("k", column(3));
+        if self.has_trials {
+            let ends = [4, 5].map(|place| align(&column(place).collect::<Vec<_>>()));
+            let [low, high] = ends;
+            let intervals = low.into_iter().zip(high).map(|(low, high)| format!("{low}  {high}"));
+            grid.text("Monte Carlo interval\n(symmetric) from, to", intervals);
+            grid.text("GUM\ninterval", column(6));
+        }
+        grid
+    }
+}
+
+fn header(condition: &Quantity) -> String {
+    let name = text::plain(&condition.name);
+    if has_name(&condition.unit) {
+        format!("{name}\nin {}", text::plain(condition.unit.text()))
+    } else {
+        name
+    }
+}
+
+fn missing() -> String {
+    MISSING.to_owned()
+}
+
+/// Estimate, u, U, k, the two ends of the Monte Carlo interval, the verdict.
+fn line(output: Option<&OutputEvaluation>, digits: u32) -> [String; 7] {
+    let gum = output.and_then(|output| output.gum.as_ref());
+    let figures = output.and_then(|output| output.monte_carlo.as_ref());
+    let gum_place = gum.and_then(|gum| place(gum.standard_uncertainty, digits));
+    let own = figures.and_then(|figures| figures.standard_uncertainty);
+    let own_place = own.and_then(|u| place(u, digits)).or(gum_place);
+    let end = |end: usize| {
+        figures.map_or_else(missing, |figures| {
+            let error = figures.errors.symmetric_interval[end];
+            justified(figures.symmetric_interval[end], own_place, error)
+        })
+    };
+    let validation = output.and_then(|output| output.validation);
+    let verdict = match validation.map(|validation| validation.gum_valid) {
+        Some(Some(true)) => "valid",
+        Some(Some(false)) => "not valid",
+        Some(None) => "undecided",
+        None => MISSING,
+    };
+    [
+        gum.map_or_else(missing, |gum| to(gum.estimate, gum_place)),
+        gum.map_or_else(missing, |gum| to(gum.standard_uncertainty, gum_place)),
+        gum.and_then(Gum::expanded_uncertainty)
+            .map_or_else(missing, |expanded| significant(expanded, digits)),
+        gum.and_then(|gum| gum.coverage_factor).map_or_else(missing, |k| rounded(k, -2)),
+        end(0),
+        end(1),
+        verdict.to_owned(),
+    ]
+}

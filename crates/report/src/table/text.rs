@@ -1,0 +1,66 @@
+//! Running text on the page: wrapped, and without characters that a terminal would obey.
+
+use super::WIDTH;
+use super::grid::Grid;
+
+/// Names in a list of definitions get this many characters before they wrap.
+const NAME_WIDTH: usize = 32;
+
+/// Characters of a text that the page shows at most: twenty lines.
+const LONGEST: usize = 2000;
+
+/// One line of printable characters: everything that a terminal would obey becomes a space, and so
+/// do line breaks.
+fn one_line(text: &str) -> String {
+    text.split(|c: char| c.is_control() || c.is_whitespace() || is_invisible(c))
+        .filter(|word| !word.is_empty())
+        .collect::<Vec<_>>()
+        .join(" ")
+}
+
+/// A user's text on one line of printable characters. What is too long to be read is cut, with an
+/// ellipsis.
+pub(crate) fn plain(text: &str) -> String {
+    let text = one_line(text);
+    match text.char_indices().nth(LONGEST) {
+        Some((end, _)) => text.get(..end).unwrap_or_default().trim_end().to_owned() + "…",
+        None => text,
+    }
+}
+
+/// Marks that change the direction of the text around them, and characters without a width.
+fn is_invisible(c: char) -> bool {
+    matches!(c, '\u{ad}' | '\u{feff}' | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{2069}')
+}
+
+/// A paragraph within the width of the page, ending in a newline; nothing for an empty text.
+pub fn wrapped(text: &str) -> String {
+    let text = one_line(text);
+    if text.is_empty() {
+        return String::new();
+    }
+    let mut grid = Grid::default();
+    grid.text("", [text]);
+    grid.bare(WIDTH)
+}
+
+/// Names with what they are.
+pub(super) fn definitions(entries: &[(&str, &str)]) -> String {
+    let mut grid = Grid::default();
+    grid.text_within("", NAME_WIDTH, entries.iter().map(|(name, _)| plain(name)));
+    grid.text("", entries.iter().map(|(_, about)| plain(about)));
+    grid.bare(WIDTH)
+}
+
+/// A count with its digits in groups of three: 1 000 000.
+pub(crate) fn grouped(count: u64) -> String {
+    let digits = count.to_string();
+    let mut text = String::with_capacity(digits.len() + digits.len() / 3);
+    for (place, digit) in digits.chars().enumerate() {
+        if place > 0 && (digits.len() - place).is_multiple_of(3) {
+            text.push(' ');
+        }
+        text.push(digit);
+    }
+    text
+}

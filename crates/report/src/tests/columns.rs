@@ -1,0 +1,196 @@
+//! Columns of the budget on request.
+
+use std::path::Path;
+
+use super::*;
+use crate::{Column, Style, table};
+use gumption_files::read_text;
+
+/// One input of every kind of statement, in a file as laboratories write it.
+const FILE: &str = r#"{
+  "format": 1,
+  "title": "Voltage at a temperature",
+  "inputs": {
+    "reading": {"unit": "mV", "distribution": "readings", "values": [5010.1, 5009.8, 5010.2, 5009.9], "about": "repeatability"},
+    "certificate": {"unit": "mV", "distribution": "normal", "mean": 0.5, "expanded": 0.2, "k": 2, "group": "voltmeter", "about": "certificate of the voltmeter, k = 2"},
+    "drift": {"unit": "mV", "distribution": "triangular", "mean": 0, "half_width": 0.3, "group": "voltmeter", "about": "since calibration"},
+    "resolution": {"unit": "mV", "distribution": "rectangular", "lower": -0.05, "upper": 0.05, "group": "voltmeter"},
+    "offset": {"unit": "mV", "distribution": "normal", "mean": 0, "expanded": "0.02 % of 1 V", "p": 0.95},
+    "skew": {"unit": "mV", "distribution": "triangular", "lower": 0, "upper": 0.3, "mode": 0},
+    "noise": {"unit": "mV", "distribution": "normal", "mean": 0, "std": 0.03},
+    "temp": {"unit": "degC", "distribution": "rectangular", "mean": 23, "half_width": 2},
+    "slope": {"unit": "mV/K", "distribution": "constant", "value": 0.05}
+  },
+  "equations": {"v": "reading + certificate + drift + resolution + offset + skew + noise + slope*temp"},
+  "outputs": {"v": {"unit": "mV"}},
+  "monte_carlo": {"trials": 0}
+}"#;
+
+fn page(text: &str, columns: &[Column]) -> String {
+    let file = read_text("file", text, Path::new(""), &[]);
+    let case = Case::new(file.unwrap_or_else(|problems| panic!("{problems:?}")).task);
+    let style = Style { columns: columns.to_vec(), ..Style::default() };
+    let page = table(&case.report(), &style);
+    let widest = page.lines().map(|line| line.chars().count()).max().unwrap_or(0);
+    assert!(widest <= 100, "{widest} columns:\n{page}");
+    page
+}
+
+/// The budget alone.
+fn budget(columns: &[Column]) -> String {
+    let page = page(FILE, columns);
+    let start = page.find("quantity").unwrap();
+    let end = page.find("subtotals").unwrap();
+    page[start..end].to_owned()
+}
+
+#[test]
+fn widths_and_divisors() {
+    insta::assert_snapshot!(budget(&[Column::Divisor, Column::Width]), @"
+    quantity     estimate  value ±  divisor  standard  unit  distri-      dof    sensi-  contri-  share
+                                               uncer-        bution              tivity   bution   in %
+                                               tainty
+    ───────────────────────────────────────────────────────────────────────────────────────────────────
+    reading      5010.000    0.091    1         0.091  mV    readings       3   1.000      0.091   15.5
+    certificate     0.50     0.2      2         0.10   mV    normal         ∞   1.000      0.10    18.6
+    drift           0.00     0.3      2.449     0.12   mV    triangular     ∞   1.000      0.12    27.9
+    resolution      0.000    0.05     1.732     0.029  mV    rectangular    ∞   1.000      0.029    1.5
+    offset          0.00     0.2      1.96      0.10   mV    normal         ∞   1.000      0.10    19.3
+    skew            0.100    -        -         0.071  mV    triangular     ∞   1.000      0.071    9.3
+    noise           0.000    0.03     1         0.030  mV    normal         ∞   1.000      0.030    1.7
+    temp           23.0      2        1.732     1.2    degC  rectangular    ∞   0.05000    0.058    6.2
+    slope           0.05     -        -         0      mV/K  constant       ∞  23.00       0        0.0
+    ───────────────────────────────────────────────────────────────────────────────────────────────────
+    v            5011.75                        0.23   mV    combined     125              0.23   100.0
+    sensitivity coefficients in mV per unit of the quantity, contributions in mV
+    ");
+}
+
+#[test]
+fn relative_figures() {
+    insta::assert_snapshot!(budget(&[Column::Relative]), @"
+    quantity     estimate  standard    rela-  unit  distri-      dof    sensi-  contri-     of y  share
+                             uncer-     tive        bution              tivity   bution     in %   in %
+                             tainty     in %
+    ───────────────────────────────────────────────────────────────────────────────────────────────────
+    reading      5010.000     0.091   0.0018  mV    readings       3   1.000      0.091  0.0018    15.5
+    certificate     0.50      0.10   20       mV    normal         ∞   1.000      0.10   0.0020    18.6
+    drift           0.00      0.12    -       mV    triangular     ∞   1.000      0.12   0.0024    27.9
+    resolution      0.000     0.029   -       mV    rectangular    ∞   1.000      0.029  0.00058    1.5
+    offset          0.00      0.10    -       mV    normal         ∞   1.000      0.10   0.0020    19.3
+    skew            0.100     0.071  71       mV    triangular     ∞   1.000      0.071  0.0014     9.3
+    noise           0.000     0.030   -       mV    normal         ∞   1.000      0.030  0.00060    1.7
+    temp           23.0       1.2     -       degC  rectangular    ∞   0.05000    0.058  0.0012     6.2
+    slope           0.05      0       0       mV/K  constant       ∞  23.00       0      0          0.0
+    ───────────────────────────────────────────────────────────────────────────────────────────────────
+    v            5011.75      0.23    0.0046  mV    combined     125              0.23   0.0046   100.0
+    sensitivity coefficients in mV per unit of the quantity, contributions in mV; relative: standard
+    uncertainty to the modulus of the estimate; of y: contribution to the modulus of v
+    ");
+}
+
+#[test]
+fn type_and_source() {
+    insta::assert_snapshot!(budget(&[Column::Type, Column::About]), @"
+    quantity     estimate     standard  unit  distribution  dof  sensitivity  contribution  share
+                           uncertainty                           coefficient                 in %
+    ─────────────────────────────────────────────────────────────────────────────────────────────
+    reading      5010.000        0.091  mV    readings        3      1.000           0.091   15.5
+    certificate     0.50         0.10   mV    normal          ∞      1.000           0.10    18.6
+    drift           0.00         0.12   mV    triangular      ∞      1.000           0.12    27.9
+    resolution      0.000        0.029  mV    rectangular     ∞      1.000           0.029    1.5
+    offset          0.00         0.10   mV    normal          ∞      1.000           0.10    19.3
+    skew            0.100        0.071  mV    triangular      ∞      1.000           0.071    9.3
+    noise           0.000        0.030  mV    normal          ∞      1.000           0.030    1.7
+    temp           23.0          1.2    degC  rectangular     ∞      0.05000         0.058    6.2
+    slope           0.05         0      mV/K  constant        ∞     23.00            0        0.0
+    ─────────────────────────────────────────────────────────────────────────────────────────────
+    v            5011.75         0.23   mV    combined      125                      0.23   100.0
+
+    quantity     type  source of
+                       uncertainty
+    ──────────────────────────────────────────────────────
+    reading      A     repeatability
+    certificate  B     certificate of the voltmeter, k = 2
+    drift        B     since calibration
+    resolution   B
+    offset       B
+    skew         B
+    noise        B
+    temp         B
+    slope        B
+    ──────────────────────────────────────────────────────
+    v
+    sensitivity coefficients in mV per unit of the quantity, contributions in mV
+    ");
+}
+
+/// What does not fit beside the budget stands below it.
+#[test]
+fn all_columns() {
+    insta::assert_snapshot!(budget(&Column::ALL), @"
+    quantity     estimate     standard  unit  distribution  dof  sensitivity  contribution  share
+                           uncertainty                           coefficient                 in %
+    ─────────────────────────────────────────────────────────────────────────────────────────────
+    reading      5010.000        0.091  mV    readings        3      1.000           0.091   15.5
+    certificate     0.50         0.10   mV    normal          ∞      1.000           0.10    18.6
+    drift           0.00         0.12   mV    triangular      ∞      1.000           0.12    27.9
+    resolution      0.000        0.029  mV    rectangular     ∞      1.000           0.029    1.5
+    offset          0.00         0.10   mV    normal          ∞      1.000           0.10    19.3
+    skew            0.100        0.071  mV    triangular      ∞      1.000           0.071    9.3
+    noise           0.000        0.030  mV    normal          ∞      1.000           0.030    1.7
+    temp           23.0          1.2    degC  rectangular     ∞      0.05000         0.058    6.2
+    slope           0.05         0      mV/K  constant        ∞     23.00            0        0.0
+    ─────────────────────────────────────────────────────────────────────────────────────────────
+    v            5011.75         0.23   mV    combined      125                      0.23   100.0
+
+    quantity     value ±  divisor    rela-     of y  type  group      source of
+                                      tive     in %                   uncertainty
+                                      in %
+    ────────────────────────────────────────────────────────────────────────────────────
+    reading        0.091    1       0.0018  0.0018   A                repeatability
+    certificate    0.2      2      20       0.0020   B     voltmeter  certificate of the
+                                                                      voltmeter, k = 2
+    drift          0.3      2.449   -       0.0024   B     voltmeter  since calibration
+    resolution     0.05     1.732   -       0.00058  B     voltmeter
+    offset         0.2      1.96    -       0.0020   B
+    skew           -        -      71       0.0014   B
+    noise          0.03     1       -       0.00060  B
+    temp           2        1.732   -       0.0012   B
+    slope          -        -       0       0        B
+    ────────────────────────────────────────────────────────────────────────────────────
+    v                               0.0046  0.0046
+    sensitivity coefficients in mV per unit of the quantity, contributions in mV; relative: standard
+    uncertainty to the modulus of the estimate; of y: contribution to the modulus of v
+    ");
+}
+
+#[test]
+fn a_column_stays_in_the_table() {
+    for column in Column::ALL {
+        let page = budget(&[column]);
+        assert_eq!(page.matches("quantity ").count(), 1, "{column:?}\n{page}");
+    }
+    let case = Case::new(plane_at(35.0, 0));
+    let columns = vec![Column::Divisor, Column::Relative];
+    let page = table(&case.report(), &Style { columns, ..Style::default() });
+    let first = &page[..page.find("a_y in").unwrap()];
+    assert_eq!(first.matches("quantity ").count(), 1, "{page}");
+}
+
+#[test]
+fn a_correlation_has_no_cells_of_its_own() {
+    let case = Case::new(correlated(0));
+    let style = Style { columns: Column::ALL.to_vec(), ..Style::default() };
+    let page = table(&case.report(), &style);
+    assert!(page.lines().any(|line| line.starts_with("r(a_ref, tilt)")), "{page}");
+    assert!(page.lines().all(|line| line.chars().count() <= 100), "{page}");
+}
+
+#[test]
+fn names() {
+    for column in Column::ALL {
+        assert_eq!(Column::named(column.name()), Some(column));
+    }
+    assert_eq!(Column::named("Divisor"), None);
+}

@@ -1,0 +1,221 @@
+//! The answer for programs.
+
+use super::*;
+use crate as report;
+
+#[test]
+fn whole_answer_in_the_order_of_the_contract() {
+    let mut case = only_z(Case::new(plane_at(35.0, 2000)));
+    case.warnings.push(Warning::new("few-trials", "", "2000 trials are few"));
+    // sensitivities and figures from trials have digits that are not the point here
+    insta::with_settings!({filters => vec![
+        (r"-?\d+\.\d{6,}(e-?\d+)?", "[number]"),
+        (r#""gumption": "[^"]*""#, r#""gumption": "[version]""#),
+    ]}, {
+        insta::assert_snapshot!(report::json(&case.report()), @r#"
+        {
+          "gumption": "[version]",
+          "title": "inclined-plane",
+          "coverage_probability": 0.95,
+          "outputs": {
+            "a_z": {
+              "unit": "m/s^2",
+              "gum": {
+                "estimate": [number],
+                "standard_uncertainty": [number],
+                "dof": null,
+                "dof_status": "infinite",
+                "coverage_factor": [number],
+                "expanded_uncertainty": [number],
+                "interval": [
+                  [number],
+                  [number]
+                ],
+                "budget": [
+                  {
+                    "input": "a_ref",
+                    "estimate": 10.0,
+                    "standard_uncertainty": 0.01,
+                    "distribution": "normal",
+                    "type": "B",
+                    "group": null,
+                    "dof": null,
+                    "sensitivity": [number],
+                    "contribution": [number],
+                    "share": [number]
+                  },
+                  {
+                    "input": "tilt",
+                    "estimate": 35.0,
+                    "standard_uncertainty": [number],
+                    "distribution": "rectangular",
+                    "type": "B",
+                    "group": null,
+                    "dof": null,
+                    "sensitivity": [number],
+                    "contribution": [number],
+                    "share": [number]
+                  },
+                  {
+                    "input": "rotation",
+                    "estimate": 0.0,
+                    "standard_uncertainty": 0.0,
+                    "distribution": "constant",
+                    "type": "B",
+                    "group": null,
+                    "dof": null,
+                    "sensitivity": 0.0,
+                    "contribution": 0.0,
+                    "share": 0.0
+                  }
+                ],
+                "subtotals": [
+                  {
+                    "group": null,
+                    "share": 1.0
+                  },
+                  {
+                    "type": "A",
+                    "share": 0.0
+                  },
+                  {
+                    "type": "B",
+                    "share": 1.0
+                  }
+                ]
+              },
+              "monte_carlo": {
+                "trials": 2000,
+                "seed": 1,
+                "estimate": [number],
+                "standard_uncertainty": [number],
+                "median": [number],
+                "symmetric_interval": [
+                  [number],
+                  [number]
+                ],
+                "shortest_interval": [
+                  [number],
+                  [number]
+                ],
+                "shortest_exact": true,
+                "skewness": [number],
+                "excess_kurtosis": [number],
+                "numerical_standard_error": {
+                  "estimate": [number],
+                  "standard_uncertainty": [number],
+                  "median": [number],
+                  "symmetric_interval": [
+                    [number],
+                    [number]
+                  ],
+                  "shortest_interval": [
+                    null,
+                    null
+                  ],
+                  "skewness": null,
+                  "excess_kurtosis": null
+                }
+              },
+              "validation": {
+                "digits": 2,
+                "tolerance": 0.0005,
+                "d_low": [number],
+                "d_high": [number],
+                "gum_valid": null
+              }
+            }
+          },
+          "output_correlations": [],
+          "warnings": [
+            {
+              "code": "few-trials",
+              "where": "",
+              "text": "2000 trials are few"
+            }
+          ],
+          "provenance": {
+            "model_sha256": "0123",
+            "seed": 1,
+            "trials": 2000,
+            "files": {
+              "data.csv": "4567"
+            }
+          }
+        }
+        "#);
+    });
+}
+
+#[test]
+fn same_bytes_on_any_number_of_threads() {
+    let answers = [1, 2, 5].map(|threads| {
+        let mut case = Case::new(plane_at(35.0, 20_000));
+        let control = Control { threads, ..Control::default() };
+        case.evaluation = evaluate(&case.task, &control).unwrap();
+        report::json(&case.report())
+    });
+    assert!(answers.iter().all(|answer| *answer == answers[0]));
+}
+
+#[test]
+fn correlation_rows_come_after_the_inputs() {
+    let answer = Case::new(correlated(2000)).json();
+    let gum = &answer["outputs"]["a_z"]["gum"];
+    let row = &gum["budget"][3];
+    assert!(row["input"].is_null() && row["contribution"].is_null());
+    assert_eq!(row["correlation"], serde_json::json!(["a_ref", "tilt"]));
+    assert_eq!(row["coefficient"], -0.6);
+    let shares = gum["budget"].as_array().unwrap().iter().map(|row| row["share"].as_f64());
+    assert!((shares.map(Option::unwrap).sum::<f64>() - 1.0).abs() < 1e-12);
+    let pairs = &answer["output_correlations"];
+    assert_eq!((&pairs[1][0], &pairs[1][1]), (&"a_x".into(), &"a_z".into()));
+    // rotation 0: a_y does not vary to first order, but does not in the trials either
+    assert!(pairs[0][2].is_null());
+}
+
+#[test]
+fn subtotals_by_group_and_type() {
+    let answer = Case::new(grouped(2000)).json();
+    let gum = &answer["outputs"]["a_y"]["gum"];
+    let subtotals = gum["subtotals"].as_array().unwrap();
+    let labels: Vec<String> = subtotals
+        .iter()
+        .map(|entry| entry.get("group").unwrap_or(&entry["type"]).to_string())
+        .collect();
+    assert_eq!(labels, [r#""angles""#, "null", r#""A""#, r#""B""#]);
+    let share = |place: usize| subtotals[place]["share"].as_f64().unwrap();
+    assert!((share(0) + share(1) - 1.0).abs() < 1e-12);
+    assert!((share(2) - share(1)).abs() < 1e-12);
+    assert_eq!(gum["budget"][1]["drawn_as"], "t");
+    assert_eq!(gum["budget"][0]["dof"], 4.0);
+}
+
+#[test]
+fn nothing_without_trials() {
+    let answer = Case::new(plane_at(35.0, 0)).json();
+    let output = &answer["outputs"]["a_z"];
+    assert!(output["monte_carlo"].is_null() && output["validation"].is_null());
+    assert_eq!(output["gum"]["dof_status"], "infinite");
+    assert!(output["gum"]["dof"].is_null());
+}
+
+#[test]
+fn rows_of_a_sweep() {
+    let answer = sweep(&[0.0, 35.0], 2000).json();
+    assert!(answer.get("outputs").is_none());
+    let rows = answer["rows"].as_array().unwrap();
+    assert_eq!(rows.len(), 2);
+    assert_eq!(rows[1]["conditions"], serde_json::json!({"f": 80.0, "tilt": 35.0}));
+    assert!(rows[1]["outputs"]["a_z"]["gum"]["budget"].is_array());
+    assert_eq!(rows[1]["output_correlations"].as_array().unwrap().len(), 3);
+}
+
+#[test]
+fn a_stopped_run_says_so() {
+    let mut case = Case::new(plane_at(35.0, 2000));
+    case.evaluation.stopped = true;
+    let answer = case.json();
+    assert_eq!(answer["stopped"], true);
+    assert_eq!(answer["outputs"]["a_x"]["monte_carlo"]["stopped"], true);
+}

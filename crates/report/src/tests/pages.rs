@@ -1,0 +1,271 @@
+//! Markdown, LaTeX and HTML: what they show is what the JSON answer has, rounded once.
+
+use std::path::Path;
+
+use roxmltree::Document;
+use serde_json::Value;
+
+use super::*;
+use crate::{Column, Shown, html, latex, markdown};
+use gumption_engine::propagate::histograms;
+use gumption_files::read_text;
+
+/// The rows of all tables of a page, cell by cell, as a reader sees them.
+type Rows = Vec<Vec<String>>;
+
+/// The three pages of a case with their rows.
+fn pages(case: &Case, columns: &[Column]) -> [(&'static str, String, Rows); 3] {
+    let report = case.report();
+    let drawn = histograms(&case.task, &case.evaluation, 0, &Control::default()).unwrap();
+    let histograms = [drawn.unwrap_or_default()];
+    let replaced = ["tilt=35 deg".to_owned()];
+    let model = "{\"title\": \"<model>\"}\n";
+    let shown = Shown { columns, histograms: &histograms, replaced: &replaced, model };
+    let markdown = markdown(&report, &shown);
+    let latex = latex(&report, &shown);
+    let html = html(&report, &shown);
+    let of_markdown = rows_of_markdown(&markdown);
+    let of_latex = rows_of_latex(&latex);
+    let of_html = rows_of_html(&html);
+    [("markdown", markdown, of_markdown), ("latex", latex, of_latex), ("html", html, of_html)]
+}
+
+fn rows_of_markdown(page: &str) -> Rows {
+    let lines = page.lines().filter(|line| line.starts_with('|'));
+    lines
+        .map(|line| {
+            let cells = line.trim_matches('|').replace("\\|", "\u{1}");
+            let cells = cells.split('|').map(|cell| cell.trim().replace(['\\', '\u{1}'], ""));
+            cells.collect()
+        })
+        .collect()
+}
+
+fn rows_of_latex(page: &str) -> Rows {
+    let lines = page.lines().filter(|line| line.ends_with("\\\\") && line.contains('&'));
+    lines
+        .map(|line| {
+            let cells = line.trim_end_matches("\\\\").replace("\\&", "\u{1}");
+            let plain = |cell: &str| {
+                let cell = cell.replace("\\_", "_").replace("\\%", "%").replace("{--}", "-");
+                cell.replace("$\\infty$", "∞").replace('\u{1}', "&").trim().to_owned()
+            };
+            cells.split('&').map(plain).collect()
+        })
+        .collect()
+}
+
+fn body(page: &str) -> &str {
+    let from = page.find("<body>").unwrap();
+    &page[from..page.find("</body>").unwrap() + "</body>".len()]
+}
+
+/// The rows of a page that is well-formed, loads nothing and runs nothing.
+fn rows_of_html(page: &str) -> Rows {
+    assert!(page.starts_with("<!DOCTYPE html>") && page.ends_with("</html>\n"));
+    let body = body(page);
+    let document = Document::parse(body).unwrap_or_else(|error| panic!("{error}:\n{body}"));
+    for element in document.descendants().filter(roxmltree::Node::is_element) {
+        let name = element.tag_name().name();
+        assert!(!["script", "iframe", "img", "link", "image", "use"].contains(&name), "{name}");
+        for attribute in element.attributes() {
+            let key = attribute.name();
+            assert!(!key.starts_with("on") && !["href", "src", "style"].contains(&key), "{key}");
+            assert!(!attribute.value().contains("NaN"), "{attribute:?}");
+        }
+    }
+    let rows = document.descendants().filter(|node| node.has_tag_name("tr"));
+    rows.map(|row| {
+        let cells = row.children().filter(roxmltree::Node::is_element);
+        let text = |cell: roxmltree::Node<'_, '_>| {
+            let parts = cell.descendants().filter_map(|n| n.text().filter(|_| n.is_text()));
+            parts.collect::<String>().trim().to_owned()
+        };
+        cells.map(text).collect()
+    })
+    .collect()
+}
+
+/// Whether a text is the number rounded once to the place of its last digit. The allowance is for
+/// the decimal literal that the test compares with.
+fn agrees(text: &str, value: f64) -> bool {
+    let (mantissa, exponent) = text.split_once('e').unwrap_or((text, "0"));
+    let decimals = mantissa.split_once('.').map_or(0, |(_, decimals)| decimals.len() as i32);
+    let place = exponent.parse::<i32>().unwrap() - decimals;
+    let read: f64 = text.parse().unwrap();
+    // zeros left of the point may stand for rounded digits
+    let zeros = mantissa.len() - mantissa.trim_end_matches('0').len();
+    let place = if decimals == 0 && read != 0.0 { place + zeros as i32 } else { place };
+    (read - value).abs() <= 0.5 * 10_f64.powi(place) * (1.0 + 1e-9)
+}
+
+/// The first row behind row `from` that begins with a cell.
+fn row<'r>(rows: &'r Rows, from: usize, name: &str) -> &'r [String] {
+    let found = rows.iter().skip(from).find(|row| row.first().is_some_and(|cell| cell == name));
+    found.unwrap_or_else(|| panic!("{name} in {rows:#?}"))
+}
+
+fn assert_agrees(what: &str, text: &str, value: &Value) {
+    match value.as_f64() {
+        Some(value) => assert!(agrees(text, value), "{what}: {text} for {value}"),
+        None => assert!(["-", "∞", "undefined", "{undefined}"].contains(&text), "{what}: {text}"),
+    }
+}
+
+/// The numbers of an output's section against the JSON answer.
+fn assert_output(format: &str, rows: &Rows, answer: &Value, name: &str) {
+    let output = &answer["outputs"][name];
+    // the section begins with the budget, which ends with the output
+    let end = rows.iter().position(|row| row.first().is_some_and(|cell| cell == name)).unwrap();
+    let head = rows[..end].iter().rposition(|row| row[0].contains("quantity")).unwrap();
+    for line in output["gum"]["budget"].as_array().unwrap() {
+        let Some(input) = line["input"].as_str() else {
+            let pair = &line["correlation"];
+            let name = format!("r({}, {})", pair[0].as_str().unwrap(), pair[1].as_str().unwrap());
+            let cells = row(rows, head, &name);
+            assert_agrees(&name, &cells[1], &line["coefficient"]);
+            let share = Value::from(100.0 * line["share"].as_f64().unwrap());
+            assert_agrees(&name, cells.last().unwrap(), &share);
+            continue;
+        };
+        let cells = row(rows, head, input);
+        let share = Value::from(100.0 * line["share"].as_f64().unwrap());
+        let what = |which: &str| format!("{format}, {name}, {input}: {which}");
+        assert_agrees(&what("estimate"), &cells[1], &line["estimate"]);
+        assert_agrees(&what("u"), &cells[2], &line["standard_uncertainty"]);
+        assert_agrees(&what("sensitivity"), &cells[6], &line["sensitivity"]);
+        assert_agrees(&what("contribution"), &cells[7], &line["contribution"]);
+        assert_agrees(&what("share"), &cells[8], &share);
+    }
+    let total = row(rows, head, name);
+    assert_agrees("estimate", &total[1], &output["gum"]["estimate"]);
+    assert_agrees("u", &total[2], &output["gum"]["standard_uncertainty"]);
+    let gum = &output["gum"];
+    for (label, key) in [
+        ("combined standard uncertainty", "standard_uncertainty"),
+        ("coverage factor", "coverage_factor"),
+        ("expanded uncertainty", "expanded_uncertainty"),
+    ] {
+        assert_agrees(label, &row(rows, end, label)[1], &gum[key]);
+    }
+    let Some(trials) = output["monte_carlo"].as_object() else { return };
+    let errors = &trials["numerical_standard_error"];
+    let ends = |key: &str, end: usize| [trials[key][end].clone(), errors[key][end].clone()];
+    for (label, [value, error]) in [
+        ("estimate", [trials["estimate"].clone(), errors["estimate"].clone()]),
+        ("median", [trials["median"].clone(), errors["median"].clone()]),
+        ("coverage interval, symmetric: from", ends("symmetric_interval", 0)),
+        ("coverage interval, symmetric: to", ends("symmetric_interval", 1)),
+        ("coverage interval, shortest: from", ends("shortest_interval", 0)),
+        ("coverage interval, shortest: to", ends("shortest_interval", 1)),
+    ] {
+        let cells = row(rows, end, label);
+        assert_agrees(label, &cells[2], &value);
+        assert_agrees(label, &cells[3], &error);
+    }
+}
+
+fn assert_numbers(case: &Case, outputs: &[&str]) {
+    let answer = case.json();
+    for (format, _, rows) in pages(case, &[]) {
+        for output in outputs {
+            assert_output(format, &rows, &answer, output);
+        }
+    }
+}
+
+#[test]
+fn numbers_are_those_of_the_json() {
+    let all = ["a_x", "a_y", "a_z"];
+    assert_numbers(&Case::new(plane_at(35.0, 20_000)), &all);
+    assert_numbers(&Case::new(grouped(20_000)), &all);
+    assert_numbers(&Case::new(correlated(20_000)), &["a_x", "a_z"]);
+    assert_numbers(&Case::new(plane_at(35.0, 0)), &all);
+}
+
+#[test]
+fn a_page_has_what_is_needed_to_repeat_it() {
+    let mut case = Case::new(plane_at(35.0, 20_000));
+    case.task.title = "50 % of <a_b> & $c$".to_owned();
+    let warning = Warning {
+        code: "few-trials",
+        place: String::new(),
+        text: "there are few of them".to_owned(),
+    };
+    case.warnings.push(warning);
+    for (format, page, rows) in pages(&case, &[]) {
+        assert_eq!(row(&rows, 0, "model file, SHA-256")[1], "0123", "{format}");
+        assert_eq!(row(&rows, 0, "data.csv, SHA-256")[1], "4567", "{format}");
+        assert_eq!(row(&rows, 0, "seed")[1], "1", "{format}");
+        assert_eq!(row(&rows, 0, "trials")[1], "20000", "{format}");
+        assert_eq!(row(&rows, 0, "replaced")[1], "tilt=35 deg", "{format}");
+        assert!(page.contains(env!("CARGO_PKG_VERSION")), "{format}");
+        assert!(page.contains("there are few of them"), "{format}");
+        assert!(page.contains("clause 8: the GUM interval is"), "{format}");
+        assert_eq!(page.contains("&lt;model&gt;"), format == "html");
+    }
+}
+
+#[test]
+fn html_has_its_figures() {
+    let case = Case::new(correlated(20_000));
+    let [.., (_, page, _)] = pages(&case, &[]);
+    // shares and distribution of a_x and a_z; a_y does not vary; the inputs
+    assert_eq!(page.matches("<svg").count(), 5);
+    for needed in
+        ["GUM: normal", "Monte Carlo, symmetric", "Monte Carlo, shortest", "r(a_ref, tilt)"]
+    {
+        assert!(page.contains(needed), "{needed}");
+    }
+    let without = Case::new(plane_at(35.0, 0));
+    let [.., (_, page, _)] = pages(&without, &[]);
+    // shares of a_x and a_z, and of a_y, which is a_ref times the sine of an angle of 0
+    assert!(!page.contains("Monte Carlo trials (bars)"));
+}
+
+#[test]
+fn columns_have_their_places() {
+    let case = Case::new(grouped(0));
+    for (format, _, rows) in pages(&case, &Column::ALL) {
+        let header = rows.iter().find(|row| row[0].contains("quantity")).unwrap();
+        assert_eq!(header.len(), 16, "{format}: {header:?}");
+        let tilt = row(&rows, 0, "tilt");
+        assert!(tilt.contains(&"angles".to_owned()), "{format}: {tilt:?}");
+    }
+}
+
+#[test]
+fn a_sweep_has_a_row_for_each_row_of_conditions() {
+    let case = sweep(&[15.0, 35.0, 55.0], 20_000);
+    let rows_of = case.json()["rows"].as_array().unwrap().clone();
+    for (format, _, rows) in pages(&case, &[]) {
+        for (number, answer) in rows_of.iter().enumerate() {
+            let gum = &answer["outputs"]["a_x"]["gum"];
+            let wanted = answer["conditions"]["tilt"].to_string().replace(".0", "");
+            let found = rows.iter().find(|row| row.get(1) == Some(&wanted)).unwrap();
+            assert_agrees("estimate", &found[2], &gum["estimate"]);
+            assert_agrees("u", &found[3], &gum["standard_uncertainty"]);
+            assert_agrees("U", &found[4], &gum["expanded_uncertainty"]);
+            let interval = &answer["outputs"]["a_x"]["monte_carlo"]["symmetric_interval"];
+            assert_agrees("from", &found[6], &interval[0]);
+            assert_agrees("to", &found[7], &interval[1]);
+            assert!(number < 3, "{format}");
+        }
+    }
+}
+
+/// A square root at zero has no sensitivity coefficient; a constant no distribution.
+#[test]
+fn what_is_not_defined_is_said() {
+    let text = r#"{"inputs": {"x": {"distribution": "normal", "mean": 0, "std": 1},
+        "c": {"distribution": "constant", "value": 2}},
+        "equations": {"y": "sqrt(max(x, 0))", "z": "c"}, "outputs": {"y": {}, "z": {}},
+        "monte_carlo": {"trials": 2000}}"#;
+    let file = read_text("file", text, Path::new(""), &[]).unwrap();
+    let case = Case::new(file.task);
+    assert!(case.evaluation.rows[0].outputs[0].gum.is_none());
+    for (format, page, _) in pages(&case, &[]) {
+        assert!(page.contains("There is no budget"), "{format}");
+        assert!(page.contains("Take the Monte Carlo") || page.contains("take the Monte Carlo"));
+    }
+}

@@ -1,0 +1,507 @@
+//! Pages for a terminal.
+
+use std::sync::Arc;
+
+use super::*;
+use crate::{Column, Style, table};
+use gumption_engine::distribution::{Distribution, Evaluation as Kind, Rectangular};
+use gumption_engine::propagate::gum::Dof;
+use gumption_engine::task::Coverage;
+
+fn page(case: &Case) -> String {
+    let page = table(&case.report(), &Style::default());
+    let widest = page.lines().map(|line| line.chars().count()).max().unwrap_or(0);
+    assert!(widest <= 100, "{widest} columns:\n{page}");
+    assert!(page.lines().all(|line| !line.ends_with(' ')), "{page}");
+    page
+}
+
+#[test]
+fn inclined_plane() {
+    insta::assert_snapshot!(page(&only_z(Case::new(plane_at(35.0, 100_000)))), @"
+    inclined-plane
+    coverage probability 95 %; 100 000 Monte Carlo trials, seed 1
+
+    a_ref     Reference acceleration along the vertical, RMS.
+    tilt      Tilt angle of the plane against the horizontal.
+    rotation  Rotation angle of the sensor on the plane.
+
+    a_z in m/s^2: Acceleration along the sensor's z axis, RMS.
+    ══════════════════════════════════════════════════════════
+
+    quantity  estimate     standard  unit   distribution  dof  sensitivity  contribution  share
+                        uncertainty                            coefficient                 in %
+    ───────────────────────────────────────────────────────────────────────────────────────────
+    a_ref       10.000        0.010  m/s^2  normal          ∞       0.8192        0.0082   66.8
+    tilt        35.000        0.058  deg    rectangular     ∞      -0.1001        0.0058   33.2
+    rotation     0            0      deg    constant        ∞       0             0         0.0
+    ───────────────────────────────────────────────────────────────────────────────────────────
+    a_z          8.192        0.010  m/s^2  combined        ∞                     0.010   100.0
+    sensitivity coefficients in m/s^2 per unit of the quantity, contributions in m/s^2
+
+    combined standard uncertainty  0.010 m/s^2
+    effective degrees of freedom   ∞
+    coverage factor                1.96 for 95 %
+    expanded uncertainty           0.020 m/s^2
+
+                                          GUM  Monte Carlo       numerical
+                                                            standard error
+    ──────────────────────────────────────────────────────────────────────
+    estimate                            8.192        8.192         0.00003
+    standard uncertainty                0.010        0.010         0.00002
+    median                              -            8.192         0.00004
+    coverage interval, symmetric: from  8.172        8.172         0.00007
+                                  to    8.211        8.211         0.00007
+    coverage interval, shortest:  from  -            8.172         0.0003
+                                  to    -            8.211         0.0003
+    skewness                            -           -0.01          0.008
+    excess kurtosis                     -           -0.13          0.01
+
+    JCGM 101, clause 8: the GUM interval is valid here: its ends lie d_low = 0.00016 and d_high =
+    0.00007 m/s^2 from the Monte Carlo ones, within the numerical tolerance 0.0005 m/s^2 (2 digits).
+    ");
+}
+
+#[test]
+fn readings_groups_and_degrees_of_freedom() {
+    insta::assert_snapshot!(page(&Case::new(grouped(20_000))), @r"
+        inclined-plane
+        coverage probability 95 %; 20 000 Monte Carlo trials, seed 1
+
+        a_ref     repeatability
+        tilt      Tilt angle of the plane against the horizontal.
+        rotation  Rotation angle of the sensor on the plane.
+
+        a_x in m/s^2: Acceleration along the sensor's x axis, RMS.
+        ══════════════════════════════════════════════════════════
+
+        quantity  estimate     standard  unit   distribution         dof  sensitivity  contribution  share
+                            uncertainty                                   coefficient                 in %
+        ──────────────────────────────────────────────────────────────────────────────────────────────────
+        a_ref      10.0000       0.0071  m/s^2  readings               4      0.4967         0.0035   20.9
+        tilt       35.000        0.050   deg    normal (drawn as t)   12      0.1238         0.0062   64.9
+        rotation   30.000        0.058   deg    rectangular            ∞     -0.05005        0.0029   14.2
+        ──────────────────────────────────────────────────────────────────────────────────────────────────
+        a_x         4.9673       0.0077  m/s^2  combined              21                     0.0077  100.0
+        sensitivity coefficients in m/s^2 per unit of the quantity, contributions in m/s^2
+        subtotals: angles 79.1 %, no group 20.9 %; type A 20.9 %, type B 79.1 %
+
+        combined standard uncertainty  0.0077 m/s^2
+        effective degrees of freedom   21
+        coverage factor                2.08 for 95 %
+        expanded uncertainty           0.016 m/s^2
+
+                                               GUM  Monte Carlo       numerical
+                                                                 standard error
+        ───────────────────────────────────────────────────────────────────────
+        estimate                            4.9673       4.9673         0.00006
+        standard uncertainty                0.0077       0.0090         -
+        median                              -            4.9673         0.00007
+        coverage interval, symmetric: from  4.9513       4.9496         0.0002
+                                      to    4.9833       4.9850         0.0001
+        coverage interval, shortest:  from  -            4.9500         0.0005
+                                      to    -            4.9853         0.0003
+        skewness                            -           -0.13           -
+        excess kurtosis                     -            -              -
+
+        JCGM 101, clause 8: the GUM interval is not valid here: its ends lie d_low = 0.0017 and d_high =
+        0.0017 m/s^2 from the Monte Carlo ones, beyond the numerical tolerance 0.00005 m/s^2 (2 digits).
+        Take the Monte Carlo interval.
+
+        a_y in m/s^2: Acceleration along the sensor's y axis, RMS.
+        ══════════════════════════════════════════════════════════
+
+        quantity  estimate     standard  unit   distribution         dof  sensitivity  contribution  share
+                            uncertainty                                   coefficient                 in %
+        ──────────────────────────────────────────────────────────────────────────────────────────────────
+        a_ref      10.0000       0.0071  m/s^2  readings               4      0.2868         0.0020    9.8
+        tilt       35.000        0.050   deg    normal (drawn as t)   12      0.07148        0.0036   30.5
+        rotation   30.000        0.058   deg    rectangular            ∞      0.08670        0.0050   59.7
+        ──────────────────────────────────────────────────────────────────────────────────────────────────
+        a_y         2.8679       0.0065  m/s^2  combined              98                     0.0065  100.0
+        sensitivity coefficients in m/s^2 per unit of the quantity, contributions in m/s^2
+        subtotals: angles 90.2 %, no group 9.8 %; type A 9.8 %, type B 90.2 %
+
+        combined standard uncertainty  0.0065 m/s^2
+        effective degrees of freedom   98
+        coverage factor                1.98 for 95 %
+        expanded uncertainty           0.013 m/s^2
+
+                                               GUM  Monte Carlo       numerical
+                                                                 standard error
+        ───────────────────────────────────────────────────────────────────────
+        estimate                            2.8679       2.8679         0.00005
+        standard uncertainty                0.0065       0.0070         -
+        median                              -            2.8679         0.00007
+        coverage interval, symmetric: from  2.8550       2.8548         0.0001
+                                      to    2.8807       2.8812         0.0001
+        coverage interval, shortest:  from  -            2.8545         0.0003
+                                      to    -            2.8810         0.0003
+        skewness                            -           -0.04           -
+        excess kurtosis                     -            -              -
+
+        JCGM 101, clause 8: the GUM interval is not valid here: its ends lie d_low = 0.0003 and d_high =
+        0.0005 m/s^2 from the Monte Carlo ones, beyond the numerical tolerance 0.00005 m/s^2 (2 digits).
+        Take the Monte Carlo interval.
+
+        a_z in m/s^2: Acceleration along the sensor's z axis, RMS.
+        ══════════════════════════════════════════════════════════
+
+        quantity  estimate     standard  unit   distribution         dof  sensitivity  contribution  share
+                            uncertainty                                   coefficient                 in %
+        ──────────────────────────────────────────────────────────────────────────────────────────────────
+        a_ref      10.0000       0.0071  m/s^2  readings               4       0.8192        0.0058   57.2
+        tilt       35.000        0.050   deg    normal (drawn as t)   12      -0.1001        0.0050   42.8
+        rotation   30.000        0.058   deg    rectangular            ∞       0             0         0.0
+        ──────────────────────────────────────────────────────────────────────────────────────────────────
+        a_z         8.1915       0.0077  m/s^2  combined              10                     0.0077  100.0
+        sensitivity coefficients in m/s^2 per unit of the quantity, contributions in m/s^2
+        subtotals: angles 42.8 %, no group 57.2 %; type A 57.2 %, type B 42.8 %
+
+        combined standard uncertainty  0.0077 m/s^2
+        effective degrees of freedom   10
+        coverage factor                2.23 for 95 %
+        expanded uncertainty           0.017 m/s^2
+
+                                               GUM  Monte Carlo       numerical
+                                                                 standard error
+        ───────────────────────────────────────────────────────────────────────
+        estimate                            8.1915        8.191         0.00007
+        standard uncertainty                0.0077        0.010         -
+        median                              -             8.192         0.00007
+        coverage interval, symmetric: from  8.1745        8.172         0.0002
+                                      to    8.2086        8.211         0.0002
+        coverage interval, shortest:  from  -             8.173         0.0005
+                                      to    -             8.212         0.0007
+        skewness                            -            -0.70          -
+        excess kurtosis                     -             -             -
+
+        JCGM 101, clause 8: the GUM interval is not valid here: its ends lie d_low = 0.0023 and d_high =
+        0.0023 m/s^2 from the Monte Carlo ones, beyond the numerical tolerance 0.00005 m/s^2 (2 digits).
+        Take the Monte Carlo interval.
+
+        correlation    a_y    a_z
+        ─────────────────────────
+        a_x          0.430  0.066
+        a_y                 0.040
+        ");
+}
+
+#[test]
+fn correlated_inputs() {
+    insta::assert_snapshot!(page(&only_z(Case::new(correlated(20_000)))), @"
+    inclined-plane
+    coverage probability 95 %; 20 000 Monte Carlo trials, seed 1
+
+    a_ref     Reference acceleration along the vertical, RMS.
+    tilt      Tilt angle of the plane against the horizontal.
+    rotation  Rotation angle of the sensor on the plane.
+
+    a_z in m/s^2: Acceleration along the sensor's z axis, RMS.
+    ══════════════════════════════════════════════════════════
+
+    quantity        estimate     standard  unit   distribution  dof  sensitivity  contribution  share
+                              uncertainty                            coefficient                 in %
+    ─────────────────────────────────────────────────────────────────────────────────────────────────
+    a_ref             10.000        0.010  m/s^2  normal          ∞       0.8192        0.0082   25.3
+    tilt              35.00         0.10   deg    normal          ∞      -0.1001        0.010    37.7
+    rotation           0            0      deg    constant        ∞       0             0         0.0
+    r(a_ref, tilt)    -0.6                        correlation                                    37.0
+    ─────────────────────────────────────────────────────────────────────────────────────────────────
+    a_z                8.192        0.016  m/s^2  combined        ∞                     0.016   100.0
+    sensitivity coefficients in m/s^2 per unit of the quantity, contributions in m/s^2
+
+    combined standard uncertainty  0.016 m/s^2
+    effective degrees of freedom   ∞
+    coverage factor                1.96 for 95 %
+    expanded uncertainty           0.032 m/s^2
+
+                                          GUM  Monte Carlo       numerical
+                                                            standard error
+    ──────────────────────────────────────────────────────────────────────
+    estimate                            8.192        8.191         0.0001
+    standard uncertainty                0.016        0.016         0.00008
+    median                              -            8.191         0.0001
+    coverage interval, symmetric: from  8.160        8.159         0.0003
+                                  to    8.223        8.223         0.0003
+    coverage interval, shortest:  from  -            8.159         0.0007
+                                  to    -            8.223         0.0009
+    skewness                            -           -0.02          0.02
+    excess kurtosis                     -            0.08          0.05
+
+    JCGM 101, clause 8: undecided whether the GUM interval is valid here: its ends lie d_low = 0.0005
+    and d_high = 0.0003 m/s^2 from the Monte Carlo ones, too near to the numerical tolerance 0.0005
+    m/s^2 (2 digits) for 20 000 trials to tell.
+    ");
+}
+
+#[test]
+fn by_gum_alone() {
+    insta::assert_snapshot!(page(&only_z(Case::new(plane_at(35.0, 0)))), @r"
+        inclined-plane
+        coverage probability 95 %
+
+        a_ref     Reference acceleration along the vertical, RMS.
+        tilt      Tilt angle of the plane against the horizontal.
+        rotation  Rotation angle of the sensor on the plane.
+
+        a_z in m/s^2: Acceleration along the sensor's z axis, RMS.
+        ══════════════════════════════════════════════════════════
+
+        quantity  estimate     standard  unit   distribution  dof  sensitivity  contribution  share
+                            uncertainty                            coefficient                 in %
+        ───────────────────────────────────────────────────────────────────────────────────────────
+        a_ref       10.000        0.010  m/s^2  normal          ∞       0.8192        0.0082   66.8
+        tilt        35.000        0.058  deg    rectangular     ∞      -0.1001        0.0058   33.2
+        rotation     0            0      deg    constant        ∞       0             0         0.0
+        ───────────────────────────────────────────────────────────────────────────────────────────
+        a_z          8.192        0.010  m/s^2  combined        ∞                     0.010   100.0
+        sensitivity coefficients in m/s^2 per unit of the quantity, contributions in m/s^2
+
+        combined standard uncertainty  0.010 m/s^2
+        effective degrees of freedom   ∞
+        coverage factor                1.96 for 95 %
+        expanded uncertainty           0.020 m/s^2
+
+        coverage interval from 8.172 to 8.211 m/s^2, by GUM alone
+        ");
+}
+
+#[test]
+fn where_gum_is_not_valid() {
+    // at tilt 0 the cosine is at its maximum: its distribution is lopsided
+    let mut case = only_z(Case::new(plane_at(0.0, 100_000)));
+    let mut task = plane_at(0.0, 100_000);
+    let tilt: Distribution = Rectangular::new(0.0, 10.0).unwrap().into();
+    Arc::get_mut(&mut task.rows[0].distributions).unwrap()[1] = Arc::new(tilt);
+    case.evaluation = only_z(Case::new(task)).evaluation;
+    insta::assert_snapshot!(page(&case), @"
+    inclined-plane
+    coverage probability 95 %; 100 000 Monte Carlo trials, seed 1
+
+    a_ref     Reference acceleration along the vertical, RMS.
+    tilt      Tilt angle of the plane against the horizontal.
+    rotation  Rotation angle of the sensor on the plane.
+
+    a_z in m/s^2: Acceleration along the sensor's z axis, RMS.
+    ══════════════════════════════════════════════════════════
+
+    quantity  estimate     standard  unit   distribution  dof  sensitivity  contribution  share
+                        uncertainty                            coefficient                 in %
+    ───────────────────────────────────────────────────────────────────────────────────────────
+    a_ref       10.000        0.010  m/s^2  normal          ∞        1.000         0.010  100.0
+    tilt         0.0          5.8    deg    rectangular     ∞        0             0        0.0
+    rotation     0            0      deg    constant        ∞        0             0        0.0
+    ───────────────────────────────────────────────────────────────────────────────────────────
+    a_z         10.000        0.010  m/s^2  combined        ∞                      0.010  100.0
+    sensitivity coefficients in m/s^2 per unit of the quantity, contributions in m/s^2
+
+    combined standard uncertainty  0.010 m/s^2
+    effective degrees of freedom   ∞
+    coverage factor                1.96 for 95 %
+    expanded uncertainty           0.020 m/s^2
+
+                                           GUM  Monte Carlo       numerical
+                                                             standard error
+    ───────────────────────────────────────────────────────────────────────
+    estimate                            10.000        9.950         0.0001
+    standard uncertainty                 0.010        0.046         0.00008
+    median                               -            9.962         0.0002
+    coverage interval, symmetric: from   9.980        9.854         0.0002
+                                  to    10.020       10.010         0.0001
+    coverage interval, shortest:  from   -            9.857         0.0007
+                                  to     -           10.013         0.0006
+    skewness                             -           -0.60          0.004
+    excess kurtosis                      -           -0.78          0.008
+
+    JCGM 101, clause 8: the GUM interval is not valid here: its ends lie d_low = 0.13 and d_high =
+    0.0092 m/s^2 from the Monte Carlo ones, beyond the numerical tolerance 0.0005 m/s^2 (2 digits). Take
+    the Monte Carlo interval.
+    ");
+}
+
+#[test]
+fn no_gum_interval() {
+    let mut case = only_z(Case::new(plane_at(35.0, 10_000)));
+    case.evaluation.rows[0].outputs[0].gum = None;
+    case.evaluation.rows[0].outputs[0].validation = None;
+    case.evaluation.stopped = true;
+    insta::assert_snapshot!(page(&case), @"
+    inclined-plane
+    coverage probability 95 %; 10 000 Monte Carlo trials, seed 1
+
+    a_ref     Reference acceleration along the vertical, RMS.
+    tilt      Tilt angle of the plane against the horizontal.
+    rotation  Rotation angle of the sensor on the plane.
+
+    a_z in m/s^2: Acceleration along the sensor's z axis, RMS.
+    ══════════════════════════════════════════════════════════
+
+    There is no budget: the estimate or a sensitivity coefficient is not finite here.
+
+                                        GUM  Monte Carlo       numerical
+                                                          standard error
+    ────────────────────────────────────────────────────────────────────
+    estimate                              -        8.191         0.0001
+    standard uncertainty                  -        0.010         0.00007
+    median                                -        8.192         0.0001
+    coverage interval, symmetric: from    -        8.172         0.0002
+                                  to      -        8.211         0.0002
+    coverage interval, shortest:  from    -        8.172         0.0004
+                                  to      -        8.212         0.0004
+    skewness                              -       -0.02          0.02
+    excess kurtosis                       -       -0.14          0.05
+
+    JCGM 101, clause 8: there is no GUM interval to compare; take the Monte Carlo one.
+
+    stopped after 10 000 trials
+    ");
+}
+
+#[test]
+fn undefined_degrees_of_freedom() {
+    let mut case = only_z(Case::new(correlated(10_000)));
+    let output = &mut case.evaluation.rows[0].outputs[0];
+    let gum = output.gum.as_mut().unwrap();
+    (gum.dof, gum.coverage_factor, output.validation) = (Dof::Undefined, None, None);
+    let page = page(&case);
+    for line in [
+        "effective degrees of freedom   undefined",
+        "coverage factor                not defined for these degrees of freedom",
+        "expanded uncertainty           not defined",
+        "JCGM 101, clause 8: there is no GUM interval to compare; take the Monte Carlo one.",
+    ] {
+        assert!(page.lines().any(|found| found == line), "{line}\n{page}");
+    }
+    let gum = &case.json()["outputs"]["a_z"]["gum"];
+    assert_eq!(gum["dof_status"], "undefined");
+    for key in ["dof", "coverage_factor", "expanded_uncertainty", "interval"] {
+        assert!(gum[key].is_null(), "{key}");
+    }
+}
+
+#[test]
+fn digits_are_those_of_the_settings_unless_given() {
+    let mut case = only_z(Case::new(plane_at(35.0, 0)));
+    case.evaluation.settings.digits = 3;
+    assert!(page(&case).contains("standard uncertainty  0.0100 m/s^2"));
+    let page = table(&case.report(), &Style { digits: Some(1), ..Style::default() });
+    assert!(page.contains("standard uncertainty  0.01 m/s^2"), "{page}");
+}
+
+#[test]
+fn a_sweep_is_one_table_for_each_output() {
+    insta::assert_snapshot!(page(&sweep(&[0.0, 15.0, 45.0, 90.0], 20_000)), @r"
+        inclined-plane
+        coverage probability 95 %; 20 000 Monte Carlo trials for each row, seed 1
+
+        a_ref     Reference acceleration along the vertical, RMS.
+        tilt      Tilt angle of the plane against the horizontal.
+        rotation  Rotation angle of the sensor on the plane.
+
+        at f = 80 Hz
+
+        a_x in m/s^2: Acceleration along the sensor's x axis, RMS.
+        ══════════════════════════════════════════════════════════
+
+          tilt  estimate     standard     expanded     k  Monte Carlo interval  GUM
+        in deg            uncertainty  uncertainty        (symmetric) from, to  interval
+        ─────────────────────────────────────────────────────────────────────────────────
+             0     0            0            0      1.96  0.0004   0.0170       not valid
+            15     2.588        0.010        0.020  1.96  2.571    2.606        not valid
+            45     7.071        0.010        0.020  1.96  7.052    7.090        undecided
+            90    10.000        0.010        0.020  1.96  9.980   10.020        undecided
+
+        a_y in m/s^2: Acceleration along the sensor's y axis, RMS.
+        ══════════════════════════════════════════════════════════
+
+          tilt  estimate     standard     expanded     k  Monte Carlo interval  GUM
+        in deg            uncertainty  uncertainty        (symmetric) from, to  interval
+        ────────────────────────────────────────────────────────────────────────────────
+             0         0            0            0  1.96  0  0                  valid
+            15         0            0            0  1.96  0  0                  valid
+            45         0            0            0  1.96  0  0                  valid
+            90         0            0            0  1.96  0  0                  valid
+
+        a_z in m/s^2: Acceleration along the sensor's z axis, RMS.
+        ══════════════════════════════════════════════════════════
+
+          tilt  estimate     standard     expanded     k  Monte Carlo interval  GUM
+        in deg            uncertainty  uncertainty        (symmetric) from, to  interval
+        ─────────────────────────────────────────────────────────────────────────────────
+             0    10.000        0.010        0.020  1.96  9.980   10.020        undecided
+            15     9.659        0.010        0.020  1.96  9.639    9.679        undecided
+            45     7.071        0.010        0.020  1.96  7.052    7.090        undecided
+            90     0.000        0.010        0.020  1.96  0.0004   0.0170       not valid
+
+        Budgets, shortest intervals, numerical standard errors and correlations of every row: --format json.
+        ");
+}
+
+#[test]
+fn a_coverage_factor_is_named_as_people_name_it() {
+    let mut task = plane_at(35.0, 0);
+    task.settings.coverage = Coverage::Factor { factor: 2.0, fixed: false };
+    assert!(page(&Case::new(task)).contains("2.00 for approximately 95 %"));
+    let mut task = plane_at(35.0, 0);
+    task.settings.coverage = Coverage::Factor { factor: 3.0, fixed: true };
+    assert!(page(&Case::new(task)).contains("3.00 for 99.73 %"));
+}
+
+#[test]
+fn long_names_and_texts_keep_the_page_in_bounds() {
+    let mut case = Case::new(correlated(2000));
+    let long = "a_very_long_name_of_a_quantity_that_goes_on_and_on_and_on/with_a_component";
+    for variable in &mut case.task.variables {
+        variable.name = long.to_owned();
+        variable.about = "words and ".repeat(30);
+        variable.group = Some("group of a long name ".repeat(4));
+        variable.evaluation = Kind::A;
+    }
+    case.task.title = "\u{1b}[31mred\u{7}\r\n title".to_owned() + &" and more".repeat(20);
+    for output in &mut case.task.model.outputs {
+        output.quantity.name = long.to_owned();
+        output.quantity.about = "more words ".repeat(30);
+    }
+    let page = page(&case);
+    assert!(page.chars().all(|c| c == '\n' || !c.is_control()));
+    assert!(page.starts_with("[31mred title and more"));
+}
+
+/// Texts far beyond what anybody reads, in one word or in many, are cut after twenty lines; the
+/// answer for programs has them whole.
+#[test]
+fn endless_texts_are_cut() {
+    for text in ["x".repeat(70_000), "word ".repeat(20_000)] {
+        let mut case = Case::new(correlated(2000));
+        case.task.title.clone_from(&text);
+        for variable in &mut case.task.variables {
+            variable.about.clone_from(&text);
+            variable.group = Some(text.clone());
+        }
+        for output in &mut case.task.model.outputs {
+            output.quantity.about.clone_from(&text);
+        }
+        let style = Style { columns: Column::ALL.to_vec(), ..Style::default() };
+        let page = table(&case.report(), &style);
+        assert!(page.lines().all(|line| line.chars().count() <= 100), "{page}");
+        let title: Vec<&str> = page.lines().take_while(|line| !line.contains("coverage")).collect();
+        assert!((20..=21).contains(&title.len()), "{title:?}");
+        assert!(title.last().is_some_and(|line| line.ends_with('…')), "{title:?}");
+        assert_eq!(case.json()["title"], text);
+    }
+}
+
+#[test]
+fn many_conditions_are_numbered() {
+    let mut case = sweep(&[0.0, 15.0], 2000);
+    let condition = case.task.model.conditions[1].clone();
+    for number in 0..12 {
+        let name = format!("condition_{number}");
+        case.task.model.conditions.push(Quantity { name, ..condition.clone() });
+        case.evaluation.rows[0].conditions.push(0.25);
+        case.evaluation.rows[1].conditions.push(0.5);
+    }
+    let page = page(&case);
+    assert!(page.contains("row  conditions"), "{page}");
+}

@@ -1,0 +1,442 @@
+//! One time base analysed: frequencies, fits and residuals of its channels.
+
+use std::rc::Rc;
+
+use super::Measured;
+use super::effects::{Effects, KnownNoise};
+use super::frequency::{self, NoFrequency};
+use super::passes::{Held, Passes, Selected, gathered};
+use super::polar::shares;
+use super::quantization::amplitude_error;
+use super::recipe::{Frequency, Method, Settings, TimeBase};
+use super::residuals::{self, Residuals};
+use super::sine_fit::{Coefficients, Design, NoFit, Tone};
+use super::spurious::{self, Spurious};
+use super::whole_periods::whole_periods;
+use gumption_engine::number::elementary::hypot;
+
+/// Values of one channel that are held in memory at most (1 GiB): what a channel with steps, or of
+/// a recipe with `"method": "fft"`, may have.
+pub const MOST_HELD: u64 = 1 << 27;
+
+/// Why a row has no observation.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Refused<E> {
+    /// A recording cannot be read.
+    Unreadable(E),
+    /// A component at or above half the sampling rate; frequency and rate in hertz.
+    AboveNyquist {
+        /// The channel.
+        channel: usize,
+        /// The component's frequency.
+        hertz: f64,
+        /// The sampling rate.
+        rate: f64,
+    },
+    /// Less than one period of a frequency.
+    LessThanOnePeriod {
+        /// The channel.
+        channel: usize,
+        /// The frequency, in hertz.
+        hertz: f64,
+        /// The part of a period that there is.
+        periods: f64,
+    },
+    /// Two components that the record is too short to tell apart, or fewer values than parameters.
+    NotApart {
+        /// The channel.
+        channel: usize,
+        /// Values of the record.
+        samples: u64,
+    },
+    /// No oscillation where the frequency is to be estimated.
+    NotFound {
+        /// The channel.
+        channel: usize,
+    },
+    /// A step cannot be done.
+    Step {
+        /// The channel.
+        channel: usize,
+        /// The number of the step, from 0.
+        step: usize,
+        /// Why.
+        reason: String,
+    },
+    /// The sampling rate cannot be found.
+    Rate {
+        /// The channel that it was looked for in.
+        channel: usize,
+        /// Why.
+        reason: String,
+    },
+    /// More values than are held in memory for a step or the Fourier transform.
+    TooLong {
+        /// The channel.
+        channel: usize,
+        /// Its values.
+        samples: u64,
+    },
+}
+
+/// A frequency in a recording.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Fundamental {
+    /// Cycles in a sample interval that are fitted.
+    pub(super) cycles: f64,
+    /// Cycles in a sample interval by which phases go on from the middle of the record: the same, but
+    /// for a cut at whole samples.
+    pub(super) turning: f64,
+    /// In hertz.
+    pub(super) hertz: Measured,
+    /// The standard uncertainty of the cycles from a stated frequency.
+    pub(super) of_stated: f64,
+    /// The same from noise, where the frequency was estimated.
+    pub(super) of_estimate: f64,
+    /// The same from the sampling rate, for a stated frequency.
+    pub(super) of_rate: f64,
+    /// The same from cutting at whole samples.
+    pub(super) of_cut: f64,
+}
+
+/// A channel's fit with what surrounds it.
+#[derive(Clone, Debug)]
+pub(super) struct Analysed {
+    pub(super) channel: usize,
+    /// Which analysis it comes from: channels of one share their estimated frequency.
+    pub(super) track: usize,
+    /// Which clock: channels of one share the error of the sampling rate.
+    pub(super) clock: usize,
+    pub(super) base: TimeBase,
+    pub(super) design: Rc<Design>,
+    pub(super) fit: Coefficients,
+    pub(super) residuals: Residuals,
+    pub(super) fundamentals: Vec<Fundamental>,
+    pub(super) spurious: Vec<Spurious>,
+    /// What the channel's steps did.
+    pub(super) effects: Rc<Effects>,
+}
+
+/// Steps that a channel went through.
+#[derive(Clone, Debug)]
+pub(super) struct Through {
+    pub(super) effects: Rc<Effects>,
+    /// The channel just before the first of them that has an effect.
+    pub(super) before: Analysed,
+}
+
+/// The channels of one time base.
+#[derive(Debug)]
+pub(super) struct Group<'g> {
+    pub(super) settings: &'g Settings,
+    pub(super) frequencies: &'g [Frequency],
+    pub(super) base: TimeBase,
+    pub(super) track: usize,
+    pub(super) clock: usize,
+    /// The channels, and the place of each among those of the passes.
+    pub(super) channels: &'g [(usize, usize)],
+    /// The steps that they went through, if these have an effect.
+    pub(super) through: Option<&'g Through>,
+}
+
+impl Group<'_> {
+    /// Analyses the channels.
+    pub(super) fn analyse<P: Passes>(
+        &self,
+        passes: &mut P,
+    ) -> Result<Vec<Analysed>, Refused<P::Error>> {
+        let columns: Vec<usize> = self.channels.iter().map(|(_, column)| *column).collect();
+        if self.settings.method == Method::Fft {
+            self.check_length(passes.frames())?;
+            let held = gathered(passes, &columns).map_err(Refused::Unreadable)?;
+            return self.over_whole_periods(held).map_err(unreadable);
+        }
+        let mut chosen = Selected { passes, columns: &columns };
+        let fundamentals = self.fundamentals(&mut chosen)?;
+        self.fitted(&mut chosen, self.base, fundamentals)
+    }
+
+    fn check_length<E>(&self, samples: u64) -> Result<(), Refused<E>> {
+        if samples > MOST_HELD {
+            return Err(Refused::TooLong { channel: self.lead().0, samples });
+        }
+        Ok(())
+    }
+
+    /// The channel that frequencies are estimated in: the reference, or else the first; and its
+    /// place.
+    fn lead(&self) -> (usize, usize) {
+        let reference = self.channels.iter().position(|(c, _)| Some(*c) == self.settings.reference);
+        let place = reference.unwrap_or(0);
+        (self.channels.get(place).map_or(0, |(channel, _)| *channel), place)
+    }
+
+    /// The multiples of a frequency that are fitted, in order.
+    fn multiples<E>(&self, cycles: f64) -> Result<Vec<u32>, Refused<E>> {
+        let rate = self.base.rate.value;
+        let below = |multiple: u32| cycles * f64::from(multiple) < 0.5;
+        if let Some(multiple) = self.settings.components.iter().find(|n| !below(**n)) {
+            let hertz = cycles * f64::from(*multiple) * rate;
+            return Err(Refused::AboveNyquist { channel: self.lead().0, hertz, rate });
+        }
+        let mut multiples: Vec<u32> = (1..=self.settings.harmonics).filter(|n| below(*n)).collect();
+        multiples.extend(&self.settings.components);
+        multiples.push(1);
+        multiples.sort_unstable();
+        multiples.dedup();
+        Ok(multiples)
+    }
+
+    fn fundamentals<P: Passes>(
+        &self,
+        passes: &mut P,
+    ) -> Result<Vec<Fundamental>, Refused<P::Error>> {
+        let rate = self.base.rate;
+        let (channel, place) = self.lead();
+        let mut found = Vec::new();
+        for frequency in self.frequencies {
+            let guess = frequency.hertz.map(|hertz| hertz / rate.value);
+            if let Some(cycles) = guess {
+                self.check_periods(cycles, passes.frames())?;
+            }
+            found.push(match (frequency.estimate, guess) {
+                (false, Some(cycles)) => self.stated(frequency, cycles),
+                _ => {
+                    let mut lead = Selected { passes, columns: &[place] };
+                    let multiples = self.multiples(guess.unwrap_or(0.01))?;
+                    let estimate = frequency::estimate(&mut lead, guess, &multiples);
+                    let estimate = estimate.map_err(|error| match error {
+                        NoFrequency::Unreadable(error) => Refused::Unreadable(error),
+                        NoFrequency::NotFound => Refused::NotFound { channel },
+                        NoFrequency::NoFit(no) => self.refusal(no, passes.frames()),
+                    })?;
+                    self.check_periods(estimate.cycles, passes.frames())?;
+                    // the noise is known with the fit of all channels
+                    Fundamental {
+                        of_estimate: estimate.variance.sqrt(),
+                        ..self.stated(frequency, estimate.cycles)
+                    }
+                }
+            });
+        }
+        Ok(found)
+    }
+
+    fn stated(&self, frequency: &Frequency, cycles: f64) -> Fundamental {
+        let rate = self.base.rate;
+        let known = !frequency.estimate && frequency.hertz.is_some();
+        // a rate that was found from this very frequency: cycles that the recording has
+        let first = self.frequencies.first().is_some_and(|first| first.hertz == frequency.hertz);
+        let beside = self.base.beside_frequency.filter(|_| known && first);
+        let relative = beside.unwrap_or(rate.standard_uncertainty) / rate.value;
+        let hertz = Measured {
+            value: cycles * rate.value,
+            standard_uncertainty: if known { frequency.standard_uncertainty } else { 0.0 },
+            degrees_of_freedom: f64::INFINITY,
+        };
+        Fundamental {
+            cycles,
+            turning: cycles,
+            hertz,
+            of_stated: if beside.is_some() { 0.0 } else { hertz.standard_uncertainty / rate.value },
+            of_estimate: 0.0,
+            of_rate: if known { cycles * relative } else { 0.0 },
+            of_cut: 0.0,
+        }
+    }
+
+    fn check_periods<E>(&self, cycles: f64, samples: u64) -> Result<(), Refused<E>> {
+        let (periods, hertz) = (cycles * samples as f64, cycles * self.base.rate.value);
+        // a sample more or less is no part of a period that anybody cut off
+        if periods + cycles < 1.0 {
+            return Err(Refused::LessThanOnePeriod { channel: self.lead().0, hertz, periods });
+        }
+        Ok(())
+    }
+
+    fn refusal<E>(&self, no: NoFit, samples: u64) -> Refused<E> {
+        let channel = self.lead().0;
+        match no {
+            NoFit::Frequency { cycles } => {
+                let rate = self.base.rate.value;
+                Refused::AboveNyquist { channel, hertz: cycles * rate, rate }
+            }
+            NoFit::TooShort => Refused::NotApart { channel, samples },
+        }
+    }
+
+    /// The tones of all frequencies; a multiple that nobody asked for gives way to one of another
+    /// frequency at the same place.
+    fn tones<E>(
+        &self,
+        fundamentals: &[Fundamental],
+        samples: u64,
+    ) -> Result<Vec<Tone>, Refused<E>> {
+        let mut tones: Vec<Tone> = Vec::new();
+        for asked in [true, false] {
+            for (fundamental, of) in fundamentals.iter().enumerate() {
+                for multiple in self.multiples(of.cycles)? {
+                    let is_asked = multiple == 1 || self.settings.components.contains(&multiple);
+                    let cycles = of.cycles * f64::from(multiple);
+                    let near = |tone: &Tone| (tone.cycles - cycles).abs() * (samples as f64) < 0.5;
+                    if is_asked == asked && (asked || !tones.iter().any(near)) {
+                        tones.push(Tone { cycles, fundamental, multiple });
+                    }
+                }
+            }
+        }
+        Ok(tones)
+    }
+
+    fn fitted<P: Passes>(
+        &self,
+        passes: &mut P,
+        base: TimeBase,
+        mut fundamentals: Vec<Fundamental>,
+    ) -> Result<Vec<Analysed>, Refused<P::Error>> {
+        let samples = passes.frames();
+        let tones = self.tones(&fundamentals, samples)?;
+        let design = Design::new(tones, samples).map_err(|no| self.refusal(no, samples))?;
+        let mut fits = design.fit(passes).map_err(Refused::Unreadable)?;
+        let mut left = residuals::of(&design, passes, &mut fits).map_err(Refused::Unreadable)?;
+        if let Some(through) = self.through {
+            for (residuals, (channel, _)) in left.iter_mut().zip(self.channels) {
+                let resolution =
+                    self.settings.channels.get(*channel).map_or(0.0, |of| of.resolution);
+                let known = through.noise(&design, residuals, base.rate.value, resolution);
+                residuals.known = Some(known);
+            }
+        }
+        let lead = self.lead().1;
+        for (number, of) in fundamentals.iter_mut().enumerate() {
+            let tone = |t: &Tone| t.fundamental == number && t.multiple == 1;
+            let tone = design.tones.iter().position(tone).unwrap_or(0);
+            if let Some(residuals) = left.get(lead).filter(|_| of.of_estimate > 0.0) {
+                of.of_estimate *= (residuals.variance * local(residuals, tone)).sqrt();
+                let rate = base.rate;
+                let of_rate = of.hertz.value * rate.standard_uncertainty / rate.value;
+                of.hertz.standard_uncertainty = (of.of_estimate * rate.value).hypot(of_rate);
+            }
+        }
+        let design = Rc::new(design);
+        let analysed = self.channels.iter().zip(fits).zip(left).map(|((at, fit), residuals)| {
+            let spurious = spurious::found(&residuals.first);
+            Analysed {
+                channel: at.0,
+                track: self.track,
+                clock: self.clock,
+                base,
+                design: design.clone(),
+                fit,
+                residuals,
+                fundamentals: fundamentals.clone(),
+                spurious,
+                effects: self.through.map_or_else(Rc::default, |of| of.effects.clone()),
+            }
+        });
+        Ok(analysed.collect())
+    }
+
+    /// The bins of the discrete Fourier transform of a whole number of periods: over such a part a
+    /// least-squares fit at the bins' frequencies is that transform.
+    fn over_whole_periods(
+        &self,
+        mut held: Held,
+    ) -> Result<Vec<Analysed>, Refused<std::convert::Infallible>> {
+        let (channel, place) = self.lead();
+        let mut fundamentals = self.fundamentals(&mut held)?;
+        let (Some(of), Some(values)) = (fundamentals.first_mut(), held.channels.get(place)) else {
+            return Ok(Vec::new());
+        };
+        let Some(part) = whole_periods(values, of.cycles) else {
+            let (periods, hertz) = (of.cycles * values.len() as f64, of.hertz.value);
+            return Err(Refused::LessThanOnePeriod { channel, hertz, periods });
+        };
+        let bin = f64::from(part.periods) / part.samples as f64;
+        of.of_cut = (of.cycles - bin).abs();
+        of.cycles = bin;
+        for values in &mut held.channels {
+            *values = values.get(part.first..part.first + part.samples).unwrap_or(&[]).to_vec();
+        }
+        let start = self.base.start + part.first as f64 / self.base.rate.value;
+        fundamentals.truncate(1);
+        self.fitted(&mut held, TimeBase { start, ..self.base }, fundamentals)
+    }
+}
+
+/// The noise power near a tone over that of white noise of the same variance, where the residuals
+/// are not white and the record is long enough to tell; else 1.
+pub(super) fn local(residuals: &Residuals, tone: usize) -> f64 {
+    if let Some(KnownNoise { factors: Some(factors), .. }) = &residuals.known {
+        return factors.get(tone).copied().unwrap_or(1.0);
+    }
+    match &residuals.local {
+        Some(local) if residuals.correlated => local.get(tone).copied().unwrap_or(1.0),
+        _ => 1.0,
+    }
+}
+
+impl Through {
+    /// The noise after the steps. Where it was white before them it is theirs; where it was not, it
+    /// is measured after them, or before them, or taken as even over what the steps let pass.
+    fn noise(&self, design: &Design, after: &Residuals, rate: f64, resolution: f64) -> KnownNoise {
+        let before = &self.before.residuals;
+        let frequencies: Vec<f64> =
+            [0.0].into_iter().chain(design.tones.iter().map(|tone| tone.cycles * rate)).collect();
+        let coloured = self.effects.coloured(design.samples, rate, &frequencies);
+        let over = |variance: f64| {
+            let over =
+                if after.variance > 0.0 { variance / after.variance } else { 1.0 / coloured.power };
+            if over.is_finite() { over } else { 1.0 }
+        };
+        let (level, tones) = coloured.densities.split_first().unwrap_or((&1.0, &[]));
+        let white = over(before.variance);
+        let even = 1.0 / coloured.power.max(f64::MIN_POSITIVE);
+        let (factors, freedom, scale) = match (&before.local, &after.local) {
+            _ if !before.correlated => (Some(white), before.degrees_of_freedom, white),
+            (Some(_), Some(_)) => (None, 0.0, white),
+            _ => (Some(even), (coloured.freedom - 3.0).max(1.0), even),
+        };
+        let shares = shares(&self.before, resolution);
+        let noise = (before.variance * (1.0 - shares[0] - shares[1]).max(0.0)).sqrt();
+        let rounding = if resolution > 0.0 {
+            amplitude_error(resolution, self.before.strongest().max(resolution), noise)
+        } else {
+            0.0
+        };
+        KnownNoise {
+            factors: factors.map(|factor| tones.iter().map(|d| factor * d).collect()),
+            freedom,
+            level: scale * level,
+            of_residuals: (coloured.freedom - 1.0 - 2.0 * tones.len() as f64).max(1.0),
+            shares,
+            rounding: tones.iter().map(|d| rounding * d.sqrt()).collect(),
+        }
+    }
+}
+
+impl Analysed {
+    /// The peak amplitude of the strongest tone.
+    pub(super) fn strongest(&self) -> f64 {
+        let tones = self.fit.cosines.iter().zip(&self.fit.sines);
+        tones.map(|(a, b)| hypot(*a, *b)).fold(0.0, f64::max)
+    }
+}
+
+/// A refusal of something in memory, which cannot be unreadable.
+pub(super) fn unreadable<E>(refused: Refused<std::convert::Infallible>) -> Refused<E> {
+    match refused {
+        Refused::Unreadable(never) => match never {},
+        Refused::AboveNyquist { channel, hertz, rate } => {
+            Refused::AboveNyquist { channel, hertz, rate }
+        }
+        Refused::LessThanOnePeriod { channel, hertz, periods } => {
+            Refused::LessThanOnePeriod { channel, hertz, periods }
+        }
+        Refused::NotApart { channel, samples } => Refused::NotApart { channel, samples },
+        Refused::NotFound { channel } => Refused::NotFound { channel },
+        Refused::Step { channel, step, reason } => Refused::Step { channel, step, reason },
+        Refused::Rate { channel, reason } => Refused::Rate { channel, reason },
+        Refused::TooLong { channel, samples } => Refused::TooLong { channel, samples },
+    }
+}

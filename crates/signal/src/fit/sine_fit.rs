@@ -1,0 +1,290 @@
+//! Least-squares fit of oscillations of known frequencies to evenly spaced values: the
+//! three-parameter sine fit of IEEE Std 1057 (annex on sine-wave curve fits) and the sine
+//! approximation of ISO 16063-11 (method 3), for any number of tones at once.
+//!
+//! Instants are counted from the middle of the record. Cosines and the constant are even there,
+//! sines odd, so that the normal equations fall into two small well-conditioned systems whose
+//! matrices are known in closed form. The remainders are fitted once more, which leaves the
+//! rounding of the values themselves.
+
+use nalgebra::{DMatrix, DVector};
+
+use crate::dirichlet::Kernel;
+use crate::passes::{BLOCK, Passes};
+use crate::turns::{Turns, oscillation};
+
+/// The largest condition number of the normal equations: beyond it the tones cannot be told apart
+/// (much less than a period, or two frequencies too near).
+const WORST_CONDITION: f64 = 1e4;
+
+/// An oscillation of a fit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tone {
+    /// Cycles in a sample interval: the frequency over the sampling rate, above 0 and below 1/2.
+    pub cycles: f64,
+    /// Which fundamental it belongs to.
+    pub fundamental: usize,
+    /// Which multiple of the fundamental's frequency it is, 1 or more.
+    pub multiple: u32,
+}
+
+/// Why tones cannot be fitted.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum NoFit {
+    /// A tone is at or above half the sampling rate, or not above zero.
+    Frequency {
+        /// Its cycles in a sample interval.
+        cycles: f64,
+    },
+    /// Fewer values than parameters, or tones that the record is too short to tell apart.
+    TooShort,
+}
+
+/// The design of a fit: its tones at the samples of a record, without the values.
+#[derive(Clone, Debug)]
+pub struct Design {
+    /// The tones.
+    pub tones: Vec<Tone>,
+    /// Samples of the record.
+    pub samples: u64,
+    steps: Vec<Turns>,
+    /// The inverse normal matrix of the constant and the cosines, in that order.
+    pub(crate) even: DMatrix<f64>,
+    /// The inverse normal matrix of the sines.
+    pub(crate) odd: DMatrix<f64>,
+}
+
+/// A constant and tones a cos + b sin, with phases counted from the middle of the record.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Coefficients {
+    /// The constant.
+    pub offset: f64,
+    /// The factor of the cosine of each tone.
+    pub cosines: Vec<f64>,
+    /// The factor of the sine of each tone.
+    pub sines: Vec<f64>,
+}
+
+impl Design {
+    /// Tones at `samples` evenly spaced values.
+    ///
+    /// # Errors
+    /// [`NoFit`] where the tones have no unique fit.
+    pub fn new(tones: Vec<Tone>, samples: u64) -> Result<Self, NoFit> {
+        let wrong = tones.iter().find(|tone| !(tone.cycles > 0.0 && tone.cycles < 0.5));
+        if let Some(tone) = wrong {
+            return Err(NoFit::Frequency { cycles: tone.cycles });
+        }
+        if samples < 2 * tones.len() as u64 + 2 {
+            return Err(NoFit::TooShort);
+        }
+        let steps: Vec<Turns> = tones.iter().filter_map(|tone| Turns::new(tone.cycles)).collect();
+        let count = steps.len();
+        let sum = |turns: Turns| Kernel::new(turns, samples).cosines;
+        let mut even = DMatrix::zeros(count + 1, count + 1);
+        let mut odd = DMatrix::zeros(count, count);
+        even[(0, 0)] = samples as f64;
+        for (k, step) in steps.iter().enumerate() {
+            even[(0, k + 1)] = sum(*step);
+            even[(k + 1, 0)] = even[(0, k + 1)];
+            for (l, other) in steps.iter().enumerate() {
+                let (apart, together) = (sum(step.apart(*other)), sum(step.plus(*other)));
+                even[(k + 1, l + 1)] = (apart + together) / 2.0;
+                odd[(k, l)] = (apart - together) / 2.0;
+            }
+        }
+        let (even, odd) = (inverse(even), inverse(odd));
+        match (even, odd) {
+            (Some(even), Some(odd)) => Ok(Self { tones, samples, steps, even, odd }),
+            _ => Err(NoFit::TooShort),
+        }
+    }
+
+    /// Fits every channel of a recording.
+    ///
+    /// # Errors
+    /// Where the recording cannot be read.
+    pub fn fit<P: Passes>(&self, passes: &mut P) -> Result<Vec<Coefficients>, P::Error> {
+        let mut sums: Vec<Sums> = Vec::new();
+        self.each(passes, |_, channels, waves| {
+            sums.resize_with(channels.len(), || Sums::new(self.tones.len()));
+            for (sums, values) in sums.iter_mut().zip(channels) {
+                sums.add(values, waves);
+            }
+        })?;
+        Ok(sums.iter().map(|sums| self.solve(sums)).collect())
+    }
+
+    /// Goes through a recording with the waves of the tones at each block.
+    pub(crate) fn each<P: Passes>(
+        &self,
+        passes: &mut P,
+        mut each: impl FnMut(u64, &[&[f64]], &Waves),
+    ) -> Result<(), P::Error> {
+        let mut waves = Waves::new(self.steps.len());
+        passes.pass(&mut |first, channels| {
+            let length = channels.first().map_or(0, |values| values.len()).min(BLOCK);
+            waves.fill(&self.steps, first, length);
+            each(first, channels, &waves);
+        })
+    }
+
+    /// The least-squares solution for sums of products.
+    pub(crate) fn solve(&self, sums: &Sums) -> Coefficients {
+        // the sums count phases from the first sample; turned to the middle
+        let mut even = DVector::zeros(self.steps.len() + 1);
+        let mut odd = DVector::zeros(self.steps.len());
+        even[0] = sums.values;
+        for (k, step) in self.steps.iter().enumerate() {
+            let (sin, cos) = self.middle(*step);
+            even[k + 1] = sums.cosines[k] * cos + sums.sines[k] * sin;
+            odd[k] = sums.sines[k] * cos - sums.cosines[k] * sin;
+        }
+        // the pilot was taken off every value
+        let mut solution = &self.even * even;
+        let sines = &self.odd * odd;
+        solution[0] += sums.pilot.unwrap_or(0.0);
+        Coefficients {
+            offset: solution[0],
+            cosines: solution.iter().skip(1).copied().collect(),
+            sines: sines.iter().copied().collect(),
+        }
+    }
+
+    /// Sine and cosine of a tone's phase from the first sample to the middle of the record.
+    fn middle(&self, step: Turns) -> (f64, f64) {
+        step.half().times(self.samples.saturating_sub(1)).sin_cos()
+    }
+
+    /// The factors of the tones with phases counted from the first sample.
+    pub(crate) fn at_first(&self, fit: &Coefficients) -> Coefficients {
+        let mut turned = fit.clone();
+        for (k, step) in self.steps.iter().enumerate() {
+            let (sin, cos) = self.middle(*step);
+            let (a, b) = (fit.cosines[k], fit.sines[k]);
+            turned.cosines[k] = a * cos - b * sin;
+            turned.sines[k] = a * sin + b * cos;
+        }
+        turned
+    }
+
+    /// How the fit of a channel moves with the cycles of a fundamental: the fit at `cycles` that are
+    /// too large by e is off by e times this (the negative of the projected derivative).
+    pub(crate) fn slope(&self, fit: &Coefficients, fundamental: usize) -> Coefficients {
+        let (even, odd) = self.derivative_products(fit, fundamental);
+        let (even, odd) = (-(&self.even * even), -(&self.odd * odd));
+        Coefficients {
+            offset: even[0],
+            cosines: even.iter().skip(1).copied().collect(),
+            sines: odd.iter().copied().collect(),
+        }
+    }
+
+    /// The products of the constant and the waves with the derivative of a channel's fit by the
+    /// cycles of a fundamental.
+    pub(crate) fn derivative_products(
+        &self,
+        fit: &Coefficients,
+        fundamental: usize,
+    ) -> (DVector<f64>, DVector<f64>) {
+        let moment = |turns: Turns| Kernel::new(turns, self.samples).moments;
+        let signed = |from: Turns, other: Turns| {
+            let size = moment(from.apart(other));
+            if from.value() < other.value() { -size } else { size }
+        };
+        let mut even = DVector::zeros(self.steps.len() + 1);
+        let mut odd = DVector::zeros(self.steps.len());
+        for (k, (tone, step)) in self.tones.iter().zip(&self.steps).enumerate() {
+            if tone.fundamental != fundamental {
+                continue;
+            }
+            let speed = 2.0 * std::f64::consts::PI * f64::from(tone.multiple);
+            let (a, b) = (-speed * fit.cosines[k], speed * fit.sines[k]);
+            even[0] += a * moment(*step);
+            for (l, other) in self.steps.iter().enumerate() {
+                let together = moment(step.plus(*other));
+                even[l + 1] += a * (together + signed(*step, *other)) / 2.0;
+                odd[l] += b * (together + signed(*other, *step)) / 2.0;
+            }
+        }
+        (even, odd)
+    }
+}
+
+/// The inverse of a normal matrix, if it is not near a singular one.
+fn inverse(matrix: DMatrix<f64>) -> Option<DMatrix<f64>> {
+    if matrix.is_empty() {
+        return Some(matrix);
+    }
+    let largest = matrix.diagonal().max();
+    let inverse = matrix.cholesky()?.inverse();
+    (inverse.diagonal().max() * largest < WORST_CONDITION).then_some(inverse)
+}
+
+/// The tones at the samples of a block, with phases counted from the first sample of the record.
+#[derive(Clone, Debug)]
+pub(crate) struct Waves {
+    pub(crate) cosines: Vec<Vec<f64>>,
+    pub(crate) sines: Vec<Vec<f64>>,
+}
+
+impl Waves {
+    fn new(count: usize) -> Self {
+        Self { cosines: vec![Vec::new(); count], sines: vec![Vec::new(); count] }
+    }
+
+    fn fill(&mut self, steps: &[Turns], first: u64, length: usize) {
+        for ((step, cos), sin) in steps.iter().zip(&mut self.cosines).zip(&mut self.sines) {
+            cos.resize(length, 0.0);
+            sin.resize(length, 0.0);
+            oscillation(*step, first, cos, sin);
+        }
+    }
+}
+
+/// Sums of the values of a channel with the waves of the tones. The first value is taken off all, so
+/// that a large constant costs no digits.
+#[derive(Clone, Debug)]
+pub(crate) struct Sums {
+    pilot: Option<f64>,
+    pub(crate) values: f64,
+    pub(crate) cosines: Vec<f64>,
+    pub(crate) sines: Vec<f64>,
+}
+
+impl Sums {
+    pub(crate) fn new(tones: usize) -> Self {
+        Self { pilot: None, values: 0.0, cosines: vec![0.0; tones], sines: vec![0.0; tones] }
+    }
+
+    /// Sums of values from which nothing is taken off.
+    pub(crate) fn plain(tones: usize) -> Self {
+        Self { pilot: Some(0.0), ..Self::new(tones) }
+    }
+
+    pub(crate) fn add(&mut self, values: &[f64], waves: &Waves) {
+        let pilot = *self.pilot.get_or_insert_with(|| values.first().copied().unwrap_or(0.0));
+        self.values += values.iter().map(|value| value - pilot).sum::<f64>();
+        let sum = |wave: &[f64]| dot(values, wave, pilot);
+        for (sums, wave) in self.cosines.iter_mut().zip(&waves.cosines) {
+            *sums += sum(wave);
+        }
+        for (sums, wave) in self.sines.iter_mut().zip(&waves.sines) {
+            *sums += sum(wave);
+        }
+    }
+}
+
+/// The sum of products in eight partial sums, always in the same order.
+pub(crate) fn dot(values: &[f64], wave: &[f64], pilot: f64) -> f64 {
+    let mut parts = [0.0; 8];
+    let (whole, rest) = (values.chunks_exact(8), wave.chunks_exact(8));
+    let tail: f64 =
+        whole.remainder().iter().zip(rest.remainder()).map(|(v, w)| (v - pilot) * w).sum();
+    for (values, wave) in whole.zip(rest) {
+        for i in 0..8 {
+            parts[i] += (values[i] - pilot) * wave[i];
+        }
+    }
+    parts.iter().sum::<f64>() + tail
+}

@@ -1,0 +1,63 @@
+//! Oscillations that a fit does not have: found in the spectrum of its residuals.
+
+use crate::frequency::windowed;
+
+/// The power of a bin over the median that noise alone exceeds in less than one record in a
+/// thousand: of 2^15 exponential bins the largest is above ln 2 x 25 times the median with a
+/// probability of 2^15 exp(-17.3) = 0.001.
+const OVER_MEDIAN: f64 = 25.0;
+
+/// Oscillations that are named at most.
+const MOST: usize = 5;
+
+/// An oscillation in residuals.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Spurious {
+    /// Cycles in a sample interval.
+    pub cycles: f64,
+    /// Its amplitude, in the channel's unit.
+    pub amplitude: f64,
+}
+
+/// The oscillations that stand out of the spectrum of residuals, strongest first.
+pub(crate) fn found(residuals: &[f64]) -> Vec<Spurious> {
+    let count = residuals.len();
+    if count < 64 {
+        return Vec::new();
+    }
+    let power = windowed(residuals);
+    let mut sorted = power.clone();
+    sorted.sort_by(f64::total_cmp);
+    let median = sorted.get(sorted.len() / 2).copied().unwrap_or(0.0);
+    let at = |bin: usize| power.get(bin).copied().unwrap_or(0.0);
+    let mut peaks: Vec<Spurious> = (2..power.len())
+        .filter(|bin| at(*bin) > OVER_MEDIAN * median)
+        .filter(|bin| at(*bin) >= at(bin - 1) && at(*bin) > at(bin + 1))
+        .map(|bin| {
+            // the Hann window's gain is 1/2, and its peak and neighbours hold 3/2 of the peak's power
+            let energy = at(bin - 1) + at(bin) + at(bin + 1);
+            let amplitude = 4.0 * (energy / 1.5).sqrt() / count as f64;
+            Spurious { cycles: bin as f64 / count as f64, amplitude }
+        })
+        .collect();
+    peaks.sort_by(|a, b| b.amplitude.total_cmp(&a.amplitude));
+    peaks.truncate(MOST);
+    peaks
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_hum_is_found_with_its_amplitude() {
+        let of = |i: u32| {
+            let noise = (f64::from(i * 7919 % 1009) / 1009.0 - 0.5) * 0.2;
+            0.3 * (2.0 * std::f64::consts::PI * 0.0503 * f64::from(i)).cos() + noise
+        };
+        let found = found(&(0..4096).map(of).collect::<Vec<f64>>());
+        // the bin is within half of 1/4096; the scalloping of three bins below 3 %
+        assert!((found[0].cycles - 0.0503).abs() < 1.3e-4, "{found:?}");
+        assert!((found[0].amplitude - 0.3).abs() < 0.01, "{found:?}");
+    }
+}

@@ -1,0 +1,318 @@
+//! A row of a recipe: recordings in, observations out.
+
+use std::rc::Rc;
+
+use super::analysis::{Analysed, Group, MOST_HELD, Refused, Through, local, unreadable};
+use super::effects::{Effect, Effects};
+use super::observation::{ChannelObservation, Observation};
+use super::passes::{Held, Passes, gathered};
+use super::recipe::{Frequency, Method, Search, Settings, TimeBase};
+use super::search;
+use super::step::{Finding, Step, Surroundings};
+use super::values::observed;
+use super::{Measured, Signal};
+
+/// A recording with the channels that it holds.
+#[derive(Debug)]
+pub struct Track<P> {
+    /// The values, in the units of their channels.
+    pub passes: P,
+    /// Their instants.
+    pub base: TimeBase,
+    /// The channels that it holds, by their places in the recipe.
+    pub channels: Vec<usize>,
+    /// How the sampling rate is found in it, where it is.
+    pub search: Option<Search>,
+}
+
+/// A channel that went through its steps.
+struct Stepped {
+    channel: usize,
+    clock: usize,
+    base: TimeBase,
+    held: Held,
+    findings: Vec<Finding>,
+    through: Option<Through>,
+    notes: Vec<Note>,
+}
+
+/// A fixed short name, the channel, and the sentence.
+type Note = (&'static str, usize, String);
+
+/// Takes amplitudes, phases and what goes with them from the recordings of one row.
+///
+/// # Errors
+/// [`Refused`] says what is missing in which channel.
+pub fn observe<P: Passes>(
+    settings: &Settings,
+    frequencies: &[Frequency],
+    tracks: &mut [Track<P>],
+) -> Result<Observation, Refused<P::Error>> {
+    let mut findings: Vec<(usize, Finding)> = search::rates(settings, frequencies, tracks)?;
+    let mut stepped: Vec<Stepped> = Vec::new();
+    for channel in in_order(settings) {
+        if let Some(found) = through_steps(settings, frequencies, tracks, &stepped, channel)? {
+            stepped.push(found);
+        }
+    }
+    let mut analysed: Vec<Analysed> = Vec::new();
+    let mut track = 0;
+    for (clock, recording) in tracks.iter_mut().enumerate() {
+        let plain = recording.channels.iter().enumerate();
+        let plain: Vec<(usize, usize)> = plain
+            .filter(|(_, channel)| settings.channels[**channel].steps.is_empty())
+            .map(|(column, channel)| (*channel, column))
+            .collect();
+        if plain.is_empty() {
+            continue;
+        }
+        let base = recording.base;
+        let group =
+            Group { settings, frequencies, base, track, clock, channels: &plain, through: None };
+        analysed.extend(group.analyse(&mut recording.passes)?);
+        track += 1;
+    }
+    let mut of_steps: Vec<Note> = Vec::new();
+    for mut of in stepped {
+        let channels = [(of.channel, 0)];
+        let (base, clock) = (of.base, of.clock);
+        let through = of.through.as_ref();
+        let group =
+            Group { settings, frequencies, base, track, clock, channels: &channels, through };
+        analysed.extend(group.analyse(&mut of.held).map_err(unreadable)?);
+        findings.extend(of.findings.into_iter().map(|finding| (of.channel, finding)));
+        of_steps.extend(of.notes);
+        track += 1;
+    }
+    analysed.sort_by_key(|of| of.channel);
+    let reference =
+        settings.reference.and_then(|channel| analysed.iter().find(|of| of.channel == channel));
+    let found = |channel: usize| {
+        let of = findings.iter().filter(|(of, _)| *of == channel);
+        of.map(|(_, finding)| finding.clone()).collect()
+    };
+    let at = |fundamental: usize| -> Vec<ChannelObservation> {
+        let channels = analysed.iter();
+        channels
+            .filter_map(|of| observed(settings, of, reference, fundamental, found(of.channel)))
+            .collect()
+    };
+    let count = if settings.method == Method::Fft { 1 } else { frequencies.len() };
+    let mut notes = notes(settings, &analysed);
+    notes.extend(of_steps);
+    Ok(Observation { frequencies: (0..count).map(at).collect(), notes })
+}
+
+/// The channels, the reference first.
+fn in_order(settings: &Settings) -> Vec<usize> {
+    let others = (0..settings.channels.len()).filter(|c| Some(*c) != settings.reference);
+    settings.reference.into_iter().chain(others).collect()
+}
+
+fn through_steps<P: Passes>(
+    settings: &Settings,
+    frequencies: &[Frequency],
+    tracks: &mut [Track<P>],
+    done: &[Stepped],
+    channel: usize,
+) -> Result<Option<Stepped>, Refused<P::Error>> {
+    let steps = &settings.channels[channel].steps;
+    if steps.is_empty() {
+        return Ok(None);
+    }
+    let reference = match settings.reference {
+        Some(reference) if steps.iter().any(Step::takes_reference) && reference != channel => {
+            match done.iter().find(|of| of.channel == reference) {
+                Some(of) => Some(signal(of.base, of.held.channels.first())),
+                None => held(tracks, reference)?
+                    .map(|(_, base, held)| signal(base, held.channels.first())),
+            }
+        }
+        _ => None,
+    };
+    let Some((clock, mut base, held)) = held(tracks, channel)? else { return Ok(None) };
+    let mut frequency = frequencies.first().and_then(|of| of.hertz).unwrap_or(0.0);
+    let highest = settings.components.iter().copied().max().unwrap_or(1).max(settings.harmonics);
+    let mut now = signal(base, held.channels.first());
+    let (mut findings, mut notes) = (Vec::new(), Vec::new());
+    let mut effects: Vec<Effect> = Vec::new();
+    let mut before: Option<Analysed> = None;
+    for (step, of) in steps.iter().enumerate() {
+        let refused = |reason| Refused::Step { channel, step, reason };
+        if of.has_effect() && before.is_none() {
+            base.start = now.start;
+            let channels = [(channel, 0)];
+            let group = Group {
+                settings,
+                frequencies,
+                base,
+                track: 0,
+                clock,
+                channels: &channels,
+                through: None,
+            };
+            let mut held = Held { channels: vec![now.values] };
+            before = group.analyse(&mut held).map_err(unreadable)?.pop();
+            now.values = held.channels.pop().unwrap_or_default();
+            let first = before.as_ref().and_then(|of| of.fundamentals.first());
+            frequency = first.map_or(frequency, |of| of.hertz.value);
+        }
+        let surroundings = Surroundings {
+            frequency,
+            frequencies: frequencies.len(),
+            multiples: highest,
+            reference: reference.as_ref(),
+            resolution: if effects.is_empty() {
+                settings.channels[channel].resolution
+            } else {
+                0.0
+            },
+        };
+        let after = of.apply(now, surroundings).map_err(refused)?;
+        now = after.signal;
+        // what a step finds in the channel's own unit
+        findings.extend(after.findings.into_iter().map(|mut finding| {
+            if finding.unit.is_empty() {
+                finding.unit = settings.channels[channel].unit.text().to_owned();
+            }
+            finding
+        }));
+        if let (Some(effect), Some(before)) = (after.effect, &before) {
+            let found = through_filter(settings, channel, of, &effect, before).map_err(refused)?;
+            notes.extend(found.iter().map(|finding| not_corrected(settings, channel, finding)));
+            findings.extend(found);
+            effects.push(effect);
+        }
+    }
+    base.start = now.start;
+    let held = Held { channels: vec![now.values] };
+    let through = before.map(|before| Through { effects: Rc::new(Effects(effects)), before });
+    Ok(Some(Stepped { channel, clock, base, held, findings, through, notes }))
+}
+
+/// The least gain of a filter at a component that is asked for.
+const LEAST_GAIN: f64 = 1e-4;
+
+/// What a filter does to the components that are asked for: a mistake where it takes one of them out,
+/// findings where its gain is not corrected.
+fn through_filter(
+    settings: &Settings,
+    channel: usize,
+    step: &Step,
+    effect: &Effect,
+    before: &Analysed,
+) -> Result<Vec<Finding>, String> {
+    let Effect::Filtered { filter, correct } = effect else { return Ok(Vec::new()) };
+    let mut findings = Vec::new();
+    let rate = before.base.rate;
+    for fundamental in &before.fundamentals {
+        for multiple in settings.components.iter().map(|multiple| f64::from(*multiple)) {
+            let of = fundamental.hertz;
+            let frequency = Measured {
+                value: of.value * multiple,
+                standard_uncertainty: of.standard_uncertainty * multiple,
+                ..of
+            };
+            let passage = filter.passage(frequency, rate.standard_uncertainty / rate.value);
+            let hertz = gumption_engine::number::Shortest(frequency.value);
+            if *correct && passage.gain.value < LEAST_GAIN {
+                return Err(format!(
+                    "the filter lets {:.1e} of the component at {hertz} Hz of channel `{}` pass; that \
+                     is too little to be corrected",
+                    passage.gain.value, settings.channels[channel].name
+                ));
+            }
+            if !*correct {
+                let times = settings.phase.in_radian();
+                let phase = Measured {
+                    value: passage.phase.value * times,
+                    standard_uncertainty: passage.phase.standard_uncertainty * times,
+                    ..passage.phase
+                };
+                let name = |what: &str| format!("{what} of the {} at {hertz} Hz", step.name());
+                let unit = settings.phase.name().to_owned();
+                findings.push(Finding {
+                    name: name("gain"),
+                    unit: "1".to_owned(),
+                    value: passage.gain,
+                });
+                findings.push(Finding { name: name("phase"), unit, value: phase });
+            }
+        }
+    }
+    Ok(findings)
+}
+
+/// What to bear in mind about a gain that is left in the answer.
+fn not_corrected(settings: &Settings, channel: usize, finding: &Finding) -> Note {
+    let unit = if finding.unit == "1" { "" } else { &finding.unit };
+    let text = format!(
+        "`{}`: {}, {:.6} {unit}",
+        settings.channels[channel].name, finding.name, finding.value.value
+    );
+    ("filter-not-corrected", channel, format!("{}, is not corrected", text.trim_end()))
+}
+
+fn signal(base: TimeBase, values: Option<&Vec<f64>>) -> Signal {
+    Signal { values: values.cloned().unwrap_or_default(), rate: base.rate.value, start: base.start }
+}
+
+type InMemory = Option<(usize, TimeBase, Held)>;
+
+/// A channel's values in memory, with its recording and its instants.
+fn held<P: Passes>(tracks: &mut [Track<P>], channel: usize) -> Result<InMemory, Refused<P::Error>> {
+    for (clock, track) in tracks.iter_mut().enumerate() {
+        let Some(column) = track.channels.iter().position(|of| *of == channel) else { continue };
+        let samples = track.passes.frames();
+        if samples > MOST_HELD {
+            return Err(Refused::TooLong { channel, samples });
+        }
+        let values = gathered(&mut track.passes, &[column]).map_err(Refused::Unreadable)?;
+        return Ok(Some((clock, track.base, values)));
+    }
+    Ok(None)
+}
+
+/// What to bear in mind about fits.
+fn notes(settings: &Settings, analysed: &[Analysed]) -> Vec<Note> {
+    let mut notes = Vec::new();
+    for of in analysed {
+        let name = &settings.channels[of.channel].name;
+        let residuals = &of.residuals;
+        let expected = residuals.known.as_ref().is_some_and(|known| known.factors.is_some());
+        if residuals.correlated && !expected {
+            let lag = residuals.autocorrelation.first().copied().unwrap_or(0.0);
+            let way = if residuals.local.is_some() {
+                format!(
+                    "the noise near each frequency is taken from {} parts of the record",
+                    residuals.parts
+                )
+            } else {
+                "the record is too short to tell the noise near each frequency, so standard \
+                 uncertainties may be too small"
+                    .to_owned()
+            };
+            let text = format!(
+                "`{name}`: the residuals are correlated (coefficient {lag:.2} at lag 1); {way}"
+            );
+            notes.push(("correlated-residuals", of.channel, text));
+        }
+        for (number, fundamental) in of.fundamentals.iter().enumerate() {
+            let Some((step, variance)) = residuals.cycles.get(number) else { continue };
+            let stated = fundamental.of_stated.hypot(fundamental.of_rate).hypot(fundamental.of_cut);
+            let noise = (variance * residuals.variance * local(residuals, 0).max(1.0)).sqrt();
+            if fundamental.of_estimate == 0.0 && step.abs() > 5.0 * stated.hypot(noise) {
+                let hertz = |cycles: f64| cycles * of.base.rate.value;
+                let text = format!(
+                    "`{name}`: the recording fits a frequency that differs by {:.2e} Hz from {} Hz, \
+                     more than their uncertainties allow; look at the sampling rate, or let the \
+                     frequency be estimated",
+                    hertz(*step),
+                    gumption_engine::number::Shortest(hertz(fundamental.cycles)),
+                );
+                notes.push(("frequency-differs", of.channel, text));
+            }
+        }
+    }
+    notes
+}

@@ -1,0 +1,137 @@
+//! Recordings with known truth.
+
+use std::f64::consts::PI;
+
+use crate::{
+    Amplitude, Channel, Frequency, Held, Measured, Method, Observation, PhaseUnit, Settings,
+    TimeBase, Track, observe,
+};
+use gumption_engine::distribution::special::normal;
+use gumption_engine::distribution::{BLOCK, StreamKey};
+use gumption_units::Unit;
+
+/// Normal numbers, a function of the seed and the name.
+pub(super) fn normals(seed: u64, name: &str, count: usize) -> Vec<f64> {
+    let key = StreamKey::new(seed, name);
+    let mut numbers = Vec::with_capacity(count + BLOCK);
+    for block in 0..count.div_ceil(BLOCK) {
+        let mut uniform = [0.0; BLOCK];
+        key.block(block as u64).uniform(&mut uniform);
+        numbers.extend(uniform.map(normal::quantile));
+    }
+    numbers.truncate(count);
+    numbers
+}
+
+/// How recordings are made and evaluated.
+#[derive(Clone, Debug)]
+pub(super) struct Bench {
+    pub(super) rate: f64,
+    pub(super) hertz: f64,
+    pub(super) samples: usize,
+    /// Amplitudes and phases (radians, at instant 0) of the multiples 1, 2, ... of each channel.
+    pub(super) channels: Vec<Vec<(f64, f64)>>,
+    pub(super) offset: f64,
+    pub(super) noise: f64,
+    /// Each value of noise is this much of the one before, and as much more new.
+    pub(super) memory: f64,
+    pub(super) resolution: f64,
+    pub(super) jitter: f64,
+    /// Standard uncertainties of frequency and rate, and what they really are off by, in units of
+    /// that.
+    pub(super) frequency_uncertainty: f64,
+    pub(super) rate_uncertainty: f64,
+    pub(super) estimate: bool,
+    pub(super) method: Method,
+    pub(super) trials: u64,
+}
+
+impl Default for Bench {
+    fn default() -> Self {
+        Self {
+            rate: 1000.0,
+            hertz: 10.3,
+            samples: 2000,
+            channels: vec![vec![(1.0, 0.3), (0.02, 1.0)], vec![(0.5, -1.2), (0.01, 0.4)]],
+            offset: 0.7,
+            noise: 0.01,
+            memory: 0.0,
+            resolution: 0.0,
+            jitter: 0.0,
+            frequency_uncertainty: 0.0,
+            rate_uncertainty: 0.0,
+            estimate: false,
+            method: Method::SineFit,
+            trials: 0,
+        }
+    }
+}
+
+impl Bench {
+    pub(super) fn settings(&self) -> Settings {
+        let channel = |name: &str| Channel {
+            name: name.into(),
+            unit: Unit::one(),
+            scale_uncertainty: 0.0,
+            resolution: self.resolution,
+            steps: Vec::new(),
+        };
+        Settings {
+            channels: (0..self.channels.len()).map(|n| channel(["a", "b", "c"][n])).collect(),
+            reference: Some(0),
+            components: vec![1, 2],
+            harmonics: 3,
+            method: self.method,
+            amplitude: Amplitude::Peak,
+            phase: PhaseUnit::Radian,
+            trials: self.trials,
+            seed: 1,
+        }
+    }
+
+    /// The values of recording `seed`.
+    pub(super) fn values(&self, seed: u64) -> Held {
+        let errors = normals(seed, "errors", 2);
+        let hertz = self.hertz + self.frequency_uncertainty * errors[0];
+        let rate = self.rate + self.rate_uncertainty * errors[1];
+        let channels = self.channels.iter().enumerate().map(|(number, tones)| {
+            let name = ["a", "b", "c"][number];
+            let noise = normals(seed, name, self.samples);
+            let jitter = normals(seed, &format!("jitter {name}"), self.samples);
+            let mut last = noise[0];
+            let grown = (1.0 - self.memory * self.memory).sqrt();
+            let value = |i: usize| {
+                let t = i as f64 / rate + self.jitter * jitter[i];
+                last = self.memory * last + grown * noise[i];
+                let waves = tones.iter().enumerate().map(|(n, (amplitude, phase))| {
+                    amplitude * (2.0 * PI * hertz * (n + 1) as f64 * t + phase).cos()
+                });
+                let value = self.offset + waves.sum::<f64>() + self.noise * last;
+                if self.resolution > 0.0 {
+                    (value / self.resolution).round() * self.resolution
+                } else {
+                    value
+                }
+            };
+            (0..self.samples).map(value).collect()
+        });
+        Held { channels: channels.collect() }
+    }
+
+    pub(super) fn observe(&self, held: Held) -> Observation {
+        let rate = Measured {
+            value: self.rate,
+            standard_uncertainty: self.rate_uncertainty,
+            degrees_of_freedom: f64::INFINITY,
+        };
+        let base = TimeBase { rate, start: 0.0, jitter: self.jitter, beside_frequency: None };
+        let channels = (0..held.channels.len()).collect();
+        let frequency = Frequency {
+            hertz: Some(self.hertz),
+            standard_uncertainty: self.frequency_uncertainty,
+            estimate: self.estimate,
+        };
+        let mut tracks = [Track { passes: held, base, channels, search: None }];
+        observe(&self.settings(), &[frequency], &mut tracks).unwrap()
+    }
+}

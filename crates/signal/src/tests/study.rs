@@ -1,0 +1,183 @@
+//! Errors of simulated recordings against the standard uncertainties that are stated for them.
+//!
+//! Of n recordings |error| < 3 u must hold in 99 %, and the standard deviation of the errors must be
+//! the mean u within a tolerance. For normal errors the first holds in 99.73 %; the standard deviation
+//! scatters by 1/sqrt(2 n): with n = 200 by 5 %, and 18 % are allowed (3.6 standard deviations, one
+//! false failure in 3000 figures); with n = 1000 by 2.2 %, and 10 % are allowed (4.5, one in 10^5).
+//! With n = 200 at most 5 may lie beyond 3 u (expected 0.54: one false failure in 10^4).
+
+use std::f64::consts::PI;
+
+use super::simulated::Bench;
+use crate::{ChannelObservation, Measured, Method};
+
+/// Errors and stated uncertainties of one figure.
+#[derive(Default)]
+struct Errors {
+    name: String,
+    errors: Vec<f64>,
+    stated: Vec<f64>,
+}
+
+impl Errors {
+    fn check(&self, about: &str, allowed: f64) {
+        let count = self.errors.len() as f64;
+        let squares: f64 = self.errors.iter().map(|e| e * e).sum();
+        let spread = (squares / count).sqrt();
+        let mean = self.stated.iter().sum::<f64>() / count;
+        let pairs = self.errors.iter().zip(&self.stated);
+        let beyond = pairs.filter(|(e, u)| e.abs() > 3.0 * **u).count();
+        println!("{about}: {}: errors {spread:.3e}, u {mean:.3e}, beyond 3 u: {beyond}", self.name);
+        let most = if count < 500.0 { 5 } else { count as usize / 100 };
+        assert!(beyond <= most, "{about}: {}: {beyond} beyond 3 u", self.name);
+        let ratio = spread / mean;
+        assert!((ratio - 1.0).abs() < allowed, "{about}: {}: {spread} over {mean}", self.name);
+    }
+}
+
+/// The figures of channel b, and the frequency, with their true values.
+fn figures(
+    bench: &Bench,
+    of: &ChannelObservation,
+    root: &ChannelObservation,
+) -> Vec<(String, Measured, f64)> {
+    let (a, b) = (&bench.channels[0], &bench.channels[1]);
+    let mut figures = Vec::new();
+    for (number, component) in of.components.iter().enumerate() {
+        let n = number + 1;
+        let phase = b[number].1 - n as f64 * a[0].1;
+        let phase = phase - 2.0 * PI * (phase / (2.0 * PI)).round();
+        let mut found = component.phase.measured;
+        found.value -= 2.0 * PI * ((found.value - phase) / (2.0 * PI)).round();
+        figures.push((format!("amplitude {n}"), component.amplitude.measured, b[number].0));
+        figures.push((format!("phase {n}"), found, phase));
+        if let Some(delay) = &component.delay {
+            figures.push(("delay".into(), delay.measured, -phase / (2.0 * PI * bench.hertz)));
+        }
+    }
+    figures.push(("reference".into(), root.components[0].amplitude.measured, a[0].0));
+    figures.push(("offset".into(), of.offset.measured, bench.offset));
+    let distortion = b[1].0 / b[0].0;
+    figures.push(("distortion".into(), of.distortion.as_ref().unwrap().measured, distortion));
+    if bench.noise > 0.0 && bench.resolution == 0.0 && bench.jitter == 0.0 {
+        let power = bench.noise * bench.noise;
+        let decibel = |noise: f64| 10.0 * (b[0].0 * b[0].0 / 2.0 / noise).log10();
+        figures.push(("SNR".into(), of.signal_to_noise.measured, decibel(power)));
+        let sinad = decibel(power + b[1].0 * b[1].0 / 2.0);
+        figures.push(("SINAD".into(), of.sinad.measured, sinad));
+    }
+    if bench.estimate {
+        figures.push(("frequency".into(), of.frequency, bench.hertz));
+    }
+    figures
+}
+
+/// Recordings of a bench, evaluated; `left_out` are figures that the bench says nothing about.
+fn study(about: &str, bench: &Bench, count: u64, left_out: &[&str]) {
+    let mut all: Vec<Errors> = Vec::new();
+    for seed in 0..count {
+        // amplitudes and levels that change, as those of real recordings do
+        let mut bench = bench.clone();
+        let turn = (seed as f64 * 0.618_033_988_749_895).fract();
+        bench.offset += 3.7 * bench.resolution * turn;
+        for channel in &mut bench.channels {
+            channel[0].0 *= 1.0 + 0.05 * (turn * 7.3).fract();
+            channel[0].1 += turn;
+        }
+        let observation = bench.observe(bench.values(seed));
+        let [root, of] = observation.frequencies[0].as_slice() else { panic!() };
+        for (number, (name, found, truth)) in figures(&bench, of, root).into_iter().enumerate() {
+            if all.len() <= number {
+                all.push(Errors { name, ..Errors::default() });
+            }
+            all[number].errors.push(found.value - truth);
+            all[number].stated.push(found.standard_uncertainty);
+        }
+    }
+    let allowed = if count < 500 { 0.18 } else { 0.10 };
+    for errors in all.iter().filter(|errors| !left_out.contains(&errors.name.as_str())) {
+        errors.check(about, allowed);
+    }
+}
+
+/// The benches of the studies.
+fn benches() -> Vec<(&'static str, Bench, &'static [&'static str])> {
+    let plain = Bench::default();
+    vec![
+        ("white noise", plain.clone(), &[]),
+        ("SNR 20 dB", Bench { noise: 0.07, ..plain.clone() }, &["distortion"]),
+        ("SNR 100 dB", Bench { noise: 7e-6, ..plain.clone() }, &[]),
+        ("3 periods", Bench { samples: 300, hertz: 10.07, ..plain.clone() }, &["distortion"]),
+        (
+            "400 periods",
+            Bench { hertz: 200.1, rate: 5000.0, samples: 10_000, ..plain.clone() },
+            &[],
+        ),
+        ("estimated", Bench { estimate: true, ..plain.clone() }, &[]),
+        (
+            "estimated, 3 periods",
+            Bench { estimate: true, samples: 320, ..plain.clone() },
+            &["distortion"],
+        ),
+        (
+            "noise with a memory",
+            Bench { memory: 0.9, samples: 8000, ..plain.clone() },
+            &["distortion"],
+        ),
+        ("rounded to 0.01", Bench { resolution: 0.01, ..plain.clone() }, &[]),
+        (
+            "8 bit without noise",
+            Bench {
+                resolution: 2.0 / 256.0,
+                noise: 1e-5,
+                samples: 20_000,
+                hertz: 10.313,
+                ..plain.clone()
+            },
+            &["offset", "distortion", "amplitude 2", "phase 2", "phase 1", "delay", "reference"],
+        ),
+        (
+            "jitter",
+            Bench { jitter: 1e-3, noise: 0.001, ..plain.clone() },
+            &["distortion", "amplitude 2", "phase 2"],
+        ),
+        (
+            "uncertain rate",
+            Bench { rate_uncertainty: 0.3, noise: 0.001, ..plain.clone() },
+            &[
+                "distortion",
+                "offset",
+                "amplitude 1",
+                "reference",
+                "amplitude 2",
+                "phase 1",
+                "delay",
+                "phase 2",
+                "SNR",
+                "SINAD",
+            ],
+        ),
+        (
+            "by bins",
+            Bench { method: Method::Fft, hertz: 10.0, rate: 1000.0, ..plain.clone() },
+            // a cut at whole samples leaves some of the sine in the residuals
+            &["SNR", "SINAD"],
+        ),
+    ]
+}
+
+#[test]
+fn uncertainties_are_those_of_200_recordings() {
+    for (about, bench, left_out) in benches().iter().filter(|(_, bench, _)| bench.samples <= 2000) {
+        study(about, bench, 200, left_out);
+    }
+}
+
+/// The whole study: 1000 recordings of every bench.
+#[test]
+#[ignore = "a minute"]
+fn uncertainties_are_those_of_1000_recordings() {
+    for (about, bench, left_out) in benches() {
+        study(about, &bench, 1000, left_out);
+    }
+}

@@ -1,0 +1,110 @@
+//! The check by Monte Carlo: amplitudes, phases and distortion of fits whose factors are drawn with
+//! the recording's own noise (the factors of a linear fit are normal whatever the record's length, so
+//! drawing them is drawing recordings).
+
+use std::f64::consts::PI;
+
+use super::analysis::Analysed;
+use super::polar::{Polar, wrapped};
+use gumption_engine::distribution::special::normal;
+use gumption_engine::distribution::{BLOCK, StreamKey};
+use gumption_engine::number::elementary::{atan2, hypot, sin};
+
+/// Root mean square errors over the trials.
+#[derive(Clone, Debug)]
+pub(super) struct Scatter {
+    /// Of the amplitude of each tone, peak.
+    pub(super) amplitudes: Vec<f64>,
+    /// Of the phase of each tone, about the middle of the record, in radians.
+    pub(super) phases: Vec<f64>,
+    /// Of the distortion.
+    pub(super) distortion: f64,
+}
+
+/// Draws `trials` fits of one channel; `tones[0]` is the fundamental, the others are its multiples.
+pub(super) fn scatter(
+    analysed: &Analysed,
+    name: &str,
+    tones: &[Polar],
+    seed: u64,
+    trials: u64,
+) -> Scatter {
+    let count = tones.len();
+    let mut scatter =
+        Scatter { amplitudes: vec![0.0; count], phases: vec![0.0; count], distortion: 0.0 };
+    let Some(first) = tones.first() else { return scatter };
+    let fit = &analysed.fit;
+    let mut normals = Normals::new(StreamKey::new(seed, name));
+    let samples = analysed.design.samples as f64;
+    let of = |tones: &mut dyn Iterator<Item = (f64, f64)>| {
+        let sum: f64 = tones.map(|(square, noise)| square - noise).sum();
+        if sum > 0.0 { sum.sqrt() } else { 0.0 }
+    };
+    let noise = |polar: &Polar| {
+        let [a, b] = polar.scatter;
+        a * a + b * b
+    };
+    let plain =
+        |polar: &Polar| (fit.cosines[polar.tone] / polar.gain, fit.sines[polar.tone] / polar.gain);
+    let square = |(a, b): (f64, f64)| a * a + b * b;
+    let harmonics = || tones.iter().filter(|polar| analysed.design.tones[polar.tone].multiple > 1);
+    let size = square(plain(first)).sqrt();
+    let stated = of(&mut harmonics().map(|p| (square(plain(p)), noise(p)))) / size;
+    for _ in 0..trials {
+        let detuned = first.of.of_stated.hypot(first.of.of_estimate).hypot(first.of.of_rate);
+        let detuned = detuned * normals.next();
+        let drawn: Vec<(f64, f64)> = tones
+            .iter()
+            .map(|polar| {
+                let (a, b) = plain(polar);
+                let multiple = f64::from(analysed.design.tones[polar.tone].multiple);
+                let x = PI * multiple * samples * detuned;
+                let fall = if x.abs() > 1e-6 { sin(x) / x } else { 1.0 };
+                let [sa, sb] = polar.scatter;
+                (a * fall + sa * normals.next(), b * fall + sb * normals.next())
+            })
+            .collect();
+        for (number, (polar, factors)) in tones.iter().zip(&drawn).enumerate() {
+            let (a, b) = plain(polar);
+            let amplitude = hypot(factors.0, factors.1) - hypot(a, b);
+            let phase = wrapped(atan2(-factors.1, factors.0) - atan2(-b, a));
+            scatter.amplitudes[number] += amplitude * amplitude;
+            scatter.phases[number] += phase * phase;
+        }
+        let pairs = tones.iter().zip(&drawn);
+        let mut multiples = pairs
+            .filter(|(polar, _)| analysed.design.tones[polar.tone].multiple > 1)
+            .map(|(polar, factors)| (square(*factors), noise(polar)));
+        let main = drawn.first().map_or(size, |factors| square(*factors).sqrt());
+        let error = of(&mut multiples) / main - stated;
+        scatter.distortion += error * error;
+    }
+    let root = |sum: &mut f64| *sum = (*sum / trials.max(1) as f64).sqrt();
+    scatter.amplitudes.iter_mut().chain(&mut scatter.phases).for_each(root);
+    root(&mut scatter.distortion);
+    scatter
+}
+
+/// Standard normal numbers of a stream, one after the other.
+struct Normals {
+    key: StreamKey,
+    block: u64,
+    place: usize,
+    numbers: [f64; BLOCK],
+}
+
+impl Normals {
+    fn new(key: StreamKey) -> Self {
+        Self { key, block: 0, place: BLOCK, numbers: [0.0; BLOCK] }
+    }
+
+    fn next(&mut self) -> f64 {
+        if self.place == BLOCK {
+            self.key.block(self.block).uniform(&mut self.numbers);
+            self.block += 1;
+            self.place = 0;
+        }
+        self.place += 1;
+        normal::quantile(self.numbers[self.place - 1])
+    }
+}

@@ -1,0 +1,318 @@
+//! From fits to the values of an answer, each with the contributions to its uncertainty.
+
+use std::f64::consts::{LN_10, PI};
+
+use super::Measured;
+use super::analysis::Analysed;
+use super::observation::{ChannelObservation, Component, Source, Value};
+use super::polar::{Polar, polar, wrapped};
+use super::recipe::Settings;
+use super::step::Finding;
+use super::trials::{Scatter, scatter};
+use gumption_engine::number::elementary::log10;
+
+/// The least gain of a filter at a multiple that counts as distortion.
+const LEAST_GAIN: f64 = 1e-3;
+
+/// What was found in a channel at one of the frequencies; `reference` is the analysis of the
+/// reference channel where there is one.
+pub(super) fn observed(
+    settings: &Settings,
+    analysed: &Analysed,
+    reference: Option<&Analysed>,
+    fundamental: usize,
+    findings: Vec<Finding>,
+) -> Option<ChannelObservation> {
+    let channel = settings.channels.get(analysed.channel)?;
+    let of = *analysed.fundamentals.get(fundamental)?;
+    let tone = |multiple: u32| polar(analysed, channel, fundamental, multiple);
+    let mut multiples: Vec<u32> = analysed
+        .design
+        .tones
+        .iter()
+        .filter(|tone| tone.fundamental == fundamental)
+        .map(|tone| tone.multiple)
+        .collect();
+    multiples.sort_unstable();
+    let tones: Vec<Polar> = multiples.iter().filter_map(|multiple| tone(*multiple)).collect();
+    let first = tones.first()?;
+    let drawn = (settings.trials > 0)
+        .then(|| scatter(analysed, &channel.name, &tones, settings.seed, settings.trials));
+    let residuals = &analysed.residuals;
+    let noise_dof = residuals.noise_freedom();
+    let root = reference.and_then(|reference| {
+        let channel = settings.channels.get(reference.channel)?;
+        Some((reference, polar(reference, channel, fundamental, 1)?))
+    });
+    let components = settings.components.iter().filter_map(|multiple| {
+        let place = multiples.iter().position(|of| of == multiple)?;
+        let polar = tones.get(place)?;
+        let trials = drawn.as_ref().map(|drawn| (drawn.amplitudes[place], drawn.phases[place]));
+        Some(component(settings, analysed, root.as_ref(), polar, *multiple, trials, noise_dof))
+    });
+    let periods = of.cycles * analysed.design.samples as f64;
+    let relative =
+        of.of_stated.hypot(of.of_estimate).hypot(of.of_rate).hypot(of.of_cut) / of.cycles;
+    Some(ChannelObservation {
+        channel: analysed.channel,
+        frequency: of.hertz,
+        components: components.collect(),
+        offset: offset(settings, analysed, noise_dof),
+        distortion: distortion(settings, analysed, &tones, drawn.as_ref(), noise_dof),
+        signal_to_noise: ratio(analysed, &tones, false),
+        sinad: ratio(analysed, &tones, true),
+        periods: Measured {
+            value: periods,
+            standard_uncertainty: periods * relative,
+            degrees_of_freedom: f64::INFINITY,
+        },
+        samples: analysed.design.samples,
+        rate: analysed.base.rate,
+        noise: residuals.variance.sqrt(),
+        autocorrelation: (
+            residuals.autocorrelation.first().copied().unwrap_or(0.0),
+            residuals.correlated,
+        ),
+        spurious: analysed
+            .spurious
+            .iter()
+            .copied()
+            .filter(|s| s.amplitude > 1e-4 * first.amplitude)
+            .collect(),
+        findings,
+    })
+}
+
+fn component(
+    settings: &Settings,
+    analysed: &Analysed,
+    root: Option<&(&Analysed, Polar)>,
+    polar: &Polar,
+    multiple: u32,
+    trials: Option<(f64, f64)>,
+    noise_dof: f64,
+) -> Component {
+    let of = polar.of;
+    let times = f64::from(multiple);
+    let frequency = Measured {
+        value: of.hertz.value * times,
+        standard_uncertainty: of.hertz.standard_uncertainty * times,
+        ..of.hertz
+    };
+    let mut amplitude: Vec<(Source, f64)> = Vec::new();
+    for (source, along, _) in &polar.own {
+        join(&mut amplitude, *source, *along);
+    }
+    for (source, along, _) in &polar.steps {
+        join(&mut amplitude, *source, *along);
+    }
+    for (source, u) in &polar.shared {
+        join(&mut amplitude, *source, *u);
+    }
+    let mut amplitude = Value::new(polar.amplitude, amplitude, noise_dof);
+    if let Some((drawn, _)) = trials {
+        // trials know noise and the frequency; the scale and the steps are added as they are
+        let others = |(source, _): &&(Source, f64)| {
+            matches!(
+                source,
+                Source::Scale
+                    | Source::Filter
+                    | Source::Derivative
+                    | Source::Radius
+                    | Source::Correction
+            )
+        };
+        let rest: f64 = amplitude.contributions.iter().filter(others).map(|(_, u)| u * u).sum();
+        amplitude = amplitude.checked((drawn * drawn + rest).sqrt());
+    }
+    let is_root = root.is_some_and(|(reference, _)| reference.channel == analysed.channel);
+    let own = if is_root && multiple == 1 {
+        Value::new(0.0, Vec::new(), noise_dof)
+    } else {
+        phase(analysed, root, polar, times, trials, noise_dof)
+    };
+    let delay = root.filter(|_| multiple == 1).map(|_| delay(&own, frequency));
+    Component {
+        multiple,
+        frequency,
+        amplitude: amplitude.times(settings.amplitude.factor()),
+        phase: own.times(settings.phase.in_radian()),
+        delay,
+    }
+}
+
+/// Adds a contribution to those of its source.
+fn join(contributions: &mut Vec<(Source, f64)>, source: Source, u: f64) {
+    match contributions.iter_mut().find(|(known, _)| *known == source) {
+        Some((_, known)) => *known = known.hypot(u),
+        None => contributions.push((source, u)),
+    }
+}
+
+/// The phase in radians, less that of the reference times the multiple.
+fn phase(
+    analysed: &Analysed,
+    root: Option<&(&Analysed, Polar)>,
+    polar: &Polar,
+    times: f64,
+    trials: Option<(f64, f64)>,
+    noise_dof: f64,
+) -> Value {
+    let mut parts: Vec<(Source, f64)> = Vec::new();
+    for (source, _, across) in &polar.own {
+        join(&mut parts, *source, *across);
+    }
+    let own: f64 = parts.iter().map(|(_, u)| u * u).sum();
+    for (source, _, across) in &polar.steps {
+        join(&mut parts, *source, *across);
+    }
+    let of = polar.of;
+    let mut value = polar.phase;
+    // what one unit of each error does: cycles from the estimate, hertz as stated, relative rate
+    let (mut estimated, mut stated, mut clock) = (
+        (polar.slope * of.of_estimate, 0.0),
+        polar.slope * of.of_stated,
+        (polar.slope * of.of_rate, 0.0),
+    );
+    if let Some((reference, root)) = root {
+        value -= times * root.phase;
+        for (source, _, across) in &root.own {
+            join(&mut parts, *source, times * across);
+        }
+        for (source, _, across) in &root.steps {
+            join(&mut parts, *source, times * across);
+        }
+        // a tone of the same channel as the reference's shares none of its noise
+        let slope = times * root.slope;
+        let together = reference.track == analysed.track;
+        let (e, of) = (slope * root.of.of_estimate, root.of);
+        if together {
+            estimated.0 -= e
+        } else {
+            estimated.1 = e
+        }
+        // a stated frequency is one and the same for all recordings
+        stated -= slope * of.of_stated;
+        let c = slope * of.of_rate;
+        if reference.clock == analysed.clock { clock.0 -= c } else { clock.1 = c }
+    }
+    join(&mut parts, Source::Frequency, estimated.0.hypot(estimated.1).hypot(stated));
+    join(&mut parts, Source::SamplingRate, clock.0.hypot(clock.1));
+    let total = Value::new(wrapped(value), parts, noise_dof);
+    match trials {
+        Some((_, drawn)) => {
+            // the trials draw this channel's own noise; everything else is as it is
+            let u = total.measured.standard_uncertainty;
+            let rest = (u * u - own).max(0.0);
+            let jitter = polar.own.iter().filter(|(source, ..)| *source == Source::Jitter);
+            let extra: f64 = jitter.map(|(_, _, u)| u * u / 3.0).sum();
+            total.checked((drawn * drawn + extra + rest).sqrt())
+        }
+        None => total,
+    }
+}
+
+fn delay(phase: &Value, frequency: Measured) -> Value {
+    let speed = 2.0 * PI * frequency.value;
+    let mut delay = phase.clone().times(1.0 / speed);
+    delay.measured.value = 0.0 - delay.measured.value;
+    delay
+}
+
+fn offset(settings: &Settings, analysed: &Analysed, noise_dof: f64) -> Value {
+    let residuals = &analysed.residuals;
+    let scale = settings.channels.get(analysed.channel).map_or(0.0, |c| c.scale_uncertainty);
+    // the noise at zero frequency over that of white noise, from the autocorrelation
+    let slow = 1.0 + 2.0 * residuals.autocorrelation.iter().sum::<f64>();
+    let slow = match &residuals.known {
+        Some(known) => known.level,
+        None if residuals.correlated => slow.max(0.1),
+        None => 1.0,
+    };
+    let noise = (residuals.variance * slow * analysed.design.even[(0, 0)]).sqrt();
+    let value = analysed.fit.offset;
+    let scale = scale * analysed.effects.power_of_scale();
+    let parts = vec![(Source::Noise, noise), (Source::Scale, value.abs() * scale)];
+    Value::new(value, parts, noise_dof)
+}
+
+/// Total harmonic distortion, with the power that noise alone gives taken off.
+fn distortion(
+    settings: &Settings,
+    analysed: &Analysed,
+    tones: &[Polar],
+    drawn: Option<&Scatter>,
+    noise_dof: f64,
+) -> Option<Value> {
+    let first = tones.first()?;
+    let above: Vec<&Polar> = tones
+        .iter()
+        .filter(|polar| {
+            let multiple = analysed.design.tones[polar.tone].multiple;
+            multiple > 1 && multiple <= settings.harmonics && polar.gain >= LEAST_GAIN
+        })
+        .collect();
+    // of a square the first multiple is nothing to compare with
+    if above.is_empty() || analysed.effects.power_of_scale() > 1.0 {
+        return None;
+    }
+    let noise = |polar: &Polar| polar.scatter.map(|s| s * s);
+    let power: f64 = above
+        .iter()
+        .map(|polar| polar.amplitude * polar.amplitude - noise(polar).iter().sum::<f64>())
+        .sum();
+    let power = power.max(0.0);
+    // the variance of a squared amplitude is 4 A^2 u^2 + 4 u^4
+    let variance: f64 = above
+        .iter()
+        .map(|polar| {
+            let u = noise(polar).iter().sum::<f64>() / 2.0;
+            4.0 * u * (polar.amplitude * polar.amplitude - 2.0 * u).max(0.0) + 4.0 * u * u
+        })
+        .sum();
+    let total = first.amplitude * first.amplitude;
+    let (square, spread) = (power / total, variance.sqrt() / total);
+    let value = square.sqrt();
+    let u = (square + spread).sqrt() - value;
+    // far from zero the root is straight; near it its upper end counts
+    let u = if value > 0.0 { u.min(spread / (2.0 * value)) } else { u };
+    let found = Value::new(value, vec![(Source::Noise, u)], noise_dof);
+    Some(match drawn {
+        Some(drawn) if value > 0.0 => found.checked(drawn.distortion),
+        _ => found,
+    })
+}
+
+/// The power of the fundamental over that of the residuals, and of its multiples if they count, in
+/// decibels.
+fn ratio(analysed: &Analysed, tones: &[Polar], with_multiples: bool) -> Value {
+    let residuals = &analysed.residuals;
+    let amplitude = tones.first().map_or(0.0, |polar| polar.amplitude);
+    let scatter = |polar: &Polar| polar.scatter.map(|s| s * s).iter().sum::<f64>() / 2.0;
+    let power =
+        |polar: &&Polar| (polar.amplitude * polar.amplitude / 2.0 - scatter(polar)).max(0.0);
+    let above = tones.iter().skip(if with_multiples { 1 } else { tones.len() });
+    let others: f64 = above.clone().map(|polar| power(&polar)).sum();
+    let noise = residuals.variance;
+    let disturbance = noise + others;
+    if disturbance <= 0.0 || amplitude <= 0.0 {
+        return Value::new(f64::INFINITY, Vec::new(), f64::INFINITY);
+    }
+    let value = 10.0 * log10(amplitude * amplitude / 2.0 / disturbance);
+    let decibel = 10.0 / LN_10;
+    let correlation: f64 = residuals.autocorrelation.iter().map(|r| r * r).sum();
+    let spread = if residuals.correlated { 1.0 + 2.0 * correlation } else { 1.0 };
+    let freedom = match &residuals.known {
+        Some(known) => known.of_residuals,
+        None => residuals.degrees_of_freedom / spread,
+    };
+    let of_noise = (2.0 / freedom).sqrt() * noise / disturbance;
+    let of_multiples: f64 =
+        above.map(|polar| 2.0 * power(&polar) * scatter(polar)).sum::<f64>().sqrt() / disturbance;
+    let first = tones.first().map_or(0.0, |polar| {
+        let along: f64 = polar.own.iter().map(|(_, u, _)| u * u).sum();
+        2.0 * along.sqrt() / amplitude
+    });
+    let u = decibel * of_noise.hypot(of_multiples).hypot(first);
+    Value::new(value, vec![(Source::Noise, u)], residuals.degrees_of_freedom)
+}
