@@ -30,4 +30,5 @@ mod results;
 mod schema;
 mod sizes;
 mod support;
+mod units;
 mod verify;

@@ -21,7 +21,6 @@ mod json;
 mod known;
 mod links;
 mod model_file;
-mod nearest;
 mod object;
 mod observations;
 mod outputs;
@@ -57,7 +56,6 @@ pub use comparison::{ComparisonOptions, ComparisonTable, read_comparison, read_c
 pub use either::{ModelOrResult, read_either, read_either_text};
 pub use fault::Fault;
 pub use model_file::{ModelFile, Override, Overrides, read, read_text};
-pub use nearest::nearest;
 pub use problem::{Problem, Problems};
 pub use recipe::{
     Condition, OpenedRow, RecipeFile, RecipeRow, read as read_recipe, read_text as read_recipe_text,

@@ -18,7 +18,7 @@ use super::results::Results;
 use super::size::Size;
 use super::source::Source;
 use super::table::{self, Table};
-use super::{Fault, correlations, json, nearest, observations, settings};
+use super::{Fault, correlations, json, observations, settings};
 use gumption_engine::distribution::Fits;
 use gumption_engine::model::formula;
 use gumption_engine::model::formula::{Formula, Scope, Typing};
@@ -27,6 +27,7 @@ use gumption_engine::task::{Evidence, Row, Task, Warning};
 use gumption_gap::Observed;
 use gumption_gap::{Maker as SimMaker, Sim};
 use gumption_measurements::{Entry, find};
+use gumption_units::nearest;
 use gumption_units::{Dimension, Unit};
 
 /// A model file that was read and found right.

@@ -5,8 +5,8 @@ use std::ops::Range;
 
 use super::Fault;
 use super::json::{Json, Member, Node};
-use super::nearest::nearest;
 use super::problem::Log;
+use gumption_units::nearest;
 
 /// An object that is being read.
 #[derive(Clone, Copy, Debug)]

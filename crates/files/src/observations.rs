@@ -7,12 +7,12 @@ use nalgebra::DMatrix;
 
 use super::Fault;
 use super::json::{Json, Member};
-use super::nearest;
 use super::object::Object;
 use super::problem::Log;
 use super::source::Place;
 use super::table::{self, Table};
 use gumption_gap::Observed;
+use gumption_units::nearest;
 
 /// The data's table with the columns of the observed outputs.
 #[derive(Debug)]

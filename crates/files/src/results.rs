@@ -6,7 +6,6 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::json::Node;
-use super::nearest::nearest;
 use super::object::Object;
 use super::problem::{Log, Problems};
 use super::result_file::{ResultFile, SavedOutput, read_result};
@@ -14,6 +13,7 @@ use super::source::Place;
 use super::{Fault, bytes};
 use gumption_engine::distribution::Distribution;
 use gumption_units::Unit;
+use gumption_units::nearest;
 
 /// The result files that a model file names, each read once.
 #[derive(Debug)]

@@ -9,8 +9,8 @@ use comfy_table::{ContentArrangement, Table, presets};
 
 use super::options::Format;
 use super::{Exit, Failure, output};
-use gumption_files::nearest;
 use gumption_measurements::Entry;
+use gumption_units::nearest;
 
 /// List the typed models or describe one, or list the ready-made effects of the gap diagnosis.
 #[derive(Debug, Args)]

@@ -16,6 +16,7 @@ use std::sync::Arc;
 
 pub use listing::{Listed, ListedParameter, Listing};
 
+use super::Fault;
 use super::case::Read;
 use super::effects::{self, Placed};
 use super::json::{self, Json, Member, Node};
@@ -23,9 +24,9 @@ use super::object::Object;
 use super::problem::Log;
 use super::results::Results;
 use super::source::Source;
-use super::{Fault, nearest};
 use fit::Misfit;
 use gumption_engine::task::Warning;
+use gumption_units::nearest;
 
 /// The catalogue's text.
 const TEXT: &str = include_str!("catalogue.json");

@@ -7,7 +7,6 @@ use std::path::Path;
 use super::super::Fault;
 use super::super::json::{Json, Member, Node};
 use super::super::model_file::{self, ModelFile, Override};
-use super::super::nearest::nearest;
 use super::super::object::Object;
 use super::super::outputs;
 use super::super::problem::Log;
@@ -18,6 +17,7 @@ use gumption_analysis::certificate::contents::{Asked, Line};
 use gumption_engine::model::Quantity;
 use gumption_engine::task::{Task, Warning};
 use gumption_units::Unit;
+use gumption_units::nearest;
 
 /// The keys of a row.
 const KEYS: [&str; 7] = ["model", "output", "set", "nominal", "label", "cmc", "cmc_floor"];

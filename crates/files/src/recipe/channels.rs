@@ -4,7 +4,6 @@ use std::ops::Range;
 
 use super::super::Fault;
 use super::super::json::{Json, Member};
-use super::super::nearest::nearest;
 use super::super::object::{Object, whole_number};
 use super::super::problem::Log;
 use super::super::recording::{ColumnName, Conversion, Wanted};
@@ -13,6 +12,7 @@ use super::recordings::RecordingFile;
 use super::{check_name, steps};
 use gumption_signal::Channel;
 use gumption_units::Unit;
+use gumption_units::nearest;
 
 /// The keys of a channel.
 pub(super) const KEYS: [&str; 11] = [

@@ -13,7 +13,6 @@ use std::sync::Arc;
 use super::Fault;
 use super::json::{self, Json, Node};
 use super::model_file::{check_format, text_of};
-use super::nearest::nearest;
 use super::object::Object;
 use super::problem::{Log, Problems};
 use super::recording::{self, Recording};
@@ -25,6 +24,7 @@ use gumption_signal::{
     Amplitude, Frequency, Method, PhaseUnit, Refused, Search, Settings, TimeBase, Track,
 };
 use gumption_units::Unit;
+use gumption_units::nearest;
 use recordings::RecordingFile;
 pub(crate) use steps::ALL as STEPS;
 
