@@ -50,10 +50,9 @@
 
 #![deny(unsafe_code)]
 
-pub use gumption_analysis::{assumptions, certificate, compare};
+pub use gumption_analysis::{assumptions, certificate, compare, diff};
 #[cfg(feature = "cli")]
 pub use gumption_command as command;
-pub use gumption_diff as diff;
 pub use gumption_engine::{distribution, measurement, model, number, propagate, task};
 pub use gumption_files as file;
 pub use gumption_files::schema;

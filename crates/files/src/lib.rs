@@ -13,6 +13,7 @@ mod comparison;
 mod condition_values;
 mod conditions;
 mod correlations;
+mod difference;
 mod effects;
 mod either;
 mod fault;
@@ -54,6 +55,7 @@ pub use certificate::{
 };
 pub use checked::{check, check_text};
 pub use comparison::{ComparisonOptions, ComparisonTable, read_comparison, read_comparison_text};
+pub use difference::difference;
 pub use either::{ModelOrResult, read_either, read_either_text};
 pub use fault::Fault;
 pub use model_file::{ModelFile, Override, Overrides, read, read_text};

@@ -7,8 +7,6 @@ use std::path::{Path, PathBuf};
 use clap::{Args, ValueEnum};
 
 use super::{Exit, Failure, options, output};
-use gumption_diff as diff;
-use gumption_diff::Evaluated;
 use gumption_files as file;
 use gumption_files::{ModelOrResult, Problems};
 
@@ -53,12 +51,7 @@ impl Diff {
                 return Err(Problems(found.flat_map(|problems| problems.0).collect()).into());
             }
         };
-        let difference = match (&first, &second) {
-            (ModelOrResult::Model(first), ModelOrResult::Model(second)) => {
-                diff::compare(first, second)
-            }
-            (first, second) => diff::compare_saved(evaluated(first), evaluated(second))?,
-        };
+        let difference = file::difference(&first, &second)?;
         let names = [&first, &second].map(ModelOrResult::name);
         let answer = match self.format {
             Format::Table => page::table(names, &difference),
@@ -66,13 +59,6 @@ impl Diff {
         };
         output::write(&answer, self.output.as_deref())?;
         Ok(Exit::Done)
-    }
-}
-
-fn evaluated(file: &ModelOrResult) -> Evaluated<'_> {
-    match file {
-        ModelOrResult::Model(file) => Evaluated::Model(file),
-        ModelOrResult::Result(file) => Evaluated::Result(file),
     }
 }
 
