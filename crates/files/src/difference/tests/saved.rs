@@ -217,8 +217,8 @@ fn a_model_file_and_a_result() {
         ModelOrResult::Model(Box::new(read_text("m.json", &text, Path::new(""), &[]).unwrap()))
     };
     let (first, second) = (first.result(), model(""));
-    let difference = difference(&first, &second).unwrap();
-    let output = only(&difference);
+    let compared = difference(&first, &second).unwrap();
+    let output = only(&compared);
     assert_complete(output);
     // in mV: u^2 from 9 + 9 to 400^2
     let total = 160_000.0 - 18.0;
