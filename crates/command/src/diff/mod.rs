@@ -6,7 +6,8 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 
-use super::{Exit, Failure, options, output};
+use super::options::{self, Answer};
+use super::{Exit, Failure};
 use gumption_diff as diff;
 use gumption_diff::Evaluated;
 use gumption_files as file;
@@ -19,15 +20,8 @@ pub(super) struct Diff {
     a: PathBuf,
     /// The second one
     b: PathBuf,
-    /// Format of the answer
-    #[arg(long, value_enum, default_value = "table")]
-    format: Format,
-    /// Write the answer to this file instead of standard output
-    #[arg(long, value_name = "FILE")]
-    output: Option<PathBuf>,
-    /// Nothing on standard error but mistakes
-    #[arg(long)]
-    quiet: bool,
+    #[command(flatten)]
+    answer: Answer<Format>,
 }
 
 /// The format of the answer.
@@ -60,11 +54,11 @@ impl Diff {
             (first, second) => diff::compare_saved(evaluated(first), evaluated(second))?,
         };
         let names = [&first, &second].map(ModelOrResult::name);
-        let answer = match self.format {
+        let answer = match self.answer.format {
             Format::Table => page::table(names, &difference),
             Format::Json => page::json(names, &difference),
         };
-        output::write(&answer, self.output.as_deref())?;
+        self.answer.write(&answer)?;
         Ok(Exit::Done)
     }
 }
@@ -77,9 +71,6 @@ fn evaluated(file: &ModelOrResult) -> Evaluated<'_> {
 }
 
 fn read(path: &Path) -> Result<Result<ModelOrResult, Problems>, Failure> {
-    Ok(if path == Path::new("-") {
-        file::read_either_text("<stdin>", &options::standard_input()?, Path::new(""))
-    } else {
-        file::read_either(path)
-    })
+    let text = |text: &str| file::read_either_text("<stdin>", text, Path::new(""));
+    options::given(path, text, file::read_either)
 }

@@ -3,6 +3,7 @@
 mod closed_forms;
 mod divisors;
 mod extremes;
+mod external;
 
 use super::*;
 
