@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use clap::{Args, ValueEnum};
 
 use super::options::{Answer, Model, Seed, Threads};
-use super::{Exit, Failure, options, progress, run};
+use super::{Exit, Failure, Program, options, progress, run};
 use gumption_analysis::assumptions::{Audit, Question, audit, trials_to_make};
 use gumption_engine::propagate::Control;
 use gumption_engine::task::{Coverage, Task, Trials, Warning};
@@ -71,8 +71,8 @@ fn trials(text: &str) -> Result<u64, String> {
 }
 
 impl Assumptions {
-    pub(super) fn execute(&self) -> Result<Exit, Failure> {
-        let file = self.model.read()?;
+    pub(super) fn execute(&self, program: &Program) -> Result<Exit, Failure> {
+        let file = self.model.read(program)?;
         let mut task = file.task.clone();
         task.settings.seed = self.seed.or(task.settings.seed);
         if let Some(p) = self.coverage {

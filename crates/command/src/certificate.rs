@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use clap::{Args, ValueEnum};
 
 use super::options::{self, Answer, Seed, Threads};
-use super::{Exit, Failure, output, progress, run};
+use super::{Exit, Failure, Program, output, progress, run};
 use gumption_analysis::certificate::contents::Certificate as Asked;
 use gumption_analysis::certificate::{Failed, Issued, issue};
 use gumption_engine::propagate::{Control, EvaluationError, warnings};
@@ -55,8 +55,8 @@ enum Format {
 }
 
 impl Certificate {
-    pub(super) fn execute(&self) -> Result<Exit, Failure> {
-        let mut file = self.read()?;
+    pub(super) fn execute(&self, program: &Program) -> Result<Exit, Failure> {
+        let mut file = self.read(program)?;
         self.check_format(&file)?;
         for asked in &mut file.certificate.evaluations {
             let settings = &mut asked.task.settings;
@@ -114,7 +114,7 @@ impl Certificate {
         Ok(Exit::Done)
     }
 
-    fn read(&self) -> Result<CertificateFile, Failure> {
+    fn read(&self, program: &Program) -> Result<CertificateFile, Failure> {
         let text = |text: &str| file::read_certificate_text("<stdin>", text, Path::new(""));
         Ok(options::given(&self.file, text, file::read_certificate)??)
     }

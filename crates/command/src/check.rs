@@ -6,7 +6,7 @@ use clap::Args;
 use serde::Serialize;
 
 use super::options::{self, Answer, Format};
-use super::{Exit, Failure, problems};
+use super::{Exit, Failure, Program, problems};
 use gumption_files as file;
 use gumption_files::{Problem, Problems};
 
@@ -51,7 +51,7 @@ impl From<&Problem> for Mistake {
 }
 
 impl Check {
-    pub(super) fn execute(&self) -> Result<Exit, Failure> {
+    pub(super) fn execute(&self, program: &Program) -> Result<Exit, Failure> {
         let text = |text: &str| file::check_text("<stdin>", text, Path::new(""));
         let result = options::given(&self.file, text, file::check)?;
         let found = match result {

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 
 use super::options::{Answer, Seed, Threads};
-use super::{Exit, Failure, output, progress, run};
+use super::{Exit, Failure, Program, output, progress, run};
 use gumption_engine::task::Row;
 use gumption_files as file;
 use gumption_files::CaseFile;
@@ -44,7 +44,7 @@ enum Format {
 }
 
 impl Gap {
-    pub(super) fn execute(&self) -> Result<Exit, Failure> {
+    pub(super) fn execute(&self, program: &Program) -> Result<Exit, Failure> {
         let whole = progress::whole_on_interrupt();
         let file = file::read_case(&self.case)?;
         let at = match &self.predict {

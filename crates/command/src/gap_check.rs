@@ -10,7 +10,7 @@ use clap::{Args, ValueEnum};
 use rayon::prelude::*;
 
 use super::options::{Answer, Seed, Threads};
-use super::{Exit, Failure, progress, run};
+use super::{Exit, Failure, Program, progress, run};
 use gumption_files as file;
 use gumption_files::CaseFile;
 use gumption_gap as gap;
@@ -55,7 +55,7 @@ fn draws(text: &str) -> Result<u64, String> {
 }
 
 impl GapCheck {
-    pub(super) fn execute(&self) -> Result<Exit, Failure> {
+    pub(super) fn execute(&self, program: &Program) -> Result<Exit, Failure> {
         let file = file::read_case(&self.case)?;
         self.answer.say(&file.warnings);
         let seed = self.seed.or(file.case.task.settings.seed);
@@ -70,7 +70,7 @@ impl GapCheck {
             }
         };
         let stop = progress::stop_flag();
-        let scores = || self.scores(&file, folder, seed, &stop);
+        let scores = || self.scores(program, &file, folder, seed, &stop);
         let Some(scores) = self.threads.install(scores)?? else {
             return Ok(Exit::Interrupted);
         };
@@ -91,6 +91,7 @@ impl GapCheck {
     /// interrupted.
     fn scores(
         &self,
+        program: &Program,
         file: &CaseFile,
         folder: &Path,
         seed: u64,
@@ -98,7 +99,7 @@ impl GapCheck {
     ) -> Result<Option<Report>, Failure> {
         let noise = gap::noise(&file.case, seed);
         self.write(file, &noise, folder, seed)?;
-        let Some(answers) = self.diagnose(folder, seed, stop)? else {
+        let Some(answers) = self.diagnose(program, folder, seed, stop)? else {
             return Ok(None);
         };
         let sim = gap::nominal(&file.case);
@@ -152,6 +153,7 @@ impl GapCheck {
     /// Diagnoses every case from its own folder; `None` if it was interrupted.
     fn diagnose(
         &self,
+        program: &Program,
         folder: &Path,
         seed: u64,
         stop: &AtomicBool,

@@ -7,7 +7,7 @@ use std::sync::atomic::AtomicBool;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
 
-use super::{Failure, output};
+use super::{Failure, Program, output};
 use gumption_engine::propagate::Control;
 use gumption_engine::task::{StoppingRule, Trials, Warning};
 use gumption_files as file;
@@ -144,7 +144,7 @@ pub(super) struct Model {
 
 impl Model {
     /// The model file with the replacements.
-    pub(super) fn read(&self) -> Result<ModelFile, Failure> {
+    pub(super) fn read(&self, program: &Program) -> Result<ModelFile, Failure> {
         let replaced = &self.replacements;
         let text = |text: &str| file::read_text("<stdin>", text, Path::new(""), replaced);
         Ok(given(&self.model, text, |path| file::read(path, replaced))??)

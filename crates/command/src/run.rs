@@ -8,7 +8,7 @@ use clap::{Args, ValueEnum};
 use sha2::{Digest, Sha256};
 
 use super::options::{self, Answer, Model, Page, Seed, Threads};
-use super::{Exit, Failure, output, progress, save};
+use super::{Exit, Failure, Program, output, progress, save};
 use gumption_engine::propagate::monte_carlo::Histogram;
 use gumption_engine::propagate::{
     Control, Evaluation, EvaluationError, evaluate, histograms, warnings,
@@ -81,8 +81,8 @@ enum DofRule {
 }
 
 impl Run {
-    pub(super) fn execute(&self) -> Result<Exit, Failure> {
-        let file = self.model.read()?;
+    pub(super) fn execute(&self, program: &Program) -> Result<Exit, Failure> {
+        let file = self.model.read(program)?;
         let text = &file.source.text;
         let mut task = file.task.clone();
         self.settings(&mut task);

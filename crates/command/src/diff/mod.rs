@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use clap::{Args, ValueEnum};
 
 use super::options::{self, Answer};
-use super::{Exit, Failure};
+use super::{Exit, Failure, Program};
 use gumption_diff as diff;
 use gumption_diff::Evaluated;
 use gumption_files as file;
@@ -34,12 +34,12 @@ enum Format {
 }
 
 impl Diff {
-    pub(super) fn execute(&self) -> Result<Exit, Failure> {
+    pub(super) fn execute(&self, program: &Program) -> Result<Exit, Failure> {
         let standard = |path: &Path| path == Path::new("-");
         if standard(&self.a) && standard(&self.b) {
             return Err(Failure::Argument("only one of the files can be standard input".into()));
         }
-        let (first, second) = match (read(&self.a)?, read(&self.b)?) {
+        let (first, second) = match (read(program, &self.a)?, read(program, &self.b)?) {
             (Ok(first), Ok(second)) => (first, second),
             // the mistakes of both at once
             (first, second) => {
@@ -70,7 +70,7 @@ fn evaluated(file: &ModelOrResult) -> Evaluated<'_> {
     }
 }
 
-fn read(path: &Path) -> Result<Result<ModelOrResult, Problems>, Failure> {
+fn read(program: &Program, path: &Path) -> Result<Result<ModelOrResult, Problems>, Failure> {
     let text = |text: &str| file::read_either_text("<stdin>", text, Path::new(""));
     options::given(path, text, file::read_either)
 }

@@ -12,7 +12,8 @@ use std::sync::atomic::Ordering;
 use clap::{Args, ValueEnum};
 
 use super::options::{Answer, Threads};
-use super::{Exit, Failure, output, progress};
+use super::{Exit, Failure, Program, output, progress};
+pub use examples::PublishedExamples;
 use recompute::{Machine, Recomputed, Verdict};
 
 /// Recompute the published examples.
@@ -47,13 +48,13 @@ enum Format {
 }
 
 impl Verify {
-    pub(super) fn execute(&self) -> Result<Exit, Failure> {
+    pub(super) fn execute(&self, program: &Program) -> Result<Exit, Failure> {
         let threads = self.threads.count();
         if self.paths {
-            return self.compared.execute(threads, self.fail);
+            return self.compared.execute(program, threads, self.fail);
         }
         let stop = progress::stop_flag();
-        let examples = examples::all().map_err(Failure::System)?;
+        let examples = examples::all(&program.published).map_err(Failure::System)?;
         let bar = progress::counted(examples.len() as u64, "examples", self.answer.quiet);
         let machine = Machine { threads, stop: &stop };
         let mut found: Vec<Recomputed> = Vec::new();
