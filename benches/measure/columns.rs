@@ -2,7 +2,7 @@
 
 use gumption::distribution::Distribution;
 use gumption::number::CodePath;
-use gumption::propagate::gum::bulk::{Budgets, Each, Known, Options, budgets};
+use gumption_engine::propagate::gum::bulk::{Budgets, Each, Known, Options, budgets};
 use gumption::task::Task;
 
 /// A column, or the value of all its entries.
