@@ -320,9 +320,7 @@ pub mod propagate {
 
     /// The comparison of both (JCGM 101, clause 8).
     pub mod validate {
-        pub use gumption_engine::propagate::validate::{
-            Validation, numerical_tolerance, validate,
-        };
+        pub use gumption_engine::propagate::validate::{Validation, numerical_tolerance, validate};
     }
 }
 

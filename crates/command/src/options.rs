@@ -223,8 +223,7 @@ pub(super) fn probability(text: &str) -> Result<f64, String> {
 
 /// A replacement of an input.
 fn replacement(text: &str) -> Result<Override, String> {
-    Override::parse(text)
-        .ok_or_else(|| "NAME=VALUE or NAME.field=VALUE is needed".to_owned())
+    Override::parse(text).ok_or_else(|| "NAME=VALUE or NAME.field=VALUE is needed".to_owned())
 }
 
 /// The text of standard input.

@@ -112,7 +112,8 @@ impl Run {
         }
         let control = self.control(&stop);
         let histograms = self.histograms(&report, &control)?;
-        let replaced: Vec<String> = self.model.replacements.iter().map(|set| set.text.clone()).collect();
+        let replaced: Vec<String> =
+            self.model.replacements.iter().map(|set| set.text.clone()).collect();
         let shown = Shown {
             columns: &self.columns,
             histograms: &histograms,

@@ -290,7 +290,8 @@ fn ready_files_fit_their_models() {
         }
         let file: Value = serde_json::from_str(&std::fs::read_to_string(&path).unwrap()).unwrap();
         let Some(model) = file["model"].as_str() else { continue };
-        let entry = catalogue().find(model).unwrap_or_else(|| panic!("{}: {model}", path.display()));
+        let entry =
+            catalogue().find(model).unwrap_or_else(|| panic!("{}: {model}", path.display()));
         let typed = entry.typed;
         let assert_unit = |name: &str, value: &Value, declared: &str| {
             let unit = Unit::parse(value["unit"].as_str().unwrap()).unwrap();

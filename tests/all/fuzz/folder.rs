@@ -6,8 +6,8 @@ use std::path::Path;
 use std::sync::OnceLock;
 
 use gumption::file::read_text;
-use gumption_engine::propagate::{Control, evaluate, joint_ranks, linear, origins, quantiles};
 use gumption::report;
+use gumption_engine::propagate::{Control, evaluate, joint_ranks, linear, origins, quantiles};
 
 use super::random::Random;
 use super::tree::Tree;

@@ -2,8 +2,8 @@
 
 mod closed_forms;
 mod divisors;
-mod extremes;
 mod external;
+mod extremes;
 
 use super::*;
 

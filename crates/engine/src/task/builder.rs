@@ -346,7 +346,11 @@ impl TaskBuilder {
                 // components are added as they are
                 if component.unit.text() != unit.text() {
                     let [found, expected] = [&component.unit, &unit].map(Unit::to_string);
-                    return Err(TaskError::ComponentUnit { of: given.name.clone(), found, expected });
+                    return Err(TaskError::ComponentUnit {
+                        of: given.name.clone(),
+                        found,
+                        expected,
+                    });
                 }
             }
             let (name, about) = (given.name.clone(), given.input.about.clone());
@@ -461,12 +465,7 @@ impl TaskBuilder {
     }
 
     /// A formula that was read and checked, and what its result is.
-    fn formula(
-        &self,
-        of: &str,
-        text: &str,
-        scope: &Scope,
-    ) -> Result<(Formula, Typing), TaskError> {
+    fn formula(&self, of: &str, text: &str, scope: &Scope) -> Result<(Formula, Typing), TaskError> {
         let formula = Formula::parse(text).map_err(in_formula(of))?;
         let checked =
             if self.check_units { formula.check(scope) } else { formula.check_names(scope) };

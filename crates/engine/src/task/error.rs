@@ -131,11 +131,9 @@ impl fmt::Display for TaskError {
             Self::Conditions { expected: 0, .. } => {
                 f.write_str("there are rows of values, but no conditions")
             }
-            Self::Conditions { row, expected } => write!(
-                f,
-                "row {} of the conditions must have {expected} finite values",
-                row + 1
-            ),
+            Self::Conditions { row, expected } => {
+                write!(f, "row {} of the conditions must have {expected} finite values", row + 1)
+            }
             Self::Coefficient { between: [a, b], reason } => {
                 write!(f, "the correlation coefficient of `{a}` and `{b}` {reason}")
             }

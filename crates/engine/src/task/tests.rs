@@ -183,7 +183,10 @@ fn mistakes() {
             Task::measurement(projection()).conditions(&[("tilt", "deg")], [[1.0]]),
             "there are two quantities `tilt`",
         ),
-        (Task::measurement(projection()).input("q", normal(0.0, 1.0, "m")), "there is no input `q`"),
+        (
+            Task::measurement(projection()).input("q", normal(0.0, 1.0, "m")),
+            "there is no input `q`",
+        ),
         (Task::measurement(projection()).output("q", "m"), "there is no output `q`"),
     ];
     for (builder, expected) in cases {
