@@ -5,7 +5,7 @@ use std::fs;
 use crate::support::root;
 
 /// The crates from low to high.
-const CRATES: [&str; 10] = [
+const CRATES: [&str; 9] = [
     "units",
     "engine",
     "measurements",
@@ -13,7 +13,6 @@ const CRATES: [&str; 10] = [
     "gap",
     "analysis",
     "files",
-    "diff",
     "report",
     "command",
 ];
