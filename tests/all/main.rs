@@ -23,6 +23,8 @@ mod intervals;
 mod mutations;
 mod observe;
 mod observe_steps;
+mod other_distributions;
+mod own_program;
 mod recordings;
 mod reports;
 mod reproducible;
