@@ -8,8 +8,6 @@ use clap::{Args, ValueEnum};
 
 use super::options::{self, Answer};
 use super::{Exit, Failure, Program};
-use gumption_diff as diff;
-use gumption_diff::Evaluated;
 use gumption_files as file;
 use gumption_files::{ModelOrResult, Problems};
 
@@ -47,12 +45,7 @@ impl Diff {
                 return Err(Problems(found.flat_map(|problems| problems.0).collect()).into());
             }
         };
-        let difference = match (&first, &second) {
-            (ModelOrResult::Model(first), ModelOrResult::Model(second)) => {
-                diff::compare(first, second)
-            }
-            (first, second) => diff::compare_saved(evaluated(first), evaluated(second))?,
-        };
+        let difference = file::difference(&first, &second)?;
         let names = [&first, &second].map(ModelOrResult::name);
         let answer = match self.answer.format {
             Format::Table => page::table(names, &difference),
@@ -60,13 +53,6 @@ impl Diff {
         };
         self.answer.write(&answer)?;
         Ok(Exit::Done)
-    }
-}
-
-fn evaluated(file: &ModelOrResult) -> Evaluated<'_> {
-    match file {
-        ModelOrResult::Model(file) => Evaluated::Model(file),
-        ModelOrResult::Result(file) => Evaluated::Result(file),
     }
 }
 
