@@ -2,7 +2,7 @@ use std::fmt::Write;
 use std::path::Path;
 
 use super::*;
-use gumption_engine::distribution::special::student::two_sided_factor;
+use gumption_engine::special::student::two_sided_factor;
 use gumption_files::{read_result, read_text};
 
 /// An input: file hash, name, estimate, standard uncertainty, degrees of freedom (0 for infinite).

@@ -22,7 +22,6 @@ mod result;
 mod samples;
 mod score;
 mod shape;
-pub mod special;
 mod stream;
 mod student;
 mod trapezoidal;

@@ -12,10 +12,11 @@
 use std::collections::{BTreeMap, HashMap};
 use std::sync::Arc;
 
+use super::normal;
 use super::shape::{Invalid, Shape, finite, positive};
 use super::stream::Stream;
-use super::{normal, special};
 use crate::number::Column;
+use crate::special;
 
 /// The normal scores over which a quantile function is tabulated.
 #[derive(Clone, Copy, Debug, PartialEq)]

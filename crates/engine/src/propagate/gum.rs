@@ -9,8 +9,9 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use rayon::prelude::*;
 
 pub use super::budget::{BudgetLine, CorrelationLine};
-use crate::distribution::{Correlation, Distribution, RootName, paired, special};
+use crate::distribution::{Correlation, Distribution, RootName, paired};
 use crate::number::CodePath;
+use crate::special;
 use crate::task::{Coverage, Row, Task};
 use gradients::{Gradients, Linear};
 

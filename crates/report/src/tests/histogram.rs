@@ -1,8 +1,8 @@
 //! Histograms of trials, and their look in a terminal.
 
 use super::*;
-use gumption_engine::distribution::special::normal;
 use gumption_engine::propagate::histograms;
+use gumption_engine::special::normal;
 
 fn counted(
     case: &Case,

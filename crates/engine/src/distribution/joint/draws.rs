@@ -5,6 +5,7 @@ use std::sync::Arc;
 use super::together::Together;
 use super::{Group, Joint, paired};
 use crate::distribution::{Distribution, Stream, StreamKey, normal};
+use crate::linalg::packed;
 use crate::number::{CodePath, Column};
 
 /// The quantities of a row that vary, and the joint draw of those that are linked.
@@ -165,7 +166,7 @@ impl<'a> Draws<'a> {
                 normal::draw(0.0, 1.0, &mut self.streams[m.place], out);
             }
         }
-        let shapes = group.members.iter().zip(&group.factor);
+        let shapes = group.members.iter().zip(packed::rows(&group.factor));
         for (member, (shape, row)) in members.iter().zip(shapes).rev() {
             let mut sum = Column::ZERO;
             for (&weight, other) in row.iter().zip(members) {

@@ -15,12 +15,10 @@ mod contradiction;
 mod copula;
 mod decimals;
 mod draws;
-mod eigen;
 mod error;
 mod fit;
 mod fits;
 mod links;
-mod matrix;
 pub mod paired;
 mod profile;
 mod profiles;
@@ -36,7 +34,6 @@ pub use draws::Draws;
 pub use draws::Varying;
 pub use error::CorrelationError;
 pub use fits::Fits;
-use matrix::Symmetric;
 use profile::Table;
 use profiles::{Profiled, Profiles};
 pub use scores::FromScore;
@@ -44,6 +41,7 @@ use standard::Standard;
 use together::{Together, together};
 
 use super::Distribution;
+use crate::linalg::CorrelationMatrix;
 
 /// A declared correlation coefficient of two quantities.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -101,8 +99,8 @@ impl Member {
 #[derive(Clone, Debug)]
 struct Group {
     members: Vec<Member>,
-    /// Lower triangular factor of the correlation matrix, row by row.
-    factor: Vec<Vec<f64>>,
+    /// Lower triangular factor of the correlation matrix, packed.
+    factor: Vec<f64>,
     /// Degrees of freedom of a multivariate t distribution; `None` for joint normals.
     dof: Option<f64>,
 }
@@ -201,11 +199,11 @@ impl Joint {
         if count > MOST_LINKED {
             return Err(CorrelationError::TooMany { count, most: MOST_LINKED });
         }
-        let declared = Symmetric::of(members, active);
+        let declared = coefficients(members, active);
         let decimals = decimals::decimals(members, active, distributions);
         let mut wanted = declared;
         if !wanted.is_semidefinite() {
-            let nearest = wanted.nearest_correlation();
+            let nearest = wanted.nearest();
             if !contradiction::is_rounding(&wanted, &nearest, decimals) {
                 return Err(contradiction::contradiction(members, &wanted, &nearest, decimals));
             }
@@ -239,4 +237,16 @@ impl Joint {
     pub(crate) fn together(&self) -> &[Together] {
         &self.together
     }
+}
+
+/// The matrix of the coefficients among `members`, which are in order.
+fn coefficients(members: &[usize], correlations: &[Correlation]) -> CorrelationMatrix {
+    let mut matrix = CorrelationMatrix::identity(members.len());
+    let index = |quantity: usize| members.binary_search(&quantity).ok();
+    for c in correlations {
+        if let (Some(i), Some(j)) = (index(c.first), index(c.second)) {
+            matrix.set(i, j, c.coefficient);
+        }
+    }
+    matrix
 }

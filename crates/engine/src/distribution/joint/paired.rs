@@ -9,8 +9,8 @@ use std::sync::Arc;
 
 use super::Correlation;
 use super::error::CorrelationError;
-use super::matrix::Symmetric;
 use crate::distribution::{Distribution, Readings, Stream, student};
+use crate::linalg::CorrelationMatrix;
 use crate::number::{COLUMN, Column};
 
 /// Quantities with paired readings, in order.
@@ -19,7 +19,7 @@ pub struct Ensemble {
     /// Places of the quantities.
     pub members: Vec<usize>,
     /// Correlation coefficients of the sample.
-    pub(super) coefficients: Symmetric,
+    pub(super) coefficients: CorrelationMatrix,
 }
 
 /// The ensembles among these quantities, by the place of their first members.
@@ -73,7 +73,7 @@ impl Ensemble {
 }
 
 /// Correlation coefficients of samples of equal length, none of them constant.
-fn coefficients(samples: &[&[f64]]) -> Symmetric {
+fn coefficients(samples: &[&[f64]]) -> CorrelationMatrix {
     let offsets: Vec<Vec<f64>> = samples
         .iter()
         .map(|values| {
@@ -85,7 +85,7 @@ fn coefficients(samples: &[&[f64]]) -> Symmetric {
         .collect();
     let product = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(x, y)| x * y).sum::<f64>();
     let norms: Vec<f64> = offsets.iter().map(|a| product(a, a).sqrt()).collect();
-    let mut coefficients = Symmetric::identity(samples.len());
+    let mut coefficients = CorrelationMatrix::identity(samples.len());
     for (i, j) in coefficients.pairs() {
         let r = product(&offsets[i], &offsets[j]) / norms[i] / norms[j];
         coefficients.set(i, j, r.clamp(-1.0, 1.0));

@@ -8,8 +8,9 @@
 
 use std::sync::Arc;
 
-use crate::distribution::{Distribution, SavedResult, special};
+use crate::distribution::{Distribution, SavedResult};
 use crate::number::COLUMN;
+use crate::special;
 
 /// Nodes of a cell.
 pub(super) const NODES: usize = 8;

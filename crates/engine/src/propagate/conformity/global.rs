@@ -7,7 +7,8 @@
 //! integrals run over the standard normal scores of the prior, so that any shape will do.
 
 use super::smallest;
-use crate::distribution::{Distribution, special};
+use crate::distribution::Distribution;
+use crate::special;
 
 /// Risks over all items that are inspected.
 #[derive(Clone, Copy, Debug, PartialEq)]

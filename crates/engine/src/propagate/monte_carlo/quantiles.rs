@@ -9,8 +9,8 @@ use super::capped::{first_partitions, kept_budget, leaf_of, narrow, pass};
 use super::partition::Leaf;
 use super::repeat::repeat;
 use super::run::{Request, plans};
-use crate::distribution::special;
 use crate::propagate::Control;
+use crate::special;
 
 /// Widest cell within which ranks are interpolated, as a share of half the quartiles' distance.
 /// That of the first pass is 30/16384.

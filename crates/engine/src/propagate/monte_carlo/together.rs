@@ -12,8 +12,8 @@ use rayon::prelude::*;
 
 use super::block::Trials;
 use super::repeat::repeat;
-use crate::distribution::special;
 use crate::propagate::Control;
+use crate::special;
 
 /// Values of all outputs together that are looked at, at most: 64 MiB with what is needed beside
 /// them.

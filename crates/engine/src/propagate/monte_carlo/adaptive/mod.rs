@@ -26,8 +26,8 @@ use watch::Watch;
 use super::block::Trials;
 use super::fold::Plan;
 use crate::distribution::BLOCK;
-use crate::distribution::special::student;
 use crate::propagate::Control;
+use crate::special::student;
 use crate::task::StoppingRule;
 
 /// Figures of an output that are watched: estimate, standard uncertainty, ends of the interval.
