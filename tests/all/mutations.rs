@@ -274,7 +274,7 @@ fn evaluate_and_report(mut file: ModelFile) {
         Trials::Fixed(trials) => Trials::Fixed(trials.min(300)),
         Trials::Adaptive => Trials::Fixed(300),
     };
-    let control = Control { threads: 1, ..Control::default() };
+    let control = Control::default().with_threads(1);
     let evaluation = match evaluate(&file.task, &control) {
         Ok(evaluation) => evaluation,
         Err(error) => return assert!(!error.to_string().is_empty()),

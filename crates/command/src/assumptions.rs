@@ -155,12 +155,10 @@ impl Assumptions {
     ) -> Result<Option<Audit>, Failure> {
         let bar = progress::bar(Some(trials_to_make(task, question)), self.quiet);
         let advance = |trials: u64| bar.inc(trials);
-        let control = Control {
-            threads: self.threads.unwrap_or(0),
-            stop: Some(stop),
-            progress: Some(&advance),
-            ..Control::default()
-        };
+        let control = Control::default()
+            .with_threads(self.threads.unwrap_or(0))
+            .with_stop(stop)
+            .with_progress(&advance);
         let result = audit(task, &file.evidence, question, &control);
         bar.finish_and_clear();
         let found = result.map_err(|error| run::failure(file, error))?;

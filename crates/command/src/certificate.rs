@@ -159,12 +159,10 @@ impl Certificate {
     ) -> Result<Issued, Failure> {
         let bar = progress::bar(trials_to_make(&file.certificate), self.quiet);
         let advance = |trials: u64| bar.inc(trials);
-        let control = Control {
-            threads: self.threads.unwrap_or(0),
-            stop: Some(stop),
-            progress: Some(&advance),
-            ..Control::default()
-        };
+        let control = Control::default()
+            .with_threads(self.threads.unwrap_or(0))
+            .with_stop(stop)
+            .with_progress(&advance);
         let digests: Vec<Arc<str>> =
             models.iter().map(|model| Arc::from(model.digest.as_str())).collect();
         let result = issue(&file.certificate, &digests, &control);

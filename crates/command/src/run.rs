@@ -234,12 +234,10 @@ impl Run {
     }
 
     fn control<'s>(&self, stop: &'s AtomicBool) -> Control<'s> {
-        Control {
-            threads: self.threads.unwrap_or(0),
-            memory: self.memory,
-            stop: Some(stop),
-            ..Control::default()
-        }
+        Control::default()
+            .with_threads(self.threads.unwrap_or(0))
+            .with_memory(self.memory)
+            .with_stop(stop)
     }
 
     fn evaluate(
@@ -255,7 +253,7 @@ impl Run {
         };
         let bar = progress::bar(trials, self.quiet);
         let advance = |trials: u64| bar.inc(trials);
-        let control = Control { progress: Some(&advance), ..self.control(stop) };
+        let control = self.control(stop).with_progress(&advance);
         let result = evaluate(task, &control);
         bar.finish_and_clear();
         let evaluation = result.map_err(|error| failure(file, error))?;
@@ -292,9 +290,8 @@ pub(super) fn failure(file: &ModelFile, error: EvaluationError) -> Failure {
     let message = error.to_string();
     match error {
         EvaluationError::Threads(_) => Failure::System(message),
-        EvaluationError::Undefined { .. }
-        | EvaluationError::NotFinite { .. }
-        | EvaluationError::Correlation { .. } => {
+        // everything else follows from what the file says
+        _ => {
             let (source, span) = file.output_place(0);
             let fault = Fault::Evaluation { message };
             Failure::Problems(Problems(vec![Problem { source, span, fault }]))

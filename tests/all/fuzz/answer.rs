@@ -74,7 +74,7 @@ pub(crate) fn answered(mut file: ModelFile) {
         Trials::Adaptive => Trials::Adaptive,
     };
     file.task.settings.max_trials = file.task.settings.max_trials.min(20_000);
-    let control = Control { threads: 1, ..Control::default() };
+    let control = Control::default().with_threads(1);
     let evaluation = match evaluate(&file.task, &control) {
         Ok(evaluation) => evaluation,
         Err(error) => {

@@ -124,7 +124,6 @@ impl Sampler {
         buffers: &mut Buffers,
         out: &mut [Block],
     ) {
-        let path = path.or_baseline();
         path.run(Changed { path, sampler: self, block, changes, buffers, out });
     }
 
@@ -139,13 +138,11 @@ impl Sampler {
         buffers: &mut Buffers,
         out: &mut [Block],
     ) {
-        let path = path.or_baseline();
         path.run(Mixed { path, sampler: self, block, sets, buffers, out });
     }
 
     /// The values of all quantities in the first `blocks` blocks, column by column.
     pub(super) fn drawn(&self, path: CodePath, block: u64, buffers: &mut Buffers) -> Vec<Column> {
-        let path = path.or_baseline();
         path.run(Drawn { path, sampler: self, block, buffers })
     }
 

@@ -18,6 +18,7 @@ use crate::task::{Row, Settings, Task, Trials};
 
 /// The evaluation of a whole task.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Evaluation {
     /// The coverage probability used.
     pub coverage_probability: f64,
@@ -38,6 +39,7 @@ pub struct Evaluation {
 
 /// The evaluation of one row.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct RowEvaluation {
     /// Values of the conditions.
     pub conditions: Vec<f64>,
@@ -65,6 +67,7 @@ pub struct Together {
 
 /// One output by both methods.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct OutputEvaluation {
     /// By the law of propagation; `None` where a sensitivity coefficient is not finite.
     pub gum: Option<Gum>,
@@ -115,6 +118,7 @@ impl OutputEvaluation {
 
 /// Why a task cannot be evaluated.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum EvaluationError {
     /// Declared correlations that no joint distribution has, or that cannot be drawn.
     Correlation {
@@ -159,7 +163,8 @@ impl fmt::Display for EvaluationError {
             }
             Self::NotFinite { share } => write!(
                 f,
-                "{} % of the trials have no finite result; `gumption run` names the first of them",
+                "{} % of the trials have no finite result; an evaluation of the task names the first \
+                 of them",
                 Shortest(100.0 * share)
             ),
             Self::Threads(error) => write!(f, "cannot start threads: {error}"),
@@ -214,8 +219,12 @@ pub fn evaluate(task: &Task, control: &Control<'_>) -> Result<Evaluation, Evalua
 /// outputs need so much on a machine of many cores.
 const MOST_COLUMNS: usize = 256 << 20;
 
-/// Runs `work` on the number of threads that the control asks for, or as many as have room for the
-/// columns of the task.
+/// Runs `work` in the caller's thread pool (rayon's global one, unless the call comes from another),
+/// or, where the control asks for a number of threads, in a pool of that many. Either way there are
+/// no more threads than have room for the columns of the task.
+///
+/// # Errors
+/// Threads that cannot be started.
 pub fn in_pool<R: Send>(
     task: &Task,
     control: &Control<'_>,
@@ -224,12 +233,13 @@ pub fn in_pool<R: Send>(
     let program = &task.model.program;
     let columns = size_of::<Column>() * (program.variables() + program.operations())
         + size_of::<[f64; BLOCK]>() * program.outputs();
-    let asked = match control.threads {
-        0 => std::thread::available_parallelism().map_or(1, usize::from),
-        threads => threads,
-    };
+    let room = (MOST_COLUMNS / columns.max(1)).max(1);
+    if control.threads == 0 && rayon::current_num_threads() <= room {
+        return Ok(work());
+    }
+    let asked = if control.threads == 0 { room } else { control.threads };
     let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(asked.min(MOST_COLUMNS / columns.max(1)).max(1))
+        .num_threads(asked.min(room))
         .build()
         .map_err(|error| EvaluationError::Threads(error.to_string()))?;
     Ok(pool.install(work))
@@ -433,7 +443,8 @@ fn explain(task: &Task, number: usize, row: &Row, undefined: Undefined) -> Evalu
     EvaluationError::Undefined { row: number, undefined, inputs, operation }
 }
 
-/// The hash over the bits of all trials of all rows (`gumption verify --paths`).
+/// The hash over the bits of all trials of all rows: whether two machines, code paths or numbers of
+/// threads give the same trials.
 ///
 /// # Errors
 /// Correlations that cannot be drawn.

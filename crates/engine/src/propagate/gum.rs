@@ -28,6 +28,7 @@ pub enum Dof {
 
 /// The evaluation of one output by the law of propagation.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Gum {
     /// Estimate y of the output.
     pub estimate: f64,

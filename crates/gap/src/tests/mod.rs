@@ -14,7 +14,7 @@ use crate::{Candidate, Case, Effect, Maker, Observed, Prior, Sim};
 use gumption_engine::distribution::{Distribution, Evaluation, Fits, Normal};
 use gumption_engine::model::formula::{Formula, Scope, Typing};
 use gumption_engine::model::{InputQuantity, Output, Quantity};
-use gumption_engine::task::{Coverage, Row, Settings, Sharing, Task, Variable};
+use gumption_engine::task::{Row, Settings, Sharing, Task, Variable};
 use gumption_units::Unit;
 
 /// A normal distribution.
@@ -86,7 +86,7 @@ fn case(
         correlations: Vec::new(),
         rows: (0..observed[0].values.len()).map(row).collect(),
         swept: true,
-        settings: Settings { coverage: Coverage::Probability(0.95), ..Settings::default() },
+        settings: Settings::default(),
         fits: Fits::default(),
     };
     let observed = observed.into_iter().map(Some).collect();

@@ -473,10 +473,10 @@ fn what_is_drawn_together_is_reproducible() {
     Run::new(&calibration(), folder.path(), 1).save(&folder.path().join("c.json"), "c");
     let file = file::read_text("m", &difference("c.json", "c.json"), folder.path(), &[]).unwrap();
     let hash = |threads: usize, path: CodePath| {
-        let control = Control { threads, path, ..Control::default() };
+        let control = Control::default().with_threads(threads).with_path(path);
         trial_hash(&file.task, 20_000, &control).unwrap()
     };
-    let first = hash(1, CodePath::Baseline);
+    let first = hash(1, CodePath::BASELINE);
     for path in CodePath::available() {
         assert_eq!(hash(2, path), first, "{path:?}");
     }

@@ -43,9 +43,9 @@ pub(super) fn evaluate<T: Number>(
             Kind::Call { function: Some(Function::Kelvin), arguments, .. }
                 if arguments.len() == 1 =>
             {
-                let place = arguments.first().copied().unwrap_or_default();
-                let typing = typings.get(place).copied().unwrap_or(Typing::ANY);
-                let value = at(&results, place);
+                let argument = arguments[0];
+                let typing = typings.get(argument).copied().unwrap_or(Typing::ANY);
+                let value = at(&results, argument);
                 if typing.kelvin_shifts() { value + CELSIUS_ZERO } else { value }
             }
             kind => apply(kind, &results, &constants).ok_or_else(|| wrong_call(text, kind))?,

@@ -136,7 +136,8 @@ impl Typed {
     }
 
     /// The declared outputs in SI units from the values of the inputs in SI units. A declared input
-    /// without a value takes its default (or 0).
+    /// without a value takes its default; without a default, or if its declared unit cannot be read,
+    /// it is not a number.
     pub fn record_with<'r>(&self, value: impl Fn(&str) -> Option<Traced<'r>>) -> Vec<Traced<'r>> {
         let values: Vec<Traced<'r>> = self
             .declaration
@@ -144,8 +145,9 @@ impl Typed {
             .iter()
             .map(|declared| {
                 value(declared.name).unwrap_or_else(|| {
-                    let factor = Unit::parse(declared.unit).map_or(1.0, |unit| unit.factor());
-                    Traced::constant(declared.default.unwrap_or(0.0) * factor)
+                    let unit = Unit::parse(declared.unit).ok();
+                    let default = declared.default.zip(unit).map(|(value, u)| value * u.factor());
+                    Traced::constant(default.unwrap_or(f64::NAN))
                 })
             })
             .collect();
@@ -153,8 +155,8 @@ impl Typed {
     }
 
     /// The model whose variables are the parts of `inputs`, then `conditions`, and whose results are
-    /// `outputs`, each in its own unit. A declared input that is in neither list takes its default
-    /// (or 0); an output that is not declared is not a number.
+    /// `outputs`, each in its own unit. A declared input that is in neither list is as in
+    /// [`Typed::record_with`]; an output that is not declared is not a number.
     pub fn model_with(
         &self,
         inputs: Vec<InputQuantity>,

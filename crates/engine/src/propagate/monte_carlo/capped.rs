@@ -113,7 +113,7 @@ pub(super) fn run(
         }
     }
     let (whole, summaries) = first?;
-    Some(finish(trials, request, whole, &summaries, searches, shortest_errors))
+    Some(finish(trials, (request, control.path), whole, &summaries, searches, shortest_errors))
 }
 
 /// The cells of the first pass: the quartiles lie one scale from the middle, and fifteen of them
@@ -189,7 +189,7 @@ pub(super) fn pass(
                     let values = &workspace.outputs;
                     if with_sums {
                         let sums = &mut sums[..];
-                        let path = control.path.or_baseline();
+                        let path = control.path;
                         path.run(SumKernel { path, values, count: left, plans, sums });
                         control.advance(wanted as u64);
                     }
@@ -428,7 +428,7 @@ fn value_at(leaf: &Leaf, kept: &[f64], rank: u64, anyway: bool) -> Option<f64> {
 
 fn finish(
     trials: &Trials,
-    request: Request<'_>,
+    (request, path): (Request<'_>, CodePath),
     whole: Pass,
     summaries: &[(Moments, Sums)],
     searches: Vec<Option<Search>>,
@@ -437,7 +437,7 @@ fn finish(
     let undefined = whole.first_undefined.map(|(block, trial)| Undefined {
         count: whole.undefined,
         trials: whole.trials + whole.undefined,
-        first: trials.inputs_of(block, trial),
+        first: trials.inputs_of(path, block, trial),
     });
     let totals: Vec<&Sums> = summaries.iter().map(|(_, total)| total).collect();
     let correlations = correlations(whole.trials, &totals, &whole.products);

@@ -7,6 +7,8 @@ use super::products;
 use super::wide;
 use super::windows::Windows;
 use crate::distribution::BLOCK;
+#[cfg(target_arch = "x86_64")]
+use crate::number::Instructions;
 use crate::number::{CodePath, Kernel};
 
 /// What is left of a run of blocks.
@@ -100,7 +102,7 @@ impl Kernel for AllFinite<'_> {
 
 /// Folds the first `count` trials of a block.
 pub(crate) struct FoldKernel<'a> {
-    /// The path that it runs on, which the machine has.
+    /// The path that it runs on.
     pub(crate) path: CodePath,
     pub(crate) values: &'a [[f64; BLOCK]],
     pub(crate) count: usize,
@@ -129,8 +131,8 @@ impl Kernel for FoldKernel<'_> {
 #[inline(always)]
 pub(super) fn keep(path: CodePath, block: &[f64], windows: &Windows, kept: &mut Vec<f64>) -> u64 {
     #[cfg(target_arch = "x86_64")]
-    if path == CodePath::Avx512 {
-        // SAFETY: a kernel runs on a path only where the machine has it.
+    if path.instructions() == Instructions::Avx512 {
+        // SAFETY: the machine has the instructions of a path.
         return unsafe { wide::keep(block, windows, kept) };
     }
     let _ = path;

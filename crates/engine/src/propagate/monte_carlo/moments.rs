@@ -5,6 +5,8 @@ use super::products::Products;
 #[cfg(target_arch = "x86_64")]
 use super::wide;
 use crate::number::CodePath;
+#[cfg(target_arch = "x86_64")]
+use crate::number::Instructions;
 
 /// Where an output's values lie and how far they spread: the pilot's median and a width. Sums are
 /// taken of (value - middle)/scale, so that they neither cancel nor overflow.
@@ -57,8 +59,8 @@ impl Sums {
 #[inline(always)]
 fn powers(path: CodePath, values: &[f64], reference: Reference) -> [[f64; LANES]; 4] {
     #[cfg(target_arch = "x86_64")]
-    if path == CodePath::Avx512 {
-        // SAFETY: a kernel runs on a path only where the machine has it.
+    if path.instructions() == Instructions::Avx512 {
+        // SAFETY: the machine has the instructions of a path.
         return unsafe { wide::powers(values, reference) };
     }
     let _ = path;
@@ -120,13 +122,13 @@ impl Moments {
         let n = trials as f64;
         let [s1, s2, s3, s4] = sums.powers.map(|s| s / n);
         let m2 = f64::max(s2 - s1 * s1, 0.0);
-        let m3 = s3 - 3.0 * s1 * s2 + 2.0 * s1.powi(3);
-        let m4 = s4 - 4.0 * s1 * s3 + 6.0 * s1 * s1 * s2 - 3.0 * s1.powi(4);
+        let m3 = s3 - 3.0 * s1 * s2 + 2.0 * s1 * s1 * s1;
+        let m4 = s4 - 4.0 * s1 * s3 + 6.0 * s1 * s1 * s2 - 3.0 * (s1 * s1) * (s1 * s1);
         Self {
             trials: n,
             mean: reference.middle + reference.scale * s1,
             std: reference.scale * (m2 * n / (n - 1.0)).sqrt(),
-            skewness: m3 / m2.powf(1.5),
+            skewness: m3 / (m2 * m2.sqrt()),
             excess_kurtosis: m4 / (m2 * m2) - 3.0,
             shape_errors: None,
             inside: sums.inside as f64 / n,
@@ -198,9 +200,9 @@ mod tests {
         let values: Vec<f64> = (1..=1000).map(f64::from).collect();
         let reference = Reference { middle: 480.0, scale: 300.0, limits: [11.0, 20.0] };
         let mut sums = Sums::default();
-        sums.add(CodePath::Baseline, &values[..617], reference);
+        sums.add(CodePath::BASELINE, &values[..617], reference);
         let mut rest = Sums::default();
-        rest.add(CodePath::Baseline, &values[617..], reference);
+        rest.add(CodePath::BASELINE, &values[617..], reference);
         sums.merge(&rest);
         let m = Moments::new(1000, reference, &sums);
         assert!((m.mean - 500.5).abs() < 1e-10);

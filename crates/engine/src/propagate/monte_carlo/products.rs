@@ -115,7 +115,7 @@ mod tests {
         let mut products = Products::new(outputs);
         for _ in 0..2 {
             for ((sums, values), plan) in sums.iter_mut().zip(&values).zip(&plans) {
-                sums.add(CodePath::Baseline, &values[..100], plan.reference);
+                sums.add(CodePath::BASELINE, &values[..100], plan.reference);
             }
             add(&values, 100, &plans, sums.iter_mut());
             products.take(sums.iter_mut());

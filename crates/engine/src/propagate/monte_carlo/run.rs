@@ -15,7 +15,7 @@ use super::products::{Products, waves};
 use super::shelves::Shelves;
 use super::windows::Windows;
 use crate::distribution::BLOCK;
-use crate::number::CodePath;
+use crate::number::{CodePath, elementary};
 use crate::propagate::Control;
 
 /// Blocks of the pilot of a long run.
@@ -45,6 +45,7 @@ const LARGEST_CHUNK: u64 = 64;
 
 /// One output's figures from the trials.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct MonteCarlo {
     /// Number of trials behind the figures.
     pub trials: u64,
@@ -174,7 +175,7 @@ fn run_capped(
     let part = (request.trials / 64).min(affordable as u64 / 2).max(2);
     let quiet = Control { progress: None, ..*control };
     let mut first = run_held(trials, Request { trials: part, ..request }, &quiet);
-    let law = (part as f64 / request.trials as f64).cbrt();
+    let law = elementary::cbrt(part as f64 / request.trials as f64);
     let errors: Vec<[f64; 2]> = first
         .outputs
         .iter()
@@ -225,7 +226,7 @@ pub(super) fn plans(
     groups
         .flat_map(|group| group.clone().zip(pilot(trials, request, control, group)))
         .map(|(output, values)| {
-            let mut order = Shelves::new(control.path.or_baseline(), &[&values], &Windows::ALL);
+            let mut order = Shelves::new(control.path, &[&values], &Windows::ALL);
             let mut at = |place: usize| (place < values.len()).then(|| order.at(place));
             let reference = reference(values.len(), &mut at, trials.limits(output));
             let all = request.trials <= ALL_KEPT || margin > KEEP_ALL_MARGIN;
@@ -275,7 +276,7 @@ fn fold_all(
 ) -> (Vec<Folded>, Products) {
     let blocks = count.div_ceil(BLOCK as u64);
     let chunk = blocks.div_ceil(BATCHES as u64).clamp(1, LARGEST_CHUNK);
-    let path = control.path.or_baseline();
+    let path = control.path;
     let fold_chunk = |workspace: &mut Workspace, number: u64| {
         let own = number * chunk..((number + 1) * chunk).min(blocks);
         let mut folded = Folded::new(plans, (own.end - own.start) * BLOCK as u64);
@@ -319,7 +320,7 @@ fn finish(
     mut chunks: Vec<Folded>,
     products: &Products,
 ) -> Option<Finished> {
-    let undefined = undefined(trials, &chunks);
+    let undefined = undefined(trials, control.path, &chunks);
     let stopped = control.is_stopped();
     let count: u64 = chunks.iter().map(|chunk| chunk.trials).sum();
     if count == 0 {
@@ -347,7 +348,7 @@ fn finish(
             });
         }
     }
-    let path = control.path.or_baseline();
+    let path = control.path;
     // one output after the other: sorting copies, and memory is for one copy at a time
     let outputs: Vec<Option<MonteCarlo>> = per_output
         .into_iter()
@@ -361,11 +362,11 @@ fn finish(
     Some(Finished { trials: count, outputs, correlations, undefined, stopped })
 }
 
-fn undefined(trials: &Trials, chunks: &[Folded]) -> Option<Undefined> {
+fn undefined(trials: &Trials, path: CodePath, chunks: &[Folded]) -> Option<Undefined> {
     let (block, trial) = chunks.iter().find_map(|chunk| chunk.first_undefined)?;
     let count = chunks.iter().map(|chunk| chunk.undefined).sum();
     let defined: u64 = chunks.iter().map(|chunk| chunk.trials).sum();
-    Some(Undefined { count, trials: defined + count, first: trials.inputs_of(block, trial) })
+    Some(Undefined { count, trials: defined + count, first: trials.inputs_of(path, block, trial) })
 }
 
 /// Kept values of some consecutive trials of one output.
@@ -495,7 +496,7 @@ fn shortest_error(
     if ends.len() < 4 {
         return [f64::NAN; 2];
     }
-    let law = (largest as f64 / total as f64).cbrt();
+    let law = elementary::cbrt(largest as f64 / total as f64);
     [0, 1].map(|end| {
         let mean = ends.iter().map(|e| e[end]).sum::<f64>() / n;
         let squares: f64 = ends.iter().map(|e| (e[end] - mean).powi(2)).sum();

@@ -18,6 +18,9 @@ fn lanes_of(chunk: &[f64]) -> __mmask8 {
 }
 
 /// Appends the values that the windows keep; returns how many lie below the window about the median.
+///
+/// # Safety
+/// The machine has AVX-512 F, DQ, VL and BW, and POPCNT.
 #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx512bw,popcnt")]
 pub(super) fn keep(block: &[f64], windows: &Windows, kept: &mut Vec<f64>) -> u64 {
     kept.reserve(block.len() + LANES);
@@ -50,6 +53,9 @@ pub(super) fn keep(block: &[f64], windows: &Windows, kept: &mut Vec<f64>) -> u64
 }
 
 /// For the powers 1 to 4 of the values' distances from the reference the sum in each lane.
+///
+/// # Safety
+/// As [`keep`].
 #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx512bw,popcnt")]
 pub(super) fn powers(values: &[f64], reference: Reference) -> [[f64; LANES]; 4] {
     let middle = _mm512_set1_pd(reference.middle);
@@ -75,7 +81,7 @@ pub(super) fn powers(values: &[f64], reference: Reference) -> [[f64; LANES]; 4] 
     // no closures: they would not be compiled for these instructions
     let mut lanes = [[0.0; LANES]; 4];
     for (lanes, sum) in lanes.iter_mut().zip(sums) {
-        // SAFETY: there are eight places.
+        // SAFETY: there are eight lanes.
         unsafe { _mm512_storeu_pd(lanes.as_mut_ptr(), sum) };
     }
     lanes

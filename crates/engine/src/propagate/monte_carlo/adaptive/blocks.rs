@@ -79,7 +79,7 @@ impl Run<'_> {
         fences: &[Plan],
     ) -> Option<Vec<Option<Figures>>> {
         let Self { trials, size, search, control } = self;
-        let path = control.path.or_baseline();
+        let path = control.path;
         let (first, last) = (number * size, (number + 1) * size);
         let new = |plan: &Plan| Values::new(size, search.probability, *plan);
         let mut values: Vec<Values> = fences.iter().map(new).collect();
