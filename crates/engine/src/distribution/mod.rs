@@ -33,7 +33,7 @@ pub use constant::Constant;
 pub use curvilinear_trapezoid::CurvilinearTrapezoid;
 pub use exponential::Exponential;
 pub use gamma::Gamma;
-pub use input::{Evaluation, Input, InputError};
+pub use input::{EvaluationType, Input, InputError};
 pub use joint::Draws;
 pub use joint::Fits;
 pub use joint::FromScore;

@@ -11,7 +11,7 @@ use std::sync::Arc;
 use nalgebra::{DMatrix, DVector};
 
 use crate::{Candidate, Case, Effect, Maker, Observed, Prior, Sim};
-use gumption_engine::distribution::{Distribution, Evaluation, Fits, Normal};
+use gumption_engine::distribution::{Distribution, EvaluationType, Fits, Normal};
 use gumption_engine::model::formula::{Formula, Scope, Typing};
 use gumption_engine::model::{InputQuantity, Output, Quantity};
 use gumption_engine::task::{Row, Settings, Sharing, Task, Variable};
@@ -77,7 +77,7 @@ fn case(
         variables: vec![Variable {
             name: "a".to_owned(),
             unit: Unit::one(),
-            evaluation: Evaluation::B,
+            evaluation: EvaluationType::B,
             group: None,
             about: String::new(),
             sharing,

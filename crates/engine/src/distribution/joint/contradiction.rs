@@ -53,9 +53,9 @@ fn offending(matrix: &CorrelationMatrix, rounding: f64) -> Vec<usize> {
         // the contradiction belongs to it, and what stands above that row is not needed
         let order: Vec<usize> = found.iter().chain(rest.iter().rev()).copied().collect();
         match matrix.first_below(&order, -rounding) {
-            Some(place) if place >= found.len() => {
-                let taken = place - found.len();
-                found.push(order[place]);
+            Some(index) if index >= found.len() => {
+                let taken = index - found.len();
+                found.push(order[index]);
                 rest.drain(..rest.len() - taken);
             }
             Some(_) => break,

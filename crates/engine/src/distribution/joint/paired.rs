@@ -16,16 +16,16 @@ use crate::number::{COLUMN, Column};
 /// Quantities with paired readings, in order.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Ensemble {
-    /// Places of the quantities.
+    /// Indices of the quantities.
     pub members: Vec<usize>,
     /// Correlation coefficients of the sample.
     pub(super) coefficients: CorrelationMatrix,
 }
 
-/// The ensembles among these quantities, by the place of their first members.
+/// The ensembles among these quantities, by the index of their first members.
 pub fn ensembles(distributions: &[Arc<Distribution>]) -> Vec<Ensemble> {
     let mut sets: Vec<Vec<(usize, &Readings)>> = Vec::new();
-    for (place, distribution) in distributions.iter().enumerate() {
+    for (index, distribution) in distributions.iter().enumerate() {
         let Distribution::Readings(readings) = &**distribution else {
             continue;
         };
@@ -34,12 +34,12 @@ pub fn ensembles(distributions: &[Arc<Distribution>]) -> Vec<Ensemble> {
         }
         let length = readings.values().len();
         match sets.iter_mut().find(|set| set[0].1.values().len() == length) {
-            Some(set) => set.push((place, readings)),
-            None => sets.push(vec![(place, readings)]),
+            Some(set) => set.push((index, readings)),
+            None => sets.push(vec![(index, readings)]),
         }
     }
     let ensemble = |set: Vec<(usize, &Readings)>| Ensemble {
-        members: set.iter().map(|(place, _)| *place).collect(),
+        members: set.iter().map(|(index, _)| *index).collect(),
         coefficients: coefficients(&set.iter().map(|(_, r)| r.values()).collect::<Vec<_>>()),
     };
     sets.into_iter().map(ensemble).collect()

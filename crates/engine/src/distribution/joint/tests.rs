@@ -338,7 +338,7 @@ fn rows_share_fits() {
         fits.joint(row, &declared).unwrap()
     };
     let first = joint(&row(1.0), 0.0);
-    // place and width do not matter, nor does a quantity that nothing is said of
+    // location and width do not matter, nor does a quantity that nothing is said of
     let mut moved = row(1.0);
     moved[0] = shared(Rectangular::new(-3.0, 0.2).unwrap().into());
     moved[2] = shared(Normal::new(7.0, 0.5).unwrap().into());

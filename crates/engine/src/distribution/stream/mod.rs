@@ -11,7 +11,7 @@
 #![allow(unsafe_code)] // instructions of a path that the machine has
 
 #[cfg(target_arch = "x86_64")]
-mod wide;
+mod simd;
 
 use crate::number::CodePath;
 #[cfg(target_arch = "x86_64")]
@@ -111,9 +111,9 @@ impl Stream {
         #[cfg(target_arch = "x86_64")]
         match self.path.instructions() {
             // SAFETY: the machine has the instructions of a path.
-            Instructions::Avx512 => return unsafe { wide::fill_avx512(&mut self.state, out) },
+            Instructions::Avx512 => return unsafe { simd::fill_avx512(&mut self.state, out) },
             // SAFETY: as above.
-            Instructions::Avx2 => return unsafe { wide::fill_avx2(&mut self.state, out) },
+            Instructions::Avx2 => return unsafe { simd::fill_avx2(&mut self.state, out) },
             Instructions::Baseline => {}
         }
         for chunk in out.chunks_exact_mut(LANES) {

@@ -92,12 +92,12 @@ impl Typed {
         Self { declaration: M::DECLARATION, record: record::<M> }
     }
 
-    /// The declared input of that name, with its place.
+    /// The declared input of that name, with its index.
     pub fn input(&self, name: &str) -> Option<(usize, &'static DeclaredInput)> {
         self.declaration.inputs.iter().enumerate().find(|(_, input)| input.name == name)
     }
 
-    /// The declared output of that name, with its place.
+    /// The declared output of that name, with its index.
     pub fn output(&self, name: &str) -> Option<(usize, &'static DeclaredOutput)> {
         self.declaration.outputs.iter().enumerate().find(|(_, output)| output.name == name)
     }
@@ -171,8 +171,8 @@ impl Typed {
         let results: Vec<Traced<'_>> = outputs
             .iter()
             .map(|output| {
-                let place = self.output(&output.quantity.name).map(|(place, _)| place);
-                let result = place.and_then(|place| results.get(place)).copied();
+                let index = self.output(&output.quantity.name).map(|(index, _)| index);
+                let result = index.and_then(|index| results.get(index)).copied();
                 in_unit(result.unwrap_or_else(|| Traced::constant(f64::NAN)), &output.quantity.unit)
             })
             .collect();

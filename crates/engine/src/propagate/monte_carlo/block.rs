@@ -5,13 +5,13 @@ use std::sync::Arc;
 use rayon::prelude::*;
 
 use crate::distribution::{BLOCK, Draws, Joint, StreamKey, Varying};
-use crate::model::{Place, Schedule};
+use crate::model::{Schedule, ScheduledOutput};
 use crate::number::{COLUMN, CodePath, Column, Kernel};
 use crate::task::{Row, Sharing, Task};
 
 /// One row of a task made ready for trials.
 #[derive(Debug)]
-pub(crate) struct Trials {
+pub(crate) struct RowTrials {
     schedule: Schedule,
     /// The variables that vary, in the order of their registers.
     varying: Varying,
@@ -33,7 +33,7 @@ pub(crate) struct Workspace {
     pub outputs: Vec<[f64; BLOCK]>,
 }
 
-impl Trials {
+impl RowTrials {
     /// A row of the task. `estimates` are the outputs' values at the estimates of the inputs, the
     /// middle of a phase's branch; `joint` is the joint draw of the row's distributions.
     pub(crate) fn new(task: &Task, row: &Row, estimates: &[f64], joint: &Arc<Joint>) -> Self {
@@ -134,7 +134,7 @@ pub fn stream_name(task: &Task, row: &Row, variable: usize) -> String {
 
 struct BlockKernel<'a> {
     path: CodePath,
-    trials: &'a Trials,
+    trials: &'a RowTrials,
     block: u64,
     workspace: &'a mut Workspace,
     wanted: Wanted,
@@ -173,11 +173,13 @@ impl Kernel for BlockKernel<'_> {
                 return;
             }
             schedule.run(registers);
-            for (output, place) in schedule.outputs.iter().enumerate() {
+            for (output, slot) in schedule.outputs.iter().enumerate() {
                 let out = &mut outputs[output][first..first + COLUMN];
-                match *place {
-                    Place::Register(register) => out.copy_from_slice(&registers[register].0),
-                    Place::Constant(value) => out.fill(value),
+                match *slot {
+                    ScheduledOutput::Register(register) => {
+                        out.copy_from_slice(&registers[register].0)
+                    }
+                    ScheduledOutput::Constant(value) => out.fill(value),
                 }
                 if let Some((middle, turn)) = trials.branches[output] {
                     onto_branch(out, middle, turn);

@@ -1,4 +1,4 @@
-//! The inner loops of the fold with AVX-512 instructions: the compiler does not find compression, and
+//! The inner loops of the accumulation with AVX-512 instructions: the compiler does not find compression, and
 //! splits sums over lanes. The same operations in the same order as the plain loops, so the same bits.
 #![cfg(target_arch = "x86_64")]
 #![allow(unsafe_code)]
@@ -9,7 +9,7 @@ use std::arch::x86_64::{
     _mm512_mul_pd, _mm512_set1_pd, _mm512_setzero_pd, _mm512_storeu_pd,
 };
 
-use super::moments::{LANES, Reference};
+use super::plan::{LANES, Reference};
 use super::windows::Windows;
 
 /// The lanes of a chunk that hold a value.
