@@ -4,10 +4,11 @@ use std::path::Path;
 
 use super::certificate;
 use super::json;
-use super::model_file::{read_with, text_of};
-use super::problem::{Log, Problems};
+use super::model_reader::{ModelOptions, read_with};
+use super::open::open;
+use super::problem::Problems;
 use super::recipe;
-use super::{Fault, Source};
+use super::source::Source;
 
 /// Checks a file: as a certificate, a recipe or a case of the gap diagnosis where it has a key that
 /// only those have, else as a model.
@@ -15,15 +16,7 @@ use super::{Fault, Source};
 /// # Errors
 /// All mistakes of the file and of the files that it names, in the order of their places.
 pub fn check(path: &Path) -> Result<(), Problems> {
-    let name = path.display().to_string();
-    match text_of(path) {
-        Ok(text) => check_text(&name, &text, path.parent().unwrap_or_else(|| Path::new(""))),
-        Err(message) => {
-            let log = Log::new(Source::new(name, ""));
-            log.report(&(0..0), Fault::Unreadable { message });
-            Err(log.into_problems())
-        }
-    }
+    open(path, check_text)
 }
 
 /// Checks a file's text as [`check`] does; what it names is looked for in `folder`.
@@ -39,5 +32,5 @@ pub fn check_text(name: &str, text: &str, folder: &Path) -> Result<(), Problems>
             return certificate::read_text(name, text, folder).map(|_| ());
         }
     }
-    read_with(name, text, folder, (&[], None), |reader| reader.checked())
+    read_with(name, text, folder, ModelOptions::default(), |reader| reader.checked())
 }

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use super::open::{open_as, utf8};
 use super::problem::{Log, Problems};
 use super::source::{Place, Source};
 use super::text_table::TextTable;
@@ -48,16 +49,11 @@ pub fn read_comparison(
     path: &Path,
     options: ComparisonOptions<'_>,
 ) -> Result<ComparisonTable, Problems> {
-    let name = path.display().to_string();
-    let text = bytes::of_file(path, bytes::MOST).and_then(|bytes| text_of(path, bytes));
-    match text {
-        Ok(text) => read_comparison_text(&name, &text, options),
-        Err(message) => {
-            let log = Log::new(Source::new(name, ""));
-            log.report(&(0..0), Fault::Unreadable { message });
-            Err(log.into_problems())
-        }
-    }
+    open_as(
+        path,
+        |bytes| text_of(path, bytes),
+        |name, text, _| read_comparison_text(name, text, options),
+    )
 }
 
 /// Reads and checks the text of a CSV table; `name` is used in messages.
@@ -75,10 +71,7 @@ pub fn read_comparison_text(
         let reader = Reader { log: &log, cells: &cells, options };
         if cells.column("x1").is_some() { reader.pairs() } else { reader.laboratories() }
     });
-    match table {
-        Some(table) if log.is_clean() => Ok(table),
-        _ => Err(log.into_problems()),
-    }
+    log.finish(table)
 }
 
 /// The text of a table; the first sheet of a workbook as CSV, line by line.
@@ -88,7 +81,7 @@ fn text_of(path: &Path, bytes: Vec<u8>) -> Result<String, String> {
     if is_workbook {
         return sheet(bytes);
     }
-    String::from_utf8(bytes).map_err(|_| "it is not UTF-8 text".to_owned())
+    utf8(bytes)
 }
 
 fn sheet(bytes: Vec<u8>) -> Result<String, String> {

@@ -6,7 +6,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::Fault;
-use super::inputs::Inputs;
+use super::input_set::InputSet;
 use super::json::{Json, Node};
 use super::links;
 use super::nearest::nearest;
@@ -21,7 +21,7 @@ use gumption_engine::task::Warning;
 /// with them, with notes. Tables that were read are added to `files`.
 pub(super) fn read(
     root: &Object<'_>,
-    inputs: &Inputs,
+    inputs: &InputSet,
     rows: &Rows<'_>,
     folder: &Path,
     files: &mut Vec<(String, Vec<u8>)>,
@@ -58,7 +58,7 @@ pub(super) struct Rows<'a> {
 
 struct Reader<'a> {
     log: &'a Log,
-    inputs: &'a Inputs,
+    inputs: &'a InputSet,
     rows: &'a Rows<'a>,
     by_name: HashMap<&'a str, usize>,
     found: Vec<Correlation>,

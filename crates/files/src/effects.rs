@@ -3,13 +3,13 @@
 use std::ops::Range;
 
 use super::conditions::NoConditions;
-use super::inputs::Inputs;
+use super::input_set::InputSet;
 use super::json::{Json, Member};
-use super::model_file::report_formula;
 use super::nearest;
 use super::object::Object;
 use super::problem::Log;
 use super::results::Results;
+use super::scopes::report_formula;
 use super::{Fault, inputs};
 use gumption_engine::distribution::Distribution;
 use gumption_engine::model::formula;
@@ -163,7 +163,12 @@ impl Reader<'_> {
     }
 
     /// What parameters must be beyond inputs: one unknown value each, and not all of them known.
-    fn parameters(&self, written: Option<&Member>, inputs: &Inputs, fault: impl Fn(&str) -> Fault) {
+    fn parameters(
+        &self,
+        written: Option<&Member>,
+        inputs: &InputSet,
+        fault: impl Fn(&str) -> Fault,
+    ) {
         for (quantity, place) in inputs.quantities.iter().zip(&inputs.quantity_places) {
             let name = &quantity.quantity.name;
             if quantity.parts != 1 {
@@ -265,6 +270,6 @@ impl Reader<'_> {
 }
 
 /// What is known of the parameters beforehand.
-fn priors(inputs: &Inputs) -> impl Iterator<Item = &Distribution> {
+fn priors(inputs: &InputSet) -> impl Iterator<Item = &Distribution> {
     (0..inputs.variables.len()).filter_map(|v| inputs.known.get(v, 0).map(|prior| &**prior))
 }

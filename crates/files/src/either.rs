@@ -3,8 +3,9 @@
 use std::path::Path;
 
 use super::json::{self, Json};
-use super::model_file::{ModelFile, read_text, text_of};
-use super::problem::{Log, Problem, Problems};
+use super::model_file::{ModelFile, read_text};
+use super::open::open;
+use super::problem::{Problem, Problems};
 use super::result_file::{ResultFile, read_result};
 use super::{Fault, Source};
 
@@ -32,15 +33,7 @@ impl ModelOrResult {
 /// # Errors
 /// All mistakes of the file, in the order of their places.
 pub fn read_either(path: &Path) -> Result<ModelOrResult, Problems> {
-    let name = path.display().to_string();
-    match text_of(path) {
-        Ok(text) => read_either_text(&name, &text, path.parent().unwrap_or_else(|| Path::new(""))),
-        Err(message) => {
-            let log = Log::new(Source::new(name, ""));
-            log.report(&(0..0), Fault::Unreadable { message });
-            Err(log.into_problems())
-        }
-    }
+    open(path, read_either_text)
 }
 
 /// Reads and checks a text as [`read_either`] does a file; `folder` is where a model file's tables

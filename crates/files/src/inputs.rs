@@ -1,16 +1,15 @@
 //! The inputs of a file: quantities, their variables, and what is known about them in each row.
 
 use std::collections::HashSet;
-use std::ops::Range;
 use std::path::Path;
 
 use super::Fault;
 use super::condition_values::ConditionValues;
 use super::conditions::unit;
+use super::input_set::InputSet;
 use super::json::{Json, Member};
-use super::known::Known;
-use super::model_file::Override;
 use super::object::Object;
+use super::overrides::Override;
 use super::paired;
 use super::problem::Log;
 use super::results::Results;
@@ -28,28 +27,6 @@ const MOST_VARIABLES: usize = 100_000;
 /// Keys of any input or component beside those of its distribution.
 const COMMON: [&str; 6] = ["distribution", "about", "type", "group", "unit", "per"];
 
-/// What was read.
-#[derive(Debug, Default)]
-pub(super) struct Inputs {
-    pub(super) quantities: Vec<InputQuantity>,
-    pub variables: Vec<Variable>,
-    /// The key of each variable, for messages.
-    pub(super) places: Vec<Range<usize>>,
-    /// The key of each quantity.
-    pub(super) quantity_places: Vec<Range<usize>>,
-    /// What is known about the variables in each row.
-    pub(super) known: Known,
-    pub(super) warnings: Vec<Warning>,
-    /// Quantities whose unit could not be read: they fit every dimension.
-    pub(super) without_unit: Vec<String>,
-    /// The files of samples that were read: name and content.
-    pub(super) files: Vec<(String, Vec<u8>)>,
-    /// The variables whose readings are said to be paired.
-    pub(super) paired: Vec<usize>,
-    /// Readings that distributions are to be tested against.
-    pub(super) evidence: Vec<Evidence>,
-}
-
 /// Where a quantity's estimate comes from.
 enum Source {
     Own,
@@ -64,14 +41,14 @@ pub(super) fn read(
     conditions: &dyn ConditionValues,
     overrides: &[Override],
     results: &Results<'_>,
-) -> Option<Inputs> {
+) -> Option<InputSet> {
     let object = Object::new(log, "`inputs`", &member.value, &member.key_span)?;
     let found = object.members().len();
     if found > MOST_VARIABLES {
         object.report(Fault::TooMany { what: "inputs", found, most: MOST_VARIABLES });
         return None;
     }
-    let mut inputs = Inputs::default();
+    let mut inputs = InputSet::default();
     for member in object.members() {
         if log.is_full() {
             break;
@@ -100,7 +77,7 @@ struct Reader<'a, 'i> {
     moved: Option<&'a Override>,
     folder: &'a Path,
     results: &'a Results<'a>,
-    inputs: &'i mut Inputs,
+    inputs: &'i mut InputSet,
 }
 
 impl<'a> Reader<'a, '_> {

@@ -26,6 +26,14 @@ pub(super) struct Outputs {
     pub(super) without_unit: Vec<String>,
 }
 
+impl Outputs {
+    /// The outputs with the places of their names and units.
+    pub(super) fn each(&self) -> impl Iterator<Item = (&Output, &Range<usize>, &Range<usize>)> {
+        let places = self.places.iter().zip(&self.unit_places);
+        self.outputs.iter().zip(places).map(|(output, (place, unit))| (output, place, unit))
+    }
+}
+
 /// Reads `outputs`.
 pub(super) fn read(log: &Log, member: &Member, results: &Results<'_>) -> Option<Outputs> {
     let object = Object::new(log, "`outputs`", &member.value, &member.key_span)?;

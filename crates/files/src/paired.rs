@@ -1,13 +1,13 @@
 //! Readings that belong together: `"paired": true`.
 
 use super::Fault;
-use super::inputs::Inputs;
+use super::input_set::InputSet;
 use super::problem::Log;
 use gumption_engine::distribution::{Distribution, Readings};
 
 /// Makes ensembles of the paired readings, all those of equal length one. The variables must be
 /// complete in every row; else a mistake has been reported already.
-pub(super) fn apply(log: &Log, inputs: &mut Inputs) {
+pub(super) fn apply(log: &Log, inputs: &mut InputSet) {
     if !inputs.known.is_complete(inputs.variables.len()) {
         return;
     }
@@ -43,7 +43,7 @@ pub(super) fn apply(log: &Log, inputs: &mut Inputs) {
 }
 
 /// Why these variables, read `length` times each, cannot be an ensemble, and the one at fault.
-fn mistake(inputs: &Inputs, length: usize, members: &[usize]) -> Option<(usize, Fault)> {
+fn mistake(inputs: &InputSet, length: usize, members: &[usize]) -> Option<(usize, Fault)> {
     let name = |v: usize| inputs.variables.get(v).map_or("", |variable| variable.name.as_str());
     let (&first, others) = members.split_first()?;
     if others.is_empty() {

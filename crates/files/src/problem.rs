@@ -125,6 +125,17 @@ impl Log {
         }
     }
 
+    /// What was found, unless something was reported.
+    ///
+    /// # Errors
+    /// All that was reported, in the order of the places.
+    pub(crate) fn finish<T>(self, found: Option<T>) -> Result<T, Problems> {
+        match found {
+            Some(found) if self.is_clean() => Ok(found),
+            _ => Err(self.into_problems()),
+        }
+    }
+
     /// Whether there are more mistakes than are collected, so that nothing more needs to be read.
     pub(crate) fn is_full(&self) -> bool {
         self.more.get()

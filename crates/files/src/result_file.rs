@@ -6,8 +6,9 @@ use sha2::{Digest, Sha256};
 
 use super::Fault;
 use super::conditions::unit;
-use super::json::{self, Json, Node};
+use super::json::{Json, Node};
 use super::object::Object;
+use super::open::{check_format, read_root};
 use super::problem::{Log, Problems};
 use super::source::Source;
 use gumption_engine::distribution::{
@@ -68,25 +69,11 @@ fn sha256(bytes: &[u8]) -> String {
 /// # Errors
 /// All mistakes of the text, in the order of their places.
 pub fn read_result(name: &str, text: &str) -> Result<ResultFile, Problems> {
-    let source = Source::new(name, text);
-    let log = Log::new(source.clone());
     // results are told apart by their content
     let hash = sha256(text.as_bytes());
-    let result = match json::parse(&source) {
-        Ok(node) => {
-            let whole = 0..source.text.find('\n').unwrap_or(source.text.len());
-            Object::new(&log, "a result file", &node, &whole)
-                .and_then(|root| Reader { log: &log, root, hash: &hash }.read())
-        }
-        Err((span, fault)) => {
-            log.report(&span, fault);
-            None
-        }
-    };
-    match result {
-        Some(result) if log.is_clean() => Ok(result),
-        _ => Err(log.into_problems()),
-    }
+    read_root(name, text, "a result file", |root| {
+        Reader { log: root.log, root, hash: &hash }.read()
+    })
 }
 
 struct Reader<'a> {
@@ -115,13 +102,8 @@ impl<'a> Reader<'a> {
             }
             return None;
         }
-        let format = root.needed("format")?;
-        if format.value.number() != Some(1.0) {
-            let found = match &format.value.value {
-                Json::Number(text) | Json::Text(text) => text.clone(),
-                other => other.kind().to_owned(),
-            };
-            self.log.report(&format.value.span, Fault::UnknownFormat { found });
+        root.needed("format")?;
+        if !check_format(root) {
             return None;
         }
         let member = root.needed("outputs")?;

@@ -6,7 +6,7 @@
 
 use std::collections::HashMap;
 
-use super::inputs::Inputs;
+use super::input_set::InputSet;
 use gumption_engine::task::{Sharing, Variable};
 
 /// Which rows have a value of a variable in common: equal keys.
@@ -50,7 +50,7 @@ fn describe(variable: &Variable, conditions: &[String]) -> String {
 /// they come from (`linked`); `None` if they have their values in common over the same
 /// rows, or if one does not vary. `rows` are the values of the conditions in every row.
 pub(super) fn contradiction(
-    inputs: &Inputs,
+    inputs: &InputSet,
     (first, second): (usize, usize),
     linked: bool,
     conditions: &[String],

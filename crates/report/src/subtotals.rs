@@ -1,6 +1,6 @@
 //! Shares of the combined variance, added up by group and by type of evaluation.
 
-use gumption_engine::distribution::Evaluation;
+use gumption_engine::distribution::EvaluationType;
 use gumption_engine::propagate::gum::Gum;
 use gumption_engine::task::Task;
 

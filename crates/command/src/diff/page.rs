@@ -3,7 +3,7 @@
 use serde::Serialize;
 use serde::ser::{SerializeMap, Serializer};
 
-use gumption_diff::{Difference, Due, OutputDifference, Part, RowDifference, State};
+use gumption_analysis::diff::{Difference, Due, OutputDifference, Part, RowDifference, State};
 use gumption_report::number::{MISSING, exact, place, rounded, significant, to, with_uncertainty};
 use gumption_report::{Grid, WIDTH, wrapped};
 

@@ -17,7 +17,7 @@ pub struct Listing {
 }
 
 impl Listing {
-    pub fn of(catalogue: &Catalogue) -> Self {
+    pub(super) fn of(catalogue: &Catalogue) -> Self {
         let effects = catalogue.entries.iter().map(Listed::of).collect();
         Self { names: catalogue.names.clone(), effects }
     }
@@ -73,7 +73,7 @@ pub struct ListedParameter {
 }
 
 impl Listed {
-    pub fn of(entry: &Entry) -> Self {
+    pub(super) fn of(entry: &Entry) -> Self {
         let override_of = |member: &Member| (member.key.clone(), plain(&member.value));
         Self {
             name: entry.name.clone(),

@@ -16,7 +16,7 @@ use std::sync::Arc;
 
 pub use listing::{Listed, ListedParameter, Listing};
 
-use super::case::Read;
+use super::effect_context::EffectContext;
 use super::effects::{self, Placed};
 use super::json::{self, Json, Member, Node};
 use super::object::Object;
@@ -142,7 +142,7 @@ pub fn catalogue() -> Listing {
 pub(super) fn read(
     log: &Log,
     root: &Object<'_>,
-    sim: Option<Read<'_>>,
+    sim: Option<EffectContext<'_>>,
     results: &Results<'_>,
     own: &mut Vec<Placed>,
     warnings: &mut Vec<Warning>,
@@ -188,7 +188,7 @@ pub(super) fn read(
 fn one(
     shipped: &Catalogue,
     name: &str,
-    sim: &Read<'_>,
+    sim: &EffectContext<'_>,
     results: &Results<'_>,
     warnings: &mut Vec<Warning>,
 ) -> Result<gumption_gap::Candidate, String> {
@@ -207,7 +207,7 @@ fn one(
 
 /// Of the entries of that name, the one that acts on most quantities of the sim; those of a bench
 /// come before those of any.
-fn chosen(shipped: &Catalogue, name: &str, sim: &Read<'_>) -> Result<Member, Box<Misfit>> {
+fn chosen(shipped: &Catalogue, name: &str, sim: &EffectContext<'_>) -> Result<Member, Box<Misfit>> {
     let mut best: Option<(bool, usize, Member)> = None;
     let mut nearest: Option<Box<Misfit>> = None;
     for entry in shipped.entries.iter().filter(|entry| entry.name == name) {

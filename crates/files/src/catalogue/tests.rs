@@ -2,7 +2,8 @@
 
 use std::collections::BTreeSet;
 
-use super::super::case::{Read, read_text};
+use super::super::case::read_text;
+use super::super::effect_context::EffectContext;
 use super::super::{CaseFile, Fault};
 use super::{ANY_BENCH, Catalogue, TEXT, catalogue, fit};
 use gumption_engine::model::formula::is_name;
@@ -180,7 +181,7 @@ fn every_effect_fits_its_bench_without_a_warning() {
     for bench in &BENCHES {
         let plain = bench.read(&[]).unwrap();
         let observed = &plain.case.observed;
-        let read = Read { sim: &plain.case.sim, task: &plain.case.task, observed };
+        let read = EffectContext { sim: &plain.case.sim, task: &plain.case.task, observed };
         for entry in &shipped.entries {
             if entry.bench != bench.name && entry.bench != ANY_BENCH {
                 continue;
@@ -539,7 +540,7 @@ fn a_part_of_the_outputs_is_enough() {
     let case = fewer.read(&["lateral-mode"]).unwrap().case;
     assert_eq!(case.candidates[0].effect.overrides.len(), 1);
     let shipped = Catalogue::shipped();
-    let read = Read { sim: &case.sim, task: &case.task, observed: &case.observed };
+    let read = EffectContext { sim: &case.sim, task: &case.task, observed: &case.observed };
     let count = |name: &str| {
         let entry = shipped.entries.iter().find(|entry| entry.name == name).unwrap();
         fit::fit(&shipped, entry, &read).map(|(count, _)| count).ok()

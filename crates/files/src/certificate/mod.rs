@@ -9,8 +9,8 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::json::{self, Json, Node};
-use super::model_file::text_of;
 use super::object::Object;
+use super::open::{check_format, open, read_root};
 use super::problem::{Log, Problems};
 use super::source::Source;
 use super::{Fault, settings};
@@ -123,15 +123,7 @@ impl CertificateFile {
 /// # Errors
 /// All mistakes of the files, those of the certificate first.
 pub fn read(path: &Path) -> Result<CertificateFile, Problems> {
-    let name = path.display().to_string();
-    match text_of(path) {
-        Ok(text) => read_text(&name, &text, path.parent().unwrap_or_else(|| Path::new(""))),
-        Err(message) => {
-            let log = Log::new(Source::new(name, ""));
-            log.report(&(0..0), Fault::Unreadable { message });
-            Err(log.into_problems())
-        }
-    }
+    open(path, read_text)
 }
 
 /// Reads and checks a certificate file's text; `name` is used in messages, and model files are looked
@@ -140,23 +132,7 @@ pub fn read(path: &Path) -> Result<CertificateFile, Problems> {
 /// # Errors
 /// All mistakes of the text and its model files, those of the certificate first.
 pub fn read_text(name: &str, text: &str, folder: &Path) -> Result<CertificateFile, Problems> {
-    let source = Source::new(name, text);
-    let log = Log::new(source.clone());
-    let file = match json::parse(&source) {
-        Ok(node) => {
-            let whole = 0..source.text.find('\n').unwrap_or(source.text.len());
-            Object::new(&log, "a certificate file", &node, &whole)
-                .and_then(|root| certificate(root, folder))
-        }
-        Err((span, fault)) => {
-            log.report(&span, fault);
-            None
-        }
-    };
-    match file {
-        Some(file) if log.is_clean() => Ok(file),
-        _ => Err(log.into_problems()),
-    }
+    read_root(name, text, "a certificate file", |root| certificate(root, folder))
 }
 
 /// Whether a text is meant as a certificate file.
@@ -189,7 +165,7 @@ impl Asking {
 
 fn certificate(root: Object<'_>, folder: &Path) -> Option<CertificateFile> {
     root.check_keys(&KEYS);
-    super::model_file::check_format(&root);
+    check_format(&root);
     let particulars = particulars::read(&root);
     let languages = languages(&root);
     let rounding = named(&root, "rounding", Rounding::named, &Rounding::ALL.map(Rounding::name));

@@ -6,10 +6,11 @@ use std::path::Path;
 
 use super::super::Fault;
 use super::super::json::{Json, Member, Node};
-use super::super::model_file::{self, ModelFile, Override};
+use super::super::model_file::{self, ModelFile};
 use super::super::nearest::nearest;
 use super::super::object::Object;
 use super::super::outputs;
+use super::super::overrides::Override;
 use super::super::problem::Log;
 use super::super::source::Place;
 use super::particulars::localized;

@@ -3,15 +3,16 @@
 use std::ops::Range;
 
 use super::super::Fault;
-use super::super::json::{Json, Member};
+use super::super::json::Member;
 use super::super::nearest::nearest;
-use super::super::object::{Object, whole_number};
+use super::super::object::Object;
 use super::super::problem::Log;
 use super::super::recording::{ColumnName, Conversion, Wanted};
+use super::column::column;
 use super::quantity::{of_member, positive, unit};
-use super::recordings::RecordingFile;
+use super::recordings::{RecordingFile, SearchFile};
 use super::{check_name, steps};
-use gumption_signal::Channel;
+use gumption_signal::{Channel, Search};
 use gumption_units::Unit;
 
 /// The keys of a channel.
@@ -112,29 +113,6 @@ fn recording(of: &Object<'_>, recordings: &[RecordingFile]) -> Option<usize> {
     place
 }
 
-/// A column by its name, or by its number from 1.
-pub(super) fn column(log: &Log, member: &Member) -> Option<ColumnName> {
-    match &member.value.value {
-        Json::Text(name) => Some(ColumnName::Name(name.clone())),
-        Json::Number(text) => match whole_number(text).filter(|n| (1..=100_000).contains(n)) {
-            Some(number) => Some(ColumnName::Number(number as usize)),
-            None => {
-                let (key, found) = (member.key.clone(), text.clone());
-                let fault = Fault::NotWhole { key, found, least: 1, most: 100_000 };
-                log.report(&member.value.span, fault);
-                None
-            }
-        },
-        other => {
-            let what = format!("`{}`", member.key);
-            let expected = "the name of a column, or its number from 1";
-            let fault = Fault::WrongType { what, found: other.kind(), expected };
-            log.report(&member.value.span, fault);
-            None
-        }
-    }
-}
-
 /// Units of the channel for one raw unit, and the relative standard uncertainty of that.
 fn scale(of: &Object<'_>, own: &Unit, raw: &Unit) -> Option<(f64, f64)> {
     let (key, member, divides) = match (of.get("scale"), of.get("sensitivity")) {
@@ -229,5 +207,29 @@ impl ChannelFile {
     pub(super) fn wanted(&self) -> (Wanted, Conversion) {
         let wanted = Wanted { column: self.column.clone(), channel: self.channel.name.clone() };
         (wanted, Conversion { zero: self.zero, gain: self.gain, range: self.range })
+    }
+}
+
+impl SearchFile {
+    /// The search, in one of the channels of its recording.
+    pub(super) fn resolved(
+        &self,
+        log: &Log,
+        recording: usize,
+        channels: &[ChannelFile],
+    ) -> Option<Search> {
+        let at =
+            |file: &ChannelFile| file.channel.name == self.channel && file.recording == recording;
+        let channel = channels.iter().position(at);
+        if channel.is_none() {
+            let reason = format!("this recording has no channel `{}`", self.channel);
+            log.report(&self.place, Fault::Recipe { reason });
+        }
+        Some(Search {
+            channel: channel?,
+            frequency: self.frequency,
+            between: self.between,
+            step: self.step,
+        })
     }
 }

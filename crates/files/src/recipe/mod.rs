@@ -1,6 +1,7 @@
 //! A recipe file: which channels of which recordings, and what is taken from them.
 
 mod channels;
+mod column;
 mod quantity;
 mod recordings;
 mod rows;
@@ -11,10 +12,10 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::Fault;
-use super::json::{self, Json, Node};
-use super::model_file::{check_format, text_of};
+use super::json::{Json, Node};
 use super::nearest::nearest;
 use super::object::Object;
+use super::open::{check_format, open, read_root};
 use super::problem::{Log, Problems};
 use super::recording::{self, Recording};
 use super::source::Source;
@@ -118,15 +119,7 @@ pub struct OpenedRow {
 /// # Errors
 /// All mistakes of the file.
 pub fn read(path: &Path) -> Result<RecipeFile, Problems> {
-    let name = path.display().to_string();
-    match text_of(path) {
-        Ok(text) => read_text(&name, &text, path.parent().unwrap_or_else(|| Path::new(""))),
-        Err(message) => {
-            let log = Log::new(Source::new(name, ""));
-            log.report(&(0..0), Fault::Unreadable { message });
-            Err(log.into_problems())
-        }
-    }
+    open(path, read_text)
 }
 
 /// Reads and checks a recipe's text; its recordings are looked for in `folder`.
@@ -134,22 +127,7 @@ pub fn read(path: &Path) -> Result<RecipeFile, Problems> {
 /// # Errors
 /// All mistakes of the text.
 pub fn read_text(name: &str, text: &str, folder: &Path) -> Result<RecipeFile, Problems> {
-    let source = Source::new(name, text);
-    let log = Log::new(source.clone());
-    let file = match json::parse(&source) {
-        Ok(node) => {
-            let whole = 0..source.text.find('\n').unwrap_or(source.text.len());
-            Object::new(&log, "a recipe", &node, &whole).and_then(|root| recipe(&root, folder))
-        }
-        Err((span, fault)) => {
-            log.report(&span, fault);
-            None
-        }
-    };
-    match file {
-        Some(file) if log.is_clean() => Ok(file),
-        _ => Err(log.into_problems()),
-    }
+    read_root(name, text, "a recipe", |root| recipe(&root, folder))
 }
 
 /// Whether a text is meant as a recipe.

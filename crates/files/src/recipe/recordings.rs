@@ -6,12 +6,11 @@ use std::path::{Path, PathBuf};
 use super::super::Fault;
 use super::super::json::{Json, Member};
 use super::super::object::Object;
-use super::super::problem::Log;
 use super::super::recording::{ColumnName, Conversion, Reading, Wanted};
-use super::channels::{ChannelFile, column};
 use super::check_name;
+use super::column::column;
 use super::quantity::{positive, quantity, unit};
-use gumption_signal::{Measured, Search};
+use gumption_signal::Measured;
 
 /// The keys of a recording.
 pub(super) const KEYS: [&str; 7] =
@@ -23,12 +22,13 @@ const SEARCH: [&str; 5] = ["channel", "frequency", "from", "to", "step"];
 /// The search for a sampling rate, as the recipe describes it.
 #[derive(Clone, Debug)]
 pub(super) struct SearchFile {
-    channel: String,
+    /// The channel that has the oscillation.
+    pub(super) channel: String,
     /// Where it is named.
     pub(super) place: Range<usize>,
-    frequency: Option<Measured>,
-    between: [f64; 2],
-    step: f64,
+    pub(super) frequency: Option<Measured>,
+    pub(super) between: [f64; 2],
+    pub(super) step: f64,
 }
 
 /// A recording, as the recipe describes it.
@@ -163,30 +163,6 @@ fn search(of: &Object<'_>) -> Option<SearchFile> {
         return None;
     }
     Some(SearchFile { channel, place: place?, frequency, between: [from, to], step })
-}
-
-impl SearchFile {
-    /// The search, in one of the channels of its recording.
-    pub(super) fn resolved(
-        &self,
-        log: &Log,
-        recording: usize,
-        channels: &[ChannelFile],
-    ) -> Option<Search> {
-        let at =
-            |file: &ChannelFile| file.channel.name == self.channel && file.recording == recording;
-        let channel = channels.iter().position(at);
-        if channel.is_none() {
-            let reason = format!("this recording has no channel `{}`", self.channel);
-            log.report(&self.place, Fault::Recipe { reason });
-        }
-        Some(Search {
-            channel: channel?,
-            frequency: self.frequency,
-            between: self.between,
-            step: self.step,
-        })
-    }
 }
 
 /// The part that is used must have a length.

@@ -184,7 +184,7 @@ mod tests {
         let task = Task::of(inputs, Settings::default()).unwrap();
         let row = &task.rows[0];
         let estimates = gum::evaluate(&task, row).estimates;
-        let trials = Trials::new(
+        let trials = RowTrials::new(
             &task,
             row,
             &estimates,

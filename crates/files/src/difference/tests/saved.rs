@@ -1,9 +1,10 @@
 use std::fmt::Write;
 use std::path::Path;
 
-use super::*;
+use super::super::difference;
+use crate::{Fault, ModelOrResult, read_result, read_text};
+use gumption_analysis::diff::{Difference, Due, OutputDifference};
 use gumption_engine::special::student::two_sided_factor;
-use gumption_files::{read_result, read_text};
 
 /// An input: file hash, name, estimate, standard uncertainty, degrees of freedom (0 for infinite).
 type Input<'a> = (&'a str, &'a str, f64, f64, f64);
@@ -19,11 +20,11 @@ struct Made<'a> {
 }
 
 impl Made<'_> {
-    fn result(&self) -> ResultFile {
+    fn result(&self) -> ModelOrResult {
         let dof = |dof: f64| if dof == 0.0 { "null".to_owned() } else { dof.to_string() };
         let mut inputs = String::new();
-        for (place, (model, name, estimate, u, input_dof)) in self.inputs.iter().enumerate() {
-            let comma = if place > 0 { "," } else { "" };
+        for (index, (model, name, estimate, u, input_dof)) in self.inputs.iter().enumerate() {
+            let comma = if index > 0 { "," } else { "" };
             let dof = dof(*input_dof);
             write!(
                 inputs,
@@ -44,13 +45,12 @@ impl Made<'_> {
             "inputs": [{inputs}], "input_correlations": [{correlations}],
             "provenance": {{"model_sha256": "m"}}}}"#
         );
-        read_result("r.json", &text).unwrap()
+        ModelOrResult::Result(read_result("r.json", &text).unwrap())
     }
 }
 
 fn compared(first: &Made<'_>, second: &Made<'_>) -> Difference {
-    let (first, second) = (first.result(), second.result());
-    compare_saved(Evaluated::Result(&first), Evaluated::Result(&second)).unwrap()
+    difference(&first.result(), &second.result()).unwrap()
 }
 
 fn only(difference: &Difference) -> &OutputDifference {
@@ -214,11 +214,11 @@ fn a_model_file_and_a_result() {
             "distribution": "normal", "mean": 2, "std": 0.1}}}}, "equations": {{"y": "a^2"}},
             "outputs": {{"y": {{"unit": "V"}}}}}}"#
         );
-        read_text("m.json", &text, Path::new(""), &[]).unwrap()
+        ModelOrResult::Model(Box::new(read_text("m.json", &text, Path::new(""), &[]).unwrap()))
     };
     let (first, second) = (first.result(), model(""));
-    let difference = compare_saved(Evaluated::Result(&first), Evaluated::Model(&second)).unwrap();
-    let output = only(&difference);
+    let compared = difference(&first, &second).unwrap();
+    let output = only(&compared);
     assert_complete(output);
     // in mV: u^2 from 9 + 9 to 400^2
     let total = 160_000.0 - 18.0;
@@ -227,7 +227,7 @@ fn a_model_file_and_a_result() {
     assert_eq!(output.parts[1].states[1], None);
 
     let swept = model(r#""conditions": {"f": {"values": [1, 2]}},"#);
-    let problems = compare_saved(Evaluated::Model(&swept), Evaluated::Result(&first)).unwrap_err();
+    let problems = difference(&swept, &first).unwrap_err();
     assert_eq!(problems.0[0].fault, Fault::SeveralRows { rows: 2 });
     assert_eq!(problems.0[0].position(), (1, 2));
 }

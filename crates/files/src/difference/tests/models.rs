@@ -1,10 +1,11 @@
 use std::path::Path;
 
-use super::*;
-use gumption_files as file;
+use super::super::of_models as compare;
+use crate::{ModelFile, read_text};
+use gumption_analysis::diff::{Difference, Due, OutputDifference};
 
 fn read(text: &str) -> ModelFile {
-    file::read_text("x", text, Path::new(""), &[]).unwrap()
+    read_text("x", text, Path::new(""), &[]).unwrap()
 }
 
 /// A file with these inputs, equations and other members.
