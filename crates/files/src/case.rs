@@ -3,13 +3,13 @@
 use std::path::Path;
 use std::sync::Arc;
 
+use super::diagnostics::Diagnostics;
 use super::effect_context::EffectContext;
 use super::effects;
 use super::model_reader::{Found, ModelOptions, ModelReader, read_file, read_with};
-use super::problem::Problems;
 use super::results::Results;
-use super::source::Source;
-use super::{Fault, catalogue, prior, soundness};
+use super::source::SourceText;
+use super::{DiagnosticKind, catalogue, prior, soundness};
 use gumption_engine::task::{Row, Warning};
 use gumption_gap::Case;
 
@@ -24,7 +24,7 @@ pub struct CaseFile {
     /// Notes on what was read.
     pub warnings: Vec<Warning>,
     /// The file's text.
-    pub source: Arc<Source>,
+    pub source: Arc<SourceText>,
     /// The content of the tables that were read, by name.
     pub files: Vec<(String, Vec<u8>)>,
 }
@@ -33,7 +33,7 @@ pub struct CaseFile {
 ///
 /// # Errors
 /// All mistakes of the file and its tables, in the order of their places.
-pub fn read(path: &Path) -> Result<CaseFile, Problems> {
+pub fn read(path: &Path) -> Result<CaseFile, Diagnostics> {
     read_file(path, ModelOptions::default(), |reader| reader.case())
 }
 
@@ -41,7 +41,7 @@ pub fn read(path: &Path) -> Result<CaseFile, Problems> {
 ///
 /// # Errors
 /// All mistakes of the file and its tables, in the order of their places.
-pub fn read_at(path: &Path, conditions: &Path) -> Result<Vec<Row>, Problems> {
+pub fn read_at(path: &Path, conditions: &Path) -> Result<Vec<Row>, Diagnostics> {
     let options = ModelOptions { at: Some(conditions), ..ModelOptions::default() };
     read_file(path, options, |reader| reader.found().map(|found| found.file.task.rows))
 }
@@ -51,7 +51,7 @@ pub fn read_at(path: &Path, conditions: &Path) -> Result<Vec<Row>, Problems> {
 ///
 /// # Errors
 /// All mistakes of the text and its tables, in the order of their places.
-pub fn read_text(name: &str, text: &str, folder: &Path) -> Result<CaseFile, Problems> {
+pub fn read_text(name: &str, text: &str, folder: &Path) -> Result<CaseFile, Diagnostics> {
     read_with(name, text, folder, ModelOptions::default(), |reader| reader.case())
 }
 
@@ -77,7 +77,7 @@ impl ModelReader<'_> {
         let prior = prior::read(&self.root);
         if self.root.get("observations").is_none() {
             let what = "a case of the gap diagnosis";
-            self.root.report(Fault::MissingKey { key: "observations", what });
+            self.root.report(DiagnosticKind::MissingKey { key: "observations", what });
         }
         let results = Results::new(self.folder);
         let mut warnings = Vec::new();

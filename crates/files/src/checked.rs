@@ -3,19 +3,19 @@
 use std::path::Path;
 
 use super::certificate;
+use super::diagnostics::Diagnostics;
 use super::json;
 use super::model_reader::{ModelOptions, read_with};
 use super::open::open;
-use super::problem::Problems;
 use super::recipe;
-use super::source::Source;
+use super::source::SourceText;
 
 /// Checks a file: as a certificate, a recipe or a case of the gap diagnosis where it has a key that
 /// only those have, else as a model.
 ///
 /// # Errors
 /// All mistakes of the file and of the files that it names, in the order of their places.
-pub fn check(path: &Path) -> Result<(), Problems> {
+pub fn check(path: &Path) -> Result<(), Diagnostics> {
     open(path, check_text)
 }
 
@@ -23,8 +23,8 @@ pub fn check(path: &Path) -> Result<(), Problems> {
 ///
 /// # Errors
 /// All mistakes of the text and of the files that it names, in the order of their places.
-pub fn check_text(name: &str, text: &str, folder: &Path) -> Result<(), Problems> {
-    if let Ok(root) = json::parse(&Source::new(name, text)) {
+pub fn check_text(name: &str, text: &str, folder: &Path) -> Result<(), Diagnostics> {
+    if let Ok(root) = json::parse(&SourceText::new(name, text)) {
         if recipe::is_meant(&root) {
             return recipe::check_text(name, text, folder);
         }

@@ -24,6 +24,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::conditions::{self, Conditions};
+use super::diagnostics::{Collector, Diagnostics};
 use super::input_set::InputSet;
 use super::json::{Json, Member, Node};
 use super::model_checks::{
@@ -36,13 +37,12 @@ use super::observations::{self, Observations};
 use super::open::{check_format, open, read_changed_root};
 use super::outputs;
 use super::overrides::{self, Override};
-use super::problem::{Log, Problems};
 use super::results::Results;
 use super::scopes::{ConditionSet, report_formula, typed_scope};
 use super::simulated::{names_simulation, simulated};
 use super::size::Size;
 use super::table::{self, Table};
-use super::{Fault, correlations, inputs, nearest, settings};
+use super::{DiagnosticKind, correlations, inputs, nearest, settings};
 use gumption_engine::distribution::{Correlation, Fits};
 use gumption_engine::model::formula::Formula;
 use gumption_engine::model::{Output, typed};
@@ -131,7 +131,7 @@ pub(super) fn read_file<T>(
     path: &Path,
     options: ModelOptions<'_>,
     read: impl FnOnce(&ModelReader<'_>) -> Option<T>,
-) -> Result<T, Problems> {
+) -> Result<T, Diagnostics> {
     open(path, |name, text, folder| read_with(name, text, folder, options, read))
 }
 
@@ -142,8 +142,8 @@ pub(super) fn read_with<T>(
     folder: &Path,
     options: ModelOptions<'_>,
     read: impl FnOnce(&ModelReader<'_>) -> Option<T>,
-) -> Result<T, Problems> {
-    let change = |log: &Log, root: &mut Node| overrides::apply(log, root, options.overrides);
+) -> Result<T, Diagnostics> {
+    let change = |log: &Collector, root: &mut Node| overrides::apply(log, root, options.overrides);
     read_changed_root(name, text, "a model file", change, |root| {
         read(&ModelReader { root, folder, options })
     })
@@ -244,8 +244,8 @@ impl<'a> ModelReader<'a> {
         let rows = of.conditions.rows.len();
         let size =
             Size { rows, outputs: of.outputs.outputs.len(), variables: of.inputs.variables.len() };
-        if let (Some(fault), Some(member)) = (size.fault(), root.get("outputs")) {
-            log.report(&member.key_span, fault);
+        if let (Some(diagnostic), Some(member)) = (size.excess(), root.get("outputs")) {
+            log.report(&member.key_span, diagnostic);
             return None;
         }
         // without the names of the conditions nothing can be said about formulas
@@ -341,7 +341,7 @@ impl<'a> ModelReader<'a> {
                 Some(ModelBody::Equations(equations))
             }
             (Some(_), Some(second)) => {
-                self.root.log.report(&second.key_span, Fault::TwoModels);
+                self.root.log.report(&second.key_span, DiagnosticKind::TwoModels);
                 None
             }
             (None, None) if !simulated.is_empty() => {
@@ -349,7 +349,7 @@ impl<'a> ModelReader<'a> {
             }
             (None, None) => {
                 if !names_simulation(&self.root) {
-                    self.root.report(Fault::NoModel);
+                    self.root.report(DiagnosticKind::NoModel);
                 }
                 None
             }
@@ -358,19 +358,19 @@ impl<'a> ModelReader<'a> {
 }
 
 /// The typed model of a name.
-fn typed_model(log: &Log, name: &str, place: &Range<usize>) -> Option<Entry> {
+fn typed_model(log: &Collector, name: &str, place: &Range<usize>) -> Option<Entry> {
     let found = gumption_measurements::find(name);
     if found.is_none() {
         let known = gumption_measurements::all();
         let nearest = nearest(name, known.iter().map(|e| e.typed.declaration.name));
         let (name, nearest) = (name.to_owned(), nearest.map(str::to_owned));
-        log.report(place, Fault::UnknownModel { name, nearest });
+        log.report(place, DiagnosticKind::UnknownModel { name, nearest });
     }
     found
 }
 
 /// The equations of a file, in order.
-fn equations<'a>(log: &'a Log, member: &'a Member) -> Option<Vec<Equation<'a>>> {
+fn equations<'a>(log: &'a Collector, member: &'a Member) -> Option<Vec<Equation<'a>>> {
     let object = Object::new(log, "`equations`", &member.value, &member.key_span)?;
     let formula = |member: &Member| match &member.value.value {
         Json::Text(text) => {
@@ -379,7 +379,7 @@ fn equations<'a>(log: &'a Log, member: &'a Member) -> Option<Vec<Equation<'a>>> 
         other => {
             let (what, found) = (format!("`{}`", member.key), other.kind());
             let expected = "a formula in quotes";
-            log.report(&member.value.span, Fault::WrongType { what, found, expected });
+            log.report(&member.value.span, DiagnosticKind::WrongType { what, found, expected });
             None
         }
     };
