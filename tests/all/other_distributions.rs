@@ -19,7 +19,7 @@ const ERRORS: [f64; 4] = [0.00402, 0.00300, 0.00570, 0.0139];
 /// Five standard errors leave a false failure in 4e5 seeds; the seed is fixed.
 #[test]
 fn a_sum_of_weibull_and_gumbel_has_the_moments_and_quantiles_of_scipy() {
-    let control = Control { threads: 2, ..Control::default() };
+    let control = Control::default().with_threads(2);
     let evaluation = evaluate(&program::task(1_000_000).expect("a task"), &control).expect("trials");
     let found = program::figures(&evaluation).expect("trials");
     for ((found, expected), error) in found.iter().zip(EXPECTED).zip(ERRORS) {
@@ -36,7 +36,7 @@ fn a_sum_of_weibull_and_gumbel_has_the_moments_and_quantiles_of_scipy() {
 fn draws_of_other_crates_are_repeated() {
     let task = program::task(20_000).expect("a task");
     let on = |threads: usize, path| {
-        let control = Control { threads, path, ..Control::default() };
+        let control = Control::default().with_threads(threads).with_path(path);
         program::figures(&evaluate(&task, &control).expect("trials"))
     };
     let first = on(1, gumption::number::CodePath::best());
@@ -55,7 +55,7 @@ fn distributions_of_other_crates_are_correlated() {
         second: 1,
         coefficient: 0.5,
     });
-    let control = Control { threads: 2, ..Control::default() };
+    let control = Control::default().with_threads(2);
     let evaluation = evaluate(&task, &control).expect("trials");
     let [_, found, ..] = program::figures(&evaluation).expect("trials");
     let [a, b] = [0, 1].map(|i| task.rows[0].distributions[i].standard_uncertainty());

@@ -3,14 +3,14 @@
 use std::path::Path;
 use std::sync::Arc;
 
+use super::diagnostics::Diagnostics;
 use super::effect_context::EffectContext;
 use super::effects;
 use super::model_reader::{Found, ModelOptions, ModelReader, read_with};
-use super::problem::Problems;
 use super::reader::FileReader;
 use super::results::Results;
-use super::source::Source;
-use super::{Fault, catalogue, prior, soundness};
+use super::source::SourceText;
+use super::{DiagnosticKind, catalogue, prior, soundness};
 use gumption_engine::task::{Row, Warning};
 use gumption_gap::Case;
 
@@ -25,7 +25,7 @@ pub struct CaseFile {
     /// Notes on what was read.
     pub warnings: Vec<Warning>,
     /// The file's text.
-    pub source: Arc<Source>,
+    pub source: Arc<SourceText>,
     /// The content of the tables that were read, by name.
     pub files: Vec<(String, Vec<u8>)>,
 }
@@ -37,7 +37,7 @@ pub(super) fn read_at(
     text: &str,
     folder: &Path,
     conditions: &Path,
-) -> Result<Vec<Row>, Problems> {
+) -> Result<Vec<Row>, Diagnostics> {
     let options = ModelOptions { at: Some(conditions), ..ModelOptions::with(files) };
     read_with(name, text, folder, options, |reader| {
         reader.found().map(|found| found.file.task.rows)
@@ -50,7 +50,7 @@ pub(super) fn read_text(
     name: &str,
     text: &str,
     folder: &Path,
-) -> Result<CaseFile, Problems> {
+) -> Result<CaseFile, Diagnostics> {
     read_with(name, text, folder, ModelOptions::with(files), |reader| reader.case())
 }
 
@@ -76,7 +76,7 @@ impl ModelReader<'_> {
         let prior = prior::read(&self.root);
         if self.root.get("observations").is_none() {
             let what = "a case of the gap diagnosis";
-            self.root.report(Fault::MissingKey { key: "observations", what });
+            self.root.report(DiagnosticKind::MissingKey { key: "observations", what });
         }
         let results = Results::new(self.folder);
         let mut warnings = Vec::new();

@@ -3,12 +3,12 @@
 use std::path::Path;
 
 use super::certificate;
+use super::diagnostics::Diagnostics;
 use super::json;
 use super::model_reader::{ModelOptions, read_with};
-use super::problem::Problems;
 use super::reader::FileReader;
 use super::recipe;
-use super::source::Source;
+use super::source::SourceText;
 
 /// Checks a text: as a certificate, a recipe or a case of the gap diagnosis where it has a key that
 /// only those have, else as a model.
@@ -17,8 +17,8 @@ pub(super) fn check_text(
     name: &str,
     text: &str,
     folder: &Path,
-) -> Result<(), Problems> {
-    if let Ok(root) = json::parse(&Source::new(name, text)) {
+) -> Result<(), Diagnostics> {
+    if let Ok(root) = json::parse(&SourceText::new(name, text)) {
         if recipe::is_meant(&root) {
             return recipe::check_text(name, text, folder);
         }

@@ -2,12 +2,12 @@
 
 use std::path::Path;
 
+use super::diagnostics::{Diagnostic, Diagnostics};
 use super::json::{self, Json};
 use super::model_file::ModelFile;
-use super::problem::{Problem, Problems};
 use super::reader::FileReader;
 use super::result_file::{ResultFile, read_result};
-use super::{Fault, Source};
+use super::{DiagnosticKind, SourceText};
 
 /// A model file or a result file that was read and found right.
 #[derive(Debug)]
@@ -34,8 +34,8 @@ pub(super) fn read_text(
     name: &str,
     text: &str,
     folder: &Path,
-) -> Result<ModelOrResult, Problems> {
-    let source = Source::new(name, text);
+) -> Result<ModelOrResult, Diagnostics> {
+    let source = SourceText::new(name, text);
     let is_result = json::parse(&source).is_ok_and(|node| match &node.value {
         Json::Object(members) => members.iter().any(|member| member.key == "result"),
         _ => false,
@@ -49,12 +49,12 @@ pub(super) fn read_text(
 
 impl ModelFile {
     /// A mistake at a key of the root, or at the file's beginning if it is not there.
-    pub fn problem_at(&self, key: &str, fault: Fault) -> Problems {
+    pub fn diagnostic_at(&self, key: &str, diagnostic: DiagnosticKind) -> Diagnostics {
         let member = json::parse(&self.source).ok().and_then(|node| match node.value {
             Json::Object(members) => members.into_iter().find(|member| member.key == key),
             _ => None,
         });
         let span = member.map_or(0..0, |member| member.key_span);
-        Problems(vec![Problem { source: self.source.clone(), span, fault }])
+        Diagnostics(vec![Diagnostic { source: self.source.clone(), span, kind: diagnostic }])
     }
 }

@@ -1,4 +1,4 @@
-//! User files: read, validated, turned into tasks. Every mistake is a [`Problem`] with its place.
+//! User files: read, validated, turned into tasks. Every mistake is a [`Diagnostic`] with its place.
 //!
 //! Reading goes on after a mistake, so that all of a file's mistakes are reported at once; only
 //! text that is not JSON stops it.
@@ -13,11 +13,12 @@ mod comparison;
 mod condition_values;
 mod conditions;
 mod correlations;
+mod diagnostic_kind;
+mod diagnostics;
 mod difference;
 mod effect_context;
 mod effects;
 mod either;
-mod fault;
 mod input_set;
 mod inputs;
 mod json;
@@ -34,7 +35,6 @@ mod outputs;
 mod overrides;
 mod paired;
 mod prior;
-mod problem;
 mod reader;
 mod recipe;
 mod recording;
@@ -56,23 +56,24 @@ mod variant;
 mod width;
 
 pub use case::CaseFile;
-pub use catalogue::{Listed, ListedParameter, Listing, catalogue};
+pub use catalogue::{EffectListing, ListedEffect, ListedParameter, catalogue};
 pub(crate) use certificate::keys as certificate_keys;
 pub use certificate::{CertificateFile, CertifiedModel};
 pub use comparison::{ComparisonOptions, ComparisonTable, read_comparison, read_comparison_text};
+pub use diagnostic_kind::DiagnosticKind;
+pub use diagnostics::{Diagnostic, Diagnostics};
 pub use difference::difference;
 pub use either::ModelOrResult;
-pub use fault::Fault;
 pub use model_file::ModelFile;
 pub use nearest::nearest;
 pub use overrides::{Override, Overrides};
-pub use problem::{Problem, Problems};
 pub use reader::{FileReader, check, check_text, read, read_case, read_certificate, read_text};
-pub use recipe::{
-    Condition, OpenedRow, RecipeFile, RecipeRow, read as read_recipe, read_text as read_recipe_text,
-};
 pub(crate) use recipe::{OWN as RECIPE_KEY, STEPS};
+pub use recipe::{
+    OpenedRow, RecipeCondition, RecipeFile, RecipeRow, read as read_recipe,
+    read_text as read_recipe_text,
+};
 pub use recording::Recording;
 pub use result_file::{ResultFile, SavedOutput, read_result};
-pub use source::Source;
+pub use source::SourceText;
 pub use variant::NotCopied;

@@ -6,14 +6,14 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use super::conditions::Conditions;
+use super::diagnostics::Collector;
 use super::input_set::InputSet;
 use super::json::Json;
 use super::model_reader::{Equation, ModelBody};
 use super::object::Object;
 use super::outputs::Outputs;
-use super::problem::Log;
 use super::scopes::{coherent, condition_scope, report_formula};
-use super::{Fault, nearest};
+use super::{DiagnosticKind, nearest};
 use gumption_engine::model::formula::{Scope, Typing, check_name};
 use gumption_engine::model::{Output, Quantity};
 use gumption_engine::task::Warning;
@@ -62,16 +62,16 @@ pub(super) fn check_names(root: &Object<'_>, of: &Quantities, body: &Option<Mode
     for (kind, name, place) in named {
         if let Err(error) = check_name(name) {
             let (name, reason) = (name.to_owned(), error.to_string());
-            root.log.report(place, Fault::BadName { name, reason });
+            root.log.report(place, DiagnosticKind::BadName { name, reason });
         } else if taken.get(name).is_some_and(|&earlier| earlier != kind) {
-            root.log.report(place, Fault::NameTaken { name: name.to_owned() });
+            root.log.report(place, DiagnosticKind::NameTaken { name: name.to_owned() });
         }
         taken.entry(name).or_insert(kind);
     }
 }
 
 /// Checks that a typed model has the quantities, all of those that it needs, and units that fit.
-pub(super) fn check_typed(log: &Log, entry: &CatalogueEntry, place: &Range<usize>, of: &Quantities) {
+pub(super) fn check_typed(log: &Collector, entry: &CatalogueEntry, place: &Range<usize>, of: &Quantities) {
     let Quantities { inputs, conditions, outputs, .. } = of;
     let unknown_units = of.unknown_units();
     let declaration = entry.typed.declaration;
@@ -95,13 +95,13 @@ pub(super) fn check_typed(log: &Log, entry: &CatalogueEntry, place: &Range<usize
             Some((_, declared)) => check(name, declared.unit, unit, place),
             None => {
                 let nearest = nearest(name, known.iter().map(String::as_str));
-                let fault = Fault::UnknownInput {
+                let diagnostic = DiagnosticKind::UnknownInput {
                     name: name.to_owned(),
                     model: model.clone(),
                     nearest: nearest.map(str::to_owned),
                     known: known.clone(),
                 };
-                log.report(place, fault);
+                log.report(place, diagnostic);
             }
         }
     }
@@ -115,7 +115,7 @@ pub(super) fn check_typed(log: &Log, entry: &CatalogueEntry, place: &Range<usize
             || conditions.quantities.iter().any(|q| q.name == declared.name);
         if !given && declared.default.is_none() {
             let (name, unit) = (declared.name.to_owned(), declared.unit.to_owned());
-            log.report(place, Fault::MissingInput { name, model: model.clone(), unit });
+            log.report(place, DiagnosticKind::MissingInput { name, model: model.clone(), unit });
         }
     }
     let known: Arc<[String]> = declaration.outputs.iter().map(|o| o.name.to_owned()).collect();
@@ -128,28 +128,38 @@ pub(super) fn check_typed(log: &Log, entry: &CatalogueEntry, place: &Range<usize
     }
 }
 
-pub(super) fn unknown_output(log: &Log, name: &str, known: &Arc<[String]>, place: &Range<usize>) {
+pub(super) fn unknown_output(
+    log: &Collector,
+    name: &str,
+    known: &Arc<[String]>,
+    place: &Range<usize>,
+) {
     let nearest = nearest(name, known.iter().map(String::as_str)).map(str::to_owned);
-    let fault = Fault::UnknownOutput { name: name.to_owned(), nearest, known: Arc::clone(known) };
-    log.report(place, fault);
+    let diagnostic =
+        DiagnosticKind::UnknownOutput { name: name.to_owned(), nearest, known: Arc::clone(known) };
+    log.report(place, diagnostic);
 }
 
-fn check_unit(log: &Log, name: &str, found: &Unit, expected: &Unit, place: &Range<usize>) {
+fn check_unit(log: &Collector, name: &str, found: &Unit, expected: &Unit, place: &Range<usize>) {
     if !expected.is_compatible(found) {
         let shown = if expected.text().is_empty() { "1" } else { expected.text() };
-        let fault = Fault::WrongDimension {
+        let diagnostic = DiagnosticKind::WrongDimension {
             name: name.to_owned(),
             found: found.to_string(),
             found_as: found.dimension().describe(),
             expected: shown.to_owned(),
             expected_as: expected.dimension().describe(),
         };
-        log.report(place, fault);
+        log.report(place, diagnostic);
     }
 }
 
 /// Checks the equations in order; gives what every name is.
-pub(super) fn check_equations(log: &Log, equations: &[Equation<'_>], of: &Quantities) -> Scope {
+pub(super) fn check_equations(
+    log: &Collector,
+    equations: &[Equation<'_>],
+    of: &Quantities,
+) -> Scope {
     let Quantities { inputs, conditions, check_units, .. } = of;
     let unknown_units = of.unknown_units();
     let mut scope = condition_scope(conditions);
@@ -181,7 +191,7 @@ pub(super) fn check_equations(log: &Log, equations: &[Equation<'_>], of: &Quanti
 }
 
 /// Checks that every output has an equation, whose unit fits.
-pub(super) fn check_formula_outputs(log: &Log, scope: &Scope, of: &Quantities) {
+pub(super) fn check_formula_outputs(log: &Collector, scope: &Scope, of: &Quantities) {
     let Quantities { outputs, check_units, .. } = of;
     let unknown_units = of.unknown_units();
     let known: Arc<[String]> = scope.names().map(str::to_owned).collect();
@@ -196,14 +206,14 @@ pub(super) fn check_formula_outputs(log: &Log, scope: &Scope, of: &Quantities) {
         if let Some(dimension) = typing.dimension.filter(|_| checked)
             && dimension != unit.dimension()
         {
-            let fault = Fault::WrongDimension {
+            let diagnostic = DiagnosticKind::WrongDimension {
                 name: name.clone(),
                 found: unit.to_string(),
                 found_as: unit.dimension().describe(),
                 expected: coherent(dimension),
                 expected_as: dimension.describe(),
             };
-            log.report(unit_place, fault);
+            log.report(unit_place, diagnostic);
         }
     }
 }

@@ -4,11 +4,11 @@ use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
 
+use super::diagnostics::Diagnostics;
 use super::model_reader::{ModelOptions, read_with};
 use super::overrides::Override;
-use super::problem::Problems;
 use super::reader::FileReader;
-use super::source::Source;
+use super::source::SourceText;
 use gumption_engine::task::{Evidence, Task, Warning};
 
 /// A model file that was read and found right.
@@ -19,7 +19,7 @@ pub struct ModelFile {
     /// Notes on what was read.
     pub warnings: Vec<Warning>,
     /// The file's text.
-    pub source: Arc<Source>,
+    pub source: Arc<SourceText>,
     /// The content of the tables that were read, by name.
     pub files: Vec<(String, Vec<u8>)>,
     /// Where each output stands in the file, for messages of the evaluation.
@@ -35,14 +35,14 @@ pub(super) fn read_text(
     text: &str,
     folder: &Path,
     overrides: &[Override],
-) -> Result<ModelFile, Problems> {
+) -> Result<ModelFile, Diagnostics> {
     let options = ModelOptions { files, overrides, at: None };
     read_with(name, text, folder, options, |reader| Some(reader.found()?.file))
 }
 
 impl ModelFile {
     /// The place of an output in the file, for messages of the evaluation.
-    pub fn output_place(&self, output: usize) -> (Arc<Source>, Range<usize>) {
+    pub fn output_place(&self, output: usize) -> (Arc<SourceText>, Range<usize>) {
         let span = self.output_places.get(output).cloned().unwrap_or(0..0);
         (self.source.clone(), span)
     }

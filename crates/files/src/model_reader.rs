@@ -24,6 +24,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::conditions::{self, Conditions};
+use super::diagnostics::{Collector, Diagnostics};
 use super::input_set::InputSet;
 use super::json::{Json, Member, Node};
 use super::model_checks::{
@@ -36,14 +37,13 @@ use super::observations::{self, Observations};
 use super::open::{check_format, read_changed_root};
 use super::outputs;
 use super::overrides::{self, Override};
-use super::problem::{Log, Problems};
 use super::reader::FileReader;
 use super::results::Results;
 use super::scopes::{ConditionSet, report_formula, typed_scope};
 use super::simulated::{names_simulation, simulated};
 use super::size::Size;
 use super::table::{self, Table};
-use super::{Fault, correlations, inputs, nearest, settings};
+use super::{DiagnosticKind, correlations, inputs, nearest, settings};
 use gumption_engine::distribution::{Correlation, Fits};
 use gumption_engine::model::formula::Formula;
 use gumption_engine::model::typed::{Catalogue, CatalogueEntry};
@@ -143,8 +143,8 @@ pub(super) fn read_with<T>(
     folder: &Path,
     options: ModelOptions<'_>,
     read: impl FnOnce(&ModelReader<'_>) -> Option<T>,
-) -> Result<T, Problems> {
-    let change = |log: &Log, root: &mut Node| overrides::apply(log, root, options.overrides);
+) -> Result<T, Diagnostics> {
+    let change = |log: &Collector, root: &mut Node| overrides::apply(log, root, options.overrides);
     read_changed_root(name, text, "a model file", change, |root| {
         read(&ModelReader { root, folder, options })
     })
@@ -245,8 +245,8 @@ impl<'a> ModelReader<'a> {
         let rows = of.conditions.rows.len();
         let size =
             Size { rows, outputs: of.outputs.outputs.len(), variables: of.inputs.variables.len() };
-        if let (Some(fault), Some(member)) = (size.fault(), root.get("outputs")) {
-            log.report(&member.key_span, fault);
+        if let (Some(diagnostic), Some(member)) = (size.excess(), root.get("outputs")) {
+            log.report(&member.key_span, diagnostic);
             return None;
         }
         // without the names of the conditions nothing can be said about formulas
@@ -343,7 +343,7 @@ impl<'a> ModelReader<'a> {
                 Some(ModelBody::Equations(equations))
             }
             (Some(_), Some(second)) => {
-                self.root.log.report(&second.key_span, Fault::TwoModels);
+                self.root.log.report(&second.key_span, DiagnosticKind::TwoModels);
                 None
             }
             (None, None) if !simulated.is_empty() => {
@@ -351,7 +351,7 @@ impl<'a> ModelReader<'a> {
             }
             (None, None) => {
                 if !names_simulation(&self.root) {
-                    self.root.report(Fault::NoModel);
+                    self.root.report(DiagnosticKind::NoModel);
                 }
                 None
             }
@@ -361,7 +361,7 @@ impl<'a> ModelReader<'a> {
 
 /// The typed model of a name.
 fn typed_model<'c>(
-    log: &Log,
+    log: &Collector,
     catalogue: &'c Catalogue,
     name: &str,
     place: &Range<usize>,
@@ -370,13 +370,13 @@ fn typed_model<'c>(
     if found.is_none() {
         let nearest = nearest(name, catalogue.iter().map(CatalogueEntry::name));
         let (name, nearest) = (name.to_owned(), nearest.map(str::to_owned));
-        log.report(place, Fault::UnknownModel { name, nearest });
+        log.report(place, DiagnosticKind::UnknownModel { name, nearest });
     }
     found
 }
 
 /// The equations of a file, in order.
-fn equations<'a>(log: &'a Log, member: &'a Member) -> Option<Vec<Equation<'a>>> {
+fn equations<'a>(log: &'a Collector, member: &'a Member) -> Option<Vec<Equation<'a>>> {
     let object = Object::new(log, "`equations`", &member.value, &member.key_span)?;
     let formula = |member: &Member| match &member.value.value {
         Json::Text(text) => {
@@ -385,7 +385,7 @@ fn equations<'a>(log: &'a Log, member: &'a Member) -> Option<Vec<Equation<'a>>> 
         other => {
             let (what, found) = (format!("`{}`", member.key), other.kind());
             let expected = "a formula in quotes";
-            log.report(&member.value.span, Fault::WrongType { what, found, expected });
+            log.report(&member.value.span, DiagnosticKind::WrongType { what, found, expected });
             None
         }
     };

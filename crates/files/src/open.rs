@@ -2,11 +2,11 @@
 
 use std::path::Path;
 
+use super::diagnostics::{Collector, Diagnostics};
 use super::json::{self, Json, Node};
 use super::object::Object;
-use super::problem::{Log, Problems};
-use super::source::Source;
-use super::{Fault, bytes};
+use super::source::SourceText;
+use super::{DiagnosticKind, bytes};
 
 /// Opens a file of text and hands its name, its text and its folder to `read`.
 ///
@@ -14,8 +14,8 @@ use super::{Fault, bytes};
 /// That the file cannot be read, or what `read` finds.
 pub(super) fn open<T>(
     path: &Path,
-    read: impl FnOnce(&str, &str, &Path) -> Result<T, Problems>,
-) -> Result<T, Problems> {
+    read: impl FnOnce(&str, &str, &Path) -> Result<T, Diagnostics>,
+) -> Result<T, Diagnostics> {
     open_as(path, utf8, read)
 }
 
@@ -23,15 +23,15 @@ pub(super) fn open<T>(
 pub(super) fn open_as<T>(
     path: &Path,
     text_of: impl FnOnce(Vec<u8>) -> Result<String, String>,
-    read: impl FnOnce(&str, &str, &Path) -> Result<T, Problems>,
-) -> Result<T, Problems> {
+    read: impl FnOnce(&str, &str, &Path) -> Result<T, Diagnostics>,
+) -> Result<T, Diagnostics> {
     let name = path.display().to_string();
     match bytes::of_file(path, bytes::MOST).and_then(text_of) {
         Ok(text) => read(&name, &text, path.parent().unwrap_or_else(|| Path::new(""))),
         Err(message) => {
-            let log = Log::new(Source::new(name, ""));
-            log.report(&(0..0), Fault::Unreadable { message });
-            Err(log.into_problems())
+            let log = Collector::new(SourceText::new(name, ""));
+            log.report(&(0..0), DiagnosticKind::Unreadable { message });
+            Err(log.into_diagnostics())
         }
     }
 }
@@ -50,7 +50,7 @@ pub(super) fn read_root<T>(
     text: &str,
     what: &'static str,
     read: impl FnOnce(Object<'_>) -> Option<T>,
-) -> Result<T, Problems> {
+) -> Result<T, Diagnostics> {
     read_changed_root(name, text, what, |_, _| (), read)
 }
 
@@ -59,11 +59,11 @@ pub(super) fn read_changed_root<T>(
     name: &str,
     text: &str,
     what: &'static str,
-    change: impl FnOnce(&Log, &mut Node),
+    change: impl FnOnce(&Collector, &mut Node),
     read: impl FnOnce(Object<'_>) -> Option<T>,
-) -> Result<T, Problems> {
-    let source = Source::new(name, text);
-    let log = Log::new(source.clone());
+) -> Result<T, Diagnostics> {
+    let source = SourceText::new(name, text);
+    let log = Collector::new(source.clone());
     let found = match json::parse(&source) {
         Ok(mut node) => {
             change(&log, &mut node);
@@ -71,8 +71,8 @@ pub(super) fn read_changed_root<T>(
             let whole = 0..source.text.find('\n').unwrap_or(source.text.len());
             Object::new(&log, what, &node, &whole).and_then(read)
         }
-        Err((span, fault)) => {
-            log.report(&span, fault);
+        Err((span, diagnostic)) => {
+            log.report(&span, diagnostic);
             None
         }
     };
@@ -89,6 +89,6 @@ pub(super) fn check_format(root: &Object<'_>) -> bool {
         Json::Number(text) | Json::Text(text) => text.clone(),
         other => other.kind().to_owned(),
     };
-    root.log.report(&member.value.span, Fault::UnknownFormat { found });
+    root.log.report(&member.value.span, DiagnosticKind::UnknownFormat { found });
     false
 }

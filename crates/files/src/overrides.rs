@@ -1,8 +1,8 @@
 //! Values that stand in place of those of a file: estimates, fields of inputs, values of conditions.
 
+use super::diagnostics::Collector;
 use super::json::{Json, Member, Node};
-use super::problem::Log;
-use super::{Fault, nearest};
+use super::{DiagnosticKind, nearest};
 use gumption_units::Unit;
 
 /// A replacement as text: `NAME=VALUE` or `NAME.field=VALUE`.
@@ -39,32 +39,33 @@ impl Override {
     }
 
     /// The value in `unit`: a number in it, or a number with a unit of its own.
-    pub(super) fn value_in(&self, unit: &Unit) -> Result<f64, Fault> {
-        let fault = |reason: String| Fault::Override { text: self.text.clone(), reason };
+    pub(super) fn value_in(&self, unit: &Unit) -> Result<f64, DiagnosticKind> {
+        let diagnostic =
+            |reason: String| DiagnosticKind::Override { text: self.text.clone(), reason };
         if let Ok(value) = self.value.parse::<f64>() {
             if value.is_finite() {
                 return Ok(value);
             }
-            return Err(fault("the value must be a finite number".to_owned()));
+            return Err(diagnostic("the value must be a finite number".to_owned()));
         }
         let (number, text) = self.value.split_once(char::is_whitespace).ok_or_else(|| {
-            fault("a number is needed, or one with a unit: \"35 deg\"".to_owned())
+            diagnostic("a number is needed, or one with a unit: \"35 deg\"".to_owned())
         })?;
         let number: f64 = number
             .parse()
             .ok()
             .filter(|n: &f64| n.is_finite())
-            .ok_or_else(|| fault(format!("`{number}` is not a finite number")))?;
-        let given = Unit::parse(text.trim()).map_err(|error| fault(error.to_string()))?;
+            .ok_or_else(|| diagnostic(format!("`{number}` is not a finite number")))?;
+        let given = Unit::parse(text.trim()).map_err(|error| diagnostic(error.to_string()))?;
         let factor = Unit::conversion_factor(&given, unit)
-            .map_err(|_| fault(format!("`{given}` cannot be converted to `{unit}`")))?;
+            .map_err(|_| diagnostic(format!("`{given}` cannot be converted to `{unit}`")))?;
         Ok(number * factor)
     }
 }
 
 /// Puts the values of fields and of conditions into the tree; those of estimates are taken when the
 /// input is read.
-pub(super) fn apply(log: &Log, root: &mut Node, overrides: &[Override]) {
+pub(super) fn apply(log: &Collector, root: &mut Node, overrides: &[Override]) {
     let whole = root.span.start..root.span.start;
     for replaced in overrides {
         if override_condition(log, root, replaced) {
@@ -85,7 +86,7 @@ pub(super) fn apply(log: &Log, root: &mut Node, overrides: &[Override]) {
                 Some(name) => format!("there is no input of that name; did you mean `{name}`?"),
                 None => "there is no input of that name".to_owned(),
             };
-            log.report(&whole, Fault::Override { text: replaced.text.clone(), reason });
+            log.report(&whole, DiagnosticKind::Override { text: replaced.text.clone(), reason });
             continue;
         };
         let (Some(field), Json::Object(fields)) = (&replaced.field, &mut input.value.value) else {
@@ -112,7 +113,7 @@ pub(super) fn apply(log: &Log, root: &mut Node, overrides: &[Override]) {
 }
 
 /// Puts one value in place of those of a condition of a grid; false if there is none of that name.
-fn override_condition(log: &Log, root: &mut Node, replaced: &Override) -> bool {
+fn override_condition(log: &Collector, root: &mut Node, replaced: &Override) -> bool {
     let Some((unit, values)) = condition_of_grid(root, &replaced.input) else {
         return false;
     };
@@ -124,7 +125,7 @@ fn override_condition(log: &Log, root: &mut Node, replaced: &Override) -> bool {
             let span = values.span.clone();
             values.value = Json::List(vec![Node { span, value: Json::Number(value.to_string()) }]);
         }
-        Err(fault) => log.report(&values.span, fault),
+        Err(diagnostic) => log.report(&values.span, diagnostic),
     }
     true
 }

@@ -9,7 +9,7 @@ use super::either::{self, ModelOrResult};
 use super::model_file::{self, ModelFile};
 use super::open::open;
 use super::overrides::Override;
-use super::problem::Problems;
+use super::diagnostics::Diagnostics;
 use gumption_engine::model::typed::Catalogue;
 use gumption_engine::task::Row;
 
@@ -46,7 +46,7 @@ impl<'c> FileReader<'c> {
     }
 
     /// A model file, with values in place of some of its own.
-    pub fn model(self, path: &Path, overrides: &[Override]) -> Result<ModelFile, Problems> {
+    pub fn model(self, path: &Path, overrides: &[Override]) -> Result<ModelFile, Diagnostics> {
         open(path, |name, text, folder| self.model_text(name, text, folder, overrides))
     }
 
@@ -57,12 +57,12 @@ impl<'c> FileReader<'c> {
         text: &str,
         folder: &Path,
         overrides: &[Override],
-    ) -> Result<ModelFile, Problems> {
+    ) -> Result<ModelFile, Diagnostics> {
         model_file::read_text(self, name, text, folder, overrides)
     }
 
     /// A model file or a saved result: a file with the key `result` is one.
-    pub fn either(self, path: &Path) -> Result<ModelOrResult, Problems> {
+    pub fn either(self, path: &Path) -> Result<ModelOrResult, Diagnostics> {
         open(path, |name, text, folder| self.either_text(name, text, folder))
     }
 
@@ -72,28 +72,28 @@ impl<'c> FileReader<'c> {
         name: &str,
         text: &str,
         folder: &Path,
-    ) -> Result<ModelOrResult, Problems> {
+    ) -> Result<ModelOrResult, Diagnostics> {
         either::read_text(self, name, text, folder)
     }
 
     /// A case of the gap diagnosis.
-    pub fn case(self, path: &Path) -> Result<CaseFile, Problems> {
+    pub fn case(self, path: &Path) -> Result<CaseFile, Diagnostics> {
         open(path, |name, text, folder| self.case_text(name, text, folder))
     }
 
     /// A case's text.
-    pub fn case_text(self, name: &str, text: &str, folder: &Path) -> Result<CaseFile, Problems> {
+    pub fn case_text(self, name: &str, text: &str, folder: &Path) -> Result<CaseFile, Diagnostics> {
         case::read_text(self, name, text, folder)
     }
 
     /// What a case's sim has in the rows of a table of conditions, which stands in the current
     /// folder.
-    pub fn case_at(self, path: &Path, conditions: &Path) -> Result<Vec<Row>, Problems> {
+    pub fn case_at(self, path: &Path, conditions: &Path) -> Result<Vec<Row>, Diagnostics> {
         open(path, |name, text, folder| case::read_at(self, name, text, folder, conditions))
     }
 
     /// A certificate file with its model files.
-    pub fn certificate(self, path: &Path) -> Result<CertificateFile, Problems> {
+    pub fn certificate(self, path: &Path) -> Result<CertificateFile, Diagnostics> {
         open(path, |name, text, folder| self.certificate_text(name, text, folder))
     }
 
@@ -103,18 +103,18 @@ impl<'c> FileReader<'c> {
         name: &str,
         text: &str,
         folder: &Path,
-    ) -> Result<CertificateFile, Problems> {
+    ) -> Result<CertificateFile, Diagnostics> {
         certificate::read_text(self, name, text, folder)
     }
 
     /// Checks a file: as a certificate, a recipe or a case of the gap diagnosis where it has a key
     /// that only those have, else as a model.
-    pub fn check(self, path: &Path) -> Result<(), Problems> {
+    pub fn check(self, path: &Path) -> Result<(), Diagnostics> {
         open(path, |name, text, folder| self.check_text(name, text, folder))
     }
 
     /// Checks a file's text as [`FileReader::check`] does.
-    pub fn check_text(self, name: &str, text: &str, folder: &Path) -> Result<(), Problems> {
+    pub fn check_text(self, name: &str, text: &str, folder: &Path) -> Result<(), Diagnostics> {
         checked::check_text(self, name, text, folder)
     }
 }
@@ -126,7 +126,7 @@ macro_rules! with_built_in_measurements {
             ///
             /// # Errors
             /// All mistakes, in the order of their places.
-            pub fn $name($($argument: $kind),*) -> Result<$read, Problems> {
+            pub fn $name($($argument: $kind),*) -> Result<$read, Diagnostics> {
                 FileReader::default().$method($($argument),*)
             }
         )*

@@ -2,19 +2,19 @@
 
 use std::collections::HashMap;
 
-use super::Fault;
+use super::DiagnosticKind;
 use super::condition_values::ConditionValues;
 use super::conditions::Conditions;
+use super::diagnostics::Collector;
 use super::input_set::InputSet;
 use super::json::Member;
-use super::problem::Log;
 use gumption_engine::model::Quantity;
 use gumption_engine::model::formula::{Formula, FormulaError, Scope, Typing};
 use gumption_engine::model::typed::CatalogueEntry;
 use gumption_units::{Dimension, Unit};
 
 /// A formula's mistake at its place inside the JSON text.
-pub(super) fn report_formula(log: &Log, member: &Member, error: FormulaError) {
+pub(super) fn report_formula(log: &Collector, member: &Member, error: FormulaError) {
     let span = &member.value.span;
     let inner = error.span();
     let raw = log.source.text.get(span.start + 1..span.end.saturating_sub(1));
@@ -26,7 +26,7 @@ pub(super) fn report_formula(log: &Log, member: &Member, error: FormulaError) {
     } else {
         span.clone()
     };
-    log.report(&place, Fault::Formula { error });
+    log.report(&place, DiagnosticKind::Formula { error });
 }
 
 /// A coherent unit of a dimension, as text.
@@ -71,25 +71,27 @@ impl ConditionValues for ConditionSet<'_> {
         self.conditions.rows.len()
     }
 
-    fn check(&self, formula: &Formula, unit: &Unit) -> Result<(), Vec<Fault>> {
+    fn check(&self, formula: &Formula, unit: &Unit) -> Result<(), Vec<DiagnosticKind>> {
         if self.conditions.unreadable {
             return Ok(());
         }
         let scope = condition_scope(self.conditions);
         let result =
             if self.check_units { formula.check(&scope) } else { formula.check_names(&scope) };
-        let faults = |errors: Vec<FormulaError>| {
-            errors.into_iter().map(|error| Fault::Formula { error }).collect::<Vec<_>>()
+        let kinds = |errors: Vec<FormulaError>| {
+            errors.into_iter().map(|error| DiagnosticKind::Formula { error }).collect::<Vec<_>>()
         };
-        let typing = result.map_err(faults)?;
+        let typing = result.map_err(kinds)?;
         match typing.dimension.filter(|_| self.check_units) {
-            Some(dimension) if dimension != unit.dimension() => Err(vec![Fault::WrongDimension {
-                name: "mean".to_owned(),
-                found: coherent(dimension),
-                found_as: dimension.describe(),
-                expected: unit.to_string(),
-                expected_as: unit.dimension().describe(),
-            }]),
+            Some(dimension) if dimension != unit.dimension() => {
+                Err(vec![DiagnosticKind::WrongDimension {
+                    name: "mean".to_owned(),
+                    found: coherent(dimension),
+                    found_as: dimension.describe(),
+                    expected: unit.to_string(),
+                    expected_as: unit.dimension().describe(),
+                }])
+            }
             _ => Ok(()),
         }
     }

@@ -1,6 +1,6 @@
 //! Outputs that are columns of the data: somebody else's simulation.
 
-use super::Fault;
+use super::DiagnosticKind;
 use super::conditions::Conditions;
 use super::json::{Json, Member, Node};
 use super::object::Object;
@@ -31,7 +31,7 @@ pub(super) fn simulated(
             let reason = format!(
                 "`{output}` cannot come both from {other} and from the column `{name}`; {remedy}"
             );
-            root.log.report(&column.place, Fault::Observation { reason });
+            root.log.report(&column.place, DiagnosticKind::Observation { reason });
             continue;
         }
         simulated.push((output.clone(), name.clone()));
@@ -42,7 +42,7 @@ pub(super) fn simulated(
                     "the column `{name}` is a condition already; as a simulation of `{output}` \
                      it can be read by its name, so take it out of `conditions`"
                 );
-                root.log.report(&column.place, Fault::Observation { reason });
+                root.log.report(&column.place, DiagnosticKind::Observation { reason });
             }
             continue;
         }

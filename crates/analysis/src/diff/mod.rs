@@ -79,12 +79,12 @@ pub struct OutputDifference {
     /// U in both files; `None` where it is not defined.
     pub expanded: [Option<f64>; 2],
     /// The inputs in the order of the files, then everything else that changed.
-    pub parts: Vec<Part>,
+    pub parts: Vec<ChangePart>,
 }
 
 /// What a part of the change is due to.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Due {
+pub enum ChangeCause {
     /// An input, or a component of one.
     Input(String),
     /// The declared correlation coefficients.
@@ -99,27 +99,27 @@ pub enum Due {
 
 /// A part of the change.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Part {
+pub struct ChangePart {
     /// What it is due to.
-    pub due: Due,
+    pub due: ChangeCause,
     /// What both files know of an input; `None` where it is absent.
-    pub states: [Option<State>; 2],
+    pub states: [Option<InputState>; 2],
     /// Change of U; `None` where it cannot be told.
     pub change: Option<f64>,
     /// Share of the change of U; `None` where U does not change.
     pub share: Option<f64>,
 }
 
-impl Part {
+impl ChangePart {
     /// Whether the two files know different things.
     pub fn is_changed(&self) -> bool {
-        !matches!(self.due, Due::Input(_)) || self.states[0] != self.states[1]
+        !matches!(self.due, ChangeCause::Input(_)) || self.states[0] != self.states[1]
     }
 }
 
 /// What is known of an input.
 #[derive(Clone, Debug, PartialEq)]
-pub struct State {
+pub struct InputState {
     /// Estimate.
     pub estimate: f64,
     /// Standard uncertainty.
@@ -304,7 +304,7 @@ fn list(
     gums: [Option<&Gum>; 2],
     factor: f64,
     attributed: Attributed<'_>,
-) -> Vec<Part> {
+) -> Vec<ChangePart> {
     let scale = [1.0, factor];
     let u = [0, 1].map(|i| gums[i].map_or(f64::NAN, |gum| gum.standard_uncertainty * scale[i]));
     let k = gums.map(|gum| gum.and_then(|gum| gum.coverage_factor).unwrap_or(f64::NAN));
@@ -312,7 +312,7 @@ fn list(
     let state = |side: usize, name: &str| {
         let index = tasks[side].variables.iter().position(|v| v.name == name)?;
         let distribution = rows[side].distributions.get(index)?;
-        Some(State {
+        Some(InputState {
             estimate: distribution.mean(),
             standard_uncertainty: distribution.standard_uncertainty(),
             distribution: distribution.name().to_owned(),
@@ -321,10 +321,10 @@ fn list(
             sensitivity: None,
         })
     };
-    let mut parts: Vec<Part> = Vec::new();
+    let mut parts: Vec<ChangePart> = Vec::new();
     for variable in tasks.iter().flat_map(|task| &task.variables) {
         let name = &variable.name;
-        if parts.iter().any(|part| part.due == Due::Input(name.clone())) {
+        if parts.iter().any(|part| part.due == ChangeCause::Input(name.clone())) {
             continue;
         }
         let states = [state(0, name), state(1, name)];
@@ -337,19 +337,32 @@ fn list(
             continue;
         }
         let change = if cause.is_some() { change(cause) } else { Some(0.0) };
-        parts.push(Part { due: Due::Input(name.clone()), states, change, share: None });
+        parts.push(ChangePart {
+            due: ChangeCause::Input(name.clone()),
+            states,
+            change,
+            share: None,
+        });
     }
-    let others = [(Cause::Correlations, Due::Correlations), (Cause::Coverage, Due::Coverage)];
+    let others = [
+        (Cause::Correlations, ChangeCause::Correlations),
+        (Cause::Coverage, ChangeCause::Coverage),
+    ];
     for (cause, due) in others {
         if attributed.causes.contains(&cause) {
             let change = change(Some(&cause));
-            parts.push(Part { due, states: [None, None], change, share: None });
+            parts.push(ChangePart { due, states: [None, None], change, share: None });
         }
     }
     let rounding = ROUNDING * (k[0] * u[0]).max(k[1] * u[1]);
     let of_model = change(None);
     if of_model.is_none_or(|change| change.abs() > rounding) {
-        parts.push(Part { due: Due::Model, states: [None, None], change: of_model, share: None });
+        parts.push(ChangePart {
+            due: ChangeCause::Model,
+            states: [None, None],
+            change: of_model,
+            share: None,
+        });
     }
     share_out(&mut parts, rounding);
     parts
@@ -365,7 +378,7 @@ fn change_of_expanded(u: [f64; 2], k: [f64; 2], [of_variance, of_factor]: [f64; 
 }
 
 /// Shares of the sum of all changes, which is the change of U but for rounding.
-fn share_out(parts: &mut [Part], rounding: f64) {
+fn share_out(parts: &mut [ChangePart], rounding: f64) {
     let total: Option<f64> = parts.iter().map(|part| part.change).sum();
     let Some(total) = total.filter(|total| total.abs() > rounding) else {
         return;

@@ -3,8 +3,8 @@
 use super::contributions::{Cause, Known, parts};
 use super::linear::{LinearOutput, LinearResult, Matched, matched};
 use super::{
-    Difference, Due, OutputDifference, Part, ROUNDING, RowDifference, State, change_of_expanded,
-    share_out,
+    ChangeCause, ChangePart, Difference, InputState, OutputDifference, ROUNDING, RowDifference,
+    change_of_expanded, share_out,
 };
 use gumption_units::Unit;
 
@@ -153,9 +153,9 @@ impl Pair<'_> {
         })
     }
 
-    fn state(&self, side: usize, input: &Matched) -> Option<State> {
+    fn state(&self, side: usize, input: &Matched) -> Option<InputState> {
         let root = self.sides[side].inputs.get(input.indices[side]?)?;
-        Some(State {
+        Some(InputState {
             estimate: root.estimate,
             standard_uncertainty: root.standard_uncertainty,
             distribution: root.distribution.clone(),
@@ -179,7 +179,7 @@ impl Pair<'_> {
         let (u, k) = (figure(|s| s.standard_uncertainty), figure(|s| s.coverage_factor));
         let part = |cause: Cause| attributed.iter().flatten().find(|(of, _)| *of == cause);
         let change = |part: [f64; 2]| change_of_expanded(u, k, part);
-        let mut list: Vec<Part> = Vec::new();
+        let mut list: Vec<ChangePart> = Vec::new();
         for (index, input) in self.inputs.iter().enumerate() {
             let states = [self.state(0, input), self.state(1, input)];
             // an input that this output does not go back to, here or there
@@ -191,12 +191,17 @@ impl Pair<'_> {
                 None if attributed.is_none() && states[0] != states[1] => None,
                 None => Some(0.0),
             };
-            list.push(Part { due: Due::Input(input.label.clone()), states, change, share: None });
+            list.push(ChangePart {
+                due: ChangeCause::Input(input.label.clone()),
+                states,
+                change,
+                share: None,
+            });
         }
         let others = [
-            (Cause::Correlations, Due::Correlations),
-            (Cause::Coverage, Due::Coverage),
-            (Cause::Rest, Due::Rest),
+            (Cause::Correlations, ChangeCause::Correlations),
+            (Cause::Coverage, ChangeCause::Coverage),
+            (Cause::Rest, ChangeCause::Rest),
         ];
         let rounding = ROUNDING * (k[0] * u[0]).max(k[1] * u[1]);
         for (cause, due) in others {
@@ -204,8 +209,8 @@ impl Pair<'_> {
                 continue;
             };
             let change = change(*part);
-            if due != Due::Rest || change.is_none_or(|change| change.abs() > rounding) {
-                list.push(Part { due, states: [None, None], change, share: None });
+            if due != ChangeCause::Rest || change.is_none_or(|change| change.abs() > rounding) {
+                list.push(ChangePart { due, states: [None, None], change, share: None });
             }
         }
         share_out(&mut list, rounding);

@@ -9,7 +9,7 @@ use clap::{Args, ValueEnum};
 use super::options::{self, Answer};
 use super::{Exit, Failure, Program};
 use gumption_files as file;
-use gumption_files::{ModelOrResult, Problems};
+use gumption_files::{Diagnostics, ModelOrResult};
 
 /// Compare two model files, two saved results, or one with the other.
 #[derive(Debug, Args)]
@@ -42,7 +42,9 @@ impl Diff {
             // the mistakes of both at once
             (first, second) => {
                 let found = [first.err(), second.err()].into_iter().flatten();
-                return Err(Problems(found.flat_map(|problems| problems.0).collect()).into());
+                return Err(
+                    Diagnostics(found.flat_map(|diagnostics| diagnostics.0).collect()).into()
+                );
             }
         };
         let difference = file::difference(&first, &second)?;
@@ -56,7 +58,7 @@ impl Diff {
     }
 }
 
-fn read(program: &Program, path: &Path) -> Result<Result<ModelOrResult, Problems>, Failure> {
+fn read(program: &Program, path: &Path) -> Result<Result<ModelOrResult, Diagnostics>, Failure> {
     let files = program.files();
     let text = |text: &str| files.either_text("<stdin>", text, Path::new(""));
     options::given(path, text, |path| files.either(path))

@@ -89,7 +89,7 @@ fn answer(
     let overrides: Vec<Override> =
         example.set.iter().filter_map(|text| Override::parse(text)).collect();
     let file = file::read_text(&example.name, example.model, Path::new(""), &overrides)
-        .map_err(|problems| problems.to_string())?;
+        .map_err(|diagnostics| diagnostics.to_string())?;
     let mut task = file.task;
     if example.published.iter().any(|published| needs_trials(&published.path)) {
         *trials = Some((task.settings.trials, task.settings.seed));
@@ -97,7 +97,7 @@ fn answer(
         task.settings.trials = Trials::Fixed(0);
     }
     let Machine { threads, stop } = machine;
-    let control = Control { threads, stop: Some(stop), ..Control::default() };
+    let control = Control::default().with_threads(threads).with_stop(stop);
     let evaluation = evaluate(&task, &control).map_err(|error| error.to_string())?;
     let provenance = Provenance::default();
     let report =

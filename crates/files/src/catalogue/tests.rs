@@ -2,9 +2,8 @@
 
 use std::collections::BTreeSet;
 
-use super::super::case::read_text;
 use super::super::effect_context::EffectContext;
-use super::super::{CaseFile, Fault};
+use super::super::{CaseFile, DiagnosticKind, FileReader};
 use super::{ANY_BENCH, Catalogue, TEXT, catalogue, fit};
 use gumption_engine::model::formula::is_name;
 
@@ -127,13 +126,15 @@ const BENCHES: [Bench; 9] =
     [PLANE, PLANE_TYPED, TABLE, TABLE_TYPED, TABLE_CORRECTED, CHAIN, CHAIN_TYPED, SIGNAL, OTHER];
 
 impl Bench {
-    fn read(&self, effects: &[&str]) -> Result<CaseFile, Vec<Fault>> {
+    fn read(&self, effects: &[&str]) -> Result<CaseFile, Vec<DiagnosticKind>> {
         let folder = tempfile::tempdir().unwrap();
         std::fs::write(folder.path().join("data.csv"), self.data).unwrap();
         let names: Vec<String> = effects.iter().map(|name| format!("{name:?}")).collect();
         let text = format!("{}, \"catalogue\": [{}]}}", self.file, names.join(", "));
-        let read = read_text("case.json", &text, folder.path());
-        read.map_err(|problems| problems.0.into_iter().map(|problem| problem.fault).collect())
+        let read = FileReader::default().case_text("case.json", &text, folder.path());
+        read.map_err(|diagnostics| {
+            diagnostics.0.into_iter().map(|diagnostic| diagnostic.kind).collect()
+        })
     }
 }
 
@@ -188,8 +189,8 @@ fn every_effect_fits_its_bench_without_a_warning() {
             }
             let Ok(chosen) = super::chosen(&shipped, &entry.name, &read) else { continue };
             taken.insert(chosen.key_span.start);
-            let file = bench.read(&[&entry.name]).unwrap_or_else(|faults| {
-                panic!("{} on {}: {faults:?}", entry.name, bench.name);
+            let file = bench.read(&[&entry.name]).unwrap_or_else(|kinds| {
+                panic!("{} on {}: {kinds:?}", entry.name, bench.name);
             });
             assert!(file.warnings.is_empty(), "{}: {:?}", entry.name, file.warnings);
             assert_eq!(file.case.candidates[0].effect.name, entry.name);
@@ -492,7 +493,7 @@ fn priors_that_follow_the_data() {
 #[test]
 fn an_effect_that_does_not_fit_says_what_it_needs() {
     let says = |bench: &Bench, name: &str| match bench.read(&[name]) {
-        Err(faults) => faults.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"),
+        Err(kinds) => kinds.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"),
         Ok(_) => panic!("{name} was taken"),
     };
     let text = says(&CHAIN, "lateral-mode");
@@ -505,7 +506,7 @@ fn an_effect_that_does_not_fit_says_what_it_needs() {
     assert!(text.contains("each observed output that is a phase"), "{text}");
     assert!(matches!(
         CHAIN.read(&["lateral_mod"]).unwrap_err().as_slice(),
-        [Fault::UnknownEffect { nearest: Some(near), .. }] if near == "lateral-mode"
+        [DiagnosticKind::UnknownEffect { nearest: Some(near), .. }] if near == "lateral-mode"
     ));
     let twice = CHAIN.read(&["low-pass", "low-pass"]).unwrap_err();
     assert!(twice[0].to_string().contains("second time"), "{twice:?}");

@@ -1,6 +1,6 @@
 //! A certificate file: what is to be stated, of which models, in which form.
 
-mod particulars;
+mod administrative;
 mod rows;
 
 use std::collections::BTreeMap;
@@ -8,13 +8,13 @@ use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
 
+use super::diagnostics::{Collector, Diagnostics};
 use super::json::{self, Json, Node};
 use super::object::Object;
 use super::open::{check_format, read_root};
-use super::problem::{Log, Problems};
 use super::reader::FileReader;
-use super::source::Source;
-use super::{Fault, settings};
+use super::source::SourceText;
+use super::{DiagnosticKind, settings};
 use gumption_analysis::certificate::contents::{Certificate, Language, Rounding};
 use gumption_engine::task::{Coverage, Settings, Warning};
 use rows::Rows;
@@ -68,7 +68,7 @@ pub struct CertificateFile {
     /// Notes on what was read, each with the model file as its place.
     pub warnings: Vec<Warning>,
     /// The file's text.
-    pub source: Arc<Source>,
+    pub source: Arc<SourceText>,
     /// Where each row of the table stands in the file.
     pub places: Vec<Range<usize>>,
 }
@@ -79,7 +79,7 @@ pub struct CertifiedModel {
     /// The name, as the certificate file has it.
     pub name: String,
     /// Its text.
-    pub source: Arc<Source>,
+    pub source: Arc<SourceText>,
     /// The content of the tables that it reads, by name.
     pub files: Vec<(String, Vec<u8>)>,
 }
@@ -87,20 +87,20 @@ pub struct CertifiedModel {
 impl CertificateFile {
     /// A mistake at a key of the file, or at its beginning if the key is not there. A dot goes into
     /// an object: `device.serial_number`.
-    pub fn problem_at(&self, key: &str, fault: Fault) -> Problems {
-        let log = Log::new(self.source.clone());
-        log.report(&self.place_of(key), fault);
-        log.into_problems()
+    pub fn diagnostic_at(&self, key: &str, diagnostic: DiagnosticKind) -> Diagnostics {
+        let log = Collector::new(self.source.clone());
+        log.report(&self.place_of(key), diagnostic);
+        log.into_diagnostics()
     }
 
     /// Mistakes at keys of the file that are not there: each is reported at the longest part of its
     /// name that is.
-    pub fn missing(&self, keys: &[&'static str], what: &'static str) -> Problems {
-        let log = Log::new(self.source.clone());
+    pub fn missing(&self, keys: &[&'static str], what: &'static str) -> Diagnostics {
+        let log = Collector::new(self.source.clone());
         for key in keys {
-            log.report(&self.place_of(key), Fault::MissingKey { key, what });
+            log.report(&self.place_of(key), DiagnosticKind::MissingKey { key, what });
         }
-        log.into_problems()
+        log.into_diagnostics()
     }
 
     fn place_of(&self, key: &str) -> Range<usize> {
@@ -125,7 +125,7 @@ pub(super) fn read_text(
     name: &str,
     text: &str,
     folder: &Path,
-) -> Result<CertificateFile, Problems> {
+) -> Result<CertificateFile, Diagnostics> {
     read_root(name, text, "a certificate file", |root| certificate(files, root, folder))
 }
 
@@ -147,14 +147,11 @@ struct Asking {
 impl Asking {
     fn apply(self, settings: &mut Settings) {
         if let Some(own) = self.trials {
-            *settings = Settings {
-                trials: own.trials,
-                rule: own.rule,
-                max_trials: own.max_trials,
-                seed: own.seed,
-                digits: own.digits,
-                ..*settings
-            };
+            settings.trials = own.trials;
+            settings.rule = own.rule;
+            settings.max_trials = own.max_trials;
+            settings.seed = own.seed;
+            settings.digits = own.digits;
         }
         settings.coverage = self.coverage;
     }
@@ -163,7 +160,7 @@ impl Asking {
 fn certificate(files: FileReader<'_>, root: Object<'_>, folder: &Path) -> Option<CertificateFile> {
     root.check_keys(&KEYS);
     check_format(&root);
-    let particulars = particulars::read(&root);
+    let administrative = administrative::read(&root);
     let languages = languages(&root);
     let rounding = named(&root, "rounding", Rounding::named, &Rounding::ALL.map(Rounding::name));
     let digits = root.whole("digits", 1, MOST_DIGITS).unwrap_or(2);
@@ -177,7 +174,7 @@ fn certificate(files: FileReader<'_>, root: Object<'_>, folder: &Path) -> Option
     match root.required("rows").and_then(|_| root.list("rows")) {
         Some([]) => {
             let place = root.get("rows").map_or(root.place(), |member| &member.key_span);
-            root.log.report(place, Fault::NoValues { name: "rows".into() });
+            root.log.report(place, DiagnosticKind::NoValues { name: "rows".into() });
         }
         Some(list) => rows.read(list),
         None => {}
@@ -193,11 +190,11 @@ fn certificate(files: FileReader<'_>, root: Object<'_>, folder: &Path) -> Option
     if let Some((name, span)) = separate.iter().find(|(name, _)| shared.contains_key(*name)) {
         let reason =
             format!("`{name}` is in `shared_inputs` and in `separate_inputs`; take it out of one");
-        root.log.report(span, Fault::Certificate { reason });
+        root.log.report(span, DiagnosticKind::Certificate { reason });
     }
     let rows::Read { evaluations, lines, models, warnings, places } = rows.finish()?;
     let certificate = Certificate {
-        particulars: particulars?,
+        administrative: administrative?,
         languages,
         rounding: rounding.unwrap_or_default(),
         digits: u32::try_from(digits).unwrap_or(2),
@@ -221,8 +218,9 @@ fn named<T>(
     let found = find(name);
     if let (None, Some(member)) = (&found, object.get(key)) {
         let allowed = allowed.iter().map(|name| (*name).to_owned()).collect();
-        let fault = Fault::NotOneOf { key: key.into(), found: name.to_owned(), allowed };
-        object.log.report(&member.value.span, fault);
+        let diagnostic =
+            DiagnosticKind::NotOneOf { key: key.into(), found: name.to_owned(), allowed };
+        object.log.report(&member.value.span, diagnostic);
     }
     found
 }
@@ -235,12 +233,13 @@ fn languages(root: &Object<'_>) -> Vec<Language> {
             Some(language) if !languages.contains(&language) => languages.push(language),
             Some(_) => {
                 let reason = format!("the language `{code}` stands here a second time");
-                root.log.report(&span, Fault::Certificate { reason });
+                root.log.report(&span, DiagnosticKind::Certificate { reason });
             }
             None => {
                 let allowed = Language::ALL.map(|language| language.code().to_owned()).to_vec();
-                let fault = Fault::NotOneOf { key: "language".into(), found: code, allowed };
-                root.log.report(&span, fault);
+                let diagnostic =
+                    DiagnosticKind::NotOneOf { key: "language".into(), found: code, allowed };
+                root.log.report(&span, diagnostic);
             }
         }
     }
@@ -261,8 +260,9 @@ fn texts(object: &Object<'_>, key: &'static str) -> Vec<(String, Range<usize>)> 
         Json::Text(text) => Some((text.clone(), node.span.clone())),
         other => {
             let what = format!("`{key}`");
-            let fault = Fault::WrongType { what, found: other.kind(), expected: "a text" };
-            object.log.report(&node.span, fault);
+            let diagnostic =
+                DiagnosticKind::WrongType { what, found: other.kind(), expected: "a text" };
+            object.log.report(&node.span, diagnostic);
             None
         }
     };

@@ -5,10 +5,10 @@ mod changes;
 #[cfg(test)]
 mod tests;
 
+use super::diagnostics::Diagnostics;
 use super::either::ModelOrResult;
-use super::problem::Problems;
 use super::result_file::{ResultFile, SavedOutput};
-use super::{Fault, ModelFile};
+use super::{DiagnosticKind, ModelFile};
 use gumption_analysis::diff::{
     Difference, LinearOutput, LinearResult, SeveralRows, compare, compare_linear,
 };
@@ -18,7 +18,10 @@ use gumption_engine::distribution::RootName;
 ///
 /// # Errors
 /// A model file with several rows of conditions that is compared with a saved result.
-pub fn difference(first: &ModelOrResult, second: &ModelOrResult) -> Result<Difference, Problems> {
+pub fn difference(
+    first: &ModelOrResult,
+    second: &ModelOrResult,
+) -> Result<Difference, Diagnostics> {
     if let (ModelOrResult::Model(first), ModelOrResult::Model(second)) = (first, second) {
         return Ok(of_models(first, second));
     }
@@ -26,7 +29,7 @@ pub fn difference(first: &ModelOrResult, second: &ModelOrResult) -> Result<Diffe
         (Ok(first), Ok(second)) => Ok(compare_linear(&first, &second)),
         (first, second) => {
             let found = [first.err(), second.err()].into_iter().flatten();
-            Err(Problems(found.flat_map(|problems| problems.0).collect()))
+            Err(Diagnostics(found.flat_map(|diagnostics| diagnostics.0).collect()))
         }
     }
 }
@@ -37,16 +40,17 @@ fn of_models(first: &ModelFile, second: &ModelFile) -> Difference {
     difference
 }
 
-fn linear(file: &ModelOrResult) -> Result<LinearResult, Problems> {
+fn linear(file: &ModelOrResult) -> Result<LinearResult, Diagnostics> {
     match file {
         ModelOrResult::Result(file) => Ok(of_result(file)),
         ModelOrResult::Model(file) => of_model(file),
     }
 }
 
-fn of_model(file: &ModelFile) -> Result<LinearResult, Problems> {
-    LinearResult::of_task(&file.task)
-        .map_err(|SeveralRows { rows }| file.problem_at("conditions", Fault::SeveralRows { rows }))
+fn of_model(file: &ModelFile) -> Result<LinearResult, Diagnostics> {
+    LinearResult::of_task(&file.task).map_err(|SeveralRows { rows }| {
+        file.diagnostic_at("conditions", DiagnosticKind::SeveralRows { rows })
+    })
 }
 
 /// The outputs of a result file. One without sensitivity coefficients is its own input.

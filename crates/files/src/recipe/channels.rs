@@ -2,11 +2,11 @@
 
 use std::ops::Range;
 
-use super::super::Fault;
+use super::super::DiagnosticKind;
+use super::super::diagnostics::Collector;
 use super::super::json::Member;
 use super::super::nearest::nearest;
 use super::super::object::Object;
-use super::super::problem::Log;
 use super::super::recording::{ColumnName, Conversion, Wanted};
 use super::column::column;
 use super::quantity::{of_member, positive, unit};
@@ -50,13 +50,13 @@ pub(super) fn read(root: &Object<'_>, recordings: &[RecordingFile]) -> Option<Ve
     let read: Vec<Option<ChannelFile>> =
         object.members().iter().map(|member| channel(root.log, member, recordings)).collect();
     if read.is_empty() {
-        root.log.report(&member.key_span, Fault::NoValues { name: "channels".into() });
+        root.log.report(&member.key_span, DiagnosticKind::NoValues { name: "channels".into() });
         return None;
     }
     read.into_iter().collect()
 }
 
-fn channel(log: &Log, member: &Member, recordings: &[RecordingFile]) -> Option<ChannelFile> {
+fn channel(log: &Collector, member: &Member, recordings: &[RecordingFile]) -> Option<ChannelFile> {
     check_name(log, &member.key, &member.key_span);
     let of = Object::new(log, "a channel", &member.value, &member.key_span)?;
     of.check_keys(&KEYS);
@@ -108,7 +108,7 @@ fn recording(of: &Object<'_>, recordings: &[RecordingFile]) -> Option<usize> {
             Some(near) => format!("there is no recording `{name}`; did you mean `{near}`?"),
             None => format!("there is no recording `{name}`"),
         };
-        of.log.report(&member.value.span, Fault::Recipe { reason });
+        of.log.report(&member.value.span, DiagnosticKind::Recipe { reason });
     }
     place
 }
@@ -117,8 +117,8 @@ fn recording(of: &Object<'_>, recordings: &[RecordingFile]) -> Option<usize> {
 fn scale(of: &Object<'_>, own: &Unit, raw: &Unit) -> Option<(f64, f64)> {
     let (key, member, divides) = match (of.get("scale"), of.get("sensitivity")) {
         (Some(_), Some(second)) => {
-            let fault = Fault::Exclusive { first: "scale", second: "sensitivity" };
-            of.log.report(&second.key_span, fault);
+            let diagnostic = DiagnosticKind::Exclusive { first: "scale", second: "sensitivity" };
+            of.log.report(&second.key_span, diagnostic);
             return None;
         }
         (Some(member), None) => ("scale", member, false),
@@ -151,7 +151,7 @@ fn scale(of: &Object<'_>, own: &Unit, raw: &Unit) -> Option<(f64, f64)> {
              as `{expected}`",
             quantity.unit
         );
-        of.log.report(&member.value.span, Fault::Recipe { reason });
+        of.log.report(&member.value.span, DiagnosticKind::Recipe { reason });
         return None;
     }
     let size = quantity.si();
@@ -169,7 +169,7 @@ fn range(of: &Object<'_>) -> Option<[f64; 2]> {
         _ => {
             let reason =
                 "`range` is the lowest and the highest raw value, in that order".to_owned();
-            of.log.report(&member.value.span, Fault::Recipe { reason });
+            of.log.report(&member.value.span, DiagnosticKind::Recipe { reason });
             None
         }
     }
@@ -178,14 +178,14 @@ fn range(of: &Object<'_>) -> Option<[f64; 2]> {
 /// The resolution in the raw unit; 0 where it is not known.
 fn resolution(of: &Object<'_>, range: Option<[f64; 2]>) -> f64 {
     if let (Some(_), Some(second)) = (of.get("resolution"), of.get("bits")) {
-        let fault = Fault::Exclusive { first: "resolution", second: "bits" };
-        of.log.report(&second.key_span, fault);
+        let diagnostic = DiagnosticKind::Exclusive { first: "resolution", second: "bits" };
+        of.log.report(&second.key_span, diagnostic);
     }
     if let Some(member) = of.get("resolution") {
         let found = of.number("resolution").unwrap_or(0.0);
         if found < 0.0 {
-            let fault = Fault::NotPositive { key: "resolution".into(), found };
-            of.log.report(&member.value.span, fault);
+            let diagnostic = DiagnosticKind::NotPositive { key: "resolution".into(), found };
+            of.log.report(&member.value.span, diagnostic);
         }
         return found;
     }
@@ -194,8 +194,8 @@ fn resolution(of: &Object<'_>, range: Option<[f64; 2]>) -> f64 {
         Some([lower, upper]) => (upper - lower) / 2f64.powi(i32::try_from(bits).unwrap_or(64)),
         None => {
             if of.get("range").is_none() {
-                let fault = Fault::OnlyWith { key: "bits", with: "range" };
-                of.log.report(&member.key_span, fault);
+                let diagnostic = DiagnosticKind::OnlyWith { key: "bits", with: "range" };
+                of.log.report(&member.key_span, diagnostic);
             }
             0.0
         }
@@ -214,7 +214,7 @@ impl SearchFile {
     /// The search, in one of the channels of its recording.
     pub(super) fn resolved(
         &self,
-        log: &Log,
+        log: &Collector,
         recording: usize,
         channels: &[ChannelFile],
     ) -> Option<Search> {
@@ -223,7 +223,7 @@ impl SearchFile {
         let channel = channels.iter().position(at);
         if channel.is_none() {
             let reason = format!("this recording has no channel `{}`", self.channel);
-            log.report(&self.place, Fault::Recipe { reason });
+            log.report(&self.place, DiagnosticKind::Recipe { reason });
         }
         Some(Search {
             channel: channel?,

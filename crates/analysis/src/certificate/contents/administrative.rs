@@ -1,0 +1,131 @@
+//! Whom and what a certificate is about: texts that are stated as they are given.
+
+use super::Localized;
+
+/// What a certificate says beside its results. Everything may be left out but what a format needs.
+#[derive(Clone, Debug, Default)]
+pub struct AdministrativeData {
+    /// The title; that of the language if there is none.
+    pub title: Option<Localized>,
+    /// The number of the certificate.
+    pub number: Option<String>,
+    /// The device that was calibrated.
+    pub device: Option<Device>,
+    /// The customer.
+    pub customer: Option<Party>,
+    /// The laboratory.
+    pub laboratory: Option<Party>,
+    /// Who is responsible.
+    pub responsible: Option<String>,
+    /// First and last day of the calibration, as ISO 8601 writes them: 2026-03-02.
+    pub calibrated: Option<[String; 2]>,
+    /// Day of issue.
+    pub issued: Option<String>,
+    /// Where the calibration was made.
+    pub place: PerformanceLocation,
+    /// The environment: temperature, humidity.
+    pub environment: Option<Localized>,
+    /// The method of calibration.
+    pub method: Option<Localized>,
+    /// How the results are traceable to the SI.
+    pub traceability: Option<Localized>,
+    /// Further remarks.
+    pub remarks: Vec<Localized>,
+}
+
+/// A device.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Device {
+    /// What it is.
+    pub name: Localized,
+    /// Who made it.
+    pub manufacturer: Option<String>,
+    /// Its model or type.
+    pub model: Option<String>,
+    /// Its serial number.
+    pub serial_number: Option<String>,
+    /// The customer's number for it.
+    pub customer_number: Option<String>,
+}
+
+/// A laboratory or a customer.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Party {
+    /// Its name.
+    pub name: String,
+    /// Its accreditation or laboratory code.
+    pub code: Option<String>,
+    /// Street.
+    pub street: Option<String>,
+    /// Number in the street.
+    pub street_number: Option<String>,
+    /// Post code.
+    pub post_code: Option<String>,
+    /// City.
+    pub city: Option<String>,
+    /// Country: two capital letters of ISO 3166-1.
+    pub country: Option<String>,
+    /// Electronic mail.
+    pub email: Option<String>,
+    /// Telephone.
+    pub phone: Option<String>,
+}
+
+impl Party {
+    /// The address on one line; empty if there is none.
+    pub fn address(&self) -> String {
+        let pair = |a: &Option<String>, b: &Option<String>| {
+            let words: Vec<&str> = [a, b].into_iter().flatten().map(String::as_str).collect();
+            words.join(" ")
+        };
+        let parts = [
+            pair(&self.street, &self.street_number),
+            pair(&self.post_code, &self.city),
+            self.country.clone().unwrap_or_default(),
+        ];
+        parts.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(", ")
+    }
+}
+
+/// Where a calibration was made.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum PerformanceLocation {
+    /// In the laboratory.
+    #[default]
+    Laboratory,
+    /// At the customer's.
+    Customer,
+    /// In a branch of the laboratory.
+    LaboratoryBranch,
+    /// In a branch of the customer's.
+    CustomerBranch,
+    /// Elsewhere.
+    Other,
+}
+
+impl PerformanceLocation {
+    /// All of them.
+    pub const ALL: [Self; 5] = [
+        Self::Laboratory,
+        Self::Customer,
+        Self::LaboratoryBranch,
+        Self::CustomerBranch,
+        Self::Other,
+    ];
+
+    /// The name that files and digital certificates use.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Laboratory => "laboratory",
+            Self::Customer => "customer",
+            Self::LaboratoryBranch => "laboratoryBranch",
+            Self::CustomerBranch => "customerBranch",
+            Self::Other => "other",
+        }
+    }
+
+    /// The place of that name.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|place| place.name() == name)
+    }
+}

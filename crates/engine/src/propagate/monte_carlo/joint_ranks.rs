@@ -1,0 +1,259 @@
+//! A few trials that stand for all of them, as the ranks of their outputs: how the outputs of a
+//! result vary together.
+//!
+//! The trials are cut into cells of equally many, each cell across the direction that its trials are
+//! spread out along most, and one trial of each cell is kept. So the kept trials are spread out as
+//! all are, and a probability in them scatters by the cells on the boundary of its region only, not
+//! as one of as many trials drawn at random. The directions are combinations of the outputs' normal
+//! scores that are not correlated, each in its own standard deviations, so that cells are thin where
+//! outputs nearly cancel.
+
+use rayon::prelude::*;
+
+use super::block::RowTrials;
+use super::repeat::repeat;
+use crate::propagate::Control;
+use crate::special;
+
+/// Values of all outputs together that are looked at, at most: 64 MiB with what is needed beside
+/// them.
+const MOST_VALUES: usize = 1 << 22;
+
+/// Trials that are looked at, at most.
+const MOST_TRIALS: usize = 1 << 20;
+
+/// A direction with less than this of an output's variance says nothing of its own.
+const NEGLIGIBLE: f64 = 1e-6;
+
+/// For each output its ranks, from 1, in at most `rows` of the first `count` trials: entry i of all
+/// outputs is of the same trial. An output that does not vary has none. `None` if the run was
+/// stopped.
+pub(crate) fn joint_ranks(
+    trials: &RowTrials,
+    count: u64,
+    rows: usize,
+    control: &Control<'_>,
+) -> Option<Vec<Vec<u32>>> {
+    let outputs = trials.outputs();
+    let most = (MOST_VALUES / outputs.max(1)).min(MOST_TRIALS);
+    let count = count.min(most as u64);
+    let mut values: Vec<Vec<f64>> = vec![Vec::new(); outputs];
+    let whole = repeat(trials, count, control, |block| {
+        for (kept, values) in values.iter_mut().zip(block) {
+            kept.extend_from_slice(values);
+        }
+        Ok::<(), std::convert::Infallible>(())
+    });
+    whole.unwrap_or(false).then(|| ranks_of(&values, rows))
+}
+
+/// The ranks of at most `rows` trials that stand for all.
+fn ranks_of(values: &[Vec<f64>], rows: usize) -> Vec<Vec<u32>> {
+    let varies = |values: &Vec<f64>| values.iter().any(|value| *value != values[0]);
+    let varying: Vec<&Vec<f64>> = values.iter().filter(|values| varies(values)).collect();
+    let scores = independent(varying.par_iter().map(|values| scores(values)).collect());
+    let count = values.first().map_or(0, Vec::len);
+    let mut indices: Vec<u32> = (0..count as u32).collect();
+    let mut chosen = vec![0; rows.min(count)];
+    choose(&scores, &mut indices, &mut chosen);
+    chosen.sort_unstable();
+    values
+        .par_iter()
+        .map(|values| {
+            if !varies(values) {
+                return Vec::new();
+            }
+            let of_chosen: Vec<f64> = chosen.iter().map(|&index| values[index as usize]).collect();
+            let mut ranks = vec![0; of_chosen.len()];
+            for (rank, index) in (1..).zip(order(&of_chosen)) {
+                ranks[index as usize] = rank;
+            }
+            ranks
+        })
+        .collect()
+}
+
+/// The indices of values in ascending order; of equal ones the first comes first.
+fn order(values: &[f64]) -> Vec<u32> {
+    let mut indices: Vec<u32> = (0..values.len() as u32).collect();
+    indices.sort_unstable_by(|&a, &b| {
+        values[a as usize].total_cmp(&values[b as usize]).then(a.cmp(&b))
+    });
+    indices
+}
+
+/// Standard normal scores of the ranks, all different ones.
+fn scores(values: &[f64]) -> Vec<f32> {
+    let n = values.len() as f64;
+    let mut scores = vec![0.0; values.len()];
+    for (rank, index) in order(values).into_iter().enumerate() {
+        scores[index as usize] = special::normal::quantile((rank as f64 + 0.5) / n) as f32;
+    }
+    scores
+}
+
+/// Cuts the trials at `indices` into as many cells as there is room in `chosen`, and puts the first
+/// trial of each there. There are at least as many trials as cells.
+fn choose(scores: &[Vec<f32>], indices: &mut [u32], chosen: &mut [u32]) {
+    if let [only] = chosen {
+        *only = indices.iter().copied().min().unwrap_or(0);
+        return;
+    }
+    if chosen.is_empty() {
+        return;
+    }
+    let extent = |scores: &Vec<f32>| {
+        indices
+            .iter()
+            .map(|&index| scores[index as usize])
+            .fold((f32::INFINITY, f32::NEG_INFINITY), |(least, most), score| {
+                (least.min(score), most.max(score))
+            })
+    };
+    let widths = scores.iter().map(|scores| {
+        let (least, most) = extent(scores);
+        most - least
+    });
+    let widest = widths
+        .enumerate()
+        .fold((0, f32::NEG_INFINITY), |best, width| if width.1 > best.1 { width } else { best });
+    let cells = chosen.len() / 2;
+    // as many trials for each cell, to one
+    let cut = (indices.len() as u64 * cells as u64 / chosen.len() as u64) as usize;
+    if let Some(scores) = scores.get(widest.0) {
+        let key = |index: &u32| scores[*index as usize];
+        indices.select_nth_unstable_by(cut, |a, b| key(a).total_cmp(&key(b)).then(a.cmp(b)));
+    }
+    let (low, high) = indices.split_at_mut(cut);
+    let (of_low, of_high) = chosen.split_at_mut(cells);
+    rayon::join(|| choose(scores, low, of_low), || choose(scores, high, of_high));
+}
+
+/// Directions of the scores that are not correlated, each with variance 1: what is left of the score
+/// with the largest variance, again and again (Gram and Schmidt with pivots). The scores have mean 0.
+fn independent(mut scores: Vec<Vec<f32>>) -> Vec<Vec<f32>> {
+    let mut found: Vec<Vec<f32>> = Vec::new();
+    loop {
+        let variances: Vec<f64> = scores.par_iter().map(|s| mean_product(s, s)).collect();
+        let widest = variances.iter().enumerate().fold((0, 0.0), |best, (index, &variance)| {
+            if variance > best.1 { (index, variance) } else { best }
+        });
+        if widest.1 < NEGLIGIBLE {
+            return found;
+        }
+        let mut next = scores.swap_remove(widest.0);
+        let scale = 1.0 / widest.1.sqrt();
+        next.iter_mut().for_each(|x| *x = (f64::from(*x) * scale) as f32);
+        scores.par_iter_mut().for_each(|other| {
+            let r = mean_product(other, &next) as f32;
+            other.iter_mut().zip(&next).for_each(|(x, y)| *x -= r * y);
+        });
+        found.push(next);
+    }
+}
+
+/// The mean of the products, in parts of a fixed size.
+fn mean_product(a: &[f32], b: &[f32]) -> f64 {
+    let parts = a.chunks(1024).zip(b.chunks(1024));
+    let sums = parts
+        .map(|(a, b)| a.iter().zip(b).map(|(a, b)| f64::from(*a) * f64::from(*b)).sum::<f64>());
+    sums.sum::<f64>() / a.len().max(1) as f64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::distribution::StreamKey;
+
+    /// Columns of normals by their names.
+    fn normals(name: &str, blocks: u64) -> Vec<f64> {
+        let key = StreamKey::new(1, name);
+        let mut out = Vec::new();
+        for block in 0..blocks {
+            let mut uniform = [0.0; crate::distribution::BLOCK];
+            key.block(block).uniform(&mut uniform);
+            out.extend(uniform.map(special::normal::quantile));
+        }
+        out
+    }
+
+    /// Ranks are permutations, of the same trials; an output that does not vary has none. With as
+    /// many rows as trials they are those of all.
+    #[test]
+    fn ranks_are_of_the_same_trials() {
+        let x = normals("x", 4);
+        let twice: Vec<f64> = x.iter().map(|x| 2.0 * x).collect();
+        let back: Vec<f64> = x.iter().map(|x| -x).collect();
+        let fixed = vec![1.0; x.len()];
+        for rows in [1, 2, 1000, 4096, 10_000] {
+            let ranks = ranks_of(&[x.clone(), twice.clone(), fixed.clone(), back.clone()], rows);
+            let count = rows.min(4096) as u32;
+            let mut sorted = ranks[0].clone();
+            sorted.sort_unstable();
+            assert_eq!(sorted, (1..=count).collect::<Vec<u32>>());
+            assert_eq!(ranks[0], ranks[1]);
+            assert!(ranks[2].is_empty());
+            assert!(ranks[0].iter().zip(&ranks[3]).all(|(a, b)| a + b == count + 1));
+        }
+    }
+
+    /// Equal values have ranks all the same.
+    #[test]
+    fn steps_have_ranks() {
+        let x = normals("x", 8);
+        let step: Vec<f64> = x.iter().map(|x| f64::from(u8::from(*x > 0.0))).collect();
+        let ranks = ranks_of(&[x, step], 512);
+        let above = ranks[1].iter().filter(|rank| **rank > 256).count();
+        assert_eq!(above, 256);
+        let same_half = ranks[0].iter().zip(&ranks[1]).filter(|(a, b)| (**a > 256) == (**b > 256));
+        // half of all values are above 0 to 45 of 8192 (one standard deviation), which is 3 of 512;
+        // to five of them, and as many ranks again for the choice
+        assert!(same_half.count() >= 482);
+    }
+
+    /// The kept trials stand for all: of two nearly cancelling outputs, the share of kept trials
+    /// whose difference lies below a quantile of all differs from it by less than half of what a
+    /// random choice of 1024 would leave (the standard deviation of a share p is then sqrt(p (1 - p)
+    /// /1024); over 19 quantiles its root mean square in the units of that is 1 to 0.2).
+    #[test]
+    fn kept_trials_are_spread_out_as_all_are() {
+        let (x, y) = (normals("x", 128), normals("y", 128));
+        let sum: Vec<f64> = x.iter().zip(&y).map(|(x, y)| x + 0.05 * y).collect();
+        let values = [x, sum];
+        let difference = |index: usize| values[1][index] - values[0][index];
+        let mut all: Vec<f64> = (0..values[0].len()).map(difference).collect();
+        all.sort_unstable_by(f64::total_cmp);
+        let scores = independent(values.iter().map(|v| scores(v)).collect());
+        let mut indices: Vec<u32> = (0..all.len() as u32).collect();
+        let mut chosen = vec![0; 1024];
+        choose(&scores, &mut indices, &mut chosen);
+        let squares = (1..20).map(|k| {
+            let p = f64::from(k) / 20.0;
+            let limit = all[(p * all.len() as f64) as usize];
+            let below = chosen.iter().filter(|&&index| difference(index as usize) < limit).count();
+            let random = (p * (1.0 - p) / 1024.0).sqrt();
+            ((below as f64 / 1024.0 - p) / random).powi(2)
+        });
+        let scatter = (squares.sum::<f64>() / 19.0).sqrt();
+        assert!(scatter < 0.5, "{scatter}");
+    }
+
+    /// Directions are not correlated, and outputs that depend on others linearly add none.
+    #[test]
+    fn directions_are_independent() {
+        let (x, y) = (normals("x", 16), normals("y", 16));
+        let of = |f: &dyn Fn(f64, f64) -> f64| -> Vec<f32> {
+            x.iter().zip(&y).map(|(x, y)| f(*x, *y) as f32).collect()
+        };
+        let found = independent(vec![
+            of(&|x, _| x),
+            of(&|x, y| 0.9 * x + 0.1 * y),
+            of(&|x, y| 0.6 * x - 0.8 * y),
+            of(&|_, y| y),
+        ]);
+        assert_eq!(found.len(), 2);
+        // the rounding of f32 over 16384 terms
+        assert!(mean_product(&found[0], &found[1]).abs() < 1e-5);
+        assert!((mean_product(&found[1], &found[1]) - 1.0).abs() < 1e-5);
+    }
+}

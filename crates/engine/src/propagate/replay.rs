@@ -1,0 +1,119 @@
+//! A finished run's trials generated again: for what needs more of them than an evaluation keeps.
+
+use super::evaluation::{in_pool, joint};
+use super::gum::Gum;
+use super::monte_carlo::{self, Histogram, RowTrials};
+use super::{Control, Evaluation, EvaluationError, gum};
+use crate::task::Task;
+
+/// RowTrials that stand for all, at most.
+const MOST_ROWS: usize = 1 << 15;
+
+/// Their ranks in all outputs together, at most: some megabytes of a result file.
+const MOST_RANKS: usize = 1 << 20;
+
+/// How many trials the run of a row made, undefined ones included; 0 without trials.
+fn made(evaluation: &Evaluation, row: usize) -> u64 {
+    let Some(row) = evaluation.rows.get(row) else {
+        return 0;
+    };
+    let trials = row.outputs.iter().find_map(|output| output.monte_carlo.as_ref());
+    let undefined = row.undefined.as_ref().map_or(0, |undefined| undefined.count);
+    trials.map_or(0, |figures| figures.trials + undefined)
+}
+
+fn trials(task: &Task, row: usize) -> Result<Option<RowTrials>, EvaluationError> {
+    let Some(row) = task.rows.get(row) else {
+        return Ok(None);
+    };
+    let estimates = gum::evaluate(task, row).estimates;
+    Ok(Some(RowTrials::new(task, row, &estimates, &joint(task, row)?)))
+}
+
+/// For each output of a row the quantiles of the run's trials at the probabilities Phi(score);
+/// `None` without trials, or if stopped.
+///
+/// # Errors
+/// Threads that cannot be started.
+pub fn quantiles(
+    task: &Task,
+    evaluation: &Evaluation,
+    row: usize,
+    scores: &[f64],
+    control: &Control<'_>,
+) -> Result<Option<Vec<Vec<f64>>>, EvaluationError> {
+    let count = made(evaluation, row);
+    in_pool(task, control, || {
+        let trials = trials(task, row)?.filter(|_| count > 0);
+        Ok(trials.and_then(|trials| monte_carlo::quantiles(&trials, count, scores, control)))
+    })?
+}
+
+/// How the outputs of a row vary together: for each its ranks, from 1, in a few of the run's trials
+/// that stand for all of them. Entry i of all outputs is of the same trial; an output that does not
+/// vary has none. `None` without trials, or if stopped.
+///
+/// # Errors
+/// Threads that cannot be started.
+pub fn joint_ranks(
+    task: &Task,
+    evaluation: &Evaluation,
+    row: usize,
+    control: &Control<'_>,
+) -> Result<Option<Vec<Vec<u32>>>, EvaluationError> {
+    let count = made(evaluation, row);
+    let rows = (MOST_RANKS / task.model.outputs.len().max(1)).min(MOST_ROWS);
+    in_pool(task, control, || {
+        let trials = trials(task, row)?.filter(|_| count > 0);
+        Ok(trials.and_then(|trials| monte_carlo::joint_ranks(&trials, count, rows, control)))
+    })?
+}
+
+/// For each output of a row the histogram of the run's trials (of the first ten million of more), over
+/// a range that nearly all of them lie in and that shows the coverage intervals of both methods. An
+/// entry is `None` for an output that does not vary; the whole is `None` without trials, or if
+/// stopped.
+///
+/// # Errors
+/// Threads that cannot be started.
+pub fn histograms(
+    task: &Task,
+    evaluation: &Evaluation,
+    row: usize,
+    control: &Control<'_>,
+) -> Result<Option<Vec<Option<Histogram>>>, EvaluationError> {
+    let count = made(evaluation, row);
+    let outputs = evaluation.rows.get(row).map_or(&[][..], |row| &row.outputs);
+    let shown: Vec<Option<[f64; 2]>> = outputs
+        .iter()
+        .map(|output| {
+            let gum = output.gum.as_ref().and_then(Gum::interval);
+            let own = output.monte_carlo.as_ref();
+            let own = own.into_iter().flat_map(|m| [m.symmetric_interval, m.shortest_interval]);
+            gum.into_iter().chain(own).reduce(|[a, b], [c, d]| [a.min(c), b.max(d)])
+        })
+        .collect();
+    in_pool(task, control, || {
+        let trials = trials(task, row)?.filter(|_| count > 0);
+        Ok(trials.and_then(|trials| monte_carlo::histograms(&trials, count, &shown, control)))
+    })?
+}
+
+/// Hands over the trials of a row, block by block in order: for each output its values, without
+/// the trials that were left out of the figures. The bits are those of the run. `false` if stopped.
+///
+/// # Errors
+/// The taker's; threads that cannot be started.
+pub fn for_each_block<E: Send + From<EvaluationError>>(
+    task: &Task,
+    evaluation: &Evaluation,
+    row: usize,
+    control: &Control<'_>,
+    take: impl FnMut(&[Vec<f64>]) -> Result<(), E> + Send,
+) -> Result<bool, E> {
+    let count = made(evaluation, row);
+    in_pool(task, control, || match trials(task, row)? {
+        Some(trials) if count > 0 => monte_carlo::repeat(&trials, count, control, take),
+        _ => Ok(true),
+    })?
+}

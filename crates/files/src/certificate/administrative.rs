@@ -1,0 +1,207 @@
+//! Device, parties, dates and texts of a certificate.
+
+use super::super::DiagnosticKind;
+use super::super::json::{Json, Member};
+use super::super::object::Object;
+use super::{named, texts};
+use gumption_analysis::certificate::contents::{
+    AdministrativeData, Device, Language, Localized, Party, PerformanceLocation,
+};
+
+/// The keys of a device.
+const DEVICE: [&str; 5] = ["name", "manufacturer", "model", "serial_number", "customer_number"];
+
+/// The keys of a laboratory or customer.
+const PARTY: [&str; 9] =
+    ["name", "code", "street", "street_number", "post_code", "city", "country", "email", "phone"];
+
+/// Reads what the certificate says beside its results; `None` after a mistake.
+pub(super) fn read(root: &Object<'_>) -> Option<AdministrativeData> {
+    let place = named(
+        root,
+        "place",
+        PerformanceLocation::named,
+        &PerformanceLocation::ALL.map(PerformanceLocation::name),
+    );
+    let remarks = match root.get("remarks").map(|member| &member.value.value) {
+        Some(Json::List(_)) => {
+            texts(root, "remarks").into_iter().map(|(text, _)| Localized::plain(text)).collect()
+        }
+        Some(_) => localized(root, "remarks").into_iter().collect(),
+        None => Vec::new(),
+    };
+    Some(AdministrativeData {
+        title: localized(root, "title"),
+        number: owned(root, "number"),
+        device: device(root),
+        customer: party(root, "customer"),
+        laboratory: party(root, "laboratory"),
+        responsible: owned(root, "responsible"),
+        calibrated: calibrated(root),
+        issued: date(root, "issue_date"),
+        place: place.unwrap_or_default(),
+        environment: localized(root, "environment"),
+        method: localized(root, "method"),
+        traceability: localized(root, "traceability"),
+        remarks,
+    })
+}
+
+fn owned(object: &Object<'_>, key: &str) -> Option<String> {
+    object.text(key).map(str::to_owned)
+}
+
+/// A text, or an object with a text for each language.
+pub(super) fn localized(object: &Object<'_>, key: &str) -> Option<Localized> {
+    let member = object.get(key)?;
+    let Json::Object(_) = &member.value.value else {
+        return object.text(key).map(Localized::plain);
+    };
+    let texts =
+        Object::new(object.log, "a text in several languages", &member.value, &member.key_span)?;
+    texts.check_keys(&Language::ALL.map(Language::code));
+    let found: Vec<(Option<Language>, String)> = Language::ALL
+        .into_iter()
+        .filter_map(|language| Some((Some(language), owned(&texts, language.code())?)))
+        .collect();
+    if found.is_empty() {
+        object.log.report(&member.key_span, DiagnosticKind::NoValues { name: key.to_owned() });
+        return None;
+    }
+    Some(Localized { texts: found })
+}
+
+/// A device: a text, or an object.
+fn device(root: &Object<'_>) -> Option<Device> {
+    let member = root.get("device")?;
+    if let Json::Text(name) = &member.value.value {
+        return Some(Device { name: Localized::plain(name.clone()), ..Device::default() });
+    }
+    let object = Object::new(root.log, "`device`", &member.value, &member.key_span)?;
+    object.check_keys(&DEVICE);
+    object.required("name");
+    Some(Device {
+        name: localized(&object, "name")?,
+        manufacturer: owned(&object, "manufacturer"),
+        model: owned(&object, "model"),
+        serial_number: owned(&object, "serial_number"),
+        customer_number: owned(&object, "customer_number"),
+    })
+}
+
+/// A laboratory or a customer: a text, or an object.
+fn party(root: &Object<'_>, key: &'static str) -> Option<Party> {
+    let member = root.get(key)?;
+    if let Json::Text(name) = &member.value.value {
+        return Some(Party { name: name.clone(), ..Party::default() });
+    }
+    let what = if key == "customer" { "`customer`" } else { "`laboratory`" };
+    let object = Object::new(root.log, what, &member.value, &member.key_span)?;
+    object.check_keys(&PARTY);
+    object.required("name");
+    if let (Some(country), Some(member)) = (object.text("country"), object.get("country"))
+        && !(country.len() == 2 && country.bytes().all(|c| c.is_ascii_uppercase()))
+    {
+        let reason = format!(
+            "the country `{country}` is not a code of ISO 3166-1, two capital letters such as `IT`"
+        );
+        root.log.report(&member.value.span, DiagnosticKind::Certificate { reason });
+    }
+    Some(Party {
+        name: owned(&object, "name")?,
+        code: owned(&object, "code"),
+        street: owned(&object, "street"),
+        street_number: owned(&object, "street_number"),
+        post_code: owned(&object, "post_code"),
+        city: owned(&object, "city"),
+        country: owned(&object, "country"),
+        email: owned(&object, "email"),
+        phone: owned(&object, "phone"),
+    })
+}
+
+fn date(root: &Object<'_>, key: &'static str) -> Option<String> {
+    let member = root.get(key)?;
+    let text = root.text(key)?;
+    checked_date(root, key, member, text)
+}
+
+/// One day, or the first and the last.
+fn calibrated(root: &Object<'_>) -> Option<[String; 2]> {
+    const KEY: &str = "calibration_date";
+    let member = root.get(KEY)?;
+    let days: Vec<String> = texts(root, KEY)
+        .iter()
+        .filter_map(|(text, _)| checked_date(root, KEY, member, text))
+        .collect();
+    match (days.as_slice(), &member.value.value) {
+        ([day], _) => Some([day.clone(), day.clone()]),
+        ([first, last], _) if first <= last => Some([first.clone(), last.clone()]),
+        ([first, last], _) => {
+            let reason = format!("the calibration ends on {last}, before it begins on {first}");
+            root.log.report(&member.value.span, DiagnosticKind::Certificate { reason });
+            None
+        }
+        (_, Json::List(list)) if list.len() != 1 && list.len() != 2 => {
+            let reason =
+                "`calibration_date` is one day, or a list of the first and the last".to_owned();
+            root.log.report(&member.value.span, DiagnosticKind::Certificate { reason });
+            None
+        }
+        _ => None,
+    }
+}
+
+/// A day of the calendar as ISO 8601 writes it.
+fn checked_date(
+    root: &Object<'_>,
+    key: &'static str,
+    member: &Member,
+    text: &str,
+) -> Option<String> {
+    if is_date(text) {
+        return Some(text.to_owned());
+    }
+    root.log.report(&member.value.span, DiagnosticKind::NotDate { key, found: text.to_owned() });
+    None
+}
+
+fn is_date(text: &str) -> bool {
+    let shape = text.len() == 10
+        && text.bytes().enumerate().all(|(place, letter)| match place {
+            4 | 7 => letter == b'-',
+            _ => letter.is_ascii_digit(),
+        });
+    let number =
+        |range: std::ops::Range<usize>| text.get(range).and_then(|t| t.parse::<u32>().ok());
+    let (Some(year), Some(month), Some(day)) = (number(0..4), number(5..7), number(8..10)) else {
+        return false;
+    };
+    let leap = year % 4 == 0 && (year % 100 != 0 || year % 400 == 0);
+    let days = match month {
+        2 => 28 + u32::from(leap),
+        4 | 6 | 9 | 11 => 30,
+        1..=12 => 31,
+        _ => 0,
+    };
+    shape && year > 0 && (1..=days).contains(&day)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn days_of_the_calendar() {
+        for right in ["2026-03-02", "2024-02-29", "2000-02-29", "2026-12-31"] {
+            assert!(is_date(right), "{right}");
+        }
+        let wrong =
+            ["2026-3-2", "2026-02-29", "1900-02-29", "2026-13-01", "2026-00-10", "2026-04-31"];
+        for wrong in
+            wrong.into_iter().chain(["02.03.2026", "", "0000-01-01", "2026-01-00", "２026-1-1"])
+        {
+            assert!(!is_date(wrong), "{wrong}");
+        }
+    }
+}

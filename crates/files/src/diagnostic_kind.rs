@@ -1,0 +1,458 @@
+//! What can be wrong with a user's file: the facts, and the sentence that is said about them.
+
+use std::fmt;
+use std::sync::Arc;
+
+use super::nearest::nearest;
+use super::shapes::KINDS;
+use gumption_engine::distribution::Invalid;
+use gumption_engine::model::formula::FormulaError;
+use gumption_engine::number::Shortest;
+use gumption_units::UnitError;
+
+/// A mistake, without its place.
+#[derive(Clone, Debug, PartialEq)]
+#[allow(missing_docs)] // the fields are what the sentences below say
+pub enum DiagnosticKind {
+    /// The file cannot be read.
+    Unreadable { message: String },
+    /// The file has no content.
+    Empty,
+    /// The text is not JSON.
+    NotJson { message: String },
+    /// JSON has no NaN and no infinity.
+    NotFiniteInJson,
+    /// A number beyond double precision.
+    NumberTooLarge,
+    /// A value of another type.
+    WrongType { what: String, found: &'static str, expected: &'static str },
+    /// A key that does not exist here.
+    UnknownKey {
+        key: String,
+        what: &'static str,
+        nearest: Option<String>,
+        known: Vec<&'static str>,
+    },
+    /// The same key twice.
+    DuplicateKey { key: String },
+    /// A required key is not there.
+    MissingKey { key: &'static str, what: &'static str },
+    /// A version of the file format that this program does not know.
+    UnknownFormat { found: String },
+    /// Neither a typed model nor equations.
+    NoModel,
+    /// Both a typed model and equations.
+    TwoModels,
+    /// No typed model of that name.
+    UnknownModel { name: String, nearest: Option<String> },
+    /// The typed model has no such input.
+    UnknownInput { name: String, model: String, nearest: Option<String>, known: Vec<String> },
+    /// The typed model has no such output, or no equation defines it.
+    UnknownOutput { name: String, nearest: Option<String>, known: Arc<[String]> },
+    /// The typed model needs an input that is not there.
+    MissingInput { name: String, model: String, unit: String },
+    /// A name that cannot be used.
+    BadName { name: String, reason: String },
+    /// The same name for two quantities.
+    NameTaken { name: String },
+    /// A name that is not that of an input.
+    NoSuchInput { name: String, nearest: Option<String> },
+    /// A unit that does not parse.
+    Unit { unit: String, error: UnitError },
+    /// A unit of another dimension than the quantity.
+    WrongDimension {
+        name: String,
+        found: String,
+        found_as: String,
+        expected_as: String,
+        expected: String,
+    },
+    /// No distribution of that name.
+    UnknownDistribution { name: String, nearest: Option<String> },
+    /// Parameters that no distribution has.
+    Distribution { name: String, error: Invalid },
+    /// Two keys that say the same thing in different ways.
+    Exclusive { first: &'static str, second: &'static str },
+    /// `expanded` without `k` or `p`.
+    NoCoverage { name: String },
+    /// A key that says something about another one, which is not there.
+    OnlyWith { key: &'static str, with: &'static str },
+    /// A probability outside 0 to 1.
+    NotProbability { key: String, found: f64 },
+    /// A number that is not a positive one.
+    NotPositive { key: String, found: f64 },
+    /// Not a whole number, or out of range.
+    NotWhole { key: String, found: String, least: u64, most: u64 },
+    /// Not a number of trials.
+    NotTrials { found: String, most: u64 },
+    /// A number out of its range.
+    OutOfRange { key: String, found: f64, range: &'static str },
+    /// A value that must be one of a few.
+    NotOneOf { key: String, found: String, allowed: Vec<String> },
+    /// A width that does not parse.
+    Width { name: String, found: String, reason: String },
+    /// A component without a name, or with the name of another.
+    Component { name: String, reason: String },
+    /// A formula's mistake.
+    Formula { error: FormulaError },
+    /// An estimate's formula that gives no finite number.
+    EstimateUndefined { row: usize, found: f64 },
+    /// A condition or list without values.
+    NoValues { name: String },
+    /// A condition that has no values of its own and no table to take them from.
+    NoTable { name: String },
+    /// A table's cell that is empty or not a number.
+    Cell { row: usize, column: String, found: String },
+    /// A table's row with another number of cells than the header.
+    ShortRow { row: usize, found: usize, expected: usize },
+    /// A line of a file of samples that is not a number.
+    Sample { found: String },
+    /// A table without rows, or a bad header.
+    Table { reason: String },
+    /// A coefficient out of range, of unknown or equal quantities.
+    Correlation { reason: String },
+    /// Too many rows, inputs, nodes.
+    TooMany { what: &'static str, found: usize, most: usize },
+    /// A file that `--save` did not write.
+    NotResult { file: String },
+    /// A result file has no such output.
+    NoSuchResult { file: String, name: String, nearest: Option<String>, known: Vec<String> },
+    /// A list of a result file whose entries do not fit.
+    SavedEntry { reason: &'static str },
+    /// A result in degC for an input in another unit, or the other way round.
+    SavedCelsius { name: String, found: String, saved: String },
+    /// A declared coefficient between inputs whose saved results have one.
+    SavedCorrelation { first: String, second: String },
+    /// More mistakes than are listed.
+    MoreMistakes { most: usize },
+    /// A model file with several rows of conditions, to be compared with a saved result.
+    SeveralRows { rows: usize },
+    /// The evaluation met numbers that it cannot go on with.
+    Evaluation { message: String },
+    /// The catalogue has no effect of that name.
+    UnknownEffect { name: String, nearest: Option<String> },
+    /// An effect that cannot act on the sim.
+    Effect { name: String, reason: String },
+    /// Observations that say nothing about the sim, or contradict themselves.
+    Observation { reason: String },
+    /// Prior probabilities that do not sum to one.
+    Prior { reason: String },
+    /// Something in a certificate file that does not fit.
+    Certificate { reason: String },
+    /// Not a day of the calendar.
+    NotDate { key: &'static str, found: String },
+    /// A recipe whose parts do not fit.
+    Recipe { reason: String },
+    /// A recording that cannot be used, with its line or sample and channel.
+    Recording { reason: String },
+    /// An override of the command line that does not fit.
+    Override { text: String, reason: String },
+}
+
+impl DiagnosticKind {
+    /// A short fixed name of the kind of mistake.
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::Unreadable { .. } => "unreadable",
+            Self::Empty => "empty",
+            Self::NotJson { .. } => "not-json",
+            Self::NotFiniteInJson => "not-finite",
+            Self::NumberTooLarge => "number-too-large",
+            Self::WrongType { .. } => "wrong-type",
+            Self::UnknownKey { .. } => "unknown-key",
+            Self::DuplicateKey { .. } => "duplicate-key",
+            Self::MissingKey { .. } => "missing-key",
+            Self::UnknownFormat { .. } => "unknown-format",
+            Self::NoModel => "no-model",
+            Self::TwoModels => "two-models",
+            Self::UnknownModel { .. } => "unknown-model",
+            Self::UnknownInput { .. } => "unknown-input",
+            Self::UnknownOutput { .. } => "unknown-output",
+            Self::MissingInput { .. } => "missing-input",
+            Self::BadName { .. } => "bad-name",
+            Self::NameTaken { .. } => "name-taken",
+            Self::NoSuchInput { .. } => "no-such-input",
+            Self::Unit { .. } => "bad-unit",
+            Self::WrongDimension { .. } => "wrong-dimension",
+            Self::UnknownDistribution { .. } => "unknown-distribution",
+            Self::Distribution { .. } => "bad-distribution",
+            Self::Exclusive { .. } => "exclusive-keys",
+            Self::NoCoverage { .. } => "no-coverage",
+            Self::OnlyWith { .. } => "only-with",
+            Self::NotProbability { .. } => "not-a-probability",
+            Self::NotPositive { .. } => "not-positive",
+            Self::NotWhole { .. } => "not-whole",
+            Self::NotTrials { .. } => "bad-trials",
+            Self::OutOfRange { .. } => "out-of-range",
+            Self::NotOneOf { .. } => "not-one-of",
+            Self::Width { .. } => "bad-width",
+            Self::Component { .. } => "bad-component",
+            Self::Formula { .. } => "bad-formula",
+            Self::EstimateUndefined { .. } => "estimate-undefined",
+            Self::NoValues { .. } => "no-values",
+            Self::NoTable { .. } => "no-table",
+            Self::Cell { .. } => "bad-cell",
+            Self::ShortRow { .. } => "short-row",
+            Self::Sample { .. } => "bad-sample",
+            Self::Table { .. } => "bad-table",
+            Self::Correlation { .. } => "bad-correlation",
+            Self::TooMany { .. } => "too-many",
+            Self::MoreMistakes { .. } => "more-mistakes",
+            Self::NotResult { .. } => "not-a-result",
+            Self::NoSuchResult { .. } => "no-such-result",
+            Self::SavedEntry { .. } => "bad-result",
+            Self::SavedCelsius { .. } => "celsius-result",
+            Self::SavedCorrelation { .. } => "correlated-results",
+            Self::SeveralRows { .. } => "several-rows",
+            Self::Evaluation { .. } => "evaluation",
+            Self::UnknownEffect { .. } => "unknown-effect",
+            Self::Effect { .. } => "bad-effect",
+            Self::Observation { .. } => "bad-observations",
+            Self::Prior { .. } => "bad-prior",
+            Self::Certificate { .. } => "bad-certificate",
+            Self::NotDate { .. } => "not-a-date",
+            Self::Recipe { .. } => "bad-recipe",
+            Self::Recording { .. } => "bad-recording",
+            Self::Override { .. } => "bad-override",
+        }
+    }
+
+    /// What to write instead, where that is known.
+    pub fn suggestion(&self) -> Option<String> {
+        match self {
+            Self::UnknownKey { nearest, .. }
+            | Self::UnknownModel { nearest, .. }
+            | Self::UnknownInput { nearest, .. }
+            | Self::UnknownOutput { nearest, .. }
+            | Self::UnknownEffect { nearest, .. }
+            | Self::NoSuchInput { nearest, .. }
+            | Self::NoSuchResult { nearest, .. }
+            | Self::UnknownDistribution { nearest, .. } => nearest.clone(),
+            Self::NotOneOf { found, allowed, .. } => {
+                nearest(found, allowed.iter().map(String::as_str)).map(str::to_owned)
+            }
+            Self::Unit { error, .. } => error.suggestions().first().map(|s| (*s).to_owned()),
+            Self::Formula { error } => error.suggestion(),
+            _ => None,
+        }
+    }
+}
+
+/// `a`, `b`, `c`
+fn list<S: AsRef<str>>(names: &[S]) -> String {
+    let quoted = names.iter().map(|n| format!("`{}`", n.as_ref()));
+    let mut list = quoted.take(LONGEST_LIST).collect::<Vec<_>>().join(", ");
+    if names.len() > LONGEST_LIST {
+        list.push_str(&format!(" and {} more", names.len() - LONGEST_LIST));
+    }
+    list
+}
+
+/// At most so many names are listed in a message.
+const LONGEST_LIST: usize = 30;
+
+/// "1 cell", "2 cells"
+fn counted(count: usize, what: &str) -> String {
+    format!("{count} {what}{}", if count == 1 { "" } else { "s" })
+}
+
+/// "; did you mean `x`?" or the list of what there is.
+fn hint(nearest: Option<&String>, known: &str) -> String {
+    match nearest {
+        Some(name) => format!("; did you mean `{name}`?"),
+        None => format!("; there are {known}"),
+    }
+}
+
+impl fmt::Display for DiagnosticKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Unreadable { message } => write!(f, "cannot read the file: {message}"),
+            Self::Empty => f.write_str(
+                "the file is empty; a model file is a JSON object with `inputs`, `outputs` and \
+                 `equations` or `model`",
+            ),
+            Self::NotJson { message } => write!(f, "this is not JSON: {message}"),
+            Self::NotFiniteInJson => {
+                f.write_str("NaN and infinity are no JSON numbers; a finite number is needed here")
+            }
+            Self::NumberTooLarge => {
+                f.write_str("this number is larger than any in double precision (1.8e308)")
+            }
+            Self::WrongType { what, found, expected } => {
+                write!(f, "{what} is {found}, but must be {expected}")
+            }
+            Self::UnknownKey { key, what, nearest, known } => {
+                write!(f, "unknown key `{key}` in {what}{}", hint(nearest.as_ref(), &list(known)))
+            }
+            Self::DuplicateKey { key } => write!(f, "the key `{key}` stands here a second time"),
+            Self::MissingKey { key, what } => write!(f, "{what} needs the key `{key}`"),
+            Self::UnknownFormat { found } => {
+                write!(f, "file format {found} is not known; this version reads `\"format\": 1`")
+            }
+            Self::NoModel => f.write_str(
+                "a model file needs `equations` (formulas) or `model` (the name of a typed model; \
+                 `gumption models` lists them)",
+            ),
+            Self::TwoModels => f.write_str(
+                "a model file has either `equations` or `model`, not both; take one of them out",
+            ),
+            Self::UnknownModel { name, nearest } => {
+                let known = "those that `gumption models` lists";
+                write!(f, "there is no typed model `{name}`{}", hint(nearest.as_ref(), known))
+            }
+            Self::UnknownInput { name, model, nearest, known } => write!(
+                f,
+                "the model `{model}` has no input `{name}`{}",
+                hint(nearest.as_ref(), &list(known))
+            ),
+            Self::UnknownOutput { name, nearest, known } => {
+                write!(
+                    f,
+                    "nothing computes an output `{name}`{}",
+                    hint(nearest.as_ref(), &list(known))
+                )
+            }
+            Self::MissingInput { name, model, unit } => write!(
+                f,
+                "the model `{model}` needs the input `{name}` (unit `{unit}`), which is not here"
+            ),
+            Self::BadName { name, reason } => write!(f, "`{name}` cannot be a name: {reason}"),
+            Self::NameTaken { name } => {
+                write!(f, "the name `{name}` is already that of another quantity of this file")
+            }
+            Self::NoSuchInput { name, nearest } => {
+                write!(f, "there is no input `{name}` in this file")?;
+                match nearest {
+                    Some(near) => write!(f, "; did you mean `{near}`?"),
+                    None => f.write_str("; a component is named `input/component`"),
+                }
+            }
+            Self::Unit { unit, error } => write!(f, "the unit `{unit}` cannot be read: {error}"),
+            Self::WrongDimension { name, found, found_as, expected, expected_as } => write!(
+                f,
+                "`{name}` has the unit `{found}`, {found_as}, but must be {expected_as}, such as \
+                 `{expected}`"
+            ),
+            Self::UnknownDistribution { name, nearest } => {
+                let known: Vec<&str> = KINDS.iter().map(|kind| kind.name).collect();
+                write!(
+                    f,
+                    "there is no distribution `{name}`{}",
+                    hint(nearest.as_ref(), &list(&known))
+                )
+            }
+            Self::Distribution { name, error } => write!(f, "`{name}`: {error}"),
+            Self::Exclusive { first, second } => {
+                write!(f, "`{first}` and `{second}` say the same thing; take one of them out")
+            }
+            Self::NoCoverage { name } => write!(
+                f,
+                "`{name}` gives an expanded uncertainty, which needs its coverage factor `k` or its \
+                 coverage probability `p`"
+            ),
+            Self::OnlyWith { key, with } => {
+                write!(f, "`{key}` says something about `{with}`, which is not here")
+            }
+            Self::NotProbability { key, found } => {
+                let found = Shortest(*found);
+                write!(f, "`{key}` is {found}, but must be a probability between 0 and 1")
+            }
+            Self::NotPositive { key, found } => {
+                write!(f, "`{key}` is {}, but must be above zero", Shortest(*found))
+            }
+            Self::NotWhole { key, found, least, most } => {
+                write!(f, "`{key}` is {found}, but must be a whole number from {least} to {most}")
+            }
+            Self::NotTrials { found, most } => write!(
+                f,
+                "{found} is not a number of trials; a whole number from 2 to {most} is, or 0 for an \
+                 evaluation by the law of propagation alone"
+            ),
+            Self::OutOfRange { key, found, range } => {
+                write!(f, "`{key}` is {}, but must be {range}", Shortest(*found))
+            }
+            Self::NotOneOf { key, found, allowed } => {
+                write!(f, "`{key}` is `{found}`, but must be one of {}", list(allowed))
+            }
+            Self::Width { name, found, reason } => {
+                write!(f, "`{name}`: the width `{found}` cannot be read: {reason}")
+            }
+            Self::Component { name, reason } => write!(f, "a component of `{name}` {reason}"),
+            Self::Formula { error } => error.fmt(f),
+            Self::EstimateUndefined { row, found } => {
+                write!(f, "this estimate is {found} in row {row} of the conditions")
+            }
+            Self::NoValues { name } => write!(f, "`{name}` has no values; at least one is needed"),
+            Self::NoTable { name } => write!(
+                f,
+                "the condition `{name}` has no `values`; it would name a column of observations, \
+                 but the file has none"
+            ),
+            Self::Cell { row, column, found } if found.is_empty() => {
+                write!(f, "row {row}, column `{column}`: the cell is empty; a number is needed")
+            }
+            Self::Cell { row, column, found } => {
+                write!(f, "row {row}, column `{column}`: `{found}` is not a finite number")
+            }
+            Self::ShortRow { row, found, expected } => {
+                let (found, expected) = (counted(*found, "cell"), counted(*expected, "name"));
+                write!(f, "row {row} has {found}, but the header has {expected}")
+            }
+            Self::Sample { found } => write!(
+                f,
+                "`{found}` is not a finite number; a file of samples has one on each line, and `#` \
+                 before words"
+            ),
+            Self::Table { reason } | Self::Observation { reason } | Self::Prior { reason } => {
+                f.write_str(reason)
+            }
+            Self::UnknownEffect { name, nearest } => {
+                let known = "those that `gumption models --effects` lists";
+                let hint = hint(nearest.as_ref(), known);
+                write!(f, "the catalogue has no effect `{name}`{hint}")
+            }
+            Self::Effect { name, reason } => write!(f, "the effect `{name}` {reason}"),
+            Self::Correlation { reason } => f.write_str(reason),
+            Self::TooMany { what, found, most } => {
+                write!(f, "there are {found} {what}; this version takes {most} at most")
+            }
+            Self::NotResult { file } => write!(
+                f,
+                "`{file}` is not a saved result (`\"result\": true` is missing); `gumption run \
+                 --save` writes one"
+            ),
+            Self::NoSuchResult { file, name, nearest, known } => {
+                let hint = hint(nearest.as_ref(), &list(known));
+                write!(f, "the saved result `{file}` has no output `{name}`{hint}")
+            }
+            Self::SavedEntry { reason } => f.write_str(reason),
+            Self::SavedCelsius { name, found, saved } => write!(
+                f,
+                "the saved result `{name}` is in `{saved}`, the input in `{found}`, and degrees \
+                 Celsius are never shifted; take the unit of the result"
+            ),
+            Self::SavedCorrelation { first, second } => write!(
+                f,
+                "the correlation of `{first}` and `{second}` follows from the saved results that \
+                 they come from; take the declared coefficient out"
+            ),
+            Self::MoreMistakes { most } => {
+                write!(f, "there are more mistakes; the first {most} are listed")
+            }
+            Self::SeveralRows { rows } => write!(
+                f,
+                "this file has {rows} rows of conditions, but a saved result is one row; compare it \
+                 with a file of that row alone"
+            ),
+            Self::Evaluation { message } => f.write_str(message),
+            Self::Certificate { reason } | Self::Recipe { reason } | Self::Recording { reason } => {
+                f.write_str(reason)
+            }
+            Self::NotDate { key, found } => {
+                write!(f, "`{key}` is `{found}`, but must be a day such as 2026-03-02")
+            }
+            Self::Override { text, reason } => write!(f, "`--set {text}`: {reason}"),
+        }
+    }
+}

@@ -1,0 +1,74 @@
+//! What stands above the results: device, parties, dates.
+
+use super::Report;
+use super::words::{self, Words, beside};
+use crate::plain;
+use crate::sheet::Sheet;
+use gumption_analysis::certificate::contents::{Localized, Party, PerformanceLocation};
+
+/// The title in the languages of the certificate.
+pub(super) fn title(report: &Report<'_>) -> String {
+    let languages = &report.certificate.languages;
+    match &report.certificate.administrative.title {
+        Some(title) if !title.is_empty() => plain(&title.all(languages).join(" / ")),
+        _ => beside(languages, |w| w.title),
+    }
+}
+
+/// Names with what is stated; what is not given is left out.
+pub(super) fn sheet(report: &Report<'_>) -> Sheet {
+    let lines = lines(report);
+    let mut sheet = Sheet::default();
+    sheet.text("", lines.iter().map(|(name, _)| name.clone()));
+    sheet.text("", lines.iter().map(|(_, value)| value.clone()));
+    sheet
+}
+
+/// Names and texts, in order.
+pub(super) fn lines(report: &Report<'_>) -> Vec<(String, String)> {
+    let certificate = report.certificate;
+    let languages = certificate.languages.as_slice();
+    let of = &certificate.administrative;
+    let mut lines = Vec::new();
+    let mut add = |word: fn(&Words) -> &'static str, text: Option<String>| {
+        if let Some(text) = text.map(|text| plain(&text)).filter(|text| !text.is_empty()) {
+            lines.push((beside(languages, word), text));
+        }
+    };
+    let local = |text: &Localized| text.all(languages).join(" / ");
+    add(|w| w.number, of.number.clone());
+    if let Some(device) = &of.device {
+        add(|w| w.device, Some(local(&device.name)));
+        add(|w| w.manufacturer, device.manufacturer.clone());
+        add(|w| w.model, device.model.clone());
+        add(|w| w.serial_number, device.serial_number.clone());
+        add(|w| w.customer_number, device.customer_number.clone());
+    }
+    add(|w| w.customer, of.customer.as_ref().map(party));
+    add(|w| w.laboratory, of.laboratory.as_ref().map(party));
+    add(|w| w.code, of.laboratory.as_ref().and_then(|l| l.code.clone()));
+    add(|w| w.responsible, of.responsible.clone());
+    let period = of.calibrated.as_ref().map(|[first, last]| match first == last {
+        true => first.clone(),
+        false => {
+            let texts = languages.iter().map(|language| {
+                let period = words::of(*language).period;
+                period.replace("{first}", first).replace("{last}", last)
+            });
+            texts.collect::<Vec<_>>().join(" / ")
+        }
+    });
+    add(|w| w.calibrated, period);
+    add(|w| w.issued, of.issued.clone());
+    let place = PerformanceLocation::ALL.iter().position(|place| *place == of.place).unwrap_or(0);
+    add(|w| w.place, (place > 0).then(|| beside(languages, |w| w.places[place])));
+    add(|w| w.environment, of.environment.as_ref().map(local));
+    add(|w| w.method, of.method.as_ref().map(local));
+    add(|w| w.traceability, of.traceability.as_ref().map(local));
+    lines
+}
+
+fn party(party: &Party) -> String {
+    let parts = [party.name.clone(), party.address()];
+    parts.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(", ")
+}
