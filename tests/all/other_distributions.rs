@@ -20,7 +20,8 @@ const ERRORS: [f64; 4] = [0.00402, 0.00300, 0.00570, 0.0139];
 #[test]
 fn a_sum_of_weibull_and_gumbel_has_the_moments_and_quantiles_of_scipy() {
     let control = Control::default().with_threads(2);
-    let evaluation = evaluate(&program::task(1_000_000).expect("a task"), &control).expect("trials");
+    let evaluation =
+        evaluate(&program::task(1_000_000).expect("a task"), &control).expect("trials");
     let found = program::figures(&evaluation).expect("trials");
     for ((found, expected), error) in found.iter().zip(EXPECTED).zip(ERRORS) {
         assert!((found - expected).abs() < 5.0 * error, "{found}, not {expected}");

@@ -79,7 +79,8 @@ fn a_measurement_of_ones_own_has_the_whole_command_line() {
     fs::write(folder.join("fall.json"), &template).expect("written");
     text(&run(folder, &program, &["check", "fall.json"]));
     let arguments = ["run", "fall.json", "--format", "json", "--trials", "0", "--quiet"];
-    let answer: Value = serde_json::from_str(&text(&run(folder, &program, &arguments))).expect("JSON");
+    let answer: Value =
+        serde_json::from_str(&text(&run(folder, &program, &arguments))).expect("JSON");
     let gum = &answer["outputs"]["a"]["gum"];
     let number = |key: &str| gum[key].as_f64().expect("a number");
     // a = 2 * 4.903325 m / (1 s)^2; u/a = sqrt((0.5 / 4903.325)^2 / 3 + (2 * 0.001)^2)
@@ -114,5 +115,10 @@ fn a_measurement_of_ones_own_is_diagnosed() {
     let answer = text(&run(folder, &program, &["gap", "case.json", "--format", "json", "--quiet"]));
     let answer: Value = serde_json::from_str(&answer).expect("JSON");
     assert_eq!(answer["gap"]["present"], true);
-    assert_eq!(answer["verdict"]["effects"], serde_json::json!(["late-clock"]), "{}", answer["verdict"]);
+    assert_eq!(
+        answer["verdict"]["effects"],
+        serde_json::json!(["late-clock"]),
+        "{}",
+        answer["verdict"]
+    );
 }

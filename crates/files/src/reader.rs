@@ -5,11 +5,11 @@ use std::path::Path;
 use super::case::{self, CaseFile};
 use super::certificate::{self, CertificateFile};
 use super::checked;
+use super::diagnostics::Diagnostics;
 use super::either::{self, ModelOrResult};
 use super::model_file::{self, ModelFile};
 use super::open::open;
 use super::overrides::Override;
-use super::diagnostics::Diagnostics;
 use gumption_engine::model::typed::Catalogue;
 use gumption_engine::task::Row;
 

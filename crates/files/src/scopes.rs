@@ -35,7 +35,11 @@ pub(super) fn coherent(dimension: Dimension) -> String {
 }
 
 /// What is known of the names of a typed model.
-pub(super) fn typed_scope(entry: &CatalogueEntry, inputs: &InputSet, conditions: &Conditions) -> Scope {
+pub(super) fn typed_scope(
+    entry: &CatalogueEntry,
+    inputs: &InputSet,
+    conditions: &Conditions,
+) -> Scope {
     let mut scope = condition_scope(conditions);
     for input in &inputs.quantities {
         let Quantity { name, unit, .. } = &input.quantity;
