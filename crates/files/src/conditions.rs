@@ -127,8 +127,7 @@ fn columns_of(object: &Object<'_>, data: &Table) -> Option<Conditions> {
         }
         let place = data.columns.iter().position(|column| *column == member.key);
         if place.is_none() {
-            let near =
-                nearest(&member.key, data.columns.iter().map(String::as_str));
+            let near = nearest(&member.key, data.columns.iter().map(String::as_str));
             let reason = format!(
                 "`{}` has no column `{}` for this condition{}",
                 data.source.name,
@@ -233,8 +232,7 @@ fn from_table(object: &Object<'_>, file: &Member, folder: &Path) -> Option<Condi
         for member in units.members() {
             if !table.columns.contains(&member.key) {
                 let known: Vec<String> = table.columns.clone();
-                let nearest =
-                    nearest(&member.key, known.iter().map(String::as_str));
+                let nearest = nearest(&member.key, known.iter().map(String::as_str));
                 let reason = format!(
                     "`{}` has no column `{}`{}",
                     table.source.name,
