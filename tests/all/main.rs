@@ -24,6 +24,8 @@ mod gap_examples;
 mod intervals;
 mod observe;
 mod observe_steps;
+mod other_distributions;
+mod own_program;
 mod recordings;
 mod reports;
 mod reproducible;

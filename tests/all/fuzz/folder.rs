@@ -32,7 +32,7 @@ pub(super) fn result() -> &'static str {
           "equations": {"y": "a*b", "z": "a + b"},
           "outputs": {"y": {"unit": "m^2"}, "z": {"unit": "m"}}, "monte_carlo": {"trials": 2000}}"#;
         let file = read_text("saved", text, Path::new(""), &[]).expect("a right file");
-        let control = Control { threads: 1, ..Control::default() };
+        let control = Control::default().with_threads(1);
         let evaluation = evaluate(&file.task, &control).expect("an answer");
         let provenance = report::Provenance { model_sha256: "0".repeat(64), files: Vec::new() };
         let scores: Vec<f64> = gumption_engine::distribution::Scores::WRITTEN.values().collect();
