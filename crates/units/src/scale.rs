@@ -134,8 +134,8 @@ impl Scale {
         let inner = Self { decimal: self.decimal.rem_euclid(degree), ..self }.value();
         let rest = match n {
             2 => inner.sqrt(),
-            3 => inner.cbrt(),
-            _ => inner.powf(1.0 / f64::from(n)),
+            3 => libm::cbrt(inner),
+            _ => libm::pow(inner, 1.0 / f64::from(n)),
         };
         Self { decimal, rest, ..Self::ONE }.checked()
     }
@@ -183,7 +183,7 @@ impl Scale {
                 return (Self { denominator, decimal: self.decimal - shift, ..self }, 1.0);
             }
         }
-        (self, PI.powf(self.pi as f64))
+        (self, libm::pow(PI, self.pi as f64))
     }
 
     /// The same number in lowest terms, with the tens taken out of the integers.
@@ -248,7 +248,7 @@ fn exact(value: u128) -> Option<f64> {
 
 /// The integer `n`-th root, if there is one.
 fn exact_root(value: u128, n: u32) -> Option<u128> {
-    let guess = (value as f64).powf(1.0 / f64::from(n)).round() as u128;
+    let guess = libm::pow(value as f64, 1.0 / f64::from(n)).round() as u128;
     (guess.saturating_sub(1)..=guess.saturating_add(1))
         .find(|root| root.checked_pow(n) == Some(value))
 }

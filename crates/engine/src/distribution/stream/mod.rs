@@ -38,6 +38,7 @@ const GOLDEN: u64 = 0x9e37_79b9_7f4a_7c15;
 pub struct StreamKey(u64);
 
 impl StreamKey {
+    /// The stream of a quantity of this name under a seed.
     pub fn new(seed: u64, name: &str) -> Self {
         Self(mix(seed.wrapping_add(GOLDEN) ^ mix(hash(name))))
     }

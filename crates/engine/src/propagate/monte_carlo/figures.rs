@@ -84,7 +84,7 @@ impl MonteCarlo {
     /// The figures, without the moments that do not exist for t distributions of `drawn_dof`
     /// degrees of freedom. The intervals are the symmetric one, the shortest one and whether that
     /// is exact.
-    pub fn new(
+    pub(super) fn new(
         moments: &Moments,
         drawn_dof: f64,
         median: f64,
@@ -113,7 +113,7 @@ impl MonteCarlo {
 
 impl NumericalError {
     /// The errors, `quantiles` being those of the lower end, the upper end and the median.
-    pub fn new(
+    pub(super) fn new(
         moments: &Moments,
         drawn_dof: f64,
         quantiles: [f64; 3],
