@@ -74,6 +74,18 @@ impl Scale {
         }
     }
 
+    /// A literal as a number and a power of ten: the number is 1 for a power of ten, and the power
+    /// is 0 for what is none and fits in an `f64`.
+    pub(super) fn number_and_power(self) -> (f64, i64) {
+        if self.numerator == 1 && self.rest == 1.0 {
+            (1.0, self.decimal)
+        } else if self.in_range() {
+            (self.value(), 0)
+        } else {
+            (Self { decimal: 0, ..self }.value(), self.decimal)
+        }
+    }
+
     /// The product.
     pub(super) fn times(self, other: Self) -> Option<Self> {
         let cross = gcd(self.numerator, other.denominator);
@@ -232,7 +244,8 @@ fn quotient(numerator: u128, denominator: u128, decimal: i64) -> f64 {
         digits.push('1');
         decimal -= 1;
     }
-    format!("{digits}e{decimal}").parse().unwrap_or(f64::NAN)
+    #[expect(clippy::expect_used, reason = "digits and an exponent are a number")]
+    format!("{digits}e{decimal}").parse().expect("a number in decimal digits")
 }
 
 /// The product, if it is within [`LARGEST`].

@@ -119,7 +119,7 @@ fn decades(ends: [f64; 2], digits: &[f64]) -> Vec<f64> {
         // from its decimal form, which is the nearest number
         digits.iter().filter_map(move |digit| format!("{digit}e{power}").parse::<f64>().ok())
     });
-    all.filter(|value| (ends[0]..=ends[1]).contains(&log10(value))).collect()
+    all.filter(|value| (ends[0]..=ends[1]).contains(&log10(*value))).collect()
 }
 
 /// Multiples of 1, 2 or 5 times a power of ten between two values.
