@@ -33,5 +33,6 @@ mod results;
 mod schema;
 mod sizes;
 mod support;
+mod units;
 mod verify;
 mod workspace;
