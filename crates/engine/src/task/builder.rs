@@ -490,9 +490,11 @@ impl TaskBuilder {
             let shown =
                 given.components.is_empty() || given.input.distribution.constant().is_none();
             variables.push(Variable { shown, ..variable(&given.name, &given.input) });
-            variables.extend(given.components.iter().map(|(component, input)| {
-                variable(&format!("{}/{component}", given.name), input)
-            }));
+            variables.extend(
+                given.components.iter().map(|(component, input)| {
+                    variable(&format!("{}/{component}", given.name), input)
+                }),
+            );
         }
         let mut names = HashSet::new();
         if let Some(twice) = variables.iter().find(|v| !names.insert(v.name.as_str())) {

@@ -55,10 +55,7 @@ fn case(
     let sim = Sim {
         inputs: vec![InputQuantity { quantity: quantity("a"), parts: 1 }],
         conditions: vec![quantity("x")],
-        outputs: equations
-            .iter()
-            .map(|(name, _)| Output::new(quantity(name)))
-            .collect(),
+        outputs: equations.iter().map(|(name, _)| Output::new(quantity(name))).collect(),
         maker: Maker::Equations(formulas(equations)),
         scope: Scope::from_iter(names.map(|name| (name, Typing::in_unit(&Unit::one())))),
     };
