@@ -8,7 +8,6 @@ use super::super::DiagnosticKind;
 use super::super::diagnostics::{Collector, Diagnostic};
 use super::super::json::{Json, Member, Node};
 use super::super::model_file::ModelFile;
-use super::super::nearest::nearest;
 use super::super::object::Object;
 use super::super::outputs;
 use super::super::overrides::Override;
@@ -20,6 +19,7 @@ use gumption_analysis::certificate::contents::{Asked, Line};
 use gumption_engine::model::Quantity;
 use gumption_engine::task::{Task, Warning};
 use gumption_units::Unit;
+use gumption_units::nearest;
 
 /// The keys of a row.
 const KEYS: [&str; 7] = ["model", "output", "set", "nominal", "label", "cmc", "cmc_floor"];
