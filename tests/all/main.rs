@@ -4,6 +4,7 @@
 #![allow(clippy::print_stderr)]
 
 mod adaptive;
+mod answers;
 mod assumptions;
 mod benches;
 mod cases;

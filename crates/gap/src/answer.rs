@@ -1,9 +1,10 @@
 //! The verdict alone: what a blind check asks of many data sets.
 
-use super::diagnose::{Weighed, hypotheses, prediction};
+use super::diagnose::{hypotheses, prediction};
 use super::diagnosis::{Hypothesis, Predicted, Verdict};
 use super::posterior::Effort;
 use super::shrink;
+use super::weighed::Weighed;
 use crate::Case;
 use gumption_engine::task::Row;
 

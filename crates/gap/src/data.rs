@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 
 use crate::Case;
+use gumption_engine::number::elementary;
 use gumption_engine::task::Sharing;
 
 /// The data of a case beside the sim's estimates.
@@ -73,7 +74,8 @@ impl Data {
         let in_quadrature = |of: &&crate::Observed| {
             let own = of.standard_uncertainties.as_ref()?;
             let other = of.simulation_uncertainties.as_ref();
-            let both = |&id: &usize| other.map_or(own[id], |other| own[id].hypot(other[id]));
+            let both =
+                |&id: &usize| other.map_or(own[id], |other| elementary::hypot(own[id], other[id]));
             Some(ids.iter().map(both).collect())
         };
         Self {
@@ -123,6 +125,12 @@ impl Data {
             })
             .collect()
     }
+}
+
+/// Values of outputs as one list, row by row, outputs fastest.
+pub(crate) fn by_rows(values: &[Vec<f64>]) -> Vec<f64> {
+    let rows = values.first().map_or(0, Vec::len);
+    (0..rows).flat_map(|row| values.iter().map(move |output| output[row])).collect()
 }
 
 /// Standard deviations of the variables in every row, and which rows share a value.

@@ -1,7 +1,7 @@
 //! Probabilities that know how well their integrals are known.
 
 use gumption_engine::distribution::{StreamKey, special};
-use gumption_engine::number::COLUMN;
+use gumption_engine::number::{COLUMN, elementary};
 
 /// An error of a logarithm below this changes no probability by more than about 0.0003.
 const NEGLIGIBLE: f64 = 0.05;
@@ -67,7 +67,7 @@ fn shares(ln: &[f64]) -> Vec<f64> {
     if !most.is_finite() {
         return vec![0.0; ln.len()];
     }
-    let own: Vec<f64> = ln.iter().map(|ln| (ln - most).exp()).collect();
+    let own: Vec<f64> = ln.iter().map(|ln| elementary::exp(ln - most)).collect();
     let total: f64 = own.iter().sum();
     own.into_iter().map(|own| own / total).collect()
 }

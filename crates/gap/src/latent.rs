@@ -4,8 +4,9 @@
 //! rectangular itself, so that ridges of the posterior stay straight; every other quantity is the
 //! quantile of its prior at the probability of a standard normal score.
 
-use super::likelihood::HALF_LN_TWO_PI;
+use super::logarithm::HALF_LN_TWO_PI;
 use gumption_engine::distribution::{Distribution, special};
+use gumption_engine::number::elementary;
 
 /// How a score becomes a value.
 #[derive(Clone, Debug)]
@@ -41,8 +42,10 @@ impl Map {
                 Self::Uniform { lower: lower - 0.25 * width, width }
             }
             Distribution::LogUniform(_) => {
-                let (lower, upper) =
-                    (distribution.quantile(0.25).ln(), distribution.quantile(0.75).ln());
+                let (lower, upper) = (
+                    elementary::ln(distribution.quantile(0.25)),
+                    elementary::ln(distribution.quantile(0.75)),
+                );
                 let ln_ratio = 2.0 * (upper - lower);
                 Self::LogUniform { ln_lower: lower - 0.25 * ln_ratio, ln_ratio }
             }
@@ -66,7 +69,7 @@ impl Map {
         match self {
             Self::Normal { mean, deviation } => mean + deviation * score,
             Self::Uniform { lower, width } => lower + width * share,
-            Self::LogUniform { ln_lower, ln_ratio } => (ln_lower + ln_ratio * share).exp(),
+            Self::LogUniform { ln_lower, ln_ratio } => elementary::exp(ln_lower + ln_ratio * share),
             Self::Other(distribution) if score > 0.0 => {
                 distribution.quantile_upper(special::normal::sf(score).max(f64::MIN_POSITIVE))
             }

@@ -4,13 +4,15 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
-use super::covariance::dot;
-use super::discrepancy::{Base, Discrepancy, Unexplained, by_rows};
+use super::data::by_rows;
+use super::discrepancy::{Base, Discrepancy, Unexplained};
 use super::doubt;
-use super::evidence::{Evidence, ln_add};
+use super::evidence::Evidence;
 use super::likelihood::Likelihood;
+use super::logarithm::ln_add;
 use super::setup::Setup;
 use gumption_engine::distribution::{StreamKey, special};
+use gumption_engine::number::elementary;
 
 /// A hypothesis that effects explain the data: none of them, or one or more together.
 #[derive(Debug)]
@@ -226,14 +228,15 @@ impl Hypothesis {
 
 /// The logarithm of a prior probability times an evidence.
 fn ln_weight(prior: f64, ln_evidence: f64) -> f64 {
-    if prior > 0.0 { prior.ln() + ln_evidence } else { f64::NEG_INFINITY }
+    if prior > 0.0 { elementary::ln(prior) + ln_evidence } else { f64::NEG_INFINITY }
 }
 
 /// The evidence of "unexplained" that would make it as probable as the leading hypothesis.
 fn floor(hypotheses: &[Hypothesis], prior: f64) -> f64 {
-    let ln = |h: &Hypothesis| h.prior.max(f64::MIN_POSITIVE).ln() + h.evidence.ln_evidence;
+    let ln =
+        |h: &Hypothesis| elementary::ln(h.prior.max(f64::MIN_POSITIVE)) + h.evidence.ln_evidence;
     let most = hypotheses.iter().map(ln).fold(f64::NEG_INFINITY, f64::max);
-    most - prior.max(f64::MIN_POSITIVE).ln()
+    most - elementary::ln(prior.max(f64::MIN_POSITIVE))
 }
 
 /// Share of "unexplained" in which an effect of the catalogue acts as well.
@@ -263,7 +266,7 @@ impl Posterior {
         leading.truncate(MOST_GUARDED);
         let count = setup.case.candidates.len();
         let all = count + count * count.saturating_sub(1) / 2;
-        let ln_share = (BESIDE_AN_EFFECT / all.max(1) as f64).ln();
+        let ln_share = elementary::ln(BESIDE_AN_EFFECT / all.max(1) as f64);
         let floor = floor(&self.hypotheses, self.prior);
         let others: Vec<(f64, Arc<Base>, Unexplained)> = leading
             .into_iter()
@@ -274,10 +277,9 @@ impl Posterior {
                 let residuals = base.residuals(setup);
                 if !setup.linear.fitted {
                     let whitened = setup.linear.whiten_blocks(&residuals);
-                    let projected = setup.linear.project(&whitened);
-                    let chi2 = dot(&whitened, &whitened) - projected.norm_squared();
+                    let chi2 = setup.linear.square(&whitened);
                     let dof = 0.5 * whitened.len() as f64;
-                    if special::gamma::ln_sf(0.5 * chi2, dof) > DOUBTFUL.ln() {
+                    if special::gamma::ln_sf(0.5 * chi2, dof) > elementary::ln(DOUBTFUL) {
                         return None;
                     }
                 }
@@ -302,9 +304,9 @@ impl Posterior {
         });
         for hypothesis in &mut self.hypotheses {
             let own = ln_weight(hypothesis.prior, hypothesis.evidence.ln_evidence);
-            hypothesis.probability = (own - total).exp();
+            hypothesis.probability = elementary::exp(own - total);
         }
-        self.probability = (unexplained - total).exp();
+        self.probability = elementary::exp(unexplained - total);
     }
 
     /// Averages the probabilities over the errors of the integrals.

@@ -8,10 +8,14 @@ use super::latent::ln_prior;
 use super::likelihood::Likelihood;
 use super::mixture::standard_normals;
 use gumption_engine::distribution::StreamKey;
-use gumption_engine::number::{COLUMN, Column};
+use gumption_engine::number::{COLUMN, Column, elementary};
 
 /// Every so many generations steps are whole differences, which leap from mode to mode.
 const LEAP: usize = 8;
+
+/// The walkers' first block of a hypothesis' random numbers: the draws of its integral begin with
+/// block 0, and those of the prior end with the last.
+const FIRST_BLOCK: u64 = 1 << 32;
 
 /// Generations between those that are handed back.
 const THIN: usize = 4;
@@ -40,7 +44,7 @@ pub(crate) fn roam(
     let usual = 2.38 / (2.0 * unknowns.max(1) as f64).sqrt();
     let mut jitter = Column::ZERO;
     for generation in 0..generations {
-        let mut stream = key.block(generation as u64);
+        let mut stream = key.block(FIRST_BLOCK + generation as u64);
         let mut choices = [0.0; 4 * COLUMN];
         stream.uniform(&mut choices);
         let mut there = here.clone();
@@ -57,7 +61,8 @@ pub(crate) fn roam(
         }
         let ln_there = density(&there);
         for lane in 0..COLUMN {
-            let accepted = choices[3 * COLUMN + lane].ln() < ln_there[lane] - ln_here[lane];
+            let accepted =
+                elementary::ln(choices[3 * COLUMN + lane]) < ln_there[lane] - ln_here[lane];
             if accepted {
                 ln_here[lane] = ln_there[lane];
                 for (here, there) in here.iter_mut().zip(&there) {

@@ -6,13 +6,13 @@
 
 use rayon::prelude::*;
 
-use super::covariance::{root_of, triangle};
 use super::diagnosis::Region;
+use super::packed::{self, dot, triangle};
 use super::setup::Setup;
 use crate::mixture::standard_normals;
 use gumption_engine::distribution::StreamKey;
 use gumption_engine::distribution::special;
-use gumption_engine::number::{COLUMN, Column};
+use gumption_engine::number::{COLUMN, Column, elementary};
 
 /// Conditions with more levels than this are scanned in so many bins.
 const MOST_LEVELS: usize = 40;
@@ -52,7 +52,7 @@ struct Axis {
 
 /// Names the regions that depart. `variances` are those of the values without shared inputs.
 pub(crate) fn regions(setup: &Setup<'_>, variances: &[f64], seed: u64) -> Vec<Region> {
-    let residuals = super::discrepancy::by_rows(&setup.data.nominal_residuals());
+    let residuals = crate::data::by_rows(&setup.data.nominal_residuals());
     let white: Vec<f64> = residuals.iter().zip(variances).map(|(r, v)| r / v.sqrt()).collect();
     let design = Design::new(setup, variances);
     let null: Vec<f64> = (0..SIMULATED / COLUMN)
@@ -73,7 +73,7 @@ pub(crate) fn regions(setup: &Setup<'_>, variances: &[f64], seed: u64) -> Vec<Re
         let beyond = null.iter().filter(|surprise| **surprise >= best.surprise).count();
         let by_rank = (1 + beyond) as f64 / (1 + null.len()) as f64;
         // beyond all simulated sets the bound of all regions together tells more
-        let bound = design.regions() as f64 * (-best.surprise).exp();
+        let bound = design.regions() as f64 * elementary::exp(-best.surprise);
         let p_value = if beyond == 0 { by_rank.min(bound) } else { by_rank };
         if p_value > NAMED {
             break;
@@ -227,7 +227,7 @@ impl Design {
                 }
             }
         }
-        let all = square - explained(&inner, &cross, k);
+        let all = square - explained(&inner, &cross);
         let mut best: Option<Best> = None;
         for (number, axis) in self.axes.iter().enumerate() {
             let bins = axis.bins.len();
@@ -289,7 +289,7 @@ impl Design {
                     }
                     let rest = square
                         - (squares[to + 1] - squares[from])
-                        - explained(&rest_inner, &rest_cross, k);
+                        - explained(&rest_inner, &rest_cross);
                     let gone = (all - rest).max(0.0);
                     // a cheap bound spares most regions the tail of the chi-square distribution
                     let bounded =
@@ -309,22 +309,11 @@ impl Design {
 }
 
 /// The part of the squared residuals that shared unknowns explain.
-fn explained(inner: &[f64], cross: &[f64], k: usize) -> f64 {
-    if k == 0 {
-        return 0.0;
-    }
-    let root = root_of(inner, k);
-    let mut y = vec![0.0; k];
-    let mut sum = 0.0;
-    for i in 0..k {
-        let mut value = cross[i];
-        for j in 0..i {
-            value -= root[triangle(i) + j] * y[j];
-        }
-        y[i] = value / root[triangle(i) + i];
-        sum += y[i] * y[i];
-    }
-    sum
+fn explained(inner: &[f64], cross: &[f64]) -> f64 {
+    let (mut root, mut y) = (inner.to_vec(), cross.to_vec());
+    packed::cholesky_of_definite(&mut root);
+    packed::solve(&root, &mut y);
+    dot(&y, &y)
 }
 
 /// The rows at each level of a condition, in order; many levels are put together.

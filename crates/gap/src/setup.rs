@@ -8,6 +8,7 @@ use super::likelihood::Likelihood;
 use crate::Case;
 use crate::Effect;
 use gumption_engine::distribution::Distribution;
+use gumption_engine::number::elementary;
 
 /// Inputs whose whole effect on the data is below so many standard uncertainties act linearly as far
 /// as anybody can tell, and are integrated out exactly.
@@ -221,7 +222,7 @@ fn ln_sizes(data: &Data) -> Vec<f64> {
         if most <= 0.0 || !least.is_finite() {
             continue;
         }
-        let ln = |row: usize| size(data.point_of[row]).max(least).ln();
+        let ln = |row: usize| elementary::ln(size(data.point_of[row]).max(least));
         let mean = (0..data.rows()).map(ln).sum::<f64>() / data.rows().max(1) as f64;
         for row in 0..data.rows() {
             ln_sizes[row * count + output] = ln(row) - mean;
@@ -240,13 +241,15 @@ fn noise(output: usize, residuals: &[f64], data: &Data, ln_sizes: &[f64]) -> Vec
     let scale = rms(&mut residuals.iter().copied())
         .max(1e-12 * rms(&mut data.values[output].iter().copied()))
         .max(f64::MIN_POSITIVE.sqrt());
-    let ln_lower = (1e-6 * scale).ln();
-    let mut roles =
-        vec![Role::Noise { output, map: Map::Uniform { lower: ln_lower, width: (3e6f64).ln() } }];
+    let ln_lower = elementary::ln(1e-6 * scale);
+    let mut roles = vec![Role::Noise {
+        output,
+        map: Map::Uniform { lower: ln_lower, width: elementary::ln(3e6f64) },
+    }];
     let sizes = ln_sizes.iter().skip(output).step_by(data.outputs.len().max(1));
     let (least, most) =
         sizes.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), &ln| (a.min(ln), b.max(ln)));
-    if most - least > SPAN_FOR_POWER.ln() {
+    if most - least > elementary::ln(SPAN_FOR_POWER) {
         roles.push(Role::Power { output, map: Map::Uniform { lower: 0.0, width: 1.0 } });
     }
     roles

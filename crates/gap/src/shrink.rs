@@ -3,14 +3,16 @@
 use rayon::prelude::*;
 
 use super::data::Data;
+use super::data::by_rows;
 use super::diagnosis::{RowGap, Shrinkage, Shrunk, ValueGap};
-use super::discrepancy::{Base, Discrepancy, Weighted, by_rows};
+use super::discrepancy::{Base, Discrepancy, Weighted};
 use super::evidence::Evidence;
-use super::likelihood::HALF_LN_TWO_PI;
+use super::logarithm::{HALF_LN_TWO_PI, ln_sum};
 use super::posterior::Posterior;
 use super::predict::{self, Normals, Values};
 use super::setup::Setup;
 use gumption_engine::distribution::StreamKey;
+use gumption_engine::number::elementary;
 use gumption_engine::task::Row;
 
 /// Blocks of conditions that are left out in turn.
@@ -229,12 +231,12 @@ fn in_sample(
         Correction::Effects(effects) => {
             let own = posterior.hypotheses.iter().find(|h| h.effects == *effects);
             own.map_or_else(Vec::new, |own| {
-                let draws = predict::resampled(&own.evidence, draws_for(rows.len()));
+                let draws = own.evidence.resampled(draws_for(rows.len()));
                 moments(&predict::values(setup, effects, &draws, rows))
             })
         }
         Correction::Unexplained => {
-            predict::unexplained(setup, discrepancy, top(&posterior.unexplained.kinds), rows)
+            discrepancy.predict(setup, top(&posterior.unexplained.kinds), rows)
         }
     }
 }
@@ -290,7 +292,7 @@ impl Density {
 
     fn ln_density(&self, measured: &[f64], noise: &[f64]) -> f64 {
         let ln = |mean: f64, value: f64, variance: f64| {
-            -0.5 * ((value - mean).powi(2) / variance + variance.ln()) - HALF_LN_TWO_PI
+            -0.5 * ((value - mean).powi(2) / variance + elementary::ln(variance)) - HALF_LN_TWO_PI
         };
         match self {
             Self::Draws(draws) => {
@@ -300,9 +302,7 @@ impl Density {
                         draw.iter().zip(measured).zip(noise).map(|((m, y), v)| ln(*m, *y, *v)).sum()
                     })
                     .collect();
-                let most = each.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-                let sum: f64 = each.iter().map(|ln| (ln - most).exp()).sum();
-                most + (sum / each.len().max(1) as f64).ln()
+                ln_sum(each.iter().copied()) - elementary::ln(each.len().max(1) as f64)
             }
             Self::Normal(values) => values
                 .iter()
@@ -349,7 +349,7 @@ fn fold(
             }
             evidence.refine(&likelihood, 2);
         }
-        let draws = predict::resampled(&evidence, draws_for(rows.len()));
+        let draws = evidence.resampled(draws_for(rows.len()));
         predict::values(&part, effects, &draws, &rows)
     };
     let none = of(&Vec::new());
@@ -386,7 +386,7 @@ fn fold(
             if let Some(base) = base {
                 found = found.beside(base);
             }
-            let predicted = predict::unexplained(&part, &discrepancy, top(&found.kinds), &rows);
+            let predicted = discrepancy.predict(&part, top(&found.kinds), &rows);
             let density = Density::Normal(predicted.iter().flatten().copied().collect());
             Fold { predicted, density, base: Density::of(&none) }
         }

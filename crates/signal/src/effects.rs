@@ -4,8 +4,8 @@
 
 use std::f64::consts::PI;
 
-use super::observation::Source;
-use super::periodic::dirichlet;
+use super::budget::Source;
+use super::dirichlet::sum_of_cosines;
 use super::{Correction, Derivative, Filter, Measured, Phasor, phasor};
 use gumption_engine::number::elementary;
 
@@ -114,7 +114,11 @@ impl Effects {
                 }
                 Effect::Corrected { of_gain, of_phase, of_delay, .. } => {
                     let turned = 2.0 * PI * frequency.value * of_delay;
-                    found.push((Source::Correction, *of_gain, of_phase.hypot(turned)));
+                    found.push((
+                        Source::Correction,
+                        *of_gain,
+                        elementary::hypot(*of_phase, turned),
+                    ));
                 }
             }
         }
@@ -150,7 +154,7 @@ impl Effects {
         let power: f64 = all().map(|((_, many), d)| 2.0 * many * d / n).sum();
         let fourth: f64 = all().map(|((_, many), d)| 2.0 * many * d * d / n).sum();
         let kernel = |apart: f64| {
-            let part = dirichlet(samples as usize, apart / n) / n;
+            let part = sum_of_cosines(apart / n, samples) / n;
             part * part
         };
         let at = |frequency: f64| {

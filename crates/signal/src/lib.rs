@@ -18,10 +18,12 @@
 //! comes out (`analysis`, `sine_fit`, `frequency`, `residuals`, `spurious`), and makes values with
 //! budgets of it (`polar`, `trials`, `values`, `observation`). `butterworth`, `derivative`,
 //! `rotation`, `correction`, `delay`, `rms` and `sampling_rate` are steps as functions of signals.
-//! There are two fits: `sine_fit` takes any tones of a recording that streams in blocks, `periodic`
-//! harmonics of one signal in memory, for steps that take them out and put them back.
+//! The one fit is `sine_fit`: any tones of a recording that streams in blocks, or of a signal in
+//! memory; `periodic` is its form for steps that take harmonics out of a signal and put them back.
 
+mod analysed;
 mod analysis;
+mod budget;
 mod effects;
 mod fit;
 mod found;
@@ -35,6 +37,8 @@ mod search;
 mod signal;
 mod step;
 mod steps;
+mod surroundings;
+mod track;
 mod trials;
 mod unsuitable;
 mod values;
@@ -49,6 +53,7 @@ use steps::{
 };
 
 pub use analysis::{MOST_HELD, Refused};
+pub use budget::{Source, Value};
 pub use butterworth::{Band, Butterworth, Filter, Passage};
 pub use changed::Changed;
 pub use correction::{Correction, Response, ResponsePoint, corrected};
@@ -56,23 +61,25 @@ pub use delay::{Agreement, CrossCorrelation, CrossPhase, CrossSpectrum, Delay, a
 pub use derivative::Derivative;
 pub use effects::Effect;
 pub use measured::Measured;
-pub use noise::{Noise, NoiseGain, jitter_variance, quantization_variance};
-pub use observation::{ChannelObservation, Component, Observation, Source, Value};
+pub use noise::{Noise, NoiseGain, jitter_variance};
+pub use observation::{ChannelObservation, Component, Observation};
 pub use passes::{BLOCK, Each, Held, Passes, in_blocks};
 pub use periodic::{Harmonics, Part, Periodic};
 pub use phasor::{Phasor, wrapped};
-pub use quantization::amplitude_error;
+pub use quantization::{amplitude_error, quantization_variance};
 pub use recipe::{Amplitude, Channel, Frequency, Method, PhaseUnit, Search, Settings, TimeBase};
 pub use resimulation::{Colour, Resimulation, Scatter};
 pub use rms::{Improvement, Rms, RmsOf, improvement};
 pub use rotation::{Accelerations, Oscillation, Rotation};
-pub use run::{Track, observe};
+pub use run::observe;
 pub use sampling_rate::{Rate, RateSearch, sampling_rate};
 pub use signal::Signal;
 pub use sine_fit::{Coefficients, Design, NoFit, Tone};
 pub use spectral::Ends;
 pub use spurious::Spurious;
-pub use step::{Finding, Step, Stepped, Surroundings};
+pub use step::{Step, Stepped};
+pub use surroundings::{Finding, Surroundings};
+pub use track::Track;
 pub use unsuitable::Unsuitable;
 pub use whole_periods::{WholePeriods, whole_periods};
 

@@ -2,28 +2,19 @@
 
 use std::rc::Rc;
 
-use super::analysis::{Analysed, Group, MOST_HELD, Refused, Through, local, unreadable};
+use super::analysed::{Analysed, local};
+use super::analysis::{Group, MOST_HELD, Refused, Through, unreadable};
 use super::effects::{Effect, Effects};
 use super::observation::{ChannelObservation, Observation};
 use super::passes::{Held, Passes, gathered};
-use super::recipe::{Frequency, Method, Search, Settings, TimeBase};
+use super::recipe::{Frequency, Method, Settings, TimeBase};
 use super::search;
-use super::step::{Finding, Step, Surroundings};
+use super::step::Step;
+use super::surroundings::{Finding, Surroundings};
+use super::track::Track;
 use super::values::observed;
 use super::{Measured, Signal};
-
-/// A recording with the channels that it holds.
-#[derive(Debug)]
-pub struct Track<P> {
-    /// The values, in the units of their channels.
-    pub passes: P,
-    /// Their instants.
-    pub base: TimeBase,
-    /// The channels that it holds, by their places in the recipe.
-    pub channels: Vec<usize>,
-    /// How the sampling rate is found in it, where it is.
-    pub search: Option<Search>,
-}
+use gumption_engine::number::elementary;
 
 /// A channel that went through its steps.
 struct Stepped {
@@ -299,9 +290,13 @@ fn notes(settings: &Settings, analysed: &[Analysed]) -> Vec<Note> {
         }
         for (number, fundamental) in of.fundamentals.iter().enumerate() {
             let Some((step, variance)) = residuals.cycles.get(number) else { continue };
-            let stated = fundamental.of_stated.hypot(fundamental.of_rate).hypot(fundamental.of_cut);
+            let stated = elementary::hypot(
+                elementary::hypot(fundamental.of_stated, fundamental.of_rate),
+                fundamental.of_cut,
+            );
             let noise = (variance * residuals.variance * local(residuals, 0).max(1.0)).sqrt();
-            if fundamental.of_estimate == 0.0 && step.abs() > 5.0 * stated.hypot(noise) {
+            if fundamental.of_estimate == 0.0 && step.abs() > 5.0 * elementary::hypot(stated, noise)
+            {
                 let hertz = |cycles: f64| cycles * of.base.rate.value;
                 let text = format!(
                     "`{name}`: the recording fits a frequency that differs by {:.2e} Hz from {} Hz, \

@@ -4,8 +4,8 @@
 use super::analysis::{Group, Refused, unreadable};
 use super::passes::{Passes, gathered};
 use super::recipe::{Frequency, Search, Settings};
-use super::run::Track;
-use super::step::Finding;
+use super::surroundings::Finding;
+use super::track::Track;
 use super::{Measured, Noise, RateSearch, Signal, measured, sampling_rate};
 
 /// Gives every recording that is searched its rate; what was found, with the channels.

@@ -2,10 +2,9 @@
 
 use super::effects::Effect;
 use super::found;
+use super::surroundings::{Finding, Surroundings};
 use super::whole_periods::whole_periods;
-use super::{
-    Butterworth, Correction, Derivative, Ends, Harmonics, Measured, Response, Rotation, Signal,
-};
+use super::{Butterworth, Correction, Derivative, Measured, Response, Rotation, Signal};
 
 /// What may be left of a filter's start, of the signal's greatest distance from its mean.
 const TRANSIENT: f64 = 1e-6;
@@ -68,32 +67,6 @@ pub enum Step {
     },
     /// The root mean square; the signal stays.
     Rms,
-}
-
-/// What a step may use beside its signal.
-#[derive(Clone, Copy, Debug)]
-pub struct Surroundings<'a> {
-    /// The recipe's frequency, in hertz; the first where there are several, 0 where it is unknown.
-    pub frequency: f64,
-    /// How many frequencies there are.
-    pub frequencies: usize,
-    /// The highest multiple that is fitted.
-    pub multiples: u32,
-    /// The signal of the reference channel, after its own steps.
-    pub reference: Option<&'a Signal>,
-    /// The step that the values are rounded to, in their unit; 0 where it is not known.
-    pub resolution: f64,
-}
-
-/// What a step found beside the signal that it hands on.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Finding {
-    /// What it is: `sampling rate`.
-    pub name: String,
-    /// Its unit: `Hz`.
-    pub unit: String,
-    /// The value.
-    pub value: Measured,
 }
 
 /// A signal after a step, and what the step found.
@@ -260,30 +233,6 @@ impl Step {
                 Ok(Stepped { signal, findings, effect: None })
             }
         }
-    }
-}
-
-impl Surroundings<'_> {
-    /// The oscillation and its multiples below half the rate, which are taken out of the signal
-    /// before the transform and put back after it.
-    fn ends(&self, signal: &Signal) -> Result<Ends, String> {
-        if self.frequencies > 1 {
-            return Err("this step takes one frequency in each row".to_owned());
-        }
-        Ok(Ends::Periodic(self.harmonics(signal)))
-    }
-
-    pub(super) fn harmonics(&self, signal: &Signal) -> Harmonics {
-        let below = (1..=self.multiples).rev().find(|multiple| {
-            self.frequency * f64::from(*multiple) < 0.499 * signal.rate
-                && signal.values.len() > 2 * *multiple as usize + 3
-        });
-        Harmonics { frequency: self.frequency, count: below.unwrap_or(1) as usize }
-    }
-
-    /// One multiple above the highest that is fitted.
-    fn highest(&self) -> f64 {
-        self.frequency * f64::from(self.multiples + 1)
     }
 }
 

@@ -3,13 +3,15 @@
 use std::f64::consts::{LN_10, PI};
 
 use super::Measured;
-use super::analysis::Analysed;
-use super::observation::{ChannelObservation, Component, Source, Value};
-use super::polar::{Polar, polar, wrapped};
+use super::analysed::Analysed;
+use super::budget::{Source, Value};
+use super::observation::{ChannelObservation, Component};
+use super::phasor::wrapped;
+use super::polar::{Polar, polar};
 use super::recipe::Settings;
-use super::step::Finding;
+use super::surroundings::Finding;
 use super::trials::{Scatter, scatter};
-use gumption_engine::number::elementary::log10;
+use gumption_engine::number::elementary::{hypot, log10};
 
 /// The least gain of a filter at a multiple that counts as distortion.
 const LEAST_GAIN: f64 = 1e-3;
@@ -52,7 +54,7 @@ pub(super) fn observed(
     });
     let periods = of.cycles * analysed.design.samples as f64;
     let relative =
-        of.of_stated.hypot(of.of_estimate).hypot(of.of_rate).hypot(of.of_cut) / of.cycles;
+        hypot(hypot(hypot(of.of_stated, of.of_estimate), of.of_rate), of.of_cut) / of.cycles;
     Some(ChannelObservation {
         channel: analysed.channel,
         frequency: of.hertz,
@@ -144,7 +146,7 @@ fn component(
 /// Adds a contribution to those of its source.
 fn join(contributions: &mut Vec<(Source, f64)>, source: Source, u: f64) {
     match contributions.iter_mut().find(|(known, _)| *known == source) {
-        Some((_, known)) => *known = known.hypot(u),
+        Some((_, known)) => *known = hypot(*known, u),
         None => contributions.push((source, u)),
     }
 }
@@ -196,8 +198,8 @@ fn phase(
         let c = slope * of.of_rate;
         if reference.clock == analysed.clock { clock.0 -= c } else { clock.1 = c }
     }
-    join(&mut parts, Source::Frequency, estimated.0.hypot(estimated.1).hypot(stated));
-    join(&mut parts, Source::SamplingRate, clock.0.hypot(clock.1));
+    join(&mut parts, Source::Frequency, hypot(hypot(estimated.0, estimated.1), stated));
+    join(&mut parts, Source::SamplingRate, hypot(clock.0, clock.1));
     let total = Value::new(wrapped(value), parts, noise_dof);
     match trials {
         Some((_, drawn)) => {
@@ -313,6 +315,6 @@ fn ratio(analysed: &Analysed, tones: &[Polar], with_multiples: bool) -> Value {
         let along: f64 = polar.own.iter().map(|(_, u, _)| u * u).sum();
         2.0 * along.sqrt() / amplitude
     });
-    let u = decibel * of_noise.hypot(of_multiples).hypot(first);
+    let u = decibel * hypot(hypot(of_noise, of_multiples), first);
     Value::new(value, vec![(Source::Noise, u)], residuals.degrees_of_freedom)
 }

@@ -6,6 +6,7 @@ use super::truth::{Truth, TruthKind};
 use crate::Answer;
 use crate::Case;
 use crate::diagnosis::Kind;
+use gumption_engine::number::elementary;
 
 /// A correction is within the uncertainties if its errors are, in the root mean square.
 const WITHIN: f64 = 1.0;
@@ -265,7 +266,9 @@ pub fn score(case: &Case, checked: Vec<Checked>, seed: u64) -> Report {
         top1: right as f64 / n,
         top1_interval: wilson(right, draws),
         brier: mean(&mut checked.iter().map(|c| c.brier)),
-        mean_log_probability: mean(&mut checked.iter().map(|c| c.of_truth.max(1e-6).ln())),
+        mean_log_probability: mean(
+            &mut checked.iter().map(|c| elementary::ln(c.of_truth.max(1e-6))),
+        ),
         false_alarms: mean(&mut free.iter().map(|c| f64::from(u8::from(c.said != "none")))),
         gap_free: free.len(),
         calibration_error: calibration_error(&reliability, draws),
@@ -354,7 +357,7 @@ fn smallest(case: &Case, checked: &[Checked]) -> Vec<SmallestEffect> {
             .filter(|c| c.withheld.is_none() && c.effects == [name.clone()] && c.gap > 0.0)
             .collect();
         let found: Vec<(f64, bool)> =
-            own.iter().map(|c| (c.gap.ln(), c.named.contains(name))).collect();
+            own.iter().map(|c| (elementary::ln(c.gap), c.named.contains(name))).collect();
         let ln_gap = at_ninety_percent(&found);
         for quantity in &candidate.effect.parameters {
             let parameter = format!("{name}/{}", quantity.name);
@@ -363,12 +366,17 @@ fn smallest(case: &Case, checked: &[Checked]) -> Vec<SmallestEffect> {
             };
             let sizes: Vec<(f64, f64)> = own
                 .iter()
-                .filter_map(|c| Some((value(c)?.abs().max(f64::MIN_POSITIVE).ln(), c.gap.ln())))
+                .filter_map(|c| {
+                    Some((
+                        elementary::ln(value(c)?.abs().max(f64::MIN_POSITIVE)),
+                        elementary::ln(c.gap),
+                    ))
+                })
                 .collect();
             smallest.push(SmallestEffect {
                 unit: quantity.unit.text().to_owned(),
                 value_at_90_percent: ln_gap.and_then(|ln_gap| inverse(&sizes, ln_gap)),
-                gap_at_90_percent: ln_gap.map(f64::exp),
+                gap_at_90_percent: ln_gap.map(elementary::exp),
                 parameter,
             });
         }
@@ -388,7 +396,7 @@ fn at_ninety_percent(found: &[(f64, bool)]) -> Option<f64> {
         let (mut ga, mut gb) = (-a / 100.0, -(b - 1.0) / 9.0);
         let (mut haa, mut hab, mut hbb) = (0.01, 0.0, 1.0 / 9.0);
         for &(x, yes) in found {
-            let p = 1.0 / (1.0 + (-(a + b * x)).exp());
+            let p = 1.0 / (1.0 + elementary::exp(-(a + b * x)));
             let error = f64::from(u8::from(yes)) - p;
             let weight = p * (1.0 - p);
             ga += error;
@@ -405,7 +413,7 @@ fn at_ninety_percent(found: &[(f64, bool)]) -> Option<f64> {
             break;
         }
     }
-    let ln_gap = (9f64.ln() - a) / b;
+    let ln_gap = (elementary::ln(9f64) - a) / b;
     (b > 0.0 && ln_gap.is_finite()).then_some(ln_gap)
 }
 
@@ -428,6 +436,6 @@ fn inverse(sizes: &[(f64, f64)], ln_gap: f64) -> Option<f64> {
     if coefficient.is_nan() || coefficient.abs() <= 0.7 {
         return None;
     }
-    let value = (mx + (ln_gap - my) * xx / xy).exp();
+    let value = elementary::exp(mx + (ln_gap - my) * xx / xy);
     value.is_finite().then_some(value)
 }

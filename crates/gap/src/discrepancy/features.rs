@@ -5,6 +5,7 @@ use nalgebra::DMatrix;
 use super::grammar::{Of, Term};
 use crate::Case;
 use crate::data::Data;
+use gumption_engine::number::elementary;
 
 /// Distinct coordinates beyond which the covariance is taken from nodes (Nystroem).
 const MOST_COORDINATES: usize = 160;
@@ -58,7 +59,7 @@ impl Axis {
             squares / gaps.len().max(1) as f64
         };
         let positive = values.first().is_some_and(|least| *least > 0.0);
-        let logarithms: Vec<f64> = values.iter().map(|value| value.ln()).collect();
+        let logarithms: Vec<f64> = values.iter().copied().map(elementary::ln).collect();
         let logarithmic = positive && values.len() > 2 && spread(&logarithms) < spread(&values);
         let (lower, upper) = if logarithmic {
             (logarithms.first(), logarithms.last())
@@ -72,7 +73,8 @@ impl Axis {
 
     /// From 0 to 1 within the range of the data.
     pub(crate) fn place(&self, value: f64) -> f64 {
-        let value = if self.logarithmic { value.max(f64::MIN_POSITIVE).ln() } else { value };
+        let value =
+            if self.logarithmic { elementary::ln(value.max(f64::MIN_POSITIVE)) } else { value };
         (value - self.lower) / self.range
     }
 }
@@ -237,7 +239,7 @@ fn covariance(term: &Term, length: f64, a: &[f64], b: &[f64]) -> f64 {
         _ => {
             let squares: f64 = a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum();
             let x = (5.0 * squares).sqrt() / length;
-            (1.0 + x + x * x / 3.0) * (-x).exp()
+            (1.0 + x + x * x / 3.0) * elementary::exp(-x)
         }
     }
 }

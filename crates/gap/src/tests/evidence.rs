@@ -3,7 +3,8 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::{line, ln_normal};
-use crate::discrepancy::{Discrepancy, by_rows};
+use crate::data::by_rows;
+use crate::discrepancy::Discrepancy;
 use crate::evidence::Evidence;
 use crate::posterior::{Effort, posterior};
 use crate::setup::Setup;

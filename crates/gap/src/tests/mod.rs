@@ -131,5 +131,5 @@ fn ln_normal(residuals: &DVector<f64>, covariance: &DMatrix<f64>) -> f64 {
     let root = covariance.clone().cholesky().unwrap();
     let half_ln_det: f64 = root.l().diagonal().map(f64::ln).sum();
     let square = residuals.dot(&root.solve(residuals));
-    -0.5 * square - half_ln_det - residuals.len() as f64 * super::likelihood::HALF_LN_TWO_PI
+    -0.5 * square - half_ln_det - residuals.len() as f64 * crate::logarithm::HALF_LN_TWO_PI
 }

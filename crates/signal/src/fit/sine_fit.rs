@@ -115,6 +115,17 @@ impl Design {
         Ok(sums.iter().map(|sums| self.solve(sums)).collect())
     }
 
+    /// Fits values in memory.
+    pub(crate) fn fit_values(&self, values: &[f64]) -> Coefficients {
+        let mut sums = Sums::new(self.tones.len());
+        let mut waves = Waves::new(self.steps.len());
+        for (block, values) in values.chunks(BLOCK).enumerate() {
+            waves.fill(&self.steps, (block * BLOCK) as u64, values.len());
+            sums.add(values, &waves);
+        }
+        self.solve(&sums)
+    }
+
     /// Goes through a recording with the waves of the tones at each block.
     pub(crate) fn each<P: Passes>(
         &self,
