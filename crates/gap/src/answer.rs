@@ -5,7 +5,7 @@ use super::diagnosis::{Hypothesis, Predicted, Verdict};
 use super::posterior::Effort;
 use super::shrink;
 use super::weighed::Weighed;
-use crate::Case;
+use crate::{Case, OverrideError};
 use gumption_engine::task::Row;
 
 /// A diagnosis without regions, cross-validation and advice.
@@ -23,10 +23,14 @@ pub struct Answer {
 
 /// The standard deviation of the noise of every measured value, output by output: as stated, or as
 /// the case's own data tell.
-pub fn noise(case: &Case, seed: u64) -> Vec<Vec<f64>> {
+///
+/// # Errors
+/// Effects that cannot act on the model.
+pub fn noise(case: &Case, seed: u64) -> Result<Vec<Vec<f64>>, OverrideError> {
+    case.check()?;
     let data = super::data::Data::new(case);
     let stated: Option<Vec<Vec<f64>>> = data.uncertainties.into_iter().collect();
-    stated.unwrap_or_else(|| {
+    Ok(stated.unwrap_or_else(|| {
         let weighed = Weighed::new(case, seed, Effort::QUICK, &|_| {});
         let outputs = weighed.setup.data.outputs.len();
         (0..outputs)
@@ -35,7 +39,7 @@ pub fn noise(case: &Case, seed: u64) -> Vec<Vec<f64>> {
                 own.map(|variance| variance.sqrt()).collect()
             })
             .collect()
-    })
+    }))
 }
 
 /// What the sim says of every observed output in every row at the inputs' estimates.
@@ -47,11 +51,15 @@ pub fn nominal(case: &Case) -> Vec<Vec<f64>> {
 }
 
 /// Weighs the hypotheses of a case.
-pub fn answer(case: &Case, seed: u64) -> Answer {
+///
+/// # Errors
+/// Effects that cannot act on the model.
+pub fn answer(case: &Case, seed: u64) -> Result<Answer, OverrideError> {
+    case.check()?;
     let weighed = Weighed::new(case, seed, Effort::QUICK, &|_| {});
     let rows: Vec<Row> = case.task.rows.clone();
     let group = weighed.group();
-    Answer {
+    Ok(Answer {
         verdict: weighed.verdict(&group),
         hypotheses: hypotheses(&weighed.setup, &weighed.posterior, super::diagnose::coverage(case)),
         predicted: prediction(&weighed.setup, &weighed.discrepancy, &weighed.posterior, &rows),
@@ -62,5 +70,5 @@ pub fn answer(case: &Case, seed: u64) -> Answer {
             &weighed.correction,
             &weighed.variances,
         ),
-    }
+    })
 }

@@ -1,7 +1,8 @@
 //! A case of the gap diagnosis: a sim, what was measured, and the effects that may be missing.
 
-use crate::{Effect, Sim};
+use crate::{Effect, OverrideError, Sim};
 use gumption_engine::distribution::Distribution;
+use gumption_engine::model::Program;
 use gumption_engine::task::Task;
 
 /// A sim with measured data and candidate effects.
@@ -62,6 +63,35 @@ pub struct Prior {
     pub three: f64,
     /// A gap that no candidate makes.
     pub unexplained: f64,
+}
+
+impl Case {
+    /// Checks that every effect, and every pair that is among the hypotheses, can act on the model.
+    ///
+    /// # Errors
+    /// Of the first that cannot.
+    pub(crate) fn check(&self) -> Result<(), OverrideError> {
+        self.recorded(&[])?;
+        for one in 0..self.candidates.len() {
+            self.recorded(&[one])?;
+            let pairs = if self.prior.two > 0.0 { one + 1 } else { self.candidates.len() };
+            for other in pairs..self.candidates.len() {
+                self.recorded(&[one, other])?;
+            }
+        }
+        Ok(())
+    }
+
+    fn recorded(&self, effects: &[usize]) -> Result<Program, OverrideError> {
+        let acting: Vec<&Effect> = effects.iter().map(|&e| &self.candidates[e].effect).collect();
+        self.sim.program(&acting)
+    }
+
+    /// The program with these effects acting, of a case that was checked.
+    #[expect(clippy::expect_used, reason = "hypotheses have the effects that `check` tried")]
+    pub(crate) fn program(&self, effects: &[usize]) -> Program {
+        self.recorded(effects).expect("effects that were checked")
+    }
 }
 
 impl Prior {

@@ -10,7 +10,7 @@ use super::posterior::{Effort, Posterior};
 use super::setup::Setup;
 use super::weighed::{Weighed, names, rival};
 use super::{next, predict, scan, shrink};
-use crate::Case;
+use crate::{Case, OverrideError};
 use gumption_engine::number::elementary;
 use gumption_engine::task::{Coverage, Row};
 
@@ -34,12 +34,16 @@ pub(crate) fn coverage(case: &Case) -> f64 {
 
 /// Diagnoses a case; `at` are rows of conditions to predict at. `progress` is told the share that is
 /// done.
+///
+/// # Errors
+/// Effects that cannot act on the model.
 pub fn diagnose(
     case: &Case,
     at: Option<&[Row]>,
     options: Options,
     progress: &(dyn Fn(f64) + Sync),
-) -> Diagnosis {
+) -> Result<Diagnosis, OverrideError> {
+    case.check()?;
     let seed = options.seed;
     let weighed = Weighed::new(case, seed, Effort::FULL, &|share| progress(0.6 * share));
     let group = weighed.group();
@@ -75,7 +79,7 @@ pub fn diagnose(
         name: name.to_owned(),
         unit: unit.text().to_owned(),
     };
-    Diagnosis {
+    Ok(Diagnosis {
         title: case.task.title.clone(),
         outputs: setup
             .data
@@ -97,7 +101,7 @@ pub fn diagnose(
         notes,
         probability,
         seed,
-    }
+    })
 }
 
 /// All hypotheses, most probable first.

@@ -40,7 +40,7 @@ pub use diagnosis::{
     Diagnosis, Gap, Hypothesis, Kind, Named, NextMeasurement, Noise, Note, Parameter, Predicted,
     Region, RowGap, Shrinkage, Shrunk, ValueGap, Verdict,
 };
-pub use sim::{Circular, Effect, Maker, Sim};
+pub use sim::{Effect, Maker, OverrideError, Sim};
 
 #[cfg(test)]
 mod tests;

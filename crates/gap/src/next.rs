@@ -33,11 +33,11 @@ pub(crate) fn best(
 ) -> Option<NextMeasurement> {
     let rows = candidates(setup);
     let draws = |place: usize| {
-        let hypothesis = posterior.hypotheses.get(place)?;
+        let hypothesis = &posterior.hypotheses[place];
         let draws = hypothesis.evidence.resampled(DRAWS);
-        Some(predict::values(setup, &hypothesis.effects, &draws, &rows))
+        predict::values(setup, &hypothesis.effects, &draws, &rows)
     };
-    let (own, other) = (draws(verdict)?, draws(rival)?);
+    let (own, other) = (draws(verdict), draws(rival));
     let outputs = setup.data.outputs.len();
     let noise: Vec<f64> = (0..outputs)
         .map(|output| {
@@ -58,8 +58,7 @@ pub(crate) fn best(
         .map(|(_, row)| (expected(&own[row], &other[row], &noise, seed), row))
         .max_by(|a, b| a.0.total_cmp(&b.0))?;
     let names = |place: usize| {
-        let effects =
-            posterior.hypotheses.get(place).map(|h| h.effects.clone()).unwrap_or_default();
+        let effects = &posterior.hypotheses[place].effects;
         effects.iter().map(|&e| setup.case.candidates[e].effect.name.clone()).collect()
     };
     Some(NextMeasurement {

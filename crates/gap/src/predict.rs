@@ -3,7 +3,6 @@
 use super::latent::{Map, Role};
 use super::likelihood::{Evaluator, fixed_at};
 use super::setup::Setup;
-use crate::Effect;
 use gumption_engine::number::{COLUMN, CodePath, Column, Kernel};
 use gumption_engine::task::Row;
 
@@ -18,9 +17,7 @@ pub(crate) fn values(
     rows: &[Row],
 ) -> Values {
     let likelihood = setup.likelihood(effects);
-    let candidates = effects.iter().map(|&e| &setup.case.candidates[e]);
-    let acting: Vec<&Effect> = candidates.map(|candidate| &candidate.effect).collect();
-    let program = setup.case.sim.program(&acting).unwrap_or_default();
+    let program = setup.case.program(effects);
     // inputs whose prior differs from row to row have it from these rows
     let roles: Vec<Role> = likelihood
         .roles

@@ -148,22 +148,22 @@ impl Design {
         output: Option<usize>,
         condition: Option<usize>,
         bins: Vec<(Vec<usize>, [f64; 2])>,
-        count: usize,
+        outputs: usize,
     ) {
         let of_bin = |rows: &Vec<usize>| -> Vec<usize> {
             let of_row = |&row: &usize| {
-                (0..count)
+                (0..outputs)
                     .filter(move |o| output.is_none_or(|own| own == *o))
-                    .map(move |o| row * count + o)
+                    .map(move |o| row * outputs + o)
             };
             rows.iter().flat_map(of_row).collect()
         };
         let ranges = bins.iter().map(|(_, range)| *range).collect();
         let bins: Vec<Vec<usize>> = bins.iter().map(|(rows, _)| of_bin(rows)).collect();
-        let mut products = vec![vec![0.0; triangle(self.shared)]];
-        let mut counts = vec![0];
+        let mut sums = vec![0.0; triangle(self.shared)];
+        let mut count = 0;
+        let (mut products, mut counts) = (vec![sums.clone()], vec![count]);
         for bin in &bins {
-            let mut sums = products.last().cloned().unwrap_or_default();
             for &value in bin {
                 for i in 0..self.shared {
                     for j in 0..=i {
@@ -171,8 +171,9 @@ impl Design {
                     }
                 }
             }
-            products.push(sums);
-            counts.push(counts.last().copied().unwrap_or(0) + bin.len());
+            products.push(sums.clone());
+            count += bin.len();
+            counts.push(count);
         }
         self.axes.push(Axis { output, condition, bins, ranges, products, counts });
     }

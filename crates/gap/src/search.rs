@@ -43,10 +43,11 @@ impl Mode {
     /// the data leave, in the Gaussian approximation.
     pub(crate) fn ln_occam(&self, shared: usize) -> f64 {
         let own: f64 = self.scores.iter().skip(shared).map(|score| score * score).sum();
+        // the prior adds the identity, so that the information is positive definite
         let ln_det = |matrix: DMatrix<f64>| {
-            matrix
-                .cholesky()
-                .map_or(0.0, |root| 2.0 * root.l().diagonal().map(elementary::ln).sum())
+            let mut root = packed::of_matrix(&matrix);
+            packed::cholesky_of_definite(&mut root);
+            2.0 * packed::ln_diagonal(&root)
         };
         let first = self.information.view((0, 0), (shared, shared)).into_owned();
         -0.5 * (own + ln_det(self.information.clone()) - ln_det(first))

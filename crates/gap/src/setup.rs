@@ -6,7 +6,6 @@ use super::data::{Data, Spread};
 use super::latent::{Map, Role};
 use super::likelihood::Likelihood;
 use crate::Case;
-use crate::Effect;
 use gumption_engine::distribution::Distribution;
 use gumption_engine::number::elementary;
 
@@ -85,9 +84,7 @@ impl<'c> Setup<'c> {
     /// The likelihood with these effects acting.
     pub(crate) fn likelihood(&self, effects: &[usize]) -> Likelihood<'_> {
         let candidates: Vec<_> = effects.iter().map(|&e| &self.case.candidates[e]).collect();
-        let acting: Vec<&Effect> = candidates.iter().map(|candidate| &candidate.effect).collect();
-        // circular pairs were refused when the case was read
-        let program = self.case.sim.program(&acting).unwrap_or_default();
+        let program = self.case.program(effects);
         let first = self.case.task.variables.len() + self.case.sim.conditions.len();
         let parameters = candidates.iter().flat_map(|candidate| &candidate.priors).enumerate();
         let mut roles = self.roles.clone();

@@ -2,14 +2,15 @@
 
 use std::cell::RefCell;
 use std::collections::HashMap;
+use std::error::Error;
+use std::fmt;
 
-use gumption_engine::model::formula::{Formula, Scope, Typing};
+use gumption_engine::model::formula::{Formula, FormulaError, Scope, Typing};
 use gumption_engine::model::typed::Typed;
 use gumption_engine::model::{
     InputQuantity, Model, Output, Program, Quantity, Recorder, Traced, in_si, in_unit,
     recorded_values, variables,
 };
-use gumption_engine::number::Number;
 
 /// What computes the outputs of a sim.
 #[derive(Clone, Debug)]
@@ -48,23 +49,52 @@ pub struct Effect {
     pub overrides: Vec<(String, Formula)>,
 }
 
-/// Overrides that need each other's results.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Circular {
-    /// The quantities, in the order in which they need each other; the last needs the first.
-    pub names: Vec<String>,
+/// Why a model cannot be recorded with the overrides of effects.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum OverrideError {
+    /// Quantities that need each other's results, in the order in which they do; the last needs the
+    /// first.
+    Circular {
+        /// The quantities.
+        names: Vec<String>,
+    },
+    /// Nothing computes a quantity that is used.
+    Undefined {
+        /// The quantity.
+        name: String,
+    },
+    /// A formula has a mistake, which checking it tells as well.
+    Formula(FormulaError),
 }
+
+impl fmt::Display for OverrideError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Circular { names } => {
+                let circle = names.iter().chain(names.first()).map(|name| format!("`{name}`"));
+                f.write_str(&circle.collect::<Vec<_>>().join(" needs "))
+            }
+            Self::Undefined { name } => write!(f, "nothing computes `{name}`"),
+            Self::Formula(error) => error.fmt(f),
+        }
+    }
+}
+
+impl Error for OverrideError {}
 
 impl Sim {
     /// The model without any effect.
-    pub fn model(&self) -> Model {
-        let program = self.program(&[]).unwrap_or_default();
-        Model {
+    ///
+    /// # Errors
+    /// As [`Sim::program`].
+    pub fn model(&self) -> Result<Model, OverrideError> {
+        Ok(Model {
+            program: self.program(&[])?,
             inputs: self.inputs.clone(),
             conditions: self.conditions.clone(),
             outputs: self.outputs.clone(),
-            program,
-        }
+        })
     }
 
     /// Whether a name is that of an output.
@@ -92,8 +122,8 @@ impl Sim {
     /// its results are the outputs in their own units.
     ///
     /// # Errors
-    /// Overrides that need each other's results.
-    pub fn program(&self, effects: &[&Effect]) -> Result<Program, Circular> {
+    /// Overrides that need each other's results, names that nothing computes, wrong formulas.
+    pub fn program(&self, effects: &[&Effect]) -> Result<Program, OverrideError> {
         let recorder = Recorder::default();
         let first = variables(&self.inputs, &self.conditions);
         let mut next = first;
@@ -141,7 +171,7 @@ struct Making<'s, 'r> {
 
 impl<'r> Making<'_, 'r> {
     /// The outputs with all effects, in SI units.
-    fn outputs(&self) -> Result<Vec<Traced<'r>>, Circular> {
+    fn outputs(&self) -> Result<Vec<Traced<'r>>, OverrideError> {
         let mut current: HashMap<&str, Traced<'r>> = HashMap::new();
         for output in &self.sim.outputs {
             let name = output.quantity.name.as_str();
@@ -160,23 +190,23 @@ impl<'r> Making<'_, 'r> {
                 current.insert(name, value);
             }
         }
-        let undefined = || Traced::constant(f64::NAN);
-        let values = self.sim.outputs.iter().map(|output| {
-            current.get(output.quantity.name.as_str()).copied().unwrap_or_else(undefined)
-        });
-        Ok(values.collect())
+        let named = |output: &Output| {
+            let name = output.quantity.name.as_str();
+            current.get(name).copied().ok_or_else(|| undefined(name))
+        };
+        self.sim.outputs.iter().map(named).collect()
     }
 
     /// A quantity as the formulas after it see it: with all overrides, but an output as the sim
     /// computes it, since overrides of outputs act last.
-    fn quantity(&self, name: &str) -> Result<Traced<'r>, Circular> {
+    fn quantity(&self, name: &str) -> Result<Traced<'r>, OverrideError> {
         if let Some(&value) = self.made.borrow().get(name) {
             return Ok(value);
         }
         let begun = self.open.borrow().iter().position(|open| open == name);
         if let Some(begun) = begun {
             let names = self.open.borrow().iter().skip(begun).cloned().collect();
-            return Err(Circular { names });
+            return Err(OverrideError::Circular { names });
         }
         self.open.borrow_mut().push(name.to_owned());
         let mut value = self.computed(name)?;
@@ -202,14 +232,14 @@ impl<'r> Making<'_, 'r> {
     }
 
     /// A quantity from what it is computed of, before its own overrides.
-    fn computed(&self, name: &str) -> Result<Traced<'r>, Circular> {
+    fn computed(&self, name: &str) -> Result<Traced<'r>, OverrideError> {
         if let Some(&value) = self.given.get(name) {
             return Ok(value);
         }
         match &self.sim.maker {
             Maker::Equations(equations) => {
                 let Some((_, formula)) = equations.iter().find(|(of, _)| of == name) else {
-                    return Ok(Traced::constant(f64::NAN));
+                    return Err(undefined(name));
                 };
                 self.record(formula, &self.sim.scope, |used| self.quantity(used))
             }
@@ -227,7 +257,7 @@ impl<'r> Making<'_, 'r> {
                 }
                 let outputs = self.typed.borrow();
                 let output = place.and_then(|place| outputs.as_ref()?.get(place).copied());
-                Ok(output.unwrap_or_else(|| Traced::constant(f64::NAN)))
+                output.ok_or_else(|| undefined(name))
             }
         }
     }
@@ -237,8 +267,8 @@ impl<'r> Making<'_, 'r> {
         &self,
         formula: &Formula,
         effect: &Effect,
-        value: impl Fn(&str) -> Result<Traced<'r>, Circular>,
-    ) -> Result<Traced<'r>, Circular> {
+        value: impl Fn(&str) -> Result<Traced<'r>, OverrideError>,
+    ) -> Result<Traced<'r>, OverrideError> {
         self.record(formula, &effect.scope(&self.sim.scope), value)
     }
 
@@ -246,18 +276,20 @@ impl<'r> Making<'_, 'r> {
         &self,
         formula: &Formula,
         scope: &Scope,
-        value: impl Fn(&str) -> Result<Traced<'r>, Circular>,
-    ) -> Result<Traced<'r>, Circular> {
+        value: impl Fn(&str) -> Result<Traced<'r>, OverrideError>,
+    ) -> Result<Traced<'r>, OverrideError> {
         let mut values = HashMap::new();
         for (used, _) in formula.names() {
             if !values.contains_key(used) {
                 values.insert(used.to_owned(), value(used)?);
             }
         }
-        // a formula that was checked records without an error
-        let recorded = formula.record(scope, &values);
-        Ok(recorded.unwrap_or_else(|_| Traced::constant(f64::NAN)))
+        formula.record(scope, &values).map_err(OverrideError::Formula)
     }
+}
+
+fn undefined(name: &str) -> OverrideError {
+    OverrideError::Undefined { name: name.to_owned() }
 }
 
 impl Effect {

@@ -73,7 +73,7 @@ fn case(
     let row = |n: usize| Row { conditions: vec![n as f64], distributions: distributions.clone() };
     let task = Task {
         title: String::new(),
-        model: sim.model(),
+        model: sim.model().unwrap(),
         variables: vec![Variable {
             name: "a".to_owned(),
             unit: Unit::one(),
