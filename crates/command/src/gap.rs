@@ -104,9 +104,9 @@ impl Gap {
         let bar = progress::share(self.quiet);
         let told = |share: f64| progress::tell(&bar, share);
         let diagnosis =
-            pool.install(|| gap::diagnose(&file.case, at, gap::Options { seed }, &told));
+            pool.install(|| gap::diagnose(&file.case, at, gap::DiagnosisOptions::new(seed), &told));
         bar.finish_and_clear();
-        Ok(diagnosis)
+        diagnosis.map_err(|error| Failure::System(error.to_string()))
     }
 }
 

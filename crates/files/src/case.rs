@@ -10,8 +10,8 @@ use super::results::Results;
 use super::source::Source;
 use super::{Fault, catalogue, prior, soundness};
 use gumption_engine::task::{Row, Task, Warning};
-use gumption_gap::Sim;
-use gumption_gap::{Case, Observed};
+use gumption_gap::OverridableModel;
+use gumption_gap::{Case, ObservedOutput};
 
 /// The keys that only cases have; a file with one of them is meant as a case.
 pub(super) const KEYS: [&str; 4] = ["observations", "effects", "catalogue", "prior"];
@@ -59,9 +59,9 @@ pub fn read_text(name: &str, text: &str, folder: &Path) -> Result<CaseFile, Prob
 /// What effects are read against: the sim, and what was measured.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Read<'a> {
-    pub(super) sim: &'a Sim,
+    pub(super) sim: &'a OverridableModel,
     pub(super) task: &'a Task,
-    pub(super) observed: &'a [Option<Observed>],
+    pub(super) observed: &'a [Option<ObservedOutput>],
 }
 
 impl Found {
@@ -109,7 +109,7 @@ impl ModelReader<'_> {
         let Found { file, sim, observed, simulated, .. } = found?;
         warnings.splice(0..0, file.warnings);
         let candidates = placed.into_iter().map(|placed| placed.candidate).collect();
-        let case = Case { task: file.task, sim, observed, simulated, candidates, prior: prior? };
+        let case = Case { task: file.task, model: sim, observed, simulated, candidates, prior: prior? };
         Some(CaseFile { case, warnings, source: file.source, files: file.files })
     }
 }

@@ -24,8 +24,7 @@ use gumption_engine::model::formula;
 use gumption_engine::model::formula::{Formula, Scope, Typing};
 use gumption_engine::model::{InputQuantity, typed};
 use gumption_engine::task::{Evidence, Row, Task, Warning};
-use gumption_gap::Observed;
-use gumption_gap::{Maker as SimMaker, Sim};
+use gumption_gap::{ModelBody, ObservedOutput, OverridableModel, OverrideError};
 use gumption_measurements::{Entry, find};
 use gumption_units::{Dimension, Unit};
 
@@ -303,9 +302,9 @@ const KEYS: [&str; 21] = [
 /// What was found in a file.
 pub(super) struct Found {
     pub(super) file: ModelFile,
-    pub(super) sim: Sim,
+    pub(super) sim: OverridableModel,
     /// What was measured of each output.
-    pub(super) observed: Vec<Option<Observed>>,
+    pub(super) observed: Vec<Option<ObservedOutput>>,
     /// How many of the last conditions are columns of somebody else's simulation.
     pub(super) simulated: usize,
     /// The table of the data.
@@ -436,12 +435,12 @@ impl<'a> ModelReader<'a> {
                 if !log.is_clean() {
                     return None;
                 }
-                Sim {
+                OverridableModel {
                     scope: typed_scope(&entry, &inputs, &conditions),
                     inputs: inputs.quantities,
                     conditions: conditions.quantities.clone(),
                     outputs,
-                    maker: SimMaker::Typed(entry.typed),
+                    maker: ModelBody::Typed(entry.typed),
                 }
             }
             Maker::Equations(equations) => {
@@ -464,12 +463,12 @@ impl<'a> ModelReader<'a> {
                     return None;
                 }
                 let equations = equations.into_iter();
-                Sim {
+                OverridableModel {
                     scope,
                     inputs: inputs.quantities,
                     conditions: conditions.quantities.clone(),
                     outputs,
-                    maker: SimMaker::Equations(
+                    maker: ModelBody::Equations(
                         equations.filter_map(|(name, _, formula)| Some((name, formula?))).collect(),
                     ),
                 }
@@ -487,9 +486,12 @@ impl<'a> ModelReader<'a> {
             .collect();
         let observed = self.observed(observations.as_ref(), &sim)?;
         let swept = swept.is_some() || observations.is_some();
+        let not_recorded = |error: OverrideError| {
+            self.root.report(Fault::Evaluation { message: error.to_string() });
+        };
         let task = Task {
             title,
-            model: sim.model(),
+            model: sim.model().map_err(not_recorded).ok()?,
             variables: inputs.variables,
             correlations,
             rows,
@@ -508,8 +510,8 @@ impl<'a> ModelReader<'a> {
     fn observed(
         &self,
         observations: Option<&Observations>,
-        sim: &Sim,
-    ) -> Option<Vec<Option<Observed>>> {
+        sim: &OverridableModel,
+    ) -> Option<Vec<Option<ObservedOutput>>> {
         let Some(observations) = observations else {
             return Some(vec![None; sim.outputs.len()]);
         };

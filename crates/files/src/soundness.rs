@@ -33,7 +33,7 @@ fn enough(log: &Log, read: &Read<'_>, placed: &[Placed], data: &Table) {
             log.report(&placed.place, Fault::Effect { name: name.clone(), reason });
         }
     }
-    let unknown = |observed: &&gumption_gap::Observed| observed.standard_uncertainties.is_none();
+    let unknown = |observed: &&gumption_gap::ObservedOutput| observed.standard_uncertainties.is_none();
     if rows < 2 && read.observed.iter().flatten().any(|observed| unknown(&observed)) {
         let reason = "the data have one row and no standard uncertainties; the noise can be \
                       estimated from several rows only"

@@ -1,6 +1,6 @@
 //! A case of the gap diagnosis: a sim, what was measured, and the effects that may be missing.
 
-use crate::{Effect, OverrideError, Sim};
+use crate::{Effect, OverridableModel, OverrideError};
 use gumption_engine::distribution::Distribution;
 use gumption_engine::model::Program;
 use gumption_engine::task::Task;
@@ -11,10 +11,10 @@ pub struct Case {
     /// The sim at the conditions of every row of the data.
     pub task: Task,
     /// The sim in a form that effects can override.
-    pub sim: Sim,
+    pub model: OverridableModel,
     /// What was measured of each output of the sim, in the order of the outputs; `None` where an
     /// output was not observed.
-    pub observed: Vec<Option<Observed>>,
+    pub observed: Vec<Option<ObservedOutput>>,
     /// How many of the last conditions are columns of somebody else's simulation rather than
     /// conditions of the measurement.
     pub simulated: usize,
@@ -26,7 +26,7 @@ pub struct Case {
 
 /// Measured values of one output, a row of the data each, in the output's unit.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Observed {
+pub struct ObservedOutput {
     /// The values.
     pub values: Vec<f64>,
     /// Their standard uncertainties; without them the noise is estimated from the data.
@@ -84,7 +84,7 @@ impl Case {
 
     fn recorded(&self, effects: &[usize]) -> Result<Program, OverrideError> {
         let acting: Vec<&Effect> = effects.iter().map(|&e| &self.candidates[e].effect).collect();
-        self.sim.program(&acting)
+        self.model.program(&acting)
     }
 
     /// The program with these effects acting, of a case that was checked.

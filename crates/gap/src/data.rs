@@ -71,7 +71,7 @@ impl Data {
             points[place].rows.push(number);
             point_of.push(place);
         }
-        let in_quadrature = |of: &&crate::Observed| {
+        let in_quadrature = |of: &&crate::ObservedOutput| {
             let own = of.standard_uncertainties.as_ref()?;
             let other = of.simulation_uncertainties.as_ref();
             let both =
@@ -79,7 +79,7 @@ impl Data {
             Some(ids.iter().map(both).collect())
         };
         Self {
-            turns: outputs.iter().map(|&output| case.sim.outputs[output].period).collect(),
+            turns: outputs.iter().map(|&output| case.model.outputs[output].period).collect(),
             values: observed
                 .iter()
                 .map(|observed| ids.iter().map(|&id| observed.values[id]).collect())

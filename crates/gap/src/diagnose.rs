@@ -1,6 +1,6 @@
 //! The whole diagnosis, step by step.
 
-use super::diagnosis::{Diagnosis, Hypothesis, Named, Noise, Predicted};
+use super::diagnosis::{Diagnosis, Hypothesis, NamedQuantity, NoiseEstimate, Predicted};
 use super::discrepancy::Discrepancy;
 use super::goodness_of_fit::{gap, plus_rows};
 use super::latent::Role;
@@ -19,9 +19,17 @@ const MOST_ROWS: usize = 2000;
 
 /// How a diagnosis is made.
 #[derive(Clone, Copy, Debug)]
-pub struct Options {
+#[non_exhaustive]
+pub struct DiagnosisOptions {
     /// Seed of the random numbers.
     pub seed: u64,
+}
+
+impl DiagnosisOptions {
+    /// Random numbers with this seed.
+    pub fn new(seed: u64) -> Self {
+        Self { seed }
+    }
 }
 
 /// Coverage probability of the intervals of a case.
@@ -40,14 +48,14 @@ pub(crate) fn coverage(case: &Case) -> f64 {
 pub fn diagnose(
     case: &Case,
     at: Option<&[Row]>,
-    options: Options,
+    options: DiagnosisOptions,
     progress: &(dyn Fn(f64) + Sync),
 ) -> Result<Diagnosis, OverrideError> {
     case.check()?;
     let seed = options.seed;
     let weighed = Weighed::new(case, seed, Effort::FULL, &|share| progress(0.6 * share));
-    let group = weighed.group();
-    let verdict = weighed.verdict(&group);
+    let group = weighed.indistinguishable();
+    let verdict = weighed.most_probable(&group);
     let Weighed { setup, discrepancy, posterior, best, explained, correction, variances } = weighed;
     let with_rows = plus_rows(&setup, &variances);
     let regions = scan::regions(&setup, &with_rows, seed);
@@ -75,7 +83,7 @@ pub fn diagnose(
     let noise = noise(&setup, &variances, &posterior, best);
     let notes = notes(&setup, &posterior, &verdict, &shrinkage, &gap, best);
     progress(1.0);
-    let named = |name: &str, unit: &gumption_units::Unit| Named {
+    let named = |name: &str, unit: &gumption_units::Unit| NamedQuantity {
         name: name.to_owned(),
         unit: unit.text().to_owned(),
     };
@@ -85,13 +93,13 @@ pub fn diagnose(
             .data
             .outputs
             .iter()
-            .map(|&output| &case.sim.outputs[output].quantity)
+            .map(|&output| &case.model.outputs[output].quantity)
             .map(|quantity| named(&quantity.name, &quantity.unit))
             .collect(),
-        conditions: case.sim.conditions.iter().map(|c| named(&c.name, &c.unit)).collect(),
+        conditions: case.model.conditions.iter().map(|c| named(&c.name, &c.unit)).collect(),
         gap,
         regions,
-        verdict,
+        most_probable: verdict,
         hypotheses,
         shrinkage,
         next,
@@ -118,8 +126,8 @@ pub(crate) fn hypotheses(
             prior: hypothesis.prior,
             probability: hypothesis.probability,
             log_evidence: hypothesis.evidence.ln_evidence,
-            error: hypothesis.evidence.error,
-            effective: hypothesis.evidence.effective,
+            standard_error: hypothesis.evidence.standard_error,
+            effective_sample_size: hypothesis.evidence.effective_sample_size,
             best_log_likelihood: hypothesis
                 .evidence
                 .modes
@@ -135,8 +143,8 @@ pub(crate) fn hypotheses(
         prior: posterior.prior,
         probability: posterior.probability,
         log_evidence: posterior.unexplained.ln_evidence,
-        error: 0.0,
-        effective: 0.0,
+        standard_error: 0.0,
+        effective_sample_size: 0.0,
         best_log_likelihood: f64::NEG_INFINITY,
         fitted: 0,
         parameters: Vec::new(),
@@ -187,7 +195,12 @@ pub(crate) fn prediction(
         .collect()
 }
 
-fn noise(setup: &Setup<'_>, variances: &[f64], posterior: &Posterior, best: usize) -> Vec<Noise> {
+fn noise(
+    setup: &Setup<'_>,
+    variances: &[f64],
+    posterior: &Posterior,
+    best: usize,
+) -> Vec<NoiseEstimate> {
     let outputs = setup.data.outputs.len();
     let mode = posterior.hypotheses.get(best).and_then(|h| h.evidence.modes.first());
     (0..outputs)
@@ -202,7 +215,11 @@ fn noise(setup: &Setup<'_>, variances: &[f64], posterior: &Posterior, best: usiz
                 }
                 _ => None,
             });
-            Noise { output, standard_uncertainty: elementary::exp(ln), power: power.unwrap_or(0.0) }
+            NoiseEstimate {
+                output,
+                standard_uncertainty: elementary::exp(ln),
+                power: power.unwrap_or(0.0),
+            }
         })
         .collect()
 }

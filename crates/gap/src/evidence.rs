@@ -2,12 +2,12 @@
 //! that is unknown, by adaptive multiple importance sampling (Cornuet, Marin, Mira, Robert 2012,
 //! Scandinavian Journal of Statistics 39, 798).
 
+use super::differential_evolution;
 use super::latent::bounded_from_normal;
 use super::likelihood::Likelihood;
 use super::logarithm::ln_add;
 use super::mixture::{Mixture, ln_priors, standard_normals};
-use super::ridge;
-use super::roam::roam;
+use super::profile_path;
 use super::search::{self, Mode};
 use gumption_engine::distribution::StreamKey;
 use gumption_engine::number::{COLUMN, Column, elementary};
@@ -17,7 +17,7 @@ const SCREENED: usize = 4;
 
 /// An integral that is being refined.
 #[derive(Clone, Debug)]
-pub(crate) struct Evidence {
+pub(crate) struct EvidenceEstimate {
     unknowns: usize,
     key: StreamKey,
     /// The modes found.
@@ -34,12 +34,12 @@ pub(crate) struct Evidence {
     /// Logarithm of the evidence.
     pub(crate) ln_evidence: f64,
     /// Its standard error.
-    pub(crate) error: f64,
+    pub(crate) standard_error: f64,
     /// Effective number of draws.
-    pub(crate) effective: f64,
+    pub(crate) effective_sample_size: f64,
 }
 
-impl Evidence {
+impl EvidenceEstimate {
     /// Finds the modes and draws once from them. `seeds` are points to start from beside draws of
     /// the prior.
     pub(crate) fn begin(
@@ -59,8 +59,8 @@ impl Evidence {
             ln_proposals: Vec::new(),
             weights: Vec::new(),
             ln_evidence: f64::NEG_INFINITY,
-            error: f64::INFINITY,
-            effective: 0.0,
+            standard_error: f64::INFINITY,
+            effective_sample_size: 0.0,
         };
         let mut points = vec![vec![0.0; unknowns]];
         points.extend_from_slice(seeds);
@@ -121,16 +121,16 @@ impl Evidence {
     }
 
     /// Draws along the ridges of the posterior in the quantities after the first `shared` ones.
-    pub(crate) fn along_ridges(&mut self, likelihood: &Likelihood<'_>, shared: usize) {
-        if let Some(mixture) = ridge::mixture(likelihood, &self.modes, shared) {
+    pub(crate) fn along_profile_paths(&mut self, likelihood: &Likelihood<'_>, shared: usize) {
+        if let Some(mixture) = profile_path::mixture(likelihood, &self.modes, shared) {
             self.draw(likelihood, mixture, 4);
             self.refine(likelihood, 4);
         }
     }
 
     /// Lets walkers roam from what was drawn, and draws from a mixture fitted to where they went.
-    pub(crate) fn roam(&mut self, likelihood: &Likelihood<'_>, generations: usize) {
-        if self.unknowns == 0 || self.effective == 0.0 {
+    pub(crate) fn sample_chains(&mut self, likelihood: &Likelihood<'_>, generations: usize) {
+        if self.unknowns == 0 || self.effective_sample_size == 0.0 {
             return;
         }
         let drawn = self.resampled(COLUMN);
@@ -140,7 +140,7 @@ impl Evidence {
                 column.0[lane] = *score;
             }
         }
-        let visited = roam(likelihood, start, generations, self.key);
+        let visited = differential_evolution::sample(likelihood, start, generations, self.key);
         let count = if self.unknowns > 2 { 12 } else { 6 };
         if let Some(mixture) = Mixture::fitted(&likelihood.bounded(), &visited, count) {
             self.draw(likelihood, mixture, 4);
@@ -223,8 +223,8 @@ impl Evidence {
         let sum: f64 = self.weights.iter().sum();
         let squares: f64 = self.weights.iter().map(|w| w * w).sum();
         self.ln_evidence = most + elementary::ln(sum / count);
-        self.effective = sum * sum / squares;
-        self.error = (1.0 / self.effective - 1.0 / count).max(0.0).sqrt();
+        self.effective_sample_size = sum * sum / squares;
+        self.standard_error = (1.0 / self.effective_sample_size - 1.0 / count).max(0.0).sqrt();
         for weight in &mut self.weights {
             *weight /= sum;
         }

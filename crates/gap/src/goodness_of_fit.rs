@@ -1,7 +1,7 @@
 //! Whether residuals are as large as their uncertainties let expect: chi-square and F tests.
 
 use super::data::by_rows;
-use super::diagnosis::{Gap, Kind};
+use super::diagnosis::{GapTest, HypothesisKind};
 use super::setup::Setup;
 use gumption_engine::distribution::special;
 use gumption_engine::number::elementary;
@@ -15,8 +15,8 @@ pub(crate) fn plus_rows(setup: &Setup<'_>, noise: &[f64]) -> Vec<f64> {
 }
 
 /// The chi-square test of all residuals.
-pub(crate) fn gap(setup: &Setup<'_>, kind: Kind) -> Gap {
-    let present = kind != Kind::None;
+pub(crate) fn gap(setup: &Setup<'_>, kind: HypothesisKind) -> GapTest {
+    let present = kind != HypothesisKind::None;
     let values = setup.data.len() as f64;
     if setup.linear.fitted {
         return lack_of_fit(setup, present);
@@ -25,12 +25,12 @@ pub(crate) fn gap(setup: &Setup<'_>, kind: Kind) -> Gap {
     let whitened = setup.linear.whiten_blocks(&residuals);
     let chi2 = setup.linear.square(&whitened).max(0.0);
     let p_value = elementary::exp(special::gamma::ln_sf(0.5 * chi2, 0.5 * values));
-    Gap { present, p_value: Some(p_value), chi2, dof: values }
+    GapTest { present, p_value: Some(p_value), chi2, dof: values }
 }
 
 /// Where the noise is estimated: means of repeats against the scatter of repeats (F test of lack of
 /// fit), the shared inputs being free.
-fn lack_of_fit(setup: &Setup<'_>, present: bool) -> Gap {
+fn lack_of_fit(setup: &Setup<'_>, present: bool) -> GapTest {
     let data = &setup.data;
     let residuals = data.nominal_residuals();
     let (mut within, mut between, mut repeats, mut means) = (0.0, 0.0, 0usize, 0usize);
@@ -61,12 +61,12 @@ fn lack_of_fit(setup: &Setup<'_>, present: bool) -> Gap {
         }
     }
     if repeats == 0 || means == 0 {
-        return Gap { present, p_value: None, chi2: f64::NAN, dof: 0.0 };
+        return GapTest { present, p_value: None, chi2: f64::NAN, dof: 0.0 };
     }
     let f = (between / means as f64) / (within / repeats as f64);
     let (d1, d2) = (means as f64, repeats as f64);
     let p_value = special::beta::cdf(d2 / (d2 + d1 * f), 0.5 * d2, 0.5 * d1);
-    Gap { present, p_value: Some(p_value), chi2: between, dof: d1 }
+    GapTest { present, p_value: Some(p_value), chi2: between, dof: d1 }
 }
 
 /// A mean square of normalized residuals that data without a misfit exceed with probability 1e-3.

@@ -72,7 +72,7 @@ pub(crate) fn best(
 /// levels, their middles. What is known about inputs that differ from row to row is taken from the
 /// row with the nearest conditions, so such cases stay at the data's own rows.
 fn candidates(setup: &Setup<'_>) -> Vec<Row> {
-    let conditions = setup.case.sim.conditions.len();
+    let conditions = setup.case.model.conditions.len();
     let first = |point: &super::data::Point| point.rows.first().map(|&row| setup.data.ids[row]);
     let measured: Vec<&Row> =
         setup.data.points.iter().filter_map(first).map(|id| &setup.case.task.rows[id]).collect();

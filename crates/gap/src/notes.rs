@@ -1,6 +1,6 @@
 //! What to bear in mind when a diagnosis is read.
 
-use super::diagnosis::{Gap, Kind, Note, Shrinkage, Verdict};
+use super::diagnosis::{DiagnosisNote, GapTest, HypothesisKind, MostProbable, Shrinkage};
 use super::goodness_of_fit::misfit;
 use super::posterior::Posterior;
 use super::setup::Setup;
@@ -8,13 +8,13 @@ use super::setup::Setup;
 pub(crate) fn notes(
     setup: &Setup<'_>,
     posterior: &Posterior,
-    verdict: &Verdict,
+    verdict: &MostProbable,
     shrinkage: &Shrinkage,
-    gap: &Gap,
+    gap: &GapTest,
     best: usize,
-) -> Vec<Note> {
+) -> Vec<DiagnosisNote> {
     let mut notes = Vec::new();
-    let mut note = |code: &'static str, text: String| notes.push(Note { code, text });
+    let mut note = |code: &'static str, text: String| notes.push(DiagnosisNote { code, text });
     if setup.covariance.fitted {
         let repeats = setup.data.points.iter().any(|point| point.rows.len() > 1);
         note(
@@ -32,18 +32,18 @@ pub(crate) fn notes(
         );
     }
     let winner = &posterior.hypotheses[best];
-    if verdict.kind != Kind::Unexplained && winner.evidence.effective < 50.0 {
+    if verdict.kind != HypothesisKind::Unexplained && winner.evidence.effective_sample_size < 50.0 {
         note(
             "poor-integral",
             format!(
                 "The evidence of the verdict rests on {:.0} effective draws only (standard error of its \
                  logarithm {:.2}); the probabilities are averages over that error, and less sure for \
                  it.",
-                winner.evidence.effective, winner.evidence.error
+                winner.evidence.effective_sample_size, winner.evidence.standard_error
             ),
         );
     }
-    if verdict.group.len() > 1 {
+    if verdict.indistinguishable.len() > 1 {
         note(
             "look-alikes",
             "These data cannot tell the hypotheses of the verdict's group apart: their predictions \
@@ -59,7 +59,9 @@ pub(crate) fn notes(
                 .to_owned(),
         );
     }
-    if verdict.kind == Kind::Explained && shrinkage.chi2_per_dof[1] > misfit(setup.data.len()) {
+    if verdict.kind == HypothesisKind::Explained
+        && shrinkage.chi2_per_dof[1] > misfit(setup.data.len())
+    {
         note(
             "poor-fit",
             format!(
@@ -69,7 +71,7 @@ pub(crate) fn notes(
             ),
         );
     }
-    if let (Kind::None, Some(p)) = (verdict.kind, gap.p_value)
+    if let (HypothesisKind::None, Some(p)) = (verdict.kind, gap.p_value)
         && p < OVERDISPERSED
     {
         note(

@@ -1,6 +1,6 @@
 //! The parameters of effects after the data: estimates, standard uncertainties, intervals.
 
-use super::diagnosis::Parameter;
+use super::diagnosis::EffectParameter;
 use super::latent::Role;
 use super::posterior;
 use super::predict;
@@ -12,9 +12,9 @@ use gumption_engine::task::Row;
 /// The parameters of a hypothesis' effects.
 pub(crate) fn parameters(
     setup: &Setup<'_>,
-    hypothesis: &posterior::Hypothesis,
+    hypothesis: &posterior::WeighedHypothesis,
     probability: f64,
-) -> Vec<Parameter> {
+) -> Vec<EffectParameter> {
     let likelihood = setup.likelihood(&hypothesis.effects);
     let evidence = &hypothesis.evidence;
     let central = central_draw(setup, hypothesis);
@@ -39,7 +39,7 @@ pub(crate) fn parameters(
             let estimate = central.get(place).map_or(mean, |score| map.value(*score));
             weighted.sort_by(|a, b| a.0.total_cmp(&b.0));
             let [lower, upper] = equal_tails(&weighted, probability);
-            parameters.push(Parameter {
+            parameters.push(EffectParameter {
                 name: format!("{}/{}", candidate.name, quantity.name),
                 unit: quantity.unit.text().to_owned(),
                 estimate,
@@ -53,7 +53,7 @@ pub(crate) fn parameters(
 
 /// The draw whose prediction of the data is nearest to the mean prediction; the most probable point
 /// where the hypothesis is not worth that.
-fn central_draw(setup: &Setup<'_>, hypothesis: &posterior::Hypothesis) -> Vec<f64> {
+fn central_draw(setup: &Setup<'_>, hypothesis: &posterior::WeighedHypothesis) -> Vec<f64> {
     let mode =
         hypothesis.evidence.modes.first().map(|mode| mode.scores.clone()).unwrap_or_default();
     if hypothesis.effects.is_empty() || hypothesis.probability < 1e-3 {

@@ -6,7 +6,7 @@
 
 use rayon::prelude::*;
 
-use super::diagnosis::Region;
+use super::diagnosis::GapRegion;
 use super::packed::{self, dot, triangle};
 use super::setup::Setup;
 use crate::mixture::standard_normals;
@@ -51,7 +51,7 @@ struct Axis {
 }
 
 /// Names the regions that depart. `variances` are those of the values without shared inputs.
-pub(crate) fn regions(setup: &Setup<'_>, variances: &[f64], seed: u64) -> Vec<Region> {
+pub(crate) fn regions(setup: &Setup<'_>, variances: &[f64], seed: u64) -> Vec<GapRegion> {
     let residuals = crate::data::by_rows(&setup.data.nominal_residuals());
     let white: Vec<f64> = residuals.iter().zip(variances).map(|(r, v)| r / v.sqrt()).collect();
     let design = Design::new(setup, variances);
@@ -65,7 +65,7 @@ pub(crate) fn regions(setup: &Setup<'_>, variances: &[f64], seed: u64) -> Vec<Re
                 .collect::<Vec<_>>()
         })
         .collect();
-    let mut found: Vec<Region> = Vec::new();
+    let mut found: Vec<GapRegion> = Vec::new();
     let mut taken: Vec<usize> = Vec::new();
     let total: f64 = white.iter().map(|z| z * z).sum::<f64>() - white.len() as f64;
     while found.len() < MOST_REGIONS {
@@ -82,7 +82,7 @@ pub(crate) fn regions(setup: &Setup<'_>, variances: &[f64], seed: u64) -> Vec<Re
         let values: Vec<usize> = axis.bins[best.from..=best.to].iter().flatten().copied().collect();
         let own: f64 = values.iter().map(|&v| white[v] * white[v] - 1.0).sum();
         let whole = best.from == 0 && best.to + 1 == axis.bins.len();
-        found.push(Region {
+        found.push(GapRegion {
             output: axis.output,
             range: axis
                 .condition
@@ -119,7 +119,7 @@ impl Design {
             .iter()
             .map(|column| column.iter().zip(variances).map(|(c, v)| c / v.sqrt()).collect())
             .collect();
-        let conditions = setup.case.sim.conditions.len() - setup.case.simulated;
+        let conditions = setup.case.model.conditions.len() - setup.case.simulated;
         let mut outputs: Vec<Option<usize>> = (0..count).map(Some).collect();
         if count > 1 {
             outputs.push(None);

@@ -85,7 +85,7 @@ impl<'c> Setup<'c> {
     pub(crate) fn likelihood(&self, effects: &[usize]) -> Likelihood<'_> {
         let candidates: Vec<_> = effects.iter().map(|&e| &self.case.candidates[e]).collect();
         let program = self.case.program(effects);
-        let first = self.case.task.variables.len() + self.case.sim.conditions.len();
+        let first = self.case.task.variables.len() + self.case.model.conditions.len();
         let parameters = candidates.iter().flat_map(|candidate| &candidate.priors).enumerate();
         let mut roles = self.roles.clone();
         roles.extend(parameters.map(|(place, prior)| Role::Variable {

@@ -6,7 +6,7 @@ use super::data::Data;
 use super::data::by_rows;
 use super::diagnosis::{RowGap, Shrinkage, Shrunk, ValueGap};
 use super::discrepancy::{Base, Discrepancy, Weighted};
-use super::evidence::Evidence;
+use super::evidence::EvidenceEstimate;
 use super::logarithm::{HALF_LN_TWO_PI, ln_sum};
 use super::posterior::Posterior;
 use super::predict::{self, Normals, Values};
@@ -342,9 +342,12 @@ fn fold(
             .unwrap_or_default();
         let key = StreamKey::new(seed, "gap/without a block");
         let many = part.data.len() > 20_000;
-        let mut evidence = Evidence::begin(&likelihood, key, &seeds, if many { 0 } else { 4 });
+        let mut evidence =
+            EvidenceEstimate::begin(&likelihood, key, &seeds, if many { 0 } else { 4 });
         for _ in 0..6 {
-            if evidence.effective > 150.0 || many && evidence.effective > 30.0 {
+            if evidence.effective_sample_size > 150.0
+                || many && evidence.effective_sample_size > 30.0
+            {
                 break;
             }
             evidence.refine(&likelihood, 2);
@@ -375,7 +378,7 @@ fn fold(
                     .collect();
                 let likelihood = part.likelihood(&base.effects);
                 let key = StreamKey::new(seed, "gap/without a block");
-                let evidence = Evidence::begin(&likelihood, key, &seeds, 0);
+                let evidence = EvidenceEstimate::begin(&likelihood, key, &seeds, 0);
                 Base::at(&part, &base.effects, evidence.modes.first()?)
             });
             let residuals = match &base {
@@ -397,7 +400,7 @@ fn fold(
 /// take turns, so that what is left out lies between conditions that are not.
 fn blocks(setup: &Setup<'_>) -> Vec<Vec<usize>> {
     let rows = setup.data.rows();
-    let conditions = setup.case.sim.conditions.len() - setup.case.simulated;
+    let conditions = setup.case.model.conditions.len() - setup.case.simulated;
     let value = |row: usize, condition: usize| {
         setup.case.task.rows[setup.data.ids[row]].conditions[condition]
     };

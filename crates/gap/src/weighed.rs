@@ -1,7 +1,7 @@
 //! The hypotheses of a case weighed against its data: the most probable one, and those that the data
 //! cannot tell from it.
 
-use super::diagnosis::{Kind, Verdict};
+use super::diagnosis::{HypothesisKind, MostProbable};
 use super::discrepancy::Discrepancy;
 use super::latent::Role;
 use super::posterior::{self, Effort, Posterior};
@@ -64,13 +64,20 @@ impl<'c> Weighed<'c> {
     }
 
     /// The verdict and what these data cannot tell from it, as places of hypotheses.
-    pub(crate) fn group(&self) -> Vec<usize> {
+    pub(crate) fn indistinguishable(&self) -> Vec<usize> {
         let modes = best_predictions(&self.setup, &self.posterior);
-        group(&self.setup, &self.posterior, self.best, self.explained, &modes, &self.variances)
+        indistinguishable(
+            &self.setup,
+            &self.posterior,
+            self.best,
+            self.explained,
+            &modes,
+            &self.variances,
+        )
     }
 
-    pub(crate) fn verdict(&self, group: &[usize]) -> Verdict {
-        verdict(&self.setup, &self.posterior, self.best, self.explained, group)
+    pub(crate) fn most_probable(&self, group: &[usize]) -> MostProbable {
+        most_probable(&self.setup, &self.posterior, self.best, self.explained, group)
     }
 }
 
@@ -142,7 +149,7 @@ fn best_predictions(setup: &Setup<'_>, posterior: &Posterior) -> Vec<Option<Vec<
 }
 
 /// The places of the hypotheses that these data cannot tell from the best one, itself first.
-fn group(
+fn indistinguishable(
     setup: &Setup<'_>,
     posterior: &Posterior,
     best: usize,
@@ -208,28 +215,38 @@ pub(crate) fn names(setup: &Setup<'_>, effects: &[usize]) -> Vec<String> {
     effects.iter().map(|&e| setup.case.candidates[e].effect.name.clone()).collect()
 }
 
-fn verdict(
+fn most_probable(
     setup: &Setup<'_>,
     posterior: &Posterior,
     best: usize,
     explained: bool,
     group: &[usize],
-) -> Verdict {
+) -> MostProbable {
     if !explained {
-        return Verdict {
-            kind: Kind::Unexplained,
+        return MostProbable {
+            kind: HypothesisKind::Unexplained,
             effects: Vec::new(),
             probability: posterior.probability,
-            group: Vec::new(),
-            group_probability: posterior.probability,
+            indistinguishable: Vec::new(),
+            indistinguishable_probability: posterior.probability,
         };
     }
     let winner = &posterior.hypotheses[best];
-    Verdict {
-        kind: if winner.effects.is_empty() { Kind::None } else { Kind::Explained },
+    MostProbable {
+        kind: if winner.effects.is_empty() {
+            HypothesisKind::None
+        } else {
+            HypothesisKind::Explained
+        },
         effects: names(setup, &winner.effects),
         probability: winner.probability,
-        group: group.iter().map(|&h| names(setup, &posterior.hypotheses[h].effects)).collect(),
-        group_probability: group.iter().map(|&h| posterior.hypotheses[h].probability).sum(),
+        indistinguishable: group
+            .iter()
+            .map(|&h| names(setup, &posterior.hypotheses[h].effects))
+            .collect(),
+        indistinguishable_probability: group
+            .iter()
+            .map(|&h| posterior.hypotheses[h].probability)
+            .sum(),
     }
 }

@@ -8,7 +8,7 @@ use super::effects::{Effects, KnownNoise};
 use super::quantization::quantization_variance;
 use super::recipe::TimeBase;
 use super::residuals::Residuals;
-use super::sine_fit::{Coefficients, Design};
+use super::sine_fit::{ToneCoefficients, ToneDesign};
 use super::spurious::Spurious;
 use gumption_engine::number::elementary::hypot;
 
@@ -41,8 +41,8 @@ pub(super) struct Analysed {
     /// Which clock: channels of one share the error of the sampling rate.
     pub(super) clock: usize,
     pub(super) base: TimeBase,
-    pub(super) design: Rc<Design>,
-    pub(super) fit: Coefficients,
+    pub(super) design: Rc<ToneDesign>,
+    pub(super) fit: ToneCoefficients,
     pub(super) residuals: Residuals,
     pub(super) fundamentals: Vec<Fundamental>,
     pub(super) spurious: Vec<Spurious>,

@@ -6,11 +6,11 @@ use super::Measured;
 use super::analysed::{Analysed, Fundamental, local, shares};
 use super::effects::{Effects, KnownNoise};
 use super::frequency::{self, NoFrequency};
-use super::passes::{Held, Passes, Selected, gathered};
+use super::passes::{InMemorySamples, SampleSource, Selected, gathered};
 use super::quantization::amplitude_error;
-use super::recipe::{Frequency, Method, Settings, TimeBase};
+use super::recipe::{Frequency, Method, RecipeSettings, TimeBase};
 use super::residuals::{self, Residuals};
-use super::sine_fit::{Design, NoFit, Tone};
+use super::sine_fit::{NoFit, Tone, ToneDesign};
 use super::spurious;
 use super::whole_periods::whole_periods;
 use gumption_engine::number::elementary;
@@ -90,7 +90,7 @@ pub(super) struct Through {
 /// The channels of one time base.
 #[derive(Debug)]
 pub(super) struct Group<'g> {
-    pub(super) settings: &'g Settings,
+    pub(super) settings: &'g RecipeSettings,
     pub(super) frequencies: &'g [Frequency],
     pub(super) base: TimeBase,
     pub(super) track: usize,
@@ -103,7 +103,7 @@ pub(super) struct Group<'g> {
 
 impl Group<'_> {
     /// Analyses the channels.
-    pub(super) fn analyse<P: Passes>(
+    pub(super) fn analyse<P: SampleSource>(
         &self,
         passes: &mut P,
     ) -> Result<Vec<Analysed>, Refused<P::Error>> {
@@ -149,7 +149,7 @@ impl Group<'_> {
         Ok(multiples)
     }
 
-    fn fundamentals<P: Passes>(
+    fn fundamentals<P: SampleSource>(
         &self,
         passes: &mut P,
     ) -> Result<Vec<Fundamental>, Refused<P::Error>> {
@@ -250,7 +250,7 @@ impl Group<'_> {
         Ok(tones)
     }
 
-    fn fitted<P: Passes>(
+    fn fitted<P: SampleSource>(
         &self,
         passes: &mut P,
         base: TimeBase,
@@ -258,7 +258,7 @@ impl Group<'_> {
     ) -> Result<Vec<Analysed>, Refused<P::Error>> {
         let samples = passes.frames();
         let tones = self.tones(&fundamentals, samples)?;
-        let design = Design::new(tones, samples).map_err(|no| self.refusal(no, samples))?;
+        let design = ToneDesign::new(tones, samples).map_err(|no| self.refusal(no, samples))?;
         let mut fits = design.fit(passes).map_err(Refused::Unreadable)?;
         let mut left = residuals::of(&design, passes, &mut fits).map_err(Refused::Unreadable)?;
         if let Some(through) = self.through {
@@ -304,7 +304,7 @@ impl Group<'_> {
     /// least-squares fit at the bins' frequencies is that transform.
     fn over_whole_periods(
         &self,
-        mut held: Held,
+        mut held: InMemorySamples,
     ) -> Result<Vec<Analysed>, Refused<std::convert::Infallible>> {
         let (channel, place) = self.lead();
         let mut fundamentals = self.fundamentals(&mut held)?;
@@ -330,7 +330,13 @@ impl Group<'_> {
 impl Through {
     /// The noise after the steps. Where it was white before them it is theirs; where it was not, it
     /// is measured after them, or before them, or taken as even over what the steps let pass.
-    fn noise(&self, design: &Design, after: &Residuals, rate: f64, resolution: f64) -> KnownNoise {
+    fn noise(
+        &self,
+        design: &ToneDesign,
+        after: &Residuals,
+        rate: f64,
+        resolution: f64,
+    ) -> KnownNoise {
         let before = &self.before.residuals;
         let frequencies: Vec<f64> =
             [0.0].into_iter().chain(design.tones.iter().map(|tone| tone.cycles * rate)).collect();

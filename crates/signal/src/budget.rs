@@ -4,7 +4,7 @@ use super::Measured;
 
 /// A source of uncertainty of a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Source {
+pub enum UncertaintySource {
     /// Noise of the recording: what the fit leaves.
     Noise,
     /// Rounding to the resolution.
@@ -29,7 +29,7 @@ pub enum Source {
     Correction,
 }
 
-impl Source {
+impl UncertaintySource {
     /// The name in answers.
     pub fn name(self) -> &'static str {
         match self {
@@ -50,11 +50,11 @@ impl Source {
 
 /// A value with what its uncertainty is made of.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Value {
+pub struct BudgetedValue {
     /// The value.
     pub measured: Measured,
     /// The standard uncertainty that each source contributes; they add as squares.
-    pub contributions: Vec<(Source, f64)>,
+    pub contributions: Vec<(UncertaintySource, f64)>,
     /// The standard uncertainty that trials over the recording's noise gave, where they were made.
     pub trials: Option<f64>,
     /// Whether the standard uncertainty is that of the trials, because the law of propagation does
@@ -62,15 +62,18 @@ pub struct Value {
     pub from_trials: bool,
 }
 
-impl Value {
+impl BudgetedValue {
     /// A value with its contributions, of which `noise_dof` are the degrees of freedom of the noise.
-    pub fn new(value: f64, contributions: Vec<(Source, f64)>, noise_dof: f64) -> Self {
-        let kept: Vec<(Source, f64)> =
+    pub fn new(value: f64, contributions: Vec<(UncertaintySource, f64)>, noise_dof: f64) -> Self {
+        let kept: Vec<(UncertaintySource, f64)> =
             contributions.into_iter().filter(|(_, u)| *u > 0.0).collect();
         // a sum of nothing is -0
         let variance: f64 = kept.iter().map(|(_, u)| u * u).sum::<f64>() + 0.0;
-        let noise: f64 =
-            kept.iter().filter(|(source, _)| *source == Source::Noise).map(|(_, u)| u * u).sum();
+        let noise: f64 = kept
+            .iter()
+            .filter(|(source, _)| *source == UncertaintySource::Noise)
+            .map(|(_, u)| u * u)
+            .sum();
         // a share of the noise below 1e-5 of the standard uncertainty is as good as none
         let negligible = noise <= 1e-10 * variance;
         let degrees_of_freedom = if negligible {

@@ -25,6 +25,7 @@ mod analysed;
 mod analysis;
 mod budget;
 mod effects;
+mod fft;
 mod fit;
 mod found;
 mod measured;
@@ -53,33 +54,35 @@ use steps::{
 };
 
 pub use analysis::{MOST_HELD, Refused};
-pub use budget::{Source, Value};
+pub use budget::{BudgetedValue, UncertaintySource};
 pub use butterworth::{Band, Butterworth, Filter, Passage};
 pub use changed::Changed;
 pub use correction::{Correction, Response, ResponsePoint, corrected};
-pub use delay::{Agreement, CrossCorrelation, CrossPhase, CrossSpectrum, Delay, agreement};
+pub use delay::{CrossCorrelation, CrossPhase, CrossSpectrum, Delay, DelayAgreement, agreement};
 pub use derivative::Derivative;
-pub use effects::Effect;
+pub use effects::StepEffect;
 pub use measured::Measured;
 pub use noise::{Noise, NoiseGain, jitter_variance};
-pub use observation::{ChannelObservation, Component, Observation};
-pub use passes::{BLOCK, Each, Held, Passes, in_blocks};
-pub use periodic::{Harmonics, Part, Periodic};
+pub use observation::{ChannelObservation, Observation, ToneComponent};
+pub use passes::{BLOCK, BlockVisitor, InMemorySamples, SampleSource, in_blocks};
+pub use periodic::{Harmonic, Harmonics, Periodic};
 pub use phasor::{Phasor, wrapped};
 pub use quantization::{amplitude_error, quantization_variance};
-pub use recipe::{Amplitude, Channel, Frequency, Method, PhaseUnit, Search, Settings, TimeBase};
+pub use recipe::{
+    Amplitude, Channel, ChannelRateSearch, Frequency, Method, PhaseUnit, RecipeSettings, TimeBase,
+};
 pub use resimulation::{Colour, Resimulation, Scatter};
 pub use rms::{Improvement, Rms, RmsOf, improvement};
 pub use rotation::{Accelerations, Oscillation, Rotation};
 pub use run::observe;
 pub use sampling_rate::{Rate, RateSearch, sampling_rate};
 pub use signal::Signal;
-pub use sine_fit::{Coefficients, Design, NoFit, Tone};
+pub use sine_fit::{NoFit, Tone, ToneCoefficients, ToneDesign};
 pub use spectral::Ends;
 pub use spurious::Spurious;
-pub use step::{Step, Stepped};
+pub use step::{ChannelStep, Stepped};
 pub use surroundings::{Finding, Surroundings};
-pub use track::Track;
+pub use track::ChannelRecording;
 pub use unsuitable::Unsuitable;
 pub use whole_periods::{WholePeriods, whole_periods};
 

@@ -1,10 +1,10 @@
 //! A recording of a recipe.
 
-use super::recipe::{Search, TimeBase};
+use super::recipe::{ChannelRateSearch, TimeBase};
 
 /// A recording with the channels that it holds.
 #[derive(Debug)]
-pub struct Track<P> {
+pub struct ChannelRecording<P> {
     /// The values, in the units of their channels.
     pub passes: P,
     /// Their instants.
@@ -12,5 +12,5 @@ pub struct Track<P> {
     /// The channels that it holds, by their places in the recipe.
     pub channels: Vec<usize>,
     /// How the sampling rate is found in it, where it is.
-    pub search: Option<Search>,
+    pub search: Option<ChannelRateSearch>,
 }

@@ -11,7 +11,7 @@ use super::super::recording::{ColumnName, Conversion, Reading, Wanted};
 use super::channels::{ChannelFile, column};
 use super::check_name;
 use super::quantity::{positive, quantity, unit};
-use gumption_signal::{Measured, Search};
+use gumption_signal::{Measured, ChannelRateSearch};
 
 /// The keys of a recording.
 pub(super) const KEYS: [&str; 7] =
@@ -172,7 +172,7 @@ impl SearchFile {
         log: &Log,
         recording: usize,
         channels: &[ChannelFile],
-    ) -> Option<Search> {
+    ) -> Option<ChannelRateSearch> {
         let at =
             |file: &ChannelFile| file.channel.name == self.channel && file.recording == recording;
         let channel = channels.iter().position(at);
@@ -180,7 +180,7 @@ impl SearchFile {
             let reason = format!("this recording has no channel `{}`", self.channel);
             log.report(&self.place, Fault::Recipe { reason });
         }
-        Some(Search {
+        Some(ChannelRateSearch {
             channel: channel?,
             frequency: self.frequency,
             between: self.between,

@@ -3,9 +3,9 @@
 use serde::Serialize;
 
 use super::truth::{Truth, TruthKind};
-use crate::Answer;
 use crate::Case;
-use crate::diagnosis::Kind;
+use crate::ModelSelection;
+use crate::diagnosis::HypothesisKind;
 use gumption_engine::number::elementary;
 
 /// A correction is within the uncertainties if its errors are, in the root mean square.
@@ -19,7 +19,7 @@ const MEANINGFUL: f64 = 3.0;
 
 /// The result of one blind draw.
 #[derive(Clone, Debug, Serialize)]
-pub struct Checked {
+pub struct BlindDraw {
     /// The true label: effects joined by `+`, `none`, or `unexplained` where the effect was withheld.
     pub truth: String,
     /// The effect that was withheld.
@@ -96,7 +96,7 @@ pub struct SmallestEffect {
 
 /// The scores of a blind check.
 #[derive(Clone, Debug)]
-pub struct Report {
+pub struct BlindCheckScores {
     /// Number of draws.
     pub draws: usize,
     /// Seed of the truths.
@@ -134,10 +134,10 @@ pub struct Report {
     /// For each parameter the smallest size that is found.
     pub smallest: Vec<SmallestEffect>,
     /// Every draw.
-    pub checked: Vec<Checked>,
+    pub checked: Vec<BlindDraw>,
 }
 
-impl Report {
+impl BlindCheckScores {
     /// Number of gap-free data sets in which a gap was found.
     pub fn alarms(&self) -> usize {
         self.checked.iter().filter(|one| one.truth == "none" && one.said != "none").count()
@@ -159,24 +159,29 @@ fn label(effects: &[String]) -> String {
     sorted.join("+")
 }
 
-impl Checked {
-    /// Compares an answer with the truth; `sim` and `noise` are what the sim says and the standard
+impl BlindDraw {
+    /// Compares a selection with the truth; `sim` and `noise` are what the sim says and the standard
     /// deviations of the noise, output by output.
-    pub fn new(truth: &Truth, answer: &Answer, sim: &[Vec<f64>], noise: &[Vec<f64>]) -> Self {
+    pub fn new(
+        truth: &Truth,
+        selected: &ModelSelection,
+        sim: &[Vec<f64>],
+        noise: &[Vec<f64>],
+    ) -> Self {
         let of_truth = match truth.kind {
             TruthKind::Withheld => "unexplained".to_owned(),
             _ => label(&truth.effects),
         };
-        let said = match answer.verdict.kind {
-            Kind::Unexplained => "unexplained".to_owned(),
-            _ => label(&answer.verdict.effects),
+        let said = match selected.most_probable.kind {
+            HypothesisKind::Unexplained => "unexplained".to_owned(),
+            _ => label(&selected.most_probable.effects),
         };
         let name = |effects: &Option<Vec<String>>| {
             effects.as_deref().map_or_else(|| "unexplained".to_owned(), label)
         };
         let mut brier = 0.0;
         let mut probability_of_truth = 0.0;
-        for hypothesis in &answer.hypotheses {
+        for hypothesis in &selected.hypotheses {
             let true_one = name(&hypothesis.effects) == of_truth;
             brier += (hypothesis.probability - f64::from(u8::from(true_one))).powi(2);
             if true_one {
@@ -186,7 +191,7 @@ impl Checked {
         let (mut before, mut after, mut normalized, mut count) = (0.0, 0.0, 0.0, 0usize);
         for (output, values) in truth.values.iter().enumerate() {
             for (row, &value) in values.iter().enumerate() {
-                let (predicted, u) = answer.predicted[row].outputs[output];
+                let (predicted, u) = selected.predicted[row].outputs[output];
                 let noise = noise[output][row];
                 before += ((value - sim[output][row]) / noise).powi(2);
                 after += ((value - predicted) / noise).powi(2);
@@ -198,7 +203,7 @@ impl Checked {
         let within = (normalized / n).sqrt() <= WITHIN;
         let right = said == of_truth || truth.kind == TruthKind::Withheld && within;
         let held = if said == of_truth && truth.kind == TruthKind::Catalogue {
-            let own = answer.hypotheses.iter().find(|h| name(&h.effects) == of_truth);
+            let own = selected.hypotheses.iter().find(|h| name(&h.effects) == of_truth);
             let interval = |parameter: &String| {
                 own?.parameters.iter().find(|p| p.name == *parameter).map(|p| p.interval)
             };
@@ -217,23 +222,23 @@ impl Checked {
             withheld: (truth.kind == TruthKind::Withheld).then(|| label(&truth.effects)),
             truth: of_truth,
             said,
-            probability: answer.verdict.probability,
+            probability: selected.most_probable.probability,
             of_truth: probability_of_truth,
             brier,
             right,
             held,
             gap: truth.gap,
             left: if before > 0.0 { (after / before).sqrt() } else { 0.0 },
-            fractions: large.then(|| [answer.claimed_fraction, 1.0 - after / before]),
+            fractions: large.then(|| [selected.claimed_fraction, 1.0 - after / before]),
             parameters: truth.parameters.clone(),
             effects: truth.effects.clone(),
-            named: answer.verdict.effects.clone(),
+            named: selected.most_probable.effects.clone(),
         }
     }
 }
 
 /// The scores of all draws.
-pub fn score(case: &Case, checked: Vec<Checked>, seed: u64) -> Report {
+pub fn score(case: &Case, checked: Vec<BlindDraw>, seed: u64) -> BlindCheckScores {
     let draws = checked.len();
     let n = draws.max(1) as f64;
     let mean = |values: &mut dyn Iterator<Item = f64>| {
@@ -241,7 +246,7 @@ pub fn score(case: &Case, checked: Vec<Checked>, seed: u64) -> Report {
         if count == 0 { 0.0 } else { sum / count as f64 }
     };
     let right = checked.iter().filter(|c| c.right).count();
-    let free: Vec<&Checked> = checked.iter().filter(|c| c.truth == "none").collect();
+    let free: Vec<&BlindDraw> = checked.iter().filter(|c| c.truth == "none").collect();
     let mut confusion: Vec<Confusion> = Vec::new();
     for one in &checked {
         match confusion.iter_mut().find(|c| c.truth == one.truth && c.said == one.said) {
@@ -257,10 +262,10 @@ pub fn score(case: &Case, checked: Vec<Checked>, seed: u64) -> Report {
     let verdicts: Vec<(f64, bool)> = checked.iter().map(|c| (c.probability, c.right)).collect();
     let reliability = reliability(&verdicts);
     let held: Vec<bool> = checked.iter().flat_map(|c| c.held.clone()).collect();
-    let with_gap: Vec<&Checked> = checked.iter().filter(|c| c.truth != "none").collect();
+    let with_gap: Vec<&BlindDraw> = checked.iter().filter(|c| c.truth != "none").collect();
     let mut left: Vec<f64> = with_gap.iter().map(|c| c.left).collect();
     left.sort_by(f64::total_cmp);
-    Report {
+    BlindCheckScores {
         draws,
         seed,
         top1: right as f64 / n,
@@ -348,11 +353,11 @@ fn perfect(verdicts: &[(f64, bool)], seed: u64) -> f64 {
 
 /// For each effect the gap at which it is found with 90 % probability, by logistic regression on the
 /// logarithm of the gap, and the size of each parameter that makes such a gap.
-fn smallest(case: &Case, checked: &[Checked]) -> Vec<SmallestEffect> {
+fn smallest(case: &Case, checked: &[BlindDraw]) -> Vec<SmallestEffect> {
     let mut smallest = Vec::new();
     for candidate in &case.candidates {
         let name = &candidate.effect.name;
-        let own: Vec<&Checked> = checked
+        let own: Vec<&BlindDraw> = checked
             .iter()
             .filter(|c| c.withheld.is_none() && c.effects == [name.clone()] && c.gap > 0.0)
             .collect();
@@ -361,7 +366,7 @@ fn smallest(case: &Case, checked: &[Checked]) -> Vec<SmallestEffect> {
         let ln_gap = at_ninety_percent(&found);
         for quantity in &candidate.effect.parameters {
             let parameter = format!("{name}/{}", quantity.name);
-            let value = |c: &Checked| {
+            let value = |c: &BlindDraw| {
                 c.parameters.iter().find(|(known, _)| *known == parameter).map(|(_, value)| *value)
             };
             let sizes: Vec<(f64, f64)> = own

@@ -96,7 +96,7 @@ pub(crate) struct Site {
 
 impl Axes {
     pub(crate) fn new(case: &Case, data: &Data) -> Self {
-        let conditions = (0..case.sim.conditions.len() - case.simulated).map(|condition| {
+        let conditions = (0..case.model.conditions.len() - case.simulated).map(|condition| {
             let values = data.ids.iter().map(|&id| case.task.rows[id].conditions[condition]);
             Axis::spaced(values.collect())
         });

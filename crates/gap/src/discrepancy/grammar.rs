@@ -46,7 +46,7 @@ impl Term {
 
 /// All terms for a case.
 pub(crate) fn terms(case: &Case, data: &Data) -> Vec<Term> {
-    let conditions: Vec<usize> = (0..case.sim.conditions.len() - case.simulated)
+    let conditions: Vec<usize> = (0..case.model.conditions.len() - case.simulated)
         .filter(|&condition| levels(case, data, condition) > 1)
         .collect();
     let mut of = vec![Of::Constant];
@@ -67,7 +67,7 @@ pub(crate) fn terms(case: &Case, data: &Data) -> Vec<Term> {
     let has_size = |output: usize| {
         data.points.iter().any(|point| point.nominal[output].abs() > f64::MIN_POSITIVE)
     };
-    let unit = |output: usize| &case.sim.outputs[data.outputs[output]].quantity.unit;
+    let unit = |output: usize| &case.model.outputs[data.outputs[output]].quantity.unit;
     let mut terms = Vec::new();
     for outputs in subsets(data.outputs.len()) {
         for relative in [false, true] {

@@ -10,7 +10,7 @@ use std::sync::Arc;
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::{Candidate, Case, Effect, Maker, Observed, Prior, Sim};
+use crate::{Candidate, Case, Effect, ModelBody, ObservedOutput, OverridableModel, Prior};
 use gumption_engine::distribution::{Distribution, Evaluation, Fits, Normal};
 use gumption_engine::model::formula::{Formula, Scope, Typing};
 use gumption_engine::model::{InputQuantity, Output, Quantity};
@@ -48,11 +48,11 @@ fn case(
     a: Distribution,
     sharing: Sharing,
     equations: &[(&str, &str)],
-    observed: Vec<Observed>,
+    observed: Vec<ObservedOutput>,
     candidates: Vec<Candidate>,
 ) -> Case {
     let names = ["a", "x"].into_iter().chain(equations.iter().map(|(name, _)| *name));
-    let sim = Sim {
+    let sim = OverridableModel {
         inputs: vec![InputQuantity { quantity: quantity("a"), parts: 1 }],
         conditions: vec![quantity("x")],
         outputs: equations
@@ -66,7 +66,7 @@ fn case(
                 capability: None,
             })
             .collect(),
-        maker: Maker::Equations(formulas(equations)),
+        maker: ModelBody::Equations(formulas(equations)),
         scope: Scope::from_iter(names.map(|name| (name, Typing::in_unit(&Unit::one())))),
     };
     let distributions: Arc<[Arc<Distribution>]> = Arc::new([Arc::new(a)]);
@@ -90,12 +90,12 @@ fn case(
         fits: Fits::default(),
     };
     let observed = observed.into_iter().map(Some).collect();
-    Case { task, sim, observed, simulated: 0, candidates, prior: Prior::DEFAULT }
+    Case { task, model: sim, observed, simulated: 0, candidates, prior: Prior::DEFAULT }
 }
 
 /// Measured values with their standard uncertainties, if these are known.
-fn observed(values: &[f64], uncertainties: Option<&[f64]>) -> Observed {
-    Observed {
+fn observed(values: &[f64], uncertainties: Option<&[f64]>) -> ObservedOutput {
+    ObservedOutput {
         values: values.to_vec(),
         standard_uncertainties: uncertainties.map(<[f64]>::to_vec),
         simulation_uncertainties: None,

@@ -1,6 +1,6 @@
 //! The periodic part of a signal: an offset and harmonics of a known frequency by least squares.
 //!
-//! It is the fit of [`Design`] with tones at multiples of one frequency, for signals in memory, with
+//! It is the fit of [`ToneDesign`] with tones at multiples of one frequency, for signals in memory, with
 //! what steps need of it: the model's values, each harmonic multiplied by a gain, and what is left of
 //! the signal. Phases are those at the middle of the signal.
 
@@ -8,7 +8,7 @@ use crate::dirichlet::sum_of_cosines;
 use crate::phasor;
 use crate::phasor::Phasor;
 use crate::quantization::{amplitude_error, quantization_variance};
-use crate::sine_fit::{Design, Tone};
+use crate::sine_fit::{Tone, ToneDesign};
 use crate::unsuitable::within;
 use crate::{Measured, Signal, Unsuitable, measured};
 use gumption_engine::number::elementary;
@@ -24,7 +24,7 @@ pub struct Harmonics {
 
 /// One harmonic.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Part {
+pub struct Harmonic {
     /// Its frequency, in hertz.
     pub frequency: f64,
     /// Its complex amplitude (peak) at the middle of the signal, in the signal's unit.
@@ -38,7 +38,7 @@ pub struct Part {
     pub rounding: f64,
 }
 
-impl Part {
+impl Harmonic {
     /// The peak amplitude, in the signal's unit.
     pub fn amplitude(&self) -> Measured {
         let (value, [x, y]) = (phasor::modulus(self.phasor), self.standard_uncertainty);
@@ -72,7 +72,7 @@ pub struct Periodic {
     /// The mean, in the signal's unit, with white noise's standard uncertainty.
     pub offset: Measured,
     /// The harmonics, by rising frequency.
-    pub parts: Vec<Part>,
+    pub parts: Vec<Harmonic>,
     /// The instant of the middle of the signal, in seconds, at which the phases are.
     pub middle: f64,
     /// Standard deviation of what is left of the signal, in its unit.
@@ -106,7 +106,7 @@ impl Periodic {
         let tone =
             |multiple: u32| Tone { cycles: turns * f64::from(multiple), fundamental: 0, multiple };
         let tones = (1..=count as u32).map(tone).collect();
-        let design = Design::new(tones, samples as u64)
+        let design = ToneDesign::new(tones, samples as u64)
             .map_err(|_| Unsuitable::TooShort { samples, needed: samples + needed })?;
         let fit = design.fit_values(&signal.values);
         let freedom = (samples - 2 * count - 1) as f64;
@@ -117,7 +117,7 @@ impl Periodic {
                 degrees_of_freedom: freedom,
             },
             parts: (1..=count)
-                .map(|h| Part {
+                .map(|h| Harmonic {
                     frequency: harmonics.frequency * h as f64,
                     phasor: Phasor::new(fit.cosines[h - 1], -fit.sines[h - 1]),
                     standard_uncertainty: [0.0; 2],

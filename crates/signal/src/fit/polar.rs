@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use crate::Measured;
 use crate::analysed::{Analysed, Fundamental, local, shares, speed};
-use crate::budget::Source;
+use crate::budget::UncertaintySource;
 use crate::phasor::{angle, modulus};
 use crate::quantization::amplitude_error;
 use crate::recipe::Channel;
@@ -21,13 +21,13 @@ pub(crate) struct Polar {
     pub(crate) phase: f64,
     /// Standard uncertainties of A and, in radians, of phi from the channel's own noise and the like:
     /// those that no other channel shares.
-    pub(crate) own: Vec<(Source, f64, f64)>,
+    pub(crate) own: Vec<(UncertaintySource, f64, f64)>,
     /// Contributions of the channel's steps: source, to A and, in radians, to phi.
-    pub(crate) steps: Vec<(Source, f64, f64)>,
+    pub(crate) steps: Vec<(UncertaintySource, f64, f64)>,
     /// The modulus of the gain that the factors of the fit are still to be divided by, as A is.
     pub(crate) gain: f64,
     /// The standard uncertainty of A from what it shares with others.
-    pub(crate) shared: Vec<(Source, f64)>,
+    pub(crate) shared: Vec<(UncertaintySource, f64)>,
     /// How phi moves with the cycles in a sample interval that the fit took, radians.
     pub(crate) slope: f64,
     /// Standard deviations of the factors of cosine and sine, divided by the gain, from noise of all
@@ -81,21 +81,21 @@ pub(crate) fn polar(
     let (sa, sb) = (slope.cosines[tone], slope.sines[tone]);
     let phase_slope = (b * sa - a * sb) / (size * size);
     let cut = phase_slope * size * of.of_cut;
-    let mut own: Vec<(Source, f64, f64)> = Vec::new();
+    let mut own: Vec<(UncertaintySource, f64, f64)> = Vec::new();
     let mut add = |source, along: f64, across: f64| {
         own.push((source, along.sqrt(), across.sqrt() / size));
     };
-    add(Source::Noise, along * noise, across * noise);
+    add(UncertaintySource::Noise, along * noise, across * noise);
     // rounding moves the amplitude of a sine, not its phase
     let (fast, slow) = if multiple == 1 { (1.0, 0.0) } else { (1.0, 1.0) };
     let square = rounding * rounding;
     add(
-        Source::Quantization,
+        UncertaintySource::Quantization,
         along * quantization + fast * square,
         across * quantization + slow * square,
     );
-    add(Source::Jitter, along * jitter * fore, across * jitter * aside);
-    add(Source::Leakage, leakage * leakage, leakage * leakage + cut * cut);
+    add(UncertaintySource::Jitter, along * jitter * fore, across * jitter * aside);
+    add(UncertaintySource::Leakage, leakage * leakage, leakage * leakage + cut * cut);
 
     // a fit at the wrong frequency: to first order by its slope; to second order the amplitude falls
     // as sin(x)/x with x = pi n N dc, whose x^2/6 has the rms value sqrt(3)/6 u(x)^2
@@ -106,10 +106,13 @@ pub(crate) fn polar(
     };
     let to_middle = base.start * base.rate.value + (samples - 1.0) / 2.0;
     let shared = vec![
-        (Source::Frequency, hypot(mistuned(of.of_stated), mistuned(of.of_estimate))),
-        (Source::SamplingRate, mistuned(of.of_rate)),
-        (Source::Leakage, mistuned(of.of_cut)),
-        (Source::Scale, amplitude * channel.scale_uncertainty * analysed.effects.power_of_scale()),
+        (UncertaintySource::Frequency, hypot(mistuned(of.of_stated), mistuned(of.of_estimate))),
+        (UncertaintySource::SamplingRate, mistuned(of.of_rate)),
+        (UncertaintySource::Leakage, mistuned(of.of_cut)),
+        (
+            UncertaintySource::Scale,
+            amplitude * channel.scale_uncertainty * analysed.effects.power_of_scale(),
+        ),
     ];
     let blur = speed(analysed, tone) * base.jitter;
     let cycles = of.turning * times;

@@ -21,7 +21,7 @@ const FIRST_BLOCK: u64 = 1 << 32;
 const THIN: usize = 4;
 
 /// Walks a column of walkers for some generations; gives their places in the second half.
-pub(crate) fn roam(
+pub(crate) fn sample(
     likelihood: &Likelihood<'_>,
     start: Vec<Column>,
     generations: usize,

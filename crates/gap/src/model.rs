@@ -14,7 +14,7 @@ use gumption_engine::model::{
 
 /// What computes the outputs of a sim.
 #[derive(Clone, Debug)]
-pub enum Maker {
+pub enum ModelBody {
     /// A typed model.
     Typed(Typed),
     /// Formulas in their order, each with the name of its quantity.
@@ -23,7 +23,7 @@ pub enum Maker {
 
 /// A model that can be recorded anew with some of its quantities overridden.
 #[derive(Clone, Debug)]
-pub struct Sim {
+pub struct OverridableModel {
     /// The input quantities.
     pub inputs: Vec<InputQuantity>,
     /// The conditions of the measurement.
@@ -31,7 +31,7 @@ pub struct Sim {
     /// The output quantities.
     pub outputs: Vec<Output>,
     /// What computes them.
-    pub maker: Maker,
+    pub maker: ModelBody,
     /// What is known of every name.
     pub scope: Scope,
 }
@@ -83,11 +83,11 @@ impl fmt::Display for OverrideError {
 
 impl Error for OverrideError {}
 
-impl Sim {
+impl OverridableModel {
     /// The model without any effect.
     ///
     /// # Errors
-    /// As [`Sim::program`].
+    /// As [`OverridableModel::program`].
     pub fn model(&self) -> Result<Model, OverrideError> {
         Ok(Model {
             program: self.program(&[])?,
@@ -106,7 +106,7 @@ impl Sim {
     pub fn overridable(&self) -> Vec<&str> {
         let mut names: Vec<&str> =
             self.inputs.iter().map(|input| input.quantity.name.as_str()).collect();
-        if let Maker::Equations(equations) = &self.maker {
+        if let ModelBody::Equations(equations) = &self.maker {
             names.extend(equations.iter().map(|(name, _)| name.as_str()));
         }
         for output in &self.outputs {
@@ -160,7 +160,7 @@ impl Sim {
 
 /// One recording: quantities are computed when they are asked for.
 struct Making<'s, 'r> {
-    sim: &'s Sim,
+    sim: &'s OverridableModel,
     effects: &'s [&'s Effect],
     parameters: Vec<HashMap<&'s str, Traced<'r>>>,
     given: HashMap<String, Traced<'r>>,
@@ -237,13 +237,13 @@ impl<'r> Making<'_, 'r> {
             return Ok(value);
         }
         match &self.sim.maker {
-            Maker::Equations(equations) => {
+            ModelBody::Equations(equations) => {
                 let Some((_, formula)) = equations.iter().find(|(of, _)| of == name) else {
                     return Err(undefined(name));
                 };
                 self.record(formula, &self.sim.scope, |used| self.quantity(used))
             }
-            Maker::Typed(typed) => {
+            ModelBody::Typed(typed) => {
                 let place = typed.output(name).map(|(place, _)| place);
                 if self.typed.borrow().is_none() {
                     let mut values = HashMap::new();

@@ -1,7 +1,7 @@
 //! The verdict alone: what a blind check asks of many data sets.
 
 use super::diagnose::{hypotheses, prediction};
-use super::diagnosis::{Hypothesis, Predicted, Verdict};
+use super::diagnosis::{Hypothesis, MostProbable, Predicted};
 use super::posterior::Effort;
 use super::shrink;
 use super::weighed::Weighed;
@@ -10,9 +10,9 @@ use gumption_engine::task::Row;
 
 /// A diagnosis without regions, cross-validation and advice.
 #[derive(Clone, Debug)]
-pub struct Answer {
+pub struct ModelSelection {
     /// The hypothesis of highest posterior probability.
-    pub verdict: Verdict,
+    pub most_probable: MostProbable,
     /// All hypotheses, most probable first.
     pub hypotheses: Vec<Hypothesis>,
     /// Corrected predictions at the case's own rows.
@@ -54,13 +54,13 @@ pub fn nominal(case: &Case) -> Vec<Vec<f64>> {
 ///
 /// # Errors
 /// Effects that cannot act on the model.
-pub fn answer(case: &Case, seed: u64) -> Result<Answer, OverrideError> {
+pub fn select_model(case: &Case, seed: u64) -> Result<ModelSelection, OverrideError> {
     case.check()?;
     let weighed = Weighed::new(case, seed, Effort::QUICK, &|_| {});
     let rows: Vec<Row> = case.task.rows.clone();
-    let group = weighed.group();
-    Ok(Answer {
-        verdict: weighed.verdict(&group),
+    let group = weighed.indistinguishable();
+    Ok(ModelSelection {
+        most_probable: weighed.most_probable(&group),
         hypotheses: hypotheses(&weighed.setup, &weighed.posterior, super::diagnose::coverage(case)),
         predicted: prediction(&weighed.setup, &weighed.discrepancy, &weighed.posterior, &rows),
         claimed_fraction: shrink::claim(
