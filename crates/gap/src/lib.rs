@@ -40,7 +40,7 @@ pub use diagnosis::{
     MostProbable, NamedQuantity, NextMeasurement, NoiseEstimate, Predicted, RowGap, Shrinkage,
     Shrunk, ValueGap,
 };
-pub use model::{Effect, ModelBody, OverridableModel, OverrideError};
+pub use model::{Effect, ModelForm, OverridableModel, OverrideError};
 pub use selection::{ModelSelection, noise, nominal, select_model};
 
 #[cfg(test)]

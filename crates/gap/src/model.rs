@@ -14,7 +14,7 @@ use gumption_engine::model::{
 
 /// What computes the outputs of a sim.
 #[derive(Clone, Debug)]
-pub enum ModelBody {
+pub enum ModelForm {
     /// A typed model.
     Typed(Typed),
     /// Formulas in their order, each with the name of its quantity.
@@ -31,7 +31,7 @@ pub struct OverridableModel {
     /// The output quantities.
     pub outputs: Vec<Output>,
     /// What computes them.
-    pub maker: ModelBody,
+    pub maker: ModelForm,
     /// What is known of every name.
     pub scope: Scope,
 }
@@ -106,7 +106,7 @@ impl OverridableModel {
     pub fn overridable(&self) -> Vec<&str> {
         let mut names: Vec<&str> =
             self.inputs.iter().map(|input| input.quantity.name.as_str()).collect();
-        if let ModelBody::Equations(equations) = &self.maker {
+        if let ModelForm::Equations(equations) = &self.maker {
             names.extend(equations.iter().map(|(name, _)| name.as_str()));
         }
         for output in &self.outputs {
@@ -237,13 +237,13 @@ impl<'r> Making<'_, 'r> {
             return Ok(value);
         }
         match &self.sim.maker {
-            ModelBody::Equations(equations) => {
+            ModelForm::Equations(equations) => {
                 let Some((_, formula)) = equations.iter().find(|(of, _)| of == name) else {
                     return Err(undefined(name));
                 };
                 self.record(formula, &self.sim.scope, |used| self.quantity(used))
             }
-            ModelBody::Typed(typed) => {
+            ModelForm::Typed(typed) => {
                 let place = typed.output(name).map(|(place, _)| place);
                 if self.typed.borrow().is_none() {
                     let mut values = HashMap::new();

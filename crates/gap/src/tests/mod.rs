@@ -10,7 +10,7 @@ use std::sync::Arc;
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::{Candidate, Case, Effect, ModelBody, ObservedOutput, OverridableModel, Prior};
+use crate::{Candidate, Case, Effect, ModelForm, ObservedOutput, OverridableModel, Prior};
 use gumption_engine::distribution::{Distribution, Evaluation, Fits, Normal};
 use gumption_engine::model::formula::{Formula, Scope, Typing};
 use gumption_engine::model::{InputQuantity, Output, Quantity};
@@ -66,7 +66,7 @@ fn case(
                 capability: None,
             })
             .collect(),
-        maker: ModelBody::Equations(formulas(equations)),
+        maker: ModelForm::Equations(formulas(equations)),
         scope: Scope::from_iter(names.map(|name| (name, Typing::in_unit(&Unit::one())))),
     };
     let distributions: Arc<[Arc<Distribution>]> = Arc::new([Arc::new(a)]);

@@ -3,7 +3,7 @@
 use super::Report;
 use crate::tree::Tree;
 use gumption_analysis::assumptions::{
-    Agreement, Figures, InputAudit, Move, OutputAudit, RowAudit, Sobol,
+    EvidenceTest, InputAudit, OutputAudit, RowAudit, Sobol, VariantChange, VariantFigures,
 };
 
 type Entries = Vec<(&'static str, Tree)>;
@@ -78,14 +78,14 @@ fn output_tree(report: &Report<'_>, unit: &str, output: &OutputAudit) -> Tree {
     Tree::object(entries)
 }
 
-fn figures(of: Option<&Figures>) -> Entries {
+fn figures(of: Option<&VariantFigures>) -> Entries {
     vec![
         ("standard_uncertainty", of.and_then(|of| of.standard_uncertainty).into()),
         ("symmetric_interval", of.map(|of| of.symmetric_interval).into()),
     ]
 }
 
-fn moved(of: &Move) -> Entries {
+fn moved(of: &VariantChange) -> Entries {
     let mut entries = figures(of.figures.as_ref());
     entries.push(("change_of_half_length", of.change.into()));
     entries.push(("numerical_standard_error", of.error.into()));
@@ -128,7 +128,7 @@ fn input_tree(report: &Report<'_>, input: &InputAudit) -> Tree {
     Tree::object(entries)
 }
 
-fn agreement(report: &Report<'_>, of: &Agreement) -> Tree {
+fn agreement(report: &Report<'_>, of: &EvidenceTest) -> Tree {
     let unit = report.task.variables.get(of.variable).map_or("", |v| v.unit.text());
     let supported = Tree::object([
         ("parameter", Tree::from(of.supported.parameter)),

@@ -1,7 +1,7 @@
 //! The certificate for programs.
 
 use super::stated::{self, Stated};
-use super::{Report, particulars, sentences};
+use super::{Report, administrative, sentences};
 use crate::tree::Tree;
 use gumption_engine::propagate::gum::Dof;
 use gumption_engine::task::Trials;
@@ -12,9 +12,9 @@ use gumption_engine::task::Trials;
 pub fn json(report: &Report<'_>) -> String {
     let Report { certificate, issued, .. } = report;
     let languages = &certificate.languages;
-    let title = particulars::title(report);
+    let title = administrative::title(report);
     let rows = stated::rows(report);
-    let about = particulars::lines(report);
+    let about = administrative::lines(report);
     let statements = languages.iter().map(|language| {
         let said = sentences::coverage(report, *language);
         (language.code(), Tree::list(said.iter().map(|said| Tree::from(said.as_str()))))
@@ -32,7 +32,7 @@ pub fn json(report: &Report<'_>) -> String {
         ("gumption", Tree::from(env!("CARGO_PKG_VERSION"))),
         ("title", title.as_str().into()),
         (
-            "particulars",
+            "administrative",
             Tree::object(
                 about.iter().map(|(name, text)| (name.as_str(), Tree::from(text.as_str()))),
             ),

@@ -2,8 +2,8 @@
 
 use super::Compare;
 use crate::tree::Tree;
-use gumption_analysis::compare::laboratories::Reference;
-use gumption_analysis::compare::{Compared, Comparison, FACTOR, Row};
+use gumption_analysis::compare::laboratories::ReferenceValue;
+use gumption_analysis::compare::{ComparedPair, Comparison, DegreeOfEquivalence, FACTOR};
 
 /// The comparison as JSON, ending in a newline.
 pub fn json(compare: &Compare) -> String {
@@ -21,7 +21,7 @@ pub fn json(compare: &Compare) -> String {
     }
 }
 
-fn pair(row: &Compared, rounding: bool) -> Tree {
+fn pair(row: &ComparedPair, rounding: bool) -> Tree {
     let mut entries = vec![
         ("label", Tree::from(row.label.as_str())),
         ("difference", row.difference.into()),
@@ -39,7 +39,7 @@ fn pair(row: &Compared, rounding: bool) -> Tree {
 
 fn laboratories(comparison: &Comparison) -> Vec<(&'static str, Tree)> {
     let label = |&member: &usize| comparison.rows.get(member).map_or("", |row| row.label.as_str());
-    let reference = |of: &Reference| {
+    let reference = |of: &ReferenceValue| {
         Tree::object([
             ("value", Tree::from(of.value)),
             ("standard_uncertainty", of.standard_uncertainty.into()),
@@ -60,7 +60,7 @@ fn laboratories(comparison: &Comparison) -> Vec<(&'static str, Tree)> {
     ]
 }
 
-fn row(row: &Row) -> Tree {
+fn row(row: &DegreeOfEquivalence) -> Tree {
     Tree::object([
         ("label", Tree::from(row.label.as_str())),
         ("x", row.value.into()),
