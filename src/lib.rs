@@ -174,7 +174,7 @@
 //! let passes = InMemorySamples { channels: vec![values] };
 //! let mut tracks = [ChannelRecording { passes, base, channels: vec![0], search: None }];
 //! let found = observe(&settings, &[frequency], &mut tracks).map_err(|refused| format!("{refused:?}"))?;
-//! let amplitude = &found.frequencies[0][0].components[0].amplitude;
+//! let amplitude = &found.frequencies[0][0].components[0].amplitude.measured;
 //! // half a step at most, and its uncertainty is smaller than a step
 //! assert!((amplitude.value - 2.5).abs() < 0.005);
 //! assert!(amplitude.standard_uncertainty > 0.0 && amplitude.standard_uncertainty < 0.01);

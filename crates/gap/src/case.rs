@@ -1,18 +1,18 @@
-//! A case of the gap diagnosis: a sim, what was measured, and the effects that may be missing.
+//! A case of the gap diagnosis: a model, what was measured, and the effects that may be missing.
 
 use crate::{Effect, OverridableModel, OverrideError};
 use gumption_engine::distribution::Distribution;
 use gumption_engine::model::Program;
 use gumption_engine::task::Task;
 
-/// A sim with measured data and candidate effects.
+/// A model with measured data and candidate effects.
 #[derive(Clone, Debug)]
 pub struct Case {
-    /// The sim at the conditions of every row of the data.
+    /// The model at the conditions of every row of the data.
     pub task: Task,
-    /// The sim in a form that effects can override.
+    /// The model in a form that effects can override.
     pub model: OverridableModel,
-    /// What was measured of each output of the sim, in the order of the outputs; `None` where an
+    /// What was measured of each output of the model, in the order of the outputs; `None` where an
     /// output was not observed.
     pub observed: Vec<Option<ObservedOutput>>,
     /// How many of the last conditions are columns of somebody else's simulation rather than

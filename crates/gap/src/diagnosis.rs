@@ -44,7 +44,7 @@ pub struct NamedQuantity {
     pub unit: String,
 }
 
-/// Whether the data depart from the sim by more than the stated uncertainties explain.
+/// Whether the data depart from the model by more than the stated uncertainties explain.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GapTest {
     /// Whether the verdict is another than "none".
@@ -174,9 +174,9 @@ pub struct Shrinkage {
 /// Root mean squares before and after a correction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Shrunk {
-    /// Of the residuals against the sim.
+    /// Of the residuals against the model.
     pub rms_before: f64,
-    /// Of the residuals against the corrected sim, fitted without the block of each value.
+    /// Of the residuals against the corrected model, fitted without the block of each value.
     pub rms_after: f64,
     /// Of the noise alone.
     pub noise_floor: f64,
@@ -213,18 +213,18 @@ pub struct RowGap {
     pub outputs: Vec<ValueGap>,
 }
 
-/// One measured value beside the sim, before and after the correction, in the output's unit.
+/// One measured value beside the model, before and after the correction, in the output's unit.
 #[derive(Clone, Copy, Debug)]
 pub struct ValueGap {
     /// Measured value.
     pub measured: f64,
     /// Its standard uncertainty (noise).
     pub u: f64,
-    /// Measured value less the sim.
+    /// Measured value less the model.
     pub before: f64,
     /// Standard uncertainty of that residual: noise and inputs.
     pub u_before: f64,
-    /// Measured value less the corrected sim that was fitted without its block.
+    /// Measured value less the corrected model that was fitted without its block.
     pub after: f64,
     /// Standard uncertainty of that residual: noise and what was fitted.
     pub u_after: f64,
@@ -235,9 +235,9 @@ pub struct ValueGap {
 pub struct NoiseEstimate {
     /// Place of the output.
     pub output: usize,
-    /// Standard deviation at the sim's typical size, in the output's unit.
+    /// Standard deviation at the model's typical size, in the output's unit.
     pub standard_uncertainty: f64,
-    /// Power of the sim's size that it grows with: 0 constant, 1 proportional.
+    /// Power of the model's size that it grows with: 0 constant, 1 proportional.
     pub power: f64,
 }
 

@@ -128,7 +128,7 @@ impl EvidenceEstimate {
         }
     }
 
-    /// Lets walkers roam from what was drawn, and draws from a mixture fitted to where they went.
+    /// Lets chains roam from what was drawn, and draws from a mixture fitted to where they went.
     pub(crate) fn sample_chains(&mut self, likelihood: &Likelihood<'_>, generations: usize) {
         if self.unknowns == 0 || self.effective_sample_size == 0.0 {
             return;

@@ -1,4 +1,10 @@
-//! Probabilities that know how well their integrals are known.
+//! Posterior probabilities averaged over the Monte Carlo errors of the evidences.
+//!
+//! Each evidence is an estimate, and a probability is a ratio of them. An integral that rests on few
+//! effective draws has an uncertain logarithm; taken as exact, it would make a hypothesis look as good
+//! as certain, or impossible, by chance. The errors of the logarithms are therefore drawn, as t
+//! distributions with the degrees of freedom of their effective sample sizes, the probabilities
+//! computed for each draw, and averaged: poorly known evidences then give less extreme probabilities.
 
 use gumption_engine::distribution::{StreamKey, special};
 use gumption_engine::number::{COLUMN, elementary};

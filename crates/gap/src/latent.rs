@@ -20,12 +20,12 @@ pub(crate) enum Map {
 /// What an unknown quantity is.
 #[derive(Clone, Debug)]
 pub(crate) enum Role {
-    /// A variable of the program: an input of the sim or a parameter of an effect. Its prior at each
+    /// A variable of the program: an input of the model or a parameter of an effect. Its prior at each
     /// point of the data, or one for all of them.
     Variable { place: usize, maps: Vec<Map> },
     /// The logarithm of an output's standard deviation of noise, in the output's unit.
     Noise { output: usize, map: Map },
-    /// The power of the sim's value that an output's noise is proportional to.
+    /// The power of the model's value that an output's noise is proportional to.
     Power { output: usize, map: Map },
 }
 
@@ -117,7 +117,7 @@ impl Role {
         self.map().is_some_and(Map::is_bounded)
     }
 
-    /// Whether it belongs to the noise and not to the sim.
+    /// Whether it belongs to the noise and not to the model.
     pub(crate) fn is_noise(&self) -> bool {
         !matches!(self, Self::Variable { .. })
     }

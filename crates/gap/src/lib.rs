@@ -1,4 +1,4 @@
-//! The sim-to-real gap: whether measured data depart from a sim by more than its uncertainties
+//! The model-to-real gap: whether measured data depart from a model by more than its uncertainties
 //! explain, where, which effect is missing, and how far the gap shrinks once it is added.
 #![allow(clippy::needless_range_loop)] // lanes and small matrices read best by their places
 

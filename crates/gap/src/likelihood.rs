@@ -1,8 +1,20 @@
 //! The likelihood of a hypothesis at many points of its unknown quantities at once.
 //!
-//! Points stand side by side in the lanes of columns; the program runs once for each distinct
-//! condition of the data, and squares and products are summed up row by row, so that memory does not
-//! grow with the data.
+//! The integral over the unknown quantities needs the likelihood at thousands of points, and each
+//! evaluation runs the model at every condition of the data. Two things make that cheap. Points stand
+//! side by side in the lanes of columns, so that the recorded program is interpreted once for 128 of
+//! them, and repeats at one condition share one run of it. And what acts linearly is integrated out
+//! in closed form: the covariance of the residuals is V = B + L L', with B in small blocks (one for
+//! each row of the data) and a column of L for each shared input, so that by the matrix inversion
+//! lemma (Sherman, Morrison, Woodbury)
+//!
+//! r' inv(V) r = |w|^2 - |inv(K) M' w|^2 and |V| = |B| |K|^2,
+//!
+//! where w and M are r and L whitened by B and K is the Cholesky root of I + M' M. V is never formed:
+//! time and memory grow with the number of rows and not with its square.
+//!
+//! Where the noise of an output is estimated, B depends on the point. Then M' M is summed up lane by
+//! lane with the squares, and K is factored for each point.
 
 use super::covariance::Covariance;
 use super::data::Data;
@@ -27,7 +39,7 @@ pub(crate) struct Likelihood<'c> {
     /// How scores that are correlated beforehand follow from independent ones.
     mixing: Option<Vec<Vec<f64>>>,
     evaluator: Evaluator,
-    /// For each value the logarithm of the sim's size, which proportional noise follows.
+    /// For each value the logarithm of the model's size, which proportional noise follows.
     ln_sizes: Vec<f64>,
 }
 
@@ -207,7 +219,7 @@ impl<'c> Likelihood<'c> {
         path.run(Walk { likelihood: self, scores: self.mixed(scores), lanes, visitor });
     }
 
-    /// The logarithms of the likelihood of up to a column of points; minus infinity where the sim is
+    /// The logarithms of the likelihood of up to a column of points; minus infinity where the model is
     /// not finite.
     pub(crate) fn log_likelihood(&self, scores: &[Column], lanes: usize) -> Vec<f64> {
         let mut sums = Sums::new(self.covariance);

@@ -1,4 +1,14 @@
-//! A mixture of t distributions to draw the unknown quantities of a hypothesis from.
+//! The proposal of the importance sampling: a mixture of t distributions.
+//!
+//! An integral by importance sampling is as good as its proposal is near to the posterior, and fails
+//! silently where the proposal has no mass. Hence three precautions. The components have heavier tails
+//! than a posterior, so that no single draw can carry most of the weight. The prior itself is one of
+//! them with a small share (defensive sampling, Hesterberg 1995, Technometrics 37, 185), so that no
+//! region is left out altogether. And a new proposal is not used instead of the old ones but beside
+//! them: every draw is weighed by the mixture of all proposals so far (adaptive multiple importance
+//! sampling; see the module `evidence`), so that a bad adaptation costs draws and not correctness.
+//!
+//! Between rounds the mixture is adapted to the weighted draws by one step of expectation maximization.
 
 use nalgebra::{DMatrix, DVector};
 

@@ -1,4 +1,4 @@
-//! A model whose named quantities effects can override: the sim of the gap diagnosis.
+//! A model whose named quantities effects can override: the model of the gap diagnosis.
 
 use std::cell::RefCell;
 use std::collections::HashMap;
@@ -12,7 +12,7 @@ use gumption_engine::model::{
     recorded_values, variables,
 };
 
-/// What computes the outputs of a sim.
+/// What computes the outputs of a model.
 #[derive(Clone, Debug)]
 pub enum ModelForm {
     /// A typed model.
@@ -36,12 +36,12 @@ pub struct OverridableModel {
     pub scope: Scope,
 }
 
-/// An effect that the sim leaves out: quantities of the sim that it changes, and its parameters.
+/// An effect that the model leaves out: quantities of the model that it changes, and its parameters.
 #[derive(Clone, Debug)]
 pub struct Effect {
     /// Its name.
     pub name: String,
-    /// Its parameters; each hides a quantity of the sim of the same name.
+    /// Its parameters; each hides a quantity of the model of the same name.
     pub parameters: Vec<Quantity>,
     /// Names of quantities and what they become. In a formula its own quantity's name means the
     /// value without this override; every other name is the quantity with all overrides, but in the
@@ -197,7 +197,7 @@ impl<'r> Making<'_, 'r> {
         self.sim.outputs.iter().map(named).collect()
     }
 
-    /// A quantity as the formulas after it see it: with all overrides, but an output as the sim
+    /// A quantity as the formulas after it see it: with all overrides, but an output as the model
     /// computes it, since overrides of outputs act last.
     fn quantity(&self, name: &str) -> Result<Traced<'r>, OverrideError> {
         if let Some(&value) = self.made.borrow().get(name) {
@@ -293,7 +293,7 @@ fn undefined(name: &str) -> OverrideError {
 }
 
 impl Effect {
-    /// What its formulas know: the sim's names, its parameters in place of those of the same name.
+    /// What its formulas know: the model's names, its parameters in place of those of the same name.
     pub fn scope(&self, sim: &Scope) -> Scope {
         let mut scope = sim.clone();
         for parameter in &self.parameters {

@@ -45,7 +45,7 @@ pub(crate) struct Effort {
     pub(crate) starts: usize,
     /// The standard error of a probability that is good enough.
     pub(crate) error: f64,
-    /// Generations of walkers.
+    /// Generations of chains.
     pub(crate) generations: usize,
     /// Refinements at most.
     pub(crate) rounds: usize,

@@ -1,6 +1,6 @@
-//! Ridges of a posterior: where a parameter is hardly known, the others follow it along a curve that
-//! a mixture about the mode leaves. The curve is found by holding the parameter at values over all of
-//! its prior and maximizing over everything else.
+//! Profile paths of a posterior: where a parameter is hardly known, the others follow it along a curve
+//! that a mixture about the mode leaves. The curve is found by holding the parameter at values over all
+//! of its prior and maximizing over everything else, as for a profile likelihood.
 
 use nalgebra::DMatrix;
 

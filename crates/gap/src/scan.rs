@@ -1,8 +1,17 @@
 //! Where the gap lies: a scan over outputs and intervals of each condition.
 //!
-//! A region's statistic is how much of the squared residuals goes when its values are left out, the
-//! shared inputs being free to explain the rest. How surprising the most surprising region is comes
-//! from the same scan of data without a gap.
+//! A chi-square test of all residuals says that something is wrong, not where; and the residuals of
+//! one interval may be large only because shared inputs were fitted to the others. The statistic of a
+//! region is therefore by how much the smallest sum of squares falls when the region's values are left
+//! out, the shared inputs being free to explain the rest. Without a gap it follows the chi-square
+//! distribution with as many degrees of freedom as the region has values, which makes regions of
+//! different sizes comparable.
+//!
+//! There are many regions, and they overlap, so that the smallest of their probabilities is no
+//! probability. How surprising the most surprising one is, is found by the same scan of simulated data
+//! without a gap (a scan statistic with a Monte Carlo reference, as Kulldorff 1997, Communications in
+//! Statistics: Theory and Methods 26, 1481, has it). Sums of products over the bins of a condition are
+//! cumulated once, so that every interval costs a difference and a small Cholesky factorization.
 
 use rayon::prelude::*;
 

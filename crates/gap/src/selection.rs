@@ -42,7 +42,7 @@ pub fn noise(case: &Case, seed: u64) -> Result<Vec<Vec<f64>>, OverrideError> {
     }))
 }
 
-/// What the sim says of every observed output in every row at the inputs' estimates.
+/// What the model says of every observed output in every row at the inputs' estimates.
 pub fn nominal(case: &Case) -> Vec<Vec<f64>> {
     let data = super::data::Data::new(case);
     (0..data.outputs.len())

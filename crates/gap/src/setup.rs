@@ -16,7 +16,7 @@ const NEGLIGIBLE: f64 = 0.3;
 /// At most so many inputs are unknown quantities of their own; the others act linearly.
 const MOST_UNKNOWN_INPUTS: usize = 12;
 
-/// Noise is taken to be proportional to a power of the sim's size where that spans this factor.
+/// Noise is taken to be proportional to a power of the model's size where that spans this factor.
 const SPAN_FOR_POWER: f64 = 3.0;
 
 /// What all hypotheses of a case have in common.
@@ -205,7 +205,7 @@ fn unknown_inputs(case: &Case, data: &Data, spread: &Spread) -> Vec<usize> {
     chosen
 }
 
-/// For each value the logarithm of the sim's size relative to its geometric mean over the rows.
+/// For each value the logarithm of the model's size relative to its geometric mean over the rows.
 fn ln_sizes(data: &Data) -> Vec<f64> {
     let count = data.outputs.len();
     let mut ln_sizes = vec![0.0; data.len()];
@@ -229,7 +229,7 @@ fn ln_sizes(data: &Data) -> Vec<f64> {
 }
 
 /// The noise of an output without stated uncertainties: its standard deviation is log-uniform over
-/// all sizes that the data allow, and it may grow with the sim's size.
+/// all sizes that the data allow, and it may grow with the model's size.
 fn noise(output: usize, residuals: &[f64], data: &Data, ln_sizes: &[f64]) -> Vec<Role> {
     let rms = |values: &mut dyn Iterator<Item = f64>| {
         let (count, squares) = values.fold((0usize, 0.0), |(n, sum), v| (n + 1, sum + v * v));

@@ -24,7 +24,7 @@ const DRAWS: usize = 192;
 /// Below this gap, in standard uncertainties, a removed fraction is a ratio of two noises.
 const MEANINGFUL: f64 = 3.0;
 
-/// What is added to the sim.
+/// What is added to the model.
 #[derive(Clone, Debug)]
 pub(crate) enum Correction {
     /// Effects, or none of them.
@@ -203,7 +203,7 @@ fn claimed(setup: &Setup<'_>, fitted: &Normals, variances: &[f64]) -> f64 {
     if gap > 0.0 { (1.0 - left / gap).clamp(0.0, 1.0) } else { 0.0 }
 }
 
-/// Variances of the sim's values from all inputs, by the law of propagation.
+/// Variances of the model's values from all inputs, by the law of propagation.
 pub(crate) fn input_variances(setup: &Setup<'_>) -> Vec<f64> {
     let data = &setup.data;
     let outputs = data.outputs.len();

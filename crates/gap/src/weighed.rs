@@ -32,7 +32,7 @@ pub(crate) struct Weighed<'c> {
     pub(crate) best: usize,
     /// Whether it is more probable than "unexplained".
     pub(crate) explained: bool,
-    /// What the verdict adds to the sim.
+    /// What the verdict adds to the model.
     pub(crate) correction: Correction,
     /// Variances of the noise by value.
     pub(crate) variances: Vec<f64>,

@@ -40,7 +40,7 @@ pub struct BlindDraw {
     pub held: Vec<bool>,
     /// Root mean square of what the effects change, in standard uncertainties.
     pub gap: f64,
-    /// Root mean square error of the corrected prediction over that of the sim, without noise.
+    /// Root mean square error of the corrected prediction over that of the model, without noise.
     pub left: f64,
     /// Claimed and true removed fraction, where the gap is large enough.
     pub fractions: Option<[f64; 2]>,
@@ -160,7 +160,7 @@ fn label(effects: &[String]) -> String {
 }
 
 impl BlindDraw {
-    /// Compares a selection with the truth; `sim` and `noise` are what the sim says and the standard
+    /// Compares a selection with the truth; `sim` and `noise` are what the model says and the standard
     /// deviations of the noise, output by output.
     pub fn new(
         truth: &Truth,

@@ -14,7 +14,7 @@ use gumption_engine::number::{COLUMN, Column};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum TruthKind {
-    /// The sim alone.
+    /// The model alone.
     None,
     /// Effects of the catalogue.
     Catalogue,

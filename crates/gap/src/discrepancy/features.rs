@@ -79,14 +79,14 @@ impl Axis {
     }
 }
 
-/// The axes of a case's conditions, and of what the sim says of each output.
+/// The axes of a case's conditions, and of what the model says of each output.
 #[derive(Clone, Debug)]
 pub(crate) struct Axes {
     conditions: Vec<Axis>,
     sims: Vec<Axis>,
 }
 
-/// One row of conditions with what the sim says there: of the data, or of new conditions.
+/// One row of conditions with what the model says there: of the data, or of new conditions.
 #[derive(Clone, Debug)]
 pub(crate) struct Site {
     pub(crate) conditions: Vec<f64>,
@@ -125,7 +125,7 @@ impl Coordinates {
         let mut distinct: Vec<Vec<f64>> = Vec::new();
         let mut known = std::collections::HashMap::new();
         let mut touched = Vec::new();
-        // a function of the sim's value that several outputs share has one scale for all of them
+        // a function of the model's value that several outputs share has one scale for all of them
         let widest = term.outputs.iter().map(|&o| axes.sims[o].range).fold(0.0, f64::max);
         for (row, site) in sites.iter().enumerate() {
             for (number, &output) in term.outputs.iter().enumerate() {

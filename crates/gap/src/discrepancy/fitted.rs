@@ -1,8 +1,20 @@
 //! The evidence of a discrepancy where the noise is estimated from the data as well.
 //!
-//! At each amplitude the noise is integrated out about its most probable value (Laplace), which is
-//! accurate because a standard deviation from many residuals is nearly lognormal. Repeats go in as
-//! their mean and the sum of squares about it.
+//! With known noise a discrepancy that is a Gaussian process has its evidence in closed form. With
+//! unknown noise there is one more integral, over the logarithms of the standard deviations, for each
+//! of some hundred forms and each of fourteen amplitudes; sampling all of them would take most of the
+//! time of a diagnosis. But a standard deviation that is estimated from many residuals is nearly
+//! lognormal, so that Laplace's method is enough: the most probable noise by damped Fisher scoring,
+//! and there the determinant of the expected information (Tierney and Kadane 1986, Journal of the
+//! American Statistical Association 81, 82). The test compares it with a grid.
+//!
+//! Repeats that share conditions and variance enter as their mean and the sum of squares about it,
+//! which are sufficient; the matrices then have a row for each condition and not for each value. A
+//! discrepancy may imitate noise, so its size is counted in units of the noise: amplitude and noise
+//! move together, and the gradient has a part for that.
+//!
+//! A form whose evidence at a few amplitudes is far below the leading hypothesis is left at these: its
+//! weight would be lost in rounding.
 
 use std::sync::Arc;
 

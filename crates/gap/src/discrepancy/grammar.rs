@@ -18,7 +18,7 @@ pub(crate) enum Of {
     Condition(usize),
     /// A condition, with a value of its own at each level.
     Level(usize),
-    /// What the sim says.
+    /// What the model says.
     Sim,
     /// All conditions together, smoothly.
     Together,
@@ -29,7 +29,7 @@ pub(crate) enum Of {
 pub(crate) struct Term {
     /// The observed outputs that it acts on.
     pub outputs: Vec<usize>,
-    /// Whether it is a share of the sim's value.
+    /// Whether it is a share of the model's value.
     pub(crate) relative: bool,
     /// Whether all outputs have the same function.
     pub(crate) common: bool,

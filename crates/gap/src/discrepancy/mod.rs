@@ -1,4 +1,4 @@
-//! The hypothesis "unexplained": the sim plus a random discrepancy that no candidate makes.
+//! The hypothesis "unexplained": the model plus a random discrepancy that no candidate makes.
 //!
 //! The discrepancy is one term of a small grammar ([`grammar`]), all of equal weight; its amplitude
 //! is log-uniform from 3 to 300 standard uncertainties. Each term is a Gaussian process, so that its

@@ -10,7 +10,7 @@ use crate::setup::Setup;
 use gumption_engine::task::Row;
 
 impl Discrepancy {
-    /// What "unexplained" says in these rows: the sim at the inputs' estimates, corrected by what the
+    /// What "unexplained" says in these rows: the model at the inputs' estimates, corrected by what the
     /// data say of shared inputs and of the discrepancy (a Gaussian process conditioned on the data).
     pub(crate) fn predict(&self, setup: &Setup<'_>, kinds: &[Weighted], rows: &[Row]) -> Normals {
         let outputs = setup.data.outputs.len();
@@ -33,7 +33,7 @@ impl Discrepancy {
         for kind in kinds {
             let form = &self.forms[kind.form];
             let share = kind.weight / total;
-            // the sim, or the effects that act beside the discrepancy
+            // the model, or the effects that act beside the discrepancy
             let (residuals, sims) = match &kind.base {
                 None => (plain.clone(), nominals.iter().flat_map(|(sim, _)| sim.clone()).collect()),
                 Some(base) => {
@@ -114,7 +114,7 @@ impl Discrepancy {
     }
 }
 
-/// What the sim says in a row at the inputs' estimates, with its derivatives.
+/// What the model says in a row at the inputs' estimates, with its derivatives.
 fn nominal(setup: &Setup<'_>, row: &Row) -> (Vec<f64>, Vec<Vec<f64>>) {
     let mut variables: Vec<f64> = row.distributions.iter().map(|d| d.mean()).collect();
     variables.extend(&row.conditions);

@@ -59,7 +59,7 @@ fn linear_evidences_are_exact() {
     }
 }
 
-/// Walkers and what is drawn after them do not change the evidence.
+/// Chains and what is drawn after them do not change the evidence.
 #[test]
 fn roaming_leaves_the_evidence_as_it_is() {
     let case = line();

@@ -178,7 +178,7 @@ fn named<V>(names: &[NamedQuantity], values: impl Iterator<Item = V>) -> Ordered
 }
 
 fn answer(diagnosis: &Diagnosis) -> Answer {
-    let Diagnosis { outputs, conditions, gap, verdict, shrinkage, .. } = diagnosis;
+    let Diagnosis { outputs, conditions, gap, most_probable: verdict, shrinkage, .. } = diagnosis;
     let of_output = |(named, shrunk): (&NamedQuantity, &Shrunk)| OfOutput {
         unit: named.unit.clone(),
         rms_before: shrunk.rms_before,
@@ -231,7 +231,7 @@ fn answer(diagnosis: &Diagnosis) -> Answer {
                 probability: hypothesis.probability,
                 prior: hypothesis.prior,
                 log_evidence: finite(hypothesis.log_evidence),
-                standard_error: finite(hypothesis.error).unwrap_or(f64::MAX),
+                standard_error: finite(hypothesis.standard_error).unwrap_or(f64::MAX),
                 ess: hypothesis.effective_sample_size,
                 parameters: Ordered(
                     hypothesis

@@ -47,10 +47,11 @@ pub(super) fn shown(diagnosis: &Diagnosis) -> &[Hypothesis] {
 pub(super) fn hypotheses(diagnosis: &Diagnosis) -> Sheet {
     let shown = shown(diagnosis);
     let evidence = |hypothesis: &Hypothesis| {
-        let Hypothesis { log_evidence, error, effective, .. } = *hypothesis;
+        let Hypothesis { log_evidence, standard_error: error, effective_sample_size, .. } =
+            *hypothesis;
         if error > 0.0 && error.is_finite() {
             let (value, error) = with_uncertainty(log_evidence, error, digits::UNCERTAINTY);
-            [value, error, rounded(effective, 0)]
+            [value, error, rounded(effective_sample_size, 0)]
         } else {
             [rounded(log_evidence, -2), missing(), missing()]
         }

@@ -36,15 +36,15 @@ fn hypothesis(
     figures: [f64; 5],
     parameters: Vec<EffectParameter>,
 ) -> Hypothesis {
-    let [prior, probability, log_evidence, error, effective] = figures;
+    let [prior, probability, log_evidence, standard_error, effective_sample_size] = figures;
     let effects = effects.map(strings);
     Hypothesis {
         effects,
         prior,
         probability,
         log_evidence,
-        error,
-        effective,
+        standard_error,
+        effective_sample_size,
         best_log_likelihood: 0.0,
         fitted: parameters.len(),
         parameters,
@@ -103,12 +103,12 @@ fn diagnosis() -> Diagnosis {
                 mean_z: -0.567,
             },
         ],
-        verdict: MostProbable {
+        most_probable: MostProbable {
             kind: HypothesisKind::Explained,
             effects: strings(&["low-pass"]),
             probability: 0.877_777_86,
-            group: vec![strings(&["low-pass"]), strings(&["low-pass", "delay"])],
-            group_probability: 0.987_777_86,
+            indistinguishable: vec![strings(&["low-pass"]), strings(&["low-pass", "delay"])],
+            indistinguishable_probability: 0.987_777_86,
         },
         hypotheses: vec![
             hypothesis(
@@ -203,8 +203,8 @@ fn bare() -> Diagnosis {
         kind: HypothesisKind::None,
         effects: Vec::new(),
         probability: 1.0,
-        group: vec![Vec::new()],
-        group_probability: 1.0,
+        indistinguishable: vec![Vec::new()],
+        indistinguishable_probability: 1.0,
     };
     bare.hypotheses =
         vec![hypothesis(Some(&[]), [1.0, 1.0, f64::NEG_INFINITY, f64::INFINITY, 0.0], vec![])];
@@ -234,8 +234,8 @@ fn unexplained() -> Diagnosis {
         kind: HypothesisKind::Unexplained,
         effects: Vec::new(),
         probability: 0.99,
-        group: Vec::new(),
-        group_probability: 0.99,
+        indistinguishable: Vec::new(),
+        indistinguishable_probability: 0.99,
     };
     unexplained.next = None;
     unexplained
