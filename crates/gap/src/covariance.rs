@@ -6,8 +6,9 @@
 use nalgebra::DMatrix;
 
 use super::data::{Data, Spread};
-use super::packed::{self, dot, triangle};
 use crate::Case;
+use gumption_engine::linalg::dot;
+use gumption_engine::linalg::packed::{self, triangle};
 
 /// Covariance V = B + L L', with B in blocks of the outputs of a row.
 #[derive(Clone, Debug)]

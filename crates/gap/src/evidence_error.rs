@@ -6,8 +6,9 @@
 //! distributions with the degrees of freedom of their effective sample sizes, the probabilities
 //! computed for each draw, and averaged: poorly known evidences then give less extreme probabilities.
 
-use gumption_engine::distribution::{StreamKey, special};
+use gumption_engine::distribution::StreamKey;
 use gumption_engine::number::{COLUMN, elementary};
+use gumption_engine::special;
 
 /// An error of a logarithm below this changes no probability by more than about 0.0003.
 const NEGLIGIBLE: f64 = 0.05;

@@ -3,8 +3,8 @@
 use super::data::by_rows;
 use super::diagnosis::{GapTest, HypothesisKind};
 use super::setup::Setup;
-use gumption_engine::distribution::special;
 use gumption_engine::number::elementary;
+use gumption_engine::special;
 
 /// Noise and what belongs to a row alone.
 pub(crate) fn plus_rows(setup: &Setup<'_>, noise: &[f64]) -> Vec<f64> {

@@ -5,8 +5,9 @@
 //! quantile of its prior at the probability of a standard normal score.
 
 use super::logarithm::HALF_LN_TWO_PI;
-use gumption_engine::distribution::{Distribution, special};
+use gumption_engine::distribution::Distribution;
 use gumption_engine::number::elementary;
+use gumption_engine::special;
 
 /// How a score becomes a value.
 #[derive(Clone, Debug)]

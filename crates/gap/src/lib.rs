@@ -21,7 +21,6 @@ mod mixture;
 mod model;
 mod next;
 mod notes;
-mod packed;
 mod parameters;
 mod posterior;
 mod predict;

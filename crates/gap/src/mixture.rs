@@ -14,9 +14,9 @@ use nalgebra::{DMatrix, DVector};
 
 use super::latent::{bounded_from_normal, ln_prior};
 use super::logarithm::{HALF_LN_TWO_PI, ln_sum};
-use super::packed::{self, triangle};
 use super::search::Mode;
 use gumption_engine::distribution::{Normal, Stream};
+use gumption_engine::linalg::packed::{self, triangle};
 use gumption_engine::number::{COLUMN, Column, elementary};
 
 /// Degrees of freedom of the components: heavier tails than those of a posterior, so that no draw

@@ -11,8 +11,9 @@ use super::evidence_error;
 use super::likelihood::Likelihood;
 use super::logarithm::ln_add;
 use super::setup::Setup;
-use gumption_engine::distribution::{StreamKey, special};
+use gumption_engine::distribution::StreamKey;
 use gumption_engine::number::elementary;
+use gumption_engine::special;
 
 /// A hypothesis that effects explain the data: none of them, or one or more together.
 #[derive(Debug)]

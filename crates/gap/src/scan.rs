@@ -16,12 +16,13 @@
 use rayon::prelude::*;
 
 use super::diagnosis::GapRegion;
-use super::packed::{self, dot, triangle};
 use super::setup::Setup;
 use crate::mixture::standard_normals;
 use gumption_engine::distribution::StreamKey;
-use gumption_engine::distribution::special;
+use gumption_engine::linalg::dot;
+use gumption_engine::linalg::packed::{self, triangle};
 use gumption_engine::number::{COLUMN, Column, elementary};
+use gumption_engine::special;
 
 /// Conditions with more levels than this are scanned in so many bins.
 const MOST_LEVELS: usize = 40;

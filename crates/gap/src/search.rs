@@ -6,7 +6,7 @@ use super::covariance::Covariance;
 use super::latent::EDGE;
 use super::likelihood::{Likelihood, Visitor};
 use super::logarithm::HALF_LN_TWO_PI;
-use super::packed::{self, triangle};
+use gumption_engine::linalg::packed::{self, triangle};
 use gumption_engine::number::{COLUMN, Column, elementary};
 
 /// The step of differences, in standard normal scores: the truncation error is of its order and the

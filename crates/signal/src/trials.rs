@@ -7,9 +7,10 @@ use std::f64::consts::PI;
 use super::analysed::Analysed;
 use super::phasor::wrapped;
 use super::polar::Polar;
-use gumption_engine::distribution::special::normal;
 use gumption_engine::distribution::{BLOCK, StreamKey};
 use gumption_engine::number::elementary::{atan2, hypot, sin};
+use gumption_engine::special::normal;
+use gumption_engine::special::normal;
 
 /// Root mean square errors over the trials.
 #[derive(Clone, Debug)]

@@ -24,8 +24,8 @@ use rayon::prelude::*;
 use super::{AMPLITUDES, Discrepancy, Unexplained, Weighted, weigh};
 use crate::latent::{EDGE, Role, ln_prior};
 use crate::logarithm::HALF_LN_TWO_PI;
-use crate::packed::{self, triangle};
 use crate::setup::Setup;
+use gumption_engine::linalg::packed::{self, triangle};
 use gumption_engine::number::elementary;
 
 /// Points of the integral over the logarithm of the amplitude.

@@ -8,8 +8,8 @@ use rayon::prelude::*;
 use super::LENGTHS;
 use super::features::{Axes, Coordinates, Nodes, sites};
 use super::grammar::{Term, terms};
-use crate::packed::{self, dot};
 use crate::setup::Setup;
+use gumption_engine::linalg::{dot, packed};
 use gumption_engine::number::elementary;
 
 /// Data with more values than this have their features computed when they are needed and not kept.
