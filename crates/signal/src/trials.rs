@@ -10,7 +10,6 @@ use super::polar::Polar;
 use gumption_engine::distribution::{BLOCK, StreamKey};
 use gumption_engine::number::elementary::{atan2, hypot, sin};
 use gumption_engine::special::normal;
-use gumption_engine::special::normal;
 
 /// Root mean square errors over the trials.
 #[derive(Clone, Debug)]
