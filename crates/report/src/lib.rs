@@ -15,7 +15,6 @@ mod plot;
 mod samples;
 mod saved;
 mod sheet;
-mod si;
 mod subtotals;
 mod table;
 mod tree;
