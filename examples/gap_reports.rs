@@ -7,7 +7,7 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use gumption::file::read_case;
-use gumption::gap::{Diagnosis, Hypothesis, HypothesisKind, DiagnosisOptions, diagnose};
+use gumption::gap::{Diagnosis, DiagnosisOptions, Hypothesis, HypothesisKind, diagnose};
 use serde_json::Value;
 
 fn main() -> Result<(), Box<dyn Error>> {

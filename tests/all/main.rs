@@ -6,7 +6,6 @@
 #![allow(clippy::duplicate_mod)]
 
 mod adaptive;
-mod answers;
 mod assumptions;
 mod benches;
 mod cases;

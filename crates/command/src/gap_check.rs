@@ -129,8 +129,7 @@ impl GapCheck {
         let sealed = folder.join("sealed");
         make(&sealed)?;
         (0..self.draws).into_par_iter().try_for_each(|number| {
-            let (truth, measured) =
-                truth(&file.case, noise, seed, number).map_err(impossible)?;
+            let (truth, measured) = truth(&file.case, noise, seed, number).map_err(impossible)?;
             let own = folder.join(format!("{number:05}"));
             make(&own)?;
             let withheld = (truth.kind == gap::check::TruthKind::Withheld)

@@ -87,8 +87,7 @@ pub(super) fn check_together(log: &Collector, placed: &[Placed], sim: &Overridab
             if let Err(circular) = sim.program(&[one, other]) {
                 let reason = format!(
                     "and the effect `{}` together override quantities that need each other: {}",
-                    one.name,
-                    circular
+                    one.name, circular
                 );
                 let diagnostic = DiagnosticKind::Effect { name: other.name.clone(), reason };
                 log.report(&second.place, diagnostic);
@@ -147,8 +146,7 @@ impl Reader<'_> {
             }
         }
         if let Err(circular) = self.sim?.program(&[&effect]) {
-            let reason =
-                format!("overrides quantities that need each other: {}", circular);
+            let reason = format!("overrides quantities that need each other: {}", circular);
             let diagnostic = DiagnosticKind::Effect { name: effect.name.clone(), reason };
             self.log.report(overrides.place(), diagnostic);
         }

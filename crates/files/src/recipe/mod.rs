@@ -22,7 +22,8 @@ use channels::ChannelFile;
 use gumption_engine::model::formula;
 use gumption_engine::task::Warning;
 use gumption_signal::{
-    Amplitude, Frequency, Method, PhaseUnit, Refused, ChannelRateSearch, RecipeSettings, TimeBase, ChannelRecording,
+    Amplitude, ChannelRateSearch, ChannelRecording, Frequency, Method, PhaseUnit, RecipeSettings,
+    Refused, TimeBase,
 };
 use gumption_units::Unit;
 use gumption_units::nearest;
@@ -333,7 +334,12 @@ impl RecipeFile {
                         beside_frequency: None,
                     };
                     let search = self.searches.get(number).copied().flatten();
-                    opened.tracks.push(ChannelRecording { passes: recording, base, channels, search });
+                    opened.tracks.push(ChannelRecording {
+                        passes: recording,
+                        base,
+                        channels,
+                        search,
+                    });
                     opened.of.push(number);
                 }
                 Err(reason) => {

@@ -7,7 +7,7 @@ use super::super::DiagnosticKind;
 use super::super::json::{Json, Member, Node};
 use super::super::object::Object;
 use super::quantity::{Quantity, positive, quantity, same_dimension, unit};
-use gumption_signal::{Band, Butterworth, Measured, Response, ResponsePoint, ChannelStep};
+use gumption_signal::{Band, Butterworth, ChannelStep, Measured, Response, ResponsePoint};
 use gumption_units::Unit;
 
 /// The names of the steps, and their keys beside `step`.

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
-use gumption_gap::check::{BlindDraw, BlindCheckScores, SmallestEffect};
+use gumption_gap::check::{BlindCheckScores, BlindDraw, SmallestEffect};
 
 #[derive(Serialize)]
 struct Answer<'r> {

@@ -5,7 +5,9 @@ use super::words;
 use crate::number::{MISSING, place, rounded, significant, to, with_uncertainty};
 use crate::plain;
 use crate::sheet::Sheet;
-use gumption_gap::{Diagnosis, Hypothesis, HypothesisKind, NamedQuantity, EffectParameter, Predicted, Shrunk};
+use gumption_gap::{
+    Diagnosis, EffectParameter, Hypothesis, HypothesisKind, NamedQuantity, Predicted, Shrunk,
+};
 
 /// So much of the probability is shown by name, in so many lines at most.
 const SHOWN_PROBABILITY: f64 = 0.999;
@@ -89,7 +91,8 @@ pub(super) fn winner(diagnosis: &Diagnosis) -> Option<&Hypothesis> {
 
 /// A parameter as it is printed: estimate, standard uncertainty and the ends of the interval.
 pub(super) fn parameter(parameter: &EffectParameter) -> [String; 4] {
-    let EffectParameter { estimate, standard_uncertainty: u, interval: [low, high], .. } = *parameter;
+    let EffectParameter { estimate, standard_uncertainty: u, interval: [low, high], .. } =
+        *parameter;
     let place = place(u, digits::UNCERTAINTY);
     [to(estimate, place), to(u, place), to(low, place), to(high, place)]
 }

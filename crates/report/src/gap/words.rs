@@ -3,7 +3,7 @@
 use super::digits::{condition, p_equals, percent, probability, share, tenths};
 use crate::number::{exact, place, rounded, significant};
 use crate::plain;
-use gumption_gap::{Diagnosis, HypothesisKind, NamedQuantity, GapRegion};
+use gumption_gap::{Diagnosis, GapRegion, HypothesisKind, NamedQuantity};
 
 /// Odds below this power of e are none at all.
 const WORTH_SAYING: f64 = 0.01;
@@ -36,10 +36,12 @@ pub(super) fn verdict(diagnosis: &Diagnosis) -> String {
     let verdict = &diagnosis.most_probable;
     let how_sure = format!("(probability {})", probability(verdict.probability));
     match verdict.kind {
-        HypothesisKind::None if diagnosis.notes.iter().any(|note| note.code == "scatter") => format!(
-            "There is no gap that an effect or a discrepancy explains {how_sure}, but the data \
+        HypothesisKind::None if diagnosis.notes.iter().any(|note| note.code == "scatter") => {
+            format!(
+                "There is no gap that an effect or a discrepancy explains {how_sure}, but the data \
              scatter by more than their uncertainties."
-        ),
+            )
+        }
         HypothesisKind::None => {
             format!("There is no gap: the uncertainties explain the data {how_sure}.")
         }
@@ -62,7 +64,8 @@ pub(super) fn verdict(diagnosis: &Diagnosis) -> String {
 /// The hypotheses that the data cannot tell from the verdict, if there are any.
 pub(super) fn look_alikes(diagnosis: &Diagnosis) -> Option<String> {
     let verdict = &diagnosis.most_probable;
-    let others: Vec<String> = verdict.indistinguishable.iter().skip(1).map(|effects| quoted(effects)).collect();
+    let others: Vec<String> =
+        verdict.indistinguishable.iter().skip(1).map(|effects| quoted(effects)).collect();
     if others.is_empty() {
         return None;
     }

@@ -2,7 +2,7 @@
 
 use super::Observed;
 use crate::tree::Tree;
-use gumption_signal::{ChannelObservation, ToneComponent, Measured, BudgetedValue};
+use gumption_signal::{BudgetedValue, ChannelObservation, Measured, ToneComponent};
 
 /// The observations as JSON.
 pub fn json(observed: &Observed<'_>) -> String {

@@ -3,7 +3,7 @@
 use super::Observed;
 use crate::number::{exact, significant, with_uncertainty};
 use crate::sheet::{Figure, Sheet};
-use gumption_signal::{ChannelObservation, ToneComponent, Measured, BudgetedValue};
+use gumption_signal::{BudgetedValue, ChannelObservation, Measured, ToneComponent};
 
 /// Significant digits of standard uncertainties.
 const DIGITS: u32 = 2;

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::label::Label;
-use gumption_gap::check::{BlindDraw, BlindCheckScores};
+use gumption_gap::check::{BlindCheckScores, BlindDraw};
 
 /// With more labels than this, those of several effects are taken together.
 const MOST: usize = 20;

@@ -23,7 +23,8 @@ pub(super) fn draw(diagnosis: &Diagnosis) -> Drawing {
     let verdict = &diagnosis.most_probable;
     let colour = |hypothesis: &Hypothesis| {
         let first = sheets::winner(diagnosis).is_some_and(|w| w.effects == hypothesis.effects);
-        let alike = hypothesis.effects.as_ref().is_some_and(|own| verdict.indistinguishable.contains(own));
+        let alike =
+            hypothesis.effects.as_ref().is_some_and(|own| verdict.indistinguishable.contains(own));
         match (first, alike) {
             (true, _) => AFTER.filled(),
             (false, true) => EVEN.filled(),

@@ -8,7 +8,7 @@ use super::{Drawing, WIDTH};
 use crate::plot::{
     AFTER, Anchor, Axis, FONT, INK, STRIP_AXIS, Strip, WEAK, Write, centred, px, svg, write,
 };
-use gumption_gap::{Diagnosis, NamedQuantity, EffectParameter};
+use gumption_gap::{Diagnosis, EffectParameter, NamedQuantity};
 
 /// Height of a row and of a parameter's name in pixels.
 const ROW: f64 = 24.0;

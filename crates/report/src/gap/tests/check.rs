@@ -7,7 +7,7 @@ use super::super::check::{Design, html, table};
 use super::super::check_json;
 use super::html::{SVG, assert_inside, parsed, text, with_body};
 use super::{assert_rounded, named, provenance, strings};
-use gumption_gap::check::{BlindDraw, Confusion, Reliability, BlindCheckScores, SmallestEffect};
+use gumption_gap::check::{BlindCheckScores, BlindDraw, Confusion, Reliability, SmallestEffect};
 
 fn design() -> Design {
     Design {

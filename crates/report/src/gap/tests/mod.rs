@@ -9,8 +9,9 @@ use serde_json::Value;
 
 use crate::Provenance;
 use gumption_gap::{
-    Diagnosis, GapTest, Hypothesis, HypothesisKind, NamedQuantity, NextMeasurement, NoiseEstimate, DiagnosisNote, EffectParameter, Predicted,
-    GapRegion, RowGap, Shrinkage, Shrunk, ValueGap, MostProbable,
+    Diagnosis, DiagnosisNote, EffectParameter, GapRegion, GapTest, Hypothesis, HypothesisKind,
+    MostProbable, NamedQuantity, NextMeasurement, NoiseEstimate, Predicted, RowGap, Shrinkage,
+    Shrunk, ValueGap,
 };
 
 fn named(name: &str, unit: &str) -> NamedQuantity {
@@ -153,7 +154,10 @@ fn diagnosis() -> Diagnosis {
         ]),
         rows: rows(20),
         noise: vec![NoiseEstimate { output: 1, standard_uncertainty: 0.051_234, power: 0.25 }],
-        notes: vec![DiagnosisNote { code: "few-conditions", text: "There are only few conditions.".into() }],
+        notes: vec![DiagnosisNote {
+            code: "few-conditions",
+            text: "There are only few conditions.".into(),
+        }],
         probability: 0.95,
         seed: 1,
     }
