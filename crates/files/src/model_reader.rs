@@ -433,6 +433,8 @@ fn task(parts: Parts, model: Model, of: Quantities) -> Option<Task> {
     let known = inputs.known.rows(conditions.rows.len());
     let rows = conditions.rows.into_iter().zip(known);
     let rows = rows.map(|(conditions, distributions)| Row { conditions, distributions }).collect();
-    let variables = inputs.variables;
-    Some(Task { title, model, variables, correlations, rows, swept, settings, fits })
+    let mut task = Task::new(model, inputs.variables, rows);
+    (task.title, task.swept, task.settings) = (title, swept, settings);
+    (task.correlations, task.fits) = (correlations, fits);
+    Some(task)
 }
