@@ -21,6 +21,9 @@
 //! The one fit is `sine_fit`: any tones of a recording that streams in blocks, or of a signal in
 //! memory; `periodic` is its form for steps that take harmonics out of a signal and put them back.
 
+// the expected values of tests may be as inexact as the platform
+#![cfg_attr(test, allow(clippy::disallowed_methods))]
+
 mod analysed;
 mod analysis;
 mod budget;
