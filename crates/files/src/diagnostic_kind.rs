@@ -3,8 +3,8 @@
 use std::fmt;
 use std::sync::Arc;
 
+use super::keys::SHAPES;
 use super::nearest::nearest;
-use super::shapes::KINDS;
 use gumption_engine::distribution::Invalid;
 use gumption_engine::model::formula::FormulaError;
 use gumption_engine::number::Shortest;
@@ -335,7 +335,7 @@ impl fmt::Display for DiagnosticKind {
                  `{expected}`"
             ),
             Self::UnknownDistribution { name, nearest } => {
-                let known: Vec<&str> = KINDS.iter().map(|kind| kind.name).collect();
+                let known: Vec<&str> = SHAPES.iter().map(|kind| kind.name).collect();
                 write!(
                     f,
                     "there is no distribution `{name}`{}",

@@ -22,6 +22,7 @@ mod either;
 mod input_set;
 mod inputs;
 mod json;
+mod keys;
 mod known;
 mod links;
 mod model_checks;
@@ -56,7 +57,6 @@ mod width;
 
 pub use case::{CaseFile, read as read_case, read_at as read_case_at, read_text as read_case_text};
 pub use catalogue::{EffectListing, ListedEffect, ListedParameter, catalogue};
-pub(crate) use certificate::keys as certificate_keys;
 pub use certificate::{
     CertificateFile, CertifiedModel, read as read_certificate, read_text as read_certificate_text,
 };
@@ -69,7 +69,6 @@ pub use either::{ModelOrResult, read_either, read_either_text};
 pub use model_file::{ModelFile, read, read_text};
 pub use nearest::nearest;
 pub use overrides::{Override, Overrides};
-pub(crate) use recipe::{OWN as RECIPE_KEY, STEPS};
 pub use recipe::{
     OpenedRow, RecipeCondition, RecipeFile, RecipeRow, read as read_recipe,
     read_text as read_recipe_text,

@@ -42,7 +42,7 @@ use super::scopes::{ConditionSet, report_formula, typed_scope};
 use super::simulated::{names_simulation, simulated};
 use super::size::Size;
 use super::table::{self, Table};
-use super::{DiagnosticKind, correlations, inputs, nearest, settings};
+use super::{DiagnosticKind, correlations, inputs, keys, nearest, settings};
 use gumption_engine::distribution::{Correlation, Fits};
 use gumption_engine::model::formula::Formula;
 use gumption_engine::model::{Output, typed};
@@ -51,31 +51,6 @@ use gumption_gap::Observed;
 use gumption_gap::{Maker as SimMaker, Sim};
 use gumption_measurements::Entry;
 use gumption_units::Unit;
-
-/// The keys of a model file and of a case.
-const KEYS: [&str; 21] = [
-    "format",
-    "title",
-    "source",
-    "about",
-    "inputs",
-    "correlations",
-    "correlation_matrix",
-    "conditions",
-    "equations",
-    "model",
-    "outputs",
-    "coverage_probability",
-    "coverage_factor",
-    "coverage_factor_fixed",
-    "monte_carlo",
-    "check_units",
-    "allow_undefined",
-    "observations",
-    "effects",
-    "catalogue",
-    "prior",
-];
 
 /// How a model file is to be read.
 #[derive(Clone, Copy, Debug, Default)]
@@ -153,7 +128,7 @@ impl<'a> ModelReader<'a> {
     /// All that the file holds, unless it has mistakes.
     pub(super) fn found(&self) -> Option<Found> {
         let root = &self.root;
-        root.check_keys(&KEYS);
+        root.check_keys(keys::MODEL);
         check_format(root);
         let title = root.text("title").unwrap_or("").to_owned();
         root.text("source");

@@ -10,6 +10,7 @@ use std::sync::Arc;
 
 use super::diagnostics::{Collector, Diagnostics};
 use super::json::{self, Json, Node};
+use super::keys;
 use super::object::Object;
 use super::open::{check_format, open, read_root};
 use super::source::SourceText;
@@ -17,42 +18,6 @@ use super::{DiagnosticKind, settings};
 use gumption_analysis::certificate::contents::{Certificate, Language, Rounding};
 use gumption_engine::task::{Coverage, Settings, Warning};
 use rows::Rows;
-
-/// The keys of a certificate file.
-const KEYS: [&str; 25] = [
-    "format",
-    "title",
-    "number",
-    "device",
-    "customer",
-    "laboratory",
-    "responsible",
-    "calibration_date",
-    "issue_date",
-    "place",
-    "environment",
-    "method",
-    "traceability",
-    "remarks",
-    "language",
-    "coverage_factor",
-    "coverage_probability",
-    "coverage_factor_fixed",
-    "rounding",
-    "digits",
-    "monte_carlo",
-    "conditions",
-    "shared_inputs",
-    "separate_inputs",
-    "rows",
-];
-
-/// Keys that only certificates have; a file with one of them, and without outputs, is meant as one.
-pub(crate) fn keys() -> [&'static str; 4] {
-    OWN
-}
-
-const OWN: [&str; 4] = ["rows", "device", "customer", "laboratory"];
 
 /// The most significant digits of a stated uncertainty.
 const MOST_DIGITS: u64 = 4;
@@ -139,7 +104,7 @@ pub fn read_text(name: &str, text: &str, folder: &Path) -> Result<CertificateFil
 pub(super) fn is_meant(root: &Node) -> bool {
     let Json::Object(members) = &root.value else { return false };
     let has = |key: &str| members.iter().any(|member| member.key == key);
-    OWN.iter().any(|key| has(key)) && !has("outputs") && !has("result")
+    keys::CERTIFICATE_KEYS.iter().any(|key| has(key)) && !has("outputs") && !has("result")
 }
 
 /// What is asked of every model.
@@ -167,7 +132,7 @@ impl Asking {
 }
 
 fn certificate(root: Object<'_>, folder: &Path) -> Option<CertificateFile> {
-    root.check_keys(&KEYS);
+    root.check_keys(keys::CERTIFICATE);
     check_format(&root);
     let administrative = administrative::read(&root);
     let languages = languages(&root);

@@ -7,6 +7,7 @@ use std::path::Path;
 use super::super::DiagnosticKind;
 use super::super::diagnostics::{Collector, Diagnostic};
 use super::super::json::{Json, Member, Node};
+use super::super::keys;
 use super::super::model_file::{self, ModelFile};
 use super::super::nearest::nearest;
 use super::super::object::Object;
@@ -19,9 +20,6 @@ use gumption_analysis::certificate::contents::{Asked, Line};
 use gumption_engine::model::Quantity;
 use gumption_engine::task::{Task, Warning};
 use gumption_units::Unit;
-
-/// The keys of a row.
-const KEYS: [&str; 7] = ["model", "output", "set", "nominal", "label", "cmc", "cmc_floor"];
 
 /// At most so many rows: their correlations are a matrix.
 const MOST_ROWS: usize = 1000;
@@ -86,7 +84,7 @@ impl<'a> Rows<'a> {
 
     fn row(&mut self, node: &'a Node) -> Option<()> {
         let row = Object::new(self.log, "a row", node, &node.span)?;
-        row.check_keys(&KEYS);
+        row.check_keys(keys::CERTIFICATE_ROW);
         let model = row.required("model");
         let output = row.required("output");
         let name = model.and_then(|_| row.text("model"));

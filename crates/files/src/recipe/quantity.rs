@@ -2,11 +2,9 @@
 
 use super::super::DiagnosticKind;
 use super::super::json::{Json, Member};
+use super::super::keys;
 use super::super::object::Object;
 use gumption_units::Unit;
-
-/// The keys of a quantity.
-pub(super) const KEYS: [&str; 3] = ["value", "unit", "standard_uncertainty"];
 
 /// A value and its standard uncertainty, with the unit that they are in.
 #[derive(Clone, Debug, PartialEq)]
@@ -52,7 +50,7 @@ pub(super) fn of_member(object: &Object<'_>, member: &Member, default: &str) -> 
         return None;
     }
     let inner = Object::new(object.log, "a quantity", &member.value, &member.key_span)?;
-    inner.check_keys(&KEYS);
+    inner.check_keys(keys::QUANTITY);
     of_object(&inner, default)
 }
 

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use serde_json::{Value, json};
 
-use super::shapes::SHAPES;
+use crate::keys::SHAPES;
 use super::text;
 use crate as file;
 use crate::DiagnosticKind;
@@ -289,4 +289,9 @@ fn the_reader_knows_the_same_keys() {
         }
     }
     assert!(read >= 12, "{read}");
+}
+
+#[test]
+fn zz_dump() {
+    std::fs::write("/tmp/files_schema.json", text()).unwrap();
 }
