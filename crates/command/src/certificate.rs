@@ -10,9 +10,8 @@ use super::options::{self, Answer, Seed, Threads};
 use super::{Exit, Failure, Program, output, progress, run};
 use gumption_analysis::certificate::contents::Certificate as Asked;
 use gumption_analysis::certificate::{Failed, Issued, issue};
-use gumption_engine::propagate::{Control, EvaluationError, warnings};
+use gumption_engine::propagate::{EvaluationError, warnings};
 use gumption_engine::task::{Trials, Warning};
-use gumption_files as file;
 use gumption_files::{CertificateFile, Diagnostic, DiagnosticKind, Diagnostics};
 use gumption_report::certificate::{self as report, Model, Report};
 use gumption_report::number::rounded;
@@ -115,8 +114,9 @@ impl Certificate {
     }
 
     fn read(&self, program: &Program) -> Result<CertificateFile, Failure> {
-        let text = |text: &str| file::read_certificate_text("<stdin>", text, Path::new(""));
-        Ok(options::given(&self.file, text, file::read_certificate)??)
+        let files = program.files();
+        let text = |text: &str| files.certificate_text("<stdin>", text, Path::new(""));
+        Ok(options::given(&self.file, text, |path| files.certificate(path))??)
     }
 
     /// Whether the certificate can be given in the format that was asked for.
@@ -142,7 +142,7 @@ impl Certificate {
     ) -> Result<Issued, Failure> {
         let bar = progress::bar(trials_to_make(&file.certificate), self.answer.quiet);
         let advance = |trials: u64| bar.inc(trials);
-        let control = Control { progress: Some(&advance), ..self.threads.control(stop) };
+        let control = self.threads.control(stop).with_progress(&advance);
         let digests: Vec<Arc<str>> =
             models.iter().map(|model| Arc::from(model.digest.as_str())).collect();
         let result = issue(&file.certificate, &digests, &control);

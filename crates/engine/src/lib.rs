@@ -4,7 +4,9 @@
 #![deny(unsafe_code)]
 
 pub mod distribution;
+pub mod linalg;
 pub mod model;
 pub mod number;
 pub mod propagate;
+pub mod special;
 pub mod task;

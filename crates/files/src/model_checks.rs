@@ -15,9 +15,9 @@ use super::outputs::Outputs;
 use super::scopes::{coherent, condition_scope, report_formula};
 use super::{DiagnosticKind, nearest};
 use gumption_engine::model::formula::{Scope, Typing, check_name};
+use gumption_engine::model::typed::CatalogueEntry;
 use gumption_engine::model::{Output, Quantity};
 use gumption_engine::task::Warning;
-use gumption_measurements::Entry;
 use gumption_units::Unit;
 
 /// The quantities of a file.
@@ -71,7 +71,12 @@ pub(super) fn check_names(root: &Object<'_>, of: &Quantities, body: &Option<Mode
 }
 
 /// Checks that a typed model has the quantities, all of those that it needs, and units that fit.
-pub(super) fn check_typed(log: &Collector, entry: &Entry, place: &Range<usize>, of: &Quantities) {
+pub(super) fn check_typed(
+    log: &Collector,
+    entry: &CatalogueEntry,
+    place: &Range<usize>,
+    of: &Quantities,
+) {
     let Quantities { inputs, conditions, outputs, .. } = of;
     let unknown_units = of.unknown_units();
     let declaration = entry.typed.declaration;

@@ -13,9 +13,10 @@ use super::width::Width;
 use gumption_engine::distribution::{
     Arcsine, Beta, Constant, CurvilinearTrapezoid, Distribution, Exponential, Gamma, Invalid,
     LogUniform, Lognormal, Normal, PoissonCount, Readings, Rectangular, Samples, StudentT,
-    Trapezoidal, Triangular, special,
+    Trapezoidal, Triangular,
 };
 use gumption_engine::model::formula::Formula;
+use gumption_engine::special;
 use gumption_units::Unit;
 
 /// The distribution, if its standard uncertainty is a number: widths near the largest and the least

@@ -5,12 +5,13 @@ use std::process::Command;
 use std::sync::OnceLock;
 
 use gumption::diff;
-use gumption::file::{ModelFile, Problems, read_text};
+use gumption::file::{Diagnostics, ModelFile, read_text};
 use gumption::propagate::gum::Gum;
 use gumption::propagate::monte_carlo::MonteCarlo;
 use gumption::propagate::{Control, evaluate, warnings};
 use gumption::report;
 use gumption::task::Trials;
+use serde_json::Value;
 
 use super::folder::Folder;
 use crate::support::command;
@@ -52,29 +53,29 @@ fn in_schema(text: &str) {
 }
 
 /// Mistakes have places inside their text and a sentence of a reasonable length.
-pub(crate) fn explained(problems: &Problems) {
-    assert!(!problems.0.is_empty(), "refused without a reason");
-    for problem in &problems.0 {
-        let (line, column) = problem.position();
+pub(super) fn explained(diagnostics: &Diagnostics) {
+    assert!(!diagnostics.0.is_empty(), "refused without a reason");
+    for diagnostic in &diagnostics.0 {
+        let (line, column) = diagnostic.position();
         assert!(line > 0 && column > 0);
-        assert!(problem.span.start <= problem.span.end, "{problem}");
-        assert!(problem.source.text.get(problem.span.clone()).is_some(), "{problem}");
-        assert!(!problem.source.name.is_empty());
-        let message = problem.message();
+        assert!(diagnostic.span.start <= diagnostic.span.end, "{diagnostic}");
+        assert!(diagnostic.source.text.get(diagnostic.span.clone()).is_some(), "{diagnostic}");
+        assert!(!diagnostic.source.name.is_empty());
+        let message = diagnostic.message();
         assert!(!message.trim().is_empty());
         assert!(message.len() < 10_000, "a message without end: {message}");
     }
 }
 
 /// Evaluates with few trials and writes every report.
-pub(crate) fn answered(mut file: ModelFile) {
+fn answered(mut file: ModelFile) {
     file.task.rows.truncate(3);
     file.task.settings.trials = match file.task.settings.trials {
         Trials::Fixed(trials) => Trials::Fixed(trials.min(300)),
         Trials::Adaptive => Trials::Adaptive,
     };
     file.task.settings.max_trials = file.task.settings.max_trials.min(20_000);
-    let control = Control { threads: 1, ..Control::default() };
+    let control = Control::default().with_threads(1);
     let evaluation = match evaluate(&file.task, &control) {
         Ok(evaluation) => evaluation,
         Err(error) => {
@@ -115,9 +116,8 @@ pub(crate) fn answered(mut file: ModelFile) {
     let csv = report::csv(&report);
     assert!(csv.split([',', '\n']).all(|cell| !["NaN", "inf", "-inf"].contains(&cell)), "{csv}");
     let json = report::json(&report);
-    let parsed = serde_json::from_str::<serde_json::Value>(&json);
-    assert!(parsed.is_ok(), "the answer is no JSON: {json}");
-    let difference = diff::compare(&file, &file);
+    assert!(serde_json::from_str::<Value>(&json).is_ok(), "the answer is no JSON: {json}");
+    let difference = diff::compare(&file.task, &file.task);
     assert!(difference.changes.is_empty(), "{:?}", difference.changes);
 }
 
@@ -178,7 +178,7 @@ pub(super) fn of_program(text: &str, folder: &Folder) {
     let said = String::from_utf8_lossy(&output.stderr);
     match output.status.code() {
         Some(0) => {
-            let parsed = serde_json::from_slice::<serde_json::Value>(&output.stdout);
+            let parsed = serde_json::from_slice::<Value>(&output.stdout);
             assert!(parsed.is_ok(), "{}", String::from_utf8_lossy(&output.stdout));
         }
         Some(2) => {

@@ -37,9 +37,12 @@ pub fn numerical_tolerance(value: f64, digits: u32) -> f64 {
         return 0.0;
     }
     let rounded = format!("{:.*e}", digits as usize - 1, value.abs());
-    let exponent = rounded.split_once('e').and_then(|(_, e)| e.parse::<i32>().ok()).unwrap_or(0);
+    let exponent = rounded.split_once('e').and_then(|(_, e)| e.parse::<i32>().ok());
+    #[expect(clippy::expect_used, reason = "a finite number in scientific form has an exponent")]
+    let exponent = exponent.expect("a finite number in scientific form has an exponent");
     // read back from decimal text, so that the tolerance is the double nearest to 5 x 10^(l - 1)
-    format!("5e{}", exponent - digits).parse().unwrap_or(0.0)
+    #[expect(clippy::expect_used, reason = "a digit with an exponent is a number")]
+    format!("5e{}", exponent - digits).parse().expect("a digit with an exponent is a number")
 }
 
 /// Compares the GUM interval with the probabilistically symmetric Monte Carlo interval (8.1.3).

@@ -12,7 +12,8 @@ use super::diagnostics::{Collector, Diagnostics};
 use super::json::{self, Json, Node};
 use super::keys;
 use super::object::Object;
-use super::open::{check_format, open, read_root};
+use super::open::{check_format, read_root};
+use super::reader::FileReader;
 use super::source::SourceText;
 use super::{DiagnosticKind, settings};
 use gumption_analysis::certificate::contents::{Certificate, Language, Rounding};
@@ -83,21 +84,14 @@ impl CertificateFile {
     }
 }
 
-/// Reads and checks a certificate file and its model files.
-///
-/// # Errors
-/// All mistakes of the files, those of the certificate first.
-pub fn read(path: &Path) -> Result<CertificateFile, Diagnostics> {
-    open(path, read_text)
-}
-
-/// Reads and checks a certificate file's text; `name` is used in messages, and model files are looked
-/// for in `folder`.
-///
-/// # Errors
-/// All mistakes of the text and its model files, those of the certificate first.
-pub fn read_text(name: &str, text: &str, folder: &Path) -> Result<CertificateFile, Diagnostics> {
-    read_root(name, text, "a certificate file", |root| certificate(root, folder))
+/// Reads and checks a certificate file's text and its model files.
+pub(super) fn read_text(
+    files: FileReader<'_>,
+    name: &str,
+    text: &str,
+    folder: &Path,
+) -> Result<CertificateFile, Diagnostics> {
+    read_root(name, text, "a certificate file", |root| certificate(files, root, folder))
 }
 
 /// Whether a text is meant as a certificate file.
@@ -118,20 +112,17 @@ struct Asking {
 impl Asking {
     fn apply(self, settings: &mut Settings) {
         if let Some(own) = self.trials {
-            *settings = Settings {
-                trials: own.trials,
-                rule: own.rule,
-                max_trials: own.max_trials,
-                seed: own.seed,
-                digits: own.digits,
-                ..*settings
-            };
+            settings.trials = own.trials;
+            settings.rule = own.rule;
+            settings.max_trials = own.max_trials;
+            settings.seed = own.seed;
+            settings.digits = own.digits;
         }
         settings.coverage = self.coverage;
     }
 }
 
-fn certificate(root: Object<'_>, folder: &Path) -> Option<CertificateFile> {
+fn certificate(files: FileReader<'_>, root: Object<'_>, folder: &Path) -> Option<CertificateFile> {
     root.check_keys(keys::CERTIFICATE);
     check_format(&root);
     let administrative = administrative::read(&root);
@@ -144,7 +135,7 @@ fn certificate(root: Object<'_>, folder: &Path) -> Option<CertificateFile> {
         fixed: root.truth("coverage_factor_fixed").unwrap_or(false),
     });
     let trials = root.get("monte_carlo").map(|_| settings::read(&root));
-    let mut rows = Rows::new(root.log, folder, Asking { coverage, trials });
+    let mut rows = Rows::new(root.log, (files, folder), Asking { coverage, trials });
     match root.required("rows").and_then(|_| root.list("rows")) {
         Some([]) => {
             let place = root.get("rows").map_or(root.place(), |member| &member.key_span);

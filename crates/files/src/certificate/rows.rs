@@ -8,11 +8,12 @@ use super::super::DiagnosticKind;
 use super::super::diagnostics::{Collector, Diagnostic};
 use super::super::json::{Json, Member, Node};
 use super::super::keys;
-use super::super::model_file::{self, ModelFile};
+use super::super::model_file::ModelFile;
 use super::super::nearest::nearest;
 use super::super::object::Object;
 use super::super::outputs;
 use super::super::overrides::Override;
+use super::super::reader::FileReader;
 use super::super::source::Place;
 use super::administrative::localized;
 use super::{Asking, CertifiedModel};
@@ -37,7 +38,8 @@ pub(super) struct Read {
 /// Rows that are being read.
 pub(super) struct Rows<'a> {
     log: &'a Collector,
-    folder: &'a Path,
+    /// What reads the model files, and where these are looked for.
+    files_in: (FileReader<'a>, &'a Path),
     asking: Asking,
     /// The model files without replacements, by name; `None` after a mistake.
     files: BTreeMap<String, Option<usize>>,
@@ -49,10 +51,14 @@ pub(super) struct Rows<'a> {
 }
 
 impl<'a> Rows<'a> {
-    pub(super) fn new(log: &'a Collector, folder: &'a Path, asking: Asking) -> Self {
+    pub(super) fn new(
+        log: &'a Collector,
+        files_in: (FileReader<'a>, &'a Path),
+        asking: Asking,
+    ) -> Self {
         Self {
             log,
-            folder,
+            files_in,
             asking,
             files: BTreeMap::new(),
             models: Vec::new(),
@@ -147,7 +153,8 @@ impl<'a> Rows<'a> {
 
     /// A model file with replacements; mistakes of the replacements are reported at `member`.
     fn model(&self, name: &str, member: &Member, overrides: &[Override]) -> Option<ModelFile> {
-        let diagnostics = match model_file::read(&self.folder.join(name), overrides) {
+        let (files, folder) = self.files_in;
+        let diagnostics = match files.model(&folder.join(name), overrides) {
             Ok(file) => return Some(file),
             Err(diagnostics) => diagnostics,
         };
