@@ -2,7 +2,7 @@
 
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 
-use gumption_files::{Diagnostic, Diagnostics};
+use gumption_files::{Diagnostic, DiagnosticKind, Diagnostics};
 
 /// Longer lines are cut around the place.
 const LONGEST: usize = 160;
@@ -24,6 +24,30 @@ pub(crate) fn render(diagnostics: &Diagnostics, colours: bool) -> String {
 
 fn one(diagnostic: &Diagnostic, renderer: &Renderer) -> String {
     let mut text = format!("{diagnostic}\n");
+    text.push_str(&snippet(diagnostic, renderer));
+    if let Some(advice) = advice(&diagnostic.kind) {
+        text.push_str(&format!("help: {advice}\n"));
+    }
+    text
+}
+
+/// What a user of the command line can do next; the library's sentences know no commands.
+fn advice(kind: &DiagnosticKind) -> Option<&'static str> {
+    match kind {
+        DiagnosticKind::NoModel | DiagnosticKind::UnknownModel { nearest: None, .. } => {
+            Some("`gumption models` lists the typed models")
+        }
+        DiagnosticKind::UnknownEffect { nearest: None, .. } => {
+            Some("`gumption models --effects` lists the effects of the catalogue")
+        }
+        DiagnosticKind::NotResult { .. } => Some("`gumption run --save` writes a saved result"),
+        _ => None,
+    }
+}
+
+/// The line of the mistake, underlined at its place; nothing where there is no such line.
+fn snippet(diagnostic: &Diagnostic, renderer: &Renderer) -> String {
+    let mut text = String::new();
     let source = &diagnostic.source.text;
     let (line, _) = diagnostic.position();
     let start =
