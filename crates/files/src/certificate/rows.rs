@@ -345,7 +345,7 @@ impl<'a> Rows<'a> {
             used.sort_unstable();
             used.dedup();
             for line in &mut lines {
-                line.row = used.binary_search(&line.row).unwrap_or(0);
+                line.row = used.partition_point(|row| *row < line.row);
             }
             let rows = std::mem::take(&mut asked.task.rows);
             let kept = rows.into_iter().enumerate().filter(|(row, _)| used.contains(row));

@@ -31,14 +31,20 @@ impl Quantity {
 pub(super) fn quantity(object: &Object<'_>, key: &'static str, default: &str) -> Option<Quantity> {
     let member = object.get(key)?;
     let quantity = of_member(object, member, default)?;
-    let expected = Unit::parse(default).unwrap_or_default();
+    let expected = own_unit(default);
     same_dimension(object, member, &quantity.unit, &expected).then_some(quantity)
+}
+
+/// A unit that this program names itself.
+#[expect(clippy::expect_used, reason = "all of them stand in the sources of this reader")]
+pub(super) fn own_unit(text: &str) -> Unit {
+    Unit::parse(text).expect("the units of recipes' keys can be read")
 }
 
 /// The quantity of a member, of any dimension.
 pub(super) fn of_member(object: &Object<'_>, member: &Member, default: &str) -> Option<Quantity> {
     if let Some(value) = member.value.number() {
-        let unit = Unit::parse(default).unwrap_or_default();
+        let unit = own_unit(default);
         return Some(Quantity { value, standard_uncertainty: 0.0, unit });
     }
     if !matches!(member.value.value, Json::Object(_)) {

@@ -71,7 +71,7 @@ pub(super) fn read(root: &Object<'_>, folder: &Path) -> Option<Vec<RecordingFile
             .filter(|jitter| jitter.value == 0.0 || positive(&of, "jitter", jitter));
         let unit = unit(&of, "time_unit", "s");
         if let (Some(unit), Some(member)) = (&unit, of.get("time_unit")) {
-            let second = gumption_units::Unit::parse("s").unwrap_or_default();
+            let second = super::quantity::own_unit("s");
             super::quantity::same_dimension(&of, member, unit, &second);
             if of.get("time").is_none() {
                 let diagnostic = DiagnosticKind::OnlyWith { key: "time_unit", with: "time" };

@@ -6,7 +6,7 @@ use super::super::DiagnosticKind;
 use super::super::json::{Json, Member, Node};
 use super::super::keys;
 use super::super::object::Object;
-use super::quantity::{of_object, quantity, same_dimension, uncertainty, unit};
+use super::quantity::{of_object, own_unit, quantity, same_dimension, uncertainty, unit};
 use super::recordings::{RecordingFile, check_part};
 use super::{RecipeCondition, RecipeRow, check_name};
 use gumption_signal::Frequency;
@@ -211,7 +211,7 @@ fn frequencies(object: &Object<'_>, member: &Member) -> Option<Vec<Frequency>> {
             of.check_keys(keys::FREQUENCY);
             of.text("name");
             let estimate = of.truth("estimate").unwrap_or(false);
-            let hertz = Unit::parse("Hz").unwrap_or_default();
+            let hertz = own_unit("Hz");
             let unit = unit(&of, "unit", "Hz")?;
             if let Some(member) = of.get("unit") {
                 same_dimension(&of, member, &unit, &hertz).then_some(())?;
