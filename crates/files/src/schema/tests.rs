@@ -290,8 +290,3 @@ fn the_reader_knows_the_same_keys() {
     }
     assert!(read >= 12, "{read}");
 }
-
-#[test]
-fn zz_dump() {
-    std::fs::write("/tmp/files_schema.json", text()).unwrap();
-}
