@@ -22,32 +22,23 @@ pub(crate) fn render(diagnostics: &Diagnostics, colours: bool) -> String {
     text
 }
 
-fn one(diagnostic: &Diagnostic, renderer: &Renderer) -> String {
-    let mut text = format!("{diagnostic}\n");
-    text.push_str(&snippet(diagnostic, renderer));
-    if let Some(advice) = advice(&diagnostic.kind) {
-        text.push_str(&format!("help: {advice}\n"));
-    }
-    text
-}
-
-/// What a user of the command line can do next; the library's sentences know no commands.
-fn advice(kind: &DiagnosticKind) -> Option<&'static str> {
+/// The command that helps with a mistake, to be said after its sentence.
+pub(crate) fn command(kind: &DiagnosticKind) -> &'static str {
     match kind {
-        DiagnosticKind::NoModel | DiagnosticKind::UnknownModel { nearest: None, .. } => {
-            Some("`gumption models` lists the typed models")
+        DiagnosticKind::NoModel => "; `gumption models` lists these",
+        DiagnosticKind::UnknownModel { nearest: None, .. } => {
+            "; `gumption models` lists those that there are"
         }
         DiagnosticKind::UnknownEffect { nearest: None, .. } => {
-            Some("`gumption models --effects` lists the effects of the catalogue")
+            "; `gumption models --effects` lists those that there are"
         }
-        DiagnosticKind::NotResult { .. } => Some("`gumption run --save` writes a saved result"),
-        _ => None,
+        DiagnosticKind::NotResult { .. } => "; `gumption run --save` writes one",
+        _ => "",
     }
 }
 
-/// The line of the mistake, underlined at its place; nothing where there is no such line.
-fn snippet(diagnostic: &Diagnostic, renderer: &Renderer) -> String {
-    let mut text = String::new();
+fn one(diagnostic: &Diagnostic, renderer: &Renderer) -> String {
+    let mut text = format!("{diagnostic}{}\n", command(&diagnostic.kind));
     let source = &diagnostic.source.text;
     let (line, _) = diagnostic.position();
     let start =

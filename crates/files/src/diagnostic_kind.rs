@@ -4,11 +4,11 @@ use std::fmt;
 use std::sync::Arc;
 
 use super::keys::SHAPES;
-use super::nearest::nearest;
 use gumption_engine::distribution::Invalid;
 use gumption_engine::model::formula::FormulaError;
 use gumption_engine::number::Shortest;
 use gumption_units::UnitError;
+use gumption_units::nearest;
 
 /// A mistake, without its place.
 #[derive(Clone, Debug, PartialEq)]
@@ -525,12 +525,12 @@ fn counted(count: usize, what: &str) -> String {
 
 /// "; did you mean `x`?" or the list of what there is.
 fn hint(nearest: Option<&String>, known: &str) -> String {
-    nearest.map_or_else(|| format!("; there are {known}"), |_| near(nearest))
+    if nearest.is_some() { meant(nearest) } else { format!("; there are {known}") }
 }
 
-/// "; did you mean `x`?", or nothing.
-fn near(nearest: Option<&String>) -> String {
-    nearest.map(|name| format!("; did you mean `{name}`?")).unwrap_or_default()
+/// The near name, where there is one.
+fn meant(nearest: Option<&String>) -> String {
+    nearest.map_or_else(String::new, |name| format!("; did you mean `{name}`?"))
 }
 
 impl fmt::Display for DiagnosticKind {
@@ -566,7 +566,7 @@ impl fmt::Display for DiagnosticKind {
                 "a model file has either `equations` or `model`, not both; take one of them out",
             ),
             Self::UnknownModel { name, nearest } => {
-                write!(f, "there is no typed model `{name}`{}", near(nearest.as_ref()))
+                write!(f, "there is no typed model `{name}`{}", meant(nearest.as_ref()))
             }
             Self::UnknownInput { name, model, nearest, known } => write!(
                 f,
@@ -675,7 +675,7 @@ impl fmt::Display for DiagnosticKind {
                 f.write_str(reason)
             }
             Self::UnknownEffect { name, nearest } => {
-                write!(f, "the catalogue has no effect `{name}`{}", near(nearest.as_ref()))
+                write!(f, "the catalogue has no effect `{name}`{}", meant(nearest.as_ref()))
             }
             Self::Effect { name, reason } => write!(f, "the effect `{name}` {reason}"),
             Self::Correlation { reason } => f.write_str(reason),

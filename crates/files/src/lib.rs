@@ -3,6 +3,8 @@
 //! Reading goes on after a mistake, so that all of a file's mistakes are reported at once; only
 //! text that is not JSON stops it.
 
+#![cfg_attr(test, allow(clippy::disallowed_methods))] // tests compare within tolerances
+
 mod answer;
 pub mod bytes;
 mod case;
@@ -28,7 +30,6 @@ mod links;
 mod model_checks;
 mod model_file;
 mod model_reader;
-mod nearest;
 mod object;
 mod observations;
 mod open;
@@ -65,7 +66,6 @@ pub use diagnostics::{Diagnostic, Diagnostics};
 pub use difference::difference;
 pub use either::ModelOrResult;
 pub use model_file::ModelFile;
-pub use nearest::nearest;
 pub use overrides::{Override, Overrides};
 pub use reader::{FileReader, check, check_text, read, read_case, read_certificate, read_text};
 pub use recipe::{

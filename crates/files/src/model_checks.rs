@@ -5,6 +5,7 @@ use std::collections::{HashMap, HashSet};
 use std::ops::Range;
 use std::sync::Arc;
 
+use super::DiagnosticKind;
 use super::conditions::Conditions;
 use super::diagnostics::Collector;
 use super::input_set::InputSet;
@@ -13,12 +14,12 @@ use super::model_reader::{Equation, ModelBody};
 use super::object::Object;
 use super::outputs::Outputs;
 use super::scopes::{coherent, condition_scope, report_formula};
-use super::{DiagnosticKind, nearest};
 use gumption_engine::model::formula::{Scope, Typing, check_name};
 use gumption_engine::model::typed::CatalogueEntry;
 use gumption_engine::model::{Output, Quantity};
 use gumption_engine::task::Warning;
 use gumption_units::Unit;
+use gumption_units::nearest;
 
 /// The quantities of a file.
 #[derive(Debug)]

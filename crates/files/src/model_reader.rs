@@ -43,7 +43,7 @@ use super::scopes::{ConditionSet, report_formula, typed_scope};
 use super::simulated::{names_simulation, simulated};
 use super::size::Size;
 use super::table::{self, Table};
-use super::{DiagnosticKind, correlations, inputs, keys, nearest, settings};
+use super::{DiagnosticKind, correlations, inputs, keys, settings};
 use gumption_engine::distribution::{Correlation, Fits};
 use gumption_engine::model::formula::Formula;
 use gumption_engine::model::typed::{Catalogue, CatalogueEntry};
@@ -52,6 +52,7 @@ use gumption_engine::task::{Row, Settings, Task, Warning};
 use gumption_gap::Observed;
 use gumption_gap::{Maker as SimMaker, Sim};
 use gumption_units::Unit;
+use gumption_units::nearest;
 
 /// How a model file is to be read.
 #[derive(Clone, Copy, Debug)]
@@ -406,5 +407,8 @@ fn task(parts: Parts, sim: &Sim, of: Quantities) -> Option<Task> {
     let rows = conditions.rows.into_iter().zip(known);
     let rows = rows.map(|(conditions, distributions)| Row { conditions, distributions }).collect();
     let (model, variables) = (sim.model(), inputs.variables);
-    Some(Task { title, model, variables, correlations, rows, swept, settings, fits })
+    let mut task = Task::new(model, variables, rows);
+    (task.title, task.swept, task.settings) = (title, swept, settings);
+    (task.correlations, task.fits) = (correlations, fits);
+    Some(task)
 }

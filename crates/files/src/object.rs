@@ -7,7 +7,7 @@ use super::DiagnosticKind;
 use super::diagnostics::Collector;
 use super::json::{Json, Member, Node};
 use super::keys::Key;
-use super::nearest::nearest;
+use gumption_units::nearest;
 
 /// An object that is being read.
 #[derive(Clone, Copy, Debug)]

@@ -6,7 +6,6 @@ use super::DiagnosticKind;
 use super::condition_values::ConditionValues;
 use super::json::Json;
 use super::keys::{SHAPES, Shape};
-use super::nearest::nearest;
 use super::object::Object;
 use super::results::Results;
 use super::width::Width;
@@ -18,6 +17,7 @@ use gumption_engine::distribution::{
 use gumption_engine::model::formula::Formula;
 use gumption_engine::special;
 use gumption_units::Unit;
+use gumption_units::nearest;
 
 /// The distribution, if its standard uncertainty is a number: widths near the largest and the least
 /// doubles have squares beyond them.

@@ -1,5 +1,7 @@
 //! Reports: what an evaluation looks like, one file for each format.
 
+#![cfg_attr(test, allow(clippy::disallowed_methods))] // tests compare within tolerances
+
 pub mod assumptions;
 pub mod certificate;
 pub mod compare;
@@ -15,7 +17,6 @@ mod plot;
 mod samples;
 mod saved;
 mod sheet;
-mod si;
 mod subtotals;
 mod table;
 mod tree;

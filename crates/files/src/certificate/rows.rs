@@ -9,7 +9,6 @@ use super::super::diagnostics::{Collector, Diagnostic};
 use super::super::json::{Json, Member, Node};
 use super::super::keys;
 use super::super::model_file::ModelFile;
-use super::super::nearest::nearest;
 use super::super::object::Object;
 use super::super::outputs;
 use super::super::overrides::Override;
@@ -21,6 +20,7 @@ use gumption_analysis::certificate::contents::{Asked, Line};
 use gumption_engine::model::Quantity;
 use gumption_engine::task::{Task, Warning};
 use gumption_units::Unit;
+use gumption_units::nearest;
 
 /// At most so many rows: their correlations are a matrix.
 const MOST_ROWS: usize = 1000;

@@ -6,7 +6,6 @@ use super::super::DiagnosticKind;
 use super::super::diagnostics::Collector;
 use super::super::json::Member;
 use super::super::keys;
-use super::super::nearest::nearest;
 use super::super::object::Object;
 use super::super::recording::{ColumnName, Conversion, Wanted};
 use super::column::column;
@@ -15,6 +14,7 @@ use super::recordings::{RecordingFile, SearchFile};
 use super::{check_name, steps};
 use gumption_signal::{Channel, Search};
 use gumption_units::Unit;
+use gumption_units::nearest;
 
 /// A channel, as the recipe describes it.
 #[derive(Clone, Debug)]

@@ -15,7 +15,6 @@ use super::DiagnosticKind;
 use super::diagnostics::{Collector, Diagnostics};
 use super::json::{Json, Node};
 use super::keys;
-use super::nearest::nearest;
 use super::object::Object;
 use super::open::{check_format, open, read_root};
 use super::recording::{self, Recording};
@@ -27,6 +26,7 @@ use gumption_signal::{
     Amplitude, Frequency, Method, PhaseUnit, Refused, Search, Settings, TimeBase, Track,
 };
 use gumption_units::Unit;
+use gumption_units::nearest;
 use recordings::RecordingFile;
 
 /// The highest multiple of a frequency.

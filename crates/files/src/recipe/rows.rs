@@ -10,7 +10,6 @@ use super::quantity::{of_object, own_unit, quantity, same_dimension, uncertainty
 use super::recordings::{RecordingFile, check_part};
 use super::{RecipeCondition, RecipeRow, check_name};
 use gumption_signal::Frequency;
-use gumption_units::Unit;
 
 /// At most so many rows.
 const MOST_ROWS: usize = 10_000;
