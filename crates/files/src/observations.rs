@@ -11,7 +11,7 @@ use super::object::Object;
 use super::source::Place;
 use super::table::{self, Table};
 use gumption_engine::linalg::packed;
-use gumption_gap::Observed;
+use gumption_gap::ObservedOutput;
 use gumption_units::nearest;
 
 /// The data's table with the columns of the observed outputs.
@@ -28,7 +28,7 @@ pub(super) struct Observations {
 pub(super) struct Column {
     pub(super) output: String,
     pub(super) place: Range<usize>,
-    pub(super) observed: Observed,
+    pub(super) observed: ObservedOutput,
     /// The column with somebody else's simulation of the output.
     pub(super) simulated: Option<String>,
 }
@@ -112,7 +112,7 @@ impl Reader<'_> {
         Some(Column {
             output: member.key.clone(),
             place: member.key_span.clone(),
-            observed: Observed {
+            observed: ObservedOutput {
                 values: values?,
                 standard_uncertainties: uncertainties?,
                 simulation_uncertainties: simulation?,

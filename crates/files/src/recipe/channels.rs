@@ -12,7 +12,7 @@ use super::column::column;
 use super::quantity::{of_member, positive, unit};
 use super::recordings::{RecordingFile, SearchFile};
 use super::{check_name, steps};
-use gumption_signal::{Channel, Search};
+use gumption_signal::{Channel, ChannelRateSearch};
 use gumption_units::Unit;
 use gumption_units::nearest;
 
@@ -203,7 +203,7 @@ impl SearchFile {
         log: &Collector,
         recording: usize,
         channels: &[ChannelFile],
-    ) -> Option<Search> {
+    ) -> Option<ChannelRateSearch> {
         let at =
             |file: &ChannelFile| file.channel.name == self.channel && file.recording == recording;
         let channel = channels.iter().position(at);
@@ -211,7 +211,7 @@ impl SearchFile {
             let reason = format!("this recording has no channel `{}`", self.channel);
             log.report(&self.place, DiagnosticKind::Recipe { reason });
         }
-        Some(Search {
+        Some(ChannelRateSearch {
             channel: channel?,
             frequency: self.frequency,
             between: self.between,

@@ -23,7 +23,8 @@ use channels::ChannelFile;
 use gumption_engine::model::formula;
 use gumption_engine::task::Warning;
 use gumption_signal::{
-    Amplitude, Frequency, Method, PhaseUnit, Refused, Search, Settings, TimeBase, Track,
+    Amplitude, ChannelRateSearch, ChannelRecording, Frequency, Method, PhaseUnit, RecipeSettings,
+    Refused, TimeBase,
 };
 use gumption_units::Unit;
 use gumption_units::nearest;
@@ -62,7 +63,7 @@ pub struct RecipeFile {
     /// The title, if it has one.
     pub title: Option<String>,
     /// What is the same for all rows.
-    pub settings: Settings,
+    pub settings: RecipeSettings,
     /// The conditions.
     pub conditions: Vec<RecipeCondition>,
     /// The name of the column of frequencies.
@@ -72,7 +73,7 @@ pub struct RecipeFile {
     /// The file's text.
     pub source: Arc<SourceText>,
     recordings: Vec<RecordingFile>,
-    searches: Vec<Option<Search>>,
+    searches: Vec<Option<ChannelRateSearch>>,
     channels: Vec<ChannelFile>,
 }
 
@@ -80,9 +81,9 @@ pub struct RecipeFile {
 #[derive(Debug)]
 pub struct OpenedRow {
     /// What is the same for all rows, with the resolution that the files have.
-    pub settings: Settings,
+    pub settings: RecipeSettings,
     /// The recordings with their channels.
-    pub tracks: Vec<Track<Recording>>,
+    pub tracks: Vec<ChannelRecording<Recording>>,
     /// The digest of each file, by its name.
     pub digests: Vec<(String, String)>,
     /// What to bear in mind about the recordings.
@@ -151,7 +152,7 @@ fn recipe(root: &Object<'_>, folder: &Path) -> Option<RecipeFile> {
     });
     let searches = searches.collect();
     check_references(root.log, &channels, reference?);
-    let settings = Settings {
+    let settings = RecipeSettings {
         channels: channels.iter().map(|file| file.channel.clone()).collect(),
         reference: reference?,
         components: components?,
@@ -310,7 +311,12 @@ impl RecipeFile {
                         beside_frequency: None,
                     };
                     let search = self.searches.get(number).copied().flatten();
-                    opened.tracks.push(Track { passes: recording, base, channels, search });
+                    opened.tracks.push(ChannelRecording {
+                        passes: recording,
+                        base,
+                        channels,
+                        search,
+                    });
                     opened.of.push(number);
                 }
                 Err(reason) => {

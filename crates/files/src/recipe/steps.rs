@@ -8,17 +8,17 @@ use super::super::json::{Json, Member, Node};
 use super::super::keys::{self, STEPS};
 use super::super::object::Object;
 use super::quantity::{Quantity, positive, quantity, same_dimension, unit};
-use gumption_signal::{Band, Butterworth, Measured, Response, ResponsePoint, Step};
+use gumption_signal::{Band, Butterworth, ChannelStep, Measured, Response, ResponsePoint};
 use gumption_units::Unit;
 
 /// The step that an object describes, whose keys were checked, and the unit that values have after
 /// it. `of_values` is the unit before.
-fn step(name: &str, of: &Object<'_>, of_values: &Unit) -> Option<(Step, Unit)> {
+fn step(name: &str, of: &Object<'_>, of_values: &Unit) -> Option<(ChannelStep, Unit)> {
     let same = |step| Some((step, of_values.clone()));
     match name {
-        "remove-mean" => same(Step::RemoveMean),
-        "remove-trend" => same(Step::RemoveTrend),
-        "whole-periods" => same(Step::WholePeriods),
+        "remove-mean" => same(ChannelStep::RemoveMean),
+        "remove-trend" => same(ChannelStep::RemoveTrend),
+        "whole-periods" => same(ChannelStep::WholePeriods),
         "low-pass" => same(filter(of, Band::LowPass(hertz(of, "cutoff")?))?),
         "high-pass" => same(filter(of, Band::HighPass(hertz(of, "cutoff")?))?),
         "band-pass" => {
@@ -42,9 +42,9 @@ fn step(name: &str, of: &Object<'_>, of_values: &Unit) -> Option<(Step, Unit)> {
                 Some(_) => Some(usize::try_from(of.whole("segments", 2, 10_000)?).ok()?),
                 None => None,
             };
-            same(Step::Delay { segments })
+            same(ChannelStep::Delay { segments })
         }
-        "rms" => same(Step::Rms),
+        "rms" => same(ChannelStep::Rms),
         _ => None,
     }
 }
@@ -56,7 +56,7 @@ fn hertz(of: &Object<'_>, key: &'static str) -> Option<f64> {
     positive(of, key, &found).then(|| found.si())
 }
 
-fn filter(of: &Object<'_>, band: Band) -> Option<Step> {
+fn filter(of: &Object<'_>, band: Band) -> Option<ChannelStep> {
     let poles = match of.get("order") {
         Some(_) => of.whole("order", 1, 24)?,
         None if matches!(band, Band::BandPass(..)) => 2,
@@ -74,7 +74,7 @@ fn filter(of: &Object<'_>, band: Band) -> Option<Step> {
     };
     let both_ways = truth("both_ways", false)?;
     let filter = Butterworth { band, poles, both_ways };
-    Some(Step::Filter { filter, correct: truth("correct", true)? })
+    Some(ChannelStep::Filter { filter, correct: truth("correct", true)? })
 }
 
 /// The highest frequency that is kept, where the recipe says.
@@ -82,7 +82,7 @@ fn highest(of: &Object<'_>) -> Option<Option<f64>> {
     if of.get("highest").is_some() { hertz(of, "highest").map(Some) } else { Some(None) }
 }
 
-fn derivative(of: &Object<'_>, of_values: &Unit, integral: bool) -> Option<(Step, Unit)> {
+fn derivative(of: &Object<'_>, of_values: &Unit, integral: bool) -> Option<(ChannelStep, Unit)> {
     let times = match of.get("times") {
         Some(_) => of.whole("times", 1, 4)?,
         None => 1,
@@ -99,7 +99,7 @@ fn derivative(of: &Object<'_>, of_values: &Unit, integral: bool) -> Option<(Step
         _ => format!("{whole}/s^{times}"),
     };
     let (factor, after) = converted(of, &text)?;
-    Some((Step::Derivative { order, highest: highest(of)?, factor }, after))
+    Some((ChannelStep::Derivative { order, highest: highest(of)?, factor }, after))
 }
 
 /// The unit of the answer, that of the step's key `unit` or else `natural`, and how many of it are
@@ -112,7 +112,7 @@ fn converted(of: &Object<'_>, natural: &str) -> Option<(f64, Unit)> {
     Some((Unit::conversion_factor(&natural, &wanted).ok()?, wanted))
 }
 
-fn rotation(of: &Object<'_>, of_values: &Unit, radial: bool) -> Option<(Step, Unit)> {
+fn rotation(of: &Object<'_>, of_values: &Unit, radial: bool) -> Option<(ChannelStep, Unit)> {
     let member = of.required("radius")?;
     if member.value.number().is_some() {
         let reason = "`radius` needs a unit, such as {\"value\": 170, \"unit\": \"mm\"}".to_owned();
@@ -130,7 +130,7 @@ fn rotation(of: &Object<'_>, of_values: &Unit, radial: bool) -> Option<(Step, Un
         return None;
     }
     let (factor, after) = converted(of, "m/s^2")?;
-    let step = Step::Rotation {
+    let step = ChannelStep::Rotation {
         radial,
         radius: measured(&found),
         highest: highest(of)?,
@@ -148,7 +148,7 @@ fn measured(of: &Quantity) -> Measured {
     }
 }
 
-fn correct(of: &Object<'_>) -> Option<Step> {
+fn correct(of: &Object<'_>) -> Option<ChannelStep> {
     let kinds = ["response", "high_passes", "delay", "phase"];
     let given: Vec<&'static str> = kinds.into_iter().filter(|key| of.get(key).is_some()).collect();
     if let [first, second, ..] = given[..] {
@@ -199,7 +199,7 @@ fn correct(of: &Object<'_>) -> Option<Step> {
         None => Response::Delayed { gain: gain.value, delay: 0.0 },
     };
     let of_gain = gain.standard_uncertainty / gain.value;
-    Some(Step::Correct { response, of_gain, of_phase, of_delay })
+    Some(ChannelStep::Correct { response, of_gain, of_phase, of_delay })
 }
 
 /// The points of a response, by rising frequency.
@@ -233,7 +233,7 @@ fn points(of: &Object<'_>) -> Option<Vec<ResponsePoint>> {
 
 /// The steps of a channel.
 pub(super) struct Steps {
-    pub(super) steps: Vec<Step>,
+    pub(super) steps: Vec<ChannelStep>,
     /// Where they stand.
     pub(super) places: Vec<Range<usize>>,
     /// The unit of values after them.
