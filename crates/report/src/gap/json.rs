@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
-use gumption_gap::{Diagnosis, Named, Shrunk};
+use gumption_gap::{Diagnosis, NamedQuantity, Shrunk};
 
 /// Numbers by name, in the order in which they are given.
 #[derive(Debug)]
@@ -173,13 +173,13 @@ fn finite(value: f64) -> Option<f64> {
     value.is_finite().then_some(value)
 }
 
-fn named<V>(names: &[Named], values: impl Iterator<Item = V>) -> Ordered<V> {
+fn named<V>(names: &[NamedQuantity], values: impl Iterator<Item = V>) -> Ordered<V> {
     Ordered(names.iter().map(|named| named.name.clone()).zip(values).collect())
 }
 
 fn answer(diagnosis: &Diagnosis) -> Answer {
-    let Diagnosis { outputs, conditions, gap, verdict, shrinkage, .. } = diagnosis;
-    let of_output = |(named, shrunk): (&Named, &Shrunk)| OfOutput {
+    let Diagnosis { outputs, conditions, gap, most_probable: verdict, shrinkage, .. } = diagnosis;
+    let of_output = |(named, shrunk): (&NamedQuantity, &Shrunk)| OfOutput {
         unit: named.unit.clone(),
         rms_before: shrunk.rms_before,
         rms_after: shrunk.rms_after,
@@ -220,8 +220,8 @@ fn answer(diagnosis: &Diagnosis) -> Answer {
             kind: verdict.kind.name(),
             effects: verdict.effects.clone(),
             probability: verdict.probability,
-            group: verdict.group.clone(),
-            group_probability: verdict.group_probability,
+            group: verdict.indistinguishable.clone(),
+            group_probability: verdict.indistinguishable_probability,
         },
         hypotheses: diagnosis
             .hypotheses
@@ -231,8 +231,8 @@ fn answer(diagnosis: &Diagnosis) -> Answer {
                 probability: hypothesis.probability,
                 prior: hypothesis.prior,
                 log_evidence: finite(hypothesis.log_evidence),
-                standard_error: finite(hypothesis.error).unwrap_or(f64::MAX),
-                ess: hypothesis.effective,
+                standard_error: finite(hypothesis.standard_error).unwrap_or(f64::MAX),
+                ess: hypothesis.effective_sample_size,
                 parameters: Ordered(
                     hypothesis
                         .parameters

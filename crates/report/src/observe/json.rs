@@ -2,7 +2,7 @@
 
 use super::Observed;
 use crate::tree::Tree;
-use gumption_signal::{ChannelObservation, Component, Measured, Value};
+use gumption_signal::{BudgetedValue, ChannelObservation, Measured, ToneComponent};
 
 /// The observations as JSON.
 pub fn json(observed: &Observed<'_>) -> String {
@@ -108,7 +108,7 @@ fn channel(observed: &Observed<'_>, of: &ChannelObservation) -> Tree {
     ])
 }
 
-fn component(of: &Component, unit: &str, phase: &str) -> Tree {
+fn component(of: &ToneComponent, unit: &str, phase: &str) -> Tree {
     Tree::object([
         ("multiple", Tree::from(u64::from(of.multiple))),
         ("frequency", plain(of.frequency, "Hz")),
@@ -127,7 +127,7 @@ fn plain(of: Measured, unit: &str) -> Tree {
     ])
 }
 
-fn value(of: &Value, unit: &str) -> Tree {
+fn value(of: &BudgetedValue, unit: &str) -> Tree {
     let total: f64 = of.contributions.iter().map(|(_, u)| u * u).sum();
     let budget = of.contributions.iter().map(|(source, u)| {
         Tree::object([
