@@ -6,6 +6,7 @@ use super::conditions::NoConditions;
 use super::diagnostics::Collector;
 use super::input_set::InputSet;
 use super::json::{Json, Member};
+use super::keys;
 use super::object::Object;
 use super::results::Results;
 use super::scopes::report_formula;
@@ -106,7 +107,7 @@ struct Reader<'a> {
 impl Reader<'_> {
     fn effect(&mut self, member: &Member) -> Option<Candidate> {
         let object = Object::new(self.log, "an effect", &member.value, &member.key_span)?;
-        object.check_keys(&["parameters", "overrides", "about", "source"]);
+        object.check_keys(keys::EFFECT);
         let diagnostic = |reason: &str| DiagnosticKind::Effect {
             name: member.key.clone(),
             reason: reason.to_owned(),

@@ -43,7 +43,7 @@ use super::scopes::{ConditionSet, report_formula, typed_scope};
 use super::simulated::{names_simulation, simulated};
 use super::size::Size;
 use super::table::{self, Table};
-use super::{DiagnosticKind, correlations, inputs, settings};
+use super::{DiagnosticKind, correlations, inputs, keys, settings};
 use gumption_engine::distribution::{Correlation, Fits};
 use gumption_engine::model::formula::Formula;
 use gumption_engine::model::typed::{Catalogue, CatalogueEntry};
@@ -52,31 +52,6 @@ use gumption_engine::task::{Row, Settings, Task, Warning};
 use gumption_gap::{ModelForm, ObservedOutput, OverridableModel};
 use gumption_units::Unit;
 use gumption_units::nearest;
-
-/// The keys of a model file and of a case.
-const KEYS: [&str; 21] = [
-    "format",
-    "title",
-    "source",
-    "about",
-    "inputs",
-    "correlations",
-    "correlation_matrix",
-    "conditions",
-    "equations",
-    "model",
-    "outputs",
-    "coverage_probability",
-    "coverage_factor",
-    "coverage_factor_fixed",
-    "monte_carlo",
-    "check_units",
-    "allow_undefined",
-    "observations",
-    "effects",
-    "catalogue",
-    "prior",
-];
 
 /// How a model file is to be read.
 #[derive(Clone, Copy, Debug)]
@@ -154,7 +129,7 @@ impl<'a> ModelReader<'a> {
     /// All that the file holds, unless it has mistakes.
     pub(super) fn found(&self) -> Option<Found> {
         let root = &self.root;
-        root.check_keys(&KEYS);
+        root.check_keys(keys::MODEL);
         check_format(root);
         let title = root.text("title").unwrap_or("").to_owned();
         root.text("source");

@@ -6,6 +6,7 @@ use std::path::Path;
 use super::DiagnosticKind;
 use super::diagnostics::Collector;
 use super::json::{Json, Member};
+use super::keys;
 use super::object::Object;
 use super::source::Place;
 use super::table::{self, Table};
@@ -35,7 +36,7 @@ pub(super) struct Column {
 /// Reads `observations`; paths are relative to `folder`.
 pub(super) fn read(log: &Collector, member: &Member, folder: &Path) -> Option<Observations> {
     let object = Object::new(log, "`observations`", &member.value, &member.key_span)?;
-    object.check_keys(&["file", "columns"]);
+    object.check_keys(keys::OBSERVATIONS);
     let file = object.required("file")?;
     let name = object.text("file")?;
     let columns = object.required("columns");
@@ -86,13 +87,7 @@ struct Reader<'a> {
 impl Reader<'_> {
     fn column(&self, member: &Member, files: &mut Vec<(String, Vec<u8>)>) -> Option<Column> {
         let object = Object::new(self.log, "an observed output", &member.value, &member.key_span)?;
-        object.check_keys(&[
-            "value",
-            "standard_uncertainty",
-            "sim",
-            "sim_standard_uncertainty",
-            "sim_covariance",
-        ]);
+        object.check_keys(keys::OBSERVED);
         object.required("value")?;
         let values = self.values(&object, "value");
         let uncertainties = self.uncertainties(&object, "standard_uncertainty");

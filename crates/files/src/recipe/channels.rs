@@ -5,6 +5,7 @@ use std::ops::Range;
 use super::super::DiagnosticKind;
 use super::super::diagnostics::Collector;
 use super::super::json::Member;
+use super::super::keys;
 use super::super::object::Object;
 use super::super::recording::{ColumnName, Conversion, Wanted};
 use super::column::column;
@@ -14,21 +15,6 @@ use super::{check_name, steps};
 use gumption_signal::{Channel, ChannelRateSearch};
 use gumption_units::Unit;
 use gumption_units::nearest;
-
-/// The keys of a channel.
-pub(super) const KEYS: [&str; 11] = [
-    "recording",
-    "column",
-    "unit",
-    "raw_unit",
-    "scale",
-    "sensitivity",
-    "offset",
-    "resolution",
-    "bits",
-    "range",
-    "steps",
-];
 
 /// A channel, as the recipe describes it.
 #[derive(Clone, Debug)]
@@ -59,7 +45,7 @@ pub(super) fn read(root: &Object<'_>, recordings: &[RecordingFile]) -> Option<Ve
 fn channel(log: &Collector, member: &Member, recordings: &[RecordingFile]) -> Option<ChannelFile> {
     check_name(log, &member.key, &member.key_span);
     let of = Object::new(log, "a channel", &member.value, &member.key_span)?;
-    of.check_keys(&KEYS);
+    of.check_keys(keys::CHANNEL);
     let recording = recording(&of, recordings);
     let column = of.required("column").and_then(|member| column(log, member));
     let own = unit(&of, "unit", "1");

@@ -14,6 +14,7 @@ use std::sync::Arc;
 use super::DiagnosticKind;
 use super::diagnostics::{Collector, Diagnostics};
 use super::json::{Json, Node};
+use super::keys;
 use super::object::Object;
 use super::open::{check_format, open, read_root};
 use super::recording::{self, Recording};
@@ -28,30 +29,6 @@ use gumption_signal::{
 use gumption_units::Unit;
 use gumption_units::nearest;
 use recordings::RecordingFile;
-pub(crate) use steps::ALL as STEPS;
-
-/// The keys of a recipe.
-const KEYS: [&str; 16] = [
-    "format",
-    "title",
-    "source",
-    "recordings",
-    "channels",
-    "reference",
-    "frequency",
-    "components",
-    "harmonics",
-    "method",
-    "amplitude",
-    "phase_unit",
-    "conditions",
-    "rows",
-    "trials",
-    "seed",
-];
-
-/// The key that only recipes have.
-pub(crate) const OWN: &str = "recordings";
 
 /// The highest multiple of a frequency.
 const MOST_MULTIPLE: u64 = 50;
@@ -134,7 +111,7 @@ pub fn read_text(name: &str, text: &str, folder: &Path) -> Result<RecipeFile, Di
 /// Whether a text is meant as a recipe.
 pub(super) fn is_meant(root: &Node) -> bool {
     let Json::Object(members) = &root.value else { return false };
-    members.iter().any(|member| member.key == OWN)
+    members.iter().any(|member| member.key == keys::RECIPE_KEY)
 }
 
 /// Reads a recipe and all of its recordings.
@@ -153,7 +130,7 @@ pub(super) fn check_text(name: &str, text: &str, folder: &Path) -> Result<(), Di
 }
 
 fn recipe(root: &Object<'_>, folder: &Path) -> Option<RecipeFile> {
-    root.check_keys(&KEYS);
+    root.check_keys(keys::RECIPE);
     check_format(root);
     let title = root.text("title").map(str::to_owned);
     root.text("source");

@@ -5,30 +5,11 @@ use std::ops::Range;
 
 use super::super::DiagnosticKind;
 use super::super::json::{Json, Member, Node};
+use super::super::keys::{self, STEPS};
 use super::super::object::Object;
 use super::quantity::{Quantity, positive, quantity, same_dimension, unit};
 use gumption_signal::{Band, Butterworth, ChannelStep, Measured, Response, ResponsePoint};
 use gumption_units::Unit;
-
-/// The names of the steps, and their keys beside `step`.
-pub(crate) const ALL: [(&str, &[&str]); 13] = [
-    ("remove-mean", &[]),
-    ("remove-trend", &[]),
-    ("whole-periods", &[]),
-    ("low-pass", &["cutoff", "order", "both_ways", "correct"]),
-    ("high-pass", &["cutoff", "order", "both_ways", "correct"]),
-    ("band-pass", &["low", "high", "order", "both_ways", "correct"]),
-    ("derivative", &["times", "unit", "highest"]),
-    ("integral", &["times", "unit", "highest"]),
-    ("tangential", &["radius", "unit", "highest"]),
-    ("radial", &["radius", "unit", "highest"]),
-    ("correct", &["gain", "phase", "delay", "response", "high_passes"]),
-    ("delay", &["segments"]),
-    ("rms", &[]),
-];
-
-/// The keys of a point of a response.
-const POINT: [&str; 3] = ["frequency", "gain", "phase"];
 
 /// The step that an object describes, whose keys were checked, and the unit that values have after
 /// it. `of_values` is the unit before.
@@ -227,7 +208,7 @@ fn points(of: &Object<'_>) -> Option<Vec<ResponsePoint>> {
     let member = of.get("response")?;
     for node in of.list("response")? {
         let point = Object::new(of.log, "a point of a response", node, &node.span)?;
-        point.check_keys(&POINT);
+        point.check_keys(keys::POINT);
         point.required("gain")?;
         let gain = quantity(&point, "gain", "1")?;
         positive(&point, "gain", &gain).then_some(())?;
@@ -279,14 +260,14 @@ pub(super) fn read(channel: &Object<'_>, unit: &Unit) -> Option<Steps> {
         let object = Object::new(channel.log, "a step", whole, &whole.span)?;
         object.required("step")?;
         let name = object.text("step")?;
-        let Some((_, keys)) = ALL.iter().find(|(known, _)| *known == name) else {
-            let allowed = ALL.map(|(name, _)| name.to_owned()).to_vec();
+        let Some((_, keys)) = STEPS.iter().find(|(known, _)| *known == name) else {
+            let allowed = STEPS.map(|(name, _)| name.to_owned()).to_vec();
             let diagnostic =
                 DiagnosticKind::NotOneOf { key: "step".into(), found: name.to_owned(), allowed };
             channel.log.report(&node.span, diagnostic);
             return None;
         };
-        object.check_keys(&[&["step"], *keys].concat());
+        object.check_names(&[&["step"], *keys].concat());
         let (step, unit) = step(name, &object, &read.unit)?;
         read.steps.push(step);
         read.places.push(node.span.clone());
