@@ -54,7 +54,7 @@ pub use gumption_analysis::{assumptions, certificate, compare};
 #[cfg(feature = "cli")]
 pub use gumption_command as command;
 pub use gumption_diff as diff;
-pub use gumption_engine::{distribution, measurement, model, number, propagate, task};
+pub use gumption_engine::{decimal, distribution, measurement, model, number, propagate, task};
 pub use gumption_files as file;
 pub use gumption_files::schema;
 pub use gumption_gap as gap;

@@ -15,7 +15,6 @@ use gumption_engine::task::{Trials, Warning};
 use gumption_files as file;
 use gumption_files::{CertificateFile, Fault, Problem, Problems};
 use gumption_report::certificate::{self as report, Model, Report};
-use gumption_report::number::rounded;
 
 /// Make a calibration certificate.
 #[derive(Debug, Args)]
@@ -205,13 +204,13 @@ fn notes(file: &CertificateFile, issued: &Issued) -> Vec<Warning> {
     }
     for (number, statement) in issued.statements.iter().enumerate() {
         let Some(limit) = statement.limit.filter(|limit| limit.below) else { continue };
-        let (row, cmc) = (number + 1, gumption_report::number::significant(limit.cmc, 3));
+        let (row, cmc) = (number + 1, gumption_engine::decimal::significant(limit.cmc, 3));
         let (code, text) = if limit.raised {
             let text =
                 format!("row {row}: U is raised to the laboratory's capability (CMC) of {cmc}");
             ("raised-to-cmc", text)
         } else {
-            let u = statement.rounded.map_or("0".to_owned(), |to| rounded(to.value, to.place));
+            let u = statement.rounded.map_or("0".to_owned(), |to| to.to_string());
             let text = format!(
                 "row {row}: U = {u} is below the laboratory's capability (CMC) of {cmc}, which an \
                  accredited certificate may not state (ILAC-P14); `\"cmc_floor\": true` raises it"

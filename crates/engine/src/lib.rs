@@ -3,6 +3,7 @@
 
 #![deny(unsafe_code)]
 
+pub mod decimal;
 pub mod distribution;
 pub mod model;
 pub mod number;

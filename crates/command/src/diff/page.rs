@@ -4,7 +4,8 @@ use serde::Serialize;
 use serde::ser::{SerializeMap, Serializer};
 
 use gumption_diff::{Difference, Due, OutputDifference, Part, RowDifference, State};
-use gumption_report::number::{MISSING, exact, place, rounded, significant, to, with_uncertainty};
+use gumption_engine::decimal::{MISSING, exact, position, rounded, significant};
+use gumption_report::number::{to, with_uncertainty};
 use gumption_report::{Grid, WIDTH, wrapped};
 
 /// Significant digits of uncertainties.
@@ -164,9 +165,9 @@ fn section(output: &OutputDifference, at: &str) -> String {
     if changed().next().is_none() {
         return text + &wrapped("No input changed.");
     }
-    // all to the place that the largest change deserves
+    // all to the position that the largest change deserves
     let largest = changed().filter_map(|part| part.change).map(f64::abs).fold(0.0, f64::max);
-    let last = place(largest, DIGITS + 1);
+    let last = position(largest, DIGITS + 1);
     let change = |part: &Part| part.change.map_or_else(missing, |change| to(change, last));
     let share = |part: &Part| part.share.map_or_else(missing, |share| rounded(100.0 * share, -1));
     let mut grid = Grid::default();
@@ -206,7 +207,9 @@ fn heading(output: &OutputDifference, at: &str) -> String {
     let [from, to] = expanded;
     let relative = match output.expanded {
         [Some(from), Some(to)] if from > 0.0 => {
-            format!(" ({:+.1} %)", 100.0 * (to / from - 1.0))
+            let percent = 100.0 * (to / from - 1.0);
+            let sign = if percent < 0.0 { "" } else { "+" };
+            format!(" ({sign}{} %)", rounded(percent, -1))
         }
         _ => String::new(),
     };

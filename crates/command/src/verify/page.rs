@@ -5,8 +5,9 @@ use std::fmt::Write;
 use serde::Serialize;
 
 use super::recompute::{Recomputed, Row, Verdict};
+use gumption_engine::decimal::{MISSING, exact, position, rounded, significant};
 use gumption_engine::task::Trials;
-use gumption_report::number::{MISSING, align, exact, place, rounded, significant};
+use gumption_report::number::align;
 
 const VERSION: &str = env!("CARGO_PKG_VERSION");
 
@@ -79,9 +80,9 @@ pub(super) fn csv(found: &[Recomputed]) -> String {
 /// Published value, tolerance and recomputed value as text.
 fn figures(row: &Row) -> [String; 3] {
     let Row { published, got, .. } = row;
-    let got = match (got, place(published.tolerance, TOLERANCE_DIGITS)) {
+    let got = match (got, position(published.tolerance, TOLERANCE_DIGITS)) {
         (None, _) => MISSING.to_owned(),
-        (Some(got), Some(place)) => rounded(*got, place),
+        (Some(got), Some(position)) => rounded(*got, position),
         (Some(got), None) => exact(*got),
     };
     [exact(published.value), significant(published.tolerance, TOLERANCE_DIGITS), got]
@@ -99,9 +100,9 @@ pub(super) fn table(found: &[Recomputed]) -> String {
     }
     let line = |cells: [&str; 6]| {
         let mut line = String::from(" ");
-        for (place, (cell, width)) in cells.iter().zip(widths).enumerate() {
+        for (position, (cell, width)) in cells.iter().zip(widths).enumerate() {
             // numbers stand at the right of their column
-            let _ = match place {
+            let _ = match position {
                 2..=4 => write!(line, " {cell:>width$} "),
                 _ => write!(line, " {cell:width$} "),
             };
@@ -127,10 +128,11 @@ pub(super) fn table(found: &[Recomputed]) -> String {
 /// The lines of an example, decimal points under each other.
 fn cells(example: &Recomputed) -> Vec<[String; 6]> {
     let figures: Vec<[String; 3]> = example.rows.iter().map(figures).collect();
-    let column = |place: usize| align(&figures.iter().map(|row| &row[place]).collect::<Vec<_>>());
+    let column =
+        |position: usize| align(&figures.iter().map(|row| &row[position]).collect::<Vec<_>>());
     let numbers = [column(0), column(1), column(2)];
-    let rows = example.rows.iter().enumerate().map(|(place, row)| {
-        let [published, tolerance, got] = numbers.each_ref().map(|column| column[place].clone());
+    let rows = example.rows.iter().enumerate().map(|(position, row)| {
+        let [published, tolerance, got] = numbers.each_ref().map(|column| column[position].clone());
         let output = row.published.output.clone().unwrap_or_default();
         let verdict = row.verdict.text().to_owned();
         [output, row.words.clone(), published, tolerance, got, verdict]

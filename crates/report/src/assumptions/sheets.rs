@@ -1,7 +1,7 @@
 //! The tables of an audit.
 
 use super::Report;
-use crate::number::{MISSING, justified, place, rounded, significant, to};
+use crate::number::{MISSING, justified, position, rounded, significant, to};
 use crate::plain;
 use crate::sheet::Sheet;
 use gumption_analysis::assumptions::{Agreement, InputAudit, Kept, Move, OutputAudit, Sobol};
@@ -69,7 +69,7 @@ pub(super) fn evidence(report: &Report<'_>) -> Option<Sheet> {
     sheet.text("input", all.iter().map(|of| plain(report.name(of.variable))));
     sheet.numbers("readings", all.iter().map(|of| of.readings.to_string()));
     sheet.text("width", all.iter().map(|of| width_name(of).to_owned()));
-    let digits = |of: &Agreement| place(of.supported.estimate, 3);
+    let digits = |of: &Agreement| position(of.supported.estimate, 3);
     sheet.numbers("stated", all.iter().map(|of| to(of.supported.stated, digits(of))));
     sheet.numbers("supported", all.iter().map(|of| to(of.supported.estimate, digits(of))));
     let ends = |of: &Agreement| of.supported.interval.map(|end| to(end, digits(of))).join(" to ");

@@ -1,7 +1,7 @@
 //! The sentences of an audit.
 
 use super::Report;
-use crate::number::{coarser, place, rounded, to};
+use crate::number::{coarser, position, rounded, to};
 use crate::{conditions_text, grouped, plain};
 use gumption_analysis::assumptions::{InputAudit, OutputAudit, Verdict};
 
@@ -61,11 +61,11 @@ pub(super) fn baseline(report: &Report<'_>, output: usize, of: &OutputAudit) -> 
     let unit = if matches!(unit.trim(), "" | "1") { String::new() } else { format!(" {unit}") };
     let [low, high] = of.baseline.symmetric_interval;
     let u = of.baseline.standard_uncertainty;
-    let digits = u.and_then(|u| place(u, 2)).or(coarser(place(high - low, 3), None));
+    let digits = u.and_then(|u| position(u, 2)).or(coarser(position(high - low, 3), None));
     let p = percent(report.audit.coverage_probability);
     let interval = format!("{p} % interval {} to {}{unit}", to(low, digits), to(high, digits));
     match u {
-        Some(u) => format!("As stated: u = {}{unit}, {interval}.", to(u, place(u, 2))),
+        Some(u) => format!("As stated: u = {}{unit}, {interval}.", to(u, position(u, 2))),
         None => format!("As stated: no standard uncertainty, {interval}."),
     }
 }

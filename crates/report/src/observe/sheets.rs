@@ -1,7 +1,7 @@
 //! The tables of observations.
 
 use super::Observed;
-use crate::number::{exact, significant, with_uncertainty};
+use crate::number::{exact, rounded, significant, with_uncertainty};
 use crate::sheet::{Figure, Sheet};
 use gumption_signal::{ChannelObservation, Component, Measured, Value};
 
@@ -99,6 +99,6 @@ fn sources(of: &Value) -> String {
         .collect();
     shares.sort_by(|a, b| b.1.total_cmp(&a.1));
     let words: Vec<String> =
-        shares.iter().map(|(name, share)| format!("{name} {share:.0} %")).collect();
+        shares.iter().map(|(name, share)| format!("{name} {} %", rounded(*share, 0))).collect();
     words.join(", ")
 }

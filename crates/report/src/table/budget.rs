@@ -3,7 +3,7 @@
 use super::columns::{self, Column};
 use super::grid::Grid;
 use super::{WIDTH, coverage_text, has_name, in_unit, text};
-use crate::number::{exact, place, rounded, significant, with_uncertainty};
+use crate::number::{exact, position, rounded, significant, with_uncertainty};
 use crate::sheet::{Figure, Kind, Sheet};
 use crate::subtotals::Subtotals;
 use gumption_engine::model::Quantity;
@@ -114,25 +114,25 @@ impl Budget<'_> {
     fn usual_fields(&self) -> Vec<Field> {
         let Self { task, output, gum, digits } = *self;
         let lines = lines(task, output, gum, digits);
-        let field = |(place, headers): (usize, [&'static str; 2])| Field {
+        let field = |(position, headers): (usize, [&'static str; 2])| Field {
             headers,
-            layout: match place {
+            layout: match position {
                 0 => Layout::Text,
                 3 | 4 => Layout::TextFrom(WORD),
                 _ => Layout::Numbers,
             },
-            cells: lines.iter().map(|line| line[place].clone()).collect(),
+            cells: lines.iter().map(|line| line[position].clone()).collect(),
         };
         HEADERS.into_iter().enumerate().map(field).collect()
     }
 }
 
-/// The further fields among the usual ones, each behind the field of its place.
+/// The further fields among the usual ones, each behind the field of its position.
 fn arranged(usual: &[Field], further: &[(usize, Field)]) -> Vec<Field> {
     let mut fields = Vec::new();
-    for (place, field) in usual.iter().enumerate() {
+    for (position, field) in usual.iter().enumerate() {
         fields.push(field.clone());
-        let behind = further.iter().filter(|(behind, _)| *behind == place);
+        let behind = further.iter().filter(|(behind, _)| *behind == position);
         fields.extend(behind.map(|(_, field)| field.clone()));
     }
     fields
@@ -201,7 +201,7 @@ fn coefficients(task: &Task, gum: &Gum) -> Vec<Line> {
         return vec![cells];
     }
     let line = |line: CorrelationLine| {
-        let [a, b] = line.variables.map(|place| task.variables.get(place));
+        let [a, b] = line.variables.map(|position| task.variables.get(position));
         let mut cells = Line::default();
         cells[0] = format!("r({}, {})", text::plain(&a?.name), text::plain(&b?.name));
         cells[1] = exact(line.coefficient);
@@ -359,7 +359,7 @@ fn dof(value: f64) -> String {
     } else if value.is_nan() {
         "undefined".to_owned()
     } else if value < MANY && value.fract() != 0.0 {
-        rounded(value, place(value, 3).unwrap_or(0).min(-1))
+        rounded(value, position(value, 3).unwrap_or(0).min(-1))
     } else if value < MANY {
         exact(value)
     } else {

@@ -3,16 +3,17 @@
 use super::budget::{Budget, Field, Layout, coefficient_lines};
 use super::text;
 use crate::number::{MISSING, exact, significant};
+use gumption_engine::decimal::to_digits;
 use gumption_engine::propagate::gum::BudgetLine;
 use gumption_engine::task::Variable;
 use gumption_units::Unit;
 
 /// Significant digits of divisors: 1.732, 2.449.
-const DIVISOR_DIGITS: usize = 4;
+const DIVISOR_DIGITS: u32 = 4;
 
 /// Significant digits of stated widths, which come back from u(x_i) and its divisor. The one of
 /// readings is computed and has those of the page.
-const WIDTH_DIGITS: usize = 6;
+const WIDTH_DIGITS: u32 = 6;
 
 /// Sources of uncertainty up to this width stay in one line, groups up to the other.
 const ABOUT_WIDTH: usize = 16;
@@ -149,11 +150,6 @@ fn cells(
 fn relative(value: f64, estimate: f64, unit: &Unit, digits: u32) -> String {
     let share = 100.0 * value / estimate.abs();
     if unit.is_celsius() || !share.is_finite() { missing() } else { significant(share, digits) }
-}
-
-/// A value rounded to significant digits.
-fn to_digits(value: f64, digits: usize) -> f64 {
-    format!("{value:.*e}", digits.saturating_sub(1)).parse().unwrap_or(value)
 }
 
 fn missing() -> String {

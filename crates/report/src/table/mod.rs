@@ -17,6 +17,8 @@ use std::io::{self, Write};
 
 use self::budget::Budget;
 use super::Report;
+use super::number::exact;
+use gumption_engine::decimal::to_position;
 use gumption_engine::model::{InputQuantity, Output, Quantity};
 use gumption_engine::propagate::{Evaluation, OutputEvaluation, RowEvaluation};
 use gumption_engine::task::{Coverage, Settings, Task, Trials};
@@ -201,9 +203,7 @@ pub(super) fn coverage_text(coverage: Coverage) -> String {
         Coverage::Factor { factor: 2.0, .. } => "approximately 95 %".to_owned(),
         _ => {
             // 99.73 % for K = 3, but 95 % for 0.95
-            let percent = 100.0 * coverage.probability();
-            let digits: f64 = format!("{percent:.4}").parse().unwrap_or(percent);
-            format!("{digits} %")
+            format!("{} %", exact(to_position(100.0 * coverage.probability(), -4)))
         }
     }
 }
@@ -214,7 +214,7 @@ pub(crate) fn conditions_text(conditions: &[Quantity], values: &[f64]) -> String
         .iter()
         .zip(values)
         .map(|(condition, &value)| {
-            let value = in_unit(&super::number::exact(value), &condition.unit);
+            let value = in_unit(&exact(value), &condition.unit);
             format!("{} = {value}", plain(&condition.name))
         })
         .collect();

@@ -3,7 +3,7 @@
 
 use rust_xlsxwriter::XlsxError;
 
-use crate::number::place;
+use crate::number::position;
 use crate::workbook::{Cached, Leaf, Look, here};
 use crate::{Report, plain, table};
 use gumption_engine::propagate::gum::Gum;
@@ -76,7 +76,7 @@ pub(super) fn write(leaf: &mut Leaf, report: &Report<'_>) -> Result<Places, Xlsx
         at += 1;
         for (variable, distribution) in task.variables.iter().zip(row.distributions.iter()) {
             let u = distribution.standard_uncertainty();
-            let digits = place(u, evaluation.settings.digits);
+            let digits = position(u, evaluation.settings.digits);
             leaf.text(at, 0, &plain(&variable.name))?;
             leaf.number((at, ESTIMATE), distribution.mean(), None, Look::Input)?;
             leaf.number((at, UNCERTAINTY), u, None, Look::Input)?;
