@@ -21,9 +21,9 @@ use clap::Parser;
 use cpu_time::ProcessTime;
 use gumption::number::CodePath;
 use gumption::propagate::gum::Dof;
-use gumption::propagate::gum::bulk::Budgets;
 use gumption::propagate::{Control, Evaluation, OutputEvaluation, evaluate};
 use gumption::task::{Task, Trials};
+use gumption_engine::propagate::gum::bulk::Budgets;
 use serde_json::{Value, json};
 
 use measure::columns::Columns;

@@ -3,5 +3,5 @@
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    gumption::command::main()
+    gumption::Program::new().main()
 }

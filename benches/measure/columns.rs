@@ -2,8 +2,8 @@
 
 use gumption::distribution::Distribution;
 use gumption::number::CodePath;
-use gumption::propagate::gum::bulk::{Budgets, Each, Known, Options, budgets};
 use gumption::task::Task;
+use gumption_engine::propagate::gum::bulk::{Budgets, Each, Known, Options, budgets};
 
 /// A column, or the value of all its entries.
 #[derive(Debug)]

@@ -127,10 +127,10 @@ fn compare_trials(place: &str, u: f64, one: &MonteCarlo, other: &MonteCarlo) {
 
 #[test]
 fn formula_files_agree_with_the_typed_models() {
-    for entry in gumption::measurements::all() {
+    for entry in gumption::catalogue() {
         let model = entry.typed.declaration.name;
         let written = text(&twin(model));
-        let (ready, members) = (json(entry.example), json(&written));
+        let (ready, members) = (json(entry.template.unwrap()), json(&written));
         assert_eq!(members["inputs"], ready["inputs"], "{model}");
         for output in entry.typed.declaration.outputs {
             assert!(members["outputs"].get(output.name).is_some(), "{model}: {}", output.name);
@@ -157,9 +157,9 @@ fn every_formula_file_has_its_typed_model() {
     for entry in fs::read_dir(models().join("formulas")).expect("formula files") {
         let path = entry.expect("an entry").path();
         let name = path.file_stem().expect("a name").to_string_lossy().into_owned();
-        assert!(gumption::measurements::find(&name.replace('_', "-")).is_some(), "{name}");
+        assert!(gumption::catalogue().find(&name.replace('_', "-")).is_some(), "{name}");
         gumption::file::read(&path, &[]).unwrap_or_else(|problems| panic!("{problems:?}"));
         files += 1;
     }
-    assert_eq!(files, gumption::measurements::all().len());
+    assert_eq!(files, gumption::catalogue().len());
 }

@@ -1,50 +1,37 @@
 //! `gumption assumptions`
 
-use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use clap::{Args, ValueEnum};
 
-use super::{Exit, Failure, options, output, progress, run};
+use super::options::{Answer, Model, Seed, Threads};
+use super::{Exit, Failure, Program, options, progress, run};
 use gumption_analysis::assumptions::{Audit, Question, audit, trials_to_make};
 use gumption_engine::propagate::Control;
 use gumption_engine::task::{Coverage, Task, Trials, Warning};
-use gumption_files as file;
-use gumption_files::{ModelFile, Override};
+use gumption_files::ModelFile;
 use gumption_report as report;
 
 /// Test the Type B assumptions of a model file.
 #[derive(Debug, Args)]
 pub(super) struct Assumptions {
-    /// The model file; - for standard input
-    model: PathBuf,
-    /// Format of the answer
-    #[arg(long, value_enum, default_value = "table")]
-    format: Format,
-    /// Write the answer to this file instead of standard output
-    #[arg(long, value_name = "FILE")]
-    output: Option<PathBuf>,
-    /// No progress, notes or warnings on standard error
-    #[arg(long)]
-    quiet: bool,
+    #[command(flatten)]
+    model: Model,
+    #[command(flatten)]
+    answer: Answer<Format>,
     /// Relative change of the expanded uncertainty that is allowed
     #[arg(long, value_name = "SHARE", default_value = "0.05", value_parser = allowed)]
     allow: f64,
-    /// Seed of the random streams
-    #[arg(long, value_name = "N")]
-    seed: Option<u64>,
+    #[command(flatten)]
+    seed: Seed,
     /// Number of Monte Carlo trials of each variant, at least 20000
     #[arg(long, value_name = "N", value_parser = trials)]
     trials: Option<u64>,
-    /// Number of threads; all of the machine's unless given
-    #[arg(long, value_name = "N", value_parser = options::threads)]
-    threads: Option<usize>,
+    #[command(flatten)]
+    threads: Threads,
     /// Coverage probability
     #[arg(long, value_name = "P", value_parser = options::probability)]
     coverage: Option<f64>,
-    /// Replace an input's estimate (NAME=35, NAME="35 deg") or a field (NAME.half_width=0.2)
-    #[arg(long = "set", value_name = "NAME=VALUE", value_parser = options::replacement)]
-    replacements: Vec<Override>,
 }
 
 /// The format of the answer.
@@ -84,10 +71,10 @@ fn trials(text: &str) -> Result<u64, String> {
 }
 
 impl Assumptions {
-    pub(super) fn execute(&self) -> Result<Exit, Failure> {
-        let (text, file) = self.read()?;
+    pub(super) fn execute(&self, program: &Program) -> Result<Exit, Failure> {
+        let file = self.model.read(program)?;
         let mut task = file.task.clone();
-        task.settings.seed = self.seed.unwrap_or(task.settings.seed);
+        task.settings.seed = self.seed.or(task.settings.seed);
         if let Some(p) = self.coverage {
             task.settings.coverage = Coverage::Probability(p);
         }
@@ -98,35 +85,22 @@ impl Assumptions {
             return Ok(Exit::Interrupted);
         };
         warnings.extend(found.warnings.iter().cloned());
-        let provenance = run::provenance(&text, &file.files);
+        let provenance = run::provenance(&file.source.text, &file.files);
         let report = report::assumptions::Report {
             task: &task,
             audit: &found,
             warnings: &warnings,
             provenance: &provenance,
         };
-        let answer = match self.format {
+        let answer = match self.answer.format {
             Format::Table => report::assumptions::table(&report),
             Format::Html => report::assumptions::html(&report),
             Format::Json => report::assumptions::json(&report),
             Format::Csv => report::assumptions::csv(&report),
         };
-        if !self.quiet {
-            run::say(&warnings);
-        }
-        output::write(&answer, self.output.as_deref())?;
+        self.answer.say(&warnings);
+        self.answer.write(&answer)?;
         Ok(Exit::Done)
-    }
-
-    fn read(&self) -> Result<(String, ModelFile), Failure> {
-        let overrides = &self.replacements;
-        if self.model == Path::new("-") {
-            let text = options::standard_input()?;
-            let file = file::read_text("<stdin>", &text, Path::new(""), overrides)?;
-            return Ok((text, file));
-        }
-        let file = file::read(&self.model, overrides)?;
-        Ok((file.source.text.clone(), file))
     }
 
     /// The command line beats the file.
@@ -153,14 +127,9 @@ impl Assumptions {
         question: Question,
         stop: &AtomicBool,
     ) -> Result<Option<Audit>, Failure> {
-        let bar = progress::bar(Some(trials_to_make(task, question)), self.quiet);
+        let bar = progress::bar(Some(trials_to_make(task, question)), self.answer.quiet);
         let advance = |trials: u64| bar.inc(trials);
-        let control = Control {
-            threads: self.threads.unwrap_or(0),
-            stop: Some(stop),
-            progress: Some(&advance),
-            ..Control::default()
-        };
+        let control = Control { progress: Some(&advance), ..self.threads.control(stop) };
         let result = audit(task, &file.evidence, question, &control);
         bar.finish_and_clear();
         let found = result.map_err(|error| run::failure(file, error))?;

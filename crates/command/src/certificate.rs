@@ -1,13 +1,13 @@
 //! `gumption certificate`
 
-use std::io::{self, IsTerminal};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use clap::{Args, ValueEnum};
 
-use super::{Exit, Failure, options, output, progress, run};
+use super::options::{self, Answer, Seed, Threads};
+use super::{Exit, Failure, Program, output, progress, run};
 use gumption_analysis::certificate::contents::Certificate as Asked;
 use gumption_analysis::certificate::{Failed, Issued, issue};
 use gumption_engine::propagate::{Control, EvaluationError, warnings};
@@ -21,24 +21,15 @@ use gumption_report::certificate::{self as report, Model, Report};
 pub(super) struct Certificate {
     /// The certificate file; - for standard input
     file: PathBuf,
-    /// Format of the certificate
-    #[arg(long, value_enum, default_value = "table")]
-    format: Format,
-    /// Write the certificate to this file instead of standard output
-    #[arg(long, value_name = "FILE")]
-    output: Option<PathBuf>,
-    /// No progress, notes or warnings on standard error
-    #[arg(long)]
-    quiet: bool,
-    /// Seed of the random streams, for all models
-    #[arg(long, value_name = "N")]
-    seed: Option<u64>,
+    #[command(flatten)]
+    answer: Answer<Format>,
+    #[command(flatten)]
+    seed: Seed,
     /// Number of Monte Carlo trials for each row; 0 for the law of propagation alone
     #[arg(long, value_name = "N|adaptive", value_parser = options::trials)]
     trials: Option<Trials>,
-    /// Number of threads; all of the machine's unless given
-    #[arg(long, value_name = "N", value_parser = options::threads)]
-    threads: Option<usize>,
+    #[command(flatten)]
+    threads: Threads,
 }
 
 /// The format of a certificate.
@@ -63,15 +54,15 @@ enum Format {
 }
 
 impl Certificate {
-    pub(super) fn execute(&self) -> Result<Exit, Failure> {
-        let (text, mut file) = self.read()?;
+    pub(super) fn execute(&self, program: &Program) -> Result<Exit, Failure> {
+        let mut file = self.read(program)?;
         self.check_format(&file)?;
         for asked in &mut file.certificate.evaluations {
             let settings = &mut asked.task.settings;
-            settings.seed = self.seed.unwrap_or(settings.seed);
+            settings.seed = self.seed.or(settings.seed);
             settings.trials = self.trials.unwrap_or(settings.trials);
         }
-        let provenance = run::provenance(&text, &[]);
+        let provenance = run::provenance(&file.source.text, &[]);
         let models: Vec<Model<'_>> = file
             .models
             .iter()
@@ -90,14 +81,12 @@ impl Certificate {
         let stop = progress::stop_flag();
         let issued = self.issue(&file, &models, &stop)?;
         let warnings = notes(&file, &issued);
-        if !self.quiet {
-            run::say(&warnings);
-        }
+        self.answer.say(&warnings);
         let report = Report {
             certificate: &file.certificate,
             issued: &issued,
             models: &models,
-            text: &text,
+            text: &file.source.text,
             digest: &provenance.model_sha256,
             warnings: &warnings,
         };
@@ -105,7 +94,7 @@ impl Certificate {
             // half a certificate is none
             return Ok(Exit::Interrupted);
         }
-        let answer = match self.format {
+        let answer = match self.answer.format {
             Format::Table => report::table(&report),
             Format::Json => report::json(&report),
             Format::Csv => report::csv(&report),
@@ -116,31 +105,25 @@ impl Certificate {
             Format::Xlsx => {
                 let bytes = report::xlsx(&report)
                     .map_err(|error| Failure::System(format!("no workbook: {error}")))?;
-                output::write_with(self.output.as_deref(), |out| out.write_all(&bytes))?;
+                output::write_with(self.answer.output.as_deref(), |out| out.write_all(&bytes))?;
                 return Ok(Exit::Done);
             }
         };
-        output::write(&answer, self.output.as_deref())?;
+        self.answer.write(&answer)?;
         Ok(Exit::Done)
     }
 
-    fn read(&self) -> Result<(String, CertificateFile), Failure> {
-        let file = if self.file == Path::new("-") {
-            file::read_certificate_text("<stdin>", &options::standard_input()?, Path::new(""))?
-        } else {
-            file::read_certificate(&self.file)?
-        };
-        Ok((file.source.text.clone(), file))
+    fn read(&self, program: &Program) -> Result<CertificateFile, Failure> {
+        let text = |text: &str| file::read_certificate_text("<stdin>", text, Path::new(""));
+        Ok(options::given(&self.file, text, file::read_certificate)??)
     }
 
     /// Whether the certificate can be given in the format that was asked for.
     fn check_format(&self, file: &CertificateFile) -> Result<(), Failure> {
-        if self.format == Format::Xlsx && self.output.is_none() && io::stdout().is_terminal() {
-            let reason = "a workbook cannot be shown in a terminal; add `--output FILE.xlsx`, or \
-                          give it to a pipe";
-            return Err(Failure::Argument(reason.to_owned()));
+        if self.answer.format == Format::Xlsx && self.answer.is_terminal() {
+            return Err(options::workbook_in_terminal());
         }
-        if self.format == Format::Dcc {
+        if self.answer.format == Format::Dcc {
             let needed = report::needed(&file.certificate);
             if !needed.is_empty() {
                 let what = "a digital calibration certificate (`--format dcc`)";
@@ -156,14 +139,9 @@ impl Certificate {
         models: &[Model<'_>],
         stop: &AtomicBool,
     ) -> Result<Issued, Failure> {
-        let bar = progress::bar(trials_to_make(&file.certificate), self.quiet);
+        let bar = progress::bar(trials_to_make(&file.certificate), self.answer.quiet);
         let advance = |trials: u64| bar.inc(trials);
-        let control = Control {
-            threads: self.threads.unwrap_or(0),
-            stop: Some(stop),
-            progress: Some(&advance),
-            ..Control::default()
-        };
+        let control = Control { progress: Some(&advance), ..self.threads.control(stop) };
         let digests: Vec<Arc<str>> =
             models.iter().map(|model| Arc::from(model.digest.as_str())).collect();
         let result = issue(&file.certificate, &digests, &control);

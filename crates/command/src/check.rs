@@ -6,7 +6,7 @@ use clap::Args;
 use serde::Serialize;
 
 use super::options::{self, Answer, Format};
-use super::{Exit, Failure, output, problems};
+use super::{Exit, Failure, Program, problems};
 use gumption_files as file;
 use gumption_files::{Problem, Problems};
 
@@ -16,7 +16,7 @@ pub(super) struct Check {
     /// The file; - for standard input
     file: PathBuf,
     #[command(flatten)]
-    answer: Answer,
+    answer: Answer<Format>,
 }
 
 /// The answer for programs.
@@ -51,12 +51,9 @@ impl From<&Problem> for Mistake {
 }
 
 impl Check {
-    pub(super) fn execute(&self) -> Result<Exit, Failure> {
-        let result = if self.file == Path::new("-") {
-            file::check_text("<stdin>", &options::standard_input()?, Path::new(""))
-        } else {
-            file::check(&self.file)
-        };
+    pub(super) fn execute(&self, program: &Program) -> Result<Exit, Failure> {
+        let text = |text: &str| file::check_text("<stdin>", text, Path::new(""));
+        let result = options::given(&self.file, text, file::check)?;
         let found = match result {
             Ok(()) => Problems(Vec::new()),
             Err(found) => found,
@@ -79,7 +76,7 @@ impl Check {
                 return Err(Failure::Problems(found));
             }
         };
-        output::write(&answer, self.answer.output.as_deref())?;
+        self.answer.write(&answer)?;
         if !right && !self.answer.quiet {
             anstream::eprint!("{}", problems::render(&found, true));
         }

@@ -1,14 +1,15 @@
 //! `gumption compare`
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
-use super::{Exit, Failure, options, output};
+use super::options::{self, Answer};
+use super::{Exit, Failure};
 use gumption_analysis::compare::{Pair, laboratories};
 use gumption_files as file;
 use gumption_files::{ComparisonOptions, ComparisonTable};
-use gumption_report::compare::{self as report, Compare as Answer};
+use gumption_report::compare::{self as report, Compare as Compared};
 
 /// Compare results two by two, or those of many laboratories.
 #[derive(Debug, Args)]
@@ -29,15 +30,8 @@ pub(super) struct Compare {
     /// End with exit code 3 if results are not compatible, or laboratories not consistent
     #[arg(long)]
     fail: bool,
-    /// Format of the answer
-    #[arg(long, value_enum, default_value = "table")]
-    format: Format,
-    /// Write the answer to this file instead of standard output
-    #[arg(long, value_name = "FILE")]
-    output: Option<PathBuf>,
-    /// Nothing on standard error but mistakes
-    #[arg(long)]
-    quiet: bool,
+    #[command(flatten)]
+    answer: Answer<Format>,
 }
 
 /// The format of the answer.
@@ -61,30 +55,28 @@ impl Compare {
             against: self.against.as_deref(),
             correlations: self.correlations.as_deref(),
         };
-        let table = if self.table == Path::new("-") {
-            file::read_comparison_text("<stdin>", &options::standard_input()?, options)?
-        } else {
-            file::read_comparison(&self.table, options)?
-        };
+        let text = |text: &str| file::read_comparison_text("<stdin>", text, options);
+        let table = options::given(&self.table, text, |path| file::read_comparison(path, options));
+        let table = table??;
         let found = match table {
             ComparisonTable::Pairs(pairs) => {
                 // pairs without an uncertainty are mistakes of the table
                 let compared = pairs.iter().filter_map(Pair::compare).collect();
-                Answer::Pairs { pairs, compared, rounding: self.rounding }
+                Compared::Pairs { pairs, compared, rounding: self.rounding }
             }
             ComparisonTable::Laboratories { laboratories, correlations } => {
                 let found = laboratories::compare(&laboratories, &correlations);
-                Answer::Laboratories(found.map_err(|error| Failure::Argument(error.to_string()))?)
+                Compared::Laboratories(found.map_err(|error| Failure::Argument(error.to_string()))?)
             }
         };
-        let answer = match self.format {
+        let answer = match self.answer.format {
             Format::Table => report::table(&found),
             Format::Html => report::html(&found),
             Format::Markdown => report::markdown(&found),
             Format::Json => report::json(&found),
             Format::Csv => report::csv(&found),
         };
-        output::write(&answer, self.output.as_deref())?;
+        self.answer.write(&answer)?;
         Ok(if self.fail && !found.is_compatible() { Exit::No } else { Exit::Done })
     }
 }

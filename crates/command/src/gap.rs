@@ -4,7 +4,8 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
-use super::{Exit, Failure, options, output, progress, run};
+use super::options::{Answer, Seed, Threads};
+use super::{Exit, Failure, Program, output, progress, run};
 use gumption_engine::task::Row;
 use gumption_files as file;
 use gumption_files::CaseFile;
@@ -21,21 +22,12 @@ pub(super) struct Gap {
     /// Conditions (CSV) at which to give the corrected prediction as well
     #[arg(long, value_name = "CONDITIONS.csv")]
     predict: Option<PathBuf>,
-    /// Format of the answer
-    #[arg(long, value_enum, default_value = "table")]
-    format: Format,
-    /// Seed of the random numbers
-    #[arg(long, value_name = "N")]
-    seed: Option<u64>,
-    /// Number of threads; all of the machine's unless given
-    #[arg(long, value_name = "N", value_parser = options::threads)]
-    threads: Option<usize>,
-    /// Write the answer to this file instead of standard output
-    #[arg(long, value_name = "FILE")]
-    output: Option<PathBuf>,
-    /// No progress, notes or warnings on standard error
-    #[arg(long)]
-    quiet: bool,
+    #[command(flatten)]
+    answer: Answer<Format>,
+    #[command(flatten)]
+    seed: Seed,
+    #[command(flatten)]
+    threads: Threads,
 }
 
 /// The format of the answer.
@@ -52,28 +44,26 @@ enum Format {
 }
 
 impl Gap {
-    pub(super) fn execute(&self) -> Result<Exit, Failure> {
+    pub(super) fn execute(&self, program: &Program) -> Result<Exit, Failure> {
         let whole = progress::whole_on_interrupt();
         let file = file::read_case(&self.case)?;
         let at = match &self.predict {
             Some(path) => Some(file::read_case_at(&self.case, path)?),
             None => None,
         };
-        if !self.quiet {
-            run::say(&file.warnings);
-        }
+        self.answer.say(&file.warnings);
         let diagnosis = self.diagnose(&file, at.as_deref())?;
-        let answer = match self.format {
+        let answer = match self.answer.format {
             Format::Table => report::gap::table(&diagnosis),
             Format::Html => report::gap::html(&diagnosis, &self.provenance(&file)?),
             Format::Json => report::gap::json(&diagnosis),
             Format::Csv => report::gap::csv(&diagnosis),
         };
         // a page on standard output has the notes itself
-        if !self.quiet && (self.format != Format::Table || self.output.is_some()) {
-            say(&diagnosis);
+        if self.answer.format != Format::Table || self.answer.output.is_some() {
+            self.answer.note(diagnosis.notes.iter().map(|note| note.text.as_str()));
         }
-        match &self.output {
+        match &self.answer.output {
             Some(path) => {
                 let _writing = whole.lock();
                 output::write_file(&answer, path)?;
@@ -96,24 +86,12 @@ impl Gap {
     }
 
     fn diagnose(&self, file: &CaseFile, at: Option<&[Row]>) -> Result<Diagnosis, Failure> {
-        let seed = self.seed.unwrap_or(file.case.task.settings.seed);
-        let pool = rayon::ThreadPoolBuilder::new()
-            .num_threads(self.threads.unwrap_or(0))
-            .build()
-            .map_err(|error| Failure::System(format!("cannot start threads: {error}")))?;
-        let bar = progress::share(self.quiet);
+        let seed = self.seed.or(file.case.task.settings.seed);
+        let bar = progress::share(self.answer.quiet);
         let told = |share: f64| progress::tell(&bar, share);
-        let diagnosis =
-            pool.install(|| gap::diagnose(&file.case, at, gap::Options { seed }, &told));
+        let diagnose = || gap::diagnose(&file.case, at, gap::Options { seed }, &told);
+        let diagnosis = self.threads.install(diagnose)?;
         bar.finish_and_clear();
         Ok(diagnosis)
-    }
-}
-
-/// What to bear in mind, on standard error.
-#[allow(clippy::print_stderr)]
-fn say(diagnosis: &Diagnosis) {
-    for note in &diagnosis.notes {
-        anstream::eprintln!("note: {}", note.text);
     }
 }

@@ -9,11 +9,11 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use clap::{Args, ValueEnum};
 use rayon::prelude::*;
 
-use super::{Exit, Failure, options, output, progress, run};
+use super::options::{Answer, Seed, Threads};
+use super::{Exit, Failure, Program, progress, run};
 use gumption_files as file;
 use gumption_files::CaseFile;
 use gumption_gap as gap;
-use gumption_gap::Answer;
 use gumption_gap::check::{Checked, Report, Truth, score, truth};
 use gumption_report as report;
 
@@ -25,24 +25,15 @@ pub(super) struct GapCheck {
     /// Number of truths to draw
     #[arg(long, value_name = "N", default_value = "200", value_parser = draws)]
     draws: u64,
-    /// Format of the answer
-    #[arg(long, value_enum, default_value = "table")]
-    format: Format,
-    /// Seed of the random numbers
-    #[arg(long, value_name = "N")]
-    seed: Option<u64>,
-    /// Number of threads; all of the machine's unless given
-    #[arg(long, value_name = "N", value_parser = options::threads)]
-    threads: Option<usize>,
+    #[command(flatten)]
+    answer: Answer<Format>,
+    #[command(flatten)]
+    seed: Seed,
+    #[command(flatten)]
+    threads: Threads,
     /// Keep the drawn cases and, in its folder `sealed`, their truths
     #[arg(long, value_name = "FOLDER")]
     keep: Option<PathBuf>,
-    /// Write the answer to this file instead of standard output
-    #[arg(long, value_name = "FILE")]
-    output: Option<PathBuf>,
-    /// No progress, notes or warnings on standard error
-    #[arg(long)]
-    quiet: bool,
 }
 
 /// The format of the answer.
@@ -64,12 +55,10 @@ fn draws(text: &str) -> Result<u64, String> {
 }
 
 impl GapCheck {
-    pub(super) fn execute(&self) -> Result<Exit, Failure> {
+    pub(super) fn execute(&self, program: &Program) -> Result<Exit, Failure> {
         let file = file::read_case(&self.case)?;
-        if !self.quiet {
-            run::say(&file.warnings);
-        }
-        let seed = self.seed.unwrap_or(file.case.task.settings.seed);
+        self.answer.say(&file.warnings);
+        let seed = self.seed.or(file.case.task.settings.seed);
         let kept;
         let folder: &Path = match &self.keep {
             Some(folder) => folder,
@@ -81,15 +70,12 @@ impl GapCheck {
             }
         };
         let stop = progress::stop_flag();
-        let pool = rayon::ThreadPoolBuilder::new()
-            .num_threads(self.threads.unwrap_or(0))
-            .build()
-            .map_err(|error| Failure::System(format!("cannot start threads: {error}")))?;
-        let Some(scores) = pool.install(|| self.scores(&file, folder, seed, &stop))? else {
+        let scores = || self.scores(program, &file, folder, seed, &stop);
+        let Some(scores) = self.threads.install(scores)?? else {
             return Ok(Exit::Interrupted);
         };
         let design = report::gap::check::Design::of(&file.case);
-        let answer = match self.format {
+        let answer = match self.answer.format {
             Format::Table => report::gap::check::table(&design, &scores),
             Format::Html => {
                 let provenance = run::provenance(&file.source.text, &file.files);
@@ -97,7 +83,7 @@ impl GapCheck {
             }
             Format::Json => report::gap::check_json(&design.title, &scores),
         };
-        output::write(&answer, self.output.as_deref())?;
+        self.answer.write(&answer)?;
         Ok(Exit::Done)
     }
 
@@ -105,6 +91,7 @@ impl GapCheck {
     /// interrupted.
     fn scores(
         &self,
+        program: &Program,
         file: &CaseFile,
         folder: &Path,
         seed: u64,
@@ -112,7 +99,7 @@ impl GapCheck {
     ) -> Result<Option<Report>, Failure> {
         let noise = gap::noise(&file.case, seed);
         self.write(file, &noise, folder, seed)?;
-        let Some(answers) = self.diagnose(folder, seed, stop)? else {
+        let Some(answers) = self.diagnose(program, folder, seed, stop)? else {
             return Ok(None);
         };
         let sim = gap::nominal(&file.case);
@@ -157,7 +144,8 @@ impl GapCheck {
                 }
                 write(&path, &bytes)?;
             }
-            let text = serde_json::to_vec_pretty(&truth).unwrap_or_default();
+            let text = serde_json::to_vec_pretty(&truth)
+                .map_err(|error| Failure::System(format!("cannot write a truth: {error}")))?;
             write(&sealed.join(format!("{number:05}.json")), &text)
         })
     }
@@ -165,12 +153,13 @@ impl GapCheck {
     /// Diagnoses every case from its own folder; `None` if it was interrupted.
     fn diagnose(
         &self,
+        program: &Program,
         folder: &Path,
         seed: u64,
         stop: &AtomicBool,
-    ) -> Result<Option<Vec<Answer>>, Failure> {
-        let bar = progress::draws(self.draws, self.quiet);
-        let answers: Result<Vec<Option<Answer>>, Failure> = (0..self.draws)
+    ) -> Result<Option<Vec<gap::Answer>>, Failure> {
+        let bar = progress::counted(self.draws, "draws", self.answer.quiet);
+        let answers: Result<Vec<Option<gap::Answer>>, Failure> = (0..self.draws)
             .into_par_iter()
             .map(|number| {
                 if stop.load(Ordering::Relaxed) {

@@ -22,8 +22,10 @@ mod verify;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
+use gumption_engine::model::typed::{Catalogue, CatalogueEntry};
 
 pub use exit::{Exit, Failure};
+pub use verify::PublishedExamples;
 
 /// Measurement uncertainty by the GUM and by Monte Carlo, side by side.
 #[derive(Debug, Parser)]
@@ -61,25 +63,48 @@ enum Command {
     Schema(schema::Schema),
 }
 
-/// Runs the program with the arguments of the process.
-pub fn main() -> ExitCode {
-    let arguments = Arguments::parse();
-    let result = match arguments.command {
-        Command::Run(command) => command.execute(),
-        Command::Assumptions(command) => command.execute(),
-        Command::Certificate(command) => command.execute(),
-        Command::Check(command) => command.execute(),
-        Command::Compare(command) => command.execute(),
-        Command::Models(command) => command.execute(),
-        Command::Verify(command) => command.execute(),
-        Command::Diff(command) => command.execute(),
-        Command::Gap(command) => command.execute(),
-        Command::GapCheck(command) => command.execute(),
-        Command::Observe(command) => command.execute(),
-        Command::Schema(command) => command.execute(),
-    };
-    match result {
-        Ok(exit) => exit.code(),
-        Err(failure) => failure.report(),
+/// The command line with what it knows: typed measurements and published examples.
+#[derive(Clone, Debug, Default)]
+pub struct Program {
+    catalogue: Catalogue,
+    published: PublishedExamples,
+}
+
+impl Program {
+    /// The command line with these typed measurements and published examples.
+    pub fn new(catalogue: Catalogue, published: PublishedExamples) -> Self {
+        Self { catalogue, published }
+    }
+
+    /// The same with one more measurement that files can name; it takes the place of one of the same
+    /// name.
+    #[must_use]
+    pub fn with(self, entry: CatalogueEntry) -> Self {
+        Self { catalogue: self.catalogue.with(entry), ..self }
+    }
+
+    /// Runs with the arguments of the process: says what is wrong on standard error, and ends with
+    /// 0 (done), 1 (the system is at fault), 2 (the arguments or files are), 3 (done, and the answer
+    /// is "no" where `--fail` was given) or 130 (interrupted).
+    pub fn main(&self) -> ExitCode {
+        let arguments = Arguments::parse();
+        let result = match arguments.command {
+            Command::Run(command) => command.execute(self),
+            Command::Assumptions(command) => command.execute(self),
+            Command::Certificate(command) => command.execute(self),
+            Command::Check(command) => command.execute(self),
+            Command::Compare(command) => command.execute(),
+            Command::Models(command) => command.execute(self),
+            Command::Verify(command) => command.execute(self),
+            Command::Diff(command) => command.execute(self),
+            Command::Gap(command) => command.execute(self),
+            Command::GapCheck(command) => command.execute(self),
+            Command::Observe(command) => command.execute(),
+            Command::Schema(command) => command.execute(),
+        };
+        match result {
+            Ok(exit) => exit.code(),
+            Err(failure) => failure.report(),
+        }
     }
 }

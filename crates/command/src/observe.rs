@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::options::{self, Answer, Format};
-use super::{Exit, Failure, output, run};
+use super::options::{self, Answer, Format, Seed};
+use super::{Exit, Failure, run};
 use gumption_engine::task::Warning;
 use gumption_files as file;
 use gumption_files::RecipeFile;
@@ -17,21 +17,17 @@ use gumption_signal::{Observation, observe};
 pub(super) struct Observe {
     /// The recipe: recordings, channels and what is taken from them; - for standard input
     recipe: PathBuf,
-    /// Seed of the random numbers
-    #[arg(long, value_name = "N")]
-    seed: Option<u64>,
     #[command(flatten)]
-    answer: Answer,
+    seed: Seed,
+    #[command(flatten)]
+    answer: Answer<Format>,
 }
 
 impl Observe {
     pub(super) fn execute(&self) -> Result<Exit, Failure> {
-        let mut file = if self.recipe == Path::new("-") {
-            file::read_recipe_text("<stdin>", &options::standard_input()?, Path::new(""))?
-        } else {
-            file::read_recipe(&self.recipe)?
-        };
-        file.settings.seed = self.seed.unwrap_or(file.settings.seed);
+        let text = |text: &str| file::read_recipe_text("<stdin>", text, Path::new(""));
+        let mut file = options::given(&self.recipe, text, file::read_recipe)??;
+        file.settings.seed = self.seed.or(file.settings.seed);
         let mut provenance = run::provenance(&file.source.text, &[]);
         let mut warnings: Vec<Warning> = Vec::new();
         let mut rows = Vec::new();
@@ -64,12 +60,10 @@ impl Observe {
             Format::Csv => report::csv(&found),
         };
         // a page on standard output has the notes itself
-        if !self.answer.quiet
-            && (self.answer.format != Format::Table || self.answer.output.is_some())
-        {
-            run::say(&warnings);
+        if self.answer.format != Format::Table || self.answer.output.is_some() {
+            self.answer.say(&warnings);
         }
-        output::write(&answer, self.answer.output.as_deref())?;
+        self.answer.write(&answer)?;
         Ok(Exit::Done)
     }
 }

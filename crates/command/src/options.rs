@@ -1,13 +1,17 @@
 //! Options that several commands share.
 
-use std::path::PathBuf;
+use std::io::{self, IsTerminal};
+use std::path::{Path, PathBuf};
+use std::sync::atomic::AtomicBool;
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
 
-use super::Failure;
-use gumption_engine::task::{StoppingRule, Trials};
-use gumption_files::bytes;
+use super::{Failure, Program, output};
+use gumption_engine::propagate::Control;
+use gumption_engine::task::{StoppingRule, Trials, Warning};
+use gumption_files as file;
+use gumption_files::{ModelFile, Override, bytes};
 use gumption_report::Column;
 
 /// The format of an answer.
@@ -40,12 +44,12 @@ pub(super) enum Page {
     Xlsx,
 }
 
-/// How the answer is given.
+/// How the answer is given, in one of the formats that the command has.
 #[derive(Debug, Args)]
-pub(super) struct Answer {
+pub(super) struct Answer<F: ValueEnum + Send + Sync + 'static> {
     /// Format of the answer
     #[arg(long, value_enum, default_value = "table")]
-    pub(super) format: Format,
+    pub(super) format: F,
     /// Write the answer to this file instead of standard output
     #[arg(long, value_name = "FILE")]
     pub(super) output: Option<PathBuf>,
@@ -54,8 +58,110 @@ pub(super) struct Answer {
     pub(super) quiet: bool,
 }
 
-/// A number of threads; 0 means all.
-pub(super) fn threads(text: &str) -> Result<usize, String> {
+impl<F: ValueEnum + Send + Sync + 'static> Answer<F> {
+    /// Gives the answer.
+    pub(super) fn write(&self, text: &str) -> Result<(), Failure> {
+        output::write(text, self.output.as_deref())
+    }
+
+    /// Warnings and notes on standard error, unless nothing is to be said.
+    pub(super) fn say(&self, warnings: &[Warning]) {
+        self.note(warnings.iter().map(|warning| warning.text.as_str()));
+    }
+
+    /// Sentences on standard error, unless nothing is to be said.
+    #[allow(clippy::print_stderr)]
+    pub(super) fn note<'t>(&self, texts: impl IntoIterator<Item = &'t str>) {
+        for text in texts.into_iter().filter(|_| !self.quiet) {
+            anstream::eprintln!("note: {text}");
+        }
+    }
+
+    /// Whether the answer would go to a terminal.
+    pub(super) fn is_terminal(&self) -> bool {
+        self.output.is_none() && io::stdout().is_terminal()
+    }
+}
+
+/// A workbook on a screen is no answer.
+pub(super) fn workbook_in_terminal() -> Failure {
+    let reason = "a workbook cannot be shown in a terminal; add `--output FILE.xlsx`, or give it \
+                  to a pipe";
+    Failure::Argument(reason.to_owned())
+}
+
+/// The seed of the random numbers.
+#[derive(Debug, Args)]
+pub(super) struct Seed {
+    /// Seed of the random streams
+    #[arg(long, value_name = "N")]
+    seed: Option<u64>,
+}
+
+impl Seed {
+    /// The seed, unless given that of the file.
+    pub(super) fn or(&self, of_file: u64) -> u64 {
+        self.seed.unwrap_or(of_file)
+    }
+}
+
+/// The number of threads.
+#[derive(Debug, Args)]
+pub(super) struct Threads {
+    /// Number of threads; all of the machine's unless given
+    #[arg(long, value_name = "N", value_parser = threads)]
+    threads: Option<usize>,
+}
+
+impl Threads {
+    /// Their number; 0 for all.
+    pub(super) fn count(&self) -> usize {
+        self.threads.unwrap_or(0)
+    }
+
+    /// Runs `work` on them.
+    pub(super) fn install<R: Send>(&self, work: impl FnOnce() -> R + Send) -> Result<R, Failure> {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(self.count()).build();
+        let failed = |error| Failure::System(format!("cannot start threads: {error}"));
+        Ok(pool.map_err(failed)?.install(work))
+    }
+
+    /// A run on them that a flag stops.
+    pub(super) fn control<'s>(&self, stop: &'s AtomicBool) -> Control<'s> {
+        Control { threads: self.count(), stop: Some(stop), ..Control::default() }
+    }
+}
+
+/// The model file of an evaluation.
+#[derive(Debug, Args)]
+pub(super) struct Model {
+    /// The model file; - for standard input
+    model: PathBuf,
+    /// Replace an input's estimate (NAME=35, NAME="35 deg") or a field (NAME.half_width=0.2)
+    #[arg(long = "set", value_name = "NAME=VALUE", value_parser = replacement)]
+    pub(super) replacements: Vec<Override>,
+}
+
+impl Model {
+    /// The model file with the replacements.
+    pub(super) fn read(&self, program: &Program) -> Result<ModelFile, Failure> {
+        let replaced = &self.replacements;
+        let text = |text: &str| file::read_text("<stdin>", text, Path::new(""), replaced);
+        Ok(given(&self.model, text, |path| file::read(path, replaced))??)
+    }
+}
+
+/// What a file argument names: standard input for `-`, else a file.
+pub(super) fn given<T>(
+    path: &Path,
+    text: impl FnOnce(&str) -> T,
+    file: impl FnOnce(&Path) -> T,
+) -> Result<T, Failure> {
+    if path == Path::new("-") { Ok(text(&standard_input()?)) } else { Ok(file(path)) }
+}
+
+/// A number of threads.
+fn threads(text: &str) -> Result<usize, String> {
     match text.parse::<usize>() {
         Ok(count @ 1..=1024) => Ok(count),
         _ => Err("a whole number from 1 to 1024 is needed".to_owned()),
@@ -116,13 +222,12 @@ pub(super) fn probability(text: &str) -> Result<f64, String> {
 }
 
 /// A replacement of an input.
-pub(super) fn replacement(text: &str) -> Result<gumption_files::Override, String> {
-    gumption_files::Override::parse(text)
-        .ok_or_else(|| "NAME=VALUE or NAME.field=VALUE is needed".to_owned())
+fn replacement(text: &str) -> Result<Override, String> {
+    Override::parse(text).ok_or_else(|| "NAME=VALUE or NAME.field=VALUE is needed".to_owned())
 }
 
-/// A model file's text: from a path, or from standard input for `-`.
-pub(super) fn standard_input() -> Result<String, Failure> {
+/// The text of standard input.
+fn standard_input() -> Result<String, Failure> {
     let bytes = bytes::of(std::io::stdin(), bytes::MOST)
         .map_err(|message| Failure::Argument(format!("cannot read standard input: {message}")))?;
     String::from_utf8(bytes)

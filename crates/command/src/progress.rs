@@ -6,22 +6,10 @@ use std::sync::{Arc, Mutex};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-/// A bar that counts examples, hidden where standard error is no terminal or nothing is to be shown.
-pub(super) fn examples(count: u64, quiet: bool) -> ProgressBar {
-    let bar = bar(Some(count), quiet);
-    if let Ok(style) = ProgressStyle::with_template("{bar:30} {pos} of {len} examples") {
-        bar.set_style(style);
-    }
-    bar
-}
-
-/// A bar that counts diagnoses, hidden where standard error is no terminal or nothing is to be shown.
-pub(super) fn draws(count: u64, quiet: bool) -> ProgressBar {
-    let bar = bar(Some(count), quiet);
-    if let Ok(style) = ProgressStyle::with_template("{bar:30} {pos} of {len} draws, {eta} left") {
-        bar.set_style(style);
-    }
-    bar
+/// A bar that counts examples, diagnoses or other things that take their time one by one.
+pub(super) fn counted(count: u64, things: &str, quiet: bool) -> ProgressBar {
+    let template = format!("{{bar:30}} {{pos}} of {{len}} {things}, {{eta}} left");
+    styled(bar(Some(count), quiet), &template)
 }
 
 /// A bar on standard error, hidden where that is no terminal or nothing is to be shown; a count
@@ -37,7 +25,12 @@ pub(super) fn bar(trials: Option<u64>, quiet: bool) -> ProgressBar {
         }
         None => "{spinner} {human_pos} trials, {per_sec}",
     };
-    if let Ok(style) = ProgressStyle::with_template(look) {
+    styled(bar, look)
+}
+
+fn styled(bar: ProgressBar, template: &str) -> ProgressBar {
+    // a template that cannot be read leaves the usual bar
+    if let Ok(style) = ProgressStyle::with_template(template) {
         bar.set_style(style);
     }
     bar
@@ -49,11 +42,7 @@ const PARTS: u64 = 1000;
 /// A bar of the share that is done, hidden where standard error is no terminal or nothing is to be
 /// shown.
 pub(super) fn share(quiet: bool) -> ProgressBar {
-    let bar = bar(Some(PARTS), quiet);
-    if let Ok(style) = ProgressStyle::with_template("{bar:30} {percent:>3} %  {elapsed}") {
-        bar.set_style(style);
-    }
-    bar
+    styled(bar(Some(PARTS), quiet), "{bar:30} {percent:>3} %  {elapsed}")
 }
 
 /// Moves a bar of a share; it never goes back.

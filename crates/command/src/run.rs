@@ -1,41 +1,32 @@
 //! `gumption run`
 
-use std::io::{self, IsTerminal, Write};
-use std::path::{Path, PathBuf};
+use std::io::{self, Write};
+use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use clap::{Args, ValueEnum};
 use sha2::{Digest, Sha256};
 
-use super::options::{self, Page};
-use super::{Exit, Failure, output, progress, save};
+use super::options::{self, Answer, Model, Page, Seed, Threads};
+use super::{Exit, Failure, Program, output, progress, save};
 use gumption_engine::propagate::monte_carlo::Histogram;
 use gumption_engine::propagate::{
     Control, Evaluation, EvaluationError, evaluate, histograms, warnings,
 };
 use gumption_engine::task::{Coverage, StoppingRule, Task, Trials, Warning};
-use gumption_files as file;
-use gumption_files::{Fault, ModelFile, Override, Problem, Problems};
+use gumption_files::{Fault, ModelFile, Problem, Problems};
 use gumption_report as report;
 use gumption_report::{Column, Provenance, Report, Shown, Style};
 
 /// Evaluate a model file.
 #[derive(Debug, Args)]
 pub(super) struct Run {
-    /// The model file; - for standard input
-    model: PathBuf,
-    /// Format of the answer
-    #[arg(long, value_enum, default_value = "table")]
-    format: Page,
-    /// Write the answer to this file instead of standard output
-    #[arg(long, value_name = "FILE")]
-    output: Option<PathBuf>,
-    /// No progress, notes or warnings on standard error
-    #[arg(long)]
-    quiet: bool,
-    /// Seed of the random streams
-    #[arg(long, value_name = "N")]
-    seed: Option<u64>,
+    #[command(flatten)]
+    model: Model,
+    #[command(flatten)]
+    answer: Answer<Page>,
+    #[command(flatten)]
+    seed: Seed,
     /// Number of Monte Carlo trials; 0 for the GUM evaluation alone, `adaptive` for as many as the
     /// digits need (JCGM 101, 7.9)
     #[arg(long, value_name = "N|adaptive", value_parser = options::trials)]
@@ -50,9 +41,8 @@ pub(super) struct Run {
     /// Largest number of trials of an adaptive run
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(20_000..))]
     max_trials: Option<u64>,
-    /// Number of threads; all of the machine's unless given
-    #[arg(long, value_name = "N", value_parser = options::threads)]
-    threads: Option<usize>,
+    #[command(flatten)]
+    threads: Threads,
     /// Memory for kept trial values
     #[arg(long, value_name = "SIZE", default_value = "64M", value_parser = options::memory)]
     memory: usize,
@@ -65,9 +55,6 @@ pub(super) struct Run {
     /// Take the coverage factor at the real number of effective degrees of freedom
     #[arg(long, value_name = "real")]
     dof: Option<DofRule>,
-    /// Replace an input's estimate (NAME=35, NAME="35 deg") or a field (NAME.half_width=0.2)
-    #[arg(long = "set", value_name = "NAME=VALUE", value_parser = options::replacement)]
-    replacements: Vec<Override>,
     /// More columns of the budget in a table: names with commas between them
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = options::columns())]
     columns: Vec<Column>,
@@ -94,8 +81,9 @@ enum DofRule {
 }
 
 impl Run {
-    pub(super) fn execute(&self) -> Result<Exit, Failure> {
-        let (text, file) = self.read()?;
+    pub(super) fn execute(&self, program: &Program) -> Result<Exit, Failure> {
+        let file = self.model.read(program)?;
+        let text = &file.source.text;
         let mut task = file.task.clone();
         self.settings(&mut task);
         if self.rule.is_some() && task.settings.trials != Trials::Adaptive {
@@ -106,31 +94,31 @@ impl Run {
         self.check_format(&task)?;
         let stop = progress::stop_flag();
         let (evaluation, warnings) = self.evaluate(&file, &task, &stop)?;
-        let provenance = provenance(&text, &file.files);
+        let provenance = provenance(text, &file.files);
         let report = Report {
             task: &task,
             evaluation: &evaluation,
             warnings: &warnings,
             provenance: &provenance,
         };
-        if !self.quiet {
-            say(&warnings);
-        }
+        self.answer.say(&warnings);
         if evaluation.stopped || stop.load(Ordering::Relaxed) {
             // a workbook is no answer on a screen
-            let format = if self.format == Page::Xlsx { Page::Table } else { self.format };
+            let format =
+                if self.answer.format == Page::Xlsx { Page::Table } else { self.answer.format };
             let shown = Shown { columns: &self.columns, ..Shown::default() };
             output::write_with(None, |out| write(format, &report, &shown, out))?;
             return Ok(Exit::Interrupted);
         }
         let control = self.control(&stop);
         let histograms = self.histograms(&report, &control)?;
-        let replaced: Vec<String> = self.replacements.iter().map(|set| set.text.clone()).collect();
+        let replaced: Vec<String> =
+            self.model.replacements.iter().map(|set| set.text.clone()).collect();
         let shown = Shown {
             columns: &self.columns,
             histograms: &histograms,
             replaced: &replaced,
-            model: &text,
+            model: text,
         };
         let saver = save::Saver { report: &report, control: &control };
         if let Some(path) = &self.save {
@@ -142,21 +130,20 @@ impl Run {
         if stop.load(Ordering::Relaxed) {
             return Ok(Exit::Interrupted);
         }
-        output::write_with(self.output.as_deref(), |out| write(self.format, &report, &shown, out))?;
+        let Answer { format, output, .. } = &self.answer;
+        output::write_with(output.as_deref(), |out| write(*format, &report, &shown, out))?;
         Ok(if self.fail && is_refuted(&evaluation) { Exit::No } else { Exit::Done })
     }
 
     /// Whether the answer can be given in the format that was asked for.
     fn check_format(&self, task: &Task) -> Result<(), Failure> {
         let refuse = |reason: &str| Err(Failure::Argument(reason.to_owned()));
-        if self.format == Page::Xlsx && self.output.is_none() && io::stdout().is_terminal() {
-            return refuse(
-                "a workbook cannot be shown in a terminal; add `--output FILE.xlsx`, or give it \
-                 to a pipe",
-            );
+        let format = self.answer.format;
+        if format == Page::Xlsx && self.answer.is_terminal() {
+            return Err(options::workbook_in_terminal());
         }
         let results = task.rows.len().saturating_mul(task.model.outputs.len());
-        if self.format == Page::Xlsx && results > report::MOST_RESULTS {
+        if format == Page::Xlsx && results > report::MOST_RESULTS {
             return Err(Failure::Argument(format!(
                 "there are {results} results, but a workbook takes at most {}; take \
                  `--format csv`, or evaluate fewer rows of conditions",
@@ -166,7 +153,7 @@ impl Run {
         if !self.histogram {
             return Ok(());
         }
-        if self.format != Page::Table {
+        if format != Page::Table {
             return refuse(
                 "`--histogram` goes with `--format table`; `--format html` shows the distribution \
                  without it",
@@ -192,7 +179,7 @@ impl Run {
         control: &Control<'_>,
     ) -> Result<Vec<Vec<Option<Histogram>>>, Failure> {
         let Report { task, evaluation, .. } = *report;
-        let rows = match self.format {
+        let rows = match self.answer.format {
             Page::Html if evaluation.rows.len() == 1 => 1,
             Page::Table if self.histogram => evaluation.rows.len(),
             _ => 0,
@@ -202,17 +189,6 @@ impl Run {
             all.push(histograms(task, evaluation, row, control)?.unwrap_or_default());
         }
         Ok(all)
-    }
-
-    fn read(&self) -> Result<(String, ModelFile), Failure> {
-        let overrides = &self.replacements;
-        if self.model == Path::new("-") {
-            let text = options::standard_input()?;
-            let file = file::read_text("<stdin>", &text, Path::new(""), overrides)?;
-            return Ok((text, file));
-        }
-        let file = file::read(&self.model, overrides)?;
-        Ok((file.source.text.clone(), file))
     }
 
     /// The command line beats the file.
@@ -228,18 +204,13 @@ impl Run {
         }
         settings.rule = self.rule.unwrap_or(settings.rule);
         settings.max_trials = self.max_trials.unwrap_or(settings.max_trials);
-        settings.seed = self.seed.unwrap_or(settings.seed);
+        settings.seed = self.seed.or(settings.seed);
         settings.digits = self.digits.unwrap_or(settings.digits);
         settings.real_dof |= self.dof.is_some();
     }
 
     fn control<'s>(&self, stop: &'s AtomicBool) -> Control<'s> {
-        Control {
-            threads: self.threads.unwrap_or(0),
-            memory: self.memory,
-            stop: Some(stop),
-            ..Control::default()
-        }
+        Control { memory: self.memory, ..self.threads.control(stop) }
     }
 
     fn evaluate(
@@ -253,7 +224,7 @@ impl Run {
             Trials::Fixed(trials) => Some(trials.saturating_mul(rows)),
             Trials::Adaptive => None,
         };
-        let bar = progress::bar(trials, self.quiet);
+        let bar = progress::bar(trials, self.answer.quiet);
         let advance = |trials: u64| bar.inc(trials);
         let control = Control { progress: Some(&advance), ..self.control(stop) };
         let result = evaluate(task, &control);
@@ -310,14 +281,6 @@ pub(super) fn provenance(text: &str, files: &[(String, Vec<u8>)]) -> Provenance 
     Provenance {
         model_sha256: digest(text.as_bytes()),
         files: files.iter().map(|(name, bytes)| (name.clone(), digest(bytes))).collect(),
-    }
-}
-
-/// Warnings and notes on standard error.
-#[allow(clippy::print_stderr)]
-pub(super) fn say(warnings: &[Warning]) {
-    for warning in warnings {
-        anstream::eprintln!("note: {}", warning.text);
     }
 }
 

@@ -4,7 +4,8 @@
 
 mod catalogue;
 
-pub use catalogue::{Entry, all, find};
+pub use catalogue::{all, catalogue, find};
+pub use gumption_engine::model::typed::CatalogueEntry as Entry;
 
 mod axis_sensitivity;
 mod inclined_plane;

@@ -7,8 +7,8 @@ use rand::rngs::Xoshiro256PlusPlus;
 use rand::{RngExt, SeedableRng};
 use serde_json::Value;
 
-use super::{Entry, all, find};
-use gumption_engine::model::typed::Measurement;
+use super::catalogue;
+use gumption_engine::model::typed::{CatalogueEntry, Measurement};
 use gumption_engine::model::{InputQuantity, Model, Output, Quantity};
 use gumption_units::Unit;
 
@@ -38,7 +38,7 @@ fn draw(model: &str, input: &str, unit: &str, random: &mut Xoshiro256PlusPlus) -
     }
 }
 
-fn points(entry: &Entry, seed: u64, count: usize) -> Vec<Vec<f64>> {
+fn points(entry: &CatalogueEntry, seed: u64, count: usize) -> Vec<Vec<f64>> {
     let declaration = entry.typed.declaration;
     let mut random = Xoshiro256PlusPlus::seed_from_u64(seed);
     let mut point = || {
@@ -67,10 +67,10 @@ fn richardson(f: impl Fn(f64) -> f64, h: f64, period: Option<f64>) -> f64 {
 /// truncation and 1e-16 / 0.002 of rounding, both far below 1e-8.
 #[test]
 fn derivatives_are_exact() {
-    for entry in all() {
+    for entry in catalogue() {
         let name = entry.typed.declaration.name;
         let model = entry.typed.model().unwrap();
-        for at in points(&entry, 1, 20) {
+        for at in points(entry, 1, 20) {
             let (values, gradients) = model.program.gradients(&at);
             let u: Vec<f64> = at.iter().map(|x| 0.01 * x.abs().max(0.1)).collect();
             for (o, output) in model.outputs.iter().enumerate() {
@@ -101,11 +101,11 @@ fn derivatives_are_exact() {
 /// The function with plain numbers and the recorded operations are the same arithmetic.
 #[test]
 fn plain_numbers_and_recorded_operations_give_the_same_bits() {
-    for entry in all() {
+    for entry in catalogue() {
         let declaration = entry.typed.declaration;
         let model = entry.typed.model().unwrap();
         let factor = |quantity: &Quantity| quantity.unit.factor();
-        for at in points(&entry, 2, 100) {
+        for at in points(entry, 2, 100) {
             let in_si: Vec<f64> = at
                 .iter()
                 .zip(&model.inputs)
@@ -164,10 +164,10 @@ fn compute(name: &str, inputs: &[f64]) -> Vec<f64> {
 #[test]
 fn declarations_are_complete() {
     let mut names = HashSet::new();
-    for entry in all() {
+    for entry in catalogue() {
         let declaration = entry.typed.declaration;
         assert!(names.insert(declaration.name), "{} twice", declaration.name);
-        assert!(find(declaration.name).is_some());
+        assert!(catalogue().find(declaration.name).is_some());
         assert!(!declaration.about.trim().is_empty() && !declaration.source.is_empty());
         let mut quantities = HashSet::new();
         for input in declaration.inputs {
@@ -186,7 +186,13 @@ fn declarations_are_complete() {
             assert!(quantities.contains(name), "{name}");
         }
     }
-    assert!(find("inclined_plane").is_none());
+    assert!(catalogue().find("inclined_plane").is_none());
+}
+
+/// The ready file of a measurement.
+fn template(name: &str) -> String {
+    let file = format!("../../models/{}.json", name.replace('-', "_"));
+    std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(file)).unwrap()
 }
 
 /// What a ready file without conditions says: a model, estimates and standard uncertainties in the
@@ -200,7 +206,7 @@ struct Ready {
 impl Ready {
     fn read(text: &str) -> Self {
         let file: Value = serde_json::from_str(text).unwrap();
-        let typed = find(file["model"].as_str().unwrap()).unwrap().typed;
+        let typed = catalogue().find(file["model"].as_str().unwrap()).unwrap().typed;
         let quantity = |(name, value): (&String, &Value)| Quantity {
             name: name.clone(),
             unit: Unit::parse(value["unit"].as_str().unwrap()).unwrap(),
@@ -222,14 +228,7 @@ impl Ready {
             u.push(deviation);
         }
         let outputs = file["outputs"].as_object().unwrap().iter();
-        let outputs = outputs.map(|output| Output {
-            quantity: quantity(output),
-            period: None,
-            tolerance: None,
-            prior: None,
-            risk: None,
-            capability: None,
-        });
+        let outputs = outputs.map(|output| Output::new(quantity(output)));
         let inputs =
             inputs.iter().map(|i| InputQuantity { quantity: quantity(i), parts: 1 }).collect();
         let model = typed.model_with(inputs, Vec::new(), outputs.collect());
@@ -257,15 +256,16 @@ impl Ready {
     }
 
     fn of(name: &str) -> Self {
-        Self::read(find(name).unwrap().example)
+        Self::read(&template(name))
     }
 }
 
 #[test]
 fn ready_files_of_the_catalogue_evaluate() {
-    for entry in all() {
-        let ready = Ready::read(entry.example);
-        let file: Value = serde_json::from_str(entry.example).unwrap();
+    for entry in catalogue() {
+        let text = template(entry.name());
+        let ready = Ready::read(&text);
+        let file: Value = serde_json::from_str(&text).unwrap();
         assert_eq!(file["model"], entry.typed.declaration.name);
         assert_eq!(file["format"], 1);
         println!("{}", entry.typed.declaration.name);
@@ -290,7 +290,8 @@ fn ready_files_fit_their_models() {
         }
         let file: Value = serde_json::from_str(&std::fs::read_to_string(&path).unwrap()).unwrap();
         let Some(model) = file["model"].as_str() else { continue };
-        let entry = find(model).unwrap_or_else(|| panic!("{}: {model}", path.display()));
+        let entry =
+            catalogue().find(model).unwrap_or_else(|| panic!("{}: {model}", path.display()));
         let typed = entry.typed;
         let assert_unit = |name: &str, value: &Value, declared: &str| {
             let unit = Unit::parse(value["unit"].as_str().unwrap()).unwrap();
@@ -325,7 +326,7 @@ fn ready_files_fit_their_models() {
         }
         count += 1;
     }
-    assert!(count >= all().len(), "{count} files");
+    assert!(count >= catalogue().len(), "{count} files");
 }
 
 /// A model's ready file, other estimates of inputs in it, and outputs with estimate and standard

@@ -6,8 +6,8 @@ use std::path::Path;
 use std::sync::OnceLock;
 
 use gumption::file::read_text;
-use gumption::propagate::{Control, evaluate, joint_ranks, linear, origins, quantiles};
 use gumption::report;
+use gumption_engine::propagate::{Control, evaluate, joint_ranks, linear, origins, quantiles};
 
 use super::random::Random;
 use super::tree::Tree;
@@ -36,7 +36,7 @@ fn result() -> &'static str {
         let control = Control { threads: 1, ..Control::default() };
         let evaluation = evaluate(&file.task, &control).expect("an answer");
         let provenance = report::Provenance { model_sha256: "0".repeat(64), files: Vec::new() };
-        let scores: Vec<f64> = gumption::distribution::Scores::WRITTEN.values().collect();
+        let scores: Vec<f64> = gumption_engine::distribution::Scores::WRITTEN.values().collect();
         let quantiles = quantiles(&file.task, &evaluation, 0, &scores, &control);
         let quantiles = quantiles.expect("threads").expect("trials");
         let ranks = joint_ranks(&file.task, &evaluation, 0, &control);

@@ -6,7 +6,8 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 
-use super::{Exit, Failure, options, output};
+use super::options::{self, Answer};
+use super::{Exit, Failure, Program};
 use gumption_diff as diff;
 use gumption_diff::Evaluated;
 use gumption_files as file;
@@ -19,15 +20,8 @@ pub(super) struct Diff {
     a: PathBuf,
     /// The second one
     b: PathBuf,
-    /// Format of the answer
-    #[arg(long, value_enum, default_value = "table")]
-    format: Format,
-    /// Write the answer to this file instead of standard output
-    #[arg(long, value_name = "FILE")]
-    output: Option<PathBuf>,
-    /// Nothing on standard error but mistakes
-    #[arg(long)]
-    quiet: bool,
+    #[command(flatten)]
+    answer: Answer<Format>,
 }
 
 /// The format of the answer.
@@ -40,12 +34,12 @@ enum Format {
 }
 
 impl Diff {
-    pub(super) fn execute(&self) -> Result<Exit, Failure> {
+    pub(super) fn execute(&self, program: &Program) -> Result<Exit, Failure> {
         let standard = |path: &Path| path == Path::new("-");
         if standard(&self.a) && standard(&self.b) {
             return Err(Failure::Argument("only one of the files can be standard input".into()));
         }
-        let (first, second) = match (read(&self.a)?, read(&self.b)?) {
+        let (first, second) = match (read(program, &self.a)?, read(program, &self.b)?) {
             (Ok(first), Ok(second)) => (first, second),
             // the mistakes of both at once
             (first, second) => {
@@ -60,11 +54,11 @@ impl Diff {
             (first, second) => diff::compare_saved(evaluated(first), evaluated(second))?,
         };
         let names = [&first, &second].map(ModelOrResult::name);
-        let answer = match self.format {
+        let answer = match self.answer.format {
             Format::Table => page::table(names, &difference),
             Format::Json => page::json(names, &difference),
         };
-        output::write(&answer, self.output.as_deref())?;
+        self.answer.write(&answer)?;
         Ok(Exit::Done)
     }
 }
@@ -76,10 +70,7 @@ fn evaluated(file: &ModelOrResult) -> Evaluated<'_> {
     }
 }
 
-fn read(path: &Path) -> Result<Result<ModelOrResult, Problems>, Failure> {
-    Ok(if path == Path::new("-") {
-        file::read_either_text("<stdin>", &options::standard_input()?, Path::new(""))
-    } else {
-        file::read_either(path)
-    })
+fn read(program: &Program, path: &Path) -> Result<Result<ModelOrResult, Problems>, Failure> {
+    let text = |text: &str| file::read_either_text("<stdin>", text, Path::new(""));
+    options::given(path, text, file::read_either)
 }

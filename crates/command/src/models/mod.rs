@@ -8,9 +8,9 @@ use clap::Args;
 use comfy_table::{ContentArrangement, Table, presets};
 
 use super::options::Format;
-use super::{Exit, Failure, output};
+use super::{Exit, Failure, Program, output};
+use gumption_engine::model::typed::{Catalogue, CatalogueEntry};
 use gumption_files::nearest;
-use gumption_measurements::Entry;
 
 /// List the typed models or describe one, or list the ready-made effects of the gap diagnosis.
 #[derive(Debug, Args)]
@@ -29,7 +29,7 @@ pub(super) struct Models {
 }
 
 impl Models {
-    pub(super) fn execute(&self) -> Result<Exit, Failure> {
+    pub(super) fn execute(&self, program: &Program) -> Result<Exit, Failure> {
         let text = match &self.name {
             name if self.effects => {
                 let listing = effects::named(name.as_deref())?;
@@ -46,11 +46,17 @@ impl Models {
                 let message = "`models` answers as table; in json with --effects only";
                 return Err(Failure::Argument(message.into()));
             }
-            None => list(&gumption_measurements::all()),
-            Some(name) => match gumption_measurements::find(name) {
-                Some(entry) if self.template => entry.example.to_owned(),
-                Some(entry) => describe(&entry),
-                None => return Err(unknown(name)),
+            None => list(&program.catalogue),
+            Some(name) => match program.catalogue.find(name) {
+                Some(entry) if self.template => match entry.template {
+                    Some(template) => template.to_owned(),
+                    None => {
+                        let message = format!("there is no template of `{name}`");
+                        return Err(Failure::Argument(message));
+                    }
+                },
+                Some(entry) => describe(entry),
+                None => return Err(unknown(&program.catalogue, name)),
             },
         };
         output::write(&text, None)?;
@@ -58,9 +64,8 @@ impl Models {
     }
 }
 
-fn unknown(name: &str) -> Failure {
-    let known = gumption_measurements::all();
-    let hint = match nearest(name, known.iter().map(|e| e.typed.declaration.name)) {
+fn unknown(catalogue: &Catalogue, name: &str) -> Failure {
+    let hint = match nearest(name, catalogue.iter().map(CatalogueEntry::name)) {
         Some(near) => format!("did you mean `{near}`?"),
         None => "`gumption models` lists those that there are".to_owned(),
     };
@@ -131,16 +136,16 @@ fn wrapped_to(paragraph: &str, longest: usize) -> String {
     text
 }
 
-fn list(entries: &[Entry]) -> String {
+fn list(catalogue: &Catalogue) -> String {
     let mut table = plain_table();
-    for entry in entries {
+    for entry in catalogue {
         let declaration = entry.typed.declaration;
         table.add_row([declaration.name.to_owned(), headline(declaration.about)]);
     }
     render(&table)
 }
 
-fn describe(entry: &Entry) -> String {
+fn describe(entry: &CatalogueEntry) -> String {
     let declaration = entry.typed.declaration;
     let mut text = format!("{}\n\n", declaration.name);
     for paragraph in plain(declaration.about).split("\n\n") {
@@ -170,7 +175,10 @@ fn describe(entry: &Entry) -> String {
         outputs.add_row([output.name.to_owned(), unit, output.equation.to_owned(), about]);
     }
     let _ = writeln!(text, "{}", render(&outputs));
-    let _ = writeln!(text, "A file to start from: gumption models {} --template", declaration.name);
+    if entry.template.is_some() {
+        let name = declaration.name;
+        let _ = writeln!(text, "A file to start from: gumption models {name} --template");
+    }
     text
 }
 

@@ -7,12 +7,13 @@ mod paths;
 mod recompute;
 mod words;
 
-use std::path::PathBuf;
 use std::sync::atomic::Ordering;
 
 use clap::{Args, ValueEnum};
 
-use super::{Exit, Failure, options, output, progress};
+use super::options::{Answer, Threads};
+use super::{Exit, Failure, Program, output, progress};
+pub use examples::PublishedExamples;
 use recompute::{Machine, Recomputed, Verdict};
 
 /// Recompute the published examples.
@@ -24,18 +25,10 @@ pub(super) struct Verify {
     paths: bool,
     #[command(flatten)]
     compared: paths::Paths,
-    /// Format of the answer
-    #[arg(long, value_enum, default_value = "table")]
-    format: Format,
-    /// Write the answer to this file instead of standard output
-    #[arg(long, value_name = "FILE")]
-    output: Option<PathBuf>,
-    /// No progress on standard error
-    #[arg(long)]
-    quiet: bool,
-    /// Number of threads; all of the machine's unless given
-    #[arg(long, value_name = "N", value_parser = options::threads)]
-    threads: Option<usize>,
+    #[command(flatten)]
+    answer: Answer<Format>,
+    #[command(flatten)]
+    threads: Threads,
     /// End with exit code 3 if a value differs, or with --paths a hash
     #[arg(long)]
     fail: bool,
@@ -55,14 +48,14 @@ enum Format {
 }
 
 impl Verify {
-    pub(super) fn execute(&self) -> Result<Exit, Failure> {
-        let threads = self.threads.unwrap_or(0);
+    pub(super) fn execute(&self, program: &Program) -> Result<Exit, Failure> {
+        let threads = self.threads.count();
         if self.paths {
-            return self.compared.execute(threads, self.fail);
+            return self.compared.execute(program, threads, self.fail);
         }
         let stop = progress::stop_flag();
-        let examples = examples::all().map_err(Failure::System)?;
-        let bar = progress::examples(examples.len() as u64, self.quiet);
+        let examples = examples::all(&program.published).map_err(Failure::System)?;
+        let bar = progress::counted(examples.len() as u64, "examples", self.answer.quiet);
         let machine = Machine { threads, stop: &stop };
         let mut found: Vec<Recomputed> = Vec::new();
         for example in examples {
@@ -74,7 +67,7 @@ impl Verify {
             bar.inc(1);
         }
         bar.finish_and_clear();
-        let answer = match self.format {
+        let answer = match self.answer.format {
             Format::Table => page::table(&found),
             Format::Json => page::json(&found),
             Format::Csv => page::csv(&found),
@@ -84,7 +77,7 @@ impl Verify {
             output::write(&answer, None)?;
             return Ok(Exit::Interrupted);
         }
-        output::write(&answer, self.output.as_deref())?;
+        self.answer.write(&answer)?;
         let differs = found.iter().flat_map(|e| &e.rows).any(|row| row.verdict == Verdict::Diff);
         Ok(if differs && self.fail { Exit::No } else { Exit::Done })
     }

@@ -1,11 +1,11 @@
 //! `gumption verify --paths`
 
 use std::fmt::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use crate::{Exit, Failure, options, output};
+use crate::{Exit, Failure, Program, options, output};
 use gumption_engine::number::CodePath;
 use gumption_engine::propagate::{Control, trial_hash};
 use gumption_engine::task::Trials;
@@ -30,13 +30,21 @@ pub(super) struct Paths {
 
 impl Paths {
     /// Compares the paths on a number of threads; prints to standard output.
-    pub(super) fn execute(&self, threads: usize, fail: bool) -> Result<Exit, Failure> {
+    pub(super) fn execute(
+        &self,
+        program: &Program,
+        threads: usize,
+        fail: bool,
+    ) -> Result<Exit, Failure> {
         let file = match &self.model {
             Some(path) => file::read(path, &[])?,
             None => {
                 let name = "inclined-plane-spurious";
-                let example = gumption_measurements::find(name).map_or("", |entry| entry.example);
-                file::read_text(name, example, std::path::Path::new(""), &[])?
+                let template = program.catalogue.find(name).and_then(|entry| entry.template);
+                let template = template.ok_or_else(|| {
+                    Failure::Argument(format!("there is no `{name}` here; give a file (`--model`)"))
+                })?;
+                file::read_text(name, template, Path::new(""), &[])?
             }
         };
         let Trials::Fixed(trials) = self.trials else {

@@ -9,6 +9,7 @@ mod beta;
 mod constant;
 mod curvilinear_trapezoid;
 mod exponential;
+mod external;
 mod gamma;
 mod input;
 mod joint;
@@ -33,6 +34,7 @@ pub use beta::Beta;
 pub use constant::Constant;
 pub use curvilinear_trapezoid::CurvilinearTrapezoid;
 pub use exponential::Exponential;
+pub use external::External;
 pub use gamma::Gamma;
 pub use input::{Evaluation, Input, InputError};
 pub use joint::Draws;
@@ -55,6 +57,7 @@ use shape::Shape;
 pub use stream::BLOCK;
 pub use stream::Stream;
 pub use stream::StreamKey;
+pub use stream::StreamRng;
 pub use student::StudentT;
 pub use trapezoidal::Trapezoidal;
 pub use triangular::Triangular;
@@ -80,7 +83,7 @@ macro_rules! distributions {
         impl Distribution {
             /// The canonical name, as files and budgets have it.
             pub fn name(&self) -> &'static str {
-                match self { $(Self::$shape(_) => <$shape as Shape>::NAME,)* }
+                match self { $(Self::$shape(shape) => shape.name(),)* }
             }
 
             /// The estimate: the expectation of the distribution.
@@ -183,6 +186,8 @@ distributions! {
     Samples,
     /// One output of a saved result.
     SavedResult,
+    /// Drawn by another crate.
+    External,
 }
 
 impl Distribution {
@@ -200,6 +205,11 @@ impl Distribution {
             Self::SavedResult(saved) => Some(saved),
             _ => None,
         }
+    }
+
+    /// Whether [`Distribution::quantile`] is known; all but some [`External`] ones have it.
+    pub fn has_quantiles(&self) -> bool {
+        !matches!(self, Self::External(external) if !external.has_quantiles())
     }
 
     /// Whether trials are drawn from a normal distribution, so that a joint normal is exact.

@@ -13,6 +13,11 @@ pub(crate) trait Shape {
     /// The canonical name, as files and budgets have it.
     const NAME: &'static str;
 
+    /// The name of this one, where not all of the kind have the same.
+    fn name(&self) -> &'static str {
+        Self::NAME
+    }
+
     /// The estimate: the expectation.
     fn mean(&self) -> f64;
 
@@ -123,6 +128,15 @@ pub enum Invalid {
         /// How many quantities are paired.
         together: usize,
     },
+    /// What is stated of a distribution is not true of its draws.
+    NotOfDraws {
+        /// Name of the parameter.
+        parameter: &'static str,
+        /// What is stated; of a quantile its probability.
+        stated: f64,
+        /// What the draws have.
+        found: f64,
+    },
     /// The width is lost in the rounding of the estimate.
     WidthLost {
         /// Name of the width.
@@ -141,6 +155,7 @@ impl Invalid {
             Self::NotFinite { parameter, .. }
             | Self::NotPositive { parameter, .. }
             | Self::OutOfRange { parameter, .. }
+            | Self::NotOfDraws { parameter, .. }
             | Self::WidthLost { parameter, .. } => parameter,
             Self::LimitsReversed { .. } => "upper",
             Self::TooFewReadings { .. }
@@ -189,6 +204,19 @@ impl fmt::Display for Invalid {
                 "{count} readings of each of {together} paired quantities are too few for their \
                  joint distribution to have a covariance; at least {} are needed (JCGM 102, 5.3)",
                 together + 3
+            ),
+            Self::NotOfDraws { parameter: "quantile", stated, found } => write!(
+                f,
+                "the quantile of the probability {} has the share {} of the draws below it; do both \
+                 have the same parameters?",
+                Shortest(*stated),
+                Shortest(*found)
+            ),
+            Self::NotOfDraws { parameter, stated, found } => write!(
+                f,
+                "{parameter} is {}, but that of the draws is {}; do both have the same parameters?",
+                Shortest(*stated),
+                Shortest(*found)
             ),
             Self::WidthLost { parameter, value, estimate } => {
                 let (value, estimate) = (Shortest(*value), Shortest(*estimate));

@@ -2,6 +2,7 @@
 
 mod closed_forms;
 mod divisors;
+mod external;
 mod extremes;
 
 use super::*;

@@ -60,6 +60,14 @@ pub struct Output {
     pub capability: Option<Capability>,
 }
 
+impl Output {
+    /// An output without limits, period or capability.
+    pub fn new(quantity: Quantity) -> Self {
+        let (period, tolerance, prior, risk, capability) = (None, None, None, None, None);
+        Self { quantity, period, tolerance, prior, risk, capability }
+    }
+}
+
 /// A laboratory's calibration and measurement capability (CMC), in the output's unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Capability {

@@ -16,6 +16,13 @@ pub enum Coverage {
     },
 }
 
+/// A coverage probability.
+impl From<f64> for Coverage {
+    fn from(probability: f64) -> Self {
+        Self::Probability(probability)
+    }
+}
+
 impl Coverage {
     /// The coverage probability: 0.9545 for K = 2 (EA-4/02, 5.1), else 2 Phi(K) - 1.
     pub fn probability(self) -> f64 {

@@ -1,21 +1,29 @@
 //! What is to be evaluated: a model, what is known about its inputs in every row of conditions,
 //! and the settings of the evaluation. Files and typed measurements both become a [`Task`].
 
+mod builder;
 mod coverage;
+mod error;
 mod evidence;
 mod settings;
+mod sharing;
+#[cfg(test)]
+mod tests;
 mod warning;
 
+pub use builder::TaskBuilder;
 pub use coverage::Coverage;
+pub use error::TaskError;
 pub use evidence::Evidence;
 pub use settings::{Settings, StoppingRule, Trials};
+pub use sharing::Sharing;
 pub use warning::Warning;
 
 use std::sync::Arc;
 
 use crate::distribution::{Correlation, Distribution, Evaluation, Fits, Input};
-use crate::model::typed::{Measurement, Typed};
-use crate::model::{InputQuantity, Model, Output, Quantity};
+use crate::model::Model;
+use crate::model::typed::Measurement;
 use gumption_units::Unit;
 
 /// One random variable of the model: an input quantity, or a component of one.
@@ -35,17 +43,6 @@ pub struct Variable {
     pub sharing: Sharing,
     /// Whether it has a line in the budget. The constant that components are added to has none.
     pub shown: bool,
-}
-
-/// In which rows of a sweep a variable has the same unknown value.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Sharing {
-    /// One value for all rows.
-    All,
-    /// A value of its own in every row.
-    Row,
-    /// One value for each value of the condition at this place.
-    Condition(usize),
 }
 
 /// One row of conditions with what is known about the variables there.
@@ -78,27 +75,18 @@ pub struct Task {
     pub fits: Fits,
 }
 
-/// Why a typed measurement cannot be evaluated with the given inputs.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct WrongUnit {
-    /// The input.
-    pub input: String,
-    /// Its unit as given.
-    pub found: String,
-    /// The unit of the measurement's declaration.
-    pub declared: String,
-}
-
-impl std::fmt::Display for WrongUnit {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let Self { input, found, declared } = self;
-        write!(f, "{input} is given in `{found}`, which cannot be converted to `{declared}`")
-    }
-}
-
-impl std::error::Error for WrongUnit {}
-
 impl Task {
+    /// A task of equations, step by step.
+    pub fn builder(title: &str) -> TaskBuilder {
+        TaskBuilder::new(title)
+    }
+
+    /// A task of a typed measurement whose fields hold what is known about its inputs, step by
+    /// step.
+    pub fn measurement<M: Measurement<Value = Input>>(measurement: M) -> TaskBuilder {
+        TaskBuilder::of(measurement)
+    }
+
     /// The evaluation of a typed measurement whose fields hold what is known about its inputs.
     ///
     /// # Errors
@@ -106,49 +94,7 @@ impl Task {
     pub fn of<M: Measurement<Value = Input>>(
         measurement: M,
         settings: Settings,
-    ) -> Result<Self, WrongUnit> {
-        let typed = Typed::of::<M>();
-        let mut quantities = Vec::new();
-        let mut variables = Vec::new();
-        let mut distributions = Vec::new();
-        for (declared, input) in typed.declaration.inputs.iter().zip(measurement.into_values()) {
-            let wrong = || WrongUnit {
-                input: declared.name.to_owned(),
-                found: input.unit.to_string(),
-                declared: declared.unit.to_owned(),
-            };
-            let unit = Unit::parse(declared.unit).map_err(|_| wrong())?;
-            if !unit.is_compatible(&input.unit) {
-                return Err(wrong());
-            }
-            let about = if input.about.is_empty() { declared.about.trim() } else { &input.about };
-            let quantity = Quantity {
-                name: declared.name.to_owned(),
-                unit: input.unit.clone(),
-                about: about.to_owned(),
-            };
-            quantities.push(InputQuantity { quantity, parts: 1 });
-            variables.push(Variable {
-                name: declared.name.to_owned(),
-                unit: input.unit,
-                evaluation: input.evaluation,
-                group: input.group,
-                about: about.to_owned(),
-                sharing: Sharing::All,
-                shown: true,
-            });
-            distributions.push(Arc::new(input.distribution));
-        }
-        let outputs: Vec<Output> = typed.model().map(|model| model.outputs).unwrap_or_default();
-        Ok(Self {
-            title: typed.declaration.name.to_owned(),
-            model: typed.model_with(quantities, Vec::new(), outputs),
-            variables,
-            correlations: Vec::new(),
-            rows: vec![Row { conditions: Vec::new(), distributions: distributions.into() }],
-            swept: false,
-            settings,
-            fits: Fits::default(),
-        })
+    ) -> Result<Self, TaskError> {
+        Self::measurement(measurement).settings(settings).build()
     }
 }

@@ -11,6 +11,13 @@ pub enum Trials {
     Adaptive,
 }
 
+/// So many.
+impl From<u64> for Trials {
+    fn from(trials: u64) -> Self {
+        Self::Fixed(trials)
+    }
+}
+
 /// When an adaptive run has made enough trials.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum StoppingRule {

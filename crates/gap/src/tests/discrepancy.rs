@@ -2,16 +2,15 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::{line, ln_normal};
+use super::{case, line, ln_normal, normal, observed};
 use crate::discrepancy::{Discrepancy, by_rows};
 use crate::setup::Setup;
-
-const INPUT: &str = r#""a": {"unit": "", "distribution": "normal", "mean": 1, "std": 0.3}"#;
+use gumption_engine::task::Sharing;
 
 /// The weight of a form at an amplitude is that of the dense covariance of noise, input and process.
 #[test]
 fn weights_are_those_of_dense_covariances() {
-    let case = line(INPUT, true);
+    let case = line();
     let setup = Setup::new(&case);
     let discrepancy = Discrepancy::new(&setup);
     let residuals = by_rows(&setup.data.nominal_residuals());
@@ -47,7 +46,7 @@ fn weights_are_those_of_dense_covariances() {
 /// The amplitude is in standard uncertainties: unit features have unit root mean square over them.
 #[test]
 fn features_are_scaled_to_the_uncertainties() {
-    let case = line(INPUT, true);
+    let case = line();
     let setup = Setup::new(&case);
     let discrepancy = Discrepancy::new(&setup);
     let u = [0.1f64, 0.1, 0.12, 0.1, 0.2, 0.1];
@@ -68,15 +67,14 @@ fn features_are_scaled_to_the_uncertainties() {
 /// With the noise to be estimated: the integral over it by a fine grid instead of Laplace's method.
 #[test]
 fn estimated_noise_is_integrated_out() {
-    let text = r#"{
-        "inputs": {"a": {"unit": "", "distribution": "normal", "mean": 1, "std": 0.3}},
-        "conditions": {"x": {"unit": ""}},
-        "equations": {"y": "a + 0*x"},
-        "outputs": {"y": {"unit": ""}},
-        "observations": {"file": "data.csv", "columns": {"y": {"value": "y"}}},
-        "effects": {}}"#;
-    let data = "x,y\n0,1.12\n1,1.55\n2,1.31\n3,2.04\n4,2.18\n5,1.9\n6,2.4\n7,2.1\n8,2.3\n9,2.8\n";
-    let case = super::case(text, data);
+    let values = [1.12, 1.55, 1.31, 2.04, 2.18, 1.9, 2.4, 2.1, 2.3, 2.8];
+    let case = case(
+        normal(1.0, 0.3),
+        Sharing::All,
+        &[("y", "a + 0*x")],
+        vec![observed(&values, None)],
+        Vec::new(),
+    );
     let setup = Setup::new(&case);
     let discrepancy = Discrepancy::new(&setup);
     let residuals = by_rows(&setup.data.nominal_residuals());

@@ -9,11 +9,9 @@ use crate::posterior::{Effort, posterior};
 use crate::setup::Setup;
 use gumption_engine::distribution::StreamKey;
 
-const INPUT: &str = r#""a": {"unit": "", "distribution": "normal", "mean": 1, "std": 0.3}"#;
-
 /// The exact evidence with effects: mean and covariance of the data before they are seen.
 fn exact(effects: &[usize]) -> f64 {
-    let case = line(INPUT, true);
+    let case = line();
     let setup = Setup::new(&case);
     let mut residuals = DVector::from_vec(by_rows(&setup.data.nominal_residuals()));
     let u = [0.1f64, 0.1, 0.12, 0.1, 0.2, 0.1];
@@ -40,7 +38,7 @@ fn exact(effects: &[usize]) -> f64 {
 
 #[test]
 fn linear_evidences_are_exact() {
-    let case = line(INPUT, true);
+    let case = line();
     let setup = Setup::new(&case);
     for effects in [vec![], vec![0], vec![1], vec![0, 1]] {
         let likelihood = setup.likelihood(&effects);
@@ -63,7 +61,7 @@ fn linear_evidences_are_exact() {
 /// Walkers and what is drawn after them do not change the evidence.
 #[test]
 fn roaming_leaves_the_evidence_as_it_is() {
-    let case = line(INPUT, true);
+    let case = line();
     let setup = Setup::new(&case);
     let likelihood = setup.likelihood(&[0, 1]);
     let mut evidence = Evidence::begin(&likelihood, StreamKey::new(6, "test"), &[], 8);
@@ -76,7 +74,7 @@ fn roaming_leaves_the_evidence_as_it_is() {
 /// The probabilities are priors times evidences, and sum to one.
 #[test]
 fn probabilities_follow_from_exact_evidences() {
-    let case = line(INPUT, true);
+    let case = line();
     let setup = Setup::new(&case);
     let discrepancy = Discrepancy::new(&setup);
     let found = posterior(&setup, &discrepancy, 1, Effort::FULL, &|_| {});

@@ -2,19 +2,18 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::{line, ln_normal};
+use super::{line_with, ln_normal, normal};
 use crate::discrepancy::by_rows;
 use crate::setup::Setup;
+use gumption_engine::distribution::Rectangular;
 use gumption_engine::number::Column;
+use gumption_engine::task::Sharing;
 
 /// One shared input that is negligible, one that is not, one for each row: the covariance of blocks
 /// and low rank gives the density of the dense matrix.
 #[test]
 fn blocks_and_low_rank_are_the_dense_covariance() {
-    let case = line(
-        r#""a": {"unit": "", "distribution": "normal", "mean": 1, "std": 0.3, "per": "row"}"#,
-        true,
-    );
+    let case = line_with(normal(1.0, 0.3), Sharing::Row);
     let setup = Setup::new(&case);
     assert!(setup.unknown_inputs.is_empty());
     let residuals = by_rows(&setup.data.nominal_residuals());
@@ -36,10 +35,7 @@ fn blocks_and_low_rank_are_the_dense_covariance() {
 /// A shared input as an unknown quantity: the likelihood at its score is that of its value.
 #[test]
 fn unknown_inputs_act_through_the_sim() {
-    let case = line(
-        r#""a": {"unit": "", "distribution": "rectangular", "mean": 1, "half_width": 0.5}"#,
-        true,
-    );
+    let case = line_with(Rectangular::new(1.0, 0.5).unwrap().into(), Sharing::All);
     let setup = Setup::new(&case);
     assert_eq!(setup.unknown_inputs, [0]);
     let score = 0.8;

@@ -6,43 +6,124 @@ mod likelihood;
 mod next;
 mod regions;
 
+use std::sync::Arc;
+
 use nalgebra::{DMatrix, DVector};
 
-use crate::Case;
-use gumption_files::read_case;
+use crate::{Candidate, Case, Effect, Maker, Observed, Prior, Sim};
+use gumption_engine::distribution::{Distribution, Evaluation, Fits, Normal};
+use gumption_engine::model::formula::{Formula, Scope, Typing};
+use gumption_engine::model::{InputQuantity, Output, Quantity};
+use gumption_engine::task::{Coverage, Row, Settings, Sharing, Task, Variable};
+use gumption_units::Unit;
 
-/// A case from texts.
-fn case(text: &str, data: &str) -> Case {
-    let folder = tempfile::tempdir().unwrap();
-    std::fs::write(folder.path().join("case.json"), text).unwrap();
-    std::fs::write(folder.path().join("data.csv"), data).unwrap();
-    match read_case(&folder.path().join("case.json")) {
-        Ok(file) => file.case,
-        Err(problems) => panic!("{problems}"),
+/// A normal distribution.
+fn normal(mean: f64, std: f64) -> Distribution {
+    Normal::new(mean, std).unwrap().into()
+}
+
+/// A dimensionless quantity.
+fn quantity(name: &str) -> Quantity {
+    Quantity { name: name.to_owned(), unit: Unit::one(), about: String::new() }
+}
+
+/// Formulas by name.
+fn formulas(texts: &[(&str, &str)]) -> Vec<(String, Formula)> {
+    texts.iter().map(|(name, text)| ((*name).to_owned(), Formula::parse(text).unwrap())).collect()
+}
+
+/// An effect with one parameter.
+fn candidate(name: &str, parameter: &str, prior: Distribution, of: &[(&str, &str)]) -> Candidate {
+    let effect = Effect {
+        name: name.to_owned(),
+        parameters: vec![quantity(parameter)],
+        overrides: formulas(of),
+    };
+    Candidate { effect, priors: vec![prior], about: String::new(), source: String::new() }
+}
+
+/// A model of the input `a` and the condition `x` = 0, 1, 2, ..., all of them dimensionless, with an
+/// output for each equation.
+fn case(
+    a: Distribution,
+    sharing: Sharing,
+    equations: &[(&str, &str)],
+    observed: Vec<Observed>,
+    candidates: Vec<Candidate>,
+) -> Case {
+    let names = ["a", "x"].into_iter().chain(equations.iter().map(|(name, _)| *name));
+    let sim = Sim {
+        inputs: vec![InputQuantity { quantity: quantity("a"), parts: 1 }],
+        conditions: vec![quantity("x")],
+        outputs: equations
+            .iter()
+            .map(|(name, _)| Output {
+                quantity: quantity(name),
+                period: None,
+                tolerance: None,
+                prior: None,
+                risk: None,
+                capability: None,
+            })
+            .collect(),
+        maker: Maker::Equations(formulas(equations)),
+        scope: Scope::from_iter(names.map(|name| (name, Typing::in_unit(&Unit::one())))),
+    };
+    let distributions: Arc<[Arc<Distribution>]> = Arc::new([Arc::new(a)]);
+    let row = |n: usize| Row { conditions: vec![n as f64], distributions: distributions.clone() };
+    let task = Task {
+        title: String::new(),
+        model: sim.model(),
+        variables: vec![Variable {
+            name: "a".to_owned(),
+            unit: Unit::one(),
+            evaluation: Evaluation::B,
+            group: None,
+            about: String::new(),
+            sharing,
+            shown: true,
+        }],
+        correlations: Vec::new(),
+        rows: (0..observed[0].values.len()).map(row).collect(),
+        swept: true,
+        settings: Settings { coverage: Coverage::Probability(0.95), ..Settings::default() },
+        fits: Fits::default(),
+    };
+    let observed = observed.into_iter().map(Some).collect();
+    Case { task, sim, observed, simulated: 0, candidates, prior: Prior::DEFAULT }
+}
+
+/// Measured values with their standard uncertainties, if these are known.
+fn observed(values: &[f64], uncertainties: Option<&[f64]>) -> Observed {
+    Observed {
+        values: values.to_vec(),
+        standard_uncertainties: uncertainties.map(<[f64]>::to_vec),
+        simulation_uncertainties: None,
+        simulation_covariance: None,
     }
 }
 
-/// A line through measured points with an offset and a slope as candidate effects.
-pub(crate) fn line(inputs: &str, noise: bool) -> Case {
-    let uncertainty = if noise { r#", "standard_uncertainty": "u""# } else { "" };
-    let text = format!(
-        r#"{{
-        "inputs": {{{inputs}}},
-        "conditions": {{"x": {{"unit": ""}}}},
-        "equations": {{"y": "a + 0.5*x", "z": "a*x - x"}},
-        "outputs": {{"y": {{"unit": ""}}, "z": {{"unit": ""}}}},
-        "observations": {{"file": "data.csv", "columns": {{
-            "y": {{"value": "y"{uncertainty}}}, "z": {{"value": "z"{uncertainty}}}}}}},
-        "effects": {{
-            "offset": {{"parameters": {{"o": {{"distribution": "normal", "mean": 0, "std": 0.4}}}},
-                       "overrides": {{"y": "y + o"}}}},
-            "slope": {{"parameters": {{"s": {{"distribution": "normal", "mean": 0.1, "std": 0.3}}}},
-                      "overrides": {{"y": "y + s*x", "z": "z - s*x"}}}}
-        }}}}"#
-    );
-    let data = "x,y,z,u\n0,1.12,0.03,0.1\n1,1.55,-0.08,0.1\n2,2.31,0.21,0.12\n3,2.64,0.1,0.1\n\
-                4,3.18,0.31,0.2\n5,3.9,0.26,0.1\n";
-    case(&text, data)
+/// A line through measured points with an offset and a slope as candidate effects; `a` is its input.
+fn line_with(a: Distribution, sharing: Sharing) -> Case {
+    let u: &[f64] = &[0.1, 0.1, 0.12, 0.1, 0.2, 0.1];
+    case(
+        a,
+        sharing,
+        &[("y", "a + 0.5*x"), ("z", "a*x - x")],
+        vec![
+            observed(&[1.12, 1.55, 2.31, 2.64, 3.18, 3.9], Some(u)),
+            observed(&[0.03, -0.08, 0.21, 0.1, 0.31, 0.26], Some(u)),
+        ],
+        vec![
+            candidate("offset", "o", normal(0.0, 0.4), &[("y", "y + o")]),
+            candidate("slope", "s", normal(0.1, 0.3), &[("y", "y + s*x"), ("z", "z - s*x")]),
+        ],
+    )
+}
+
+/// The line with one unknown `a` for all points.
+pub(crate) fn line() -> Case {
+    line_with(normal(1.0, 0.3), Sharing::All)
 }
 
 /// Logarithm of a normal density with a dense covariance matrix.

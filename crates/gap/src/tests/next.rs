@@ -38,8 +38,7 @@ fn the_expectation_is_the_relative_entropy_of_normal_predictions() {
 #[test]
 #[ignore = "a study of minutes"]
 fn promises_are_kept() {
-    let input = r#""a": {"unit": "", "distribution": "normal", "mean": 1, "std": 0.3}"#;
-    let case = line(input, true);
+    let case = line();
     let odds = |case: &Case| -> (Posterior, f64) {
         let setup = Setup::new(case);
         let discrepancy = Discrepancy::new(&setup);

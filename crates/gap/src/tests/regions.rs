@@ -5,10 +5,8 @@ use crate::check::truth_with;
 use crate::scan::regions;
 use crate::setup::Setup;
 
-const INPUT: &str = r#""a": {"unit": "", "distribution": "normal", "mean": 1, "std": 0.3}"#;
-
 fn false_alarms(sets: u64) -> usize {
-    let mut case = line(INPUT, true);
+    let mut case = line();
     let noise: Vec<Vec<f64>> = vec![vec![0.1, 0.1, 0.12, 0.1, 0.2, 0.1]; 2];
     (0..sets)
         .filter(|&number| {
@@ -40,7 +38,7 @@ fn false_alarms_of_a_thousand_sets() {
 /// Two values far off are found where they are.
 #[test]
 fn a_local_effect_is_found_where_it_is() {
-    let mut case = line(INPUT, true);
+    let mut case = line();
     for (observed, shift) in case.observed.iter_mut().flatten().zip([2.0, 0.0]) {
         observed.values[3] += shift;
         observed.values[4] += shift;

@@ -54,6 +54,11 @@ pub enum CorrelationError {
         /// The degrees of freedom that it is drawn with; infinite where they are not the reason.
         dof: f64,
     },
+    /// A correlated quantity whose quantiles are not known, so that a copula cannot draw it.
+    NoQuantiles {
+        /// The quantity.
+        member: usize,
+    },
     /// Paired readings that are not as many as they say.
     Unpaired {
         /// The quantity.
@@ -82,7 +87,7 @@ impl CorrelationError {
                 members.contains(&c.first) && members.contains(&c.second)
             }
             Self::OutOfReach { declared, .. } => of(declared.first) && of(declared.second),
-            Self::NoVariance { member, .. } => of(*member),
+            Self::NoVariance { member, .. } | Self::NoQuantiles { member } => of(*member),
             Self::GivenByReadings { member, other, .. } => of(*member) && of(*other),
             Self::TooMany { .. } | Self::Unpaired { .. } => false,
         }
@@ -126,6 +131,11 @@ impl CorrelationError {
             ),
             Self::NoVariance { member, .. } => format!(
                 "{} has no variance, so that a correlation coefficient of it does not exist",
+                name(*member)
+            ),
+            Self::NoQuantiles { member } => format!(
+                "{} is drawn by a function of its own whose quantiles are not known, so that it \
+                 cannot be correlated; give them as well (`External::with_quantile`)",
                 name(*member)
             ),
             Self::Unpaired { member, count } => format!(

@@ -196,6 +196,9 @@ impl Joint {
             if !(dof > 2.0 && distributions[member].standard_deviation().is_finite()) {
                 return Err(CorrelationError::NoVariance { member, dof });
             }
+            if !distributions[member].has_quantiles() {
+                return Err(CorrelationError::NoQuantiles { member });
+            }
         }
         let count = members.len();
         if count > MOST_LINKED {

@@ -10,8 +10,11 @@
 
 #![allow(unsafe_code)] // instructions of a path that the machine has
 
+mod rng;
 #[cfg(target_arch = "x86_64")]
 mod wide;
+
+pub use rng::StreamRng;
 
 use crate::number::CodePath;
 

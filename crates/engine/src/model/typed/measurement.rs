@@ -115,24 +115,24 @@ impl Typed {
             };
             Ok(InputQuantity { quantity, parts: 1 })
         });
-        let outputs = self.declaration.outputs.iter().map(|output| {
-            let quantity = Quantity {
-                name: output.name.to_owned(),
-                unit: Unit::parse(output.unit)?,
-                about: output.about.to_owned(),
-            };
-            Ok(Output {
-                quantity,
-                period: output.period,
-                tolerance: None,
-                prior: None,
-                risk: None,
-                capability: None,
-            })
-        });
         let inputs = inputs.collect::<Result<Vec<_>, UnitError>>()?;
-        let outputs = outputs.collect::<Result<Vec<_>, UnitError>>()?;
-        Ok(self.model_with(inputs, Vec::new(), outputs))
+        Ok(self.model_with(inputs, Vec::new(), self.outputs()?))
+    }
+
+    /// The declared outputs in their declared units.
+    ///
+    /// # Errors
+    /// A declared unit that does not parse.
+    pub fn outputs(&self) -> Result<Vec<Output>, UnitError> {
+        let one = |declared: &DeclaredOutput| {
+            let quantity = Quantity {
+                name: declared.name.to_owned(),
+                unit: Unit::parse(declared.unit)?,
+                about: declared.about.to_owned(),
+            };
+            Ok(Output { period: declared.period, ..Output::new(quantity) })
+        };
+        self.declaration.outputs.iter().map(one).collect()
     }
 
     /// The declared outputs in SI units from the values of the inputs in SI units. A declared input

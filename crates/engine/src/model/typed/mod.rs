@@ -6,7 +6,7 @@
 //! use gumption_engine::model::typed::Equations;
 //! use gumption_engine::number::Number;
 //!
-//! gumption::measurement! {
+//! gumption_engine::measurement! {
 //!     /// Mean acceleration of a body that falls from rest.
 //!     pub FreeFall as "free-fall" from "kinematics, s = a t^2 / 2";
 //!     inputs {
@@ -35,10 +35,12 @@
 //! The quantities inside the function are in coherent SI units (angles in radians); the units of
 //! the declaration are those in which values are given and reported unless a file says otherwise.
 
+mod catalogue;
 mod complex;
 #[cfg(test)]
 pub(crate) mod example;
 mod measurement;
 
+pub use catalogue::{Catalogue, CatalogueEntry};
 pub use complex::Complex;
 pub use measurement::{Declaration, DeclaredInput, DeclaredOutput, Equations, Measurement, Typed};

@@ -1,0 +1,187 @@
+//! Distributions of other crates: `rand_distr`, `statrs`, or a function of one's own.
+
+use std::fmt;
+use std::sync::Arc;
+
+use super::shape::{Invalid, Shape, finite, positive};
+use super::stream::{Stream, StreamRng};
+use crate::number::{COLUMN, Column};
+
+/// Draws that are compared with what is stated of them.
+const COMPARED: usize = 1 << 14;
+
+type Draw = dyn Fn(&mut StreamRng) -> f64 + Send + Sync;
+type Quantile = dyn Fn(f64) -> f64 + Send + Sync;
+
+/// A distribution that another crate draws from, with its mean and its standard deviation.
+///
+/// ```
+/// use gumption_engine::distribution::{External, Input};
+/// use rand_distr::{Distribution, Gumbel};
+///
+/// // location 10, scale 2: mean 10 + 2 * 0.577216 (Euler's constant), standard deviation
+/// // 2 pi / sqrt(6)
+/// let gumbel = Gumbel::new(10.0, 2.0)?;
+/// let highest = External::new("gumbel", 11.154_431_329_803, 2.565_099_660_324, move |random| {
+///     gumbel.sample(random)
+/// })?;
+/// let highest = highest.with_quantile(|p| 10.0 - 2.0 * (-p.ln()).ln())?;
+/// let level = Input::new(highest, "m")?;
+/// assert_eq!(level.distribution.name(), "gumbel");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// Trials are drawn from the stream of the input, so they are repeatable as all others are: the
+/// random words are the same everywhere, and what becomes of them follows the version of the crate
+/// that draws. Without [`External::with_quantile`] such an input cannot be correlated, and its
+/// density is not drawn on pages.
+#[derive(Clone)]
+pub struct External {
+    name: &'static str,
+    mean: f64,
+    std: f64,
+    /// What is added to what is drawn.
+    shift: f64,
+    draw: Arc<Draw>,
+    quantile: Option<Arc<Quantile>>,
+}
+
+impl External {
+    /// A distribution of this name (for budgets), mean and standard deviation (> 0, finite), and how
+    /// a value is drawn. The same words must give the same value.
+    ///
+    /// # Errors
+    /// A mean or a standard deviation that is not finite, a standard deviation that is not above
+    /// zero; draws that are not finite, or whose mean is not the stated one: 16,384 draws are made
+    /// and may miss it by 0.16 standard deviations, 20 times their standard error.
+    pub fn new(
+        name: &'static str,
+        mean: f64,
+        std: f64,
+        draw: impl Fn(&mut StreamRng) -> f64 + Send + Sync + 'static,
+    ) -> Result<Self, Invalid> {
+        let (mean, std) = (finite("mean", mean)?, positive("std", std)?);
+        let made = Self { name, mean, std, shift: 0.0, draw: Arc::new(draw), quantile: None };
+        // about the stated mean, so that a large one does not cost digits
+        let offsets = made.compared()?.into_iter().map(|value| value - mean);
+        let found = mean + offsets.sum::<f64>() / COMPARED as f64;
+        if (found - mean).abs() <= 20.0 * std / (COMPARED as f64).sqrt() {
+            Ok(made)
+        } else {
+            Err(Invalid::NotOfDraws { parameter: "mean", stated: mean, found })
+        }
+    }
+
+    /// The same with its quantile function: the value below which a drawn value lies with
+    /// probability p, 0 < p < 1. Correlated inputs are drawn through it, and pages show the density
+    /// that it gives.
+    ///
+    /// # Errors
+    /// Quartiles or a median that are not finite, or that do not part 16,384 draws as they should to
+    /// within 10 times the standard error of their share.
+    pub fn with_quantile(
+        self,
+        quantile: impl Fn(f64) -> f64 + Send + Sync + 'static,
+    ) -> Result<Self, Invalid> {
+        let drawn = self.compared()?;
+        for p in [0.25, 0.5, 0.75] {
+            let value = finite("quantile", quantile(p))?;
+            let below = drawn.iter().filter(|drawn| **drawn <= value).count();
+            let found = below as f64 / COMPARED as f64;
+            if (found - p).abs() > 10.0 * (p * (1.0 - p) / COMPARED as f64).sqrt() {
+                return Err(Invalid::NotOfDraws { parameter: "quantile", stated: p, found });
+            }
+        }
+        Ok(Self { quantile: Some(Arc::new(quantile)), ..self })
+    }
+
+    /// A distribution of `rand_distr` (`drawn`) with mean, standard deviation and quantiles of the
+    /// matching one of `statrs` (`law`). The parameters of the two crates do not always stand in the
+    /// same order; draws that do not follow the law are refused.
+    ///
+    /// # Errors
+    /// As [`External::new`] and [`External::with_quantile`]; a law without mean or standard
+    /// deviation.
+    #[cfg(feature = "statrs")]
+    pub fn of_law<L>(
+        name: &'static str,
+        law: L,
+        drawn: impl Fn(&mut StreamRng) -> f64 + Send + Sync + 'static,
+    ) -> Result<Self, Invalid>
+    where
+        L: statrs::distribution::ContinuousCDF<f64, f64>
+            + statrs::statistics::Distribution<f64>
+            + Send
+            + Sync
+            + 'static,
+    {
+        let [mean, std] = [law.mean(), law.std_dev()].map(|moment| moment.unwrap_or(f64::NAN));
+        Self::new(name, mean, std, drawn)?.with_quantile(move |p| law.inverse_cdf(p))
+    }
+
+    /// Whether its quantiles are known.
+    pub fn has_quantiles(&self) -> bool {
+        self.quantile.is_some()
+    }
+
+    /// Values of a fixed stream.
+    fn compared(&self) -> Result<Vec<f64>, Invalid> {
+        let mut random = StreamRng::new(1, "external");
+        (0..COMPARED).map(|_| finite("draw", self.shift + (self.draw)(&mut random))).collect()
+    }
+}
+
+impl fmt::Debug for External {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { name, mean, std, shift, .. } = self;
+        f.debug_struct("External")
+            .field("name", name)
+            .field("mean", mean)
+            .field("std", std)
+            .field("shift", shift)
+            .finish_non_exhaustive()
+    }
+}
+
+/// Clones are equal, as long as they are not moved apart; two functions cannot be compared.
+impl PartialEq for External {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.draw, &other.draw) && self.mean == other.mean
+    }
+}
+
+impl Shape for External {
+    const NAME: &'static str = "external";
+
+    fn name(&self) -> &'static str {
+        self.name
+    }
+
+    fn mean(&self) -> f64 {
+        self.mean
+    }
+
+    fn standard_uncertainty(&self) -> f64 {
+        self.std
+    }
+
+    /// Not a number where it is not known.
+    fn quantile(&self, p: f64) -> f64 {
+        self.quantile.as_ref().map_or(f64::NAN, |quantile| self.shift + quantile(p))
+    }
+
+    #[inline(always)]
+    fn draw(&self, stream: &mut Stream, out: &mut Column) {
+        let mut random = StreamRng::of(stream.clone());
+        for i in 0..COLUMN {
+            out.0[i] = self.shift + (self.draw)(&mut random);
+        }
+        *stream = random.into_stream();
+    }
+
+    /// All values are shifted.
+    fn moved_to(&self, estimate: f64) -> Result<Self, Invalid> {
+        let mean = finite("estimate", estimate)?;
+        Ok(Self { mean, shift: self.shift + (mean - self.mean), ..self.clone() })
+    }
+}

@@ -1,0 +1,84 @@
+//! Distributions of other crates.
+
+use rand_distr::Distribution as _;
+
+use super::*;
+
+fn weibull() -> External {
+    let drawn = rand_distr::Weibull::new(2.0, 1.5).unwrap();
+    // scipy.stats.weibull_min(1.5, scale=2): mean and std
+    External::new("weibull", 1.805_490_585_901_867_2, 1.225_871_583_509_352_8, move |random| {
+        drawn.sample(random)
+    })
+    .unwrap()
+}
+
+/// The name is its own; without quantiles there are none, and a coefficient is refused.
+#[test]
+fn what_is_not_known_is_not_made_up() {
+    let external: Distribution = weibull().into();
+    assert_eq!(external.name(), "weibull");
+    assert!(external.quantile(0.5).is_nan() && !external.has_quantiles());
+    let other = Normal::new(0.0, 1.0).unwrap().into();
+    let r = Correlation { first: 0, second: 1, coefficient: 0.5 };
+    let refused = Joint::new(&[external, other], &[r]).unwrap_err();
+    assert_eq!(refused, CorrelationError::NoQuantiles { member: 0 });
+}
+
+/// `rand_distr` takes scale and shape, `statrs` shape and scale: what does not belong together is
+/// refused, and by its name.
+#[test]
+fn a_law_of_other_parameters_is_refused() {
+    let mixed = rand_distr::Weibull::new(1.5, 2.0).unwrap();
+    let sample = move |random: &mut StreamRng| mixed.sample(random);
+    let refused = External::new("weibull", 1.805, 1.226, sample).unwrap_err();
+    assert_eq!(refused.parameter(), "mean");
+    let quantile = |p: f64| 1.5 * (-(-p).ln_1p()).sqrt();
+    assert_eq!(weibull().with_quantile(quantile).unwrap_err().parameter(), "quantile");
+    for (mean, std) in [(f64::NAN, 1.0), (1.8, 0.0), (1.8, f64::INFINITY)] {
+        assert!(External::new("x", mean, std, |_| 1.8).is_err(), "{mean} {std}");
+    }
+    assert_eq!(External::new("x", 0.0, 1.0, |_| f64::NAN).unwrap_err().parameter(), "draw");
+}
+
+/// Moved, draws and quantiles go along.
+#[test]
+fn values_move_with_the_estimate() {
+    let whole = weibull().with_quantile(|p: f64| 2.0 * (-(-p).ln_1p()).powf(1.0 / 1.5)).unwrap();
+    let before: Distribution = whole.into();
+    let moved = before.moved_to(11.805_490_585_901_867_2).unwrap();
+    assert_eq!(moved.standard_uncertainty(), before.standard_uncertainty());
+    assert!((moved.quantile(0.3) - before.quantile(0.3) - 10.0).abs() < 1e-14);
+    for (after, before) in draws(&moved, BLOCK).iter().zip(draws(&before, BLOCK)) {
+        assert!((after - before - 10.0).abs() < 1e-14);
+    }
+    assert!(before.moved_to(f64::NAN).is_err());
+}
+
+/// A million draws: mean and standard deviation, and the shares beyond quantiles. Each within five
+/// standard errors (a false failure in a million); the kurtosis of this Weibull distribution is
+/// 4.39, so that the standard deviation has the relative standard error sqrt(3.39 / 4 / n).
+#[test]
+fn draws_have_moments_and_quantiles_of_the_law() {
+    let external: Distribution = weibull().into();
+    let count = 1024 * BLOCK;
+    let drawn = draws(&external, count);
+    let n = count as f64;
+    let (mean, std) = (external.mean(), external.standard_uncertainty());
+    let found = drawn.iter().sum::<f64>() / n;
+    assert!((found - mean).abs() < 5.0 * std / n.sqrt(), "{found}");
+    let scatter = (drawn.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / n).sqrt();
+    assert!((scatter / std - 1.0).abs() < 5.0 * (3.39 / 4.0 / n).sqrt(), "{scatter}");
+    // scipy.stats.weibull_min(1.5, scale=2).ppf
+    for (p, quantile) in QUANTILES {
+        let share = drawn.iter().filter(|x| **x <= quantile).count() as f64 / n;
+        assert!((share - p).abs() < 5.0 * (p * (1.0 - p) / n).sqrt(), "{p}: {share}");
+    }
+}
+
+const QUANTILES: [(f64, f64); 4] = [
+    (0.025, 0.172_443_725_496_144_53),
+    (0.5, 1.566_439_537_549_302_5),
+    (0.975, 4.774_848_956_100_407),
+    (0.999, 7.254_173_824_678_951_6),
+];

@@ -1,0 +1,660 @@
+//! A task from Rust, step by step.
+
+use std::collections::{HashMap, HashSet};
+use std::fmt;
+use std::sync::Arc;
+
+use super::{Coverage, Row, Settings, Sharing, Task, TaskError, Trials, Variable};
+use crate::distribution::{Correlation, Distribution, Fits, Input, Invalid};
+use crate::model::formula::{Formula, Scope, Typing, check_name};
+use crate::model::typed::{Measurement, Typed};
+use crate::model::{
+    InputQuantity, Model, Output, Quantity, Recorder, Tolerance, in_unit, recorded_values,
+    variables,
+};
+use gumption_units::Unit;
+
+/// Makes a [`Task`] of a typed measurement ([`Task::measurement`]) or of equations
+/// ([`Task::builder`]), with conditions, correlations and settings. What is wrong is told by
+/// [`TaskBuilder::build`].
+///
+/// ```
+/// use gumption_engine::distribution::Input;
+/// use gumption_engine::propagate::{Control, evaluate};
+/// use gumption_engine::task::Task;
+///
+/// let task = Task::builder("calibration line")
+///     .input("a", Input::normal(2.0, 0.01, "mV/K")?)
+///     .input("b", Input::normal(0.5, 0.02, "mV")?)
+///     .equation("V", "a * dT + b")
+///     .output("V", "mV")
+///     .conditions(&[("dT", "K")], [[0.0], [10.0]])
+///     .correlate("a", "b", -0.5)
+///     .trials(0)
+///     .build()?;
+/// let evaluation = evaluate(&task, &Control::default())?;
+/// let last = evaluation.rows[1].outputs[0].gum.as_ref().ok_or("no derivative")?;
+/// assert!((last.estimate - 20.5).abs() < 1e-12);
+/// // (10 * 0.01)^2 + 0.02^2 - 2 * 0.5 * 0.1 * 0.02, up to rounding
+/// assert!((last.standard_uncertainty - 0.0084_f64.sqrt()).abs() < 1e-15);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug)]
+#[must_use = "a task is made by `build`"]
+pub struct TaskBuilder {
+    title: String,
+    typed: Option<Typed>,
+    inputs: Vec<GivenInput>,
+    /// Input, name and distribution of what is added to it.
+    components: Vec<(String, String, Input)>,
+    equations: Vec<(String, String)>,
+    check_units: bool,
+    outputs: Vec<(String, String)>,
+    tolerances: Vec<(String, Tolerance)>,
+    conditions: Vec<(String, String)>,
+    rows: Vec<Vec<f64>>,
+    varying: Vec<(String, Varying)>,
+    sharing: Vec<(String, Option<String>)>,
+    correlations: Vec<(String, String, f64)>,
+    settings: Settings,
+}
+
+/// An input as it was given.
+#[derive(Debug)]
+struct GivenInput {
+    name: String,
+    input: Input,
+    /// Names and distributions of what is added to it.
+    components: Vec<(String, Input)>,
+}
+
+/// What is known of an input in a row, from the values of the conditions there.
+enum Varying {
+    /// Its estimate, as a formula of the conditions.
+    Estimate(String),
+    /// All of it.
+    Whole(Box<PerRow>),
+}
+
+type PerRow = dyn Fn(&[f64]) -> Result<Distribution, Invalid> + Send + Sync;
+
+impl fmt::Debug for Varying {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Estimate(formula) => f.debug_tuple("Estimate").field(formula).finish(),
+            Self::Whole(_) => f.debug_tuple("Whole").finish_non_exhaustive(),
+        }
+    }
+}
+
+impl TaskBuilder {
+    /// A task without anything.
+    pub(super) fn new(title: &str) -> Self {
+        Self {
+            title: title.to_owned(),
+            typed: None,
+            inputs: Vec::new(),
+            components: Vec::new(),
+            equations: Vec::new(),
+            check_units: true,
+            outputs: Vec::new(),
+            tolerances: Vec::new(),
+            conditions: Vec::new(),
+            rows: Vec::new(),
+            varying: Vec::new(),
+            sharing: Vec::new(),
+            correlations: Vec::new(),
+            settings: Settings::default(),
+        }
+    }
+
+    /// A task of a typed measurement with its inputs.
+    pub(super) fn of<M: Measurement<Value = Input>>(measurement: M) -> Self {
+        let typed = Typed::of::<M>();
+        let values = measurement.into_values().into_iter();
+        let inputs = typed.declaration.inputs.iter().zip(values).map(|(declared, mut input)| {
+            if input.about.is_empty() {
+                declared.about.trim().clone_into(&mut input.about);
+            }
+            GivenInput { name: declared.name.to_owned(), input, components: Vec::new() }
+        });
+        let inputs = inputs.collect();
+        Self { typed: Some(typed), inputs, ..Self::new(typed.declaration.name) }
+    }
+
+    /// The title, for reports.
+    pub fn title(self, title: &str) -> Self {
+        Self { title: title.to_owned(), ..self }
+    }
+
+    /// An input quantity; of a typed measurement one that stands in place of the field of that name.
+    pub fn input(mut self, name: &str, input: Input) -> Self {
+        let typed = self.typed.is_some();
+        match self.inputs.iter_mut().find(|given| typed && given.name == name) {
+            Some(given) => given.input = input,
+            None => {
+                let (name, components) = (name.to_owned(), Vec::new());
+                self.inputs.push(GivenInput { name, input, components });
+            }
+        }
+        self
+    }
+
+    /// A further source of uncertainty of an input: a quantity that is added to it, in the input's
+    /// unit. In budgets it is called `input/component`.
+    pub fn component(mut self, input: &str, component: &str, added: Input) -> Self {
+        self.components.push((input.to_owned(), component.to_owned(), added));
+        self
+    }
+
+    /// A quantity that a formula computes of inputs, conditions and the equations before. Formulas
+    /// are as in model files: `4*m/(pi*d^2*h)`, every quantity in coherent SI units.
+    pub fn equation(mut self, name: &str, formula: &str) -> Self {
+        self.equations.push((name.to_owned(), formula.to_owned()));
+        self
+    }
+
+    /// Leaves the dimensions of formulas unchecked, for empirical ones.
+    pub fn without_unit_check(self) -> Self {
+        Self { check_units: false, ..self }
+    }
+
+    /// An output and the unit that it is given in. Without any, a typed measurement has all of its
+    /// outputs, and equations have the quantity of the last one in its coherent unit.
+    pub fn output(mut self, name: &str, unit: &str) -> Self {
+        self.outputs.push((name.to_owned(), unit.to_owned()));
+        self
+    }
+
+    /// The limits that a conforming value of an output lies within, in its unit.
+    pub fn tolerance(mut self, output: &str, tolerance: Tolerance) -> Self {
+        self.tolerances.push((output.to_owned(), tolerance));
+        self
+    }
+
+    /// The conditions by names and units, and their values row by row. Equations know them by their
+    /// names. A typed measurement whose input has the name of a condition takes its value from it,
+    /// provided that the input was given as a constant.
+    pub fn conditions<R: Into<Vec<f64>>>(
+        self,
+        names: &[(&str, &str)],
+        rows: impl IntoIterator<Item = R>,
+    ) -> Self {
+        let own = |(name, unit): &(&str, &str)| ((*name).to_owned(), (*unit).to_owned());
+        Self {
+            conditions: names.iter().map(own).collect(),
+            rows: rows.into_iter().map(Into::into).collect(),
+            ..self
+        }
+    }
+
+    /// Moves an input's estimate to the value of a formula of the conditions, in the simplest case
+    /// the name of one; its distribution keeps its shape.
+    pub fn estimate(mut self, input: &str, formula: &str) -> Self {
+        self.varying.push((input.to_owned(), Varying::Estimate(formula.to_owned())));
+        self
+    }
+
+    /// What is known of an input in each row, by the values of the conditions there (all in their
+    /// units, the distribution in the input's).
+    pub fn distribution(
+        mut self,
+        input: &str,
+        known: impl Fn(&[f64]) -> Result<Distribution, Invalid> + Send + Sync + 'static,
+    ) -> Self {
+        self.varying.push((input.to_owned(), Varying::Whole(Box::new(known))));
+        self
+    }
+
+    /// Gives a variable (an input, or `input/component`) a value of its own in every row. Without
+    /// it one unknown value holds for all rows.
+    pub fn per_row(mut self, variable: &str) -> Self {
+        self.sharing.push((variable.to_owned(), None));
+        self
+    }
+
+    /// Gives a variable a value of its own for every value of a condition.
+    pub fn per_condition(mut self, variable: &str, condition: &str) -> Self {
+        self.sharing.push((variable.to_owned(), Some(condition.to_owned())));
+        self
+    }
+
+    /// The correlation coefficient of two variables, from -1 to 1.
+    pub fn correlate(mut self, first: &str, second: &str, coefficient: f64) -> Self {
+        self.correlations.push((first.to_owned(), second.to_owned(), coefficient));
+        self
+    }
+
+    /// All settings at once.
+    pub fn settings(self, settings: Settings) -> Self {
+        Self { settings, ..self }
+    }
+
+    /// The seed of the random streams.
+    pub fn seed(mut self, seed: u64) -> Self {
+        self.settings.seed = seed;
+        self
+    }
+
+    /// The number of Monte Carlo trials (0 for the law of propagation alone), or
+    /// [`Trials::Adaptive`].
+    pub fn trials(mut self, trials: impl Into<Trials>) -> Self {
+        self.settings.trials = trials.into();
+        self
+    }
+
+    /// The coverage probability, or a [`Coverage`] by its factor.
+    pub fn coverage(mut self, coverage: impl Into<Coverage>) -> Self {
+        self.settings.coverage = coverage.into();
+        self
+    }
+
+    /// The task.
+    ///
+    /// # Errors
+    /// The first thing that is wrong.
+    pub fn build(mut self) -> Result<Task, TaskError> {
+        check_settings(&self.settings)?;
+        for (name, component, added) in std::mem::take(&mut self.components) {
+            let mut of = self.inputs.iter_mut().filter(|given| given.name == name);
+            let given = of.next().ok_or_else(|| unknown("input", &name))?;
+            given.components.push((component, added));
+        }
+        let conditions = self.condition_quantities()?;
+        self.take_conditions(&conditions)?;
+        self.check_names(&conditions)?;
+        let inputs = self.input_quantities()?;
+        let model = match self.typed {
+            Some(typed) => self.typed_model(&typed, inputs, conditions)?,
+            None => self.formula_model(inputs, conditions)?,
+        };
+        let variables = self.variables(&model)?;
+        let correlations = self.correlations(&variables)?;
+        let rows = self.known_rows(&model, &variables)?;
+        let task = Task {
+            title: self.title,
+            model,
+            variables,
+            correlations,
+            rows,
+            swept: !self.conditions.is_empty(),
+            settings: self.settings,
+            fits: Fits::default(),
+        };
+        for row in &task.rows {
+            let joint = task.fits.joint(&row.distributions, &task.correlations);
+            joint.map_err(|error| {
+                let name = |v: usize| task.variables.get(v).map_or("", |v| v.name.as_str());
+                let message = error.describe(&|v| format!("`{}`", name(v)));
+                TaskError::Correlation { error, message }
+            })?;
+        }
+        Ok(task)
+    }
+
+    fn condition_quantities(&self) -> Result<Vec<Quantity>, TaskError> {
+        let expected = self.conditions.len();
+        let is_right =
+            |row: &Vec<f64>| row.len() == expected && row.iter().all(|value| value.is_finite());
+        if let Some(row) = self.rows.iter().position(|row| expected == 0 || !is_right(row)) {
+            return Err(TaskError::Conditions { row, expected });
+        }
+        if self.rows.is_empty() && expected > 0 {
+            return Err(TaskError::Conditions { row: 0, expected });
+        }
+        self.conditions.iter().map(|(name, unit)| quantity(name, unit)).collect()
+    }
+
+    /// Leaves out the constants of a typed measurement that conditions stand for.
+    fn take_conditions(&mut self, conditions: &[Quantity]) -> Result<(), TaskError> {
+        if self.typed.is_none() {
+            return Ok(());
+        }
+        for condition in conditions {
+            let is_it = |given: &GivenInput| given.name == condition.name;
+            let Some(index) = self.inputs.iter().position(is_it) else { continue };
+            if self.inputs[index].input.distribution.constant().is_none() {
+                return Err(TaskError::NameTaken { name: condition.name.clone() });
+            }
+            self.inputs.remove(index);
+        }
+        Ok(())
+    }
+
+    fn check_names(&self, conditions: &[Quantity]) -> Result<(), TaskError> {
+        let inputs = self.inputs.iter().map(|given| given.name.as_str());
+        let conditions = conditions.iter().map(|condition| condition.name.as_str());
+        let equations = self.equations.iter().map(|(name, _)| name.as_str());
+        let mut taken = HashSet::new();
+        for name in inputs.chain(conditions).chain(equations) {
+            // the fields of a struct are what they are
+            if self.typed.is_none() {
+                check_name(name)
+                    .map_err(|error| TaskError::Name { name: name.to_owned(), error })?;
+            }
+            if !taken.insert(name) {
+                return Err(TaskError::NameTaken { name: name.to_owned() });
+            }
+        }
+        Ok(())
+    }
+
+    fn input_quantities(&self) -> Result<Vec<InputQuantity>, TaskError> {
+        let one = |given: &GivenInput| {
+            let unit = given.input.unit.clone();
+            for (_, component) in &given.components {
+                // components are added as they are
+                if component.unit.text() != unit.text() {
+                    let [found, expected] = [&component.unit, &unit].map(Unit::to_string);
+                    return Err(TaskError::ComponentUnit {
+                        of: given.name.clone(),
+                        found,
+                        expected,
+                    });
+                }
+            }
+            let (name, about) = (given.name.clone(), given.input.about.clone());
+            let quantity = Quantity { name, unit, about };
+            Ok(InputQuantity { quantity, parts: 1 + given.components.len() })
+        };
+        self.inputs.iter().map(one).collect()
+    }
+
+    fn typed_model(
+        &self,
+        typed: &Typed,
+        inputs: Vec<InputQuantity>,
+        conditions: Vec<Quantity>,
+    ) -> Result<Model, TaskError> {
+        if let Some((name, _)) = self.equations.first() {
+            return Err(TaskError::NameTaken { name: name.clone() });
+        }
+        let given: HashMap<&str, &Unit> = inputs
+            .iter()
+            .map(|input| &input.quantity)
+            .chain(&conditions)
+            .map(|quantity| (quantity.name.as_str(), &quantity.unit))
+            .collect();
+        for input in &inputs {
+            let name = &input.quantity.name;
+            typed.input(name).ok_or_else(|| unknown("input", name))?;
+        }
+        for declared in typed.declaration.inputs {
+            let expected = unit(declared.name, declared.unit)?;
+            match given.get(declared.name) {
+                Some(found) if !expected.is_compatible(found) => {
+                    return Err(wrong_unit(declared.name, found, &expected));
+                }
+                None if declared.default.is_none() => {
+                    return Err(TaskError::Missing { input: declared.name.to_owned() });
+                }
+                _ => {}
+            }
+        }
+        let of = typed.declaration.name;
+        let declared =
+            typed.outputs().map_err(|error| TaskError::Unit { of: of.to_owned(), error })?;
+        let outputs = if self.outputs.is_empty() {
+            declared
+        } else {
+            let one = |(name, text): &(String, String)| {
+                let mut own = declared.iter().filter(|output| output.quantity.name == *name);
+                let own = own.next().ok_or_else(|| unknown("output", name))?;
+                let unit = unit(name, text)?;
+                let factor = Unit::conversion_factor(&own.quantity.unit, &unit)
+                    .map_err(|_| wrong_unit(name, &unit, &own.quantity.unit))?;
+                let period = own.period.map(|period| period * factor);
+                let quantity = Quantity { unit, ..own.quantity.clone() };
+                Ok(Output { quantity, period, ..own.clone() })
+            };
+            self.outputs.iter().map(one).collect::<Result<_, _>>()?
+        };
+        let outputs = self.with_tolerances(outputs)?;
+        Ok(typed.model_with(inputs, conditions, outputs))
+    }
+
+    fn formula_model(
+        &self,
+        inputs: Vec<InputQuantity>,
+        conditions: Vec<Quantity>,
+    ) -> Result<Model, TaskError> {
+        let last = self.equations.last().ok_or(TaskError::NoModel)?;
+        let mut scope = condition_scope(&conditions);
+        for input in &inputs {
+            scope.define(&input.quantity.name, Typing::in_unit(&input.quantity.unit));
+        }
+        for (name, _) in &self.equations {
+            scope.announce(name);
+        }
+        let recorder = Recorder::default();
+        let given = recorded_values(&recorder, &inputs, &conditions).into_iter();
+        let mut values: HashMap<String, _> = given.collect();
+        for (name, text) in &self.equations {
+            let formula = self.formula(name, text, &scope)?;
+            scope.define(name, formula.1);
+            let value = formula.0.record(&scope, &values).map_err(in_formula(name))?;
+            values.insert(name.clone(), value);
+        }
+        let coherent = |name: &str| {
+            let dimension = scope.get(name).and_then(|typing| typing.dimension);
+            dimension.map_or_else(Unit::one, Unit::coherent)
+        };
+        let mut outputs = Vec::new();
+        for (name, text) in &self.outputs {
+            let unit = unit(name, text)?;
+            let typing = scope.get(name).ok_or_else(|| unknown("output", name))?;
+            if self.check_units && !typing.fits(unit.dimension()) {
+                return Err(wrong_unit(name, &unit, &coherent(name)));
+            }
+            let quantity = Quantity { name: name.clone(), unit, about: String::new() };
+            outputs.push(Output::new(quantity));
+        }
+        if outputs.is_empty() {
+            let (name, unit) = (last.0.clone(), coherent(&last.0));
+            outputs.push(Output::new(Quantity { name, unit, about: String::new() }));
+        }
+        let outputs = self.with_tolerances(outputs)?;
+        let results = outputs.iter().map(|output| {
+            let Quantity { name, unit, .. } = &output.quantity;
+            let value = values.get(name).copied().ok_or_else(|| unknown("output", name))?;
+            Ok(in_unit(value, unit))
+        });
+        let results = results.collect::<Result<Vec<_>, TaskError>>()?;
+        let program = recorder.program(variables(&inputs, &conditions), &results);
+        Ok(Model { inputs, conditions, outputs, program })
+    }
+
+    /// A formula that was read and checked, and what its result is.
+    fn formula(&self, of: &str, text: &str, scope: &Scope) -> Result<(Formula, Typing), TaskError> {
+        let formula = Formula::parse(text).map_err(in_formula(of))?;
+        let checked =
+            if self.check_units { formula.check(scope) } else { formula.check_names(scope) };
+        match checked {
+            Ok(typing) => Ok((formula, typing)),
+            // never an empty list
+            Err(errors) => match errors.into_iter().next() {
+                Some(error) => Err(in_formula(of)(error)),
+                None => Ok((formula, Typing::ANY)),
+            },
+        }
+    }
+
+    fn with_tolerances(&self, mut outputs: Vec<Output>) -> Result<Vec<Output>, TaskError> {
+        for (name, tolerance) in &self.tolerances {
+            let mut of = outputs.iter_mut().filter(|output| output.quantity.name == *name);
+            of.next().ok_or_else(|| unknown("output", name))?.tolerance = Some(*tolerance);
+        }
+        Ok(outputs)
+    }
+
+    fn variables(&self, model: &Model) -> Result<Vec<Variable>, TaskError> {
+        let mut variables = Vec::new();
+        for given in &self.inputs {
+            // the constant that components are added to has no uncertainty of its own
+            let shown =
+                given.components.is_empty() || given.input.distribution.constant().is_none();
+            variables.push(Variable { shown, ..Variable::of(&given.name, &given.input) });
+            variables.extend(given.components.iter().map(|(component, input)| {
+                Variable::of(&format!("{}/{component}", given.name), input)
+            }));
+        }
+        let mut names = HashSet::new();
+        if let Some(twice) = variables.iter().find(|v| !names.insert(v.name.as_str())) {
+            return Err(TaskError::NameTaken { name: twice.name.clone() });
+        }
+        for (name, condition) in &self.sharing {
+            let sharing = match condition {
+                None => Sharing::Row,
+                Some(condition) => {
+                    let is_it = |quantity: &Quantity| quantity.name == *condition;
+                    let index = model.conditions.iter().position(is_it);
+                    Sharing::Condition(index.ok_or_else(|| unknown("condition", condition))?)
+                }
+            };
+            let mut of = variables.iter_mut().filter(|variable| variable.name == *name);
+            of.next().ok_or_else(|| unknown("input", name))?.sharing = sharing;
+        }
+        Ok(variables)
+    }
+
+    fn correlations(&self, variables: &[Variable]) -> Result<Vec<Correlation>, TaskError> {
+        let mut found: Vec<Correlation> = Vec::new();
+        for (a, b, coefficient) in &self.correlations {
+            let index = |name: &str| {
+                let index = variables.iter().position(|variable| variable.name == name);
+                index.ok_or_else(|| unknown("input", name))
+            };
+            let (i, j) = (index(a)?, index(b)?);
+            let (first, second) = (i.min(j), i.max(j));
+            let refuse = |reason: &'static str| {
+                Err(TaskError::Coefficient { between: [a.clone(), b.clone()], reason })
+            };
+            if !(-1.0..=1.0).contains(coefficient) {
+                return refuse("must be from -1 to 1");
+            } else if first == second {
+                return refuse("would be that of a quantity with itself");
+            } else if found.iter().any(|c| c.first == first && c.second == second) {
+                return refuse("is given twice");
+            } else if !variables[i].sharing.is_alike(&variables[j].sharing, &self.rows) {
+                return refuse(
+                    "would tie rows to each other: they have not their values in common over the \
+                     same rows",
+                );
+            }
+            found.push(Correlation { first, second, coefficient: *coefficient });
+        }
+        Ok(found)
+    }
+
+    /// What is known of the variables in every row.
+    fn known_rows(&self, model: &Model, variables: &[Variable]) -> Result<Vec<Row>, TaskError> {
+        let parts = self.inputs.iter().flat_map(|given| {
+            let own = std::iter::once(&given.input);
+            own.chain(given.components.iter().map(|(_, input)| input))
+        });
+        let usual: Arc<[Arc<Distribution>]> =
+            parts.map(|input| Arc::new(input.distribution.clone())).collect();
+        let none = vec![Vec::new()];
+        let rows = if self.conditions.is_empty() { &none } else { &self.rows };
+        let scope = condition_scope(&model.conditions);
+        let mut varying = Vec::new();
+        for (name, of) in &self.varying {
+            let index = variables.iter().position(|variable| variable.name == *name);
+            let index = index.ok_or_else(|| unknown("input", name))?;
+            let formula = match of {
+                Varying::Estimate(text) => {
+                    let (formula, typing) = self.formula(name, text, &scope)?;
+                    let unit = &variables[index].unit;
+                    if self.check_units && !typing.fits(unit.dimension()) {
+                        let found = typing.dimension.map_or_else(Unit::one, Unit::coherent);
+                        return Err(wrong_unit(name, &found, unit));
+                    }
+                    Some(formula)
+                }
+                Varying::Whole(_) => None,
+            };
+            varying.push((index, of, formula));
+        }
+        let known = |(number, row): (usize, &Vec<f64>)| {
+            let mut distributions: Vec<Arc<Distribution>> = usual.to_vec();
+            for (index, of, formula) in &varying {
+                let Variable { name, unit, .. } = &variables[*index];
+                let moved = match (of, formula) {
+                    (Varying::Whole(known), _) => known(row),
+                    (Varying::Estimate(_), None) => continue,
+                    (Varying::Estimate(_), Some(formula)) => {
+                        let values = model.conditions.iter().zip(row);
+                        let values = values
+                            .map(|(of, &value)| (of.name.clone(), of.unit.to_si(value)))
+                            .collect();
+                        let value = formula.evaluate(&scope, &values).map_err(in_formula(name))?;
+                        distributions[*index].moved_to(unit.from_si(value))
+                    }
+                };
+                let moved = moved.map_err(|error| TaskError::Distribution {
+                    input: name.clone(),
+                    row: number,
+                    error,
+                })?;
+                distributions[*index] = Arc::new(moved);
+            }
+            let distributions =
+                if varying.is_empty() { Arc::clone(&usual) } else { distributions.into() };
+            Ok(Row { conditions: row.clone(), distributions })
+        };
+        rows.iter().enumerate().map(known).collect()
+    }
+}
+
+impl Variable {
+    /// A variable with one value for all rows, shown in budgets.
+    pub fn of(name: &str, input: &Input) -> Self {
+        Self {
+            name: name.to_owned(),
+            unit: input.unit.clone(),
+            evaluation: input.evaluation,
+            group: input.group.clone(),
+            about: input.about.clone(),
+            sharing: Sharing::All,
+            shown: true,
+        }
+    }
+}
+
+fn check_settings(settings: &Settings) -> Result<(), TaskError> {
+    let p = settings.coverage.probability();
+    if !(p > 0.0 && p < 1.0) {
+        let range = "a probability between 0 and 1, or a factor above 0";
+        return Err(TaskError::Setting { name: "coverage", range });
+    }
+    if settings.trials == Trials::Fixed(1) {
+        let range = "0 or at least 2";
+        return Err(TaskError::Setting { name: "number of trials", range });
+    }
+    Ok(())
+}
+
+fn condition_scope(conditions: &[Quantity]) -> Scope {
+    conditions.iter().map(|of| (of.name.as_str(), Typing::in_unit(&of.unit))).collect()
+}
+
+fn quantity(name: &str, text: &str) -> Result<Quantity, TaskError> {
+    Ok(Quantity { name: name.to_owned(), unit: unit(name, text)?, about: String::new() })
+}
+
+fn unit(of: &str, text: &str) -> Result<Unit, TaskError> {
+    Unit::parse(text).map_err(|error| TaskError::Unit { of: of.to_owned(), error })
+}
+
+fn wrong_unit(of: &str, found: &Unit, expected: &Unit) -> TaskError {
+    let (found, expected) = (found.to_string(), expected.to_string());
+    TaskError::WrongUnit { of: of.to_owned(), found, expected }
+}
+
+fn unknown(kind: &'static str, name: &str) -> TaskError {
+    TaskError::Unknown { name: name.to_owned(), kind }
+}
+
+fn in_formula(of: &str) -> impl Fn(crate::model::formula::FormulaError) -> TaskError {
+    move |error| TaskError::Formula { of: of.to_owned(), error }
+}

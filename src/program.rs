@@ -1,0 +1,51 @@
+//! The command line as a value.
+
+use std::process::ExitCode;
+
+use gumption_engine::model::typed::{CatalogueEntry, Measurement};
+
+use crate::{published, templates};
+
+/// The command line `gumption` with the built-in measurements, to which a program of one's own adds
+/// its own: files then name them, and every command and format has them.
+///
+/// ```no_run
+#[doc = include_str!("../examples/own_program.rs")]
+/// ```
+#[derive(Clone, Debug)]
+pub struct Program(gumption_command::Program);
+
+impl Default for Program {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl Program {
+    /// The command line with the built-in measurements.
+    pub fn new() -> Self {
+        let catalogue = templates::catalogue().clone();
+        Self(gumption_command::Program::new(catalogue, published::EXAMPLES))
+    }
+
+    /// The same with one more measurement; `template` is a model file of it, which `models NAME
+    /// --template` prints. A measurement of the name of another takes its place.
+    #[must_use]
+    pub fn measurement<M: Measurement>(self, template: &'static str) -> Self {
+        self.with(CatalogueEntry::of::<M>().template(template))
+    }
+
+    /// The same with one more measurement as an entry of the catalogue, which may leave units free
+    /// ([`CatalogueEntry::any_unit`]).
+    #[must_use]
+    pub fn with(self, entry: CatalogueEntry) -> Self {
+        Self(self.0.with(entry))
+    }
+
+    /// Runs with the arguments of the process; what it prints goes to standard output and standard
+    /// error. The exit code is 0 when all is done, 1 if the system is at fault, 2 if arguments or
+    /// files are, 3 if the answer is "no" where `--fail` was given, 130 if it was interrupted.
+    pub fn main(&self) -> ExitCode {
+        self.0.main()
+    }
+}

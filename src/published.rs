@@ -1,0 +1,94 @@
+//! The published examples that `gumption verify` recomputes: model files with the values that
+//! documents print.
+
+use gumption_command::PublishedExamples;
+
+macro_rules! cases {
+    ($($name:literal,)*) => {
+        &[$((
+            $name,
+            include_str!(concat!("../tests/cases/", $name, "/model.json")),
+            include_str!(concat!("../tests/cases/", $name, "/expect.json")),
+        ),)*]
+    };
+}
+
+/// All of them, in the order in which they are printed.
+pub(crate) const EXAMPLES: PublishedExamples = PublishedExamples {
+    cases: cases! {
+        "ea402-s10-caliper",
+        "ea402-s5-furnace-temperature",
+        "ea402-s5-thermocouple-emf",
+        "ea402-s6-power-sensor",
+        "ea402-s7-step-attenuator",
+        "ea402-s9-multimeter",
+        "gum-4.3.4-certificate",
+        "gum-4.4.3-readings",
+        "gum-4.4.5-rectangular",
+        "gum-4.4.6-triangular",
+        "gum-5.2.2-ten-resistors",
+        "gum-g41-welch-satterthwaite",
+        "gum-h2-impedance-normal",
+        "gum-h3-thermometer",
+        "jcgm101-9.2.2-adaptive",
+        "jcgm101-9.2.2-normal",
+        "jcgm101-9.2.3-rectangular",
+        "jcgm101-9.2.4-dominant-rectangular",
+        "jcgm101-9.3-mass",
+        "jcgm101-9.4-x1-000-r09",
+        "jcgm101-9.4-x1-010-r09",
+        "jcgm101-9.4-x1-050-r09",
+        "nist-um-stefan-boltzmann",
+        "nist1900-e11-attenuator",
+        "nist1900-e13-expansion",
+        "prop-ctrap-certificate",
+        "quam-a1-cadmium",
+        "quam-a3-hcl",
+        "quam-a5-ceramic",
+        "seed002-rotating-table-5hz",
+    },
+    measurements: include_str!("papers.json"),
+    models: &[
+        ("rotating-table", include_str!("../models/rotating_table.json")),
+        ("sensitivity-datasheet", include_str!("../models/sensitivity_datasheet.json")),
+        ("normalized-error", include_str!("../models/normalized_error.json")),
+    ],
+};
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::EXAMPLES;
+
+    /// The list above is that of the folders whose published values are not empty.
+    #[test]
+    fn every_case_with_published_values_is_embedded() {
+        let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/cases");
+        let mut wanted: Vec<String> = std::fs::read_dir(folder)
+            .unwrap()
+            .map(|entry| entry.unwrap().path())
+            .filter(|path| {
+                let Ok(text) = std::fs::read_to_string(path.join("expect.json")) else {
+                    return false;
+                };
+                let value: serde_json::Value = serde_json::from_str(&text).unwrap();
+                value["published"].as_array().is_some_and(|published| !published.is_empty())
+            })
+            .map(|path| path.file_name().unwrap().to_string_lossy().into_owned())
+            .collect();
+        wanted.sort();
+        let embedded: Vec<&str> = EXAMPLES.cases.iter().map(|(name, ..)| *name).collect();
+        assert_eq!(embedded, wanted);
+    }
+
+    #[test]
+    fn every_example_says_where_it_is_from() {
+        let cases = EXAMPLES.cases.iter().map(|(.., expected)| *expected);
+        let papers: Vec<serde_json::Value> = serde_json::from_str(EXAMPLES.measurements).unwrap();
+        let cases = cases.map(|text| serde_json::from_str(text).unwrap());
+        for example in cases.chain(papers) {
+            assert!(!example["source"].as_str().unwrap().is_empty(), "{example}");
+            assert!(!example["published"].as_array().unwrap().is_empty(), "{example}");
+        }
+    }
+}
