@@ -1,5 +1,6 @@
 //! Reports: what an evaluation looks like, one file for each format.
 
+mod answer;
 pub mod assumptions;
 pub mod certificate;
 pub mod compare;
@@ -18,7 +19,6 @@ mod sheet;
 mod si;
 mod subtotals;
 mod table;
-mod tree;
 mod workbook;
 
 pub use csv::{csv, write_csv};

@@ -2,7 +2,7 @@
 
 use super::Report;
 use super::stated::{self, Stated};
-use crate::csv::{number, text};
+use crate::csv::{number, of_records, text};
 
 const COLUMNS: [&str; 15] = [
     "row",
@@ -26,14 +26,11 @@ const COLUMNS: [&str; 15] = [
 /// rounded as they are stated, the standard uncertainty in full. An empty cell stands for what is
 /// infinite or not defined.
 pub fn csv(report: &Report<'_>) -> String {
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    let mut written = writer.write_record(COLUMNS);
-    for row in stated::rows(report) {
-        written = written.and_then(|()| writer.write_record(record(report, &row)));
-    }
-    // writing to memory cannot fail, and all records have as many cells
-    debug_assert!(written.is_ok(), "{written:?}");
-    String::from_utf8(writer.into_inner().unwrap_or_default()).unwrap_or_default()
+    of_records(|writer| {
+        writer.write_record(COLUMNS)?;
+        let rows = stated::rows(report);
+        rows.iter().try_for_each(|row| writer.write_record(record(report, row)))
+    })
 }
 
 fn record(report: &Report<'_>, row: &Stated<'_>) -> Vec<String> {

@@ -17,6 +17,7 @@ use std::io::{self, Write};
 
 use self::budget::Budget;
 use super::Report;
+use super::answer::in_memory;
 use super::number::exact;
 use gumption_engine::decimal::to_position;
 use gumption_engine::model::{InputQuantity, Output, Quantity};
@@ -43,10 +44,7 @@ pub struct Style {
 ///
 /// Warnings are not part of the page; a run that was stopped is marked at its end.
 pub fn table(report: &Report<'_>, style: &Style) -> String {
-    let mut bytes = Vec::new();
-    let written = write_table(report, style, &mut bytes);
-    debug_assert!(written.is_ok(), "{written:?}");
-    String::from_utf8(bytes).unwrap_or_default()
+    in_memory(|bytes| write_table(report, style, bytes))
 }
 
 /// Writes what [`table`] gives, part by part.
