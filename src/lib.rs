@@ -263,8 +263,7 @@ mod templates;
 pub use program::Program;
 pub use templates::catalogue;
 
-pub use gumption_analysis::{assumptions, certificate, compare};
-pub use gumption_diff as diff;
+pub use gumption_analysis::{assumptions, certificate, compare, diff};
 pub use gumption_engine::{decimal, measurement};
 pub use gumption_files as file;
 pub use gumption_files::schema;

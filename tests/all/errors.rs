@@ -91,9 +91,10 @@ fn shown_codes() -> BTreeSet<String> {
     codes
 }
 
-/// The codes in the text of `Fault::code`: the quoted words after `=> "`.
+/// The codes in the text of `DiagnosticKind::code`: the quoted words after `=> "`.
 fn all_codes() -> BTreeSet<String> {
-    let source = fs::read_to_string(root().join("src/file/fault.rs")).expect("the source");
+    let source =
+        fs::read_to_string(root().join("crates/files/src/diagnostic_kind.rs")).expect("the source");
     let body = source.split("fn code(").nth(1).expect("the function `code`");
     let body = body.split("pub fn").next().expect("its body");
     let codes: BTreeSet<String> = body
@@ -113,7 +114,7 @@ fn every_kind_of_mistake_has_an_example() {
         all.difference(&shown).filter(|code| !WITHOUT_EXAMPLE.contains(&code.as_str())).collect();
     assert!(missing.is_empty(), "no example in tests/errors: {missing:?}");
     let invented: Vec<&String> = shown.difference(&all).collect();
-    assert!(invented.is_empty(), "codes that `Fault::code` does not have: {invented:?}");
+    assert!(invented.is_empty(), "codes that `DiagnosticKind::code` does not have: {invented:?}");
 }
 
 #[test]

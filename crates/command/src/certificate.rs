@@ -13,7 +13,7 @@ use gumption_analysis::certificate::{Failed, Issued, issue};
 use gumption_engine::propagate::{Control, EvaluationError, warnings};
 use gumption_engine::task::{Trials, Warning};
 use gumption_files as file;
-use gumption_files::{CertificateFile, Fault, Problem, Problems};
+use gumption_files::{CertificateFile, Diagnostic, DiagnosticKind, Diagnostics};
 use gumption_report::certificate::{self as report, Model, Report};
 
 /// Make a calibration certificate.
@@ -127,7 +127,7 @@ impl Certificate {
             let needed = report::needed(&file.certificate);
             if !needed.is_empty() {
                 let what = "a digital calibration certificate (`--format dcc`)";
-                return Err(Failure::Problems(file.missing(&needed, what)));
+                return Err(Failure::Diagnostics(file.missing(&needed, what)));
             }
         }
         Ok(())
@@ -216,6 +216,6 @@ fn failure(file: &CertificateFile, failed: Failed) -> Failure {
         Failed::NoUncertainty { line } => Some(*line),
     };
     let span = line.and_then(|line| file.places.get(line).cloned()).unwrap_or(0..0);
-    let fault = Fault::Evaluation { message };
-    Failure::Problems(Problems(vec![Problem { source: file.source.clone(), span, fault }]))
+    let kind = DiagnosticKind::Evaluation { message };
+    Failure::Diagnostics(Diagnostics(vec![Diagnostic { source: file.source.clone(), span, kind }]))
 }

@@ -6,9 +6,9 @@ use clap::Args;
 use serde::Serialize;
 
 use super::options::{self, Answer, Format};
-use super::{Exit, Failure, Program, problems};
+use super::{Exit, Failure, Program, diagnostics};
 use gumption_files as file;
-use gumption_files::{Problem, Problems};
+use gumption_files::{Diagnostic, Diagnostics};
 
 /// Check a file.
 #[derive(Debug, Args)]
@@ -36,16 +36,16 @@ struct Mistake {
     suggestion: Option<String>,
 }
 
-impl From<&Problem> for Mistake {
-    fn from(problem: &Problem) -> Self {
-        let (line, column) = problem.position();
+impl From<&Diagnostic> for Mistake {
+    fn from(diagnostic: &Diagnostic) -> Self {
+        let (line, column) = diagnostic.position();
         Self {
-            file: problem.source.name.clone(),
+            file: diagnostic.source.name.clone(),
             line,
             column,
-            code: problem.fault.code(),
-            message: problem.message(),
-            suggestion: problem.fault.suggestion(),
+            code: diagnostic.kind.code(),
+            message: diagnostic.message(),
+            suggestion: diagnostic.kind.suggestion(),
         }
     }
 }
@@ -55,7 +55,7 @@ impl Check {
         let text = |text: &str| file::check_text("<stdin>", text, Path::new(""));
         let result = options::given(&self.file, text, file::check)?;
         let found = match result {
-            Ok(()) => Problems(Vec::new()),
+            Ok(()) => Diagnostics(Vec::new()),
             Err(found) => found,
         };
         let right = found.0.is_empty();
@@ -73,12 +73,12 @@ impl Check {
             Format::Table if right => format!("{}: no mistakes found\n", self.file.display()),
             Format::Table => {
                 // a list of mistakes is an error message wherever it goes
-                return Err(Failure::Problems(found));
+                return Err(Failure::Diagnostics(found));
             }
         };
         self.answer.write(&answer)?;
         if !right && !self.answer.quiet {
-            anstream::eprint!("{}", problems::render(&found, true));
+            anstream::eprint!("{}", diagnostics::render(&found, true));
         }
         Ok(if right { Exit::Done } else { Exit::Wrong })
     }

@@ -6,10 +6,10 @@ use clap::{Args, ValueEnum};
 
 use super::options::{self, Answer};
 use super::{Exit, Failure};
-use gumption_analysis::compare::{Pair, laboratories};
+use gumption_analysis::compare::{ResultPair, laboratories};
 use gumption_files as file;
 use gumption_files::{ComparisonOptions, ComparisonTable};
-use gumption_report::compare::{self as report, Compare as Compared};
+use gumption_report::compare::{self as report, Compare as ComparedPair};
 
 /// Compare results two by two, or those of many laboratories.
 #[derive(Debug, Args)]
@@ -61,12 +61,14 @@ impl Compare {
         let found = match table {
             ComparisonTable::Pairs(pairs) => {
                 // pairs without an uncertainty are mistakes of the table
-                let compared = pairs.iter().filter_map(Pair::compare).collect();
-                Compared::Pairs { pairs, compared, rounding: self.rounding }
+                let compared = pairs.iter().filter_map(ResultPair::compare).collect();
+                ComparedPair::Pairs { pairs, compared, rounding: self.rounding }
             }
             ComparisonTable::Laboratories { laboratories, correlations } => {
                 let found = laboratories::compare(&laboratories, &correlations);
-                Compared::Laboratories(found.map_err(|error| Failure::Argument(error.to_string()))?)
+                ComparedPair::Laboratories(
+                    found.map_err(|error| Failure::Argument(error.to_string()))?,
+                )
             }
         };
         let answer = match self.answer.format {

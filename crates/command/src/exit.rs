@@ -3,8 +3,8 @@
 use std::fmt;
 use std::process::ExitCode;
 
-use super::problems;
-use gumption_files::Problems;
+use super::diagnostics;
+use gumption_files::Diagnostics;
 
 /// A regular end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -34,23 +34,23 @@ impl Exit {
 #[derive(Debug)]
 pub enum Failure {
     /// The user's files are at fault.
-    Problems(Problems),
+    Diagnostics(Diagnostics),
     /// The user's arguments are at fault.
     Argument(String),
     /// The system is at fault: a full disk, a missing permission.
     System(String),
 }
 
-impl From<Problems> for Failure {
-    fn from(problems: Problems) -> Self {
-        Self::Problems(problems)
+impl From<Diagnostics> for Failure {
+    fn from(diagnostics: Diagnostics) -> Self {
+        Self::Diagnostics(diagnostics)
     }
 }
 
 impl fmt::Display for Failure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Problems(problems) => f.write_str(&problems::render(problems, false)),
+            Self::Diagnostics(diagnostics) => f.write_str(&diagnostics::render(diagnostics, false)),
             Self::Argument(message) | Self::System(message) => writeln!(f, "gumption: {message}"),
         }
     }
@@ -61,7 +61,9 @@ impl Failure {
     #[allow(clippy::print_stderr)]
     pub(super) fn report(&self) -> ExitCode {
         match self {
-            Self::Problems(problems) => anstream::eprint!("{}", problems::render(problems, true)),
+            Self::Diagnostics(diagnostics) => {
+                anstream::eprint!("{}", diagnostics::render(diagnostics, true))
+            }
             Self::Argument(_) | Self::System(_) => eprint!("{self}"),
         }
         ExitCode::from(if matches!(self, Self::System(_)) { 1 } else { 2 })

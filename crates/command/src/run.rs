@@ -14,7 +14,7 @@ use gumption_engine::propagate::{
     Control, Evaluation, EvaluationError, evaluate, histograms, warnings,
 };
 use gumption_engine::task::{Coverage, StoppingRule, Task, Trials, Warning};
-use gumption_files::{Fault, ModelFile, Problem, Problems};
+use gumption_files::{Diagnostic, DiagnosticKind, Diagnostics, ModelFile};
 use gumption_report as report;
 use gumption_report::{Column, Provenance, Report, Shown, Style};
 
@@ -267,8 +267,8 @@ pub(super) fn failure(file: &ModelFile, error: EvaluationError) -> Failure {
         | EvaluationError::NotFinite { .. }
         | EvaluationError::Correlation { .. } => {
             let (source, span) = file.output_place(0);
-            let fault = Fault::Evaluation { message };
-            Failure::Problems(Problems(vec![Problem { source, span, fault }]))
+            let kind = DiagnosticKind::Evaluation { message };
+            Failure::Diagnostics(Diagnostics(vec![Diagnostic { source, span, kind }]))
         }
     }
 }

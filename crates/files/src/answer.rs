@@ -4,10 +4,10 @@ use std::path::Path;
 
 use serde_json::{Map, Value};
 
-use super::problem::Log;
-use super::source::{Place, Source};
-use super::{Fault, bytes};
-use gumption_analysis::compare::Stated;
+use super::diagnostics::Collector;
+use super::source::{Place, SourceText};
+use super::{DiagnosticKind, bytes};
+use gumption_analysis::compare::StatedResult;
 
 /// An answer: its rows of conditions with their outputs.
 #[derive(Debug)]
@@ -20,16 +20,19 @@ pub(super) struct Answer {
 const SAME: f64 = 1e-9;
 
 /// Reads an answer; mistakes are reported.
-pub(super) fn read(log: &Log, path: &Path) -> Option<Answer> {
+pub(super) fn read(log: &Collector, path: &Path) -> Option<Answer> {
     let name = path.display().to_string();
-    let report = |text: &str, fault: Fault| {
-        log.report_at(Place { source: Source::new(name.clone(), text), span: 0..0 }, fault);
+    let report = |text: &str, diagnostic: DiagnosticKind| {
+        log.report_at(
+            Place { source: SourceText::new(name.clone(), text), span: 0..0 },
+            diagnostic,
+        );
     };
     let bytes = bytes::of_file(path, bytes::MOST)
-        .map_err(|message| report("", Fault::Unreadable { message }))
+        .map_err(|message| report("", DiagnosticKind::Unreadable { message }))
         .ok()?;
     let answer: Value = serde_json::from_slice(&bytes)
-        .map_err(|error| report("", Fault::NotJson { message: error.to_string() }))
+        .map_err(|error| report("", DiagnosticKind::NotJson { message: error.to_string() }))
         .ok()?;
     let object = |value: Option<&Value>| value.and_then(Value::as_object).cloned();
     let rows = match answer.get("rows").and_then(Value::as_array) {
@@ -41,7 +44,7 @@ pub(super) fn read(log: &Log, path: &Path) -> Option<Answer> {
     };
     if rows.is_none() {
         let reason = "this is not an answer of `gumption run --format json`".to_owned();
-        report("", Fault::Table { reason });
+        report("", DiagnosticKind::Table { reason });
     }
     Some(Answer { name, rows: rows? })
 }
@@ -57,7 +60,7 @@ impl Answer {
 
     /// The result of an output at some conditions: that of the GUM, or that of the trials where it
     /// has none.
-    pub(super) fn result(&self, output: &str, at: &[(&str, f64)]) -> Result<Stated, String> {
+    pub(super) fn result(&self, output: &str, at: &[(&str, f64)]) -> Result<StatedResult, String> {
         let near = |a: f64, b: f64| (a - b).abs() <= SAME * a.abs().max(b.abs());
         let mut rows = self.rows.iter().filter(|(conditions, _)| {
             at.iter().all(|(name, value)| {
@@ -87,15 +90,15 @@ impl Answer {
     }
 }
 
-fn of_gum(output: &Value) -> Option<Stated> {
+fn of_gum(output: &Value) -> Option<StatedResult> {
     let number = |key: &str| output.get("gum")?.get(key)?.as_f64();
     let (value, expanded) = (number("estimate")?, number("expanded_uncertainty")?);
-    Some(Stated { value, expanded, factor: number("coverage_factor")?, rounding: [0.0; 2] })
+    Some(StatedResult { value, expanded, factor: number("coverage_factor")?, rounding: [0.0; 2] })
 }
 
 /// The factor is 2: expanded is 2 u.
-fn of_trials(output: &Value) -> Option<Stated> {
+fn of_trials(output: &Value) -> Option<StatedResult> {
     let number = |key: &str| output.get("monte_carlo")?.get(key)?.as_f64();
     let (value, u) = (number("estimate")?, number("standard_uncertainty")?);
-    Some(Stated { value, expanded: 2.0 * u, factor: 2.0, rounding: [0.0; 2] })
+    Some(StatedResult { value, expanded: 2.0 * u, factor: 2.0, rounding: [0.0; 2] })
 }

@@ -3,15 +3,15 @@
 use std::path::Path;
 use std::sync::Arc;
 
+use super::diagnostics::Diagnostics;
+use super::effect_context::EffectContext;
 use super::effects;
-use super::model_file::{Found, ModelReader, read_file, read_with};
-use super::problem::Problems;
+use super::model_reader::{Found, ModelOptions, ModelReader, read_file, read_with};
 use super::results::Results;
-use super::source::Source;
-use super::{Fault, catalogue, prior, soundness};
-use gumption_engine::task::{Row, Task, Warning};
-use gumption_gap::Sim;
-use gumption_gap::{Case, Observed};
+use super::source::SourceText;
+use super::{DiagnosticKind, catalogue, prior, soundness};
+use gumption_engine::task::{Row, Warning};
+use gumption_gap::Case;
 
 /// The keys that only cases have; a file with one of them is meant as a case.
 pub(super) const KEYS: [&str; 4] = ["observations", "effects", "catalogue", "prior"];
@@ -24,7 +24,7 @@ pub struct CaseFile {
     /// Notes on what was read.
     pub warnings: Vec<Warning>,
     /// The file's text.
-    pub source: Arc<Source>,
+    pub source: Arc<SourceText>,
     /// The content of the tables that were read, by name.
     pub files: Vec<(String, Vec<u8>)>,
 }
@@ -33,18 +33,17 @@ pub struct CaseFile {
 ///
 /// # Errors
 /// All mistakes of the file and its tables, in the order of their places.
-pub fn read(path: &Path) -> Result<CaseFile, Problems> {
-    read_file(path, &[], None, |reader| reader.case())
+pub fn read(path: &Path) -> Result<CaseFile, Diagnostics> {
+    read_file(path, ModelOptions::default(), |reader| reader.case())
 }
 
 /// What a case's sim has in the rows of a table of conditions, which stands in the current folder.
 ///
 /// # Errors
 /// All mistakes of the file and its tables, in the order of their places.
-pub fn read_at(path: &Path, conditions: &Path) -> Result<Vec<Row>, Problems> {
-    read_file(path, &[], Some(conditions), |reader| {
-        reader.found().map(|found| found.file.task.rows)
-    })
+pub fn read_at(path: &Path, conditions: &Path) -> Result<Vec<Row>, Diagnostics> {
+    let options = ModelOptions { at: Some(conditions), ..ModelOptions::default() };
+    read_file(path, options, |reader| reader.found().map(|found| found.file.task.rows))
 }
 
 /// Reads and checks a case's text; `name` is used in messages, and tables are looked for in
@@ -52,21 +51,13 @@ pub fn read_at(path: &Path, conditions: &Path) -> Result<Vec<Row>, Problems> {
 ///
 /// # Errors
 /// All mistakes of the text and its tables, in the order of their places.
-pub fn read_text(name: &str, text: &str, folder: &Path) -> Result<CaseFile, Problems> {
-    read_with(name, text, folder, (&[], None), |reader| reader.case())
-}
-
-/// What effects are read against: the sim, and what was measured.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Read<'a> {
-    pub(super) sim: &'a Sim,
-    pub(super) task: &'a Task,
-    pub(super) observed: &'a [Option<Observed>],
+pub fn read_text(name: &str, text: &str, folder: &Path) -> Result<CaseFile, Diagnostics> {
+    read_with(name, text, folder, ModelOptions::default(), |reader| reader.case())
 }
 
 impl Found {
-    fn for_effects(&self) -> Read<'_> {
-        Read { sim: &self.sim, task: &self.file.task, observed: &self.observed }
+    fn for_effects(&self) -> EffectContext<'_> {
+        EffectContext { sim: &self.sim, task: &self.file.task, observed: &self.observed }
     }
 }
 
@@ -86,24 +77,24 @@ impl ModelReader<'_> {
         let prior = prior::read(&self.root);
         if self.root.get("observations").is_none() {
             let what = "a case of the gap diagnosis";
-            self.root.report(Fault::MissingKey { key: "observations", what });
+            self.root.report(DiagnosticKind::MissingKey { key: "observations", what });
         }
         let results = Results::new(self.folder);
         let mut warnings = Vec::new();
         let sim = found.as_ref().map(|found| &found.sim);
         let own = match self.root.get("effects") {
-            Some(member) => effects::read(self.log, member, sim, &results, &mut warnings),
+            Some(member) => effects::read(self.root.log, member, sim, &results, &mut warnings),
             None => Some(Vec::new()),
         };
         let complete = own.is_some();
         let mut placed = own.unwrap_or_default();
         let read = found.as_ref().map(Found::for_effects);
         let shipped =
-            catalogue::read(self.log, &self.root, read, &results, &mut placed, &mut warnings);
+            catalogue::read(self.root.log, &self.root, read, &results, &mut placed, &mut warnings);
         let read = read?;
-        effects::check_together(self.log, &placed, read.sim);
+        effects::check_together(self.root.log, &placed, read.sim);
         if let Some(data) = found.as_ref().and_then(|found| found.data.as_ref()) {
-            soundness::check(self.log, &read, &placed, data);
+            soundness::check(self.root.log, &read, &placed, data);
         }
         shipped.filter(|()| complete)?;
         let Found { file, sim, observed, simulated, .. } = found?;

@@ -2,17 +2,18 @@
 
 use std::path::Path;
 
-use super::problem::{Log, Problems};
-use super::source::{Place, Source};
+use super::diagnostics::{Collector, Diagnostics};
+use super::open::{open_as, utf8};
+use super::source::{Place, SourceText};
 use super::text_table::TextTable;
-use super::{Fault, answer, bytes, table};
-use gumption_analysis::compare::{Laboratory, Pair, Stated};
+use super::{DiagnosticKind, answer, bytes, table};
+use gumption_analysis::compare::{Laboratory, ResultPair, StatedResult};
 
 /// A table that was read and found right.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ComparisonTable {
     /// Two results a row: columns `label`, `x1`, `U1`, `x2`, `U2` and perhaps `k1`, `k2`, `r`.
-    Pairs(Vec<Pair>),
+    Pairs(Vec<ResultPair>),
     /// One result a laboratory: columns `label`, `x`, `U` and perhaps `k`.
     Laboratories {
         /// The laboratories, in order.
@@ -47,17 +48,12 @@ const MOST_LABORATORIES: usize = 200;
 pub fn read_comparison(
     path: &Path,
     options: ComparisonOptions<'_>,
-) -> Result<ComparisonTable, Problems> {
-    let name = path.display().to_string();
-    let text = bytes::of_file(path, bytes::MOST).and_then(|bytes| text_of(path, bytes));
-    match text {
-        Ok(text) => read_comparison_text(&name, &text, options),
-        Err(message) => {
-            let log = Log::new(Source::new(name, ""));
-            log.report(&(0..0), Fault::Unreadable { message });
-            Err(log.into_problems())
-        }
-    }
+) -> Result<ComparisonTable, Diagnostics> {
+    open_as(
+        path,
+        |bytes| text_of(path, bytes),
+        |name, text, _| read_comparison_text(name, text, options),
+    )
 }
 
 /// Reads and checks the text of a CSV table; `name` is used in messages.
@@ -68,17 +64,14 @@ pub fn read_comparison_text(
     name: &str,
     text: &str,
     options: ComparisonOptions<'_>,
-) -> Result<ComparisonTable, Problems> {
-    let source = Source::new(name, text);
-    let log = Log::new(source.clone());
+) -> Result<ComparisonTable, Diagnostics> {
+    let source = SourceText::new(name, text);
+    let log = Collector::new(source.clone());
     let table = TextTable::parse(&log, &source).and_then(|cells| {
         let reader = Reader { log: &log, cells: &cells, options };
         if cells.column("x1").is_some() { reader.pairs() } else { reader.laboratories() }
     });
-    match table {
-        Some(table) if log.is_clean() => Ok(table),
-        _ => Err(log.into_problems()),
-    }
+    log.finish(table)
 }
 
 /// The text of a table; the first sheet of a workbook as CSV, line by line.
@@ -88,7 +81,7 @@ fn text_of(path: &Path, bytes: Vec<u8>) -> Result<String, String> {
     if is_workbook {
         return sheet(bytes);
     }
-    String::from_utf8(bytes).map_err(|_| "it is not UTF-8 text".to_owned())
+    utf8(bytes)
 }
 
 fn sheet(bytes: Vec<u8>) -> Result<String, String> {
@@ -120,7 +113,7 @@ fn sheet(bytes: Vec<u8>) -> Result<String, String> {
 }
 
 struct Reader<'a> {
-    log: &'a Log,
+    log: &'a Collector,
     cells: &'a TextTable,
     options: ComparisonOptions<'a>,
 }
@@ -133,7 +126,7 @@ impl Reader<'_> {
                  coefficients in the column `r`",
                 path.display()
             );
-            self.log.report_at(self.cells.header(), Fault::Table { reason });
+            self.log.report_at(self.cells.header(), DiagnosticKind::Table { reason });
         }
         let answer = match self.options.against {
             Some(path) => Some(answer::read(self.log, path)?),
@@ -146,7 +139,7 @@ impl Reader<'_> {
             (&answer, ["x2", "U2", "k2"].iter().find(|name| self.cells.column(name).is_some()))
         {
             let reason = format!("the column `{place}` comes from the run; take it out");
-            self.log.report_at(self.cells.header(), Fault::Table { reason });
+            self.log.report_at(self.cells.header(), DiagnosticKind::Table { reason });
             return None;
         }
         let mut pairs = Vec::new();
@@ -163,15 +156,19 @@ impl Reader<'_> {
             };
             if !(-1.0..=1.0).contains(&correlation) {
                 let range = "from -1 to 1";
-                let fault = Fault::OutOfRange { key: "r".into(), found: correlation, range };
-                self.log.report_at(self.place(row, "r"), fault);
+                let diagnostic =
+                    DiagnosticKind::OutOfRange { key: "r".into(), found: correlation, range };
+                self.log.report_at(self.place(row, "r"), diagnostic);
                 continue;
             }
             let label = self.cells.text(row, "label").to_owned();
-            let pair = Pair { label, results: [first, second], correlation };
+            let pair = ResultPair { label, results: [first, second], correlation };
             if pair.compare().is_none() {
                 let reason = "the difference has no uncertainty, so nothing can be compared";
-                self.log.report_at(self.place(row, "U1"), Fault::Table { reason: reason.into() });
+                self.log.report_at(
+                    self.place(row, "U1"),
+                    DiagnosticKind::Table { reason: reason.into() },
+                );
             }
             pairs.push(pair);
         }
@@ -184,15 +181,18 @@ impl Reader<'_> {
                 "`{}` is to be compared with a table with the columns label, x1, U1",
                 path.display()
             );
-            self.log.report_at(self.cells.header(), Fault::Table { reason });
+            self.log.report_at(self.cells.header(), DiagnosticKind::Table { reason });
             return None;
         }
         self.check_columns(&OF_LABORATORIES[..3], &OF_LABORATORIES, &[])?;
         let count = self.cells.rows();
         if count > MOST_LABORATORIES {
-            let fault =
-                Fault::TooMany { what: "laboratories", found: count, most: MOST_LABORATORIES };
-            self.log.report_at(self.cells.header(), fault);
+            let diagnostic = DiagnosticKind::TooMany {
+                what: "laboratories",
+                found: count,
+                most: MOST_LABORATORIES,
+            };
+            self.log.report_at(self.cells.header(), diagnostic);
             return None;
         }
         let mut laboratories: Vec<Laboratory> = Vec::new();
@@ -201,19 +201,19 @@ impl Reader<'_> {
                 continue;
             };
             if result.expanded == 0.0 {
-                let fault = Fault::NotPositive { key: "U".into(), found: 0.0 };
-                self.log.report_at(self.place(row, "U"), fault);
+                let diagnostic = DiagnosticKind::NotPositive { key: "U".into(), found: 0.0 };
+                self.log.report_at(self.place(row, "U"), diagnostic);
             }
             let label = self.cells.text(row, "label").to_owned();
             if laboratories.iter().any(|other| other.label == label) {
                 let reason = format!("the laboratory `{label}` stands here a second time");
-                self.log.report_at(self.place(row, "label"), Fault::Table { reason });
+                self.log.report_at(self.place(row, "label"), DiagnosticKind::Table { reason });
             }
             laboratories.push(Laboratory { label, result });
         }
         if count < 2 {
             let reason = "a comparison needs at least two laboratories".to_owned();
-            self.log.report_at(self.cells.header(), Fault::Table { reason });
+            self.log.report_at(self.cells.header(), DiagnosticKind::Table { reason });
         }
         let correlations = match self.options.correlations {
             Some(path) => self.correlations(path, &laboratories)?,
@@ -227,16 +227,18 @@ impl Reader<'_> {
     fn correlations(&self, path: &Path, all: &[Laboratory]) -> Option<Vec<Vec<f64>>> {
         let name = path.display().to_string();
         let text = bytes::of_file(path, bytes::MOST).and_then(|bytes| text_of(path, bytes));
-        let source = Source::new(name.clone(), text.as_deref().unwrap_or(""));
+        let source = SourceText::new(name.clone(), text.as_deref().unwrap_or(""));
         let whole = || Place { source: source.clone(), span: 0..0 };
         if let Err(message) = text {
-            self.log.report_at(whole(), Fault::Unreadable { message });
+            self.log.report_at(whole(), DiagnosticKind::Unreadable { message });
             return None;
         }
         let matrix = match table::parse(&source) {
             Ok(matrix) => matrix,
-            Err(faults) => {
-                faults.into_iter().for_each(|(place, fault)| self.log.report_at(place, fault));
+            Err(kinds) => {
+                kinds
+                    .into_iter()
+                    .for_each(|(place, diagnostic)| self.log.report_at(place, diagnostic));
                 return None;
             }
         };
@@ -252,7 +254,7 @@ impl Reader<'_> {
                  laboratories, and as many rows in that order",
                 all.len()
             );
-            self.log.report_at(whole(), Fault::Table { reason });
+            self.log.report_at(whole(), DiagnosticKind::Table { reason });
             return None;
         };
         let at = |i: usize, j: usize| matrix.rows[i][j];
@@ -261,7 +263,8 @@ impl Reader<'_> {
             if r != other || !(-1.0..=1.0).contains(&r) || (i == j && r != 1.0) {
                 let reason =
                     "the coefficients must be symmetric, from -1 to 1, and 1 on the diagonal";
-                self.log.report_at(matrix.place(i, j), Fault::Table { reason: reason.into() });
+                self.log
+                    .report_at(matrix.place(i, j), DiagnosticKind::Table { reason: reason.into() });
                 return None;
             }
         }
@@ -280,7 +283,7 @@ impl Reader<'_> {
                 list(&OF_PAIRS[..5]),
                 list(&OF_LABORATORIES[..3])
             );
-            self.log.report_at(self.cells.header(), Fault::Table { reason });
+            self.log.report_at(self.cells.header(), DiagnosticKind::Table { reason });
             return None;
         }
         let unknown =
@@ -290,7 +293,7 @@ impl Reader<'_> {
                 "the column `{name}` is not known; there are {}",
                 list(&[known, more].concat())
             );
-            self.log.report_at(self.cells.header(), Fault::Table { reason });
+            self.log.report_at(self.cells.header(), DiagnosticKind::Table { reason });
             return None;
         }
         Some(())
@@ -308,29 +311,30 @@ impl Reader<'_> {
         if value.is_none() {
             let (column, found) = (column.to_owned(), self.cells.text(row, column).to_owned());
             let place = self.place(row, &column);
-            self.log.report_at(place, Fault::Cell { row: row + 1, column, found });
+            self.log.report_at(place, DiagnosticKind::Cell { row: row + 1, column, found });
         }
         Some(value)
     }
 
     /// A stated result of a row.
-    fn stated(&self, row: usize, [x, u, k]: [&str; 3]) -> Option<Stated> {
+    fn stated(&self, row: usize, [x, u, k]: [&str; 3]) -> Option<StatedResult> {
         let (value, expanded) = (self.number(row, x)?, self.number(row, u)?);
         let factor = self.number(row, k).unwrap_or(Some(USUAL_FACTOR));
         let (value, expanded, factor) = (value?, expanded?, factor?);
         if expanded < 0.0 {
             let range = "at least 0";
-            let fault = Fault::OutOfRange { key: u.to_owned(), found: expanded, range };
-            self.log.report_at(self.place(row, u), fault);
+            let diagnostic =
+                DiagnosticKind::OutOfRange { key: u.to_owned(), found: expanded, range };
+            self.log.report_at(self.place(row, u), diagnostic);
             return None;
         }
         if factor <= 0.0 {
-            let fault = Fault::NotPositive { key: k.to_owned(), found: factor };
-            self.log.report_at(self.place(row, k), fault);
+            let diagnostic = DiagnosticKind::NotPositive { key: k.to_owned(), found: factor };
+            self.log.report_at(self.place(row, k), diagnostic);
             return None;
         }
         let rounding = [x, u].map(|column| half_unit(&self.cells.number(row, column)));
-        Some(Stated { value, expanded, factor, rounding })
+        Some(StatedResult { value, expanded, factor, rounding })
     }
 
     /// The run's result for a row: the output of that label, at the conditions of the row.
@@ -339,13 +343,13 @@ impl Reader<'_> {
         row: usize,
         answer: &answer::Answer,
         conditions: &[&str],
-    ) -> Option<Stated> {
+    ) -> Option<StatedResult> {
         let at: Vec<(&str, f64)> =
             conditions.iter().filter_map(|name| Some((*name, self.number(row, name)??))).collect();
         let found = answer.result(self.cells.text(row, "label"), &at);
         found
             .map_err(|reason| {
-                self.log.report_at(self.place(row, "label"), Fault::Table { reason });
+                self.log.report_at(self.place(row, "label"), DiagnosticKind::Table { reason });
             })
             .ok()
     }
@@ -366,7 +370,7 @@ fn half_unit(text: &str) -> f64 {
 mod tests {
     use super::*;
 
-    fn read(text: &str) -> Result<ComparisonTable, Problems> {
+    fn read(text: &str) -> Result<ComparisonTable, Diagnostics> {
         read_comparison_text("t.csv", text, ComparisonOptions::default())
     }
 

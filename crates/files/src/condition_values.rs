@@ -2,7 +2,7 @@
 
 use std::fmt::Debug;
 
-use super::Fault;
+use super::DiagnosticKind;
 use gumption_engine::model::formula::Formula;
 use gumption_units::Unit;
 
@@ -11,7 +11,7 @@ pub(super) trait ConditionValues: Debug {
     /// The number of rows.
     fn rows(&self) -> usize;
     /// Checks a formula of conditions for an estimate or width in `unit`.
-    fn check(&self, formula: &Formula, unit: &Unit) -> Result<(), Vec<Fault>>;
+    fn check(&self, formula: &Formula, unit: &Unit) -> Result<(), Vec<DiagnosticKind>>;
     /// The formula's value in SI in a row.
     fn value(&self, formula: &Formula, row: usize) -> f64;
     /// The place of a condition of that name.

@@ -4,10 +4,10 @@ use std::collections::HashMap;
 use std::ops::Range;
 use std::path::Path;
 
-use super::Fault;
+use super::DiagnosticKind;
+use super::diagnostics::Collector;
 use super::json::{Json, Member};
 use super::object::Object;
-use super::problem::Log;
 use super::table::{self, Table};
 use gumption_engine::model::Quantity;
 use gumption_engine::model::formula::{Formula, FormulaError, Scope};
@@ -72,7 +72,7 @@ impl Conditions {
 /// Reads `conditions`; paths are relative to `folder`. Conditions without values are columns of
 /// `data`, whose rows are then those of the conditions.
 pub(super) fn read(
-    log: &Log,
+    log: &Collector,
     member: &Member,
     folder: &Path,
     data: Option<&Table>,
@@ -83,7 +83,7 @@ pub(super) fn read(
         (Some(file), Some(_)) => {
             let reason = "the conditions of observations are columns of their table; in place of \
                           `file` give the columns by their names, with units";
-            log.report(&file.key_span, Fault::Observation { reason: reason.to_owned() });
+            log.report(&file.key_span, DiagnosticKind::Observation { reason: reason.to_owned() });
             None
         }
         (Some(file), None) => from_table(&object, file, folder),
@@ -101,9 +101,9 @@ pub(super) fn unit(object: &Object<'_>, key: &str) -> Option<Unit> {
     parse_unit(object.log, text, span)
 }
 
-fn parse_unit(log: &Log, text: &str, span: &Range<usize>) -> Option<Unit> {
+fn parse_unit(log: &Collector, text: &str, span: &Range<usize>) -> Option<Unit> {
     let parsed = Unit::parse(text);
-    log.value(span, parsed.map_err(|error| Fault::Unit { unit: text.to_owned(), error }))
+    log.value(span, parsed.map_err(|error| DiagnosticKind::Unit { unit: text.to_owned(), error }))
 }
 
 /// The conditions in the rows of the data.
@@ -123,7 +123,7 @@ fn columns_of(object: &Object<'_>, data: &Table) -> Option<Conditions> {
                  that name; take `values` out",
                 member.key
             );
-            log.report(&values.key_span, Fault::Observation { reason });
+            log.report(&values.key_span, DiagnosticKind::Observation { reason });
         }
         let place = data.columns.iter().position(|column| *column == member.key);
         if place.is_none() {
@@ -137,7 +137,7 @@ fn columns_of(object: &Object<'_>, data: &Table) -> Option<Conditions> {
                     None => format!("; its columns are {}", data.columns.join(", ")),
                 }
             );
-            log.report(&member.key_span, Fault::Table { reason });
+            log.report(&member.key_span, DiagnosticKind::Table { reason });
         }
         places.push(place);
         conditions.add(member, &condition);
@@ -166,23 +166,27 @@ fn grid(object: &Object<'_>) -> Option<Conditions> {
         let values = if condition.get("values").is_some() {
             condition.numbers("values")
         } else {
-            condition.report(Fault::NoTable { name: member.key.clone() });
+            condition.report(DiagnosticKind::NoTable { name: member.key.clone() });
             None
         };
         if values.as_ref().is_some_and(Vec::is_empty) {
-            condition.report(Fault::NoValues { name: member.key.clone() });
+            condition.report(DiagnosticKind::NoValues { name: member.key.clone() });
         }
         conditions.add(member, &condition);
         // one value in the place of none, so that the inputs are checked all the same
         axes.push(values.filter(|values| !values.is_empty()).unwrap_or_else(|| vec![1.0]));
     }
     if axes.is_empty() {
-        object.report(Fault::NoValues { name: "conditions".into() });
+        object.report(DiagnosticKind::NoValues { name: "conditions".into() });
     }
     let count = axes.iter().try_fold(1usize, |n, axis| n.checked_mul(axis.len()));
     let count = count.unwrap_or(usize::MAX);
     if count > MOST_ROWS {
-        object.report(Fault::TooMany { what: "rows of conditions", found: count, most: MOST_ROWS });
+        object.report(DiagnosticKind::TooMany {
+            what: "rows of conditions",
+            found: count,
+            most: MOST_ROWS,
+        });
         return None;
     }
     // the last condition is the fastest
@@ -217,7 +221,11 @@ fn from_table(object: &Object<'_>, file: &Member, folder: &Path) -> Option<Condi
     let (table, bytes) = table?;
     if table.rows.len() > MOST_ROWS {
         let found = table.rows.len();
-        object.report(Fault::TooMany { what: "rows of conditions", found, most: MOST_ROWS });
+        object.report(DiagnosticKind::TooMany {
+            what: "rows of conditions",
+            found,
+            most: MOST_ROWS,
+        });
         return None;
     }
     if let Some(units) = &units {
@@ -231,7 +239,7 @@ fn from_table(object: &Object<'_>, file: &Member, folder: &Path) -> Option<Condi
                     member.key,
                     nearest.map(|n| format!("; did you mean `{n}`?")).unwrap_or_default()
                 );
-                log.report(&member.key_span, Fault::Table { reason });
+                log.report(&member.key_span, DiagnosticKind::Table { reason });
             }
         }
     }
@@ -263,7 +271,7 @@ fn from_table(object: &Object<'_>, file: &Member, folder: &Path) -> Option<Condi
 fn only(object: &Object<'_>, member: &Member, mut table: Table) -> Option<Table> {
     let nodes = object.list("columns")?;
     if nodes.is_empty() {
-        object.log.report(&member.value.span, Fault::NoValues { name: "columns".into() });
+        object.log.report(&member.value.span, DiagnosticKind::NoValues { name: "columns".into() });
         return None;
     }
     let mut places = Vec::new();
@@ -271,13 +279,13 @@ fn only(object: &Object<'_>, member: &Member, mut table: Table) -> Option<Table>
         let Json::Text(name) = &node.value else {
             let (what, found) = ("`columns`".to_owned(), node.value.kind());
             let expected = "a list of names of columns";
-            object.log.report(&node.span, Fault::WrongType { what, found, expected });
+            object.log.report(&node.span, DiagnosticKind::WrongType { what, found, expected });
             return None;
         };
         match table.columns.iter().position(|column| *column == *name) {
             Some(place) if places.contains(&place) => {
                 let reason = format!("the column `{name}` is named twice");
-                object.log.report(&node.span, Fault::Table { reason });
+                object.log.report(&node.span, DiagnosticKind::Table { reason });
                 return None;
             }
             Some(place) => places.push(place),
@@ -285,7 +293,7 @@ fn only(object: &Object<'_>, member: &Member, mut table: Table) -> Option<Table>
                 let near = super::nearest(name, table.columns.iter().map(String::as_str));
                 let near = near.map(|near| format!("; did you mean `{near}`?")).unwrap_or_default();
                 let reason = format!("`{}` has no column `{name}`{near}", table.source.name);
-                object.log.report(&node.span, Fault::Table { reason });
+                object.log.report(&node.span, DiagnosticKind::Table { reason });
                 return None;
             }
         }
@@ -306,11 +314,11 @@ impl super::condition_values::ConditionValues for NoConditions {
         1
     }
 
-    fn check(&self, formula: &Formula, _: &Unit) -> Result<(), Vec<Fault>> {
-        let faults = |errors: Vec<FormulaError>| {
-            errors.into_iter().map(|error| Fault::Formula { error }).collect::<Vec<_>>()
+    fn check(&self, formula: &Formula, _: &Unit) -> Result<(), Vec<DiagnosticKind>> {
+        let kinds = |errors: Vec<FormulaError>| {
+            errors.into_iter().map(|error| DiagnosticKind::Formula { error }).collect::<Vec<_>>()
         };
-        formula.check_names(&Scope::new()).map(|_| ()).map_err(faults)
+        formula.check_names(&Scope::new()).map(|_| ()).map_err(kinds)
     }
 
     fn value(&self, formula: &Formula, _: usize) -> f64 {

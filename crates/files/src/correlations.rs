@@ -5,13 +5,13 @@ use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
 
-use super::Fault;
-use super::inputs::Inputs;
+use super::DiagnosticKind;
+use super::diagnostics::Collector;
+use super::input_set::InputSet;
 use super::json::{Json, Node};
 use super::links;
 use super::nearest::nearest;
 use super::object::Object;
-use super::problem::Log;
 use super::{sharing, table};
 use gumption_engine::distribution::{Correlation, CorrelationError, Distribution, Fits};
 use gumption_engine::task::Warning;
@@ -21,7 +21,7 @@ use gumption_engine::task::Warning;
 /// with them, with notes. Tables that were read are added to `files`.
 pub(super) fn read(
     root: &Object<'_>,
-    inputs: &Inputs,
+    inputs: &InputSet,
     rows: &Rows<'_>,
     folder: &Path,
     files: &mut Vec<(String, Vec<u8>)>,
@@ -57,8 +57,8 @@ pub(super) struct Rows<'a> {
 }
 
 struct Reader<'a> {
-    log: &'a Log,
-    inputs: &'a Inputs,
+    log: &'a Collector,
+    inputs: &'a InputSet,
     rows: &'a Rows<'a>,
     by_name: HashMap<&'a str, usize>,
     found: Vec<Correlation>,
@@ -88,7 +88,7 @@ impl Reader<'_> {
     fn wrong(&self, node: &Node) {
         let reason = "a correlation is a list of two names and a coefficient, such as \
                       [\"a\", \"b\", 0.5]";
-        self.log.report(&node.span, Fault::Correlation { reason: reason.to_owned() });
+        self.log.report(&node.span, DiagnosticKind::Correlation { reason: reason.to_owned() });
     }
 
     fn variable(&self, name: &str, span: &Range<usize>) -> Option<usize> {
@@ -99,7 +99,7 @@ impl Reader<'_> {
                 .filter(shown)
                 .filter_map(|v| self.inputs.variables.get(v).map(|v| v.name.as_str()));
             let nearest = nearest(name, names).map(str::to_owned);
-            self.log.report(span, Fault::NoSuchInput { name: name.to_owned(), nearest });
+            self.log.report(span, DiagnosticKind::NoSuchInput { name: name.to_owned(), nearest });
         }
         place
     }
@@ -112,7 +112,7 @@ impl Reader<'_> {
             format!("`{}` is correlated with itself", name(a))
         } else if links::is_linked(self.inputs, a, b) {
             let (first, second) = (name(a).to_owned(), name(b).to_owned());
-            self.log.report(span, Fault::SavedCorrelation { first, second });
+            self.log.report(span, DiagnosticKind::SavedCorrelation { first, second });
             return;
         } else if !self.pairs.insert((a.min(b), a.max(b))) {
             format!("the correlation of `{}` and `{}` is given twice", name(a), name(b))
@@ -121,12 +121,12 @@ impl Reader<'_> {
             self.places.push(span.clone());
             return;
         };
-        self.log.report(span, Fault::Correlation { reason });
+        self.log.report(span, DiagnosticKind::Correlation { reason });
     }
 
     fn matrix(
         &mut self,
-        log: &Log,
+        log: &Collector,
         member: &super::json::Member,
         folder: &Path,
         files: &mut Vec<(String, Vec<u8>)>,
@@ -174,7 +174,8 @@ impl Reader<'_> {
         place: &Range<usize>,
     ) {
         let n = names.len();
-        let report = |reason: String| self.log.report(place, Fault::Correlation { reason });
+        let report =
+            |reason: String| self.log.report(place, DiagnosticKind::Correlation { reason });
         if values.len() != n || values.iter().any(|row| row.len() != n) {
             return report(format!(
                 "the correlation matrix of {n} names must be {n} rows of {n} numbers"
@@ -222,7 +223,7 @@ impl Reader<'_> {
         for (pair, place, linked) in declared.chain(of_results) {
             let reason = sharing::contradiction(self.inputs, pair, linked, conditions, rows);
             if let Some(reason) = reason {
-                self.log.report(place, Fault::Correlation { reason });
+                self.log.report(place, DiagnosticKind::Correlation { reason });
                 alike = false;
             }
         }
@@ -254,7 +255,7 @@ impl Reader<'_> {
             };
             let place = self.found.iter().position(|c| error.concerns(c));
             let place = place.and_then(|p| self.places.get(p)).unwrap_or(root.place());
-            self.log.report(place, Fault::Correlation { reason: error.describe(&name) });
+            self.log.report(place, DiagnosticKind::Correlation { reason: error.describe(&name) });
         }
     }
 }

@@ -3,14 +3,14 @@
 use std::ops::Range;
 
 use super::conditions::NoConditions;
-use super::inputs::Inputs;
+use super::diagnostics::Collector;
+use super::input_set::InputSet;
 use super::json::{Json, Member};
-use super::model_file::report_formula;
 use super::nearest;
 use super::object::Object;
-use super::problem::Log;
 use super::results::Results;
-use super::{Fault, inputs};
+use super::scopes::report_formula;
+use super::{DiagnosticKind, inputs};
 use gumption_engine::distribution::Distribution;
 use gumption_engine::model::formula;
 use gumption_engine::model::formula::{Formula, FormulaError};
@@ -31,7 +31,7 @@ pub(super) struct Placed {
 /// Reads `effects` for a sim. Without one, because the model has mistakes, what does not depend on it
 /// is checked, and nothing is given.
 pub(super) fn read(
-    log: &Log,
+    log: &Collector,
     member: &Member,
     sim: Option<&Sim>,
     results: &Results<'_>,
@@ -49,7 +49,7 @@ pub(super) fn read(
 
 /// Reads one effect for a sim, as [`read`] does.
 pub(super) fn read_one(
-    log: &Log,
+    log: &Collector,
     member: &Member,
     sim: Option<&Sim>,
     results: &Results<'_>,
@@ -60,10 +60,13 @@ pub(super) fn read_one(
 }
 
 /// What the effects have in common: not too many, and no pair that needs each other.
-pub(super) fn check_together(log: &Log, placed: &[Placed], sim: &Sim) {
+pub(super) fn check_together(log: &Collector, placed: &[Placed], sim: &Sim) {
     if let Some(excess) = placed.get(MOST_EFFECTS) {
         let found = placed.len();
-        log.report(&excess.place, Fault::TooMany { what: "effects", found, most: MOST_EFFECTS });
+        log.report(
+            &excess.place,
+            DiagnosticKind::TooMany { what: "effects", found, most: MOST_EFFECTS },
+        );
         return;
     }
     // only overrides that act before the outputs, and read other quantities, can need each other
@@ -87,8 +90,8 @@ pub(super) fn check_together(log: &Log, placed: &[Placed], sim: &Sim) {
                     one.name,
                     in_a_circle(&circular)
                 );
-                let fault = Fault::Effect { name: other.name.clone(), reason };
-                log.report(&second.place, fault);
+                let diagnostic = DiagnosticKind::Effect { name: other.name.clone(), reason };
+                log.report(&second.place, diagnostic);
             }
         }
     }
@@ -101,7 +104,7 @@ fn in_a_circle(circular: &Circular) -> String {
 }
 
 struct Reader<'a> {
-    log: &'a Log,
+    log: &'a Collector,
     sim: Option<&'a Sim>,
     results: &'a Results<'a>,
     warnings: &'a mut Vec<Warning>,
@@ -111,11 +114,13 @@ impl Reader<'_> {
     fn effect(&mut self, member: &Member) -> Option<Candidate> {
         let object = Object::new(self.log, "an effect", &member.value, &member.key_span)?;
         object.check_keys(&["parameters", "overrides", "about", "source"]);
-        let fault =
-            |reason: &str| Fault::Effect { name: member.key.clone(), reason: reason.to_owned() };
+        let diagnostic = |reason: &str| DiagnosticKind::Effect {
+            name: member.key.clone(),
+            reason: reason.to_owned(),
+        };
         if member.key.is_empty() || member.key.contains(['/', '+']) {
             let reason = "cannot be called so: a name is not empty, and `/` and `+` join names in the answer";
-            self.log.report(&member.key_span, fault(reason));
+            self.log.report(&member.key_span, diagnostic(reason));
         }
         let parameters = object.required("parameters");
         let overrides = object.required("overrides");
@@ -123,7 +128,7 @@ impl Reader<'_> {
             Some(of) if matches!(&of.value.value, Json::Object(members) if members.is_empty()) => {
                 let reason = "has no parameters; its size must be a quantity with a prior \
                               distribution, or the data could not tell how large it is";
-                self.log.report(&of.value.span, fault(reason));
+                self.log.report(&of.value.span, diagnostic(reason));
                 None
             }
             Some(of) => inputs::read(self.log, of, &NoConditions, &[], self.results),
@@ -131,10 +136,10 @@ impl Reader<'_> {
         };
         let overrides = Object::new(self.log, "`overrides`", &overrides?.value, &member.key_span)?;
         if overrides.members().is_empty() {
-            overrides.report(fault("overrides nothing"));
+            overrides.report(diagnostic("overrides nothing"));
         }
         let inputs = inputs?;
-        self.parameters(parameters, &inputs, fault);
+        self.parameters(parameters, &inputs, diagnostic);
         let mut effect = Effect {
             name: member.key.clone(),
             parameters: inputs.quantities.iter().map(|input| input.quantity.clone()).collect(),
@@ -150,8 +155,8 @@ impl Reader<'_> {
         if let Err(circular) = self.sim?.program(&[&effect]) {
             let reason =
                 format!("overrides quantities that need each other: {}", in_a_circle(&circular));
-            let fault = Fault::Effect { name: effect.name.clone(), reason };
-            self.log.report(overrides.place(), fault);
+            let diagnostic = DiagnosticKind::Effect { name: effect.name.clone(), reason };
+            self.log.report(overrides.place(), diagnostic);
         }
         let priors: Vec<Distribution> = priors(&inputs).cloned().collect();
         (priors.len() == effect.parameters.len()).then(|| Candidate {
@@ -163,15 +168,20 @@ impl Reader<'_> {
     }
 
     /// What parameters must be beyond inputs: one unknown value each, and not all of them known.
-    fn parameters(&self, written: Option<&Member>, inputs: &Inputs, fault: impl Fn(&str) -> Fault) {
+    fn parameters(
+        &self,
+        written: Option<&Member>,
+        inputs: &InputSet,
+        diagnostic: impl Fn(&str) -> DiagnosticKind,
+    ) {
         for (quantity, place) in inputs.quantities.iter().zip(&inputs.quantity_places) {
             let name = &quantity.quantity.name;
             if quantity.parts != 1 {
                 let reason = "has a parameter with components; give it one distribution";
-                self.log.report(place, fault(reason));
+                self.log.report(place, diagnostic(reason));
             } else if let Err(error) = formula::check_name(name) {
                 let (name, reason) = (name.to_owned(), error.to_string());
-                self.log.report(place, Fault::BadName { name, reason });
+                self.log.report(place, DiagnosticKind::BadName { name, reason });
             }
         }
         let written: &[Member] = match written.map(|member| &member.value.value) {
@@ -187,7 +197,7 @@ impl Reader<'_> {
                          all rows, and has `unit`, `about` and a distribution",
                         field.key
                     );
-                    self.log.report(&field.key_span, fault(&reason));
+                    self.log.report(&field.key_span, diagnostic(&reason));
                 }
             }
         }
@@ -196,7 +206,7 @@ impl Reader<'_> {
         if let (true, Some(place)) = (known, inputs.quantity_places.first()) {
             let reason = "has only constant parameters; its size must be a quantity with a prior \
                           distribution, or the data could not tell how large it is";
-            self.log.report(place, fault(reason));
+            self.log.report(place, diagnostic(reason));
         }
     }
 
@@ -219,20 +229,20 @@ impl Reader<'_> {
             };
             format!("overrides `{name}`, which the sim does not have{hint}")
         };
-        let fault = Fault::Effect { name: effect.name.clone(), reason };
-        self.log.report(&member.key_span, fault);
+        let diagnostic = DiagnosticKind::Effect { name: effect.name.clone(), reason };
+        self.log.report(&member.key_span, diagnostic);
         false
     }
 
     /// An override's formula: its names must be known; a dimension that does not fit is a warning.
     fn formula(&mut self, member: &Member, effect: &Effect) -> Option<Formula> {
         let Json::Text(text) = &member.value.value else {
-            let fault = Fault::WrongType {
+            let diagnostic = DiagnosticKind::WrongType {
                 what: format!("`{}`", member.key),
                 found: member.value.value.kind(),
                 expected: "a formula in quotes",
             };
-            self.log.report(&member.value.span, fault);
+            self.log.report(&member.value.span, diagnostic);
             return None;
         };
         let report = |error: FormulaError| report_formula(self.log, member, error);
@@ -265,6 +275,6 @@ impl Reader<'_> {
 }
 
 /// What is known of the parameters beforehand.
-fn priors(inputs: &Inputs) -> impl Iterator<Item = &Distribution> {
+fn priors(inputs: &InputSet) -> impl Iterator<Item = &Distribution> {
     (0..inputs.variables.len()).filter_map(|v| inputs.known.get(v, 0).map(|prior| &**prior))
 }

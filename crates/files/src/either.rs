@@ -2,11 +2,12 @@
 
 use std::path::Path;
 
+use super::diagnostics::{Diagnostic, Diagnostics};
 use super::json::{self, Json};
-use super::model_file::{ModelFile, read_text, text_of};
-use super::problem::{Log, Problem, Problems};
+use super::model_file::{ModelFile, read_text};
+use super::open::open;
 use super::result_file::{ResultFile, read_result};
-use super::{Fault, Source};
+use super::{DiagnosticKind, SourceText};
 
 /// A model file or a result file that was read and found right.
 #[derive(Debug)]
@@ -31,16 +32,8 @@ impl ModelOrResult {
 ///
 /// # Errors
 /// All mistakes of the file, in the order of their places.
-pub fn read_either(path: &Path) -> Result<ModelOrResult, Problems> {
-    let name = path.display().to_string();
-    match text_of(path) {
-        Ok(text) => read_either_text(&name, &text, path.parent().unwrap_or_else(|| Path::new(""))),
-        Err(message) => {
-            let log = Log::new(Source::new(name, ""));
-            log.report(&(0..0), Fault::Unreadable { message });
-            Err(log.into_problems())
-        }
-    }
+pub fn read_either(path: &Path) -> Result<ModelOrResult, Diagnostics> {
+    open(path, read_either_text)
 }
 
 /// Reads and checks a text as [`read_either`] does a file; `folder` is where a model file's tables
@@ -48,8 +41,12 @@ pub fn read_either(path: &Path) -> Result<ModelOrResult, Problems> {
 ///
 /// # Errors
 /// All mistakes of the text, in the order of their places.
-pub fn read_either_text(name: &str, text: &str, folder: &Path) -> Result<ModelOrResult, Problems> {
-    let source = Source::new(name, text);
+pub fn read_either_text(
+    name: &str,
+    text: &str,
+    folder: &Path,
+) -> Result<ModelOrResult, Diagnostics> {
+    let source = SourceText::new(name, text);
     let is_result = json::parse(&source).is_ok_and(|node| match &node.value {
         Json::Object(members) => members.iter().any(|member| member.key == "result"),
         _ => false,
@@ -63,12 +60,12 @@ pub fn read_either_text(name: &str, text: &str, folder: &Path) -> Result<ModelOr
 
 impl ModelFile {
     /// A mistake at a key of the root, or at the file's beginning if it is not there.
-    pub fn problem_at(&self, key: &str, fault: Fault) -> Problems {
+    pub fn diagnostic_at(&self, key: &str, diagnostic: DiagnosticKind) -> Diagnostics {
         let member = json::parse(&self.source).ok().and_then(|node| match node.value {
             Json::Object(members) => members.into_iter().find(|member| member.key == key),
             _ => None,
         });
         let span = member.map_or(0..0, |member| member.key_span);
-        Problems(vec![Problem { source: self.source.clone(), span, fault }])
+        Diagnostics(vec![Diagnostic { source: self.source.clone(), span, kind: diagnostic }])
     }
 }

@@ -1,18 +1,17 @@
 //! The inputs of a file: quantities, their variables, and what is known about them in each row.
 
 use std::collections::HashSet;
-use std::ops::Range;
 use std::path::Path;
 
-use super::Fault;
+use super::DiagnosticKind;
 use super::condition_values::ConditionValues;
 use super::conditions::unit;
+use super::diagnostics::Collector;
+use super::input_set::InputSet;
 use super::json::{Json, Member};
-use super::known::Known;
-use super::model_file::Override;
 use super::object::Object;
+use super::overrides::Override;
 use super::paired;
-use super::problem::Log;
 use super::results::Results;
 use super::samples;
 use super::shapes::{self, Estimate, Fields, Kind};
@@ -28,30 +27,8 @@ const MOST_VARIABLES: usize = 100_000;
 /// Keys of any input or component beside those of its distribution.
 const COMMON: [&str; 6] = ["distribution", "about", "type", "group", "unit", "per"];
 
-/// What was read.
-#[derive(Debug, Default)]
-pub(super) struct Inputs {
-    pub(super) quantities: Vec<InputQuantity>,
-    pub variables: Vec<Variable>,
-    /// The key of each variable, for messages.
-    pub(super) places: Vec<Range<usize>>,
-    /// The key of each quantity.
-    pub(super) quantity_places: Vec<Range<usize>>,
-    /// What is known about the variables in each row.
-    pub(super) known: Known,
-    pub(super) warnings: Vec<Warning>,
-    /// Quantities whose unit could not be read: they fit every dimension.
-    pub(super) without_unit: Vec<String>,
-    /// The files of samples that were read: name and content.
-    pub(super) files: Vec<(String, Vec<u8>)>,
-    /// The variables whose readings are said to be paired.
-    pub(super) paired: Vec<usize>,
-    /// Readings that distributions are to be tested against.
-    pub(super) evidence: Vec<Evidence>,
-}
-
 /// Where a quantity's estimate comes from.
-enum Source {
+enum EstimateSource {
     Own,
     Fixed(f64),
     Formula(Formula),
@@ -59,19 +36,19 @@ enum Source {
 
 /// Reads `inputs`; saved results are looked up in `results`, and paths are relative to its folder.
 pub(super) fn read(
-    log: &Log,
+    log: &Collector,
     member: &Member,
     conditions: &dyn ConditionValues,
     overrides: &[Override],
     results: &Results<'_>,
-) -> Option<Inputs> {
+) -> Option<InputSet> {
     let object = Object::new(log, "`inputs`", &member.value, &member.key_span)?;
     let found = object.members().len();
     if found > MOST_VARIABLES {
-        object.report(Fault::TooMany { what: "inputs", found, most: MOST_VARIABLES });
+        object.report(DiagnosticKind::TooMany { what: "inputs", found, most: MOST_VARIABLES });
         return None;
     }
-    let mut inputs = Inputs::default();
+    let mut inputs = InputSet::default();
     for member in object.members() {
         if log.is_full() {
             break;
@@ -86,7 +63,7 @@ pub(super) fn read(
     let found = inputs.variables.len();
     if found > MOST_VARIABLES {
         let what = "inputs and components";
-        object.report(Fault::TooMany { what, found, most: MOST_VARIABLES });
+        object.report(DiagnosticKind::TooMany { what, found, most: MOST_VARIABLES });
         return None;
     }
     paired::apply(log, &mut inputs);
@@ -100,7 +77,7 @@ struct Reader<'a, 'i> {
     moved: Option<&'a Override>,
     folder: &'a Path,
     results: &'a Results<'a>,
-    inputs: &'i mut Inputs,
+    inputs: &'i mut InputSet,
 }
 
 impl<'a> Reader<'a, '_> {
@@ -139,44 +116,46 @@ impl<'a> Reader<'a, '_> {
     }
 
     /// The estimate's source: the command line, a formula of the conditions, or the own fields.
-    fn source(&self, key: &str, unit: &Unit) -> Option<Source> {
+    fn source(&self, key: &str, unit: &Unit) -> Option<EstimateSource> {
         if let Some(moved) = self.moved {
             let value = moved.value_in(unit);
-            return self.object.log.value(self.object.place(), value).map(Source::Fixed);
+            return self.object.log.value(self.object.place(), value).map(EstimateSource::Fixed);
         }
         let Some(member) = self.object.get(key) else {
-            return Some(Source::Own);
+            return Some(EstimateSource::Own);
         };
         let Json::Text(text) = &member.value.value else {
-            return Some(Source::Own);
+            return Some(EstimateSource::Own);
         };
         let log = self.object.log;
         let formula = log.value(
             &member.value.span,
-            Formula::parse(text).map_err(|error| Fault::Formula { error }),
+            Formula::parse(text).map_err(|error| DiagnosticKind::Formula { error }),
         )?;
-        if let Err(faults) = self.conditions.check(&formula, unit) {
-            for fault in faults {
-                log.report(&member.value.span, fault);
+        if let Err(kinds) = self.conditions.check(&formula, unit) {
+            for diagnostic in kinds {
+                log.report(&member.value.span, diagnostic);
             }
             return None;
         }
-        Some(Source::Formula(formula))
+        Some(EstimateSource::Formula(formula))
     }
 
     /// The estimate in a row, in the quantity's unit.
-    fn estimate(&self, source: &Source, unit: &Unit, row: usize) -> Option<Estimate> {
+    fn estimate(&self, source: &EstimateSource, unit: &Unit, row: usize) -> Option<Estimate> {
         let value = match source {
-            Source::Own => return Some(Estimate::Own),
-            Source::Fixed(value) => *value,
-            Source::Formula(formula) => unit.from_si(self.conditions.value(formula, row)),
+            EstimateSource::Own => return Some(Estimate::Own),
+            EstimateSource::Fixed(value) => *value,
+            EstimateSource::Formula(formula) => unit.from_si(self.conditions.value(formula, row)),
         };
         if value.is_finite() {
             return Some(Estimate::Given(value));
         }
         let place = self.object.get("mean").or_else(|| self.object.get("value"));
         let place = place.map_or(self.object.place(), |member| &member.value.span);
-        self.object.log.report(place, Fault::EstimateUndefined { row: row + 1, found: value });
+        self.object
+            .log
+            .report(place, DiagnosticKind::EstimateUndefined { row: row + 1, found: value });
         None
     }
 
@@ -211,7 +190,7 @@ impl<'a> Reader<'a, '_> {
         let mut zero_width = Vec::new();
         let mut drawn: Vec<Distribution> = Vec::new();
         let differs =
-            matches!(source, Source::Formula(_)) || shapes::has_width_of_row(&object, kind);
+            matches!(source, EstimateSource::Formula(_)) || shapes::has_width_of_row(&object, kind);
         for row in 0..if differs { self.conditions.rows() } else { 1 } {
             let estimate = self.estimate(&source, unit, row);
             let Some(distribution) = estimate.and_then(|e| fields(e, row).distribution(kind))
@@ -259,7 +238,7 @@ impl<'a> Reader<'a, '_> {
             return;
         };
         if readings.is_empty() {
-            log.report(place, Fault::NoValues { name });
+            log.report(place, DiagnosticKind::NoValues { name });
             return;
         }
         let variable = self.inputs.variables.len();
@@ -286,13 +265,13 @@ impl<'a> Reader<'a, '_> {
             None if readings => Evaluation::A,
             None => Evaluation::B,
             Some(other) => {
-                let fault = Fault::NotOneOf {
+                let diagnostic = DiagnosticKind::NotOneOf {
                     key: "type".into(),
                     found: other.to_owned(),
                     allowed: vec!["A".into(), "B".into()],
                 };
                 let place = object.get("type").map_or(object.place(), |m| &m.value.span);
-                object.log.report(place, fault);
+                object.log.report(place, diagnostic);
                 Evaluation::B
             }
         };
@@ -320,11 +299,14 @@ impl<'a> Reader<'a, '_> {
                 None => {
                     let mut allowed = self.conditions.names();
                     allowed.push("row".to_owned());
-                    let fault =
-                        Fault::NotOneOf { key: "per".into(), found: name.to_owned(), allowed };
+                    let diagnostic = DiagnosticKind::NotOneOf {
+                        key: "per".into(),
+                        found: name.to_owned(),
+                        allowed,
+                    };
                     let place =
                         self.object.get("per").map_or(self.object.place(), |m| &m.value.span);
-                    self.object.log.report(place, fault);
+                    self.object.log.report(place, diagnostic);
                     Sharing::All
                 }
             },
@@ -349,16 +331,19 @@ impl<'a> Reader<'a, '_> {
         let readings: Vec<&Part<'_>> = parts.iter().filter(|p| p.kind.name == "readings").collect();
         if readings.len() > 1 {
             let reason = "is a second one of `readings`; at most one can be".to_owned();
-            object.report(Fault::Component { name: self.name.to_owned(), reason });
+            object.report(DiagnosticKind::Component { name: self.name.to_owned(), reason });
             return;
         }
         let own_mean = match (&source, object.get("mean")) {
-            (Source::Own, Some(_)) => match object.number("mean") {
+            (EstimateSource::Own, Some(_)) => match object.number("mean") {
                 Some(mean) => Some(mean),
                 None => return,
             },
-            (Source::Own, None) if readings.is_empty() => {
-                object.report(Fault::MissingKey { key: "mean", what: "an input with components" });
+            (EstimateSource::Own, None) if readings.is_empty() => {
+                object.report(DiagnosticKind::MissingKey {
+                    key: "mean",
+                    what: "an input with components",
+                });
                 return;
             }
             _ => None,
@@ -371,7 +356,7 @@ impl<'a> Reader<'a, '_> {
                 Some(None) => return,
                 None => 0.0,
             };
-        let differs = matches!(source, Source::Formula(_))
+        let differs = matches!(source, EstimateSource::Formula(_))
             || parts.iter().any(|part| shapes::has_width_of_row(&part.object, part.kind));
         let mut drawn: Vec<Vec<Distribution>> = vec![Vec::new(); 1 + parts.len()];
         for row in 0..if differs { self.conditions.rows() } else { 1 } {
@@ -384,8 +369,9 @@ impl<'a> Reader<'a, '_> {
                 .iter()
                 .map(|part| part.distribution(unit, total, self.results, at(row)))
                 .collect();
-            let base = Constant::new(total - of_readings)
-                .map_err(|error| Fault::Distribution { name: self.name.to_owned(), error });
+            let base = Constant::new(total - of_readings).map_err(|error| {
+                DiagnosticKind::Distribution { name: self.name.to_owned(), error }
+            });
             let base = object.log.value(object.place(), base);
             let (Some(of_parts), Some(base)) = (of_parts, base) else {
                 return;
@@ -412,13 +398,14 @@ impl<'a> Reader<'a, '_> {
         let list = object.list("components")?;
         if list.len() > MOST_VARIABLES {
             let (what, found) = ("components", list.len());
-            object.report(Fault::TooMany { what, found, most: MOST_VARIABLES });
+            object.report(DiagnosticKind::TooMany { what, found, most: MOST_VARIABLES });
             return None;
         }
         let quantity = self.name;
-        let fault = |reason: String| Fault::Component { name: quantity.to_owned(), reason };
+        let diagnostic =
+            |reason: String| DiagnosticKind::Component { name: quantity.to_owned(), reason };
         if list.is_empty() {
-            object.report(Fault::NoValues { name: format!("{}/components", self.name) });
+            object.report(DiagnosticKind::NoValues { name: format!("{}/components", self.name) });
         }
         let mut parts: Vec<Part<'a>> = Vec::new();
         let mut names: HashSet<String> = HashSet::new();
@@ -431,15 +418,15 @@ impl<'a> Reader<'a, '_> {
             };
             let Some(name) = component.text("name") else {
                 if component.get("name").is_none() {
-                    component.report(fault("needs a `name`".to_owned()));
+                    component.report(diagnostic("needs a `name`".to_owned()));
                 }
                 continue;
             };
             let full = format!("{}/{name}", self.name);
             if name.is_empty() || name.contains('/') {
-                component.report(fault(format!("cannot have the name `{name}`")));
+                component.report(diagnostic(format!("cannot have the name `{name}`")));
             } else if !names.insert(full.clone()) {
-                component.report(fault(format!("has the name `{name}` of another one")));
+                component.report(diagnostic(format!("has the name `{name}` of another one")));
             } else if let Some(kind) = shapes::kind(&component) {
                 let mut known: Vec<&str> = vec!["name", "distribution", "about", "type", "group"];
                 known.extend(kind.fields);

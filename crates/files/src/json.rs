@@ -9,8 +9,8 @@ use jsonc_parser::common::Ranged;
 use jsonc_parser::{CollectOptions, ParseOptions, parse_to_ast};
 use serde::de::{Deserialize, Deserializer, MapAccess, SeqAccess, Visitor};
 
-use super::Fault;
-use super::source::Source;
+use super::DiagnosticKind;
+use super::source::SourceText;
 
 /// A value with its place.
 #[derive(Clone, Debug, PartialEq)]
@@ -64,9 +64,9 @@ impl Node {
 
 /// Parses a whole text.
 #[allow(clippy::result_large_err)] // once for a file
-pub(crate) fn parse(source: &Source) -> Result<Node, (Range<usize>, Fault)> {
+pub(crate) fn parse(source: &SourceText) -> Result<Node, (Range<usize>, DiagnosticKind)> {
     if source.text.trim().is_empty() {
-        return Err((0..0, Fault::Empty));
+        return Err((0..0, DiagnosticKind::Empty));
     }
     if let Err(error) = serde_json::from_str::<Checked>(&source.text) {
         return Err(syntax(source, &error));
@@ -86,9 +86,9 @@ pub(crate) fn parse(source: &Source) -> Result<Node, (Range<usize>, Fault)> {
     let parsed = parse_to_ast(&source.text, &CollectOptions::default(), &strict);
     match parsed.map(|parsed| parsed.value) {
         Ok(Some(value)) => Ok(node(value)),
-        Ok(None) => Err((0..0, Fault::Empty)),
+        Ok(None) => Err((0..0, DiagnosticKind::Empty)),
         // both parsers are strict, so this is not expected
-        Err(error) => Err((0..0, Fault::NotJson { message: error.to_string() })),
+        Err(error) => Err((0..0, DiagnosticKind::NotJson { message: error.to_string() })),
     }
 }
 
@@ -144,7 +144,7 @@ impl<'de> Visitor<'de> for Checked {
 }
 
 /// The parser's message without its place, and the place as a range.
-fn syntax(source: &Source, error: &serde_json::Error) -> (Range<usize>, Fault) {
+fn syntax(source: &SourceText, error: &serde_json::Error) -> (Range<usize>, DiagnosticKind) {
     let full = error.to_string();
     let message = full.split(" at line ").next().unwrap_or(&full).to_owned();
     let start = source.line_start(error.line());
@@ -163,12 +163,12 @@ fn syntax(source: &Source, error: &serde_json::Error) -> (Range<usize>, Fault) {
     let bare = source.text.get(whole.clone()).unwrap_or("").trim_start_matches(['-', '+']);
     let not_finite = ["NaN", "nan", "Inf", "inf"].iter().any(|name| bare.starts_with(name));
     if not_finite {
-        (whole, Fault::NotFiniteInJson)
+        (whole, DiagnosticKind::NotFiniteInJson)
     } else if message.contains("number out of range") {
-        (whole, Fault::NumberTooLarge)
+        (whole, DiagnosticKind::NumberTooLarge)
     } else {
         let message = in_plain_words(&message, first);
-        (at..at + first.map_or(0, char::len_utf8), Fault::NotJson { message })
+        (at..at + first.map_or(0, char::len_utf8), DiagnosticKind::NotJson { message })
     }
 }
 
@@ -242,15 +242,15 @@ fn member(property: ast::ObjectProp<'_>) -> Member {
 mod tests {
     use super::*;
 
-    fn at(text: &str) -> (String, Fault) {
-        let source = Source::new("x", text);
-        let (span, fault) = parse(&source).unwrap_err();
-        (source.text[span].to_owned(), fault)
+    fn at(text: &str) -> (String, DiagnosticKind) {
+        let source = SourceText::new("x", text);
+        let (span, diagnostic) = parse(&source).unwrap_err();
+        (source.text[span].to_owned(), diagnostic)
     }
 
     #[test]
     fn values_know_their_places() {
-        let source = Source::new("x", r#"{"a": [1, {"b": "ü"}]}"#);
+        let source = SourceText::new("x", r#"{"a": [1, {"b": "ü"}]}"#);
         let node = parse(&source).unwrap();
         let Json::Object(members) = &node.value else { panic!() };
         assert_eq!(&source.text[members[0].key_span.clone()], "\"a\"");
@@ -260,13 +260,13 @@ mod tests {
 
     #[test]
     fn mistakes_of_syntax() {
-        assert_eq!(at("  \n "), (String::new(), Fault::Empty));
-        assert!(matches!(at("{\"a\": 1,}").1, Fault::NotJson { .. }));
-        assert_eq!(at("{\"a\": NaN}").1, Fault::NotFiniteInJson);
-        assert_eq!(at("{\"a\": -Infinity}").1, Fault::NotFiniteInJson);
-        assert_eq!(at("{\"a\": 1e999}").1, Fault::NumberTooLarge);
+        assert_eq!(at("  \n "), (String::new(), DiagnosticKind::Empty));
+        assert!(matches!(at("{\"a\": 1,}").1, DiagnosticKind::NotJson { .. }));
+        assert_eq!(at("{\"a\": NaN}").1, DiagnosticKind::NotFiniteInJson);
+        assert_eq!(at("{\"a\": -Infinity}").1, DiagnosticKind::NotFiniteInJson);
+        assert_eq!(at("{\"a\": 1e999}").1, DiagnosticKind::NumberTooLarge);
         let deep = "[".repeat(100_000);
-        assert!(matches!(at(&deep).1, Fault::NotJson { .. }));
+        assert!(matches!(at(&deep).1, DiagnosticKind::NotJson { .. }));
         assert_eq!(at("[-Infinity]").0, "-Infinity");
         assert_eq!(at("[1e999, 2]").0, "1e999");
     }

@@ -1,6 +1,6 @@
 //! The dependence of inputs that come from saved results.
 
-use super::inputs::Inputs;
+use super::input_set::InputSet;
 use gumption_engine::distribution::{Correlation, SavedResult};
 use gumption_engine::task::Warning;
 
@@ -9,7 +9,7 @@ const NAMED: usize = 6;
 
 /// The coefficients between inputs that are outputs of one result file, or that go back to common
 /// inputs, and notes on what is kept and what cannot be.
-pub(super) fn links(inputs: &Inputs) -> (Vec<Correlation>, Vec<Warning>) {
+pub(super) fn links(inputs: &InputSet) -> (Vec<Correlation>, Vec<Warning>) {
     let (mut found, mut warnings) = (Vec::new(), Vec::new());
     let saved = |q: usize| Some((q, inputs.known.get(q, 0)?.saved()?));
     let saved: Vec<(usize, &SavedResult)> = (0..inputs.variables.len()).filter_map(saved).collect();
@@ -83,7 +83,7 @@ fn may_depend(a: &SavedResult, b: &SavedResult) -> bool {
 }
 
 /// The pairs of variables whose dependence comes from saved results.
-pub(super) fn pairs(inputs: &Inputs) -> Vec<(usize, usize)> {
+pub(super) fn pairs(inputs: &InputSet) -> Vec<(usize, usize)> {
     let saved = |q: usize| Some((q, inputs.known.get(q, 0)?.saved()?));
     let saved: Vec<(usize, &SavedResult)> = (0..inputs.variables.len()).filter_map(saved).collect();
     let before = |place: usize| saved.iter().take(place);
@@ -92,7 +92,7 @@ pub(super) fn pairs(inputs: &Inputs) -> Vec<(usize, usize)> {
 }
 
 /// Whether the dependence of two variables comes from saved results.
-pub(super) fn is_linked(inputs: &Inputs, first: usize, second: usize) -> bool {
+pub(super) fn is_linked(inputs: &InputSet, first: usize, second: usize) -> bool {
     let saved = |q: usize| inputs.known.get(q, 0).and_then(|d| d.saved());
     saved(first).zip(saved(second)).is_some_and(|(a, b)| a.is_linked(b))
 }

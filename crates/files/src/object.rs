@@ -3,15 +3,15 @@
 use std::collections::HashSet;
 use std::ops::Range;
 
-use super::Fault;
+use super::DiagnosticKind;
+use super::diagnostics::Collector;
 use super::json::{Json, Member, Node};
 use super::nearest::nearest;
-use super::problem::Log;
 
 /// An object that is being read.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Object<'a> {
-    pub(crate) log: &'a Log,
+    pub(crate) log: &'a Collector,
     /// What it is, for messages.
     what: &'static str,
     members: &'a [Member],
@@ -22,7 +22,7 @@ pub(crate) struct Object<'a> {
 impl<'a> Object<'a> {
     /// The object at `node`; `place` is the key that it belongs to.
     pub(crate) fn new(
-        log: &'a Log,
+        log: &'a Collector,
         what: &'static str,
         node: &'a Node,
         place: &'a Range<usize>,
@@ -30,7 +30,7 @@ impl<'a> Object<'a> {
         let Json::Object(members) = &node.value else {
             log.report(
                 &node.span,
-                Fault::WrongType {
+                DiagnosticKind::WrongType {
                     what: what.into(),
                     found: node.value.kind(),
                     expected: "an object",
@@ -41,7 +41,10 @@ impl<'a> Object<'a> {
         let mut seen = HashSet::new();
         for member in members {
             if !seen.insert(member.key.as_str()) {
-                log.report(&member.key_span, Fault::DuplicateKey { key: member.key.clone() });
+                log.report(
+                    &member.key_span,
+                    DiagnosticKind::DuplicateKey { key: member.key.clone() },
+                );
             }
         }
         Some(Self { log, what, members, place })
@@ -55,8 +58,8 @@ impl<'a> Object<'a> {
         self.place
     }
 
-    pub(crate) fn report(&self, fault: Fault) {
-        self.log.report(self.place, fault);
+    pub(crate) fn report(&self, diagnostic: DiagnosticKind) {
+        self.log.report(self.place, diagnostic);
     }
 
     /// Reports every key that is not among `known`; keys that begin with `$` belong to editors.
@@ -65,7 +68,7 @@ impl<'a> Object<'a> {
             if !known.contains(&member.key.as_str()) && !member.key.starts_with('$') {
                 self.log.report(
                     &member.key_span,
-                    Fault::UnknownKey {
+                    DiagnosticKind::UnknownKey {
                         key: member.key.clone(),
                         what: self.what,
                         nearest: nearest(&member.key, known.iter().copied()).map(str::to_owned),
@@ -85,7 +88,7 @@ impl<'a> Object<'a> {
     pub(crate) fn required(&self, key: &'static str) -> Option<&'a Member> {
         let member = self.get(key);
         if member.is_none() {
-            self.report(Fault::MissingKey { key, what: self.what });
+            self.report(DiagnosticKind::MissingKey { key, what: self.what });
         }
         member
     }
@@ -95,7 +98,7 @@ impl<'a> Object<'a> {
     pub(crate) fn needed(&self, key: &'static str) -> Option<&'a Member> {
         let member = self.get(key);
         if member.is_none() {
-            self.report(Fault::MissingKey { key, what: self.what });
+            self.report(DiagnosticKind::MissingKey { key, what: self.what });
         }
         member
     }
@@ -103,7 +106,7 @@ impl<'a> Object<'a> {
     fn wrong_type(&self, member: &Member, expected: &'static str) {
         self.log.report(
             &member.value.span,
-            Fault::WrongType {
+            DiagnosticKind::WrongType {
                 what: format!("`{}`", member.key),
                 found: member.value.value.kind(),
                 expected,
@@ -167,7 +170,7 @@ impl<'a> Object<'a> {
                 if number.is_none() {
                     self.log.report(
                         &node.span,
-                        Fault::WrongType {
+                        DiagnosticKind::WrongType {
                             what: format!("an element of `{key}`"),
                             found: node.value.kind(),
                             expected: "a number",
@@ -191,7 +194,7 @@ impl<'a> Object<'a> {
         if whole.is_none() {
             self.log.report(
                 &member.value.span,
-                Fault::NotWhole { key: key.into(), found: text.clone(), least, most },
+                DiagnosticKind::NotWhole { key: key.into(), found: text.clone(), least, most },
             );
         }
         whole

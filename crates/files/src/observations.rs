@@ -5,11 +5,11 @@ use std::path::Path;
 
 use nalgebra::DMatrix;
 
-use super::Fault;
+use super::DiagnosticKind;
+use super::diagnostics::Collector;
 use super::json::{Json, Member};
 use super::nearest;
 use super::object::Object;
-use super::problem::Log;
 use super::source::Place;
 use super::table::{self, Table};
 use gumption_gap::Observed;
@@ -34,7 +34,7 @@ pub(super) struct Column {
 }
 
 /// Reads `observations`; paths are relative to `folder`.
-pub(super) fn read(log: &Log, member: &Member, folder: &Path) -> Option<Observations> {
+pub(super) fn read(log: &Collector, member: &Member, folder: &Path) -> Option<Observations> {
     let object = Object::new(log, "`observations`", &member.value, &member.key_span)?;
     object.check_keys(&["file", "columns"]);
     let file = object.required("file")?;
@@ -47,7 +47,7 @@ pub(super) fn read(log: &Log, member: &Member, folder: &Path) -> Option<Observat
     let read: Vec<Option<Column>> =
         columns.members().iter().map(|member| reader.column(member, &mut files)).collect();
     if read.is_empty() {
-        columns.report(Fault::NoValues { name: "columns".into() });
+        columns.report(DiagnosticKind::NoValues { name: "columns".into() });
         return None;
     }
     let read = read.into_iter().collect::<Option<Vec<_>>>()?;
@@ -57,7 +57,7 @@ pub(super) fn read(log: &Log, member: &Member, folder: &Path) -> Option<Observat
 
 /// A column of the data says one thing: it holds measured values, uncertainties or a simulation of
 /// one output.
-fn once_each(log: &Log, outputs: &[Member]) {
+fn once_each(log: &Collector, outputs: &[Member]) {
     let mut known: Vec<(&str, &str, &str)> = Vec::new();
     for output in outputs {
         let Json::Object(fields) = &output.value.value else { continue };
@@ -71,7 +71,7 @@ fn once_each(log: &Log, outputs: &[Member]) {
                     "the column `{column}` is `{key}` of `{of}` already, and cannot be `{}` of `{}`",
                     field.key, output.key
                 );
-                log.report(&field.value.span, Fault::Observation { reason });
+                log.report(&field.value.span, DiagnosticKind::Observation { reason });
             }
             known.push((column, &output.key, &field.key));
         }
@@ -79,7 +79,7 @@ fn once_each(log: &Log, outputs: &[Member]) {
 }
 
 struct Reader<'a> {
-    log: &'a Log,
+    log: &'a Collector,
     folder: &'a Path,
     table: &'a Table,
 }
@@ -106,14 +106,14 @@ impl Reader<'_> {
         for key in ["sim_standard_uncertainty", "sim_covariance"] {
             if let (None, Some(member)) = (object.get("sim"), object.get(key)) {
                 let reason = format!("`{key}` belongs to the column that `sim` names");
-                self.log.report(&member.key_span, Fault::Observation { reason });
+                self.log.report(&member.key_span, DiagnosticKind::Observation { reason });
             }
         }
         if object.get("sim_standard_uncertainty").is_some()
             && let Some(member) = object.get("sim_covariance")
         {
             let (first, second) = ("sim_standard_uncertainty", "sim_covariance");
-            self.log.report(&member.key_span, Fault::Exclusive { first, second });
+            self.log.report(&member.key_span, DiagnosticKind::Exclusive { first, second });
         }
         Some(Column {
             output: member.key.clone(),
@@ -146,7 +146,7 @@ impl Reader<'_> {
             }
         );
         let span = object.get(key).map_or(object.place(), |member| &member.value.span);
-        self.log.report(span, Fault::Table { reason });
+        self.log.report(span, DiagnosticKind::Table { reason });
         None
     }
 
@@ -169,7 +169,7 @@ impl Reader<'_> {
             };
             let column = object.text(key).unwrap_or_default();
             let place = self.place_of(column, row);
-            self.log.report_at(place, Fault::Observation { reason });
+            self.log.report_at(place, DiagnosticKind::Observation { reason });
             return None;
         }
         Some(Some(values))
@@ -212,7 +212,7 @@ impl Reader<'_> {
                 matrix.columns.len(),
                 if square { " and is not symmetric" } else { "" },
             );
-            self.log.report(&member.value.span, Fault::Observation { reason });
+            self.log.report(&member.value.span, DiagnosticKind::Observation { reason });
             return None;
         }
         if !is_covariance(&matrix.rows) {
@@ -220,7 +220,7 @@ impl Reader<'_> {
                 "the matrix `{name}` is no covariance matrix: with some weights the variance of the \
                  rows' weighted sum would be negative"
             );
-            self.log.report(&member.value.span, Fault::Observation { reason });
+            self.log.report(&member.value.span, DiagnosticKind::Observation { reason });
             return None;
         }
         Some(Some(matrix.rows))

@@ -3,11 +3,11 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use super::Fault;
+use super::DiagnosticKind;
 use super::conditions::unit;
+use super::diagnostics::Collector;
 use super::json::{Json, Member};
 use super::object::Object;
-use super::problem::Log;
 use super::results::Results;
 use super::shapes::{self, Estimate, Fields};
 use super::width::Width;
@@ -26,11 +26,19 @@ pub(super) struct Outputs {
     pub(super) without_unit: Vec<String>,
 }
 
+impl Outputs {
+    /// The outputs with the places of their names and units.
+    pub(super) fn each(&self) -> impl Iterator<Item = (&Output, &Range<usize>, &Range<usize>)> {
+        let places = self.places.iter().zip(&self.unit_places);
+        self.outputs.iter().zip(places).map(|(output, (place, unit))| (output, place, unit))
+    }
+}
+
 /// Reads `outputs`.
-pub(super) fn read(log: &Log, member: &Member, results: &Results<'_>) -> Option<Outputs> {
+pub(super) fn read(log: &Collector, member: &Member, results: &Results<'_>) -> Option<Outputs> {
     let object = Object::new(log, "`outputs`", &member.value, &member.key_span)?;
     if object.members().is_empty() {
-        object.report(Fault::NoValues { name: "outputs".into() });
+        object.report(DiagnosticKind::NoValues { name: "outputs".into() });
     }
     let mut outputs = Outputs::default();
     for member in object.members().iter().take_while(|_| !log.is_full()) {
@@ -42,8 +50,8 @@ pub(super) fn read(log: &Log, member: &Member, results: &Results<'_>) -> Option<
         if let (Some(period), Some(member)) = (period, object.get("periodic"))
             && period <= 0.0
         {
-            let fault = Fault::NotPositive { key: "periodic".into(), found: period };
-            log.report(&member.value.span, fault);
+            let diagnostic = DiagnosticKind::NotPositive { key: "periodic".into(), found: period };
+            log.report(&member.value.span, diagnostic);
         }
         let unit = unit(&object, "unit").unwrap_or_else(|| {
             outputs.without_unit.push(member.key.clone());
@@ -70,8 +78,8 @@ pub(super) fn capability(output: &Object<'_>, name: &str, unit: &Unit) -> Option
     let floor = output.truth("cmc_floor").unwrap_or(false);
     let Some(member) = output.get("cmc") else {
         if let Some(floor) = output.get("cmc_floor") {
-            let fault = Fault::OnlyWith { key: "cmc_floor", with: "cmc" };
-            output.log.report(&floor.key_span, fault);
+            let diagnostic = DiagnosticKind::OnlyWith { key: "cmc_floor", with: "cmc" };
+            output.log.report(&floor.key_span, diagnostic);
         }
         return None;
     };
@@ -106,8 +114,8 @@ impl Decision {
             && !(risk > 0.0 && risk < 0.5)
         {
             let range = "above 0 and below 0.5";
-            let fault = Fault::OutOfRange { key: "risk".into(), found: risk, range };
-            object.log.report(&member.value.span, fault);
+            let diagnostic = DiagnosticKind::OutOfRange { key: "risk".into(), found: risk, range };
+            object.log.report(&member.value.span, diagnostic);
         }
         let prior = prior(&object, unit, results).map(Arc::new);
         Self { tolerance: tolerance(&object), prior, risk }
@@ -121,13 +129,13 @@ fn prior(tolerance: &Object<'_>, unit: &Unit, results: &Results<'_>) -> Option<D
     let kind = shapes::kind(&object)?;
     if NO_PRIORS.contains(&kind.name) {
         let allowed = shapes::KINDS.iter().map(|kind| kind.name);
-        let fault = Fault::NotOneOf {
+        let diagnostic = DiagnosticKind::NotOneOf {
             key: "distribution".into(),
             found: kind.name.to_owned(),
             allowed: allowed.filter(|name| !NO_PRIORS.contains(name)).map(str::to_owned).collect(),
         };
         let place = object.get("distribution").map_or(object.place(), |m| &m.value.span);
-        object.log.report(place, fault);
+        object.log.report(place, diagnostic);
         return None;
     }
     let mut known = vec!["distribution", "about"];
@@ -148,12 +156,12 @@ fn tolerance(object: &Object<'_>) -> Option<Tolerance> {
     let (lower, upper) = (limit("lower"), limit("upper"));
     match (lower, upper) {
         (None, None) => {
-            object.report(Fault::NoValues { name: "tolerance".into() });
+            object.report(DiagnosticKind::NoValues { name: "tolerance".into() });
             None
         }
         (Some(lower), Some(upper)) if lower >= upper => {
             let error = Invalid::LimitsReversed { lower, upper };
-            object.report(Fault::Distribution { name: "tolerance".into(), error });
+            object.report(DiagnosticKind::Distribution { name: "tolerance".into(), error });
             None
         }
         _ => Some(Tolerance { lower, upper }),

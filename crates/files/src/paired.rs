@@ -1,13 +1,13 @@
 //! Readings that belong together: `"paired": true`.
 
-use super::Fault;
-use super::inputs::Inputs;
-use super::problem::Log;
+use super::DiagnosticKind;
+use super::diagnostics::Collector;
+use super::input_set::InputSet;
 use gumption_engine::distribution::{Distribution, Readings};
 
 /// Makes ensembles of the paired readings, all those of equal length one. The variables must be
 /// complete in every row; else a mistake has been reported already.
-pub(super) fn apply(log: &Log, inputs: &mut Inputs) {
+pub(super) fn apply(log: &Collector, inputs: &mut InputSet) {
     if !inputs.known.is_complete(inputs.variables.len()) {
         return;
     }
@@ -24,9 +24,9 @@ pub(super) fn apply(log: &Log, inputs: &mut Inputs) {
         }
     }
     for (length, members) in &ensembles {
-        if let Some((variable, fault)) = mistake(inputs, *length, members) {
+        if let Some((variable, diagnostic)) = mistake(inputs, *length, members) {
             if let Some(place) = inputs.places.get(variable) {
-                log.report(place, fault);
+                log.report(place, diagnostic);
             }
             continue;
         }
@@ -42,8 +42,8 @@ pub(super) fn apply(log: &Log, inputs: &mut Inputs) {
     }
 }
 
-/// Why these variables, read `length` times each, cannot be an ensemble, and the one at fault.
-fn mistake(inputs: &Inputs, length: usize, members: &[usize]) -> Option<(usize, Fault)> {
+/// Why these variables, read `length` times each, cannot be an ensemble, and the one at diagnostic.
+fn mistake(inputs: &InputSet, length: usize, members: &[usize]) -> Option<(usize, DiagnosticKind)> {
     let name = |v: usize| inputs.variables.get(v).map_or("", |variable| variable.name.as_str());
     let (&first, others) = members.split_first()?;
     if others.is_empty() {
@@ -59,7 +59,7 @@ fn mistake(inputs: &Inputs, length: usize, members: &[usize]) -> Option<(usize, 
                 name(first)
             )
         };
-        return Some((first, Fault::Correlation { reason }));
+        return Some((first, DiagnosticKind::Correlation { reason }));
     }
     let sharing = |v: usize| inputs.variables.get(v).map(|variable| &variable.sharing);
     if let Some(&other) = others.iter().find(|&&other| sharing(other) != sharing(first)) {
@@ -68,13 +68,13 @@ fn mistake(inputs: &Inputs, length: usize, members: &[usize]) -> Option<(usize, 
             name(first),
             name(other)
         );
-        return Some((other, Fault::Correlation { reason }));
+        return Some((other, DiagnosticKind::Correlation { reason }));
     }
     let Distribution::Readings(readings) = &**inputs.known.get(first, 0)? else {
         return None;
     };
     let error = Readings::clone(readings).paired(members.len()).err()?;
-    Some((first, Fault::Distribution { name: name(first).to_owned(), error }))
+    Some((first, DiagnosticKind::Distribution { name: name(first).to_owned(), error }))
 }
 
 #[cfg(test)]
@@ -94,7 +94,7 @@ mod tests {
         );
         read_text("test", &text, Path::new(""), &[])
             .map(|file| file.task)
-            .map_err(|problems| problems.to_string())
+            .map_err(|diagnostics| diagnostics.to_string())
     }
 
     fn run(inputs: &str, rest: &str, equation: &str) -> (Evaluation, Vec<Warning>) {

@@ -1,6 +1,6 @@
 //! The prior probabilities of the hypotheses of a case.
 
-use super::Fault;
+use super::DiagnosticKind;
 use super::object::Object;
 use gumption_gap::Prior;
 
@@ -19,7 +19,10 @@ pub(super) fn read(root: &Object<'_>) -> Option<Prior> {
         };
         if !(0.0..=1.0).contains(&value) {
             let place = object.get(key).map_or(object.place(), |member| &member.value.span);
-            root.log.report(place, Fault::NotProbability { key: key.to_owned(), found: value });
+            root.log.report(
+                place,
+                DiagnosticKind::NotProbability { key: key.to_owned(), found: value },
+            );
             clean = false;
         }
         value
@@ -44,7 +47,7 @@ pub(super) fn read(root: &Object<'_>) -> Option<Prior> {
              sum to 1; those that are not given are {}, {}, {}, {} and {}",
             default.none, default.one, default.two, default.three, default.unexplained
         );
-        root.log.report(&member.value.span, Fault::Prior { reason });
+        root.log.report(&member.value.span, DiagnosticKind::Prior { reason });
         return None;
     }
     for share in

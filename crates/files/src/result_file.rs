@@ -4,12 +4,13 @@ use std::sync::Arc;
 
 use sha2::{Digest, Sha256};
 
-use super::Fault;
+use super::DiagnosticKind;
 use super::conditions::unit;
-use super::json::{self, Json, Node};
+use super::diagnostics::{Collector, Diagnostics};
+use super::json::{Json, Node};
 use super::object::Object;
-use super::problem::{Log, Problems};
-use super::source::Source;
+use super::open::{check_format, read_root};
+use super::source::SourceText;
 use gumption_engine::distribution::{
     Constant, Distribution, Origin, Root, RootCorrelation, RootName, Saved, SavedResult, Scores,
 };
@@ -40,7 +41,7 @@ pub struct ResultFile {
     /// SHA-256 of the model file that was evaluated, in hexadecimal.
     pub model: Arc<str>,
     /// The file's text.
-    pub source: Arc<Source>,
+    pub source: Arc<SourceText>,
 }
 
 /// An output of a result file.
@@ -67,30 +68,16 @@ fn sha256(bytes: &[u8]) -> String {
 ///
 /// # Errors
 /// All mistakes of the text, in the order of their places.
-pub fn read_result(name: &str, text: &str) -> Result<ResultFile, Problems> {
-    let source = Source::new(name, text);
-    let log = Log::new(source.clone());
+pub fn read_result(name: &str, text: &str) -> Result<ResultFile, Diagnostics> {
     // results are told apart by their content
     let hash = sha256(text.as_bytes());
-    let result = match json::parse(&source) {
-        Ok(node) => {
-            let whole = 0..source.text.find('\n').unwrap_or(source.text.len());
-            Object::new(&log, "a result file", &node, &whole)
-                .and_then(|root| Reader { log: &log, root, hash: &hash }.read())
-        }
-        Err((span, fault)) => {
-            log.report(&span, fault);
-            None
-        }
-    };
-    match result {
-        Some(result) if log.is_clean() => Ok(result),
-        _ => Err(log.into_problems()),
-    }
+    read_root(name, text, "a result file", |root| {
+        Reader { log: root.log, root, hash: &hash }.read()
+    })
 }
 
 struct Reader<'a> {
-    log: &'a Log,
+    log: &'a Collector,
     root: Object<'a>,
     hash: &'a str,
 }
@@ -111,17 +98,12 @@ impl<'a> Reader<'a> {
             if self.log.is_clean() {
                 let file = self.log.source.name.clone();
                 let place = root.get("result").map_or(root.place(), |member| &member.value.span);
-                self.log.report(place, Fault::NotResult { file });
+                self.log.report(place, DiagnosticKind::NotResult { file });
             }
             return None;
         }
-        let format = root.needed("format")?;
-        if format.value.number() != Some(1.0) {
-            let found = match &format.value.value {
-                Json::Number(text) | Json::Text(text) => text.clone(),
-                other => other.kind().to_owned(),
-            };
-            self.log.report(&format.value.span, Fault::UnknownFormat { found });
+        root.needed("format")?;
+        if !check_format(root) {
             return None;
         }
         let member = root.needed("outputs")?;
@@ -165,7 +147,7 @@ impl<'a> Reader<'a> {
                 && *first.get_or_insert(list.len()) != list.len()
             {
                 let reason = "all outputs of a file have as many ranks, those of the same trials";
-                self.log.report(&ranks.value.span, Fault::SavedEntry { reason });
+                self.log.report(&ranks.value.span, DiagnosticKind::SavedEntry { reason });
             }
         }
     }
@@ -184,7 +166,7 @@ impl<'a> Reader<'a> {
         let ranks: Option<Vec<u32>> = ranks.collect();
         if ranks.is_none() || list.len() < 2 || list.len() > MOST_RANKS {
             let reason = "ranks are each whole number from 1 to their count once, two to a million";
-            self.log.report(&member.value.span, Fault::SavedEntry { reason });
+            self.log.report(&member.value.span, DiagnosticKind::SavedEntry { reason });
             return None;
         }
         ranks.map(Arc::from)
@@ -195,7 +177,7 @@ impl<'a> Reader<'a> {
         let found = self.root.number(key)?;
         if found <= 0.0 || found >= 1.0 {
             let place = self.root.get(key).map_or(self.root.place(), |member| &member.value.span);
-            self.log.report(place, Fault::NotProbability { key: key.to_owned(), found });
+            self.log.report(place, DiagnosticKind::NotProbability { key: key.to_owned(), found });
         }
         Some(found)
     }
@@ -221,8 +203,8 @@ impl<'a> Reader<'a> {
         }
         let step = scores.number("step");
         if let (Some(step), Some(member)) = (step.filter(|s| *s <= 0.0), scores.get("step")) {
-            let fault = Fault::NotPositive { key: "step".into(), found: step };
-            self.log.report(&member.value.span, fault);
+            let diagnostic = DiagnosticKind::NotPositive { key: "step".into(), found: step };
+            self.log.report(&member.value.span, diagnostic);
         }
         let count = scores.whole("count", 2, MOST_QUANTILES);
         let from = scores.number("from");
@@ -285,7 +267,7 @@ impl<'a> Reader<'a> {
             if entry.is_none() {
                 let reason = "two places in `inputs`, counted from 0, and a coefficient from -1 \
                               to 1 are needed here";
-                self.log.report(&node.span, Fault::SavedEntry { reason });
+                self.log.report(&node.span, DiagnosticKind::SavedEntry { reason });
             }
             found.extend(entry);
         }
@@ -313,7 +295,7 @@ impl<'a> Reader<'a> {
             };
             if entry.is_none() {
                 let reason = "two names of outputs and a coefficient from -1 to 1 are needed here";
-                self.log.report(&node.span, Fault::SavedEntry { reason });
+                self.log.report(&node.span, DiagnosticKind::SavedEntry { reason });
             }
             found.extend(entry);
         }
@@ -363,7 +345,7 @@ impl<'a> Reader<'a> {
         };
         let made = made.map_err(|error| {
             let place = object.get(error.parameter()).map_or(place, |member| &member.value.span);
-            self.log.report(place, Fault::Distribution { name: name.to_owned(), error });
+            self.log.report(place, DiagnosticKind::Distribution { name: name.to_owned(), error });
         });
         Some(SavedOutput {
             name: name.to_owned(),
@@ -383,7 +365,7 @@ impl<'a> Reader<'a> {
         {
             let (key, found) = ("dof_status".to_owned(), found.to_owned());
             let allowed = ALLOWED.map(str::to_owned).to_vec();
-            self.log.report(&member.value.span, Fault::NotOneOf { key, found, allowed });
+            self.log.report(&member.value.span, DiagnosticKind::NotOneOf { key, found, allowed });
         }
         status == Some("undefined")
     }
@@ -397,7 +379,7 @@ impl<'a> Reader<'a> {
         }
         if object.numbers(key).is_some_and(|ends| ends.len() != 2) {
             let reason = "two ends of an interval are needed here";
-            self.log.report(&member.value.span, Fault::SavedEntry { reason });
+            self.log.report(&member.value.span, DiagnosticKind::SavedEntry { reason });
         }
     }
 
@@ -411,7 +393,7 @@ impl<'a> Reader<'a> {
         let numbers = object.numbers("sensitivities")?;
         if numbers.len() != inputs {
             let reason = "as many sensitivity coefficients as `inputs` are needed here";
-            self.log.report(&member.value.span, Fault::SavedEntry { reason });
+            self.log.report(&member.value.span, DiagnosticKind::SavedEntry { reason });
             return None;
         }
         Some(Some(numbers))
@@ -472,7 +454,7 @@ fn positive(object: &Object<'_>, key: &str) -> Option<f64> {
         return Some(found);
     }
     let place = object.get(key).map_or(object.place(), |member| &member.value.span);
-    object.log.report(place, Fault::NotPositive { key: key.to_owned(), found });
+    object.log.report(place, DiagnosticKind::NotPositive { key: key.to_owned(), found });
     None
 }
 

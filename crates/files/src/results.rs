@@ -5,13 +5,13 @@ use std::collections::HashMap;
 use std::path::Path;
 use std::sync::Arc;
 
+use super::diagnostics::{Collector, Diagnostics};
 use super::json::Node;
 use super::nearest::nearest;
 use super::object::Object;
-use super::problem::{Log, Problems};
 use super::result_file::{ResultFile, SavedOutput, read_result};
 use super::source::Place;
-use super::{Fault, bytes};
+use super::{DiagnosticKind, bytes};
 use gumption_engine::distribution::Distribution;
 use gumption_units::Unit;
 
@@ -49,19 +49,21 @@ impl<'a> Results<'a> {
         let place = place.map_or(input.place(), |member| &member.value.span);
         let factor = Unit::conversion_factor(&output.unit, unit).ok();
         let Some(factor) = factor.filter(|f| f.is_finite() && *f > 0.0) else {
-            let fault = Fault::WrongDimension {
+            let diagnostic = DiagnosticKind::WrongDimension {
                 name: name.to_owned(),
                 found: unit.to_string(),
                 found_as: unit.dimension().describe(),
                 expected: output.unit.to_string(),
                 expected_as: output.unit.dimension().describe(),
             };
-            input.log.report(place, fault);
+            input.log.report(place, diagnostic);
             return None;
         };
         if output.unit.is_celsius() != unit.is_celsius() && !component {
             let (found, saved) = (unit.to_string(), output.unit.to_string());
-            input.log.report(place, Fault::SavedCelsius { name: output.name, found, saved });
+            input
+                .log
+                .report(place, DiagnosticKind::SavedCelsius { name: output.name, found, saved });
             return None;
         }
         if factor == 1.0 {
@@ -71,8 +73,8 @@ impl<'a> Results<'a> {
             Distribution::SavedResult(saved) => saved.scaled(factor).map(Distribution::from),
             other => other.moved_to(factor * other.mean()),
         };
-        let fault = |error| Fault::Distribution { name: name.to_owned(), error };
-        input.log.value(place, converted.map_err(fault))
+        let diagnostic = |error| DiagnosticKind::Distribution { name: name.to_owned(), error };
+        input.log.value(place, converted.map_err(diagnostic))
     }
 
     /// The output that `file` and `output` of an input name.
@@ -92,22 +94,22 @@ impl<'a> Results<'a> {
         let found = result.outputs.iter().find(|output| output.name == wanted).cloned();
         if found.is_none() {
             let names = result.outputs.iter().map(|output| output.name.as_str());
-            let fault = Fault::NoSuchResult {
+            let diagnostic = DiagnosticKind::NoSuchResult {
                 file: name.to_owned(),
                 name: wanted.to_owned(),
                 nearest: nearest(wanted, names.clone()).map(str::to_owned),
                 known: names.map(str::to_owned).collect(),
             };
-            input.log.report(&output.value.span, fault);
+            input.log.report(&output.value.span, diagnostic);
         }
         found
     }
 
     /// Reads a file; its mistakes are reported with their places in it.
-    fn load(&self, log: &Log, name: &str, place: &Node) -> Option<ResultFile> {
+    fn load(&self, log: &Collector, name: &str, place: &Node) -> Option<ResultFile> {
         let unreadable = |message: String| {
             let message = format!("`{name}`: {message}");
-            log.report(&place.span, Fault::Unreadable { message });
+            log.report(&place.span, DiagnosticKind::Unreadable { message });
             None
         };
         let bytes = match bytes::of_file(&self.folder.join(name), bytes::MOST) {
@@ -122,10 +124,10 @@ impl<'a> Results<'a> {
                 self.files.borrow_mut().push((name.to_owned(), bytes));
                 Some(result)
             }
-            Err(Problems(problems)) => {
-                for problem in problems {
-                    let place = Place { source: problem.source, span: problem.span };
-                    log.report_at(place, problem.fault);
+            Err(Diagnostics(diagnostics)) => {
+                for diagnostic in diagnostics {
+                    let place = Place { source: diagnostic.source, span: diagnostic.span };
+                    log.report_at(place, diagnostic.kind);
                 }
                 None
             }

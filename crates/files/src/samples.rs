@@ -5,8 +5,8 @@ use std::ops::Range;
 use std::path::Path;
 
 use super::object::Object;
-use super::source::{Place, Source};
-use super::{Fault, bytes};
+use super::source::{Place, SourceText};
+use super::{DiagnosticKind, bytes};
 use gumption_engine::distribution::Samples;
 
 /// At most so many faulty lines are reported; a file of something else has nothing but those.
@@ -25,8 +25,8 @@ pub(super) fn read(
 ) -> Option<Samples> {
     let (values, place) = numbers(object, name, folder, files)?;
     let samples = Samples::new(values);
-    let fault = |error| Fault::Distribution { name: name.to_owned(), error };
-    object.log.value(place, samples.map_err(fault))
+    let diagnostic = |error| DiagnosticKind::Distribution { name: name.to_owned(), error };
+    object.log.value(place, samples.map_err(diagnostic))
 }
 
 /// The numbers of the object's `values` or of its `file` in `folder`, whose content is added to
@@ -39,8 +39,8 @@ pub(crate) fn numbers<'a>(
 ) -> Option<(Vec<f64>, &'a Range<usize>)> {
     match (object.get("file"), object.get("values")) {
         (Some(_), Some(second)) => {
-            let fault = Fault::Exclusive { first: "file", second: "values" };
-            object.log.report(&second.key_span, fault);
+            let diagnostic = DiagnosticKind::Exclusive { first: "file", second: "values" };
+            object.log.report(&second.key_span, diagnostic);
             None
         }
         (Some(member), None) => {
@@ -49,7 +49,7 @@ pub(crate) fn numbers<'a>(
         }
         (None, Some(member)) => Some((object.numbers("values")?, &member.value.span)),
         (None, None) => {
-            object.report(Fault::NoValues { name: name.to_owned() });
+            object.report(DiagnosticKind::NoValues { name: name.to_owned() });
             None
         }
     }
@@ -65,7 +65,7 @@ fn from_file(
         // a file that is not there is named where the model file names it
         let place = object.get("file").map_or(object.place(), |member| &member.value.span);
         let message = format!("`{file}`: {message}");
-        object.log.report(place, Fault::Unreadable { message });
+        object.log.report(place, DiagnosticKind::Unreadable { message });
     };
     let bytes = bytes::of_file(&folder.join(file), bytes::MOST_OF_SAMPLES);
     let bytes = bytes.map_err(&unreadable).ok()?;
@@ -73,12 +73,12 @@ fn from_file(
         unreadable("it is not UTF-8 text".to_owned());
         return None;
     };
-    let source = Source::new(file, text);
+    let source = SourceText::new(file, text);
     let numbers = match parse(&source.text) {
         Ok(numbers) => numbers,
-        Err(faults) => {
-            for (span, fault) in faults {
-                object.log.report_at(Place { source: source.clone(), span }, fault);
+        Err(kinds) => {
+            for (span, diagnostic) in kinds {
+                object.log.report_at(Place { source: source.clone(), span }, diagnostic);
             }
             return None;
         }
@@ -89,12 +89,12 @@ fn from_file(
     Some(numbers)
 }
 
-type Faults = Vec<(Range<usize>, Fault)>;
+type PlacedKinds = Vec<(Range<usize>, DiagnosticKind)>;
 
 /// The numbers of a text, one a line; empty lines and those that begin with `#` are skipped.
-fn parse(text: &str) -> Result<Vec<f64>, Faults> {
+fn parse(text: &str) -> Result<Vec<f64>, PlacedKinds> {
     let mut numbers = Vec::new();
-    let mut faults = Vec::new();
+    let mut kinds = Vec::new();
     let mut start = 0;
     for line in text.split_inclusive('\n') {
         let content = line.trim();
@@ -105,25 +105,25 @@ fn parse(text: &str) -> Result<Vec<f64>, Faults> {
                 _ => {
                     let span = start + indent..start + indent + content.len();
                     let found = content.chars().take(LONGEST).collect();
-                    faults.push((span, Fault::Sample { found }));
+                    kinds.push((span, DiagnosticKind::Sample { found }));
                 }
             }
         }
-        if faults.len() == MOST_FAULTS {
+        if kinds.len() == MOST_FAULTS {
             break;
         }
         start += line.len();
     }
-    if faults.is_empty() { Ok(numbers) } else { Err(faults) }
+    if kinds.is_empty() { Ok(numbers) } else { Err(kinds) }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{ModelFile, Problems, read as read_model};
+    use crate::{Diagnostics, ModelFile, read as read_model};
 
     /// A model of two inputs and a component with samples from `s.txt` of that content.
-    fn model(content: &str) -> Result<ModelFile, Problems> {
+    fn model(content: &str) -> Result<ModelFile, Diagnostics> {
         let folder = tempfile::tempdir().unwrap();
         let samples = r#""distribution": "samples", "file": "s.txt""#;
         let text = format!(
@@ -149,12 +149,18 @@ mod tests {
 
     #[test]
     fn faults_name_the_file_and_the_line() {
-        let problems = model("1\n2\nvolt\n").unwrap_err().to_string();
-        assert!(problems.starts_with("s.txt:3:1: `volt` is not a finite number"), "{problems}");
-        let problems = model("").unwrap_err().to_string();
-        assert!(problems.contains("m.json:1:") && problems.contains("`s.txt`:"), "{problems}");
-        let problems = model("1\n1\n").unwrap_err().to_string();
-        assert!(problems.contains("all 2 samples are equal"), "{problems}");
+        let diagnostics = model("1\n2\nvolt\n").unwrap_err().to_string();
+        assert!(
+            diagnostics.starts_with("s.txt:3:1: `volt` is not a finite number"),
+            "{diagnostics}"
+        );
+        let diagnostics = model("").unwrap_err().to_string();
+        assert!(
+            diagnostics.contains("m.json:1:") && diagnostics.contains("`s.txt`:"),
+            "{diagnostics}"
+        );
+        let diagnostics = model("1\n1\n").unwrap_err().to_string();
+        assert!(diagnostics.contains("all 2 samples are equal"), "{diagnostics}");
     }
 
     #[test]
@@ -166,8 +172,8 @@ mod tests {
     #[test]
     fn faulty_lines_know_their_places() {
         let text = "1\n  1,5\nnan\n";
-        let faults = parse(text).unwrap_err();
-        let places: Vec<&str> = faults.iter().map(|(span, _)| &text[span.clone()]).collect();
+        let kinds = parse(text).unwrap_err();
+        let places: Vec<&str> = kinds.iter().map(|(span, _)| &text[span.clone()]).collect();
         assert_eq!(places, vec!["1,5", "nan"]);
         assert_eq!(parse(&"x\n".repeat(1000)).unwrap_err().len(), MOST_FAULTS);
     }

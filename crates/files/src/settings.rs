@@ -1,6 +1,6 @@
 //! Coverage and Monte Carlo settings of a file.
 
-use super::Fault;
+use super::DiagnosticKind;
 use super::json::Json;
 use super::object::{Object, whole_number};
 use gumption_engine::task::{Coverage, Settings, StoppingRule, Trials};
@@ -20,8 +20,9 @@ pub(super) fn read(root: &Object<'_>) -> Settings {
         if (0.0..=1.0).contains(&share) {
             settings.allowed_undefined = share;
         } else {
-            let fault = Fault::NotProbability { key: "allow_undefined".into(), found: share };
-            root.log.report(&member.value.span, fault);
+            let diagnostic =
+                DiagnosticKind::NotProbability { key: "allow_undefined".into(), found: share };
+            root.log.report(&member.value.span, diagnostic);
         }
     }
     let Some(member) = root.get("monte_carlo") else {
@@ -55,19 +56,20 @@ fn trials(object: &Object<'_>) -> Option<Trials> {
     match &member.value.value {
         Json::Text(text) if text == "adaptive" => Some(Trials::Adaptive),
         Json::Text(text) => {
-            let fault = Fault::NotOneOf {
+            let diagnostic = DiagnosticKind::NotOneOf {
                 key: "trials".into(),
                 found: text.clone(),
                 allowed: vec!["adaptive".into(), "a whole number such as 1000000".into()],
             };
-            object.log.report(&member.value.span, fault);
+            object.log.report(&member.value.span, diagnostic);
             None
         }
         Json::Number(text) => {
             let count = whole_number(text).filter(|&n| n != 1 && n <= MOST_TRIALS);
             if count.is_none() {
-                let fault = Fault::NotTrials { found: text.clone(), most: MOST_TRIALS };
-                object.log.report(&member.value.span, fault);
+                let diagnostic =
+                    DiagnosticKind::NotTrials { found: text.clone(), most: MOST_TRIALS };
+                object.log.report(&member.value.span, diagnostic);
             }
             count.map(Trials::Fixed)
         }
@@ -83,12 +85,12 @@ fn rule(object: &Object<'_>) -> Option<StoppingRule> {
     let name = object.text("rule")?;
     let rule = StoppingRule::named(name);
     if let (None, Some(member)) = (rule, object.get("rule")) {
-        let fault = Fault::NotOneOf {
+        let diagnostic = DiagnosticKind::NotOneOf {
             key: "rule".into(),
             found: name.to_owned(),
             allowed: StoppingRule::ALL.map(|rule| rule.name().to_owned()).to_vec(),
         };
-        object.log.report(&member.value.span, fault);
+        object.log.report(&member.value.span, diagnostic);
     }
     rule
 }
@@ -98,9 +100,11 @@ pub(super) fn coverage(root: &Object<'_>) -> Option<Coverage> {
     let fixed = root.truth("coverage_factor_fixed").unwrap_or(false);
     match (root.get("coverage_probability"), root.get("coverage_factor")) {
         (Some(_), Some(second)) => {
-            let fault =
-                Fault::Exclusive { first: "coverage_probability", second: "coverage_factor" };
-            root.log.report(&second.key_span, fault);
+            let diagnostic = DiagnosticKind::Exclusive {
+                first: "coverage_probability",
+                second: "coverage_factor",
+            };
+            root.log.report(&second.key_span, diagnostic);
             None
         }
         (Some(member), None) => {
@@ -108,8 +112,9 @@ pub(super) fn coverage(root: &Object<'_>) -> Option<Coverage> {
             if p > 0.0 && p < 1.0 {
                 Some(Coverage::Probability(p))
             } else {
-                let fault = Fault::NotProbability { key: "coverage_probability".into(), found: p };
-                root.log.report(&member.value.span, fault);
+                let diagnostic =
+                    DiagnosticKind::NotProbability { key: "coverage_probability".into(), found: p };
+                root.log.report(&member.value.span, diagnostic);
                 None
             }
         }
@@ -120,16 +125,20 @@ pub(super) fn coverage(root: &Object<'_>) -> Option<Coverage> {
                 Some(Coverage::Factor { factor, fixed })
             } else {
                 let range = "above 0 and at most 8";
-                let fault =
-                    Fault::OutOfRange { key: "coverage_factor".into(), found: factor, range };
-                root.log.report(&member.value.span, fault);
+                let diagnostic = DiagnosticKind::OutOfRange {
+                    key: "coverage_factor".into(),
+                    found: factor,
+                    range,
+                };
+                root.log.report(&member.value.span, diagnostic);
                 None
             }
         }
         (None, None) => {
             if let Some(member) = root.get("coverage_factor_fixed") {
-                let fault = Fault::MissingKey { key: "coverage_factor", what: "the file" };
-                root.log.report(&member.key_span, fault);
+                let diagnostic =
+                    DiagnosticKind::MissingKey { key: "coverage_factor", what: "the file" };
+                root.log.report(&member.key_span, diagnostic);
             }
             None
         }

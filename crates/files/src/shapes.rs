@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::Fault;
+use super::DiagnosticKind;
 use super::condition_values::ConditionValues;
 use super::json::Json;
 use super::nearest::nearest;
@@ -110,8 +110,8 @@ pub(super) fn kind(object: &Object<'_>) -> Option<&'static Kind> {
     if found.is_none() {
         let known = KINDS.iter().flat_map(|k| std::iter::once(&k.name).chain(k.aliases)).copied();
         let nearest = nearest(name, known).map(str::to_owned);
-        let fault = Fault::UnknownDistribution { name: name.to_owned(), nearest };
-        object.log.report(&member.value.span, fault);
+        let diagnostic = DiagnosticKind::UnknownDistribution { name: name.to_owned(), nearest };
+        object.log.report(&member.value.span, diagnostic);
     }
     found
 }
@@ -279,14 +279,14 @@ impl<'a> Fields<'a> {
         let mut divisor = 1.0;
         for key in ["k", "p"] {
             if let (Some(member), None) = (self.object.get(key), self.object.get("expanded")) {
-                let fault = Fault::OnlyWith { key, with: "expanded" };
-                self.object.log.report(&member.key_span, fault);
+                let diagnostic = DiagnosticKind::OnlyWith { key, with: "expanded" };
+                self.object.log.report(&member.key_span, diagnostic);
             }
         }
         let std = match (self.object.get("std"), self.object.get("expanded")) {
             (Some(_), Some(second)) => {
-                let fault = Fault::Exclusive { first: "std", second: "expanded" };
-                self.object.log.report(&second.key_span, fault);
+                let diagnostic = DiagnosticKind::Exclusive { first: "std", second: "expanded" };
+                self.object.log.report(&second.key_span, diagnostic);
                 return None;
             }
             (_, Some(_)) => {
@@ -309,8 +309,8 @@ impl<'a> Fields<'a> {
     fn coverage_factor(&self, dof: Option<f64>) -> Option<f64> {
         match (self.object.get("k"), self.object.get("p")) {
             (Some(_), Some(second)) => {
-                let fault = Fault::Exclusive { first: "k", second: "p" };
-                self.object.log.report(&second.key_span, fault);
+                let diagnostic = DiagnosticKind::Exclusive { first: "k", second: "p" };
+                self.object.log.report(&second.key_span, diagnostic);
                 None
             }
             (Some(member), None) => {
@@ -318,8 +318,8 @@ impl<'a> Fields<'a> {
                 if k > 0.0 {
                     Some(k)
                 } else {
-                    let fault = Fault::NotPositive { key: "k".into(), found: k };
-                    self.object.log.report(&member.value.span, fault);
+                    let diagnostic = DiagnosticKind::NotPositive { key: "k".into(), found: k };
+                    self.object.log.report(&member.value.span, diagnostic);
                     None
                 }
             }
@@ -329,15 +329,17 @@ impl<'a> Fields<'a> {
                     let dof = dof.unwrap_or(f64::INFINITY);
                     Some(special::student::two_sided_factor(p, dof))
                 } else {
-                    let fault = Fault::NotProbability { key: "p".into(), found: p };
-                    self.object.log.report(&member.value.span, fault);
+                    let diagnostic = DiagnosticKind::NotProbability { key: "p".into(), found: p };
+                    self.object.log.report(&member.value.span, diagnostic);
                     None
                 }
             }
             (None, None) => {
                 let place =
                     self.object.get("expanded").map_or(self.object.place(), |m| &m.key_span);
-                self.object.log.report(place, Fault::NoCoverage { name: self.name.to_owned() });
+                self.object
+                    .log
+                    .report(place, DiagnosticKind::NoCoverage { name: self.name.to_owned() });
                 None
             }
         }
@@ -350,8 +352,9 @@ impl<'a> Fields<'a> {
         };
         let Some([lower, upper]) = limits else {
             if let Some(mode) = self.object.get("mode") {
-                let fault = Fault::MissingKey { key: "lower", what: "an input with a `mode`" };
-                self.object.log.report(&mode.key_span, fault);
+                let diagnostic =
+                    DiagnosticKind::MissingKey { key: "lower", what: "an input with a `mode`" };
+                self.object.log.report(&mode.key_span, diagnostic);
             }
             return self.made(Triangular::new(mean, half_width));
         };
@@ -366,16 +369,17 @@ impl<'a> Fields<'a> {
         if object.get("lower").is_none() && object.get("upper").is_none() {
             let key = if object.get("semi_range").is_some() { "semi_range" } else { "half_width" };
             if let (Some(_), Some(second)) = (object.get("half_width"), object.get("semi_range")) {
-                let fault = Fault::Exclusive { first: "half_width", second: "semi_range" };
-                object.log.report(&second.key_span, fault);
+                let diagnostic =
+                    DiagnosticKind::Exclusive { first: "half_width", second: "semi_range" };
+                object.log.report(&second.key_span, diagnostic);
             }
             let mean = self.estimate("mean")?;
             return Some((mean, self.width(key, mean)?, None));
         }
         for key in ["mean", "half_width", "semi_range"] {
             if let Some(second) = object.get(key) {
-                let fault = Fault::Exclusive { first: "lower", second: key };
-                object.log.report(&second.key_span, fault);
+                let diagnostic = DiagnosticKind::Exclusive { first: "lower", second: key };
+                object.log.report(&second.key_span, diagnostic);
                 return None;
             }
         }
@@ -426,16 +430,16 @@ impl<'a> Fields<'a> {
         (conditions, row): (&dyn ConditionValues, usize),
     ) -> Option<Option<f64>> {
         let (log, place) = (self.object.log, self.place_of(key));
-        let formula = Formula::parse(text).map_err(|error| Fault::Formula { error });
+        let formula = Formula::parse(text).map_err(|error| DiagnosticKind::Formula { error });
         let formula = log.value(&place, formula)?;
         if row == 0
-            && let Err(faults) = conditions.check(&formula, self.unit)
+            && let Err(kinds) = conditions.check(&formula, self.unit)
         {
-            for mut fault in faults {
-                if let Fault::WrongDimension { name, .. } = &mut fault {
+            for mut diagnostic in kinds {
+                if let DiagnosticKind::WrongDimension { name, .. } = &mut diagnostic {
                     key.clone_into(name);
                 }
-                log.report(&place, fault);
+                log.report(&place, diagnostic);
             }
             return None;
         }
@@ -452,7 +456,7 @@ impl<'a> Fields<'a> {
             gumption_engine::number::Shortest(width),
             row + 1
         );
-        log.report(&place, Fault::Width { name, found, reason });
+        log.report(&place, DiagnosticKind::Width { name, found, reason });
         None
     }
 
@@ -466,7 +470,7 @@ impl<'a> Fields<'a> {
             Err(error) => {
                 let place = self.place_of(error.parameter());
                 let name = self.name.to_owned();
-                self.object.log.report(&place, Fault::Distribution { name, error });
+                self.object.log.report(&place, DiagnosticKind::Distribution { name, error });
                 None
             }
         }

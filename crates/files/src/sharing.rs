@@ -6,7 +6,7 @@
 
 use std::collections::HashMap;
 
-use super::inputs::Inputs;
+use super::input_set::InputSet;
 use gumption_engine::task::{Sharing, Variable};
 
 /// Which rows have a value of a variable in common: equal keys.
@@ -50,7 +50,7 @@ fn describe(variable: &Variable, conditions: &[String]) -> String {
 /// they come from (`linked`); `None` if they have their values in common over the same
 /// rows, or if one does not vary. `rows` are the values of the conditions in every row.
 pub(super) fn contradiction(
-    inputs: &Inputs,
+    inputs: &InputSet,
     (first, second): (usize, usize),
     linked: bool,
     conditions: &[String],
@@ -79,10 +79,10 @@ pub(super) fn contradiction(
 mod tests {
     use std::path::Path;
 
-    use crate::{Fault, read_text};
+    use crate::{DiagnosticKind, read_text};
 
     /// A file with a coefficient between two inputs that have these `per` and distributions.
-    fn faults(conditions: &str, per: [&str; 2], second: &str) -> Vec<Fault> {
+    fn kinds(conditions: &str, per: [&str; 2], second: &str) -> Vec<DiagnosticKind> {
         let [a, b] = per.map(|per| match per {
             "" => String::new(),
             per => format!(r#""per": "{per}","#),
@@ -94,7 +94,9 @@ mod tests {
         );
         match read_text("m.json", &text, Path::new(""), &[]) {
             Ok(_) => Vec::new(),
-            Err(problems) => problems.0.into_iter().map(|problem| problem.fault).collect(),
+            Err(diagnostics) => {
+                diagnostics.0.into_iter().map(|diagnostic| diagnostic.kind).collect()
+            }
         }
     }
 
@@ -105,8 +107,11 @@ mod tests {
     #[test]
     fn what_is_shared_differently_is_refused() {
         for per in [["", "row"], ["row", ""], ["", "f"], ["row", "f"], ["f", "g"]] {
-            let found = faults(TWO, per, NORMAL);
-            assert!(matches!(found.as_slice(), [Fault::Correlation { .. }]), "{per:?}: {found:?}");
+            let found = kinds(TWO, per, NORMAL);
+            assert!(
+                matches!(found.as_slice(), [DiagnosticKind::Correlation { .. }]),
+                "{per:?}: {found:?}"
+            );
         }
     }
 
@@ -121,8 +126,8 @@ mod tests {
             (r#""f": {"values": [1]}"#, ["", "row"]),
             (r#""f": {"values": [1, 2]}, "g": {"values": [5]}"#, ["row", "f"]),
         ] {
-            assert_eq!(faults(conditions, per, NORMAL), [], "{per:?}");
+            assert_eq!(kinds(conditions, per, NORMAL), [], "{per:?}");
         }
-        assert_eq!(faults(TWO, ["", "row"], r#""distribution": "constant", "value": 1"#), []);
+        assert_eq!(kinds(TWO, ["", "row"], r#""distribution": "constant", "value": 1"#), []);
     }
 }

@@ -1,7 +1,7 @@
 //! Evaluations that are larger than what is served: an answer has a line for each input of each
 //! output in each row of conditions.
 
-use super::Fault;
+use super::DiagnosticKind;
 
 /// Outputs at most. Every pair of them has a correlation coefficient.
 const MOST_OUTPUTS: usize = 3000;
@@ -26,7 +26,7 @@ pub(super) struct Size {
 
 impl Size {
     /// What is too large, if something is.
-    pub(super) fn fault(self) -> Option<Fault> {
+    pub(super) fn excess(self) -> Option<DiagnosticKind> {
         let Self { rows, outputs, variables } = self;
         let results = rows.saturating_mul(outputs);
         let pairs = outputs.saturating_mul(outputs.saturating_sub(1)) / 2;
@@ -45,7 +45,7 @@ impl Size {
             ),
         ];
         let (what, found, most) = limits.into_iter().find(|(_, found, most)| found > most)?;
-        Some(Fault::TooMany { what, found, most })
+        Some(DiagnosticKind::TooMany { what, found, most })
     }
 }
 
@@ -55,12 +55,14 @@ mod tests {
 
     #[test]
     fn what_is_too_large_is_named() {
-        let fault = |rows, outputs, variables| Size { rows, outputs, variables }.fault();
-        assert_eq!(fault(1_000_000, 1, 10), None);
-        assert_eq!(fault(1, 3000, 3000), None);
-        assert_eq!(fault(1, 1, 100_000), None);
-        let what = |rows, outputs, variables| match fault(rows, outputs, variables) {
-            Some(Fault::TooMany { what, found, .. }) => (what.split(' ').next().unwrap(), found),
+        let diagnostic = |rows, outputs, variables| Size { rows, outputs, variables }.excess();
+        assert_eq!(diagnostic(1_000_000, 1, 10), None);
+        assert_eq!(diagnostic(1, 3000, 3000), None);
+        assert_eq!(diagnostic(1, 1, 100_000), None);
+        let what = |rows, outputs, variables| match diagnostic(rows, outputs, variables) {
+            Some(DiagnosticKind::TooMany { what, found, .. }) => {
+                (what.split(' ').next().unwrap(), found)
+            }
             other => panic!("{other:?}"),
         };
         assert_eq!(what(1, 3001, 1), ("outputs", 3001));

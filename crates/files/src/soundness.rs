@@ -1,14 +1,14 @@
 //! What a case must be as a whole: enough data, and values of the sim at all of them.
 
-use super::Fault;
-use super::case::Read;
+use super::DiagnosticKind;
+use super::diagnostics::Collector;
+use super::effect_context::EffectContext;
 use super::effects::Placed;
-use super::problem::Log;
 use super::table::Table;
 use gumption_gap::Effect;
 
 /// Checks a case that was read.
-pub(super) fn check(log: &Log, read: &Read<'_>, placed: &[Placed], data: &Table) {
+pub(super) fn check(log: &Collector, read: &EffectContext<'_>, placed: &[Placed], data: &Table) {
     enough(log, read, placed, data);
     if defined(log, read, data) {
         for placed in placed {
@@ -18,7 +18,7 @@ pub(super) fn check(log: &Log, read: &Read<'_>, placed: &[Placed], data: &Table)
 }
 
 /// More unknown quantities than measured values leave nothing to tell them by.
-fn enough(log: &Log, read: &Read<'_>, placed: &[Placed], data: &Table) {
+fn enough(log: &Collector, read: &EffectContext<'_>, placed: &[Placed], data: &Table) {
     let rows = data.rows.len();
     let values = rows * read.observed.iter().flatten().count();
     for placed in placed {
@@ -30,7 +30,7 @@ fn enough(log: &Log, read: &Read<'_>, placed: &[Placed], data: &Table) {
                 parameters.len(),
                 if values == 1 { "" } else { "s" }
             );
-            log.report(&placed.place, Fault::Effect { name: name.clone(), reason });
+            log.report(&placed.place, DiagnosticKind::Effect { name: name.clone(), reason });
         }
     }
     let unknown = |observed: &&gumption_gap::Observed| observed.standard_uncertainties.is_none();
@@ -38,12 +38,12 @@ fn enough(log: &Log, read: &Read<'_>, placed: &[Placed], data: &Table) {
         let reason = "the data have one row and no standard uncertainties; the noise can be \
                       estimated from several rows only"
             .to_owned();
-        log.report_at(data.place(0, 0), Fault::Observation { reason });
+        log.report_at(data.place(0, 0), DiagnosticKind::Observation { reason });
     }
 }
 
 /// Whether the sim has a value for every measured one.
-fn defined(log: &Log, read: &Read<'_>, data: &Table) -> bool {
+fn defined(log: &Collector, read: &EffectContext<'_>, data: &Table) -> bool {
     let found = undefined(read, None);
     if let Some((row, output, why)) = &found {
         let reason = format!(
@@ -51,13 +51,13 @@ fn defined(log: &Log, read: &Read<'_>, data: &Table) -> bool {
              `{output}`{why}",
             row + 1
         );
-        log.report_at(data.place(*row, 0), Fault::Observation { reason });
+        log.report_at(data.place(*row, 0), DiagnosticKind::Observation { reason });
     }
     found.is_none()
 }
 
 /// Whether an effect leaves the sim a value for every measured one.
-fn defined_with(log: &Log, read: &Read<'_>, placed: &Placed, data: &Table) {
+fn defined_with(log: &Collector, read: &EffectContext<'_>, placed: &Placed, data: &Table) {
     if let Some((row, output, why)) = undefined(read, Some(placed)) {
         let line = data.place(row, 0);
         let (line, _) = line.source.position(line.span.start);
@@ -68,12 +68,12 @@ fn defined_with(log: &Log, read: &Read<'_>, placed: &Placed, data: &Table) {
             data.source.name
         );
         let name = placed.candidate.effect.name.clone();
-        log.report(&placed.place, Fault::Effect { name, reason });
+        log.report(&placed.place, DiagnosticKind::Effect { name, reason });
     }
 }
 
 /// The first row and observed output without a finite value, and the operation that gave none.
-fn undefined(read: &Read<'_>, placed: Option<&Placed>) -> Option<(usize, String, String)> {
+fn undefined(read: &EffectContext<'_>, placed: Option<&Placed>) -> Option<(usize, String, String)> {
     let candidate = placed.map(|placed| &placed.candidate);
     let effects: Vec<&Effect> = candidate.iter().map(|candidate| &candidate.effect).collect();
     // what is circular has been reported

@@ -5,7 +5,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 /// A file's text and name.
 #[derive(Debug)]
-pub struct Source {
+pub struct SourceText {
     /// The name, as the user gave it.
     pub name: String,
     /// The text, without a byte-order mark.
@@ -17,22 +17,22 @@ pub struct Source {
     last: Mutex<[usize; 2]>,
 }
 
-impl PartialEq for Source {
+impl PartialEq for SourceText {
     fn eq(&self, other: &Self) -> bool {
         self.name == other.name && self.text == other.text
     }
 }
 
-impl Eq for Source {}
+impl Eq for SourceText {}
 
 /// A place in a source: a half-open range of bytes.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Place {
-    pub(crate) source: Arc<Source>,
+    pub(crate) source: Arc<SourceText>,
     pub(crate) span: Range<usize>,
 }
 
-impl Source {
+impl SourceText {
     /// A text of the given name; a byte-order mark is dropped.
     pub fn new(name: impl Into<String>, text: &str) -> Arc<Self> {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
@@ -65,7 +65,7 @@ mod tests {
 
     #[test]
     fn positions_count_lines_and_characters() {
-        let source = Source::new("a", "\u{feff}äb\ncd\n");
+        let source = SourceText::new("a", "\u{feff}äb\ncd\n");
         assert_eq!(source.position(0), (1, 1));
         assert_eq!(source.position("ä".len()), (1, 2));
         assert_eq!(source.position("äb\nc".len()), (2, 2));

@@ -4,9 +4,9 @@ use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
 
-use super::problem::Log;
-use super::source::{Place, Source};
-use super::{Fault, bytes};
+use super::diagnostics::Collector;
+use super::source::{Place, SourceText};
+use super::{DiagnosticKind, bytes};
 
 /// At most so many columns and rows.
 const MOST_COLUMNS: usize = 10_000;
@@ -18,7 +18,7 @@ const MOST_FAULTS: usize = 2000;
 /// A table: column names and rows of numbers.
 #[derive(Clone, Debug)]
 pub(super) struct Table {
-    pub(super) source: Arc<Source>,
+    pub(super) source: Arc<SourceText>,
     pub(super) columns: Vec<String>,
     pub(super) rows: Vec<Vec<f64>>,
     /// Where each row stands in the text.
@@ -34,28 +34,28 @@ impl Table {
     }
 }
 
-/// All faults of a table, with their places.
-type Faults = Vec<(Place, Fault)>;
+/// All kinds of a table, with their places.
+type PlacedKinds = Vec<(Place, DiagnosticKind)>;
 
-/// Reads the table `name` in `folder` and reports its faults; a file that cannot be read is reported
+/// Reads the table `name` in `folder` and reports its kinds; a file that cannot be read is reported
 /// at `named`, where the model file names it. The content is given too.
 pub(super) fn read(
-    log: &Log,
+    log: &Collector,
     folder: &Path,
     name: &str,
     named: &Range<usize>,
 ) -> Option<(Table, Vec<u8>)> {
-    let faults = match read_file(&folder.join(name), name) {
+    let kinds = match read_file(&folder.join(name), name) {
         Ok(read) => return Some(read),
-        Err(faults) => faults,
+        Err(kinds) => kinds,
     };
-    for (place, fault) in faults {
-        match fault {
-            Fault::Unreadable { message } => {
+    for (place, diagnostic) in kinds {
+        match diagnostic {
+            DiagnosticKind::Unreadable { message } => {
                 let message = format!("`{name}`: {message}");
-                log.report(named, Fault::Unreadable { message });
+                log.report(named, DiagnosticKind::Unreadable { message });
             }
-            fault => log.report_at(place, fault),
+            diagnostic => log.report_at(place, diagnostic),
         }
     }
     None
@@ -63,21 +63,21 @@ pub(super) fn read(
 
 /// Reads a table: a header row of names, `,` or `;` (then with decimal commas), lines that begin
 /// with `#` skipped. All faulty cells are returned.
-fn read_file(path: &Path, name: &str) -> Result<(Table, Vec<u8>), Faults> {
+fn read_file(path: &Path, name: &str) -> Result<(Table, Vec<u8>), PlacedKinds> {
     let bytes = bytes::of_file(path, bytes::MOST).map_err(|message| {
-        let place = Place { source: Source::new(name, ""), span: 0..0 };
-        vec![(place, Fault::Unreadable { message })]
+        let place = Place { source: SourceText::new(name, ""), span: 0..0 };
+        vec![(place, DiagnosticKind::Unreadable { message })]
     })?;
     let Ok(text) = std::str::from_utf8(&bytes) else {
-        let place = Place { source: Source::new(name, ""), span: 0..0 };
+        let place = Place { source: SourceText::new(name, ""), span: 0..0 };
         let message = "it is not UTF-8 text".to_owned();
-        return Err(vec![(place, Fault::Unreadable { message })]);
+        return Err(vec![(place, DiagnosticKind::Unreadable { message })]);
     };
-    let source = Source::new(name, text);
+    let source = SourceText::new(name, text);
     Ok((parse(&source)?, bytes))
 }
 
-pub(super) fn parse(source: &Arc<Source>) -> Result<Table, Faults> {
+pub(super) fn parse(source: &Arc<SourceText>) -> Result<Table, PlacedKinds> {
     let starts: Vec<usize> = std::iter::once(0)
         .chain(source.text.match_indices('\n').map(|(newline, _)| newline + 1))
         .collect();
@@ -99,7 +99,7 @@ pub(super) fn parse(source: &Arc<Source>) -> Result<Table, Faults> {
     }
     let Some((header_line, header)) = header else {
         let reason = "the table is empty; a header row of names and rows of numbers are needed";
-        return Err(vec![(at_line(1), Fault::Table { reason: reason.to_owned() })]);
+        return Err(vec![(at_line(1), DiagnosticKind::Table { reason: reason.to_owned() })]);
     };
     let semicolon = header.contains(';');
     let mut reader = csv::ReaderBuilder::new()
@@ -110,19 +110,23 @@ pub(super) fn parse(source: &Arc<Source>) -> Result<Table, Faults> {
     let columns: Vec<String> = match reader.headers() {
         Ok(header) => header.iter().map(str::to_owned).collect(),
         Err(error) => {
-            return Err(vec![(at_line(header_line), Fault::Table { reason: error.to_string() })]);
+            return Err(vec![(
+                at_line(header_line),
+                DiagnosticKind::Table { reason: error.to_string() },
+            )]);
         }
     };
     let too_many = |what, found, most| {
-        (found > most).then(|| vec![(at_line(header_line), Fault::TooMany { what, found, most })])
+        (found > most)
+            .then(|| vec![(at_line(header_line), DiagnosticKind::TooMany { what, found, most })])
     };
     let lines = text.lines().filter(|line| !line.is_empty()).count();
     let too_many = too_many("columns of a table", columns.len(), MOST_COLUMNS)
         .or_else(|| too_many("rows of a table", lines - 1, MOST_ROWS));
-    if let Some(faults) = too_many {
-        return Err(faults);
+    if let Some(kinds) = too_many {
+        return Err(kinds);
     }
-    let mut faults = Vec::new();
+    let mut kinds = Vec::new();
     for (number, name) in columns.iter().enumerate() {
         let reason = if name.is_empty() {
             format!("column {} has no name in the header", number + 1)
@@ -131,18 +135,21 @@ pub(super) fn parse(source: &Arc<Source>) -> Result<Table, Faults> {
         } else {
             continue;
         };
-        faults.push((at_line(header_line), Fault::Table { reason }));
+        kinds.push((at_line(header_line), DiagnosticKind::Table { reason }));
     }
     let mut rows = Vec::new();
     let mut lines = Vec::new();
     for (number, record) in reader.records().enumerate() {
-        if faults.len() >= MOST_FAULTS {
+        if kinds.len() >= MOST_FAULTS {
             break;
         }
         let record = match record {
             Ok(record) => record,
             Err(error) => {
-                faults.push((at_line(number + 2), Fault::Table { reason: error.to_string() }));
+                kinds.push((
+                    at_line(number + 2),
+                    DiagnosticKind::Table { reason: error.to_string() },
+                ));
                 break;
             }
         };
@@ -154,9 +161,12 @@ pub(super) fn parse(source: &Arc<Source>) -> Result<Table, Faults> {
             place = at_line(line);
         }
         if record.len() != columns.len() {
-            let fault =
-                Fault::ShortRow { row: number + 1, found: record.len(), expected: columns.len() };
-            faults.push((place, fault));
+            let diagnostic = DiagnosticKind::ShortRow {
+                row: number + 1,
+                found: record.len(),
+                expected: columns.len(),
+            };
+            kinds.push((place, diagnostic));
             continue;
         }
         let mut row = Vec::with_capacity(columns.len());
@@ -166,22 +176,22 @@ pub(super) fn parse(source: &Arc<Source>) -> Result<Table, Faults> {
                 Ok(value) if value.is_finite() => row.push(value),
                 _ => {
                     let (column, found) = (column.clone(), cell.to_owned());
-                    let fault = Fault::Cell { row: number + 1, column, found };
-                    faults.push((place_of_cell(&place, number_of_cell, semicolon), fault));
+                    let diagnostic = DiagnosticKind::Cell { row: number + 1, column, found };
+                    kinds.push((place_of_cell(&place, number_of_cell, semicolon), diagnostic));
                 }
             }
         }
         rows.push(row);
         lines.push(place.span);
     }
-    if rows.is_empty() && faults.is_empty() {
+    if rows.is_empty() && kinds.is_empty() {
         let reason = "the table has a header but no rows".to_owned();
-        faults.push((at_line(header_line), Fault::Table { reason }));
+        kinds.push((at_line(header_line), DiagnosticKind::Table { reason }));
     }
-    if faults.is_empty() {
+    if kinds.is_empty() {
         Ok(Table { source: source.clone(), columns, rows, lines, semicolon })
     } else {
-        Err(faults)
+        Err(kinds)
     }
 }
 
@@ -221,31 +231,34 @@ mod tests {
 
     #[test]
     fn both_separators_are_read() {
-        let table = parse(&Source::new("t", "# note\nf, x\n1,2.5\n")).unwrap();
+        let table = parse(&SourceText::new("t", "# note\nf, x\n1,2.5\n")).unwrap();
         assert_eq!(
             (table.columns, table.rows),
             (vec!["f".into(), "x".into()], vec![vec![1.0, 2.5]])
         );
-        let table = parse(&Source::new("t", "\u{feff}f;x\n1;2,5\n# end\n3;4\n")).unwrap();
+        let table = parse(&SourceText::new("t", "\u{feff}f;x\n1;2,5\n# end\n3;4\n")).unwrap();
         assert_eq!(table.rows, vec![vec![1.0, 2.5], vec![3.0, 4.0]]);
         // a comment may be the last line, without a line end, and may be indented
-        let table = parse(&Source::new("t", "f\n  # middle\n\n1\n# end")).unwrap();
+        let table = parse(&SourceText::new("t", "f\n  # middle\n\n1\n# end")).unwrap();
         assert_eq!(table.rows, vec![vec![1.0]]);
     }
 
     #[test]
     fn faults_name_row_column_and_line() {
-        let faults = parse(&Source::new("t", "f,x\n1,\n# c\n2\nz,1\n")).unwrap_err();
+        let kinds = parse(&SourceText::new("t", "f,x\n1,\n# c\n2\nz,1\n")).unwrap_err();
         let lines: Vec<usize> =
-            faults.iter().map(|(place, _)| place.source.position(place.span.start).0).collect();
+            kinds.iter().map(|(place, _)| place.source.position(place.span.start).0).collect();
         assert_eq!(lines, vec![2, 4, 5]);
-        assert_eq!(faults[0].1, Fault::Cell { row: 1, column: "x".into(), found: String::new() });
-        assert_eq!(faults[1].1, Fault::ShortRow { row: 2, found: 1, expected: 2 });
+        assert_eq!(
+            kinds[0].1,
+            DiagnosticKind::Cell { row: 1, column: "x".into(), found: String::new() }
+        );
+        assert_eq!(kinds[1].1, DiagnosticKind::ShortRow { row: 2, found: 1, expected: 2 });
         let places: Vec<&str> =
-            faults.iter().map(|(place, _)| &place.source.text[place.span.clone()]).collect();
+            kinds.iter().map(|(place, _)| &place.source.text[place.span.clone()]).collect();
         assert_eq!(places, vec![",", "2", "z"]);
-        assert!(parse(&Source::new("t", "")).is_err());
-        assert!(parse(&Source::new("t", "a,b\n")).is_err());
-        assert!(parse(&Source::new("t", "a,a\n1,2\n")).is_err());
+        assert!(parse(&SourceText::new("t", "")).is_err());
+        assert!(parse(&SourceText::new("t", "a,b\n")).is_err());
+        assert!(parse(&SourceText::new("t", "a,a\n1,2\n")).is_err());
     }
 }

@@ -3,9 +3,9 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use super::Fault;
-use super::problem::Log;
-use super::source::{Place, Source};
+use super::DiagnosticKind;
+use super::diagnostics::Collector;
+use super::source::{Place, SourceText};
 use super::table::place_of_cell;
 
 /// At most so many rows.
@@ -14,7 +14,7 @@ const MOST_ROWS: usize = 10_000;
 /// A table: column names and rows of texts.
 #[derive(Clone, Debug)]
 pub(super) struct TextTable {
-    source: Arc<Source>,
+    source: Arc<SourceText>,
     columns: Vec<String>,
     rows: Vec<(Range<usize>, Vec<String>)>,
     header: Range<usize>,
@@ -24,7 +24,7 @@ pub(super) struct TextTable {
 impl TextTable {
     /// Reads a table: a header row of names, `,` or `;` (then with decimal commas), lines that begin
     /// with `#` and empty ones skipped. Mistakes are reported.
-    pub(super) fn parse(log: &Log, source: &Arc<Source>) -> Option<Self> {
+    pub(super) fn parse(log: &Collector, source: &Arc<SourceText>) -> Option<Self> {
         let mut table: Option<Self> = None;
         let mut start = 0;
         for line in source.text.split_inclusive('\n') {
@@ -39,7 +39,7 @@ impl TextTable {
             let cells = match cells(content, semicolon) {
                 Ok(cells) => cells,
                 Err(reason) => {
-                    log.report_at(place, Fault::Table { reason });
+                    log.report_at(place, DiagnosticKind::Table { reason });
                     return None;
                 }
             };
@@ -50,12 +50,12 @@ impl TextTable {
             let (found, expected) = (cells.len(), table.columns.len());
             if found != expected {
                 let row = table.rows.len() + 1;
-                log.report_at(place, Fault::ShortRow { row, found, expected });
+                log.report_at(place, DiagnosticKind::ShortRow { row, found, expected });
             }
             table.rows.push((span, cells));
             if table.rows.len() > MOST_ROWS {
                 let (what, found) = ("rows of a table", table.rows.len());
-                log.report(&table.header, Fault::TooMany { what, found, most: MOST_ROWS });
+                log.report(&table.header, DiagnosticKind::TooMany { what, found, most: MOST_ROWS });
                 return None;
             }
         }
@@ -64,13 +64,13 @@ impl TextTable {
             Some(table) if table.rows.is_empty() => "the table has a header but no rows",
             Some(_) => return table.filter(|_| log.is_clean()),
         };
-        log.report(&(0..0), Fault::Table { reason: reason.to_owned() });
+        log.report(&(0..0), DiagnosticKind::Table { reason: reason.to_owned() });
         None
     }
 
     fn begin(
-        log: &Log,
-        source: &Arc<Source>,
+        log: &Collector,
+        source: &Arc<SourceText>,
         header: Range<usize>,
         columns: Vec<String>,
         semicolon: bool,
@@ -81,7 +81,7 @@ impl TextTable {
             .find(|(n, name)| columns.iter().take(*n).any(|earlier| earlier == *name));
         if let Some((_, name)) = twice {
             let reason = format!("the header has the name `{name}` twice");
-            log.report(&header, Fault::Table { reason });
+            log.report(&header, DiagnosticKind::Table { reason });
             return None;
         }
         Some(Self { source: source.clone(), columns, rows: Vec::new(), header, semicolon })

@@ -2,7 +2,7 @@
 
 use super::CaseFile;
 use super::json::{self, Json, Member, Node};
-use super::source::Source;
+use super::source::SourceText;
 use super::table;
 
 /// Why a case cannot be copied.
@@ -42,8 +42,8 @@ impl CaseFile {
                 continue;
             }
             let text = std::str::from_utf8(bytes).map_err(|_| whole("the data"))?;
-            let table =
-                table::parse(&Source::new(name.as_str(), text)).map_err(|_| whole("the data"))?;
+            let table = table::parse(&SourceText::new(name.as_str(), text))
+                .map_err(|_| whole("the data"))?;
             let mut rows = table.rows.clone();
             let observed = self.case.sim.outputs.iter().zip(&self.case.observed);
             let observed = observed.filter(|(_, observed)| observed.is_some());

@@ -1,7 +1,7 @@
 //! Widths as laboratories write them: a number in the input's unit, or a specification such as
 //! `0.02 % + 0.005 % of 10 V + 2 uV`.
 
-use super::Fault;
+use super::DiagnosticKind;
 use super::json::{Json, Node};
 use gumption_units::Unit;
 
@@ -24,22 +24,25 @@ impl Width {
     }
 
     /// Reads the width of the input `name`, whose unit is `unit`.
-    pub(super) fn read(node: &Node, name: &str, key: &str, unit: &Unit) -> Result<Self, Fault> {
+    pub(super) fn read(
+        node: &Node,
+        name: &str,
+        key: &str,
+        unit: &Unit,
+    ) -> Result<Self, DiagnosticKind> {
         match &node.value {
             Json::Number(_) => {
                 let absolute = node.number().unwrap_or(f64::NAN);
                 if absolute > 0.0 {
                     Ok(Self { relative: 0.0, absolute })
                 } else {
-                    Err(Fault::NotPositive { key: key.to_owned(), found: absolute })
+                    Err(DiagnosticKind::NotPositive { key: key.to_owned(), found: absolute })
                 }
             }
-            Json::Text(text) => Self::specification(text, unit).map_err(|reason| Fault::Width {
-                name: name.to_owned(),
-                found: text.clone(),
-                reason,
+            Json::Text(text) => Self::specification(text, unit).map_err(|reason| {
+                DiagnosticKind::Width { name: name.to_owned(), found: text.clone(), reason }
             }),
-            other => Err(Fault::WrongType {
+            other => Err(DiagnosticKind::WrongType {
                 what: format!("`{key}`"),
                 found: other.kind(),
                 expected: "a number or a specification such as \"0.02 % + 2 uV\"",

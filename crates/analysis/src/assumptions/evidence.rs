@@ -11,7 +11,7 @@ use std::sync::Arc;
 
 /// What readings say about a stated distribution.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Agreement {
+pub struct EvidenceTest {
     /// Place of the variable in the task.
     pub variable: usize,
     /// Number of readings.
@@ -20,16 +20,16 @@ pub struct Agreement {
     /// (Anderson-Darling).
     pub p_value: f64,
     /// The width that the readings support.
-    pub supported: Supported,
+    pub supported: SupportedWidth,
     /// How many readings lie outside the stated limits.
     pub outside: usize,
     /// The verdict.
-    pub verdict: Verdict,
+    pub verdict: EvidenceVerdict,
 }
 
 /// The width of a distribution of the stated shape and centre that readings support.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Supported {
+pub struct SupportedWidth {
     /// Which width it is: `half_width`, `std` or `scale`.
     pub parameter: &'static str,
     /// The stated one.
@@ -43,7 +43,7 @@ pub struct Supported {
 
 /// What readings say about a stated distribution, the first that holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Verdict {
+pub enum EvidenceVerdict {
     /// Fewer than five readings.
     TooFew,
     /// A reading lies outside the stated limits, or the supported interval wholly above the stated
@@ -57,7 +57,7 @@ pub enum Verdict {
     Consistent,
 }
 
-impl Verdict {
+impl EvidenceVerdict {
     /// The words of the answer.
     pub fn words(self) -> &'static str {
         match self {
@@ -96,7 +96,7 @@ pub fn agreement(
     variable: usize,
     stated: &Arc<Distribution>,
     readings: &[f64],
-) -> Option<Agreement> {
+) -> Option<EvidenceTest> {
     let stated = &population(stated);
     if readings.is_empty() || stated.constant().is_some() {
         return None;
@@ -109,24 +109,24 @@ pub fn agreement(
         if outside > 0 { 0.0 } else { p_value(statistic(&probabilities), readings.len()) };
     let (parameter, width) = parameter(stated);
     let factors = factors(stated, readings);
-    let supported = Supported {
+    let supported = SupportedWidth {
         parameter,
         stated: width,
         estimate: width * factors.estimate,
         interval: factors.interval.map(|factor| width * factor),
     };
     let verdict = if readings.len() < FEWEST {
-        Verdict::TooFew
+        EvidenceVerdict::TooFew
     } else if outside > 0 || factors.interval[0] > 1.0 + ROUNDING {
-        Verdict::TooNarrow
+        EvidenceVerdict::TooNarrow
     } else if factors.surely_below < 1.0 {
-        Verdict::TooWide
+        EvidenceVerdict::TooWide
     } else if p_value < WRONG_SHAPE {
-        Verdict::WrongShape
+        EvidenceVerdict::WrongShape
     } else {
-        Verdict::Consistent
+        EvidenceVerdict::Consistent
     };
-    Some(Agreement { variable, readings: readings.len(), p_value, supported, outside, verdict })
+    Some(EvidenceTest { variable, readings: readings.len(), p_value, supported, outside, verdict })
 }
 
 /// The distribution of the population: degrees of freedom say how well a normal distribution's

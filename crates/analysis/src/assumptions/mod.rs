@@ -12,16 +12,16 @@ mod evidence;
 mod sampler;
 mod sobol;
 mod spread;
-mod stake;
 #[cfg(test)]
 mod tests;
+mod width_change;
 
 use std::sync::Arc;
 
 use rayon::prelude::*;
 
 pub use alternatives::Kept;
-pub use evidence::{Agreement, Supported, Verdict, agreement};
+pub use evidence::{EvidenceTest, EvidenceVerdict, SupportedWidth, agreement};
 pub use sobol::Sobol;
 
 use gumption_engine::distribution::{Distribution, Evaluation, FromScore};
@@ -29,7 +29,7 @@ use gumption_engine::propagate::{Control, EvaluationError, gum, in_pool};
 use gumption_engine::task::{Evidence, Row, Task, Warning};
 use sampler::{Change, Sampler};
 use spread::Spread;
-use stake::Stake;
+use width_change::WidthSearch;
 
 /// What is asked for.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -51,7 +51,7 @@ pub struct Audit {
     /// One entry for each row of conditions.
     pub rows: Vec<RowAudit>,
     /// What the readings say, one entry for each input with evidence.
-    pub evidence: Vec<Agreement>,
+    pub evidence: Vec<EvidenceTest>,
     /// Notes.
     pub warnings: Vec<Warning>,
 }
@@ -69,7 +69,7 @@ pub struct RowAudit {
 #[derive(Clone, Debug)]
 pub struct OutputAudit {
     /// The figures with all distributions as stated.
-    pub baseline: Figures,
+    pub baseline: VariantFigures,
     /// One entry for each line of the budget, in order.
     pub inputs: Vec<InputAudit>,
     /// Sobol indices of quantities that are drawn together, with their places in the task.
@@ -78,7 +78,7 @@ pub struct OutputAudit {
 
 /// Standard uncertainty and coverage interval of one variant.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Figures {
+pub struct VariantFigures {
     /// Standard deviation of the trials; `None` if the distribution has none.
     pub standard_uncertainty: Option<f64>,
     /// Probabilistically symmetric coverage interval.
@@ -99,9 +99,9 @@ pub struct InputAudit {
     /// Other shapes; none for an input of type A or a constant.
     pub alternatives: Vec<Alternative>,
     /// The width halved; `None` as for the alternatives.
-    pub halved: Option<Move>,
+    pub halved: Option<VariantChange>,
     /// The width doubled.
-    pub doubled: Option<Move>,
+    pub doubled: Option<VariantChange>,
     /// The relative changes of the width that the output allows, from -1 (no width) to infinity.
     pub allowed: Option<[f64; 2]>,
 }
@@ -114,14 +114,14 @@ pub struct Alternative {
     /// What it has in common with the stated one.
     pub kept: Kept,
     /// What it does.
-    pub moved: Move,
+    pub moved: VariantChange,
 }
 
 /// How a variant departs from the baseline.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Move {
+pub struct VariantChange {
     /// The variant's figures; `None` if some of its trials are not finite.
-    pub figures: Option<Figures>,
+    pub figures: Option<VariantFigures>,
     /// Relative change of half the length of the interval; `None` if the baseline has no length.
     pub change: Option<f64>,
     /// Numerical standard error of the change, from the scatter of batches. Of changes far below
@@ -132,7 +132,7 @@ pub struct Move {
 /// Changes below this are not told from none.
 const SMALLEST: f64 = 5e-4;
 
-impl Move {
+impl VariantChange {
     /// Whether there is a change to be seen: at least 0.05 %, and more than twice its numerical
     /// standard error.
     pub fn is_seen(&self) -> bool {
@@ -200,7 +200,7 @@ fn changed(evaluation: Evaluation, known: &Distribution) -> bool {
 }
 
 /// Compares the readings of one input with what the first row states.
-fn agree(task: &Task, evidence: &Evidence, warnings: &mut Vec<Warning>) -> Option<Agreement> {
+fn agree(task: &Task, evidence: &Evidence, warnings: &mut Vec<Warning>) -> Option<EvidenceTest> {
     let name = task.variables.get(evidence.variable).map_or("", |v| v.name.as_str());
     let first = task.rows.first()?.distributions.get(evidence.variable)?;
     let evaluation = task.variables.get(evidence.variable)?.evaluation;
@@ -244,7 +244,7 @@ struct Variant {
 }
 
 /// What became of one quantity's variants, in order.
-type Moves = Vec<Vec<Move>>;
+type Moves = Vec<Vec<VariantChange>>;
 
 impl Auditor<'_> {
     fn row(&self, warnings: &mut Vec<Warning>) -> Result<Option<RowAudit>, EvaluationError> {
@@ -279,12 +279,13 @@ impl Auditor<'_> {
             return Ok(None);
         };
         let probability = task.settings.coverage.probability();
-        let stake = Stake::new(&sampler, (question.trials, probability), question.allowed, control);
+        let widths =
+            WidthSearch::new(&sampler, (question.trials, probability), question.allowed, control);
         let allowed: Vec<Vec<Option<[f64; 2]>>> = (0..sampler.variables.len())
             .into_par_iter()
             .map(|place| match self.stated(&sampler, place) {
                 Some(stated) if !control.is_stopped() => {
-                    stake.allowed(place, stated.mean(), control)
+                    widths.allowed(place, stated.mean(), control)
                 }
                 _ => Vec::new(),
             })
@@ -374,12 +375,12 @@ impl Auditor<'_> {
         sampler: &Sampler,
         variants: &[Variant],
         warnings: &mut Vec<Warning>,
-    ) -> Result<Option<(Vec<Figures>, Moves)>, EvaluationError> {
+    ) -> Result<Option<(Vec<VariantFigures>, Moves)>, EvaluationError> {
         let Self { task, question, control, .. } = *self;
         let probability = task.settings.coverage.probability();
         let reach = task.model.program.reach();
         let outputs = sampler.outputs();
-        let figures = |spread: &Spread, dof: f64| Figures {
+        let figures = |spread: &Spread, dof: f64| VariantFigures {
             standard_uncertainty: (dof > 2.0).then_some(spread.std),
             symmetric_interval: spread.interval,
         };
@@ -408,7 +409,7 @@ impl Auditor<'_> {
         }
         let stated = (0..outputs)
             .map(|output| figures(&baseline[output], self.fewest_dof(&reach, output, None)));
-        let stated: Vec<Figures> = stated.collect();
+        let stated: Vec<VariantFigures> = stated.collect();
         let mut spreads = spreads.into_iter();
         let mut moves: Moves = vec![Vec::with_capacity(variants.len()); outputs];
         for variant in variants {
@@ -434,7 +435,7 @@ impl Auditor<'_> {
                     _ => [None; 2],
                 };
                 let figures = defined.then(|| figures(spread, dof));
-                moves.push(Move { figures, change, error });
+                moves.push(VariantChange { figures, change, error });
             }
         }
         Ok(Some((stated, moves)))

@@ -194,7 +194,7 @@ fn variants_without_figures() {
     assert!(normal.unwrap().moved.figures.unwrap().standard_uncertainty.is_some());
 }
 
-/// Figures do not depend on the number of threads, nor on how many variants are made at a time.
+/// VariantFigures do not depend on the number of threads, nor on how many variants are made at a time.
 #[test]
 fn figures_are_reproducible() {
     let file = model(RECTANGLE, "x^2", "");

@@ -10,8 +10,8 @@ use std::fmt;
 
 use nalgebra::{DMatrix, DVector};
 
-use super::pair::Stated;
-use super::subset::{self, Search};
+use super::pair::StatedResult;
+use super::subset::{self, SubsetSearch};
 use super::{FACTOR, probability};
 use gumption_engine::distribution::special;
 
@@ -21,7 +21,7 @@ pub struct Laboratory {
     /// Its name.
     pub label: String,
     /// Its result; the standard uncertainty is above 0.
-    pub result: Stated,
+    pub result: StatedResult,
 }
 
 /// The significance of the consistency test.
@@ -29,7 +29,7 @@ pub const SIGNIFICANCE: f64 = 0.05;
 
 /// A weighted mean and its consistency.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Reference {
+pub struct ReferenceValue {
     /// The laboratories that it is made from, in order.
     pub members: Vec<usize>,
     /// The value.
@@ -44,7 +44,7 @@ pub struct Reference {
     pub p_value: f64,
 }
 
-impl Reference {
+impl ReferenceValue {
     /// Whether the members are consistent at 5 %.
     pub fn is_consistent(&self) -> bool {
         self.p_value >= SIGNIFICANCE
@@ -53,7 +53,7 @@ impl Reference {
 
 /// A laboratory's degree of equivalence.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Row {
+pub struct DegreeOfEquivalence {
     /// The laboratory.
     pub label: String,
     /// Its value.
@@ -79,13 +79,13 @@ pub struct Row {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Comparison {
     /// The weighted mean of all.
-    pub all: Reference,
+    pub all: ReferenceValue,
     /// The reference value: that mean, or that of the largest consistent subset.
-    pub reference: Reference,
+    pub reference: ReferenceValue,
     /// How the subset was found; `None` where all are consistent.
-    pub search: Option<Search>,
+    pub search: Option<SubsetSearch>,
     /// One entry for each laboratory.
-    pub rows: Vec<Row>,
+    pub rows: Vec<DegreeOfEquivalence>,
 }
 
 /// Why there is no comparison.
@@ -130,7 +130,7 @@ impl Results {
     }
 
     /// The weighted mean of the members and its consistency.
-    pub(super) fn reference(&self, members: &[usize]) -> Option<Reference> {
+    pub(super) fn reference(&self, members: &[usize]) -> Option<ReferenceValue> {
         let (weights, u) = self.weights(members)?;
         // about one of the values, so that a common large part costs no digits
         let origin = *self.values.get(*members.first()?)?;
@@ -144,7 +144,7 @@ impl Results {
         let p_value =
             if dof == 0 { 1.0 } else { special::gamma::sf(0.5 * chi_squared, 0.5 * dof as f64) };
         let (members, value) = (members.to_vec(), origin + mean);
-        Some(Reference { members, value, standard_uncertainty: u, chi_squared, dof, p_value })
+        Some(ReferenceValue { members, value, standard_uncertainty: u, chi_squared, dof, p_value })
     }
 
     /// The standard uncertainty of a laboratory's difference from the members' mean.
@@ -193,7 +193,7 @@ pub fn compare(
     let rows = laboratories.iter().enumerate().map(|(number, laboratory)| {
         let difference = laboratory.result.value - reference.value;
         let u = results.of_difference(number, &reference.members)?;
-        Some(Row {
+        Some(DegreeOfEquivalence {
             label: laboratory.label.clone(),
             value: laboratory.result.value,
             expanded_stated: laboratory.result.expanded,
@@ -205,7 +205,7 @@ pub fn compare(
             member: reference.members.contains(&number),
         })
     });
-    let rows = rows.collect::<Option<Vec<Row>>>().ok_or(Impossible::NotDefinite)?;
+    let rows = rows.collect::<Option<Vec<DegreeOfEquivalence>>>().ok_or(Impossible::NotDefinite)?;
     Ok(Comparison { all, reference, search, rows })
 }
 

@@ -5,8 +5,8 @@ pub mod laboratories;
 pub mod pair;
 mod subset;
 
-pub use laboratories::{Comparison, Impossible, Laboratory, Row};
-pub use pair::{Compared, Pair, Stated};
+pub use laboratories::{Comparison, DegreeOfEquivalence, Impossible, Laboratory};
+pub use pair::{ComparedPair, ResultPair, StatedResult};
 
 use gumption_engine::distribution::special;
 

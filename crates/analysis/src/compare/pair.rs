@@ -5,7 +5,7 @@ use super::{FACTOR, probability};
 
 /// A result as it is stated.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Stated {
+pub struct StatedResult {
     /// The value x.
     pub value: f64,
     /// Its expanded uncertainty U, at least 0, in the same unit.
@@ -16,7 +16,7 @@ pub struct Stated {
     pub rounding: [f64; 2],
 }
 
-impl Stated {
+impl StatedResult {
     /// Standard uncertainty U/k.
     pub fn standard_uncertainty(&self) -> f64 {
         self.expanded / self.factor
@@ -25,18 +25,18 @@ impl Stated {
 
 /// Two results of one quantity.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Pair {
+pub struct ResultPair {
     /// What is compared.
     pub label: String,
     /// The two results.
-    pub results: [Stated; 2],
+    pub results: [StatedResult; 2],
     /// Their correlation coefficient, from -1 to 1.
     pub correlation: f64,
 }
 
 /// Two results compared.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Compared {
+pub struct ComparedPair {
     /// What is compared.
     pub label: String,
     /// x1 - x2.
@@ -54,22 +54,22 @@ pub struct Compared {
     pub probability: f64,
 }
 
-impl Compared {
+impl ComparedPair {
     /// Whether the results are compatible: the normalized error is at most 1.
     pub fn is_compatible(&self) -> bool {
         self.normalized_error <= 1.0
     }
 }
 
-impl Pair {
+impl ResultPair {
     /// The comparison; `None` if the difference has no uncertainty.
-    pub fn compare(&self) -> Option<Compared> {
+    pub fn compare(&self) -> Option<ComparedPair> {
         let [a, b] = self.results;
         let [u1, u2] = self.results.map(|result| result.standard_uncertainty());
         let difference = a.value - b.value;
         let u = squared([u1, u2], self.correlation).max(0.0).sqrt();
         // u of fully correlated results may be nothing but rounding
-        (u > 1e-12 * (u1 + u2)).then(|| Compared {
+        (u > 1e-12 * (u1 + u2)).then(|| ComparedPair {
             label: self.label.clone(),
             difference,
             expanded: FACTOR * u,
@@ -120,14 +120,14 @@ fn extremes([a, b]: [[f64; 2]; 2], r: f64) -> (f64, f64) {
 mod tests {
     use super::*;
 
-    fn stated(value: f64, expanded: f64, factor: f64) -> Stated {
-        Stated { value, expanded, factor, rounding: [0.5, 0.5] }
+    fn stated(value: f64, expanded: f64, factor: f64) -> StatedResult {
+        StatedResult { value, expanded, factor, rounding: [0.5, 0.5] }
     }
 
     /// By hand: d = 3, u = sqrt(1.5^2 + 2^2) = 2.5, U = 5.
     #[test]
     fn a_pair_by_hand() {
-        let pair = |r: f64| Pair {
+        let pair = |r: f64| ResultPair {
             label: "a".into(),
             results: [stated(10.0, 3.0, 2.0), stated(13.0, 6.0, 3.0)],
             correlation: r,
@@ -146,7 +146,7 @@ mod tests {
     #[test]
     fn the_range_of_printed_digits() {
         for r in [-1.0, -0.4, 0.0, 0.3, 0.9, 1.0] {
-            let pair = Pair {
+            let pair = ResultPair {
                 label: "a".into(),
                 results: [stated(10.0, 3.0, 2.0), stated(13.0, 4.0, 2.0)],
                 correlation: r,
@@ -168,7 +168,7 @@ mod tests {
 
     #[test]
     fn no_uncertainty_is_no_comparison() {
-        let pair = Pair {
+        let pair = ResultPair {
             label: "a".into(),
             results: [stated(1.0, 2.0, 2.0), stated(2.0, 2.0, 2.0)],
             correlation: 1.0,

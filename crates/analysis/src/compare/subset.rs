@@ -1,10 +1,10 @@
 //! The largest consistent subset of laboratories.
 
-use super::laboratories::{Reference, Results};
+use super::laboratories::{ReferenceValue, Results};
 
 /// How the subset was looked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Search {
+pub enum SubsetSearch {
     /// Among all subsets: it is the largest one, and of those of its size the one with the smallest
     /// chi-squared.
     All,
@@ -13,7 +13,7 @@ pub enum Search {
     OneAtATime,
 }
 
-impl Search {
+impl SubsetSearch {
     /// The words of the answer.
     pub fn name(self) -> &'static str {
         match self {
@@ -28,14 +28,14 @@ const MOST: u64 = 200_000;
 
 /// The largest consistent subset of `count` laboratories; `None` if a covariance matrix is not
 /// positive definite. One laboratory alone is consistent.
-pub(super) fn largest(results: &Results, count: usize) -> Option<(Reference, Search)> {
+pub(super) fn largest(results: &Results, count: usize) -> Option<(ReferenceValue, SubsetSearch)> {
     let mut looked_at = 0u64;
     for out in 1..count {
         looked_at = looked_at.saturating_add(binomial(count as u64, out as u64));
         if looked_at > MOST {
-            return one_at_a_time(results, count).map(|found| (found, Search::OneAtATime));
+            return one_at_a_time(results, count).map(|found| (found, SubsetSearch::OneAtATime));
         }
-        let mut best: Option<Reference> = None;
+        let mut best: Option<ReferenceValue> = None;
         let mut members: Vec<usize> = (0..count - out).collect();
         loop {
             let found = results.reference(&members)?;
@@ -48,7 +48,7 @@ pub(super) fn largest(results: &Results, count: usize) -> Option<(Reference, Sea
             }
         }
         if let Some(best) = best {
-            return Some((best, Search::All));
+            return Some((best, SubsetSearch::All));
         }
     }
     None
@@ -67,7 +67,7 @@ fn next(chosen: &mut [usize], count: usize) -> bool {
     true
 }
 
-fn one_at_a_time(results: &Results, count: usize) -> Option<Reference> {
+fn one_at_a_time(results: &Results, count: usize) -> Option<ReferenceValue> {
     let mut members: Vec<usize> = (0..count).collect();
     let mut found = results.reference(&members)?;
     while !found.is_consistent() {

@@ -8,10 +8,8 @@ use clap::{Args, ValueEnum};
 
 use super::options::{self, Answer};
 use super::{Exit, Failure, Program};
-use gumption_diff as diff;
-use gumption_diff::Evaluated;
 use gumption_files as file;
-use gumption_files::{ModelOrResult, Problems};
+use gumption_files::{Diagnostics, ModelOrResult};
 
 /// Compare two model files, two saved results, or one with the other.
 #[derive(Debug, Args)]
@@ -44,15 +42,12 @@ impl Diff {
             // the mistakes of both at once
             (first, second) => {
                 let found = [first.err(), second.err()].into_iter().flatten();
-                return Err(Problems(found.flat_map(|problems| problems.0).collect()).into());
+                return Err(
+                    Diagnostics(found.flat_map(|diagnostics| diagnostics.0).collect()).into()
+                );
             }
         };
-        let difference = match (&first, &second) {
-            (ModelOrResult::Model(first), ModelOrResult::Model(second)) => {
-                diff::compare(first, second)
-            }
-            (first, second) => diff::compare_saved(evaluated(first), evaluated(second))?,
-        };
+        let difference = file::difference(&first, &second)?;
         let names = [&first, &second].map(ModelOrResult::name);
         let answer = match self.answer.format {
             Format::Table => page::table(names, &difference),
@@ -63,14 +58,7 @@ impl Diff {
     }
 }
 
-fn evaluated(file: &ModelOrResult) -> Evaluated<'_> {
-    match file {
-        ModelOrResult::Model(file) => Evaluated::Model(file),
-        ModelOrResult::Result(file) => Evaluated::Result(file),
-    }
-}
-
-fn read(program: &Program, path: &Path) -> Result<Result<ModelOrResult, Problems>, Failure> {
+fn read(program: &Program, path: &Path) -> Result<Result<ModelOrResult, Diagnostics>, Failure> {
     let text = |text: &str| file::read_either_text("<stdin>", text, Path::new(""));
     options::given(path, text, file::read_either)
 }

@@ -3,7 +3,9 @@
 use serde::Serialize;
 use serde::ser::{SerializeMap, Serializer};
 
-use gumption_diff::{Difference, Due, OutputDifference, Part, RowDifference, State};
+use gumption_analysis::diff::{
+    ChangeCause, ChangePart, Difference, InputState, OutputDifference, RowDifference,
+};
 use gumption_engine::decimal::{MISSING, exact, position, rounded, significant};
 use gumption_report::number::{to, with_uncertainty};
 use gumption_report::{Grid, WIDTH, wrapped};
@@ -66,8 +68,8 @@ struct Known<'a> {
     sensitivity: Option<f64>,
 }
 
-impl<'a> From<&'a State> for Known<'a> {
-    fn from(state: &'a State) -> Self {
+impl<'a> From<&'a InputState> for Known<'a> {
+    fn from(state: &'a InputState) -> Self {
         Self {
             estimate: state.estimate,
             standard_uncertainty: state.standard_uncertainty,
@@ -80,18 +82,18 @@ impl<'a> From<&'a State> for Known<'a> {
 }
 
 /// The name of an input, or what else a part is due to.
-fn due(part: &Part) -> (Option<&str>, Option<&'static str>) {
+fn due(part: &ChangePart) -> (Option<&str>, Option<&'static str>) {
     match &part.due {
-        Due::Input(name) => (Some(name), None),
-        Due::Correlations => (None, Some("correlations")),
-        Due::Coverage => (None, Some("coverage")),
-        Due::Model => (None, Some("model")),
-        Due::Rest => (None, Some("other")),
+        ChangeCause::Input(name) => (Some(name), None),
+        ChangeCause::Correlations => (None, Some("correlations")),
+        ChangeCause::Coverage => (None, Some("coverage")),
+        ChangeCause::Model => (None, Some("model")),
+        ChangeCause::Rest => (None, Some("other")),
     }
 }
 
 impl<'a> Line<'a> {
-    fn of(part: &'a Part) -> Self {
+    fn of(part: &'a ChangePart) -> Self {
         let (input, what) = due(part);
         let [from, to] = part.states.each_ref().map(|state| state.as_ref().map(Known::from));
         Self { input, what, from, to, change: part.change, share_of_change: part.share }
@@ -168,8 +170,9 @@ fn section(output: &OutputDifference, at: &str) -> String {
     // all to the position that the largest change deserves
     let largest = changed().filter_map(|part| part.change).map(f64::abs).fold(0.0, f64::max);
     let last = position(largest, DIGITS + 1);
-    let change = |part: &Part| part.change.map_or_else(missing, |change| to(change, last));
-    let share = |part: &Part| part.share.map_or_else(missing, |share| rounded(100.0 * share, -1));
+    let change = |part: &ChangePart| part.change.map_or_else(missing, |change| to(change, last));
+    let share =
+        |part: &ChangePart| part.share.map_or_else(missing, |share| rounded(100.0 * share, -1));
     let mut grid = Grid::default();
     grid.text(
         "what changed",
@@ -218,15 +221,15 @@ fn heading(output: &OutputDifference, at: &str) -> String {
 }
 
 /// What is known of an input in one of the files.
-fn known(part: &Part, side: usize) -> String {
-    if !matches!(part.due, Due::Input(_)) {
+fn known(part: &ChangePart, side: usize) -> String {
+    if !matches!(part.due, ChangeCause::Input(_)) {
         return String::new();
     }
     let Some(state) = part.states.get(side).and_then(Option::as_ref) else {
         return "absent".to_owned();
     };
     let unit = if matches!(state.unit.trim(), "" | "1") { "" } else { &state.unit };
-    let State { estimate, standard_uncertainty: u, distribution, dof, .. } = state;
+    let InputState { estimate, standard_uncertainty: u, distribution, dof, .. } = state;
     if *u == 0.0 {
         return format!("{} {unit}", exact(*estimate)).trim_end().to_owned() + ", known exactly";
     }

@@ -5,12 +5,12 @@ use std::fmt::Write;
 use super::{one_line, plain_table, render, wrapped, wrapped_to};
 use crate::Failure;
 use gumption_files as file;
-use gumption_files::{Listing, nearest};
+use gumption_files::{EffectListing, nearest};
 
 /// The effects of that name, or all of them.
-pub(super) fn named(name: Option<&str>) -> Result<Listing, Failure> {
-    let Listing { names, mut effects } = file::catalogue();
-    let Some(name) = name else { return Ok(Listing { names, effects }) };
+pub(super) fn named(name: Option<&str>) -> Result<EffectListing, Failure> {
+    let EffectListing { names, mut effects } = file::catalogue();
+    let Some(name) = name else { return Ok(EffectListing { names, effects }) };
     let hint = match nearest(name, effects.iter().map(|effect| effect.name.as_str())) {
         Some(near) => format!("did you mean `{near}`?"),
         None => "`gumption models --effects` lists those that there are".to_owned(),
@@ -19,15 +19,15 @@ pub(super) fn named(name: Option<&str>) -> Result<Listing, Failure> {
     if effects.is_empty() {
         return Err(Failure::Argument(format!("the catalogue has no effect `{name}`; {hint}")));
     }
-    Ok(Listing { names, effects })
+    Ok(EffectListing { names, effects })
 }
 
-pub(super) fn json(listing: &Listing) -> Result<String, Failure> {
+pub(super) fn json(listing: &EffectListing) -> Result<String, Failure> {
     let text = serde_json::to_string_pretty(listing);
     Ok(text.map_err(|error| Failure::System(error.to_string()))? + "\n")
 }
 
-pub(super) fn page(listing: &Listing) -> String {
+pub(super) fn page(listing: &EffectListing) -> String {
     let mut text = String::new();
     for effect in &listing.effects {
         let _ = writeln!(text, "{} ({})\n", effect.name, bench(&effect.bench));

@@ -89,7 +89,7 @@ fn answer(
     let overrides: Vec<Override> =
         example.set.iter().filter_map(|text| Override::parse(text)).collect();
     let file = file::read_text(&example.name, example.model, Path::new(""), &overrides)
-        .map_err(|problems| problems.to_string())?;
+        .map_err(|diagnostics| diagnostics.to_string())?;
     let mut task = file.task;
     if example.published.iter().any(|published| needs_trials(&published.path)) {
         *trials = Some((task.settings.trials, task.settings.seed));

@@ -1,6 +1,6 @@
 //! From an effect of the catalogue to one in the names of a sim.
 
-use super::super::case::Read;
+use super::super::effect_context::EffectContext;
 use super::super::json::{Json, Member, Node};
 use super::measured::Measured;
 use super::{ANY_BENCH, Catalogue, Entry};
@@ -88,7 +88,7 @@ fn kind_in_words(key: &str) -> Option<String> {
 pub(super) fn fit(
     shipped: &Catalogue,
     entry: &Entry,
-    sim: &Read<'_>,
+    sim: &EffectContext<'_>,
 ) -> Result<(usize, Member), Box<Misfit>> {
     let parameters = expanded(entry.object("parameters"), sim);
     let own: Vec<&str> = parameters.iter().map(|member| member.key.as_str()).collect();
@@ -176,7 +176,7 @@ fn renamed(
 }
 
 /// The members with those for each amplitude or phase written out.
-fn expanded(members: &[Member], sim: &Read<'_>) -> Vec<Member> {
+fn expanded(members: &[Member], sim: &EffectContext<'_>) -> Vec<Member> {
     let mut expanded = Vec::new();
     for member in members {
         let kind = ["{amplitude}", "{phase}"].into_iter().find(|kind| member.key.contains(kind));
@@ -224,7 +224,7 @@ fn written(member: &Member, text: &impl Fn(&str) -> String) -> Member {
 /// The parameter with numbers for the multiples of what was measured.
 fn with_numbers(
     parameter: Member,
-    sim: &Read<'_>,
+    sim: &EffectContext<'_>,
     called: &impl Fn(&str) -> Option<String>,
     misfit: &mut Misfit,
 ) -> Member {

@@ -8,22 +8,22 @@ use super::{Catalogue, Entry};
 
 /// The catalogue of ready-made effects.
 #[derive(Clone, Debug)]
-pub struct Listing {
+pub struct EffectListing {
     /// Names of quantities, each with what it may be called in a sim: the first that the sim has is
     /// taken.
     pub names: Vec<(String, Vec<String>)>,
     /// The effects in their order.
-    pub effects: Vec<Listed>,
+    pub effects: Vec<ListedEffect>,
 }
 
-impl Listing {
-    pub fn of(catalogue: &Catalogue) -> Self {
-        let effects = catalogue.entries.iter().map(Listed::of).collect();
+impl EffectListing {
+    pub(super) fn of(catalogue: &Catalogue) -> Self {
+        let effects = catalogue.entries.iter().map(ListedEffect::of).collect();
         Self { names: catalogue.names.clone(), effects }
     }
 }
 
-impl Serialize for Listing {
+impl Serialize for EffectListing {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let mut map = serializer.serialize_map(Some(2))?;
         map.serialize_entry("names", &Names(&self.names))?;
@@ -43,7 +43,7 @@ impl Serialize for Names<'_> {
 
 /// An effect of the catalogue.
 #[derive(Clone, Debug)]
-pub struct Listed {
+pub struct ListedEffect {
     /// Its name; several effects for different sims may share it.
     pub name: String,
     /// The bench that it is for, or `any`.
@@ -72,8 +72,8 @@ pub struct ListedParameter {
     pub about: String,
 }
 
-impl Listed {
-    pub fn of(entry: &Entry) -> Self {
+impl ListedEffect {
+    pub(super) fn of(entry: &Entry) -> Self {
         let override_of = |member: &Member| (member.key.clone(), plain(&member.value));
         Self {
             name: entry.name.clone(),
@@ -117,7 +117,7 @@ fn plain(node: &Node) -> String {
 }
 
 /// In the form of a case file's effects, with the name and the bench before it.
-impl Serialize for Listed {
+impl Serialize for ListedEffect {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let mut map = serializer.serialize_map(Some(2 + self.members.len()))?;
         map.serialize_entry("name", &self.name)?;

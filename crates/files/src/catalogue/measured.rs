@@ -1,6 +1,6 @@
 //! Numbers of a prior that follow the data: `{"times": 0.02, "lowest": "f"}`.
 
-use super::super::case::Read;
+use super::super::effect_context::EffectContext;
 use super::super::json::{Json, Member};
 
 /// A multiple of something that was measured.
@@ -58,7 +58,7 @@ impl Measured {
 
     /// The number, with the name that the sim has for its quantity; `None` where it is not a finite
     /// number above zero.
-    pub(super) fn value(&self, sim: &Read<'_>, name: &str) -> Option<f64> {
+    pub(super) fn value(&self, sim: &EffectContext<'_>, name: &str) -> Option<f64> {
         let measured = match self.of {
             Of::Lowest => extreme(sim, name, f64::min),
             Of::Highest | Of::OverHighest => extreme(sim, name, f64::max),
@@ -73,7 +73,7 @@ impl Measured {
 }
 
 /// The least or greatest modulus above zero of a condition, or of an input's estimates.
-fn extreme(sim: &Read<'_>, name: &str, better: fn(f64, f64) -> f64) -> Option<f64> {
+fn extreme(sim: &EffectContext<'_>, name: &str, better: fn(f64, f64) -> f64) -> Option<f64> {
     let rows = &sim.task.rows;
     let condition = sim.sim.conditions.iter().position(|condition| condition.name == name);
     let values: Vec<f64> = match condition {
@@ -94,7 +94,7 @@ fn extreme(sim: &Read<'_>, name: &str, better: fn(f64, f64) -> f64) -> Option<f6
 }
 
 /// The largest measured modulus of an output.
-fn largest(sim: &Read<'_>, name: &str) -> Option<f64> {
+fn largest(sim: &EffectContext<'_>, name: &str) -> Option<f64> {
     let place = sim.sim.outputs.iter().position(|output| output.quantity.name == name)?;
     let observed = sim.observed.get(place)?.as_ref()?;
     let largest = observed.values.iter().map(|value| value.abs()).fold(0.0, f64::max);

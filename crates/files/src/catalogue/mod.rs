@@ -14,16 +14,16 @@ mod tests;
 
 use std::sync::Arc;
 
-pub use listing::{Listed, ListedParameter, Listing};
+pub use listing::{EffectListing, ListedEffect, ListedParameter};
 
-use super::case::Read;
+use super::diagnostics::Collector;
+use super::effect_context::EffectContext;
 use super::effects::{self, Placed};
 use super::json::{self, Json, Member, Node};
 use super::object::Object;
-use super::problem::Log;
 use super::results::Results;
-use super::source::Source;
-use super::{Fault, nearest};
+use super::source::SourceText;
+use super::{DiagnosticKind, nearest};
 use fit::Misfit;
 use gumption_engine::task::Warning;
 
@@ -35,7 +35,7 @@ const ANY_BENCH: &str = "any";
 
 /// The catalogue as it is written.
 struct Catalogue {
-    source: Arc<Source>,
+    source: Arc<SourceText>,
     names: Vec<(String, Vec<String>)>,
     entries: Vec<Entry>,
 }
@@ -69,7 +69,7 @@ impl Entry {
 impl Catalogue {
     /// The catalogue that ships with gumption; a test makes sure that nothing is left out.
     fn shipped() -> Self {
-        let source = Source::new("catalogue", TEXT);
+        let source = SourceText::new("catalogue", TEXT);
         let root = json::parse(&source).ok().map(|node| node.value);
         let mut names = Vec::new();
         let mut entries = Vec::new();
@@ -133,16 +133,16 @@ fn entry(node: Node) -> Option<Entry> {
 /// let catalogue = gumption_files::catalogue();
 /// assert!(catalogue.effects.iter().any(|effect| effect.name == "lateral-mode"));
 /// ```
-pub fn catalogue() -> Listing {
-    Listing::of(&Catalogue::shipped())
+pub fn catalogue() -> EffectListing {
+    EffectListing::of(&Catalogue::shipped())
 }
 
 /// Adds the effects that a case asks for after its own. Without a sim, because the model has mistakes,
 /// only their names are checked.
 pub(super) fn read(
-    log: &Log,
+    log: &Collector,
     root: &Object<'_>,
-    sim: Option<Read<'_>>,
+    sim: Option<EffectContext<'_>>,
     results: &Results<'_>,
     own: &mut Vec<Placed>,
     warnings: &mut Vec<Warning>,
@@ -156,26 +156,26 @@ pub(super) fn read(
         let Json::Text(name) = &node.value else {
             let what = "an element of `catalogue`".to_owned();
             let (found, expected) = (node.value.kind(), "the name of an effect in quotes");
-            log.report(&node.span, Fault::WrongType { what, found, expected });
+            log.report(&node.span, DiagnosticKind::WrongType { what, found, expected });
             clean = false;
             continue;
         };
-        let fault = |reason: String| Fault::Effect { name: name.clone(), reason };
+        let diagnostic = |reason: String| DiagnosticKind::Effect { name: name.clone(), reason };
         if !shipped.entries.iter().any(|entry| entry.name == *name) {
             let known = shipped.entries.iter().map(|entry| entry.name.as_str());
             let nearest = nearest(name, known).map(str::to_owned);
-            log.report(&node.span, Fault::UnknownEffect { name: name.clone(), nearest });
+            log.report(&node.span, DiagnosticKind::UnknownEffect { name: name.clone(), nearest });
             clean = false;
         } else if own.iter().any(|other| other.candidate.effect.name == *name) {
             let reason = "is there already: in `effects`, or a second time in `catalogue`; give \
                           the own effect another name, or take one of them out";
-            log.report(&node.span, fault(reason.to_owned()));
+            log.report(&node.span, diagnostic(reason.to_owned()));
             clean = false;
         } else if let Some(sim) = &sim {
             match one(&shipped, name, sim, results, warnings) {
                 Ok(candidate) => own.push(Placed { candidate, place: node.span.clone() }),
                 Err(reason) => {
-                    log.report(&node.span, fault(reason));
+                    log.report(&node.span, diagnostic(reason));
                     clean = false;
                 }
             }
@@ -188,18 +188,18 @@ pub(super) fn read(
 fn one(
     shipped: &Catalogue,
     name: &str,
-    sim: &Read<'_>,
+    sim: &EffectContext<'_>,
     results: &Results<'_>,
     warnings: &mut Vec<Warning>,
 ) -> Result<gumption_gap::Candidate, String> {
     let member = chosen(shipped, name, sim).map_err(|misfit| misfit.reason(shipped, sim.sim))?;
-    let log = Log::new(shipped.source.clone());
+    let log = Collector::new(shipped.source.clone());
     let read = effects::read_one(&log, &member, Some(sim.sim), results, warnings);
     match read.filter(|_| log.is_clean()) {
         Some(placed) => Ok(placed.candidate),
         None => {
-            let problems = log.into_problems();
-            let first = problems.0.first().map(|problem| problem.fault.to_string());
+            let diagnostics = log.into_diagnostics();
+            let first = diagnostics.0.first().map(|diagnostic| diagnostic.kind.to_string());
             Err(format!("of the catalogue cannot act on this sim: {}", first.unwrap_or_default()))
         }
     }
@@ -207,7 +207,7 @@ fn one(
 
 /// Of the entries of that name, the one that acts on most quantities of the sim; those of a bench
 /// come before those of any.
-fn chosen(shipped: &Catalogue, name: &str, sim: &Read<'_>) -> Result<Member, Box<Misfit>> {
+fn chosen(shipped: &Catalogue, name: &str, sim: &EffectContext<'_>) -> Result<Member, Box<Misfit>> {
     let mut best: Option<(bool, usize, Member)> = None;
     let mut nearest: Option<Box<Misfit>> = None;
     for entry in shipped.entries.iter().filter(|entry| entry.name == name) {

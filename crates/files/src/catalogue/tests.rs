@@ -2,8 +2,9 @@
 
 use std::collections::BTreeSet;
 
-use super::super::case::{Read, read_text};
-use super::super::{CaseFile, Fault};
+use super::super::case::read_text;
+use super::super::effect_context::EffectContext;
+use super::super::{CaseFile, DiagnosticKind};
 use super::{ANY_BENCH, Catalogue, TEXT, catalogue, fit};
 use gumption_engine::model::formula::is_name;
 
@@ -126,13 +127,15 @@ const BENCHES: [Bench; 9] =
     [PLANE, PLANE_TYPED, TABLE, TABLE_TYPED, TABLE_CORRECTED, CHAIN, CHAIN_TYPED, SIGNAL, OTHER];
 
 impl Bench {
-    fn read(&self, effects: &[&str]) -> Result<CaseFile, Vec<Fault>> {
+    fn read(&self, effects: &[&str]) -> Result<CaseFile, Vec<DiagnosticKind>> {
         let folder = tempfile::tempdir().unwrap();
         std::fs::write(folder.path().join("data.csv"), self.data).unwrap();
         let names: Vec<String> = effects.iter().map(|name| format!("{name:?}")).collect();
         let text = format!("{}, \"catalogue\": [{}]}}", self.file, names.join(", "));
         let read = read_text("case.json", &text, folder.path());
-        read.map_err(|problems| problems.0.into_iter().map(|problem| problem.fault).collect())
+        read.map_err(|diagnostics| {
+            diagnostics.0.into_iter().map(|diagnostic| diagnostic.kind).collect()
+        })
     }
 }
 
@@ -180,15 +183,15 @@ fn every_effect_fits_its_bench_without_a_warning() {
     for bench in &BENCHES {
         let plain = bench.read(&[]).unwrap();
         let observed = &plain.case.observed;
-        let read = Read { sim: &plain.case.sim, task: &plain.case.task, observed };
+        let read = EffectContext { sim: &plain.case.sim, task: &plain.case.task, observed };
         for entry in &shipped.entries {
             if entry.bench != bench.name && entry.bench != ANY_BENCH {
                 continue;
             }
             let Ok(chosen) = super::chosen(&shipped, &entry.name, &read) else { continue };
             taken.insert(chosen.key_span.start);
-            let file = bench.read(&[&entry.name]).unwrap_or_else(|faults| {
-                panic!("{} on {}: {faults:?}", entry.name, bench.name);
+            let file = bench.read(&[&entry.name]).unwrap_or_else(|kinds| {
+                panic!("{} on {}: {kinds:?}", entry.name, bench.name);
             });
             assert!(file.warnings.is_empty(), "{}: {:?}", entry.name, file.warnings);
             assert_eq!(file.case.candidates[0].effect.name, entry.name);
@@ -491,7 +494,7 @@ fn priors_that_follow_the_data() {
 #[test]
 fn an_effect_that_does_not_fit_says_what_it_needs() {
     let says = |bench: &Bench, name: &str| match bench.read(&[name]) {
-        Err(faults) => faults.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"),
+        Err(kinds) => kinds.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"),
         Ok(_) => panic!("{name} was taken"),
     };
     let text = says(&CHAIN, "lateral-mode");
@@ -504,7 +507,7 @@ fn an_effect_that_does_not_fit_says_what_it_needs() {
     assert!(text.contains("each observed output that is a phase"), "{text}");
     assert!(matches!(
         CHAIN.read(&["lateral_mod"]).unwrap_err().as_slice(),
-        [Fault::UnknownEffect { nearest: Some(near), .. }] if near == "lateral-mode"
+        [DiagnosticKind::UnknownEffect { nearest: Some(near), .. }] if near == "lateral-mode"
     ));
     let twice = CHAIN.read(&["low-pass", "low-pass"]).unwrap_err();
     assert!(twice[0].to_string().contains("second time"), "{twice:?}");
@@ -539,7 +542,7 @@ fn a_part_of_the_outputs_is_enough() {
     let case = fewer.read(&["lateral-mode"]).unwrap().case;
     assert_eq!(case.candidates[0].effect.overrides.len(), 1);
     let shipped = Catalogue::shipped();
-    let read = Read { sim: &case.sim, task: &case.task, observed: &case.observed };
+    let read = EffectContext { sim: &case.sim, task: &case.task, observed: &case.observed };
     let count = |name: &str| {
         let entry = shipped.entries.iter().find(|entry| entry.name == name).unwrap();
         fit::fit(&shipped, entry, &read).map(|(count, _)| count).ok()

@@ -1,6 +1,6 @@
 //! A certificate file: what is to be stated, of which models, in which form.
 
-mod particulars;
+mod administrative;
 mod rows;
 
 use std::collections::BTreeMap;
@@ -8,12 +8,12 @@ use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
 
+use super::diagnostics::{Collector, Diagnostics};
 use super::json::{self, Json, Node};
-use super::model_file::text_of;
 use super::object::Object;
-use super::problem::{Log, Problems};
-use super::source::Source;
-use super::{Fault, settings};
+use super::open::{check_format, open, read_root};
+use super::source::SourceText;
+use super::{DiagnosticKind, settings};
 use gumption_analysis::certificate::contents::{Certificate, Language, Rounding};
 use gumption_engine::task::{Coverage, Settings, Warning};
 use rows::Rows;
@@ -67,7 +67,7 @@ pub struct CertificateFile {
     /// Notes on what was read, each with the model file as its place.
     pub warnings: Vec<Warning>,
     /// The file's text.
-    pub source: Arc<Source>,
+    pub source: Arc<SourceText>,
     /// Where each row of the table stands in the file.
     pub places: Vec<Range<usize>>,
 }
@@ -78,7 +78,7 @@ pub struct CertifiedModel {
     /// The name, as the certificate file has it.
     pub name: String,
     /// Its text.
-    pub source: Arc<Source>,
+    pub source: Arc<SourceText>,
     /// The content of the tables that it reads, by name.
     pub files: Vec<(String, Vec<u8>)>,
 }
@@ -86,20 +86,20 @@ pub struct CertifiedModel {
 impl CertificateFile {
     /// A mistake at a key of the file, or at its beginning if the key is not there. A dot goes into
     /// an object: `device.serial_number`.
-    pub fn problem_at(&self, key: &str, fault: Fault) -> Problems {
-        let log = Log::new(self.source.clone());
-        log.report(&self.place_of(key), fault);
-        log.into_problems()
+    pub fn diagnostic_at(&self, key: &str, diagnostic: DiagnosticKind) -> Diagnostics {
+        let log = Collector::new(self.source.clone());
+        log.report(&self.place_of(key), diagnostic);
+        log.into_diagnostics()
     }
 
     /// Mistakes at keys of the file that are not there: each is reported at the longest part of its
     /// name that is.
-    pub fn missing(&self, keys: &[&'static str], what: &'static str) -> Problems {
-        let log = Log::new(self.source.clone());
+    pub fn missing(&self, keys: &[&'static str], what: &'static str) -> Diagnostics {
+        let log = Collector::new(self.source.clone());
         for key in keys {
-            log.report(&self.place_of(key), Fault::MissingKey { key, what });
+            log.report(&self.place_of(key), DiagnosticKind::MissingKey { key, what });
         }
-        log.into_problems()
+        log.into_diagnostics()
     }
 
     fn place_of(&self, key: &str) -> Range<usize> {
@@ -122,16 +122,8 @@ impl CertificateFile {
 ///
 /// # Errors
 /// All mistakes of the files, those of the certificate first.
-pub fn read(path: &Path) -> Result<CertificateFile, Problems> {
-    let name = path.display().to_string();
-    match text_of(path) {
-        Ok(text) => read_text(&name, &text, path.parent().unwrap_or_else(|| Path::new(""))),
-        Err(message) => {
-            let log = Log::new(Source::new(name, ""));
-            log.report(&(0..0), Fault::Unreadable { message });
-            Err(log.into_problems())
-        }
-    }
+pub fn read(path: &Path) -> Result<CertificateFile, Diagnostics> {
+    open(path, read_text)
 }
 
 /// Reads and checks a certificate file's text; `name` is used in messages, and model files are looked
@@ -139,24 +131,8 @@ pub fn read(path: &Path) -> Result<CertificateFile, Problems> {
 ///
 /// # Errors
 /// All mistakes of the text and its model files, those of the certificate first.
-pub fn read_text(name: &str, text: &str, folder: &Path) -> Result<CertificateFile, Problems> {
-    let source = Source::new(name, text);
-    let log = Log::new(source.clone());
-    let file = match json::parse(&source) {
-        Ok(node) => {
-            let whole = 0..source.text.find('\n').unwrap_or(source.text.len());
-            Object::new(&log, "a certificate file", &node, &whole)
-                .and_then(|root| certificate(root, folder))
-        }
-        Err((span, fault)) => {
-            log.report(&span, fault);
-            None
-        }
-    };
-    match file {
-        Some(file) if log.is_clean() => Ok(file),
-        _ => Err(log.into_problems()),
-    }
+pub fn read_text(name: &str, text: &str, folder: &Path) -> Result<CertificateFile, Diagnostics> {
+    read_root(name, text, "a certificate file", |root| certificate(root, folder))
 }
 
 /// Whether a text is meant as a certificate file.
@@ -192,8 +168,8 @@ impl Asking {
 
 fn certificate(root: Object<'_>, folder: &Path) -> Option<CertificateFile> {
     root.check_keys(&KEYS);
-    super::model_file::check_format(&root);
-    let particulars = particulars::read(&root);
+    check_format(&root);
+    let administrative = administrative::read(&root);
     let languages = languages(&root);
     let rounding = named(&root, "rounding", Rounding::named, &Rounding::ALL.map(Rounding::name));
     let digits = root.whole("digits", 1, MOST_DIGITS).unwrap_or(2);
@@ -207,7 +183,7 @@ fn certificate(root: Object<'_>, folder: &Path) -> Option<CertificateFile> {
     match root.required("rows").and_then(|_| root.list("rows")) {
         Some([]) => {
             let place = root.get("rows").map_or(root.place(), |member| &member.key_span);
-            root.log.report(place, Fault::NoValues { name: "rows".into() });
+            root.log.report(place, DiagnosticKind::NoValues { name: "rows".into() });
         }
         Some(list) => rows.read(list),
         None => {}
@@ -223,11 +199,11 @@ fn certificate(root: Object<'_>, folder: &Path) -> Option<CertificateFile> {
     if let Some((name, span)) = separate.iter().find(|(name, _)| shared.contains_key(*name)) {
         let reason =
             format!("`{name}` is in `shared_inputs` and in `separate_inputs`; take it out of one");
-        root.log.report(span, Fault::Certificate { reason });
+        root.log.report(span, DiagnosticKind::Certificate { reason });
     }
     let rows::Read { evaluations, lines, models, warnings, places } = rows.finish()?;
     let certificate = Certificate {
-        particulars: particulars?,
+        administrative: administrative?,
         languages,
         rounding: rounding.unwrap_or_default(),
         digits: u32::try_from(digits).unwrap_or(2),
@@ -251,8 +227,9 @@ fn named<T>(
     let found = find(name);
     if let (None, Some(member)) = (&found, object.get(key)) {
         let allowed = allowed.iter().map(|name| (*name).to_owned()).collect();
-        let fault = Fault::NotOneOf { key: key.into(), found: name.to_owned(), allowed };
-        object.log.report(&member.value.span, fault);
+        let diagnostic =
+            DiagnosticKind::NotOneOf { key: key.into(), found: name.to_owned(), allowed };
+        object.log.report(&member.value.span, diagnostic);
     }
     found
 }
@@ -265,12 +242,13 @@ fn languages(root: &Object<'_>) -> Vec<Language> {
             Some(language) if !languages.contains(&language) => languages.push(language),
             Some(_) => {
                 let reason = format!("the language `{code}` stands here a second time");
-                root.log.report(&span, Fault::Certificate { reason });
+                root.log.report(&span, DiagnosticKind::Certificate { reason });
             }
             None => {
                 let allowed = Language::ALL.map(|language| language.code().to_owned()).to_vec();
-                let fault = Fault::NotOneOf { key: "language".into(), found: code, allowed };
-                root.log.report(&span, fault);
+                let diagnostic =
+                    DiagnosticKind::NotOneOf { key: "language".into(), found: code, allowed };
+                root.log.report(&span, diagnostic);
             }
         }
     }
@@ -291,8 +269,9 @@ fn texts(object: &Object<'_>, key: &'static str) -> Vec<(String, Range<usize>)> 
         Json::Text(text) => Some((text.clone(), node.span.clone())),
         other => {
             let what = format!("`{key}`");
-            let fault = Fault::WrongType { what, found: other.kind(), expected: "a text" };
-            object.log.report(&node.span, fault);
+            let diagnostic =
+                DiagnosticKind::WrongType { what, found: other.kind(), expected: "a text" };
+            object.log.report(&node.span, diagnostic);
             None
         }
     };

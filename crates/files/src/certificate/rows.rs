@@ -4,15 +4,16 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 use std::path::Path;
 
-use super::super::Fault;
+use super::super::DiagnosticKind;
+use super::super::diagnostics::{Collector, Diagnostic};
 use super::super::json::{Json, Member, Node};
-use super::super::model_file::{self, ModelFile, Override};
+use super::super::model_file::{self, ModelFile};
 use super::super::nearest::nearest;
 use super::super::object::Object;
 use super::super::outputs;
-use super::super::problem::Log;
+use super::super::overrides::Override;
 use super::super::source::Place;
-use super::particulars::localized;
+use super::administrative::localized;
 use super::{Asking, CertifiedModel};
 use gumption_analysis::certificate::contents::{Asked, Line};
 use gumption_engine::model::Quantity;
@@ -37,7 +38,7 @@ pub(super) struct Read {
 
 /// Rows that are being read.
 pub(super) struct Rows<'a> {
-    log: &'a Log,
+    log: &'a Collector,
     folder: &'a Path,
     asking: Asking,
     /// The model files without replacements, by name; `None` after a mistake.
@@ -50,7 +51,7 @@ pub(super) struct Rows<'a> {
 }
 
 impl<'a> Rows<'a> {
-    pub(super) fn new(log: &'a Log, folder: &'a Path, asking: Asking) -> Self {
+    pub(super) fn new(log: &'a Collector, folder: &'a Path, asking: Asking) -> Self {
         Self {
             log,
             folder,
@@ -72,12 +73,12 @@ impl<'a> Rows<'a> {
             }
             self.row(node);
             if self.lines.len() > MOST_ROWS {
-                let fault = Fault::TooMany {
+                let diagnostic = DiagnosticKind::TooMany {
                     what: "rows of a certificate",
                     found: self.lines.len(),
                     most: MOST_ROWS,
                 };
-                self.log.report(&node.span, fault);
+                self.log.report(&node.span, diagnostic);
                 return;
             }
         }
@@ -97,9 +98,12 @@ impl<'a> Rows<'a> {
         let (output, wanted) = (output?, wanted?);
         let Some(place) = known.iter().position(|name| name == wanted) else {
             let nearest = nearest(wanted, known.iter().map(String::as_str)).map(str::to_owned);
-            let fault =
-                Fault::UnknownOutput { name: wanted.to_owned(), nearest, known: known.into() };
-            self.log.report(&output.value.span, fault);
+            let diagnostic = DiagnosticKind::UnknownOutput {
+                name: wanted.to_owned(),
+                nearest,
+                known: known.into(),
+            };
+            self.log.report(&output.value.span, diagnostic);
             return None;
         };
         let (evaluation, rows) = self.evaluation(&row, file, name)?;
@@ -145,23 +149,24 @@ impl<'a> Rows<'a> {
 
     /// A model file with replacements; mistakes of the replacements are reported at `member`.
     fn model(&self, name: &str, member: &Member, overrides: &[Override]) -> Option<ModelFile> {
-        let problems = match model_file::read(&self.folder.join(name), overrides) {
+        let diagnostics = match model_file::read(&self.folder.join(name), overrides) {
             Ok(file) => return Some(file),
-            Err(problems) => problems,
+            Err(diagnostics) => diagnostics,
         };
-        for problem in problems.0 {
+        for diagnostic in diagnostics.0 {
             let here = &member.value.span;
-            match problem.fault {
-                Fault::Unreadable { message } => {
+            match diagnostic.kind {
+                DiagnosticKind::Unreadable { message } => {
                     let message = format!("`{name}`: {message}");
-                    self.log.report(here, Fault::Unreadable { message });
+                    self.log.report(here, DiagnosticKind::Unreadable { message });
                 }
-                Fault::Override { text, reason } => {
+                DiagnosticKind::Override { text, reason } => {
                     let reason = format!("`{text}`: {reason}");
-                    self.log.report(here, Fault::Certificate { reason });
+                    self.log.report(here, DiagnosticKind::Certificate { reason });
                 }
-                fault => {
-                    self.log.report_at(Place { source: problem.source, span: problem.span }, fault);
+                kind => {
+                    let Diagnostic { source, span, .. } = diagnostic;
+                    self.log.report_at(Place { source, span }, kind);
                 }
             }
         }
@@ -186,8 +191,9 @@ impl<'a> Rows<'a> {
                     other => {
                         let what = format!("`{}`", entry.key);
                         let expected = "a number, or a number with a unit in quotes";
-                        let fault = Fault::WrongType { what, found: other.kind(), expected };
-                        self.log.report(&entry.value.span, fault);
+                        let diagnostic =
+                            DiagnosticKind::WrongType { what, found: other.kind(), expected };
+                        self.log.report(&entry.value.span, diagnostic);
                         return None;
                     }
                 };
@@ -225,7 +231,7 @@ impl<'a> Rows<'a> {
             let reason =
                 "no row of the model's conditions has all of these values at once".to_owned();
             let place = member.map_or(row.place(), |member| &member.value.span);
-            self.log.report(place, Fault::Certificate { reason });
+            self.log.report(place, DiagnosticKind::Certificate { reason });
             return None;
         }
         Some((evaluation, rows))
@@ -243,13 +249,13 @@ impl<'a> Rows<'a> {
         let wanted = Override { text, input, field: None, value };
         let found = match wanted.value_in(&task.model.conditions[place].unit) {
             Ok(found) => found,
-            Err(Fault::Override { text, reason }) => {
+            Err(DiagnosticKind::Override { text, reason }) => {
                 let reason = format!("`{text}`: {reason}");
-                self.log.report(&entry.value.span, Fault::Certificate { reason });
+                self.log.report(&entry.value.span, DiagnosticKind::Certificate { reason });
                 return None;
             }
-            Err(fault) => {
-                self.log.report(&entry.value.span, fault);
+            Err(diagnostic) => {
+                self.log.report(&entry.value.span, diagnostic);
                 return None;
             }
         };
@@ -265,7 +271,7 @@ impl<'a> Rows<'a> {
         unit: &Unit,
     ) -> Option<f64> {
         let refuse = |reason: String| {
-            self.log.report(&member.value.span, Fault::Certificate { reason });
+            self.log.report(&member.value.span, DiagnosticKind::Certificate { reason });
             None
         };
         let name = match &member.value.value {
@@ -274,8 +280,8 @@ impl<'a> Rows<'a> {
             other => {
                 let what = "`nominal`".to_owned();
                 let expected = "a number, or the name of a condition or an input";
-                let fault = Fault::WrongType { what, found: other.kind(), expected };
-                self.log.report(&member.value.span, fault);
+                let diagnostic = DiagnosticKind::WrongType { what, found: other.kind(), expected };
+                self.log.report(&member.value.span, diagnostic);
                 return None;
             }
         };
@@ -304,7 +310,7 @@ impl<'a> Rows<'a> {
             let near = nearest(name, known.iter().map(String::as_str));
             let near = near.map_or(String::new(), |near| format!("; did you mean `{near}`?"));
             let reason = format!("no model of this certificate has a condition `{name}`{near}");
-            self.log.report(span, Fault::Certificate { reason });
+            self.log.report(span, DiagnosticKind::Certificate { reason });
         }
     }
 
@@ -318,7 +324,7 @@ impl<'a> Rows<'a> {
             self.models.iter().flat_map(|(_, task)| quantities(task)).collect();
         if !known.is_empty() && !known.iter().any(|known| known == name) {
             let nearest = nearest(name, known.iter().map(String::as_str)).map(str::to_owned);
-            self.log.report(span, Fault::NoSuchInput { name: name.to_owned(), nearest });
+            self.log.report(span, DiagnosticKind::NoSuchInput { name: name.to_owned(), nearest });
         }
     }
 

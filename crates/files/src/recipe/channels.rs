@@ -2,16 +2,17 @@
 
 use std::ops::Range;
 
-use super::super::Fault;
-use super::super::json::{Json, Member};
+use super::super::DiagnosticKind;
+use super::super::diagnostics::Collector;
+use super::super::json::Member;
 use super::super::nearest::nearest;
-use super::super::object::{Object, whole_number};
-use super::super::problem::Log;
+use super::super::object::Object;
 use super::super::recording::{ColumnName, Conversion, Wanted};
+use super::column::column;
 use super::quantity::{of_member, positive, unit};
-use super::recordings::RecordingFile;
+use super::recordings::{RecordingFile, SearchFile};
 use super::{check_name, steps};
-use gumption_signal::Channel;
+use gumption_signal::{Channel, Search};
 use gumption_units::Unit;
 
 /// The keys of a channel.
@@ -49,13 +50,13 @@ pub(super) fn read(root: &Object<'_>, recordings: &[RecordingFile]) -> Option<Ve
     let read: Vec<Option<ChannelFile>> =
         object.members().iter().map(|member| channel(root.log, member, recordings)).collect();
     if read.is_empty() {
-        root.log.report(&member.key_span, Fault::NoValues { name: "channels".into() });
+        root.log.report(&member.key_span, DiagnosticKind::NoValues { name: "channels".into() });
         return None;
     }
     read.into_iter().collect()
 }
 
-fn channel(log: &Log, member: &Member, recordings: &[RecordingFile]) -> Option<ChannelFile> {
+fn channel(log: &Collector, member: &Member, recordings: &[RecordingFile]) -> Option<ChannelFile> {
     check_name(log, &member.key, &member.key_span);
     let of = Object::new(log, "a channel", &member.value, &member.key_span)?;
     of.check_keys(&KEYS);
@@ -107,40 +108,17 @@ fn recording(of: &Object<'_>, recordings: &[RecordingFile]) -> Option<usize> {
             Some(near) => format!("there is no recording `{name}`; did you mean `{near}`?"),
             None => format!("there is no recording `{name}`"),
         };
-        of.log.report(&member.value.span, Fault::Recipe { reason });
+        of.log.report(&member.value.span, DiagnosticKind::Recipe { reason });
     }
     place
-}
-
-/// A column by its name, or by its number from 1.
-pub(super) fn column(log: &Log, member: &Member) -> Option<ColumnName> {
-    match &member.value.value {
-        Json::Text(name) => Some(ColumnName::Name(name.clone())),
-        Json::Number(text) => match whole_number(text).filter(|n| (1..=100_000).contains(n)) {
-            Some(number) => Some(ColumnName::Number(number as usize)),
-            None => {
-                let (key, found) = (member.key.clone(), text.clone());
-                let fault = Fault::NotWhole { key, found, least: 1, most: 100_000 };
-                log.report(&member.value.span, fault);
-                None
-            }
-        },
-        other => {
-            let what = format!("`{}`", member.key);
-            let expected = "the name of a column, or its number from 1";
-            let fault = Fault::WrongType { what, found: other.kind(), expected };
-            log.report(&member.value.span, fault);
-            None
-        }
-    }
 }
 
 /// Units of the channel for one raw unit, and the relative standard uncertainty of that.
 fn scale(of: &Object<'_>, own: &Unit, raw: &Unit) -> Option<(f64, f64)> {
     let (key, member, divides) = match (of.get("scale"), of.get("sensitivity")) {
         (Some(_), Some(second)) => {
-            let fault = Fault::Exclusive { first: "scale", second: "sensitivity" };
-            of.log.report(&second.key_span, fault);
+            let diagnostic = DiagnosticKind::Exclusive { first: "scale", second: "sensitivity" };
+            of.log.report(&second.key_span, diagnostic);
             return None;
         }
         (Some(member), None) => ("scale", member, false),
@@ -173,7 +151,7 @@ fn scale(of: &Object<'_>, own: &Unit, raw: &Unit) -> Option<(f64, f64)> {
              as `{expected}`",
             quantity.unit
         );
-        of.log.report(&member.value.span, Fault::Recipe { reason });
+        of.log.report(&member.value.span, DiagnosticKind::Recipe { reason });
         return None;
     }
     let size = quantity.si();
@@ -191,7 +169,7 @@ fn range(of: &Object<'_>) -> Option<[f64; 2]> {
         _ => {
             let reason =
                 "`range` is the lowest and the highest raw value, in that order".to_owned();
-            of.log.report(&member.value.span, Fault::Recipe { reason });
+            of.log.report(&member.value.span, DiagnosticKind::Recipe { reason });
             None
         }
     }
@@ -200,14 +178,14 @@ fn range(of: &Object<'_>) -> Option<[f64; 2]> {
 /// The resolution in the raw unit; 0 where it is not known.
 fn resolution(of: &Object<'_>, range: Option<[f64; 2]>) -> f64 {
     if let (Some(_), Some(second)) = (of.get("resolution"), of.get("bits")) {
-        let fault = Fault::Exclusive { first: "resolution", second: "bits" };
-        of.log.report(&second.key_span, fault);
+        let diagnostic = DiagnosticKind::Exclusive { first: "resolution", second: "bits" };
+        of.log.report(&second.key_span, diagnostic);
     }
     if let Some(member) = of.get("resolution") {
         let found = of.number("resolution").unwrap_or(0.0);
         if found < 0.0 {
-            let fault = Fault::NotPositive { key: "resolution".into(), found };
-            of.log.report(&member.value.span, fault);
+            let diagnostic = DiagnosticKind::NotPositive { key: "resolution".into(), found };
+            of.log.report(&member.value.span, diagnostic);
         }
         return found;
     }
@@ -216,8 +194,8 @@ fn resolution(of: &Object<'_>, range: Option<[f64; 2]>) -> f64 {
         Some([lower, upper]) => (upper - lower) / 2f64.powi(i32::try_from(bits).unwrap_or(64)),
         None => {
             if of.get("range").is_none() {
-                let fault = Fault::OnlyWith { key: "bits", with: "range" };
-                of.log.report(&member.key_span, fault);
+                let diagnostic = DiagnosticKind::OnlyWith { key: "bits", with: "range" };
+                of.log.report(&member.key_span, diagnostic);
             }
             0.0
         }
@@ -229,5 +207,29 @@ impl ChannelFile {
     pub(super) fn wanted(&self) -> (Wanted, Conversion) {
         let wanted = Wanted { column: self.column.clone(), channel: self.channel.name.clone() };
         (wanted, Conversion { zero: self.zero, gain: self.gain, range: self.range })
+    }
+}
+
+impl SearchFile {
+    /// The search, in one of the channels of its recording.
+    pub(super) fn resolved(
+        &self,
+        log: &Collector,
+        recording: usize,
+        channels: &[ChannelFile],
+    ) -> Option<Search> {
+        let at =
+            |file: &ChannelFile| file.channel.name == self.channel && file.recording == recording;
+        let channel = channels.iter().position(at);
+        if channel.is_none() {
+            let reason = format!("this recording has no channel `{}`", self.channel);
+            log.report(&self.place, DiagnosticKind::Recipe { reason });
+        }
+        Some(Search {
+            channel: channel?,
+            frequency: self.frequency,
+            between: self.between,
+            step: self.step,
+        })
     }
 }

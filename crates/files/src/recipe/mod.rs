@@ -1,6 +1,7 @@
 //! A recipe file: which channels of which recordings, and what is taken from them.
 
 mod channels;
+mod column;
 mod quantity;
 mod recordings;
 mod rows;
@@ -10,14 +11,14 @@ use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
 
-use super::Fault;
-use super::json::{self, Json, Node};
-use super::model_file::{check_format, text_of};
+use super::DiagnosticKind;
+use super::diagnostics::{Collector, Diagnostics};
+use super::json::{Json, Node};
 use super::nearest::nearest;
 use super::object::Object;
-use super::problem::{Log, Problems};
+use super::open::{check_format, open, read_root};
 use super::recording::{self, Recording};
-use super::source::Source;
+use super::source::SourceText;
 use channels::ChannelFile;
 use gumption_engine::model::formula;
 use gumption_engine::task::Warning;
@@ -56,7 +57,7 @@ const MOST_MULTIPLE: u64 = 50;
 
 /// A condition of the recordings: a column of the answer.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Condition {
+pub struct RecipeCondition {
     /// Its name.
     pub name: String,
     /// Its unit.
@@ -86,13 +87,13 @@ pub struct RecipeFile {
     /// What is the same for all rows.
     pub settings: Settings,
     /// The conditions.
-    pub conditions: Vec<Condition>,
+    pub conditions: Vec<RecipeCondition>,
     /// The name of the column of frequencies.
     pub frequency: String,
     /// The rows.
     pub rows: Vec<RecipeRow>,
     /// The file's text.
-    pub source: Arc<Source>,
+    pub source: Arc<SourceText>,
     recordings: Vec<RecordingFile>,
     searches: Vec<Option<Search>>,
     channels: Vec<ChannelFile>,
@@ -117,39 +118,16 @@ pub struct OpenedRow {
 ///
 /// # Errors
 /// All mistakes of the file.
-pub fn read(path: &Path) -> Result<RecipeFile, Problems> {
-    let name = path.display().to_string();
-    match text_of(path) {
-        Ok(text) => read_text(&name, &text, path.parent().unwrap_or_else(|| Path::new(""))),
-        Err(message) => {
-            let log = Log::new(Source::new(name, ""));
-            log.report(&(0..0), Fault::Unreadable { message });
-            Err(log.into_problems())
-        }
-    }
+pub fn read(path: &Path) -> Result<RecipeFile, Diagnostics> {
+    open(path, read_text)
 }
 
 /// Reads and checks a recipe's text; its recordings are looked for in `folder`.
 ///
 /// # Errors
 /// All mistakes of the text.
-pub fn read_text(name: &str, text: &str, folder: &Path) -> Result<RecipeFile, Problems> {
-    let source = Source::new(name, text);
-    let log = Log::new(source.clone());
-    let file = match json::parse(&source) {
-        Ok(node) => {
-            let whole = 0..source.text.find('\n').unwrap_or(source.text.len());
-            Object::new(&log, "a recipe", &node, &whole).and_then(|root| recipe(&root, folder))
-        }
-        Err((span, fault)) => {
-            log.report(&span, fault);
-            None
-        }
-    };
-    match file {
-        Some(file) if log.is_clean() => Ok(file),
-        _ => Err(log.into_problems()),
-    }
+pub fn read_text(name: &str, text: &str, folder: &Path) -> Result<RecipeFile, Diagnostics> {
+    read_root(name, text, "a recipe", |root| recipe(&root, folder))
 }
 
 /// Whether a text is meant as a recipe.
@@ -162,15 +140,15 @@ pub(super) fn is_meant(root: &Node) -> bool {
 ///
 /// # Errors
 /// All mistakes of the text, or the first of each row's recordings.
-pub(super) fn check_text(name: &str, text: &str, folder: &Path) -> Result<(), Problems> {
+pub(super) fn check_text(name: &str, text: &str, folder: &Path) -> Result<(), Diagnostics> {
     let file = read_text(name, text, folder)?;
-    let mut problems = Vec::new();
+    let mut diagnostics = Vec::new();
     for row in 0..file.rows.len() {
         if let Err(found) = file.open(row) {
-            problems.extend(found.0);
+            diagnostics.extend(found.0);
         }
     }
-    if problems.is_empty() { Ok(()) } else { Err(Problems(problems)) }
+    if diagnostics.is_empty() { Ok(()) } else { Err(Diagnostics(diagnostics)) }
 }
 
 fn recipe(root: &Object<'_>, folder: &Path) -> Option<RecipeFile> {
@@ -233,8 +211,9 @@ fn named<T: Copy + Default>(
     let found = all.iter().copied().find(|value| name(*value) == text);
     if found.is_none() {
         let allowed = all.iter().map(|value| name(*value).to_owned()).collect();
-        let fault = Fault::NotOneOf { key: key.into(), found: text.to_owned(), allowed };
-        root.log.report(&member.value.span, fault);
+        let diagnostic =
+            DiagnosticKind::NotOneOf { key: key.into(), found: text.to_owned(), allowed };
+        root.log.report(&member.value.span, diagnostic);
     }
     found
 }
@@ -248,15 +227,15 @@ fn components(root: &Object<'_>) -> Option<Vec<u32>> {
     if let Some(found) = list.iter().find(|number| !whole(number)) {
         let found = gumption_engine::number::Shortest(*found).to_string();
         let key = "components".to_owned();
-        let fault = Fault::NotWhole { key, found, least: 1, most: MOST_MULTIPLE };
-        root.log.report(&member.value.span, fault);
+        let diagnostic = DiagnosticKind::NotWhole { key, found, least: 1, most: MOST_MULTIPLE };
+        root.log.report(&member.value.span, diagnostic);
         return None;
     }
     let mut multiples: Vec<u32> = list.iter().map(|number| *number as u32).collect();
     multiples.sort_unstable();
     multiples.dedup();
     if multiples.is_empty() {
-        root.log.report(&member.key_span, Fault::NoValues { name: "components".into() });
+        root.log.report(&member.key_span, DiagnosticKind::NoValues { name: "components".into() });
         return None;
     }
     Some(multiples)
@@ -273,13 +252,13 @@ fn reference(root: &Object<'_>, channels: &[ChannelFile]) -> Option<Option<usize
             Some(near) => format!("there is no channel `{name}`; did you mean `{near}`?"),
             None => format!("there is no channel `{name}`"),
         };
-        root.log.report(&member.value.span, Fault::Recipe { reason });
+        root.log.report(&member.value.span, DiagnosticKind::Recipe { reason });
     }
     place.map(Some)
 }
 
 /// Steps that need a reference have one, and it is another channel.
-fn check_references(log: &Log, channels: &[ChannelFile], reference: Option<usize>) {
+fn check_references(log: &Collector, channels: &[ChannelFile], reference: Option<usize>) {
     for (number, file) in channels.iter().enumerate() {
         for (step, place) in file.channel.steps.iter().zip(&file.step_places) {
             let reason = match reference {
@@ -291,16 +270,16 @@ fn check_references(log: &Log, channels: &[ChannelFile], reference: Option<usize
                 ),
                 Some(_) => continue,
             };
-            log.report(place, Fault::Recipe { reason });
+            log.report(place, DiagnosticKind::Recipe { reason });
         }
     }
 }
 
 /// A name of a channel, recording or condition.
-fn check_name(log: &Log, name: &str, place: &Range<usize>) {
+fn check_name(log: &Collector, name: &str, place: &Range<usize>) {
     if let Err(error) = formula::check_name(name) {
         let (name, reason) = (name.to_owned(), error.to_string());
-        log.report(place, Fault::BadName { name, reason });
+        log.report(place, DiagnosticKind::BadName { name, reason });
     }
 }
 
@@ -309,8 +288,8 @@ impl RecipeFile {
     ///
     /// # Errors
     /// The first mistake of each recording, with line or sample and channel.
-    pub fn open(&self, row: usize) -> Result<OpenedRow, Problems> {
-        let log = Log::new(self.source.clone());
+    pub fn open(&self, row: usize) -> Result<OpenedRow, Diagnostics> {
+        let log = Collector::new(self.source.clone());
         let mut opened = OpenedRow {
             settings: self.settings.clone(),
             tracks: Vec::new(),
@@ -359,16 +338,16 @@ impl RecipeFile {
                 }
                 Err(reason) => {
                     let reason = format!("`{name}`: {reason}");
-                    log.report(place, Fault::Recording { reason });
+                    log.report(place, DiagnosticKind::Recording { reason });
                 }
             }
         }
-        if log.is_clean() { Ok(opened) } else { Err(log.into_problems()) }
+        if log.is_clean() { Ok(opened) } else { Err(log.into_diagnostics()) }
     }
 
     /// Why a row has no observation, as a mistake with its place.
-    pub fn refusal(&self, row: usize, refused: &Refused<String>) -> Problems {
-        let log = Log::new(self.source.clone());
+    pub fn refusal(&self, row: usize, refused: &Refused<String>) -> Diagnostics {
+        let log = Collector::new(self.source.clone());
         let of_row = self.rows.get(row);
         let file = |channel: usize| {
             let recording = self.channels.get(channel).map_or(0, |file| file.recording);
@@ -430,8 +409,8 @@ impl RecipeFile {
                 )
             }
         };
-        log.report(&span, Fault::Recording { reason });
-        log.into_problems()
+        log.report(&span, DiagnosticKind::Recording { reason });
+        log.into_diagnostics()
     }
 }
 

@@ -1,6 +1,6 @@
 //! A value with its unit and, perhaps, its standard uncertainty.
 
-use super::super::Fault;
+use super::super::DiagnosticKind;
 use super::super::json::{Json, Member};
 use super::super::object::Object;
 use gumption_units::Unit;
@@ -46,8 +46,9 @@ pub(super) fn of_member(object: &Object<'_>, member: &Member, default: &str) -> 
     if !matches!(member.value.value, Json::Object(_)) {
         let what = format!("`{}`", member.key);
         let expected = "a number, or an object with `value` and `unit`";
-        let fault = Fault::WrongType { what, found: member.value.value.kind(), expected };
-        object.log.report(&member.value.span, fault);
+        let diagnostic =
+            DiagnosticKind::WrongType { what, found: member.value.value.kind(), expected };
+        object.log.report(&member.value.span, diagnostic);
         return None;
     }
     let inner = Object::new(object.log, "a quantity", &member.value, &member.key_span)?;
@@ -72,7 +73,9 @@ pub(super) fn uncertainty(inner: &Object<'_>) -> Option<f64> {
         return Some(found);
     }
     let key = "standard_uncertainty".to_owned();
-    inner.log.report(&member.value.span, Fault::OutOfRange { key, found, range: "0 or above" });
+    inner
+        .log
+        .report(&member.value.span, DiagnosticKind::OutOfRange { key, found, range: "0 or above" });
     None
 }
 
@@ -81,8 +84,8 @@ pub(super) fn unit(object: &Object<'_>, key: &'static str, default: &str) -> Opt
     let Some(member) = object.get(key) else { return Unit::parse(default).ok() };
     let text = object.text(key)?;
     let parsed = Unit::parse(text);
-    let fault = |error| Fault::Unit { unit: text.to_owned(), error };
-    object.log.value(&member.value.span, parsed.map_err(fault))
+    let diagnostic = |error| DiagnosticKind::Unit { unit: text.to_owned(), error };
+    object.log.value(&member.value.span, parsed.map_err(diagnostic))
 }
 
 /// Whether a unit has the dimension that is expected; a mistake where it has not.
@@ -94,14 +97,14 @@ pub(super) fn same_dimension(
 ) -> bool {
     let same = found.is_compatible(expected);
     if !same {
-        let fault = Fault::WrongDimension {
+        let diagnostic = DiagnosticKind::WrongDimension {
             name: member.key.clone(),
             found: found.text().to_owned(),
             found_as: found.dimension().describe(),
             expected: expected.text().to_owned(),
             expected_as: expected.dimension().describe(),
         };
-        object.log.report(&member.value.span, fault);
+        object.log.report(&member.value.span, diagnostic);
     }
     same
 }
@@ -112,7 +115,9 @@ pub(super) fn positive(object: &Object<'_>, key: &'static str, quantity: &Quanti
     if found <= 0.0
         && let Some(member) = object.get(key)
     {
-        object.log.report(&member.value.span, Fault::NotPositive { key: key.into(), found });
+        object
+            .log
+            .report(&member.value.span, DiagnosticKind::NotPositive { key: key.into(), found });
     }
     found > 0.0
 }

@@ -3,15 +3,14 @@
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use super::super::Fault;
+use super::super::DiagnosticKind;
 use super::super::json::{Json, Member};
 use super::super::object::Object;
-use super::super::problem::Log;
 use super::super::recording::{ColumnName, Conversion, Reading, Wanted};
-use super::channels::{ChannelFile, column};
 use super::check_name;
+use super::column::column;
 use super::quantity::{positive, quantity, unit};
-use gumption_signal::{Measured, Search};
+use gumption_signal::Measured;
 
 /// The keys of a recording.
 pub(super) const KEYS: [&str; 7] =
@@ -23,12 +22,13 @@ const SEARCH: [&str; 5] = ["channel", "frequency", "from", "to", "step"];
 /// The search for a sampling rate, as the recipe describes it.
 #[derive(Clone, Debug)]
 pub(super) struct SearchFile {
-    channel: String,
+    /// The channel that has the oscillation.
+    pub(super) channel: String,
     /// Where it is named.
     pub(super) place: Range<usize>,
-    frequency: Option<Measured>,
-    between: [f64; 2],
-    step: f64,
+    pub(super) frequency: Option<Measured>,
+    pub(super) between: [f64; 2],
+    pub(super) step: f64,
 }
 
 /// A recording, as the recipe describes it.
@@ -80,8 +80,8 @@ pub(super) fn read(root: &Object<'_>, folder: &Path) -> Option<Vec<RecordingFile
             let second = gumption_units::Unit::parse("s").unwrap_or_default();
             super::quantity::same_dimension(&of, member, unit, &second);
             if of.get("time").is_none() {
-                let fault = Fault::OnlyWith { key: "time_unit", with: "time" };
-                root.log.report(&member.key_span, fault);
+                let diagnostic = DiagnosticKind::OnlyWith { key: "time_unit", with: "time" };
+                root.log.report(&member.key_span, diagnostic);
             }
         }
         let time = of.get("time").and_then(|member| column(root.log, member));
@@ -104,7 +104,7 @@ pub(super) fn read(root: &Object<'_>, folder: &Path) -> Option<Vec<RecordingFile
         });
     }
     if recordings.is_empty() && object.members().is_empty() {
-        root.log.report(&member.key_span, Fault::NoValues { name: "recordings".into() });
+        root.log.report(&member.key_span, DiagnosticKind::NoValues { name: "recordings".into() });
     }
     (recordings.len() == object.members().len()).then_some(recordings)
 }
@@ -122,13 +122,13 @@ fn searched<'a>(of: &Object<'a>) -> Option<(&'a Member, &'a [Member])> {
 fn search(of: &Object<'_>) -> Option<SearchFile> {
     let (member, all) = searched(of)?;
     if let Some(other) = all.iter().find(|other| other.key != "search") {
-        let fault = Fault::UnknownKey {
+        let diagnostic = DiagnosticKind::UnknownKey {
             key: other.key.clone(),
             what: "a sampling rate that is searched",
             nearest: None,
             known: vec!["search"],
         };
-        of.log.report(&other.key_span, fault);
+        of.log.report(&other.key_span, diagnostic);
     }
     let of = Object::new(of.log, "a search", &member.value, &member.key_span)?;
     of.check_keys(&SEARCH);
@@ -159,34 +159,10 @@ fn search(of: &Object<'_>) -> Option<SearchFile> {
             gumption_engine::number::Shortest(to),
             gumption_engine::number::Shortest(from)
         );
-        of.log.report(&of.get("to")?.value.span, Fault::Recipe { reason });
+        of.log.report(&of.get("to")?.value.span, DiagnosticKind::Recipe { reason });
         return None;
     }
     Some(SearchFile { channel, place: place?, frequency, between: [from, to], step })
-}
-
-impl SearchFile {
-    /// The search, in one of the channels of its recording.
-    pub(super) fn resolved(
-        &self,
-        log: &Log,
-        recording: usize,
-        channels: &[ChannelFile],
-    ) -> Option<Search> {
-        let at =
-            |file: &ChannelFile| file.channel.name == self.channel && file.recording == recording;
-        let channel = channels.iter().position(at);
-        if channel.is_none() {
-            let reason = format!("this recording has no channel `{}`", self.channel);
-            log.report(&self.place, Fault::Recipe { reason });
-        }
-        Some(Search {
-            channel: channel?,
-            frequency: self.frequency,
-            between: self.between,
-            step: self.step,
-        })
-    }
 }
 
 /// The part that is used must have a length.
@@ -200,7 +176,7 @@ pub(super) fn check_part(object: &Object<'_>, from: Option<f64>, to: Option<f64>
             "`to` is {found} s, but must be after `from`, {} s",
             gumption_engine::number::Shortest(from)
         );
-        object.log.report(&member.value.span, Fault::Recipe { reason });
+        object.log.report(&member.value.span, DiagnosticKind::Recipe { reason });
     }
 }
 

@@ -2,12 +2,12 @@
 
 use std::ops::Range;
 
-use super::super::Fault;
+use super::super::DiagnosticKind;
 use super::super::json::{Json, Member, Node};
 use super::super::object::Object;
 use super::quantity::{of_object, quantity, same_dimension, uncertainty, unit};
 use super::recordings::{RecordingFile, check_part};
-use super::{Condition, RecipeRow, check_name};
+use super::{RecipeCondition, RecipeRow, check_name};
 use gumption_signal::Frequency;
 use gumption_units::Unit;
 
@@ -20,7 +20,7 @@ const CONDITION: [&str; 3] = ["unit", "value", "about"];
 /// At most so many rows.
 const MOST_ROWS: usize = 10_000;
 
-type Read = (Vec<RecipeRow>, Vec<Condition>, String);
+type Read = (Vec<RecipeRow>, Vec<RecipeCondition>, String);
 
 pub(super) fn read(root: &Object<'_>, recordings: &[RecordingFile], single: bool) -> Option<Read> {
     let general = root.get("frequency").map(|member| (frequencies(root, member), member));
@@ -39,7 +39,7 @@ pub(super) fn read(root: &Object<'_>, recordings: &[RecordingFile], single: bool
     if let Some(member) =
         root.get("conditions").filter(|_| conditions.iter().any(|c| c.name == name))
     {
-        root.log.report(&member.key_span, Fault::NameTaken { name: name.clone() });
+        root.log.report(&member.key_span, DiagnosticKind::NameTaken { name: name.clone() });
     }
     let nodes = match root.get("rows") {
         Some(_) => root.list("rows")?,
@@ -48,12 +48,13 @@ pub(super) fn read(root: &Object<'_>, recordings: &[RecordingFile], single: bool
     let reader = Reader { root, recordings, conditions: &conditions, constants, general, single };
     let rows: Vec<RecipeRow> = match root.get("rows") {
         Some(member) if nodes.is_empty() => {
-            root.log.report(&member.key_span, Fault::NoValues { name: "rows".into() });
+            root.log.report(&member.key_span, DiagnosticKind::NoValues { name: "rows".into() });
             return None;
         }
         Some(member) if nodes.len() > MOST_ROWS => {
             let (what, found) = ("rows of a recipe", nodes.len());
-            root.log.report(&member.key_span, Fault::TooMany { what, found, most: MOST_ROWS });
+            root.log
+                .report(&member.key_span, DiagnosticKind::TooMany { what, found, most: MOST_ROWS });
             return None;
         }
         Some(_) => nodes.iter().filter_map(|node| reader.row(Some(node))).collect(),
@@ -63,7 +64,7 @@ pub(super) fn read(root: &Object<'_>, recordings: &[RecordingFile], single: bool
 }
 
 /// The conditions, and the value of each where it is the same in all rows.
-fn conditions(root: &Object<'_>) -> Option<(Vec<Condition>, Vec<Option<f64>>)> {
+fn conditions(root: &Object<'_>) -> Option<(Vec<RecipeCondition>, Vec<Option<f64>>)> {
     let (mut conditions, mut constants) = (Vec::new(), Vec::new());
     let Some(member) = root.get("conditions") else { return Some((conditions, constants)) };
     let object = Object::new(root.log, "`conditions`", &member.value, &member.key_span)?;
@@ -74,7 +75,7 @@ fn conditions(root: &Object<'_>) -> Option<(Vec<Condition>, Vec<Option<f64>>)> {
         of.check_keys(&CONDITION);
         of.text("about");
         let unit = unit(&of, "unit", "1")?;
-        conditions.push(Condition { name: member.key.clone(), unit });
+        conditions.push(RecipeCondition { name: member.key.clone(), unit });
         constants.push(of.number("value"));
     }
     Some((conditions, constants))
@@ -83,7 +84,7 @@ fn conditions(root: &Object<'_>) -> Option<(Vec<Condition>, Vec<Option<f64>>)> {
 struct Reader<'a> {
     root: &'a Object<'a>,
     recordings: &'a [RecordingFile],
-    conditions: &'a [Condition],
+    conditions: &'a [RecipeCondition],
     constants: Vec<Option<f64>>,
     general: Option<(Option<Vec<Frequency>>, &'a Member)>,
     single: bool,
@@ -108,13 +109,13 @@ impl Reader<'_> {
             (None, Some((general, member))) => (general.clone(), member.key_span.clone()),
             (None, None) => {
                 let what = if node.is_some() { "a row of a recipe" } else { "a recipe" };
-                log.report(&place, Fault::MissingKey { key: "frequency", what });
+                log.report(&place, DiagnosticKind::MissingKey { key: "frequency", what });
                 (None, place.clone())
             }
         };
         if self.single && frequencies.as_ref().is_some_and(|list| list.len() > 1) {
             let reason = "the method `fft` takes one frequency in each row".to_owned();
-            log.report(&frequency_place, Fault::Recipe { reason });
+            log.report(&frequency_place, DiagnosticKind::Recipe { reason });
         }
         let values = self.values(object.as_ref(), &place);
         let files = self.files(object.as_ref(), &place);
@@ -151,7 +152,7 @@ impl Reader<'_> {
                             member.key,
                             if names.is_empty() { "none".to_owned() } else { names.join(", ") }
                         );
-                        row.log.report(&member.key_span, Fault::Recipe { reason });
+                        row.log.report(&member.key_span, DiagnosticKind::Recipe { reason });
                     }
                 }
             }
@@ -162,7 +163,7 @@ impl Reader<'_> {
                 "the condition `{}` has no value here, and none for all rows",
                 self.conditions[at].name
             );
-            log.report(place, Fault::Recipe { reason });
+            log.report(place, DiagnosticKind::Recipe { reason });
             return None;
         }
         values.into_iter().collect()
@@ -183,7 +184,7 @@ impl Reader<'_> {
         for member in of.iter().flat_map(|of| of.members()) {
             if !self.recordings.iter().any(|recording| recording.name == member.key) {
                 let reason = format!("there is no recording `{}`", member.key);
-                log.report(&member.key_span, Fault::Recipe { reason });
+                log.report(&member.key_span, DiagnosticKind::Recipe { reason });
             }
         }
         let file = |recording: &RecordingFile| {
@@ -195,7 +196,7 @@ impl Reader<'_> {
             if found.is_none() {
                 let reason = format!("the recording `{}` has no `file`", recording.name);
                 let place = if row.is_some() { place } else { &recording.place };
-                log.report(place, Fault::Recipe { reason });
+                log.report(place, DiagnosticKind::Recipe { reason });
             }
             found
         };
@@ -222,8 +223,8 @@ fn frequencies(object: &Object<'_>, member: &Member) -> Option<Vec<Frequency>> {
             }
             let values = match (of.get("value"), of.get("values")) {
                 (Some(_), Some(second)) => {
-                    let fault = Fault::Exclusive { first: "value", second: "values" };
-                    of.log.report(&second.key_span, fault);
+                    let diagnostic = DiagnosticKind::Exclusive { first: "value", second: "values" };
+                    of.log.report(&second.key_span, diagnostic);
                     return None;
                 }
                 (Some(_), None) => vec![of_object(&of, "Hz")?.si()],
@@ -248,11 +249,11 @@ fn frequencies(object: &Object<'_>, member: &Member) -> Option<Vec<Frequency>> {
     let wrong = list.iter().filter_map(|of| of.hertz).find(|hertz| *hertz <= 0.0);
     if let Some(found) = wrong {
         let key = "frequency".to_owned();
-        object.log.report(&member.value.span, Fault::NotPositive { key, found });
+        object.log.report(&member.value.span, DiagnosticKind::NotPositive { key, found });
         return None;
     }
     if list.is_empty() {
-        object.log.report(&member.key_span, Fault::NoValues { name: "frequency".into() });
+        object.log.report(&member.key_span, DiagnosticKind::NoValues { name: "frequency".into() });
         return None;
     }
     Some(list)

@@ -3,7 +3,7 @@
 
 use std::ops::Range;
 
-use super::super::Fault;
+use super::super::DiagnosticKind;
 use super::super::json::{Json, Member, Node};
 use super::super::object::Object;
 use super::quantity::{Quantity, positive, quantity, same_dimension, unit};
@@ -48,7 +48,7 @@ fn step(name: &str, of: &Object<'_>, of_values: &Unit) -> Option<(Step, Unit)> {
                     gumption_engine::number::Shortest(high),
                     gumption_engine::number::Shortest(low)
                 );
-                of.log.report(&of.get("high")?.value.span, Fault::Recipe { reason });
+                of.log.report(&of.get("high")?.value.span, DiagnosticKind::Recipe { reason });
                 return None;
             }
             same(filter(of, Band::BandPass(low, high))?)
@@ -84,7 +84,7 @@ fn filter(of: &Object<'_>, band: Band) -> Option<Step> {
     let poles = usize::try_from(poles).ok()?;
     if matches!(band, Band::BandPass(..)) && poles % 2 == 1 {
         let reason = format!("a band-pass filter has an even order, not {poles}");
-        of.log.report(&of.get("order")?.value.span, Fault::Recipe { reason });
+        of.log.report(&of.get("order")?.value.span, DiagnosticKind::Recipe { reason });
         return None;
     }
     let truth = |key: &'static str, otherwise| match of.get(key) {
@@ -135,7 +135,7 @@ fn rotation(of: &Object<'_>, of_values: &Unit, radial: bool) -> Option<(Step, Un
     let member = of.required("radius")?;
     if member.value.number().is_some() {
         let reason = "`radius` needs a unit, such as {\"value\": 170, \"unit\": \"mm\"}".to_owned();
-        of.log.report(&member.value.span, Fault::Recipe { reason });
+        of.log.report(&member.value.span, DiagnosticKind::Recipe { reason });
         return None;
     }
     let found = quantity(of, "radius", "m")?;
@@ -145,7 +145,7 @@ fn rotation(of: &Object<'_>, of_values: &Unit, radial: bool) -> Option<(Step, Un
         let reason = format!(
             "this step takes an angle, in a unit such as `deg`; the values are in `{of_values}`"
         );
-        of.log.report(of.place(), Fault::Recipe { reason });
+        of.log.report(of.place(), DiagnosticKind::Recipe { reason });
         return None;
     }
     let (factor, after) = converted(of, "m/s^2")?;
@@ -171,13 +171,13 @@ fn correct(of: &Object<'_>) -> Option<Step> {
     let kinds = ["response", "high_passes", "delay", "phase"];
     let given: Vec<&'static str> = kinds.into_iter().filter(|key| of.get(key).is_some()).collect();
     if let [first, second, ..] = given[..] {
-        of.log.report(&of.get(second)?.key_span, Fault::Exclusive { first, second });
+        of.log.report(&of.get(second)?.key_span, DiagnosticKind::Exclusive { first, second });
         return None;
     }
     let plain = of.get("gain");
     if let (Some(member), Some(&with @ ("response" | "high_passes"))) = (plain, given.first()) {
-        let fault = Fault::Exclusive { first: with, second: "gain" };
-        of.log.report(&member.key_span, fault);
+        let diagnostic = DiagnosticKind::Exclusive { first: with, second: "gain" };
+        of.log.report(&member.key_span, diagnostic);
         return None;
     }
     if given.is_empty() && plain.is_none() {
@@ -197,8 +197,9 @@ fn correct(of: &Object<'_>) -> Option<Step> {
             let corners = of.numbers("high_passes")?;
             let wrong = corners.iter().find(|corner| **corner <= 0.0);
             if let Some(found) = wrong {
-                let fault = Fault::NotPositive { key: "high_passes".into(), found: *found };
-                of.log.report(&of.get("high_passes")?.value.span, fault);
+                let diagnostic =
+                    DiagnosticKind::NotPositive { key: "high_passes".into(), found: *found };
+                of.log.report(&of.get("high_passes")?.value.span, diagnostic);
                 return None;
             }
             Response::HighPasses(corners)
@@ -237,13 +238,13 @@ fn points(of: &Object<'_>) -> Option<Vec<ResponsePoint>> {
         let frequency = hertz(&point, "frequency")?;
         if points.last().is_some_and(|last| last.frequency >= frequency) {
             let reason = "the points of a response stand by rising frequency".to_owned();
-            of.log.report(&node.span, Fault::Recipe { reason });
+            of.log.report(&node.span, DiagnosticKind::Recipe { reason });
             return None;
         }
         points.push(ResponsePoint { frequency, gain: gain.si(), phase });
     }
     if points.is_empty() {
-        of.log.report(&member.key_span, Fault::NoValues { name: "response".into() });
+        of.log.report(&member.key_span, DiagnosticKind::NoValues { name: "response".into() });
         return None;
     }
     Some(points)
@@ -280,8 +281,9 @@ pub(super) fn read(channel: &Object<'_>, unit: &Unit) -> Option<Steps> {
         let name = object.text("step")?;
         let Some((_, keys)) = ALL.iter().find(|(known, _)| *known == name) else {
             let allowed = ALL.map(|(name, _)| name.to_owned()).to_vec();
-            let fault = Fault::NotOneOf { key: "step".into(), found: name.to_owned(), allowed };
-            channel.log.report(&node.span, fault);
+            let diagnostic =
+                DiagnosticKind::NotOneOf { key: "step".into(), found: name.to_owned(), allowed };
+            channel.log.report(&node.span, diagnostic);
             return None;
         };
         object.check_keys(&[&["step"], *keys].concat());

@@ -2,6 +2,7 @@
 
 mod csv_frames;
 mod npy_frames;
+mod npy_header;
 mod scan;
 mod wav_frames;
 
@@ -211,6 +212,14 @@ impl<R: Read> Read for Digesting<R> {
         self.digest.borrow_mut().update(bytes.get(..count).unwrap_or(&[]));
         Ok(count)
     }
+}
+
+/// The value of a sample, which counts from 1, if it is finite.
+fn finite(value: f64, sample: u64, wanted: &Wanted) -> Result<f64, String> {
+    if value.is_finite() {
+        return Ok(value);
+    }
+    Err(format!("{}: {value} is not a finite number", place(sample, &wanted.channel)))
 }
 
 /// "sample 12, channel `a`"; samples count from 1.

@@ -4,7 +4,7 @@ use std::io::Read;
 
 use hound::{SampleFormat, WavReader};
 
-use super::{BLOCK, ColumnName, Frames, Wanted, place};
+use super::{BLOCK, ColumnName, Frames, Wanted, finite};
 
 /// Frames of a WAV file.
 pub(super) struct WavFrames<R> {
@@ -71,7 +71,7 @@ impl<R: Read> Frames for WavFrames<R> {
 }
 
 /// The wanted columns of frames that stand one after the other; all values must be finite.
-pub(super) fn of_frames(
+fn of_frames(
     frames: &[f64],
     channels: usize,
     (places, wanted): (&[usize], &[Wanted]),
@@ -81,11 +81,7 @@ pub(super) fn of_frames(
     for (sample, frame) in (before + 1..).zip(frames.chunks_exact(channels.max(1))) {
         for ((column, at), wanted) in columns.iter_mut().zip(places).zip(wanted) {
             let value = frame.get(*at).copied().unwrap_or(f64::NAN);
-            if !value.is_finite() {
-                let place = place(sample, &wanted.channel);
-                return Err(format!("{place}: {value} is not a finite number"));
-            }
-            column.push(value);
+            column.push(finite(value, sample, wanted)?);
         }
     }
     Ok(())

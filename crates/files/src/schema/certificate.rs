@@ -3,7 +3,7 @@
 use super::node::{Node, object, reference, texts};
 use super::{closed, described, referenced, text_of};
 use crate as file;
-use gumption_analysis::certificate::contents::{Language, Place, Rounding};
+use gumption_analysis::certificate::contents::{Language, PerformanceLocation, Rounding};
 
 pub(super) fn definitions() -> Vec<(String, Node)> {
     let definitions = [
@@ -52,7 +52,7 @@ fn certificate() -> Node {
         (
             "place",
             described("string", "Where the calibration was made; in the laboratory unless given.")
-                .with("enum", texts(Place::ALL.map(Place::name))),
+                .with("enum", texts(PerformanceLocation::ALL.map(PerformanceLocation::name))),
         ),
         ("environment", referenced("localized", "Environment: temperature, humidity.")),
         ("method", referenced("localized", "Method of calibration.")),

@@ -113,7 +113,7 @@ pub(super) const SHAPES: [Shape; 17] = [
     Shape {
         name: "lognormal",
         aliases: &[],
-        about: "Log-normal; `mean` and `std` are those of the quantity itself.",
+        about: "Collector-normal; `mean` and `std` are those of the quantity itself.",
         fields: &["mean", "std"],
         rule: Rule::All(&["mean", "std"]),
     },

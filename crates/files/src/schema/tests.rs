@@ -10,7 +10,7 @@ use serde_json::{Value, json};
 use super::shapes::SHAPES;
 use super::text;
 use crate as file;
-use crate::Fault;
+use crate::DiagnosticKind;
 
 fn schema() -> Value {
     serde_json::from_str(&text()).unwrap()
@@ -186,11 +186,11 @@ fn what_the_contract_allows_is_valid() {
 /// The keys that the reader knows where `file` has the key `unknown`; none if it stops before.
 fn known_to_reader(file: &Value) -> Option<BTreeSet<String>> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/errors");
-    let Err(problems) = file::check_text("x", &file.to_string(), &folder) else {
+    let Err(diagnostics) = file::check_text("x", &file.to_string(), &folder) else {
         panic!("an unknown key was taken: {file}");
     };
-    problems.0.iter().find_map(|problem| match &problem.fault {
-        Fault::UnknownKey { key, known, .. } if key == "unknown" => {
+    diagnostics.0.iter().find_map(|diagnostic| match &diagnostic.kind {
+        DiagnosticKind::UnknownKey { key, known, .. } if key == "unknown" => {
             Some(known.iter().map(|key| (*key).to_owned()).collect())
         }
         _ => None,

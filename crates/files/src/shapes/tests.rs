@@ -7,7 +7,7 @@ use super::KINDS;
 use crate::{Override, read_text};
 use gumption_engine::distribution::Distribution;
 
-/// The distribution of an input with these fields, or all problems as text.
+/// The distribution of an input with these fields, or all diagnostics as text.
 fn read(fields: &str, set: &[&str]) -> Result<Distribution, String> {
     let text = format!(
         "{{\"inputs\": {{\"x\": {{{fields}}}}}, \"equations\": {{\"y\": \"x\"}}, \

@@ -2,7 +2,7 @@
 
 use super::Report;
 use crate::csv::{number, of_records, text};
-use gumption_analysis::assumptions::{Figures, Move};
+use gumption_analysis::assumptions::{VariantChange, VariantFigures};
 
 const COLUMNS: [&str; 10] = [
     "output",
@@ -29,22 +29,23 @@ pub fn csv(report: &Report<'_>) -> String {
         let at = row.conditions.iter().filter(|_| task.swept).map(|value| number(Some(*value)));
         let at: Vec<String> = at.collect();
         for (output, of) in task.model.outputs.iter().zip(&row.outputs) {
-            let mut record =
-                |of_input: [&str; 3], figures: Option<&Figures>, moved: Option<&Move>| {
-                    let quantity = &output.quantity;
-                    let mut cells = at.clone();
-                    cells.extend([text(&quantity.name), text(quantity.unit.text())]);
-                    cells.extend(of_input.map(text));
-                    let interval = figures.map(|figures| figures.symmetric_interval);
-                    cells.extend([
-                        number(figures.and_then(|figures| figures.standard_uncertainty)),
-                        number(interval.map(|[low, _]| low)),
-                        number(interval.map(|[_, high]| high)),
-                        number(moved.and_then(|moved| moved.change)),
-                        number(moved.and_then(|moved| moved.error)),
-                    ]);
-                    records.push(cells);
-                };
+            let mut record = |of_input: [&str; 3],
+                              figures: Option<&VariantFigures>,
+                              moved: Option<&VariantChange>| {
+                let quantity = &output.quantity;
+                let mut cells = at.clone();
+                cells.extend([text(&quantity.name), text(quantity.unit.text())]);
+                cells.extend(of_input.map(text));
+                let interval = figures.map(|figures| figures.symmetric_interval);
+                cells.extend([
+                    number(figures.and_then(|figures| figures.standard_uncertainty)),
+                    number(interval.map(|[low, _]| low)),
+                    number(interval.map(|[_, high]| high)),
+                    number(moved.and_then(|moved| moved.change)),
+                    number(moved.and_then(|moved| moved.error)),
+                ]);
+                records.push(cells);
+            };
             record(["", "baseline", ""], Some(&of.baseline), None);
             for input in &of.inputs {
                 let name = report.name(input.variable);

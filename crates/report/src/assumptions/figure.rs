@@ -5,7 +5,7 @@ use plotters::style::Color;
 
 use crate::html::{Drawing, WIDTH};
 use crate::plot::{AFTER, Axis, INK, STRIP_AXIS, Strip, WEAK, faded, line, px, stroke, svg};
-use gumption_analysis::assumptions::{InputAudit, Move, OutputAudit};
+use gumption_analysis::assumptions::{InputAudit, OutputAudit, VariantChange};
 
 /// Height of a row in pixels, and space for the names.
 const ROW: f64 = 24.0;
@@ -16,7 +16,7 @@ const RIGHT: f64 = 24.0;
 /// point; `None` where nothing moves.
 pub(super) fn draw(output: &OutputAudit, name: impl Fn(usize) -> String) -> Option<Drawing> {
     let shown: Vec<&InputAudit> = output.inputs.iter().filter(|i| i.halved.is_some()).collect();
-    let percent = |moved: &Move| moved.change.map(|change| 100.0 * change);
+    let percent = |moved: &VariantChange| moved.change.map(|change| 100.0 * change);
     let widths = |input: &InputAudit| {
         let ends = [input.halved.as_ref(), input.doubled.as_ref()];
         ends.map(|end| end.and_then(percent))

@@ -3,7 +3,7 @@
 use super::Report;
 use crate::answer::{list, object, pretty};
 use gumption_analysis::assumptions::{
-    Agreement, Figures, InputAudit, Move, OutputAudit, RowAudit, Sobol,
+    EvidenceTest, InputAudit, OutputAudit, RowAudit, Sobol, VariantChange, VariantFigures,
 };
 use serde_json::Value;
 
@@ -76,14 +76,14 @@ fn output_tree(report: &Report<'_>, unit: &str, output: &OutputAudit) -> Value {
     object(entries)
 }
 
-fn figures(of: Option<&Figures>) -> Entries {
+fn figures(of: Option<&VariantFigures>) -> Entries {
     vec![
         ("standard_uncertainty", of.and_then(|of| of.standard_uncertainty).into()),
         ("symmetric_interval", of.map(|of| of.symmetric_interval).into()),
     ]
 }
 
-fn moved(of: &Move) -> Entries {
+fn moved(of: &VariantChange) -> Entries {
     let mut entries = figures(of.figures.as_ref());
     entries.push(("change_of_half_length", of.change.into()));
     entries.push(("numerical_standard_error", of.error.into()));
@@ -126,7 +126,7 @@ fn input_tree(report: &Report<'_>, input: &InputAudit) -> Value {
     object(entries)
 }
 
-fn agreement(report: &Report<'_>, of: &Agreement) -> Value {
+fn agreement(report: &Report<'_>, of: &EvidenceTest) -> Value {
     let unit = report.task.variables.get(of.variable).map_or("", |v| v.unit.text());
     let supported = object([
         ("parameter", Value::from(of.supported.parameter)),

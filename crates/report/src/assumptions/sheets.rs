@@ -4,7 +4,9 @@ use super::Report;
 use crate::number::{MISSING, justified, position, rounded, significant, to};
 use crate::plain;
 use crate::sheet::Sheet;
-use gumption_analysis::assumptions::{Agreement, InputAudit, Kept, Move, OutputAudit, Sobol};
+use gumption_analysis::assumptions::{
+    EvidenceTest, InputAudit, Kept, OutputAudit, Sobol, VariantChange,
+};
 
 /// Decimal places of a percentage.
 const TENTHS: i32 = -1;
@@ -69,20 +71,21 @@ pub(super) fn evidence(report: &Report<'_>) -> Option<Sheet> {
     sheet.text("input", all.iter().map(|of| plain(report.name(of.variable))));
     sheet.numbers("readings", all.iter().map(|of| of.readings.to_string()));
     sheet.text("width", all.iter().map(|of| width_name(of).to_owned()));
-    let digits = |of: &Agreement| position(of.supported.estimate, 3);
+    let digits = |of: &EvidenceTest| position(of.supported.estimate, 3);
     sheet.numbers("stated", all.iter().map(|of| to(of.supported.stated, digits(of))));
     sheet.numbers("supported", all.iter().map(|of| to(of.supported.estimate, digits(of))));
-    let ends = |of: &Agreement| of.supported.interval.map(|end| to(end, digits(of))).join(" to ");
+    let ends =
+        |of: &EvidenceTest| of.supported.interval.map(|end| to(end, digits(of))).join(" to ");
     sheet.text("95 % interval", all.iter().map(ends));
     let unit =
-        |of: &Agreement| report.task.variables.get(of.variable).map_or("", |v| v.unit.text());
+        |of: &EvidenceTest| report.task.variables.get(of.variable).map_or("", |v| v.unit.text());
     sheet.text("unit", all.iter().map(|of| unit(of).to_owned()));
     sheet.numbers("p-value", all.iter().map(|of| p_value(of.p_value)));
     sheet.text("verdict", all.iter().map(|of| of.verdict.words().to_owned()));
     (!all.is_empty()).then_some(sheet)
 }
 
-fn width_name(of: &Agreement) -> &'static str {
+fn width_name(of: &EvidenceTest) -> &'static str {
     match of.supported.parameter {
         "half_width" => "half-width",
         "std" => "standard deviation",
@@ -111,7 +114,7 @@ fn index(sobol: Option<&Sobol>, which: usize) -> String {
 }
 
 /// A change in percent, or that there is none to be seen.
-pub(super) fn change(moved: &Move) -> String {
+pub(super) fn change(moved: &VariantChange) -> String {
     match moved.change {
         None => missing(),
         Some(_) if !moved.is_seen() => "none seen".to_owned(),
@@ -127,7 +130,7 @@ fn signed(value: f64, text: impl Fn(f64) -> String) -> String {
     sign.to_owned() + &text(value)
 }
 
-fn width(moved: Option<&Move>) -> String {
+fn width(moved: Option<&VariantChange>) -> String {
     moved.map_or_else(missing, change)
 }
 

@@ -3,7 +3,7 @@
 use super::Report;
 use crate::number::{coarser, position, rounded, to};
 use crate::{conditions_text, grouped, plain};
-use gumption_analysis::assumptions::{InputAudit, OutputAudit, Verdict};
+use gumption_analysis::assumptions::{EvidenceVerdict, InputAudit, OutputAudit};
 
 pub(super) const MOVES: &str = "Changes are those of half the length of the coverage interval, \
     relative to the stated assumptions, from the same random numbers; a change below 0.05 % or \
@@ -18,7 +18,7 @@ pub(super) const SOBOL: &str = "Sobol indices (Jansen's estimators) are shares o
     Where they depart from the share of the linear budget, the model is not linear.";
 
 pub(super) const EVIDENCE: &str = "The p-value (Anderson-Darling) is that of the stated distribution \
-    as it stands, centre and width. Supported is the width of that shape about the stated centre. \
+    as it stands, centre and width. SupportedWidth is the width of that shape about the stated centre. \
     Too narrow: a reading outside the limits, or the whole 95 % interval above the stated width. Too \
     wide: the interval at 99 % below it. Wrong shape: a p-value below 0.01. Fewer than five readings \
     tell nothing.";
@@ -107,11 +107,10 @@ pub(super) fn verdict(report: &Report<'_>, of: &OutputAudit) -> String {
 
 /// The readings that speak against an assumption.
 pub(super) fn contradicted(report: &Report<'_>) -> Option<String> {
-    let against = report
-        .audit
-        .evidence
-        .iter()
-        .filter(|of| !matches!(of.verdict, Verdict::Consistent | Verdict::TooFew));
+    let against =
+        report.audit.evidence.iter().filter(|of| {
+            !matches!(of.verdict, EvidenceVerdict::Consistent | EvidenceVerdict::TooFew)
+        });
     let said: Vec<String> = against
         .map(|of| format!("{} is {}", plain(report.name(of.variable)), of.verdict.words()))
         .collect();

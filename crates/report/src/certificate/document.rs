@@ -2,7 +2,7 @@
 
 use super::stated;
 use super::words::{self, beside};
-use super::{Report, particulars, sentences, sheets};
+use super::{Report, administrative, sentences, sheets};
 use crate::document::{Block, Document};
 use crate::plain;
 use crate::sheet::Sheet;
@@ -14,11 +14,11 @@ pub(super) fn of(report: &Report<'_>) -> Document {
     let certificate = report.certificate;
     let languages = certificate.languages.as_slice();
     let mut document = Document {
-        title: particulars::title(report),
+        title: administrative::title(report),
         language: languages.first().map_or("en", |language| language.code()),
         ..Document::default()
     };
-    let about = particulars::sheet(report);
+    let about = administrative::sheet(report);
     if about.rows() > 0 {
         document.table(about);
     }
@@ -43,7 +43,7 @@ pub(super) fn of(report: &Report<'_>) -> Document {
         }
     }
     conformity(&mut document, report);
-    let remarks = &certificate.particulars.remarks;
+    let remarks = &certificate.administrative.remarks;
     if !remarks.is_empty() {
         document.section(beside(languages, |w| w.remarks));
         let texts = remarks.iter().flat_map(|remark| remark.all(languages));

@@ -1,7 +1,7 @@
 //! The certificate for programs.
 
 use super::stated::{self, Stated};
-use super::{Report, particulars, sentences};
+use super::{Report, administrative, sentences};
 use crate::answer::{list, object, pretty};
 use gumption_engine::propagate::gum::Dof;
 use gumption_engine::task::Trials;
@@ -13,9 +13,9 @@ use serde_json::Value;
 pub fn json(report: &Report<'_>) -> String {
     let Report { certificate, issued, .. } = report;
     let languages = &certificate.languages;
-    let title = particulars::title(report);
+    let title = administrative::title(report);
     let rows = stated::rows(report);
-    let about = particulars::lines(report);
+    let about = administrative::lines(report);
     let statements = languages.iter().map(|language| {
         let said = sentences::coverage(report, *language);
         (language.code(), list(said.iter().map(|said| Value::from(said.as_str()))))

@@ -1,10 +1,10 @@
 //! Calibration certificates, one file for each format; all of them state the same rounded figures.
 
+mod administrative;
 mod csv;
 mod dcc;
 mod document;
 mod json;
-mod particulars;
 mod sentences;
 mod sheets;
 mod stated;

@@ -2,7 +2,7 @@
 
 use std::io;
 
-use super::{Report, particulars, sentences, sheets};
+use super::{Report, administrative, sentences, sheets};
 use crate::workbook::{Book, failed};
 
 /// The certificate as a workbook: a sheet with the certificate, whose cells hold the stated figures,
@@ -12,13 +12,13 @@ use crate::workbook::{Book, failed};
 /// Those of the format, such as too many rows.
 pub fn xlsx(report: &Report<'_>) -> io::Result<Vec<u8>> {
     let languages = &report.certificate.languages;
-    let title = particulars::title(report);
+    let title = administrative::title(report);
     let mut book = Book::new(&title).map_err(failed)?;
     let mut write = || {
         let mut leaf = book.leaf("Certificate")?;
         leaf.title(0, &title)?;
         let mut row = 2;
-        for (name, text) in particulars::lines(report) {
+        for (name, text) in administrative::lines(report) {
             leaf.line(row, &format!("{name}: {text}"))?;
             row += 1;
         }

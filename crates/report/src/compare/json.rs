@@ -2,8 +2,8 @@
 
 use super::Compare;
 use crate::answer::{list, object, pretty};
-use gumption_analysis::compare::laboratories::Reference;
-use gumption_analysis::compare::{Compared, Comparison, FACTOR, Row};
+use gumption_analysis::compare::laboratories::ReferenceValue;
+use gumption_analysis::compare::{ComparedPair, Comparison, DegreeOfEquivalence, FACTOR};
 use serde_json::Value;
 
 /// The comparison as JSON, ending in a newline.
@@ -22,7 +22,7 @@ pub fn json(compare: &Compare) -> String {
     }
 }
 
-fn pair(row: &Compared, rounding: bool) -> Value {
+fn pair(row: &ComparedPair, rounding: bool) -> Value {
     let mut entries = vec![
         ("label", Value::from(row.label.as_str())),
         ("difference", row.difference.into()),
@@ -40,7 +40,7 @@ fn pair(row: &Compared, rounding: bool) -> Value {
 
 fn laboratories(comparison: &Comparison) -> Vec<(&'static str, Value)> {
     let label = |&member: &usize| comparison.rows.get(member).map_or("", |row| row.label.as_str());
-    let reference = |of: &Reference| {
+    let reference = |of: &ReferenceValue| {
         object([
             ("value", Value::from(of.value)),
             ("standard_uncertainty", of.standard_uncertainty.into()),
@@ -61,7 +61,7 @@ fn laboratories(comparison: &Comparison) -> Vec<(&'static str, Value)> {
     ]
 }
 
-fn row(row: &Row) -> Value {
+fn row(row: &DegreeOfEquivalence) -> Value {
     object([
         ("label", Value::from(row.label.as_str())),
         ("x", row.value.into()),

@@ -11,7 +11,7 @@ pub use csv::csv;
 pub use json::json;
 pub use page::{html, markdown, table};
 
-use gumption_analysis::compare::{Compared, Comparison, Pair};
+use gumption_analysis::compare::{ComparedPair, Comparison, ResultPair};
 
 /// What is reported.
 #[derive(Clone, Debug)]
@@ -19,9 +19,9 @@ pub enum Compare {
     /// Results two by two.
     Pairs {
         /// The results.
-        pairs: Vec<Pair>,
+        pairs: Vec<ResultPair>,
         /// Their comparisons, in the same order.
-        compared: Vec<Compared>,
+        compared: Vec<ComparedPair>,
         /// Whether the range that printed digits allow is asked for.
         rounding: bool,
     },
@@ -34,7 +34,7 @@ impl Compare {
     /// consistent.
     pub fn is_compatible(&self) -> bool {
         match self {
-            Self::Pairs { compared, .. } => compared.iter().all(Compared::is_compatible),
+            Self::Pairs { compared, .. } => compared.iter().all(ComparedPair::is_compatible),
             Self::Laboratories(comparison) => comparison.all.is_consistent(),
         }
     }

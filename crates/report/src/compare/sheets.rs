@@ -3,7 +3,9 @@
 use crate::number::{MISSING, exact, position, rounded, significant, to, with_uncertainty};
 use crate::plain;
 use crate::sheet::Sheet;
-use gumption_analysis::compare::{Compared, Comparison, Pair, Row, Stated};
+use gumption_analysis::compare::{
+    ComparedPair, Comparison, DegreeOfEquivalence, ResultPair, StatedResult,
+};
 
 /// Decimal places of scores.
 const SCORE: i32 = -2;
@@ -15,13 +17,13 @@ const PROBABILITY: i32 = -3;
 const DIGITS: u32 = 2;
 
 /// Results two by two.
-pub(super) fn pairs(pairs: &[Pair], compared: &[Compared], rounding: bool) -> Sheet {
+pub(super) fn pairs(pairs: &[ResultPair], compared: &[ComparedPair], rounding: bool) -> Sheet {
     let mut sheet = Sheet::default();
     sheet.text("", compared.iter().map(|row| plain(&row.label)));
     for (which, name) in ["first", "second"].into_iter().enumerate() {
         sheet.text(name, pairs.iter().map(|pair| stated(&pair.results[which])));
     }
-    let of = |row: &Compared| with_uncertainty(row.difference, row.expanded, DIGITS);
+    let of = |row: &ComparedPair| with_uncertainty(row.difference, row.expanded, DIGITS);
     sheet.numbers("difference", compared.iter().map(|row| of(row).0));
     sheet.numbers("U", compared.iter().map(|row| of(row).1));
     sheet.numbers("En", compared.iter().map(|row| score(row.normalized_error)));
@@ -40,10 +42,10 @@ pub(super) fn laboratories(comparison: &Comparison) -> Sheet {
     let rows = &comparison.rows;
     let mut sheet = Sheet::default();
     sheet.text("laboratory", rows.iter().map(|row| plain(&row.label)));
-    let own = |row: &Row| with_uncertainty(row.value, row.expanded_stated, DIGITS);
+    let own = |row: &DegreeOfEquivalence| with_uncertainty(row.value, row.expanded_stated, DIGITS);
     sheet.numbers("x", rows.iter().map(|row| own(row).0));
     sheet.numbers("U(x)", rows.iter().map(|row| own(row).1));
-    let of = |row: &Row| with_uncertainty(row.difference, row.expanded, DIGITS);
+    let of = |row: &DegreeOfEquivalence| with_uncertainty(row.difference, row.expanded, DIGITS);
     sheet.numbers("difference", rows.iter().map(|row| of(row).0));
     sheet.numbers("U", rows.iter().map(|row| of(row).1));
     sheet.numbers("En", rows.iter().map(|row| score(row.normalized_error)));
@@ -55,7 +57,7 @@ pub(super) fn laboratories(comparison: &Comparison) -> Sheet {
 }
 
 /// A result as stated: to the position of its printed digits, or of its uncertainty.
-fn stated(of: &Stated) -> String {
+fn stated(of: &StatedResult) -> String {
     let [own, of_u] = of.rounding.map(|half| position(2.0 * half, 1));
     let fine = position(of.expanded, DIGITS + 1);
     let (x, u) = (to(of.value, own.or(fine)), to(of.expanded, of_u.or(fine)));

@@ -4,7 +4,7 @@ use super::Compare;
 use super::sheets::probability;
 use crate::number::{rounded, with_uncertainty};
 use crate::plain;
-use gumption_analysis::compare::laboratories::Reference;
+use gumption_analysis::compare::laboratories::ReferenceValue;
 use gumption_analysis::compare::{Comparison, FACTOR};
 
 pub(super) const PAIRS: &str = "En is the modulus of the difference over its expanded uncertainty U \
@@ -49,7 +49,7 @@ pub(super) fn verdict(compare: &Compare) -> Vec<String> {
 }
 
 fn of_laboratories(comparison: &Comparison) -> Vec<String> {
-    let chi = |of: &Reference| {
+    let chi = |of: &ReferenceValue| {
         format!(
             "chi-squared {} with {} degrees of freedom, probability {}",
             rounded(of.chi_squared, -2),
@@ -57,7 +57,7 @@ fn of_laboratories(comparison: &Comparison) -> Vec<String> {
             probability(of.p_value)
         )
     };
-    let value = |of: &Reference| {
+    let value = |of: &ReferenceValue| {
         let (y, u) = with_uncertainty(of.value, FACTOR * of.standard_uncertainty, 2);
         format!("{y} with U = {u} (k = 2)")
     };
@@ -65,7 +65,7 @@ fn of_laboratories(comparison: &Comparison) -> Vec<String> {
     let Some(search) = comparison.search else {
         return vec![
             format!("The {} laboratories are consistent: {}.", all.members.len(), chi(all)),
-            format!("Reference value {}.", value(all)),
+            format!("ReferenceValue value {}.", value(all)),
         ];
     };
     let out: Vec<String> =
@@ -73,7 +73,7 @@ fn of_laboratories(comparison: &Comparison) -> Vec<String> {
     vec![
         format!("The {} laboratories are not consistent: {}.", all.members.len(), chi(all)),
         format!(
-            "Reference value {} from the largest consistent subset, {} laboratories without {} \
+            "ReferenceValue value {} from the largest consistent subset, {} laboratories without {} \
              ({}; sought among {}).",
             value(reference),
             reference.members.len(),

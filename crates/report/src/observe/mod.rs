@@ -11,7 +11,7 @@ pub use table::table;
 
 use super::Provenance;
 use gumption_engine::task::Warning;
-use gumption_files::Condition;
+use gumption_files::RecipeCondition;
 use gumption_signal::{ChannelObservation, Observation, Settings, Value};
 
 /// Observations with what a report says about them.
@@ -22,7 +22,7 @@ pub struct Observed<'a> {
     /// What is the same for all rows.
     pub settings: &'a Settings,
     /// The conditions.
-    pub conditions: &'a [Condition],
+    pub conditions: &'a [RecipeCondition],
     /// The name of the column of frequencies.
     pub frequency: &'a str,
     /// The rows: values of the conditions, and what was found.

@@ -12,7 +12,7 @@ use gumption_engine::propagate::{
 };
 use gumption_engine::task::Trials;
 use gumption_files as file;
-use gumption_files::{Fault, ModelFile, Problem};
+use gumption_files::{Diagnostic, DiagnosticKind, ModelFile};
 
 const TRIALS: u64 = 400_000;
 
@@ -69,7 +69,7 @@ impl Run {
     }
 }
 
-fn faults(text: &str, folder: &Path) -> Vec<Problem> {
+fn diagnostics(text: &str, folder: &Path) -> Vec<Diagnostic> {
     file::read_text("m.json", text, folder, &[]).unwrap_err().0
 }
 
@@ -229,8 +229,8 @@ fn units_are_converted() {
     let own = Run::new(&alone(r#""output": "a""#, "V"), folder.path(), 1);
     close(own.gum(0).standard_uncertainty, volts.gum(0).standard_uncertainty, 1e-15);
     close(own.trials(0).symmetric_interval[0], volts.trials(0).symmetric_interval[0], 1e-12);
-    let wrong = faults(&alone(r#""output": "a", "unit": "m""#, "m"), folder.path());
-    assert!(matches!(wrong[0].fault, Fault::WrongDimension { .. }), "{wrong:?}");
+    let wrong = diagnostics(&alone(r#""output": "a", "unit": "m""#, "m"), folder.path());
+    assert!(matches!(wrong[0].kind, DiagnosticKind::WrongDimension { .. }), "{wrong:?}");
 }
 
 /// A component of an input is the result's deviation from its estimate; an estimate of the command
@@ -256,39 +256,39 @@ fn wrong_files_are_refused_with_their_places() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("c.json");
     let text = alone(r#""output": "a""#, "V");
-    let at = |fault: &dyn Fn(&Fault) -> bool, source: &str, text: &str| {
-        let found = faults(text, folder.path());
-        let hit = found.iter().any(|p| fault(&p.fault) && p.source.name == source);
+    let at = |kind: &dyn Fn(&DiagnosticKind) -> bool, source: &str, text: &str| {
+        let found = diagnostics(text, folder.path());
+        let hit = found.iter().any(|p| kind(&p.kind) && p.source.name == source);
         assert!(hit, "{found:?}");
     };
-    at(&|f| matches!(f, Fault::Unreadable { .. }), "m.json", &text);
+    at(&|f| matches!(f, DiagnosticKind::Unreadable { .. }), "m.json", &text);
     std::fs::write(&path, r#"{"inputs": {}}"#).unwrap();
-    at(&|f| matches!(f, Fault::NotResult { .. }), "c.json", &text);
+    at(&|f| matches!(f, DiagnosticKind::NotResult { .. }), "c.json", &text);
     std::fs::write(&path, r#"{"result": true, "format": 2}"#).unwrap();
-    at(&|f| matches!(f, Fault::UnknownFormat { .. }), "c.json", &text);
+    at(&|f| matches!(f, DiagnosticKind::UnknownFormat { .. }), "c.json", &text);
     std::fs::write(&path, "{\"result\": true,\n").unwrap();
-    at(&|f| matches!(f, Fault::NotJson { .. }), "c.json", &text);
+    at(&|f| matches!(f, DiagnosticKind::NotJson { .. }), "c.json", &text);
     Run::new(&calibration(), folder.path(), 1).save(&path, "c");
-    let found = faults(&alone(r#""output": "sqare""#, "1"), folder.path());
+    let found = diagnostics(&alone(r#""output": "sqare""#, "1"), folder.path());
     assert_eq!(found.len(), 1, "{found:?}");
-    assert_eq!(found[0].fault.suggestion().as_deref(), Some("square"));
+    assert_eq!(found[0].kind.suggestion().as_deref(), Some("square"));
     let good = std::fs::read_to_string(&path).unwrap();
     let broken = |from: &str, to: &str| {
         assert!(good.contains(from));
         std::fs::write(&path, good.replacen(from, to, 1)).unwrap();
     };
     broken("\"quantiles\": [", "\"quantiles\": [1e9, ");
-    at(&|f| matches!(f, Fault::Distribution { .. }), "c.json", &text);
+    at(&|f| matches!(f, DiagnosticKind::Distribution { .. }), "c.json", &text);
     broken("\"sensitivities\": [", "\"sensitivities\": [1, ");
-    at(&|f| matches!(f, Fault::SavedEntry { .. }), "c.json", &text);
+    at(&|f| matches!(f, DiagnosticKind::SavedEntry { .. }), "c.json", &text);
     broken("\"step\": 0.0078125", "\"step\": 0");
-    at(&|f| matches!(f, Fault::NotPositive { .. }), "c.json", &text);
+    at(&|f| matches!(f, DiagnosticKind::NotPositive { .. }), "c.json", &text);
     broken("\"dof\": ", "\"dof\": -1, \"was\": ");
-    at(&|f| matches!(f, Fault::NotPositive { .. }), "c.json", &text);
+    at(&|f| matches!(f, DiagnosticKind::NotPositive { .. }), "c.json", &text);
     std::fs::write(&path, &good).unwrap();
     let declared =
         difference("c.json", "c.json").replacen('{', r#"{"correlations": [["b", "a", 0.5]], "#, 1);
-    at(&|f| matches!(f, Fault::SavedCorrelation { .. }), "m.json", &declared);
+    at(&|f| matches!(f, DiagnosticKind::SavedCorrelation { .. }), "m.json", &declared);
 }
 
 /// The answer of a saved result with a constant among its outputs, and the same bytes again.

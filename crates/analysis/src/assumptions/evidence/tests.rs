@@ -12,13 +12,17 @@ fn readings(of: &Distribution, set: usize, count: usize) -> Vec<f64> {
     uniform[..count].iter().map(|u| of.quantile(*u)).collect()
 }
 
-fn verdicts(stated: &Distribution, population: &Distribution, count: usize) -> Vec<Verdict> {
+fn verdicts(
+    stated: &Distribution,
+    population: &Distribution,
+    count: usize,
+) -> Vec<EvidenceVerdict> {
     let stated = Arc::new(stated.clone());
     let of = |set| agreement(0, &stated, &readings(population, set, count)).unwrap().verdict;
     (0..1000).map(of).collect()
 }
 
-fn share(verdicts: &[Verdict], of: impl Fn(Verdict) -> bool) -> f64 {
+fn share(verdicts: &[EvidenceVerdict], of: impl Fn(EvidenceVerdict) -> bool) -> f64 {
     verdicts.iter().filter(|verdict| of(**verdict)).count() as f64 / verdicts.len() as f64
 }
 
@@ -42,12 +46,12 @@ fn widths() -> Vec<[Distribution; 3]> {
 fn power_and_false_verdicts() {
     for [stated, wider, narrower] in widths() {
         let name = stated.name();
-        let power = share(&verdicts(&stated, &wider, 20), |v| v == Verdict::TooNarrow);
+        let power = share(&verdicts(&stated, &wider, 20), |v| v == EvidenceVerdict::TooNarrow);
         assert!(power >= 0.9, "{name} {power}");
-        let wrong = share(&verdicts(&stated, &stated, 20), |v| v != Verdict::Consistent);
+        let wrong = share(&verdicts(&stated, &stated, 20), |v| v != EvidenceVerdict::Consistent);
         assert!(wrong <= 0.05, "{name} {wrong}");
         // half as wide is seen in most sets as well
-        let too_wide = share(&verdicts(&stated, &narrower, 20), |v| v == Verdict::TooWide);
+        let too_wide = share(&verdicts(&stated, &narrower, 20), |v| v == EvidenceVerdict::TooWide);
         assert!(too_wide >= 0.6, "{name} {too_wide}");
     }
 }
@@ -59,7 +63,7 @@ fn simulated_widths() {
     let shapes: [Distribution; 2] =
         [StudentT::new(1.0, 2.0, 5.0).unwrap().into(), Exponential::new(3.0).unwrap().into()];
     for stated in shapes {
-        let wrong = share(&verdicts(&stated, &stated, 20), |v| v != Verdict::Consistent);
+        let wrong = share(&verdicts(&stated, &stated, 20), |v| v != EvidenceVerdict::Consistent);
         assert!(wrong <= 0.05, "{} {wrong}", stated.name());
     }
 }
@@ -78,7 +82,7 @@ fn supported_standard_deviation() {
     for (got, expected) in found.supported.interval.iter().zip(expected) {
         assert!((got / expected - 1.0).abs() < 5e-5, "{got} {expected}");
     }
-    assert_eq!(found.verdict, Verdict::TooNarrow);
+    assert_eq!(found.verdict, EvidenceVerdict::TooNarrow);
 }
 
 /// The largest of n deviations from a rectangle's middle is below t with probability t^n.
@@ -99,17 +103,17 @@ fn supported_half_width() {
 fn the_first_verdict_that_holds() {
     let stated: Arc<Distribution> = Arc::new(Rectangular::new(35.0, 0.1).unwrap().into());
     let verdict = |values: &[f64]| agreement(0, &stated, values).unwrap().verdict;
-    assert_eq!(verdict(&[36.0, 34.0, 35.0, 35.0]), Verdict::TooFew);
+    assert_eq!(verdict(&[36.0, 34.0, 35.0, 35.0]), EvidenceVerdict::TooFew);
     let mut values: Vec<f64> = (0..12).map(|i| 34.905 + 0.0172 * f64::from(i)).collect();
-    assert_eq!(verdict(&values), Verdict::Consistent);
+    assert_eq!(verdict(&values), EvidenceVerdict::Consistent);
     // the limit itself is inside
     values.push(35.0 + 0.1);
-    assert_eq!(verdict(&values), Verdict::Consistent);
+    assert_eq!(verdict(&values), EvidenceVerdict::Consistent);
     values.push(35.1001);
     let found = agreement(0, &stated, &values).unwrap();
-    assert_eq!((found.verdict, found.outside, found.p_value), (Verdict::TooNarrow, 1, 0.0));
+    assert_eq!((found.verdict, found.outside, found.p_value), (EvidenceVerdict::TooNarrow, 1, 0.0));
     // all near the limits: the width is right, the shape is not
     let ends: Vec<f64> = (0..20).map(|i| 35.0 + if i % 2 == 0 { 0.099 } else { -0.099 }).collect();
-    assert_eq!(verdict(&ends), Verdict::WrongShape);
+    assert_eq!(verdict(&ends), EvidenceVerdict::WrongShape);
     assert!(agreement(0, &stated, &[]).is_none());
 }

@@ -1,10 +1,10 @@
 //! A calibration certificate that is to be made: what is stated, for which device, in which form.
 
+mod administrative;
 mod form;
-mod particulars;
 
+pub use administrative::{AdministrativeData, Device, Party, PerformanceLocation};
 pub use form::{Language, Localized, Rounding};
-pub use particulars::{Device, Particulars, Party, Place};
 
 use gumption_engine::model::Capability;
 use gumption_engine::task::Task;
@@ -13,7 +13,7 @@ use gumption_engine::task::Task;
 #[derive(Clone, Debug)]
 pub struct Certificate {
     /// Device, parties, dates and texts.
-    pub particulars: Particulars,
+    pub administrative: AdministrativeData,
     /// The languages of its sentences; at least one.
     pub languages: Vec<Language>,
     /// How expanded uncertainties are rounded.

@@ -2,7 +2,7 @@ use super::*;
 use gumption_engine::distribution::{BLOCK, StreamKey};
 
 fn laboratory(label: &str, value: f64, u: f64) -> Laboratory {
-    let result = Stated { value, expanded: 2.0 * u, factor: 2.0, rounding: [0.0; 2] };
+    let result = StatedResult { value, expanded: 2.0 * u, factor: 2.0, rounding: [0.0; 2] };
     Laboratory { label: label.into(), result }
 }
 
@@ -84,7 +84,7 @@ fn the_largest_consistent_subset() {
         assert_eq!(found.reference.members.len(), size);
         // of a laboratory alone it is 0
         assert!((found.reference.chi_squared - chi).abs() < 1e-9 * (1.0 + chi));
-        with_search += usize::from(found.search == Some(Search::All));
+        with_search += usize::from(found.search == Some(SubsetSearch::All));
     }
     assert!(with_search >= 10, "{with_search}");
 }
@@ -96,7 +96,7 @@ fn many_laboratories() {
     let value = |i: usize| ((i * 7919) % 101) as f64 / 101.0 - 0.5 + off(i);
     let all: Vec<Laboratory> = (0..50).map(|i| laboratory("l", value(i), 1.0)).collect();
     let found = compare(&all, &[]).unwrap();
-    assert_eq!(found.search, Some(Search::OneAtATime));
+    assert_eq!(found.search, Some(SubsetSearch::OneAtATime));
     assert!(found.rows.iter().enumerate().all(|(i, row)| row.member == (off(i) == 0.0)));
     // who is not a member does not share the reference's uncertainty: u^2 = 1 + u_ref^2
     let u = found.reference.standard_uncertainty;

@@ -12,7 +12,7 @@ mod statements;
 mod unit;
 mod xml;
 
-use super::{Report, particulars};
+use super::{Report, administrative};
 use gumption_analysis::certificate::contents::{Certificate, Language, Localized};
 use people::contact;
 use xml::Xml;
@@ -22,7 +22,7 @@ pub type Needed = Vec<&'static str>;
 
 /// What a DCC needs beyond what the certificate file says; nothing if it is complete.
 pub fn needed(certificate: &Certificate) -> Needed {
-    let of = &certificate.particulars;
+    let of = &certificate.administrative;
     let mut missing = Vec::new();
     let mut need = |key: &'static str, there: bool| {
         if !there {
@@ -78,7 +78,7 @@ pub fn dcc(report: &Report<'_>) -> String {
 }
 
 fn administrative(xml: &mut Xml, report: &Report<'_>, languages: &[Language]) {
-    let of = &report.certificate.particulars;
+    let of = &report.certificate.administrative;
     xml.element("dcc:dccSoftware", software);
     xml.element("dcc:coreData", |xml| {
         let country = of.laboratory.as_ref().and_then(|party| party.country.as_deref());
@@ -130,8 +130,8 @@ fn software(xml: &mut Xml) {
 fn title(report: &Report<'_>) -> Localized {
     report
         .certificate
-        .particulars
+        .administrative
         .title
         .clone()
-        .unwrap_or_else(|| Localized::plain(particulars::title(report)))
+        .unwrap_or_else(|| Localized::plain(administrative::title(report)))
 }

@@ -1,10 +1,10 @@
 //! The device, and whom to ask.
 
 use super::xml::Xml;
-use gumption_analysis::certificate::contents::{Language, Localized, Particulars, Party};
+use gumption_analysis::certificate::contents::{AdministrativeData, Language, Localized, Party};
 
 /// The device that was calibrated.
-pub(super) fn item(xml: &mut Xml, of: &Particulars, languages: &[Language]) {
+pub(super) fn item(xml: &mut Xml, of: &AdministrativeData, languages: &[Language]) {
     let Some(device) = &of.device else { return };
     xml.text("dcc:name", &device.name, languages);
     let manufacturer = Localized::plain(device.manufacturer.clone().unwrap_or_default());

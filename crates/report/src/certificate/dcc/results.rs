@@ -16,7 +16,7 @@ use gumption_engine::model::Quantity;
 use gumption_units::Unit;
 
 pub(super) fn write(xml: &mut Xml, report: &Report<'_>, languages: &[Language]) {
-    let of = &report.certificate.particulars;
+    let of = &report.certificate.administrative;
     xml.element("dcc:measurementResult", |xml| {
         xml.text("dcc:name", &super::title(report), languages);
         xml.element("dcc:usedMethods", |xml| {

@@ -6,7 +6,7 @@ use crate::table::comparison;
 use gumption_analysis::certificate::contents::{Language, Localized};
 
 pub(super) fn write(xml: &mut Xml, report: &Report<'_>, languages: &[Language]) {
-    let of = &report.certificate.particulars;
+    let of = &report.certificate.administrative;
     let coverage = languages
         .iter()
         .map(|language| (Some(*language), sentences::coverage(report, *language).join(" ")));

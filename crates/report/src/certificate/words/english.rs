@@ -17,7 +17,7 @@ pub(super) const WORDS: Words = Words {
     calibrated: "Date of calibration",
     period: "{first} to {last}",
     issued: "Date of issue",
-    place: "Place of calibration",
+    place: "PerformanceLocation of calibration",
     places: [
         "laboratory",
         "at the customer's",

@@ -25,7 +25,7 @@ pub(super) struct Words {
     pub(super) period: &'static str,
     pub(super) issued: &'static str,
     pub(super) place: &'static str,
-    /// In the order of [`Place::ALL`](gumption_analysis::certificate::contents::Place::ALL).
+    /// In the order of [`PerformanceLocation::ALL`](gumption_analysis::certificate::contents::PerformanceLocation::ALL).
     pub(super) places: [&'static str; 5],
     pub(super) environment: &'static str,
     pub(super) method: &'static str,

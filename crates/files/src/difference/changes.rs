@@ -2,7 +2,7 @@
 
 use serde_json::{Map, Value};
 
-use gumption_files::ModelFile;
+use crate::ModelFile;
 
 /// Keys of the root whose values are compared as they stand.
 const WHOLE: [&str; 8] = [

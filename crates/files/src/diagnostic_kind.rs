@@ -13,7 +13,7 @@ use gumption_units::UnitError;
 /// A mistake, without its place.
 #[derive(Clone, Debug, PartialEq)]
 #[allow(missing_docs)] // the fields are what the sentences below say
-pub enum Fault {
+pub enum DiagnosticKind {
     /// The file cannot be read.
     Unreadable { message: String },
     /// The file has no content.
@@ -149,7 +149,7 @@ pub enum Fault {
     Override { text: String, reason: String },
 }
 
-impl Fault {
+impl DiagnosticKind {
     /// A short fixed name of the kind of mistake.
     pub fn code(&self) -> &'static str {
         match self {
@@ -264,7 +264,7 @@ fn hint(nearest: Option<&String>, known: &str) -> String {
     }
 }
 
-impl fmt::Display for Fault {
+impl fmt::Display for DiagnosticKind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Unreadable { message } => write!(f, "cannot read the file: {message}"),

@@ -63,14 +63,14 @@ pub(super) struct Known {
     pub(super) contributions: Vec<f64>,
     /// Degrees of freedom of the inputs.
     pub(super) input_dof: Vec<f64>,
-    /// Coefficients between inputs, by their places, in order.
+    /// Coefficients between inputs, by their indices, in order.
     pub(super) correlations: Vec<(usize, usize, f64)>,
 }
 
 /// Who explains a part.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Cause {
-    /// The input at a place.
+    /// The input of this index.
     Input(usize),
     /// Correlation coefficients.
     Correlations,
@@ -90,10 +90,10 @@ pub(super) fn parts(sides: [&Known; 2]) -> Vec<(Cause, [f64; 2])> {
     let (Some(from), Some(to)) = (rule(0), rule(1)) else {
         return Vec::new();
     };
-    let moved = |&place: &usize| {
+    let moved = |&index: &usize| {
         let of = |side: &Known| {
-            let dof = side.input_dof.get(place).map(|dof| dof.to_bits());
-            (side.contributions.get(place).map(|c| c.to_bits()), dof)
+            let dof = side.input_dof.get(index).map(|dof| dof.to_bits());
+            (side.contributions.get(index).map(|c| c.to_bits()), dof)
         };
         of(first) != of(second)
     };
@@ -111,12 +111,12 @@ pub(super) fn parts(sides: [&Known; 2]) -> Vec<(Cause, [f64; 2])> {
         };
         let side = |cause: Cause| sides[usize::from(is(cause))];
         let rule = if is(Cause::Coverage) { to } else { from };
-        let places = 0..first.contributions.len();
-        let contributions: Vec<f64> = places
+        let indices = 0..first.contributions.len();
+        let contributions: Vec<f64> = indices
             .clone()
             .map(|q| side(Cause::Input(q)).contributions.get(q).copied().unwrap_or(0.0))
             .collect();
-        let dof: Vec<f64> = places
+        let dof: Vec<f64> = indices
             .map(|q| side(Cause::Input(q)).input_dof.get(q).copied().unwrap_or(f64::INFINITY))
             .collect();
         let combined = combined(&contributions, &dof, &side(Cause::Correlations).correlations);
@@ -162,7 +162,7 @@ struct Combined {
 /// finite degrees of freedom that are correlated are one term, as a result that has degrees of
 /// freedom has such inputs only from paired readings.
 fn combined(contributions: &[f64], dof: &[f64], correlations: &[(usize, usize, f64)]) -> Combined {
-    let at = |list: &[f64], place: usize| list.get(place).copied().unwrap_or(0.0);
+    let at = |list: &[f64], index: usize| list.get(index).copied().unwrap_or(0.0);
     // the first input of the term that each belongs to
     let mut term: Vec<usize> = (0..contributions.len()).collect();
     let mut variance: f64 = contributions.iter().map(|c| c * c).sum();
@@ -180,8 +180,8 @@ fn combined(contributions: &[f64], dof: &[f64], correlations: &[(usize, usize, f
     let variance = variance.max(0.0);
     let own = contributions.iter().map(|c| c * c);
     let mut of_term = vec![0.0; contributions.len()];
-    for (place, square) in own.enumerate() {
-        of_term[term[place]] += square;
+    for (index, square) in own.enumerate() {
+        of_term[term[index]] += square;
     }
     for &(i, j, r) in correlations {
         if let (Some(a), Some(b)) = (term.get(i), term.get(j))

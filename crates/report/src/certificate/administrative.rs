@@ -4,12 +4,12 @@ use super::Report;
 use super::words::{self, Words, beside};
 use crate::plain;
 use crate::sheet::Sheet;
-use gumption_analysis::certificate::contents::{Localized, Party, Place};
+use gumption_analysis::certificate::contents::{Localized, Party, PerformanceLocation};
 
 /// The title in the languages of the certificate.
 pub(super) fn title(report: &Report<'_>) -> String {
     let languages = &report.certificate.languages;
-    match &report.certificate.particulars.title {
+    match &report.certificate.administrative.title {
         Some(title) if !title.is_empty() => plain(&title.all(languages).join(" / ")),
         _ => beside(languages, |w| w.title),
     }
@@ -28,7 +28,7 @@ pub(super) fn sheet(report: &Report<'_>) -> Sheet {
 pub(super) fn lines(report: &Report<'_>) -> Vec<(String, String)> {
     let certificate = report.certificate;
     let languages = certificate.languages.as_slice();
-    let of = &certificate.particulars;
+    let of = &certificate.administrative;
     let mut lines = Vec::new();
     let mut add = |word: fn(&Words) -> &'static str, text: Option<String>| {
         if let Some(text) = text.map(|text| plain(&text)).filter(|text| !text.is_empty()) {
@@ -60,7 +60,7 @@ pub(super) fn lines(report: &Report<'_>) -> Vec<(String, String)> {
     });
     add(|w| w.calibrated, period);
     add(|w| w.issued, of.issued.clone());
-    let place = Place::ALL.iter().position(|place| *place == of.place).unwrap_or(0);
+    let place = PerformanceLocation::ALL.iter().position(|place| *place == of.place).unwrap_or(0);
     add(|w| w.place, (place > 0).then(|| beside(languages, |w| w.places[place])));
     add(|w| w.environment, of.environment.as_ref().map(local));
     add(|w| w.method, of.method.as_ref().map(local));

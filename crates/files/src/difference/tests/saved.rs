@@ -1,9 +1,10 @@
 use std::fmt::Write;
 use std::path::Path;
 
-use super::*;
+use super::super::difference;
+use crate::{DiagnosticKind, ModelOrResult, read_result, read_text};
+use gumption_analysis::diff::{ChangeCause, Difference, OutputDifference};
 use gumption_engine::distribution::special::student::two_sided_factor;
-use gumption_files::{read_result, read_text};
 
 /// An input: file hash, name, estimate, standard uncertainty, degrees of freedom (0 for infinite).
 type Input<'a> = (&'a str, &'a str, f64, f64, f64);
@@ -19,11 +20,11 @@ struct Made<'a> {
 }
 
 impl Made<'_> {
-    fn result(&self) -> ResultFile {
+    fn result(&self) -> ModelOrResult {
         let dof = |dof: f64| if dof == 0.0 { "null".to_owned() } else { dof.to_string() };
         let mut inputs = String::new();
-        for (place, (model, name, estimate, u, input_dof)) in self.inputs.iter().enumerate() {
-            let comma = if place > 0 { "," } else { "" };
+        for (index, (model, name, estimate, u, input_dof)) in self.inputs.iter().enumerate() {
+            let comma = if index > 0 { "," } else { "" };
             let dof = dof(*input_dof);
             write!(
                 inputs,
@@ -44,13 +45,12 @@ impl Made<'_> {
             "inputs": [{inputs}], "input_correlations": [{correlations}],
             "provenance": {{"model_sha256": "m"}}}}"#
         );
-        read_result("r.json", &text).unwrap()
+        ModelOrResult::Result(read_result("r.json", &text).unwrap())
     }
 }
 
 fn compared(first: &Made<'_>, second: &Made<'_>) -> Difference {
-    let (first, second) = (first.result(), second.result());
-    compare_saved(Evaluated::Result(&first), Evaluated::Result(&second)).unwrap()
+    difference(&first.result(), &second.result()).unwrap()
 }
 
 fn only(difference: &Difference) -> &OutputDifference {
@@ -58,12 +58,12 @@ fn only(difference: &Difference) -> &OutputDifference {
     &difference.rows[0].outputs[0]
 }
 
-fn share(output: &OutputDifference, due: &Due) -> f64 {
+fn share(output: &OutputDifference, due: &ChangeCause) -> f64 {
     output.parts.iter().find(|part| part.due == *due).unwrap().share.unwrap()
 }
 
-fn input(name: &str) -> Due {
-    Due::Input(name.to_owned())
+fn input(name: &str) -> ChangeCause {
+    ChangeCause::Input(name.to_owned())
 }
 
 /// The parts sum to the change of U, the shares to 1.
@@ -141,7 +141,7 @@ fn paired_readings_are_one_term() {
     let difference = compared(&made("[0, 1, 0.5]", 0.5), &made("[1, 0, 0.25]", 0.25));
     let output = only(&difference);
     assert_complete(output);
-    assert_eq!(share(output, &Due::Correlations), 1.0);
+    assert_eq!(share(output, &ChangeCause::Correlations), 1.0);
     assert_eq!(difference.changes, ["correlation of `a` and `b`: from 0.5 to 0.25"]);
 }
 
@@ -160,11 +160,11 @@ fn coverage_and_what_is_not_told() {
     let wider = two_sided_factor(0.99, f64::INFINITY);
     let difference = compared(&made([5.0, K, 0.0], 0.95), &made([5.0, wider, 0.0], 0.99));
     assert_complete(only(&difference));
-    assert_eq!(share(only(&difference), &Due::Coverage), 1.0);
+    assert_eq!(share(only(&difference), &ChangeCause::Coverage), 1.0);
     assert_eq!(difference.changes, ["`coverage_probability`: from 0.95 to 0.99"]);
     let difference = compared(&made([5.0, K, 0.0], 0.95), &made([6.0, K, 0.0], 0.95));
     assert_complete(only(&difference));
-    assert_eq!(share(only(&difference), &Due::Rest), 1.0);
+    assert_eq!(share(only(&difference), &ChangeCause::Rest), 1.0);
 }
 
 /// An input behind another result is the same by file and name, and where that file is another one,
@@ -191,7 +191,7 @@ fn inputs_behind_results() {
     let difference = compared(&made(&before, 14f64.sqrt()), &made(&after, 17f64.sqrt()));
     let output = only(&difference);
     assert_complete(output);
-    let names: Vec<&Due> = output.parts.iter().map(|part| &part.due).collect();
+    let names: Vec<&ChangeCause> = output.parts.iter().map(|part| &part.due).collect();
     assert_eq!(names, [&input("a"), &input("a (01234567)"), &input("gain")]);
     assert_eq!(share(output, &input("gain")), 1.0);
 }
@@ -214,11 +214,11 @@ fn a_model_file_and_a_result() {
             "distribution": "normal", "mean": 2, "std": 0.1}}}}, "equations": {{"y": "a^2"}},
             "outputs": {{"y": {{"unit": "V"}}}}}}"#
         );
-        read_text("m.json", &text, Path::new(""), &[]).unwrap()
+        ModelOrResult::Model(Box::new(read_text("m.json", &text, Path::new(""), &[]).unwrap()))
     };
     let (first, second) = (first.result(), model(""));
-    let difference = compare_saved(Evaluated::Result(&first), Evaluated::Model(&second)).unwrap();
-    let output = only(&difference);
+    let compared = difference(&first, &second).unwrap();
+    let output = only(&compared);
     assert_complete(output);
     // in mV: u^2 from 9 + 9 to 400^2
     let total = 160_000.0 - 18.0;
@@ -227,7 +227,7 @@ fn a_model_file_and_a_result() {
     assert_eq!(output.parts[1].states[1], None);
 
     let swept = model(r#""conditions": {"f": {"values": [1, 2]}},"#);
-    let problems = compare_saved(Evaluated::Model(&swept), Evaluated::Result(&first)).unwrap_err();
-    assert_eq!(problems.0[0].fault, Fault::SeveralRows { rows: 2 });
-    assert_eq!(problems.0[0].position(), (1, 2));
+    let diagnostics = difference(&swept, &first).unwrap_err();
+    assert_eq!(diagnostics.0[0].kind, DiagnosticKind::SeveralRows { rows: 2 });
+    assert_eq!(diagnostics.0[0].position(), (1, 2));
 }

@@ -2,7 +2,7 @@
 
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 
-use gumption_files::{Problem, Problems};
+use gumption_files::{Diagnostic, Diagnostics};
 
 /// Longer lines are cut around the place.
 const LONGEST: usize = 160;
@@ -11,22 +11,23 @@ const LONGEST: usize = 160;
 const MOST: usize = 200;
 
 /// All mistakes as text, with colours or without.
-pub(crate) fn render(problems: &Problems, colours: bool) -> String {
+pub(crate) fn render(diagnostics: &Diagnostics, colours: bool) -> String {
     let renderer = if colours { Renderer::styled() } else { Renderer::plain() };
     let mut text: String =
-        problems.0.iter().take(MOST).map(|problem| one(problem, &renderer)).collect();
-    if problems.0.len() > MOST {
-        let more = problems.0.len() - MOST;
+        diagnostics.0.iter().take(MOST).map(|diagnostic| one(diagnostic, &renderer)).collect();
+    if diagnostics.0.len() > MOST {
+        let more = diagnostics.0.len() - MOST;
         text.push_str(&format!("and {more} more; `check --format json` lists them\n"));
     }
     text
 }
 
-fn one(problem: &Problem, renderer: &Renderer) -> String {
-    let mut text = format!("{problem}\n");
-    let source = &problem.source.text;
-    let (line, _) = problem.position();
-    let start = source.get(..problem.span.start).and_then(|b| b.rfind('\n')).map_or(0, |n| n + 1);
+fn one(diagnostic: &Diagnostic, renderer: &Renderer) -> String {
+    let mut text = format!("{diagnostic}\n");
+    let source = &diagnostic.source.text;
+    let (line, _) = diagnostic.position();
+    let start =
+        source.get(..diagnostic.span.start).and_then(|b| b.rfind('\n')).map_or(0, |n| n + 1);
     let Some(content) = source.get(start..).and_then(|rest| rest.lines().next()) else {
         return text;
     };
@@ -34,10 +35,10 @@ fn one(problem: &Problem, renderer: &Renderer) -> String {
         return text;
     }
     // a place over several lines is underlined on its first
-    let from = (problem.span.start - start).min(content.len());
-    let to = problem.span.end.saturating_sub(start).clamp(from, content.len());
+    let from = (diagnostic.span.start - start).min(content.len());
+    let to = diagnostic.span.end.saturating_sub(start).clamp(from, content.len());
     let (content, from, to) = cut(content, from, to);
-    let label = match problem.fault.suggestion() {
+    let label = match diagnostic.kind.suggestion() {
         Some(suggestion) => format!("did you mean `{suggestion}`?"),
         None => String::new(),
     };

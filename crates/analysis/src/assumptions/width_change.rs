@@ -1,4 +1,4 @@
-//! The width at stake: how far a stated width may be wrong before the expanded uncertainty moves by
+//! The width at widths: how far a stated width may be wrong before the expanded uncertainty moves by
 //! more than is allowed.
 
 use super::sampler::{Buffers, Sampler};
@@ -21,7 +21,7 @@ const BLOCKS: [u64; 2] = [16, 64];
 
 /// The first trials, kept to be used again and again.
 #[derive(Debug)]
-pub(super) struct Stake<'a> {
+pub(super) struct WidthSearch<'a> {
     sampler: &'a Sampler,
     /// The values of all quantities, column by column.
     values: Vec<Column>,
@@ -33,7 +33,7 @@ pub(super) struct Stake<'a> {
 /// where no factor up to 1024 does too much.
 pub(super) type Allowed = [f64; 2];
 
-impl<'a> Stake<'a> {
+impl<'a> WidthSearch<'a> {
     pub(super) fn new(
         sampler: &'a Sampler,
         (trials, probability): (u64, f64),

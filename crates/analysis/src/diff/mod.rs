@@ -18,45 +18,41 @@
 //! with the means of both files' values. These parts sum to U_B - U_A exactly, whatever the order
 //! of the inputs in the files.
 //!
-//! # Model files and saved results
+//! # Tasks and saved results
 //!
 //! Where the model changed, inputs that only the first file has lose their uncertainty before, and
 //! inputs that only the second has get theirs after; the average is taken of changing the model
 //! first and of changing it last.
 //!
 //! A saved result does not tell its equations, but its sensitivity coefficients: u^2 is a sum of
-//! contributions c u and of their correlation terms ([`compare_saved`]). An input's part is then
+//! contributions c u and of their correlation terms ([`compare_linear`]). An input's part is then
 //! that of its whole contribution, whether its uncertainty moved or its sensitivity coefficient,
-//! and that of its degrees of freedom. A model file that is compared with a saved result is
-//! evaluated and taken in the same way.
+//! and that of its degrees of freedom. A task that is compared with a saved result is evaluated
+//! and taken in the same way ([`LinearResult::of_task`]).
 
 mod attribution;
-mod changes;
 mod contributions;
 mod linear;
 mod mixture;
 mod saved;
 
-#[cfg(test)]
-mod tests;
-
-pub use saved::{Evaluated, compare_saved};
+pub use linear::{LinearOutput, LinearResult, SeveralRows};
+pub use saved::compare_linear;
 
 use attribution::shapley;
 use gumption_engine::propagate::gum;
 use gumption_engine::propagate::gum::Gum;
 use gumption_engine::task::{Row, Task};
-use gumption_files::ModelFile;
 use gumption_units::Unit;
 use mixture::{Cause, Common, Mixture};
 
 /// Changes of U below this share of it are rounding.
 const ROUNDING: f64 = 1e-14;
 
-/// What differs between two model files.
+/// What differs between two evaluations.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Difference {
-    /// Changes of the model, of conditions and settings, in words.
+    /// Changes of the model, of conditions and settings, one sentence each.
     pub changes: Vec<String>,
     /// Whether rows of conditions are compared.
     pub swept: bool,
@@ -83,12 +79,12 @@ pub struct OutputDifference {
     /// U in both files; `None` where it is not defined.
     pub expanded: [Option<f64>; 2],
     /// The inputs in the order of the files, then everything else that changed.
-    pub parts: Vec<Part>,
+    pub parts: Vec<ChangePart>,
 }
 
 /// What a part of the change is due to.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Due {
+pub enum ChangeCause {
     /// An input, or a component of one.
     Input(String),
     /// The declared correlation coefficients.
@@ -103,27 +99,27 @@ pub enum Due {
 
 /// A part of the change.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Part {
+pub struct ChangePart {
     /// What it is due to.
-    pub due: Due,
+    pub due: ChangeCause,
     /// What both files know of an input; `None` where it is absent.
-    pub states: [Option<State>; 2],
+    pub states: [Option<InputState>; 2],
     /// Change of U; `None` where it cannot be told.
     pub change: Option<f64>,
     /// Share of the change of U; `None` where U does not change.
     pub share: Option<f64>,
 }
 
-impl Part {
+impl ChangePart {
     /// Whether the two files know different things.
     pub fn is_changed(&self) -> bool {
-        !matches!(self.due, Due::Input(_)) || self.states[0] != self.states[1]
+        !matches!(self.due, ChangeCause::Input(_)) || self.states[0] != self.states[1]
     }
 }
 
 /// What is known of an input.
 #[derive(Clone, Debug, PartialEq)]
-pub struct State {
+pub struct InputState {
     /// Estimate.
     pub estimate: f64,
     /// Standard uncertainty.
@@ -139,7 +135,7 @@ pub struct State {
     pub sensitivity: Option<f64>,
 }
 
-/// One of the two files.
+/// One of the two tasks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Side {
     First,
@@ -147,7 +143,7 @@ enum Side {
 }
 
 impl Side {
-    fn place(self) -> usize {
+    fn index(self) -> usize {
         match self {
             Self::First => 0,
             Self::Second => 1,
@@ -155,10 +151,13 @@ impl Side {
     }
 }
 
-/// Compares two model files.
-pub fn compare(first: &ModelFile, second: &ModelFile) -> Difference {
-    let tasks = [&first.task, &second.task];
-    let mut changes = changes::list(first, second);
+/// Compares two tasks by the law of propagation; rows are compared where both have the same values
+/// of the same conditions. Of what changed beside the inputs only a different number of rows is
+/// listed, as two programs cannot be told apart in words: a caller that has the equations' text
+/// puts its own list before.
+pub fn compare(first: &Task, second: &Task) -> Difference {
+    let tasks = [first, second];
+    let mut changes = Vec::new();
     let outputs = common_outputs(tasks);
     let pairs = pairs(tasks);
     let swept = tasks.iter().any(|task| task.swept);
@@ -172,12 +171,12 @@ pub fn compare(first: &ModelFile, second: &ModelFile) -> Difference {
 /// Outputs of the same name in units of the same dimension.
 fn common_outputs(tasks: [&Task; 2]) -> Vec<Common> {
     let [first, second] = tasks.map(|task| &task.model.outputs);
-    let common = first.iter().enumerate().filter_map(|(place, output)| {
+    let common = first.iter().enumerate().filter_map(|(index, output)| {
         let name = &output.quantity.name;
         let other = second.iter().position(|other| other.quantity.name == *name)?;
         let unit = &second.get(other)?.quantity.unit;
         let factor = Unit::conversion_factor(unit, &output.quantity.unit).ok()?;
-        Some(Common { places: [place, other], factor })
+        Some(Common { indices: [index, other], factor })
     });
     common.collect()
 }
@@ -191,10 +190,10 @@ fn pairs<'a>(tasks: [&'a Task; 2]) -> Vec<[&'a Row; 2]> {
     if names(first) != names(second) {
         return Vec::new();
     }
-    // rows mostly stand at the same place
-    let found = first.rows.iter().enumerate().filter_map(|(place, row)| {
+    // rows mostly stand at the same index
+    let found = first.rows.iter().enumerate().filter_map(|(index, row)| {
         let same = |other: &&Row| other.conditions == row.conditions;
-        let other = second.rows.get(place).filter(same);
+        let other = second.rows.get(index).filter(same);
         Some([row, other.or_else(|| second.rows.iter().find(same))?])
     });
     found.collect()
@@ -205,10 +204,10 @@ fn compare_rows(tasks: [&Task; 2], rows: [&Row; 2], outputs: &[Common]) -> RowDi
     let causes = mixture.causes();
     let parts = attribute(&mixture, &causes);
     let evaluated = [0, 1].map(|side| gum::evaluate(tasks[side], rows[side]).outputs);
-    let gum = |side: usize, place: usize| evaluated[side].get(place).and_then(Option::as_ref);
+    let gum = |side: usize, index: usize| evaluated[side].get(index).and_then(Option::as_ref);
     let compared = outputs.iter().enumerate().filter_map(|(number, output)| {
-        let quantity = &tasks[0].model.outputs.get(output.places[0])?.quantity;
-        let gums = [0, 1].map(|side| gum(side, output.places[side]));
+        let quantity = &tasks[0].model.outputs.get(output.indices[0])?.quantity;
+        let gums = [0, 1].map(|side| gum(side, output.indices[side]));
         let parts = Attributed { causes: &causes, parts: &parts, number };
         Some(OutputDifference {
             name: quantity.name.clone(),
@@ -252,8 +251,8 @@ fn attribute(mixture: &Mixture<'_>, causes: &[Cause]) -> Vec<Vec<f64>> {
     let mut parts = vec![vec![0.0; figures]; causes.len() + 1];
     let mut add = |players: &[&Cause], shares: Vec<Vec<f64>>| {
         for (player, share) in players.iter().zip(shares) {
-            let place = causes.iter().position(|cause| cause == *player);
-            if let Some(part) = place.and_then(|place| parts.get_mut(place)) {
+            let index = causes.iter().position(|cause| cause == *player);
+            if let Some(part) = index.and_then(|index| parts.get_mut(index)) {
                 part.iter_mut().zip(share).for_each(|(part, share)| *part += 0.5 * share);
             }
         }
@@ -288,11 +287,11 @@ struct Attributed<'a> {
 impl Attributed<'_> {
     /// Parts of u^2 and k of a cause, or of the model.
     fn of(&self, cause: Option<&Cause>) -> [f64; 2] {
-        let place = match cause {
+        let index = match cause {
             Some(cause) => self.causes.iter().position(|known| known == cause),
             None => Some(self.causes.len()),
         };
-        let part = place.and_then(|place| self.parts.get(place));
+        let part = index.and_then(|index| self.parts.get(index));
         let figure = |i: usize| part.and_then(|p| p.get(2 * self.number + i)).copied();
         [figure(0).unwrap_or(0.0), figure(1).unwrap_or(0.0)]
     }
@@ -305,27 +304,27 @@ fn list(
     gums: [Option<&Gum>; 2],
     factor: f64,
     attributed: Attributed<'_>,
-) -> Vec<Part> {
+) -> Vec<ChangePart> {
     let scale = [1.0, factor];
     let u = [0, 1].map(|i| gums[i].map_or(f64::NAN, |gum| gum.standard_uncertainty * scale[i]));
     let k = gums.map(|gum| gum.and_then(|gum| gum.coverage_factor).unwrap_or(f64::NAN));
     let change = |cause: Option<&Cause>| change_of_expanded(u, k, attributed.of(cause));
     let state = |side: usize, name: &str| {
-        let place = tasks[side].variables.iter().position(|v| v.name == name)?;
-        let distribution = rows[side].distributions.get(place)?;
-        Some(State {
+        let index = tasks[side].variables.iter().position(|v| v.name == name)?;
+        let distribution = rows[side].distributions.get(index)?;
+        Some(InputState {
             estimate: distribution.mean(),
             standard_uncertainty: distribution.standard_uncertainty(),
             distribution: distribution.name().to_owned(),
             dof: distribution.dof(),
-            unit: tasks[side].variables.get(place)?.unit.text().to_owned(),
+            unit: tasks[side].variables.get(index)?.unit.text().to_owned(),
             sensitivity: None,
         })
     };
-    let mut parts: Vec<Part> = Vec::new();
+    let mut parts: Vec<ChangePart> = Vec::new();
     for variable in tasks.iter().flat_map(|task| &task.variables) {
         let name = &variable.name;
-        if parts.iter().any(|part| part.due == Due::Input(name.clone())) {
+        if parts.iter().any(|part| part.due == ChangeCause::Input(name.clone())) {
             continue;
         }
         let states = [state(0, name), state(1, name)];
@@ -338,19 +337,32 @@ fn list(
             continue;
         }
         let change = if cause.is_some() { change(cause) } else { Some(0.0) };
-        parts.push(Part { due: Due::Input(name.clone()), states, change, share: None });
+        parts.push(ChangePart {
+            due: ChangeCause::Input(name.clone()),
+            states,
+            change,
+            share: None,
+        });
     }
-    let others = [(Cause::Correlations, Due::Correlations), (Cause::Coverage, Due::Coverage)];
+    let others = [
+        (Cause::Correlations, ChangeCause::Correlations),
+        (Cause::Coverage, ChangeCause::Coverage),
+    ];
     for (cause, due) in others {
         if attributed.causes.contains(&cause) {
             let change = change(Some(&cause));
-            parts.push(Part { due, states: [None, None], change, share: None });
+            parts.push(ChangePart { due, states: [None, None], change, share: None });
         }
     }
     let rounding = ROUNDING * (k[0] * u[0]).max(k[1] * u[1]);
     let of_model = change(None);
     if of_model.is_none_or(|change| change.abs() > rounding) {
-        parts.push(Part { due: Due::Model, states: [None, None], change: of_model, share: None });
+        parts.push(ChangePart {
+            due: ChangeCause::Model,
+            states: [None, None],
+            change: of_model,
+            share: None,
+        });
     }
     share_out(&mut parts, rounding);
     parts
@@ -366,7 +378,7 @@ fn change_of_expanded(u: [f64; 2], k: [f64; 2], [of_variance, of_factor]: [f64; 
 }
 
 /// Shares of the sum of all changes, which is the change of U but for rounding.
-fn share_out(parts: &mut [Part], rounding: f64) {
+fn share_out(parts: &mut [ChangePart], rounding: f64) {
     let total: Option<f64> = parts.iter().map(|part| part.change).sum();
     let Some(total) = total.filter(|total| total.abs() > rounding) else {
         return;

@@ -7,8 +7,8 @@ use std::fmt;
 use std::ops::Range;
 use std::sync::Arc;
 
-use super::Fault;
-use super::source::{Place, Source};
+use super::DiagnosticKind;
+use super::source::{Place, SourceText};
 
 /// At most so many mistakes are collected: a table of a million faulty cells helps nobody.
 const MOST: usize = 1000;
@@ -18,16 +18,16 @@ const LONGEST: usize = 1000;
 
 /// A mistake in a user's file.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Problem {
+pub struct Diagnostic {
     /// The text in which it lies.
-    pub source: Arc<Source>,
+    pub source: Arc<SourceText>,
     /// The place: a half-open range of bytes.
     pub span: Range<usize>,
     /// What is wrong.
-    pub fault: Fault,
+    pub kind: DiagnosticKind,
 }
 
-impl Problem {
+impl Diagnostic {
     /// Line and column, counted from 1.
     pub fn position(&self) -> (usize, usize) {
         self.source.position(self.span.start)
@@ -37,7 +37,7 @@ impl Problem {
     /// quoted texts are cut.
     pub fn message(&self) -> String {
         let mut message = String::new();
-        for (number, part) in self.fault.to_string().split('`').enumerate() {
+        for (number, part) in self.kind.to_string().split('`').enumerate() {
             if number > 0 {
                 message.push('`');
             }
@@ -62,7 +62,7 @@ fn shortened(part: &str) -> Cow<'_, str> {
     }
 }
 
-impl fmt::Display for Problem {
+impl fmt::Display for Diagnostic {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (line, column) = self.position();
         write!(f, "{}:{line}:{column}: {}", self.source.name, self.message())
@@ -71,57 +71,68 @@ impl fmt::Display for Problem {
 
 /// All mistakes that were found, in the order of their places.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Problems(pub Vec<Problem>);
+pub struct Diagnostics(pub Vec<Diagnostic>);
 
-impl fmt::Display for Problems {
+impl fmt::Display for Diagnostics {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for (number, problem) in self.0.iter().enumerate() {
+        for (number, diagnostic) in self.0.iter().enumerate() {
             if number > 0 {
                 f.write_str("\n")?;
             }
-            problem.fmt(f)?;
+            diagnostic.fmt(f)?;
         }
         Ok(())
     }
 }
 
-impl std::error::Error for Problems {}
+impl std::error::Error for Diagnostics {}
 
 /// Collects mistakes while a file is read.
 #[derive(Debug)]
-pub(crate) struct Log {
-    pub(crate) source: Arc<Source>,
-    problems: RefCell<Vec<Problem>>,
+pub(crate) struct Collector {
+    pub(crate) source: Arc<SourceText>,
+    diagnostics: RefCell<Vec<Diagnostic>>,
     /// Whether there are more than are collected.
     more: Cell<bool>,
-    /// The problems by where they begin.
+    /// The diagnostics by where they begin.
     by_start: RefCell<HashMap<usize, Vec<usize>>>,
 }
 
-impl Log {
-    pub(crate) fn new(source: Arc<Source>) -> Self {
-        let (problems, by_start) = (RefCell::default(), RefCell::default());
-        Self { source, problems, more: Cell::new(false), by_start }
+impl Collector {
+    pub(crate) fn new(source: Arc<SourceText>) -> Self {
+        let (diagnostics, by_start) = (RefCell::default(), RefCell::default());
+        Self { source, diagnostics, more: Cell::new(false), by_start }
     }
 
     /// A mistake in the file itself.
-    pub(crate) fn report(&self, span: &Range<usize>, fault: Fault) {
-        self.report_at(Place { source: self.source.clone(), span: span.clone() }, fault);
+    pub(crate) fn report(&self, span: &Range<usize>, kind: DiagnosticKind) {
+        self.report_at(Place { source: self.source.clone(), span: span.clone() }, kind);
     }
 
     /// A mistake in some text.
-    pub(crate) fn report_at(&self, place: Place, fault: Fault) {
-        let problem = Problem { source: place.source, span: place.span, fault };
-        let mut problems = self.problems.borrow_mut();
+    pub(crate) fn report_at(&self, place: Place, kind: DiagnosticKind) {
+        let diagnostic = Diagnostic { source: place.source, span: place.span, kind };
+        let mut diagnostics = self.diagnostics.borrow_mut();
         let mut by_start = self.by_start.borrow_mut();
-        let same_start = by_start.entry(problem.span.start).or_default();
-        if !same_start.iter().any(|&earlier| problems.get(earlier) == Some(&problem)) {
-            if problems.len() >= MOST {
+        let same_start = by_start.entry(diagnostic.span.start).or_default();
+        if !same_start.iter().any(|&earlier| diagnostics.get(earlier) == Some(&diagnostic)) {
+            if diagnostics.len() >= MOST {
                 self.more.set(true);
                 return;
             }
-            same_start.push(problems.len());
-            problems.push(problem);
+            same_start.push(diagnostics.len());
+            diagnostics.push(diagnostic);
+        }
+    }
+
+    /// What was found, unless something was reported.
+    ///
+    /// # Errors
+    /// All that was reported, in the order of the places.
+    pub(crate) fn finish<T>(self, found: Option<T>) -> Result<T, Diagnostics> {
+        match found {
+            Some(found) if self.is_clean() => Ok(found),
+            _ => Err(self.into_diagnostics()),
         }
     }
 
@@ -131,48 +142,52 @@ impl Log {
     }
 
     /// The value, or the mistake reported at `span`.
-    pub(crate) fn value<T>(&self, span: &Range<usize>, result: Result<T, Fault>) -> Option<T> {
-        result.map_err(|fault| self.report(span, fault)).ok()
+    pub(crate) fn value<T>(
+        &self,
+        span: &Range<usize>,
+        result: Result<T, DiagnosticKind>,
+    ) -> Option<T> {
+        result.map_err(|diagnostic| self.report(span, diagnostic)).ok()
     }
 
     pub(crate) fn is_clean(&self) -> bool {
-        self.problems.borrow().is_empty()
+        self.diagnostics.borrow().is_empty()
     }
 
     /// The mistakes in order: those of this file by place, then those of other files.
-    pub(crate) fn into_problems(self) -> Problems {
-        let mut problems = self.problems.into_inner();
+    pub(crate) fn into_diagnostics(self) -> Diagnostics {
+        let mut diagnostics = self.diagnostics.into_inner();
         let own = self.source;
-        problems.sort_by_key(|p| (!Arc::ptr_eq(&p.source, &own), p.span.start, p.span.end));
-        without_consequences(&mut problems);
+        diagnostics.sort_by_key(|p| (!Arc::ptr_eq(&p.source, &own), p.span.start, p.span.end));
+        without_consequences(&mut diagnostics);
         if self.more.get() {
             let end = own.text.trim_end().len();
-            let fault = Fault::MoreMistakes { most: MOST };
-            problems.push(Problem { source: own, span: end..end, fault });
+            let diagnostic = DiagnosticKind::MoreMistakes { most: MOST };
+            diagnostics.push(Diagnostic { source: own, span: end..end, kind: diagnostic });
         }
-        Problems(problems)
+        Diagnostics(diagnostics)
     }
 }
 
 /// Leaves out what is missing only because its name is misspelt.
-fn without_consequences(problems: &mut Vec<Problem>) {
+fn without_consequences(diagnostics: &mut Vec<Diagnostic>) {
     let mut explained = Vec::new();
-    for (at, problem) in problems.iter().enumerate() {
-        let missing = match &problem.fault {
-            Fault::UnknownKey { nearest: Some(right), what, .. } => {
-                problems.iter().take(at).rposition(
-                    |p| matches!(&p.fault, Fault::MissingKey { key, what: of } if key == right && of == what),
+    for (at, diagnostic) in diagnostics.iter().enumerate() {
+        let missing = match &diagnostic.kind {
+            DiagnosticKind::UnknownKey { nearest: Some(right), what, .. } => {
+                diagnostics.iter().take(at).rposition(
+                    |p| matches!(&p.kind, DiagnosticKind::MissingKey { key, what: of } if key == right && of == what),
                 )
             }
-            Fault::UnknownInput { nearest: Some(right), .. } => problems
+            DiagnosticKind::UnknownInput { nearest: Some(right), .. } => diagnostics
                 .iter()
-                .position(|p| matches!(&p.fault, Fault::MissingInput { name, .. } if name == right)),
+                .position(|p| matches!(&p.kind, DiagnosticKind::MissingInput { name, .. } if name == right)),
             _ => None,
         };
         explained.extend(missing);
     }
     let mut number = 0;
-    problems.retain(|_| {
+    diagnostics.retain(|_| {
         number += 1;
         !explained.contains(&(number - 1))
     });
@@ -185,26 +200,27 @@ mod tests {
     #[test]
     fn very_long_names_are_cut_in_messages() {
         let unit = format!("a{}b\nc", "ä".repeat(100_000));
-        let fault = Fault::NoSuchInput { name: unit, nearest: None };
-        let problem = Problem { source: Source::new("m", "{}"), span: 0..0, fault };
-        let message = problem.message();
+        let diagnostic = DiagnosticKind::NoSuchInput { name: unit, nearest: None };
+        let diagnostic =
+            Diagnostic { source: SourceText::new("m", "{}"), span: 0..0, kind: diagnostic };
+        let message = diagnostic.message();
         assert!(message.starts_with("there is no input `aää") && message.len() < 2000, "{message}");
         assert!(message.contains("ä…ä") && message.contains("äb\\nc`"), "{message}");
     }
 
     #[test]
     fn more_mistakes_than_are_of_use_are_not_collected() {
-        let log = Log::new(Source::new("m", &"x".repeat(5000)));
+        let log = Collector::new(SourceText::new("m", &"x".repeat(5000)));
         for place in 0..2000 {
-            log.report(&(place..place + 1), Fault::NumberTooLarge);
+            log.report(&(place..place + 1), DiagnosticKind::NumberTooLarge);
         }
         assert!(log.is_full());
-        let problems = log.into_problems().0;
-        assert_eq!(problems.len(), MOST + 1);
-        let last = problems.last().unwrap();
+        let diagnostics = log.into_diagnostics().0;
+        assert_eq!(diagnostics.len(), MOST + 1);
+        let last = diagnostics.last().unwrap();
         assert_eq!(
-            (last.position(), &last.fault),
-            ((1, 5001), &Fault::MoreMistakes { most: MOST })
+            (last.position(), &last.kind),
+            ((1, 5001), &DiagnosticKind::MoreMistakes { most: MOST })
         );
     }
 }

@@ -1,58 +1,22 @@
-//! Saved results compared with each other, or with model files.
+//! Saved results compared with each other, or with tasks.
 
 use super::contributions::{Cause, Known, parts};
-use super::linear::{Linear, LinearOutput, Matched, matched};
+use super::linear::{LinearOutput, LinearResult, Matched, matched};
 use super::{
-    Difference, Due, OutputDifference, Part, ROUNDING, RowDifference, State, change_of_expanded,
-    share_out,
+    ChangeCause, ChangePart, Difference, InputState, OutputDifference, ROUNDING, RowDifference,
+    change_of_expanded, share_out,
 };
-use gumption_files::{Fault, ModelFile, Problems, ResultFile};
 use gumption_units::Unit;
 
 /// Sensitivity coefficients that differ by less than this share are equal but for rounding.
 const EQUAL: f64 = 1e-12;
 
-/// A saved result, or a model file that is evaluated to be compared with one.
-#[derive(Clone, Copy, Debug)]
-pub enum Evaluated<'a> {
-    /// A saved result.
-    Result(&'a ResultFile),
-    /// A model file.
-    Model(&'a ModelFile),
-}
-
-impl Evaluated<'_> {
-    fn linear(self) -> Result<Linear, Problems> {
-        match self {
-            Self::Result(file) => Ok(Linear::of_result(file)),
-            Self::Model(file) if file.task.rows.len() != 1 => {
-                let rows = file.task.rows.len();
-                Err(file.problem_at("conditions", Fault::SeveralRows { rows }))
-            }
-            Self::Model(file) => Ok(Linear::of_model(file)),
-        }
-    }
-}
-
-/// Compares two saved results, or a saved result and a model file, to first order in the inputs that
-/// they go back to; inputs that are known exactly are not in result files and take no part.
-///
-/// # Errors
-/// A model file with several rows of conditions.
-pub fn compare_saved(first: Evaluated<'_>, second: Evaluated<'_>) -> Result<Difference, Problems> {
-    let sides = match (first.linear(), second.linear()) {
-        (Ok(first), Ok(second)) => [first, second],
-        (first, second) => {
-            let found = [first.err(), second.err()].into_iter().flatten();
-            return Err(Problems(found.flat_map(|problems| problems.0).collect()));
-        }
-    };
-    Ok(compare(sides.each_ref()))
-}
-
-fn compare(sides: [&Linear; 2]) -> Difference {
+/// Compares two results to first order in the inputs that they go back to; inputs that are known
+/// exactly are not in saved results and take no part.
+pub fn compare_linear(first: &LinearResult, second: &LinearResult) -> Difference {
+    let sides = [first, second];
     let inputs = matched(sides);
-    let correlations = [0, 1].map(|side| placed(sides[side], &inputs, side));
+    let correlations = [0, 1].map(|side| indexed(sides[side], &inputs, side));
     let mut changes = Vec::new();
     let mut outputs = Vec::new();
     for first in &sides[0].outputs {
@@ -86,16 +50,16 @@ fn compare(sides: [&Linear; 2]) -> Difference {
     Difference { changes, swept: false, rows }
 }
 
-/// The coefficients of one side by the places in the common list, in order.
-fn placed(side: &Linear, inputs: &[Matched], which: usize) -> Vec<(usize, usize, f64)> {
-    let place = |own: usize| inputs.iter().position(|input| input.places[which] == Some(own));
-    let placed = side.correlations.iter().filter(|(.., r)| *r != 0.0).filter_map(|&(i, j, r)| {
-        let (i, j) = (place(i)?, place(j)?);
+/// The coefficients of one side by the indices in the common list, in order.
+fn indexed(side: &LinearResult, inputs: &[Matched], which: usize) -> Vec<(usize, usize, f64)> {
+    let index = |own: usize| inputs.iter().position(|input| input.indices[which] == Some(own));
+    let indexed = side.correlations.iter().filter(|(.., r)| *r != 0.0).filter_map(|&(i, j, r)| {
+        let (i, j) = (index(i)?, index(j)?);
         Some((i.min(j), i.max(j), r))
     });
-    let mut placed: Vec<_> = placed.collect();
-    placed.sort_by_key(|&(i, j, _)| (i, j));
-    placed
+    let mut indexed: Vec<_> = indexed.collect();
+    indexed.sort_by_key(|&(i, j, _)| (i, j));
+    indexed
 }
 
 fn changed_correlations(
@@ -110,7 +74,7 @@ fn changed_correlations(
         correlations.iter().flatten().map(|&(i, j, _)| (i, j)).collect();
     pairs.sort_unstable();
     pairs.dedup();
-    let label = |place: usize| inputs.get(place).map_or("", |input| input.label.as_str());
+    let label = |index: usize| inputs.get(index).map_or("", |input| input.label.as_str());
     let changed = pairs.into_iter().filter(|pair| of(0, *pair) != of(1, *pair));
     changed
         .map(|pair| {
@@ -123,7 +87,7 @@ fn changed_correlations(
 
 /// An output of both sides.
 struct Pair<'a> {
-    sides: [&'a Linear; 2],
+    sides: [&'a LinearResult; 2],
     outputs: [&'a LinearOutput; 2],
     /// From the second one's unit to the first one's.
     factor: f64,
@@ -133,7 +97,7 @@ struct Pair<'a> {
 impl Pair<'_> {
     /// The output's coefficient to an input of the common list, in the side's own units.
     fn sensitivity(&self, side: usize, input: &Matched) -> f64 {
-        input.places[side].map_or(0.0, |place| self.outputs[side].sensitivity(place))
+        input.indices[side].map_or(0.0, |index| self.outputs[side].sensitivity(index))
     }
 
     fn scale(&self, side: usize) -> f64 {
@@ -143,11 +107,11 @@ impl Pair<'_> {
     /// Which sensitivity coefficients moved, as what that does is counted with their inputs.
     fn changed_sensitivities(&self) -> Option<String> {
         let changed = |input: &&Matched| {
-            let [Some(a), Some(b)] = input.places else {
+            let [Some(a), Some(b)] = input.indices else {
                 return false;
             };
-            let unit = |side: usize, place: usize| {
-                self.sides[side].inputs.get(place).and_then(|root| Unit::parse(&root.unit).ok())
+            let unit = |side: usize, index: usize| {
+                self.sides[side].inputs.get(index).and_then(|root| Unit::parse(&root.unit).ok())
             };
             let units = unit(0, a).zip(unit(1, b));
             let per = units.and_then(|(a, b)| Unit::conversion_factor(&a, &b).ok());
@@ -169,7 +133,7 @@ impl Pair<'_> {
 
     fn known(&self, side: usize, correlations: &[(usize, usize, f64)]) -> Option<Known> {
         let output = self.outputs[side];
-        let root = |input: &Matched| self.sides[side].inputs.get(input.places[side]?);
+        let root = |input: &Matched| self.sides[side].inputs.get(input.indices[side]?);
         let contribution = |input: &Matched| {
             let u = root(input).map_or(0.0, |root| root.standard_uncertainty);
             self.sensitivity(side, input) * u * self.scale(side)
@@ -189,9 +153,9 @@ impl Pair<'_> {
         })
     }
 
-    fn state(&self, side: usize, input: &Matched) -> Option<State> {
-        let root = self.sides[side].inputs.get(input.places[side]?)?;
-        Some(State {
+    fn state(&self, side: usize, input: &Matched) -> Option<InputState> {
+        let root = self.sides[side].inputs.get(input.indices[side]?)?;
+        Some(InputState {
             estimate: root.estimate,
             standard_uncertainty: root.standard_uncertainty,
             distribution: root.distribution.clone(),
@@ -215,24 +179,29 @@ impl Pair<'_> {
         let (u, k) = (figure(|s| s.standard_uncertainty), figure(|s| s.coverage_factor));
         let part = |cause: Cause| attributed.iter().flatten().find(|(of, _)| *of == cause);
         let change = |part: [f64; 2]| change_of_expanded(u, k, part);
-        let mut list: Vec<Part> = Vec::new();
-        for (place, input) in self.inputs.iter().enumerate() {
+        let mut list: Vec<ChangePart> = Vec::new();
+        for (index, input) in self.inputs.iter().enumerate() {
             let states = [self.state(0, input), self.state(1, input)];
             // an input that this output does not go back to, here or there
             if (0..2).all(|side| self.sensitivity(side, input) == 0.0) {
                 continue;
             }
-            let change = match part(Cause::Input(place)) {
+            let change = match part(Cause::Input(index)) {
                 Some((_, part)) => change(*part),
                 None if attributed.is_none() && states[0] != states[1] => None,
                 None => Some(0.0),
             };
-            list.push(Part { due: Due::Input(input.label.clone()), states, change, share: None });
+            list.push(ChangePart {
+                due: ChangeCause::Input(input.label.clone()),
+                states,
+                change,
+                share: None,
+            });
         }
         let others = [
-            (Cause::Correlations, Due::Correlations),
-            (Cause::Coverage, Due::Coverage),
-            (Cause::Rest, Due::Rest),
+            (Cause::Correlations, ChangeCause::Correlations),
+            (Cause::Coverage, ChangeCause::Coverage),
+            (Cause::Rest, ChangeCause::Rest),
         ];
         let rounding = ROUNDING * (k[0] * u[0]).max(k[1] * u[1]);
         for (cause, due) in others {
@@ -240,8 +209,8 @@ impl Pair<'_> {
                 continue;
             };
             let change = change(*part);
-            if due != Due::Rest || change.is_none_or(|change| change.abs() > rounding) {
-                list.push(Part { due, states: [None, None], change, share: None });
+            if due != ChangeCause::Rest || change.is_none_or(|change| change.abs() > rounding) {
+                list.push(ChangePart { due, states: [None, None], change, share: None });
             }
         }
         share_out(&mut list, rounding);
@@ -253,6 +222,3 @@ impl Pair<'_> {
         }
     }
 }
-
-#[cfg(test)]
-mod tests;

@@ -4,7 +4,7 @@ use super::Localized;
 
 /// What a certificate says beside its results. Everything may be left out but what a format needs.
 #[derive(Clone, Debug, Default)]
-pub struct Particulars {
+pub struct AdministrativeData {
     /// The title; that of the language if there is none.
     pub title: Option<Localized>,
     /// The number of the certificate.
@@ -22,7 +22,7 @@ pub struct Particulars {
     /// Day of issue.
     pub issued: Option<String>,
     /// Where the calibration was made.
-    pub place: Place,
+    pub place: PerformanceLocation,
     /// The environment: temperature, humidity.
     pub environment: Option<Localized>,
     /// The method of calibration.
@@ -89,7 +89,7 @@ impl Party {
 
 /// Where a calibration was made.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Place {
+pub enum PerformanceLocation {
     /// In the laboratory.
     #[default]
     Laboratory,
@@ -103,7 +103,7 @@ pub enum Place {
     Other,
 }
 
-impl Place {
+impl PerformanceLocation {
     /// All of them.
     pub const ALL: [Self; 5] = [
         Self::Laboratory,

@@ -46,7 +46,7 @@ fn by_orders(causes: usize, value: &dyn Fn(&[bool]) -> Vec<f64>) -> Vec<Vec<f64>
     let mut shares: Vec<Vec<f64>> = Vec::new();
     for turn in 0..turns {
         let first = turn * causes / turns;
-        let forward: Vec<usize> = (0..causes).map(|place| (first + place) % causes).collect();
+        let forward: Vec<usize> = (0..causes).map(|index| (first + index) % causes).collect();
         let backward: Vec<usize> = forward.iter().rev().copied().collect();
         for order in [forward, backward] {
             let mut marks = vec![false; causes];

@@ -30,7 +30,7 @@ pub(super) struct Mixture<'a> {
     rows: [&'a Row; 2],
     /// The tasks without their rows, to be filled.
     empty: [Task; 2],
-    places: [HashMap<&'a str, usize>; 2],
+    indices: [HashMap<&'a str, usize>; 2],
     /// Places of the outputs to be compared.
     outputs: Vec<[usize; 2]>,
     /// From the second task's unit of each output to the first's.
@@ -39,28 +39,28 @@ pub(super) struct Mixture<'a> {
 
 impl<'a> Mixture<'a> {
     pub(crate) fn new(tasks: [&'a Task; 2], rows: [&'a Row; 2], outputs: &[Common]) -> Self {
-        let places = tasks.map(|task| {
-            task.variables.iter().enumerate().map(|(place, v)| (v.name.as_str(), place)).collect()
+        let indices = tasks.map(|task| {
+            task.variables.iter().enumerate().map(|(index, v)| (v.name.as_str(), index)).collect()
         });
         Self {
             tasks,
             rows,
             empty: tasks.map(|task| Task { rows: Vec::new(), ..task.clone() }),
-            places,
-            outputs: outputs.iter().map(|output| output.places).collect(),
+            indices,
+            outputs: outputs.iter().map(|output| output.indices).collect(),
             factors: outputs.iter().map(|output| output.factor).collect(),
         }
     }
 
     /// The causes that are not nothing, in an order of their own: that of the names.
     pub(super) fn causes(&self) -> Vec<Cause> {
-        let mut names: Vec<&str> = self.places.iter().flat_map(|p| p.keys().copied()).collect();
+        let mut names: Vec<&str> = self.indices.iter().flat_map(|p| p.keys().copied()).collect();
         names.sort_unstable();
         names.dedup();
         let mut causes: Vec<Cause> = Vec::new();
         for name in names {
             let text = || name.to_owned();
-            match self.places.each_ref().map(|places| places.get(name)) {
+            match self.indices.each_ref().map(|indices| indices.get(name)) {
                 [Some(&first), Some(&second)] if self.differs(first, second) => {
                     causes.push(Cause::Moved(text()));
                 }
@@ -80,8 +80,8 @@ impl<'a> Mixture<'a> {
     }
 
     fn differs(&self, first: usize, second: usize) -> bool {
-        let [a, b] = [(0, first), (1, second)].map(|(side, place)| {
-            (self.rows[side].distributions.get(place), self.tasks[side].variables.get(place))
+        let [a, b] = [(0, first), (1, second)].map(|(side, index)| {
+            (self.rows[side].distributions.get(index), self.tasks[side].variables.get(index))
         });
         let units = a.1.map(|v| v.unit.text()) == b.1.map(|v| v.unit.text());
         !units || a.0 != b.0
@@ -89,7 +89,7 @@ impl<'a> Mixture<'a> {
 
     fn named_correlations(&self, side: usize) -> Vec<(&'a str, &'a str, f64)> {
         let task = self.tasks[side];
-        let name = |place: usize| task.variables.get(place).map_or("", |v| v.name.as_str());
+        let name = |index: usize| task.variables.get(index).map_or("", |v| v.name.as_str());
         let named = task.correlations.iter().filter(|c| c.coefficient != 0.0).map(|c| {
             let (a, b) = (name(c.first), name(c.second));
             (a.min(b), a.max(b), c.coefficient)
@@ -102,7 +102,7 @@ impl<'a> Mixture<'a> {
     /// u^2 and k of every common output, one after the other, by the model of one side, with some
     /// causes in effect. Where there is none, the figure is not a number.
     pub(super) fn figures(&self, model: Side, in_effect: &[&Cause]) -> Vec<f64> {
-        let own = model.place();
+        let own = model.index();
         let is = |cause: &Cause| in_effect.contains(&cause);
         let from = |cause: &Cause| if is(cause) { 1 } else { 0 };
         let moved: std::collections::HashSet<&str> = in_effect
@@ -115,11 +115,11 @@ impl<'a> Mixture<'a> {
             })
             .collect();
         let distributions =
-            self.tasks[own].variables.iter().enumerate().map(|(place, variable)| {
+            self.tasks[own].variables.iter().enumerate().map(|(index, variable)| {
                 let name = variable.name.as_str();
-                let distribution = self.rows[own].distributions.get(place);
+                let distribution = self.rows[own].distributions.get(index);
                 let side = usize::from(moved.contains(name));
-                match self.places[1 - own].get(name) {
+                match self.indices[1 - own].get(name) {
                     // the state that this side has not: known exactly
                     None if side != own => distribution.map(|d| Arc::new(known(d))),
                     Some(&other) if side != own => self.taken(1 - own, other, &variable.unit),
@@ -137,8 +137,8 @@ impl<'a> Mixture<'a> {
         task.settings.real_dof = coverage.real_dof;
         let row = Row { conditions: self.rows[own].conditions.clone(), distributions };
         let outputs = gum::evaluate(&task, &row).outputs;
-        let figures = self.outputs.iter().zip(&self.factors).flat_map(|(places, factor)| {
-            let gum = outputs.get(places[own]).and_then(Option::as_ref);
+        let figures = self.outputs.iter().zip(&self.factors).flat_map(|(indices, factor)| {
+            let gum = outputs.get(indices[own]).and_then(Option::as_ref);
             let factor = if own == 0 { 1.0 } else { *factor };
             let u = gum.map_or(f64::NAN, |gum| gum.standard_uncertainty * factor);
             let k = gum.and_then(|gum| gum.coverage_factor).unwrap_or(f64::NAN);
@@ -148,9 +148,9 @@ impl<'a> Mixture<'a> {
     }
 
     /// A variable of one side in the unit of the other.
-    fn taken(&self, side: usize, place: usize, unit: &Unit) -> Option<Arc<Distribution>> {
-        let distribution = self.rows[side].distributions.get(place)?;
-        let variable = self.tasks[side].variables.get(place)?;
+    fn taken(&self, side: usize, index: usize, unit: &Unit) -> Option<Arc<Distribution>> {
+        let distribution = self.rows[side].distributions.get(index)?;
+        let variable = self.tasks[side].variables.get(index)?;
         if variable.unit.text() == unit.text() {
             return Some(Arc::clone(distribution));
         }
@@ -169,11 +169,11 @@ impl<'a> Mixture<'a> {
     /// The coefficients of one side between variables of the model of another.
     fn correlations(&self, side: usize, model: usize) -> Vec<Correlation> {
         let named = self.named_correlations(side).into_iter();
-        let placed = named.filter_map(|(a, b, coefficient)| {
-            let (a, b) = (*self.places[model].get(a)?, *self.places[model].get(b)?);
+        let indexed = named.filter_map(|(a, b, coefficient)| {
+            let (a, b) = (*self.indices[model].get(a)?, *self.indices[model].get(b)?);
             Some(Correlation { first: a.min(b), second: a.max(b), coefficient })
         });
-        placed.collect()
+        indexed.collect()
     }
 }
 
@@ -185,6 +185,6 @@ fn known(distribution: &Distribution) -> Distribution {
 /// An output of both tasks.
 #[derive(Clone, Debug)]
 pub(super) struct Common {
-    pub(super) places: [usize; 2],
+    pub(super) indices: [usize; 2],
     pub(super) factor: f64,
 }

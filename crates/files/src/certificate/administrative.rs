@@ -1,11 +1,11 @@
 //! Device, parties, dates and texts of a certificate.
 
-use super::super::Fault;
+use super::super::DiagnosticKind;
 use super::super::json::{Json, Member};
 use super::super::object::Object;
 use super::{named, texts};
 use gumption_analysis::certificate::contents::{
-    Device, Language, Localized, Particulars, Party, Place,
+    AdministrativeData, Device, Language, Localized, Party, PerformanceLocation,
 };
 
 /// The keys of a device.
@@ -16,8 +16,13 @@ const PARTY: [&str; 9] =
     ["name", "code", "street", "street_number", "post_code", "city", "country", "email", "phone"];
 
 /// Reads what the certificate says beside its results; `None` after a mistake.
-pub(super) fn read(root: &Object<'_>) -> Option<Particulars> {
-    let place = named(root, "place", Place::named, &Place::ALL.map(Place::name));
+pub(super) fn read(root: &Object<'_>) -> Option<AdministrativeData> {
+    let place = named(
+        root,
+        "place",
+        PerformanceLocation::named,
+        &PerformanceLocation::ALL.map(PerformanceLocation::name),
+    );
     let remarks = match root.get("remarks").map(|member| &member.value.value) {
         Some(Json::List(_)) => {
             texts(root, "remarks").into_iter().map(|(text, _)| Localized::plain(text)).collect()
@@ -25,7 +30,7 @@ pub(super) fn read(root: &Object<'_>) -> Option<Particulars> {
         Some(_) => localized(root, "remarks").into_iter().collect(),
         None => Vec::new(),
     };
-    Some(Particulars {
+    Some(AdministrativeData {
         title: localized(root, "title"),
         number: owned(root, "number"),
         device: device(root),
@@ -60,7 +65,7 @@ pub(super) fn localized(object: &Object<'_>, key: &str) -> Option<Localized> {
         .filter_map(|language| Some((Some(language), owned(&texts, language.code())?)))
         .collect();
     if found.is_empty() {
-        object.log.report(&member.key_span, Fault::NoValues { name: key.to_owned() });
+        object.log.report(&member.key_span, DiagnosticKind::NoValues { name: key.to_owned() });
         return None;
     }
     Some(Localized { texts: found })
@@ -100,7 +105,7 @@ fn party(root: &Object<'_>, key: &'static str) -> Option<Party> {
         let reason = format!(
             "the country `{country}` is not a code of ISO 3166-1, two capital letters such as `IT`"
         );
-        root.log.report(&member.value.span, Fault::Certificate { reason });
+        root.log.report(&member.value.span, DiagnosticKind::Certificate { reason });
     }
     Some(Party {
         name: owned(&object, "name")?,
@@ -134,13 +139,13 @@ fn calibrated(root: &Object<'_>) -> Option<[String; 2]> {
         ([first, last], _) if first <= last => Some([first.clone(), last.clone()]),
         ([first, last], _) => {
             let reason = format!("the calibration ends on {last}, before it begins on {first}");
-            root.log.report(&member.value.span, Fault::Certificate { reason });
+            root.log.report(&member.value.span, DiagnosticKind::Certificate { reason });
             None
         }
         (_, Json::List(list)) if list.len() != 1 && list.len() != 2 => {
             let reason =
                 "`calibration_date` is one day, or a list of the first and the last".to_owned();
-            root.log.report(&member.value.span, Fault::Certificate { reason });
+            root.log.report(&member.value.span, DiagnosticKind::Certificate { reason });
             None
         }
         _ => None,
@@ -157,7 +162,7 @@ fn checked_date(
     if is_date(text) {
         return Some(text.to_owned());
     }
-    root.log.report(&member.value.span, Fault::NotDate { key, found: text.to_owned() });
+    root.log.report(&member.value.span, DiagnosticKind::NotDate { key, found: text.to_owned() });
     None
 }
 

@@ -1,10 +1,11 @@
 use std::path::Path;
 
-use super::*;
-use gumption_files as file;
+use super::super::of_models as compare;
+use crate::{ModelFile, read_text};
+use gumption_analysis::diff::{ChangeCause, Difference, OutputDifference};
 
 fn read(text: &str) -> ModelFile {
-    file::read_text("x", text, Path::new(""), &[]).unwrap()
+    read_text("x", text, Path::new(""), &[]).unwrap()
 }
 
 /// A file with these inputs, equations and other members.
@@ -29,7 +30,7 @@ fn only(difference: &Difference) -> &OutputDifference {
 }
 
 fn share(output: &OutputDifference, name: &str) -> f64 {
-    let due = Due::Input(name.to_owned());
+    let due = ChangeCause::Input(name.to_owned());
     output.parts.iter().find(|part| part.due == due).unwrap().share.unwrap()
 }
 
@@ -147,7 +148,7 @@ fn added_and_removed_inputs() {
     assert_complete(output);
     assert!((share(output, "b") - 16.0 / 43.0).abs() < 1e-12);
     let model = output.parts.last().unwrap();
-    assert_eq!(model.due, Due::Model);
+    assert_eq!(model.due, ChangeCause::Model);
     assert!((model.share.unwrap() - 27.0 / 43.0).abs() < 1e-12);
 }
 
@@ -161,13 +162,13 @@ fn correlations_and_coverage() {
     let output = only(&difference);
     assert_complete(output);
     let part = output.parts.last().unwrap();
-    assert_eq!((part.due.clone(), part.share), (Due::Correlations, Some(1.0)));
+    assert_eq!((part.due.clone(), part.share), (ChangeCause::Correlations, Some(1.0)));
     assert_eq!(difference.changes, [r#"`correlations` added: [["b","a",0.5]]"#]);
 
     let second = model(&given, "a+b", r#", "coverage_probability": 0.99"#);
     let difference = compare(&first, &second);
     let part = only(&difference).parts.last().unwrap();
-    assert_eq!((part.due.clone(), part.share), (Due::Coverage, Some(1.0)));
+    assert_eq!((part.due.clone(), part.share), (ChangeCause::Coverage, Some(1.0)));
 }
 
 /// Degrees of freedom change U by way of k.

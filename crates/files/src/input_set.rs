@@ -1,0 +1,30 @@
+//! What the reader of inputs finds, and what correlations, paired readings and shared values are
+//! read against.
+
+use std::ops::Range;
+
+use super::known::Known;
+use gumption_engine::model::InputQuantity;
+use gumption_engine::task::{Evidence, Variable, Warning};
+
+/// The inputs of a file.
+#[derive(Debug, Default)]
+pub(super) struct InputSet {
+    pub(super) quantities: Vec<InputQuantity>,
+    pub variables: Vec<Variable>,
+    /// The key of each variable, for messages.
+    pub(super) places: Vec<Range<usize>>,
+    /// The key of each quantity.
+    pub(super) quantity_places: Vec<Range<usize>>,
+    /// What is known about the variables in each row.
+    pub(super) known: Known,
+    pub(super) warnings: Vec<Warning>,
+    /// Quantities whose unit could not be read: they fit every dimension.
+    pub(super) without_unit: Vec<String>,
+    /// The files of samples that were read: name and content.
+    pub(super) files: Vec<(String, Vec<u8>)>,
+    /// The variables whose readings are said to be paired.
+    pub(super) paired: Vec<usize>,
+    /// Readings that distributions are to be tested against.
+    pub(super) evidence: Vec<Evidence>,
+}

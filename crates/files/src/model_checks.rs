@@ -1,0 +1,239 @@
+//! What only all quantities of a file together tell: names that stand for two things, quantities
+//! that a model does not have, units that do not fit.
+
+use std::collections::{HashMap, HashSet};
+use std::ops::Range;
+use std::sync::Arc;
+
+use super::conditions::Conditions;
+use super::diagnostics::Collector;
+use super::input_set::InputSet;
+use super::json::Json;
+use super::model_reader::{Equation, ModelBody};
+use super::object::Object;
+use super::outputs::Outputs;
+use super::scopes::{coherent, condition_scope, report_formula};
+use super::{DiagnosticKind, nearest};
+use gumption_engine::model::formula::{Scope, Typing, check_name};
+use gumption_engine::model::{Output, Quantity};
+use gumption_engine::task::Warning;
+use gumption_measurements::Entry;
+use gumption_units::Unit;
+
+/// The quantities of a file.
+#[derive(Debug)]
+pub(super) struct Quantities {
+    pub(super) inputs: InputSet,
+    pub(super) conditions: Conditions,
+    pub(super) outputs: Outputs,
+    /// Whether equations are checked for their dimensions.
+    pub(super) check_units: bool,
+}
+
+impl Quantities {
+    /// Names of those whose unit could not be read.
+    fn unknown_units(&self) -> HashSet<&str> {
+        let Self { inputs, conditions, outputs, .. } = self;
+        let lists = [&inputs.without_unit, &conditions.without_unit, &outputs.without_unit];
+        lists.into_iter().flatten().map(String::as_str).collect()
+    }
+}
+
+/// Names of all quantities: possible, and each used once.
+pub(super) fn check_names(root: &Object<'_>, of: &Quantities, body: &Option<ModelBody<'_>>) {
+    let Quantities { inputs, conditions, .. } = of;
+    // names with the kind of quantity; a key that stands twice in one object is reported there
+    let mut taken: HashMap<&str, usize> = HashMap::new();
+    let inputs = inputs.quantities.iter().map(|q| q.quantity.name.as_str());
+    let input_places = root.get("inputs").map(|m| match &m.value.value {
+        Json::Object(members) => members.iter().map(|m| &m.key_span).collect(),
+        _ => Vec::new(),
+    });
+    let mut named: Vec<(usize, &str, &Range<usize>)> = inputs
+        .zip(input_places.unwrap_or_default())
+        .map(|(name, place)| (0, name, place))
+        .collect();
+    let swept = conditions.quantities.iter().zip(&conditions.places);
+    named.extend(swept.map(|(quantity, place)| (1, quantity.name.as_str(), place)));
+    if let Some(ModelBody::Equations(equations)) = body {
+        let written = equations.iter().filter_map(|(_, member, _)| *member);
+        named.extend(written.map(|m| (2, m.key.as_str(), &m.key_span)));
+    }
+    for (kind, name, place) in named {
+        if let Err(error) = check_name(name) {
+            let (name, reason) = (name.to_owned(), error.to_string());
+            root.log.report(place, DiagnosticKind::BadName { name, reason });
+        } else if taken.get(name).is_some_and(|&earlier| earlier != kind) {
+            root.log.report(place, DiagnosticKind::NameTaken { name: name.to_owned() });
+        }
+        taken.entry(name).or_insert(kind);
+    }
+}
+
+/// Checks that a typed model has the quantities, all of those that it needs, and units that fit.
+pub(super) fn check_typed(log: &Collector, entry: &Entry, place: &Range<usize>, of: &Quantities) {
+    let Quantities { inputs, conditions, outputs, .. } = of;
+    let unknown_units = of.unknown_units();
+    let declaration = entry.typed.declaration;
+    let model = declaration.name.to_owned();
+    let known: Vec<String> = declaration.inputs.iter().map(|i| i.name.to_owned()).collect();
+    let mut free: Option<(String, Unit)> = None;
+    let mut check = |name: &str, declared: &str, unit: &Unit, place: &Range<usize>| {
+        if unknown_units.contains(name) {
+            return;
+        }
+        if entry.any_unit.contains(&name) {
+            let (_, first) = free.get_or_insert_with(|| (name.to_owned(), unit.clone()));
+            check_unit(log, name, unit, first, place);
+        } else if let Ok(declared) = Unit::parse(declared) {
+            check_unit(log, name, unit, &declared, place);
+        }
+    };
+    for (input, place) in inputs.quantities.iter().zip(&inputs.quantity_places) {
+        let Quantity { name, unit, .. } = &input.quantity;
+        match entry.typed.input(name) {
+            Some((_, declared)) => check(name, declared.unit, unit, place),
+            None => {
+                let nearest = nearest(name, known.iter().map(String::as_str));
+                let diagnostic = DiagnosticKind::UnknownInput {
+                    name: name.to_owned(),
+                    model: model.clone(),
+                    nearest: nearest.map(str::to_owned),
+                    known: known.clone(),
+                };
+                log.report(place, diagnostic);
+            }
+        }
+    }
+    for (condition, place) in conditions.quantities.iter().zip(&conditions.places) {
+        if let Some((_, declared)) = entry.typed.input(&condition.name) {
+            check(&condition.name, declared.unit, &condition.unit, place);
+        }
+    }
+    for declared in declaration.inputs {
+        let given = inputs.quantities.iter().any(|q| q.quantity.name == declared.name)
+            || conditions.quantities.iter().any(|q| q.name == declared.name);
+        if !given && declared.default.is_none() {
+            let (name, unit) = (declared.name.to_owned(), declared.unit.to_owned());
+            log.report(place, DiagnosticKind::MissingInput { name, model: model.clone(), unit });
+        }
+    }
+    let known: Arc<[String]> = declaration.outputs.iter().map(|o| o.name.to_owned()).collect();
+    for (output, place, unit_place) in outputs.each() {
+        let name = &output.quantity.name;
+        match entry.typed.output(name) {
+            Some((_, declared)) => check(name, declared.unit, &output.quantity.unit, unit_place),
+            None => unknown_output(log, name, &known, place),
+        }
+    }
+}
+
+pub(super) fn unknown_output(
+    log: &Collector,
+    name: &str,
+    known: &Arc<[String]>,
+    place: &Range<usize>,
+) {
+    let nearest = nearest(name, known.iter().map(String::as_str)).map(str::to_owned);
+    let diagnostic =
+        DiagnosticKind::UnknownOutput { name: name.to_owned(), nearest, known: Arc::clone(known) };
+    log.report(place, diagnostic);
+}
+
+fn check_unit(log: &Collector, name: &str, found: &Unit, expected: &Unit, place: &Range<usize>) {
+    if !expected.is_compatible(found) {
+        let shown = if expected.text().is_empty() { "1" } else { expected.text() };
+        let diagnostic = DiagnosticKind::WrongDimension {
+            name: name.to_owned(),
+            found: found.to_string(),
+            found_as: found.dimension().describe(),
+            expected: shown.to_owned(),
+            expected_as: expected.dimension().describe(),
+        };
+        log.report(place, diagnostic);
+    }
+}
+
+/// Checks the equations in order; gives what every name is.
+pub(super) fn check_equations(
+    log: &Collector,
+    equations: &[Equation<'_>],
+    of: &Quantities,
+) -> Scope {
+    let Quantities { inputs, conditions, check_units, .. } = of;
+    let unknown_units = of.unknown_units();
+    let mut scope = condition_scope(conditions);
+    for input in &inputs.quantities {
+        let Quantity { name, unit, .. } = &input.quantity;
+        let known = !unknown_units.contains(name.as_str());
+        scope.define(name, if known { Typing::in_unit(unit) } else { Typing::ANY });
+    }
+    for (name, ..) in equations {
+        scope.announce(name);
+    }
+    for (name, member, formula) in equations.iter().take_while(|_| !log.is_full()) {
+        let result = match formula {
+            Some(formula) if *check_units => formula.check(&scope),
+            Some(formula) => formula.check_names(&scope),
+            None => Ok(Typing::ANY),
+        };
+        let typing = result.unwrap_or_else(|errors| {
+            for error in errors {
+                if let Some(member) = member {
+                    report_formula(log, member, error);
+                }
+            }
+            Typing::ANY
+        });
+        scope.define(name, typing);
+    }
+    scope
+}
+
+/// Checks that every output has an equation, whose unit fits.
+pub(super) fn check_formula_outputs(log: &Collector, scope: &Scope, of: &Quantities) {
+    let Quantities { outputs, check_units, .. } = of;
+    let unknown_units = of.unknown_units();
+    let known: Arc<[String]> = scope.names().map(str::to_owned).collect();
+    for (output, place, unit_place) in outputs.each() {
+        let name = &output.quantity.name;
+        let Some(typing) = scope.get(name) else {
+            unknown_output(log, name, &known, place);
+            continue;
+        };
+        let unit = &output.quantity.unit;
+        let checked = *check_units && !unknown_units.contains(name.as_str());
+        if let Some(dimension) = typing.dimension.filter(|_| checked)
+            && dimension != unit.dimension()
+        {
+            let diagnostic = DiagnosticKind::WrongDimension {
+                name: name.clone(),
+                found: unit.to_string(),
+                found_as: unit.dimension().describe(),
+                expected: coherent(dimension),
+                expected_as: dimension.describe(),
+            };
+            log.report(unit_place, diagnostic);
+        }
+    }
+}
+
+/// Outputs in K of what is a number of degrees Celsius.
+pub(super) fn celsius_as_kelvin(scope: &Scope, outputs: &[Output]) -> Vec<Warning> {
+    outputs
+        .iter()
+        .map(|output| &output.quantity)
+        .filter(|output| {
+            let celsius = scope.get(&output.name).is_some_and(Typing::is_celsius);
+            celsius && !output.unit.is_celsius()
+        })
+        .map(|output| {
+            let text = format!(
+                "`{}` comes from temperatures in degC, which formulas never shift, and is reported \
+                 in {}; write kelvin(...) for a thermodynamic temperature, or report it in degC",
+                output.name, output.unit
+            );
+            Warning::new("celsius-as-kelvin", &output.name, text)
+        })
+        .collect()
+}

@@ -1,0 +1,429 @@
+//! The reader of model files and of the cases that are model files with observations.
+//!
+//! A file is parsed twice. `serde_json` alone decides whether a text is JSON, so that what is
+//! accepted here is what every other program accepts; but it keeps no places. `jsonc-parser` gives
+//! each key and value its span of bytes; but it would also take comments and trailing commas. The
+//! tree of the second, once the first has accepted the text, is what all readers go through
+//! (`json.rs`).
+//!
+//! A mistake does not end the reading: it is reported at its span, the reader goes on with what is
+//! left, and a file is accepted where nothing was reported. What depends on something unreadable is
+//! skipped and not reported again (a quantity whose unit is wrong fits every dimension; formulas are
+//! not checked where the names of conditions are not known), so that one mistake gives one
+//! diagnostic. [`ModelReader::found`] therefore goes in stages, each of which needs what those before
+//! it have found:
+//!
+//! 1. keys, title, settings;
+//! 2. the data: the table of observations, and the rows of conditions;
+//! 3. the quantities: what computes the outputs, inputs with what is known of them, outputs;
+//! 4. what only all of them together tell: names, size, correlations;
+//! 5. the model, checked against the quantities, and the task of all that.
+
+use std::ops::Range;
+use std::path::Path;
+use std::sync::Arc;
+
+use super::conditions::{self, Conditions};
+use super::diagnostics::{Collector, Diagnostics};
+use super::input_set::InputSet;
+use super::json::{Json, Member, Node};
+use super::model_checks::{
+    Quantities, celsius_as_kelvin, check_equations, check_formula_outputs, check_names,
+    check_typed, unknown_output,
+};
+use super::model_file::ModelFile;
+use super::object::Object;
+use super::observations::{self, Observations};
+use super::open::{check_format, open, read_changed_root};
+use super::outputs;
+use super::overrides::{self, Override};
+use super::results::Results;
+use super::scopes::{ConditionSet, report_formula, typed_scope};
+use super::simulated::{names_simulation, simulated};
+use super::size::Size;
+use super::table::{self, Table};
+use super::{DiagnosticKind, correlations, inputs, nearest, settings};
+use gumption_engine::distribution::{Correlation, Fits};
+use gumption_engine::model::formula::Formula;
+use gumption_engine::model::{Output, typed};
+use gumption_engine::task::{Row, Settings, Task, Warning};
+use gumption_gap::Observed;
+use gumption_gap::{Maker as SimMaker, Sim};
+use gumption_measurements::Entry;
+use gumption_units::Unit;
+
+/// The keys of a model file and of a case.
+const KEYS: [&str; 21] = [
+    "format",
+    "title",
+    "source",
+    "about",
+    "inputs",
+    "correlations",
+    "correlation_matrix",
+    "conditions",
+    "equations",
+    "model",
+    "outputs",
+    "coverage_probability",
+    "coverage_factor",
+    "coverage_factor_fixed",
+    "monte_carlo",
+    "check_units",
+    "allow_undefined",
+    "observations",
+    "effects",
+    "catalogue",
+    "prior",
+];
+
+/// How a model file is to be read.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct ModelOptions<'a> {
+    /// Values in place of those of the file.
+    pub(super) overrides: &'a [Override],
+    /// A table of conditions in place of those of the data.
+    pub(super) at: Option<&'a Path>,
+}
+
+/// What was found in a file.
+#[derive(Debug)]
+pub(super) struct Found {
+    pub(super) file: ModelFile,
+    pub(super) sim: Sim,
+    /// What was measured of each output.
+    pub(super) observed: Vec<Option<Observed>>,
+    /// How many of the last conditions are columns of somebody else's simulation.
+    pub(super) simulated: usize,
+    /// The table of the data.
+    pub(super) data: Option<Table>,
+}
+
+/// A model file that is being read.
+#[derive(Debug)]
+pub(super) struct ModelReader<'a> {
+    pub(super) root: Object<'a>,
+    pub(super) folder: &'a Path,
+    options: ModelOptions<'a>,
+}
+
+/// An equation: the quantity, where it stands unless it is a column of the data, and its formula if
+/// that could be read.
+pub(super) type Equation<'a> = (String, Option<&'a Member>, Option<Formula>);
+
+/// What computes the outputs.
+#[derive(Debug)]
+pub(super) enum ModelBody<'a> {
+    Typed(Entry, &'a Range<usize>),
+    Equations(Vec<Equation<'a>>),
+}
+
+/// Observations, conditions, and which outputs are columns of the data.
+struct Data {
+    observations: Option<Observations>,
+    conditions: Conditions,
+    /// Outputs with the column that holds them.
+    simulated: Vec<(String, String)>,
+}
+
+/// Reads and checks a file; `read` makes what is wanted of it.
+pub(super) fn read_file<T>(
+    path: &Path,
+    options: ModelOptions<'_>,
+    read: impl FnOnce(&ModelReader<'_>) -> Option<T>,
+) -> Result<T, Diagnostics> {
+    open(path, |name, text, folder| read_with(name, text, folder, options, read))
+}
+
+/// Reads and checks a text; `read` makes what is wanted of it.
+pub(super) fn read_with<T>(
+    name: &str,
+    text: &str,
+    folder: &Path,
+    options: ModelOptions<'_>,
+    read: impl FnOnce(&ModelReader<'_>) -> Option<T>,
+) -> Result<T, Diagnostics> {
+    let change = |log: &Collector, root: &mut Node| overrides::apply(log, root, options.overrides);
+    read_changed_root(name, text, "a model file", change, |root| {
+        read(&ModelReader { root, folder, options })
+    })
+}
+
+impl<'a> ModelReader<'a> {
+    /// All that the file holds, unless it has mistakes.
+    pub(super) fn found(&self) -> Option<Found> {
+        let root = &self.root;
+        root.check_keys(&KEYS);
+        check_format(root);
+        let title = root.text("title").unwrap_or("").to_owned();
+        root.text("source");
+        let check_units = root.truth("check_units").unwrap_or(true);
+        let settings = settings::read(root);
+
+        let Data { mut observations, conditions, simulated } = self.data()?;
+        let body = self.body(&simulated);
+        let results = Results::new(self.folder);
+        let mut of = self.quantities(conditions, check_units, &body, &results)?;
+
+        let mut files = std::mem::take(&mut of.conditions.files);
+        if let Some(observations) = &mut observations {
+            files.append(&mut observations.files);
+        }
+        files.extend(of.inputs.files.iter().cloned());
+        files.extend(results.files.take());
+        let fits = Fits::default();
+        let (correlations, notes) = self.correlations(&of, &mut files, &fits);
+        let mut warnings = of.inputs.warnings.clone();
+        warnings.extend(notes);
+        let sim = self.sim(body?, &mut of, &mut warnings)?;
+        let observed = self.observed(observations.as_ref(), &sim)?;
+
+        let swept = root.get("conditions").is_some() || observations.is_some();
+        let output_places = std::mem::take(&mut of.outputs.places);
+        let evidence = std::mem::take(&mut of.inputs.evidence);
+        let task = task(Parts { title, settings, fits, swept, correlations }, &sim, of)?;
+        let source = root.log.source.clone();
+        let file = ModelFile { task, warnings, source, files, output_places, evidence };
+        let data = observations.map(|observations| observations.table);
+        Some(Found { file, sim, observed, simulated: simulated.len(), data })
+    }
+
+    /// The table of the data and the rows of conditions.
+    fn data(&self) -> Option<Data> {
+        let (root, log) = (&self.root, self.root.log);
+        let observations =
+            root.get("observations").map(|m| observations::read(log, m, self.folder));
+        let unobserved = matches!(observations, Some(None));
+        let observations = observations.flatten();
+        let at = match self.options.at {
+            Some(path) => {
+                let name = path.display().to_string();
+                Some(table::read(log, Path::new(""), &name, &(0..0))?.0)
+            }
+            None => None,
+        };
+        let table = at.as_ref().or(observations.as_ref().map(|observations| &observations.table));
+        let unreadable = || Conditions { unreadable: true, ..Conditions::none() };
+        let mut conditions = match (root.get("conditions"), table) {
+            // without the data nothing is known of the rows
+            (Some(_), None) if unobserved => unreadable(),
+            (Some(member), table) => {
+                conditions::read(log, member, self.folder, table).unwrap_or_else(unreadable)
+            }
+            (None, Some(table)) => Conditions::rows_of(table),
+            (None, None) => Conditions::none(),
+        };
+        let simulated = match &observations {
+            Some(of) => simulated(root, of, table.unwrap_or(&of.table), &mut conditions),
+            None => Vec::new(),
+        };
+        Some(Data { observations, conditions, simulated })
+    }
+
+    /// Inputs and outputs, and that their names are right and their number can be served.
+    fn quantities(
+        &self,
+        conditions: Conditions,
+        check_units: bool,
+        body: &Option<ModelBody<'a>>,
+        results: &Results<'_>,
+    ) -> Option<Quantities> {
+        let (root, log) = (&self.root, self.root.log);
+        let set = ConditionSet { conditions: &conditions, check_units };
+        let inputs = match root.get("inputs") {
+            Some(member) => inputs::read(log, member, &set, self.options.overrides, results),
+            // somebody else's simulation needs none
+            None if names_simulation(root) => Some(InputSet::default()),
+            None => root.required("inputs").and(None),
+        };
+        let outputs =
+            root.required("outputs").and_then(|member| outputs::read(log, member, results));
+        let (inputs, outputs) = (inputs?, outputs.unwrap_or_default());
+        let of = Quantities { inputs, conditions, outputs, check_units };
+        check_names(root, &of, body);
+        let rows = of.conditions.rows.len();
+        let size =
+            Size { rows, outputs: of.outputs.outputs.len(), variables: of.inputs.variables.len() };
+        if let (Some(diagnostic), Some(member)) = (size.excess(), root.get("outputs")) {
+            log.report(&member.key_span, diagnostic);
+            return None;
+        }
+        // without the names of the conditions nothing can be said about formulas
+        (!of.conditions.unreadable).then_some(of)
+    }
+
+    fn correlations(
+        &self,
+        of: &Quantities,
+        files: &mut Vec<(String, Vec<u8>)>,
+        fits: &Fits,
+    ) -> (Vec<Correlation>, Vec<Warning>) {
+        let rows = correlations::Rows {
+            conditions: of.conditions.quantities.iter().map(|c| c.name.clone()).collect(),
+            rows: &of.conditions.rows,
+        };
+        correlations::read(&self.root, &of.inputs, &rows, self.folder, files, fits)
+    }
+
+    /// The model, checked against the quantities, which it takes over.
+    fn sim(
+        &self,
+        body: ModelBody<'a>,
+        of: &mut Quantities,
+        warnings: &mut Vec<Warning>,
+    ) -> Option<Sim> {
+        let log = self.root.log;
+        let (scope, maker) = match body {
+            ModelBody::Typed(entry, place) => {
+                for output in &mut of.outputs.outputs {
+                    if let Some((_, declared)) = entry.typed.output(&output.quantity.name) {
+                        fill_from_declaration(output, declared);
+                    }
+                }
+                check_typed(log, &entry, place, of);
+                let scope = typed_scope(&entry, &of.inputs, &of.conditions);
+                (scope, SimMaker::Typed(entry.typed))
+            }
+            ModelBody::Equations(equations) => {
+                let scope = check_equations(log, &equations, of);
+                check_formula_outputs(log, &scope, of);
+                warnings.extend(celsius_as_kelvin(&scope, &of.outputs.outputs));
+                let formulas =
+                    equations.into_iter().filter_map(|(name, _, formula)| Some((name, formula?)));
+                (scope, SimMaker::Equations(formulas.collect()))
+            }
+        };
+        log.is_clean().then(|| Sim {
+            scope,
+            inputs: std::mem::take(&mut of.inputs.quantities),
+            conditions: of.conditions.quantities.clone(),
+            outputs: std::mem::take(&mut of.outputs.outputs),
+            maker,
+        })
+    }
+
+    /// What was measured of each output of the sim.
+    fn observed(
+        &self,
+        observations: Option<&Observations>,
+        sim: &Sim,
+    ) -> Option<Vec<Option<Observed>>> {
+        let Some(observations) = observations else {
+            return Some(vec![None; sim.outputs.len()]);
+        };
+        let mut clean = true;
+        for column in &observations.columns {
+            if !sim.is_output(&column.output) {
+                let known: Arc<[String]> =
+                    sim.outputs.iter().map(|output| output.quantity.name.clone()).collect();
+                unknown_output(self.root.log, &column.output, &known, &column.place);
+                clean = false;
+            }
+        }
+        let of = |output: &Output| {
+            let named = |column: &&observations::Column| column.output == output.quantity.name;
+            observations.columns.iter().find(named).map(|column| column.observed.clone())
+        };
+        clean.then(|| sim.outputs.iter().map(of).collect())
+    }
+
+    /// What computes the outputs; `simulated` are outputs with the column that holds them.
+    fn body(&self, simulated: &[(String, String)]) -> Option<ModelBody<'a>> {
+        match (self.root.get("model"), self.root.get("equations")) {
+            (Some(member), None) => {
+                let name = self.root.text("model")?;
+                let entry = typed_model(self.root.log, name, &member.value.span)?;
+                Some(ModelBody::Typed(entry, &member.value.span))
+            }
+            (None, Some(member)) => {
+                let mut equations = equations(self.root.log, member)?;
+                equations.extend(of_columns(simulated));
+                Some(ModelBody::Equations(equations))
+            }
+            (Some(_), Some(second)) => {
+                self.root.log.report(&second.key_span, DiagnosticKind::TwoModels);
+                None
+            }
+            (None, None) if !simulated.is_empty() => {
+                Some(ModelBody::Equations(of_columns(simulated).collect()))
+            }
+            (None, None) => {
+                if !names_simulation(&self.root) {
+                    self.root.report(DiagnosticKind::NoModel);
+                }
+                None
+            }
+        }
+    }
+}
+
+/// The typed model of a name.
+fn typed_model(log: &Collector, name: &str, place: &Range<usize>) -> Option<Entry> {
+    let found = gumption_measurements::find(name);
+    if found.is_none() {
+        let known = gumption_measurements::all();
+        let nearest = nearest(name, known.iter().map(|e| e.typed.declaration.name));
+        let (name, nearest) = (name.to_owned(), nearest.map(str::to_owned));
+        log.report(place, DiagnosticKind::UnknownModel { name, nearest });
+    }
+    found
+}
+
+/// The equations of a file, in order.
+fn equations<'a>(log: &'a Collector, member: &'a Member) -> Option<Vec<Equation<'a>>> {
+    let object = Object::new(log, "`equations`", &member.value, &member.key_span)?;
+    let formula = |member: &Member| match &member.value.value {
+        Json::Text(text) => {
+            Formula::parse(text).map_err(|error| report_formula(log, member, error)).ok()
+        }
+        other => {
+            let (what, found) = (format!("`{}`", member.key), other.kind());
+            let expected = "a formula in quotes";
+            log.report(&member.value.span, DiagnosticKind::WrongType { what, found, expected });
+            None
+        }
+    };
+    let members = object.members().iter().take_while(|_| !log.is_full());
+    Some(members.map(|member| (member.key.clone(), Some(member), formula(member))).collect())
+}
+
+/// Outputs that are columns of the data, as equations.
+fn of_columns<'a>(simulated: &[(String, String)]) -> impl Iterator<Item = Equation<'a>> {
+    simulated.iter().map(|(output, column)| (output.clone(), None, Formula::parse(column).ok()))
+}
+
+/// What a typed output says of itself where the file does not.
+fn fill_from_declaration(output: &mut Output, declared: &typed::DeclaredOutput) {
+    if output.quantity.about.is_empty() {
+        output.quantity.about = declared.about.trim().to_owned();
+    }
+    if let (None, Some(period), Ok(unit)) =
+        (output.period, declared.period, Unit::parse(declared.unit))
+    {
+        let factor = Unit::conversion_factor(&unit, &output.quantity.unit);
+        output.period = factor.ok().map(|factor| period * factor);
+    }
+}
+
+/// What a task has beside model and quantities.
+struct Parts {
+    title: String,
+    settings: Settings,
+    fits: Fits,
+    swept: bool,
+    correlations: Vec<Correlation>,
+}
+
+/// The task; none where something is not known about a variable, which has been reported.
+fn task(parts: Parts, sim: &Sim, of: Quantities) -> Option<Task> {
+    let Parts { title, settings, fits, swept, correlations } = parts;
+    let Quantities { inputs, conditions, .. } = of;
+    if !inputs.known.is_complete(inputs.variables.len()) {
+        return None;
+    }
+    let known = inputs.known.rows(conditions.rows.len());
+    let rows = conditions.rows.into_iter().zip(known);
+    let rows = rows.map(|(conditions, distributions)| Row { conditions, distributions }).collect();
+    let (model, variables) = (sim.model(), inputs.variables);
+    Some(Task { title, model, variables, correlations, rows, swept, settings, fits })
+}

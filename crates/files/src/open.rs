@@ -1,0 +1,94 @@
+//! Files that are opened by their path, and texts whose root is a JSON object.
+
+use std::path::Path;
+
+use super::diagnostics::{Collector, Diagnostics};
+use super::json::{self, Json, Node};
+use super::object::Object;
+use super::source::SourceText;
+use super::{DiagnosticKind, bytes};
+
+/// Opens a file of text and hands its name, its text and its folder to `read`.
+///
+/// # Errors
+/// That the file cannot be read, or what `read` finds.
+pub(super) fn open<T>(
+    path: &Path,
+    read: impl FnOnce(&str, &str, &Path) -> Result<T, Diagnostics>,
+) -> Result<T, Diagnostics> {
+    open_as(path, utf8, read)
+}
+
+/// As [`open`], with what makes a text of the file's bytes.
+pub(super) fn open_as<T>(
+    path: &Path,
+    text_of: impl FnOnce(Vec<u8>) -> Result<String, String>,
+    read: impl FnOnce(&str, &str, &Path) -> Result<T, Diagnostics>,
+) -> Result<T, Diagnostics> {
+    let name = path.display().to_string();
+    match bytes::of_file(path, bytes::MOST).and_then(text_of) {
+        Ok(text) => read(&name, &text, path.parent().unwrap_or_else(|| Path::new(""))),
+        Err(message) => {
+            let log = Collector::new(SourceText::new(name, ""));
+            log.report(&(0..0), DiagnosticKind::Unreadable { message });
+            Err(log.into_diagnostics())
+        }
+    }
+}
+
+/// The bytes as text, or why they are none.
+pub(super) fn utf8(bytes: Vec<u8>) -> Result<String, String> {
+    String::from_utf8(bytes).map_err(|_| "it is not UTF-8 text".to_owned())
+}
+
+/// Reads a text whose root is an object, which is called `what` in messages.
+///
+/// # Errors
+/// That the text is not JSON, or all that `read` reports.
+pub(super) fn read_root<T>(
+    name: &str,
+    text: &str,
+    what: &'static str,
+    read: impl FnOnce(Object<'_>) -> Option<T>,
+) -> Result<T, Diagnostics> {
+    read_changed_root(name, text, what, |_, _| (), read)
+}
+
+/// As [`read_root`]; the tree is changed before it is read.
+pub(super) fn read_changed_root<T>(
+    name: &str,
+    text: &str,
+    what: &'static str,
+    change: impl FnOnce(&Collector, &mut Node),
+    read: impl FnOnce(Object<'_>) -> Option<T>,
+) -> Result<T, Diagnostics> {
+    let source = SourceText::new(name, text);
+    let log = Collector::new(source.clone());
+    let found = match json::parse(&source) {
+        Ok(mut node) => {
+            change(&log, &mut node);
+            // what is missing from the root is reported at the first line
+            let whole = 0..source.text.find('\n').unwrap_or(source.text.len());
+            Object::new(&log, what, &node, &whole).and_then(read)
+        }
+        Err((span, diagnostic)) => {
+            log.report(&span, diagnostic);
+            None
+        }
+    };
+    log.finish(found)
+}
+
+/// Refuses a version of the file format that this program does not know; whether it is known.
+pub(super) fn check_format(root: &Object<'_>) -> bool {
+    let Some(member) = root.get("format").filter(|member| member.value.number() != Some(1.0))
+    else {
+        return true;
+    };
+    let found = match &member.value.value {
+        Json::Number(text) | Json::Text(text) => text.clone(),
+        other => other.kind().to_owned(),
+    };
+    root.log.report(&member.value.span, DiagnosticKind::UnknownFormat { found });
+    false
+}

@@ -1,0 +1,150 @@
+//! Values that stand in place of those of a file: estimates, fields of inputs, values of conditions.
+
+use super::diagnostics::Collector;
+use super::json::{Json, Member, Node};
+use super::{DiagnosticKind, nearest};
+use gumption_units::Unit;
+
+/// A replacement as text: `NAME=VALUE` or `NAME.field=VALUE`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Override {
+    /// The option's text.
+    pub text: String,
+    /// The input.
+    pub input: String,
+    /// The field, or none for the estimate.
+    pub field: Option<String>,
+    /// What to put there.
+    pub value: String,
+}
+
+/// Replacements in the order of the command line.
+pub type Overrides = Vec<Override>;
+
+impl Override {
+    /// Parses `NAME=VALUE` or `NAME.field=VALUE`; `None` if there is no `=` or no name.
+    pub fn parse(text: &str) -> Option<Self> {
+        let (name, value) = text.split_once('=')?;
+        let (input, field) = match name.split_once('.') {
+            Some((input, field)) => (input, Some(field.trim().to_owned())),
+            None => (name, None),
+        };
+        let input = input.trim().to_owned();
+        (!input.is_empty()).then(|| Self {
+            text: text.to_owned(),
+            input,
+            field,
+            value: value.trim().to_owned(),
+        })
+    }
+
+    /// The value in `unit`: a number in it, or a number with a unit of its own.
+    pub(super) fn value_in(&self, unit: &Unit) -> Result<f64, DiagnosticKind> {
+        let diagnostic =
+            |reason: String| DiagnosticKind::Override { text: self.text.clone(), reason };
+        if let Ok(value) = self.value.parse::<f64>() {
+            if value.is_finite() {
+                return Ok(value);
+            }
+            return Err(diagnostic("the value must be a finite number".to_owned()));
+        }
+        let (number, text) = self.value.split_once(char::is_whitespace).ok_or_else(|| {
+            diagnostic("a number is needed, or one with a unit: \"35 deg\"".to_owned())
+        })?;
+        let number: f64 = number
+            .parse()
+            .ok()
+            .filter(|n: &f64| n.is_finite())
+            .ok_or_else(|| diagnostic(format!("`{number}` is not a finite number")))?;
+        let given = Unit::parse(text.trim()).map_err(|error| diagnostic(error.to_string()))?;
+        let factor = Unit::conversion_factor(&given, unit)
+            .map_err(|_| diagnostic(format!("`{given}` cannot be converted to `{unit}`")))?;
+        Ok(number * factor)
+    }
+}
+
+/// Puts the values of fields and of conditions into the tree; those of estimates are taken when the
+/// input is read.
+pub(super) fn apply(log: &Collector, root: &mut Node, overrides: &[Override]) {
+    let whole = root.span.start..root.span.start;
+    for replaced in overrides {
+        if override_condition(log, root, replaced) {
+            continue;
+        }
+        let inputs = match &mut root.value {
+            Json::Object(members) => members.iter_mut().find(|m| m.key == "inputs"),
+            _ => None,
+        };
+        let inputs = match inputs.map(|m| &mut m.value.value) {
+            Some(Json::Object(members)) => members,
+            _ => return,
+        };
+        let names: Vec<String> = inputs.iter().map(|m| m.key.clone()).collect();
+        let Some(input) = inputs.iter_mut().find(|m| m.key == replaced.input) else {
+            let nearest = nearest(&replaced.input, names.iter().map(String::as_str));
+            let reason = match nearest {
+                Some(name) => format!("there is no input of that name; did you mean `{name}`?"),
+                None => "there is no input of that name".to_owned(),
+            };
+            log.report(&whole, DiagnosticKind::Override { text: replaced.text.clone(), reason });
+            continue;
+        };
+        let (Some(field), Json::Object(fields)) = (&replaced.field, &mut input.value.value) else {
+            continue;
+        };
+        let finite = replaced.value.parse::<f64>().is_ok_and(f64::is_finite);
+        let value = if finite {
+            Json::Number(replaced.value.clone())
+        } else {
+            Json::Text(replaced.value.clone())
+        };
+        match fields.iter_mut().find(|m| m.key == *field) {
+            Some(member) => member.value.value = value,
+            None => {
+                let span = input.key_span.clone();
+                fields.push(Member {
+                    key: field.clone(),
+                    key_span: span.clone(),
+                    value: Node { span, value },
+                });
+            }
+        }
+    }
+}
+
+/// Puts one value in place of those of a condition of a grid; false if there is none of that name.
+fn override_condition(log: &Collector, root: &mut Node, replaced: &Override) -> bool {
+    let Some((unit, values)) = condition_of_grid(root, &replaced.input) else {
+        return false;
+    };
+    if replaced.field.is_some() {
+        return false;
+    }
+    match replaced.value_in(&unit) {
+        Ok(value) => {
+            let span = values.span.clone();
+            values.value = Json::List(vec![Node { span, value: Json::Number(value.to_string()) }]);
+        }
+        Err(diagnostic) => log.report(&values.span, diagnostic),
+    }
+    true
+}
+
+/// The values of a condition of a grid, and its unit.
+fn condition_of_grid<'n>(root: &'n mut Node, name: &str) -> Option<(Unit, &'n mut Node)> {
+    let condition = member_of(member_of(root, "conditions")?, name)?;
+    let unit = match member_of(condition, "unit").map(|unit| &unit.value) {
+        Some(Json::Text(text)) => Unit::parse(text).ok()?,
+        _ => Unit::one(),
+    };
+    Some((unit, member_of(condition, "values")?))
+}
+
+fn member_of<'n>(node: &'n mut Node, key: &str) -> Option<&'n mut Node> {
+    match &mut node.value {
+        Json::Object(members) => {
+            members.iter_mut().find(|member| member.key == key).map(|member| &mut member.value)
+        }
+        _ => None,
+    }
+}

@@ -1,0 +1,125 @@
+//! What formulas of a file are checked against: the names that they may use, with their units.
+
+use std::collections::HashMap;
+
+use super::DiagnosticKind;
+use super::condition_values::ConditionValues;
+use super::conditions::Conditions;
+use super::diagnostics::Collector;
+use super::input_set::InputSet;
+use super::json::Member;
+use gumption_engine::model::Quantity;
+use gumption_engine::model::formula::{Formula, FormulaError, Scope, Typing};
+use gumption_measurements::Entry;
+use gumption_units::{Dimension, Unit};
+
+/// A formula's mistake at its place inside the JSON text.
+pub(super) fn report_formula(log: &Collector, member: &Member, error: FormulaError) {
+    let span = &member.value.span;
+    let inner = error.span();
+    let raw = log.source.text.get(span.start + 1..span.end.saturating_sub(1));
+    let plain = raw.is_some_and(|raw| !raw.contains('\\'));
+    // escapes in the JSON text would shift the place, so the whole text is underlined then
+    let place = if plain {
+        let start = (span.start + 1 + inner.start).min(span.end);
+        start..(span.start + 1 + inner.end).clamp(start, span.end)
+    } else {
+        span.clone()
+    };
+    log.report(&place, DiagnosticKind::Formula { error });
+}
+
+/// A coherent unit of a dimension, as text.
+pub(super) fn coherent(dimension: Dimension) -> String {
+    Unit::coherent(dimension).to_string()
+}
+
+/// What is known of the names of a typed model.
+pub(super) fn typed_scope(entry: &Entry, inputs: &InputSet, conditions: &Conditions) -> Scope {
+    let mut scope = condition_scope(conditions);
+    for input in &inputs.quantities {
+        let Quantity { name, unit, .. } = &input.quantity;
+        scope.define(name, Typing::in_unit(unit));
+    }
+    for output in entry.typed.declaration.outputs {
+        let unit = Unit::parse(output.unit).ok();
+        scope.define(output.name, unit.map_or(Typing::ANY, |unit| Typing::in_unit(&unit)));
+    }
+    scope
+}
+
+/// What is known of the names of conditions.
+pub(super) fn condition_scope(conditions: &Conditions) -> Scope {
+    let mut scope = Scope::default();
+    for condition in &conditions.quantities {
+        let known = !conditions.without_unit.contains(&condition.name);
+        let typing = if known { Typing::in_unit(&condition.unit) } else { Typing::ANY };
+        scope.define(&condition.name, typing);
+    }
+    scope
+}
+
+/// The conditions as estimates' formulas see them.
+#[derive(Debug)]
+pub(super) struct ConditionSet<'c> {
+    pub(super) conditions: &'c Conditions,
+    pub(super) check_units: bool,
+}
+
+impl ConditionValues for ConditionSet<'_> {
+    fn rows(&self) -> usize {
+        self.conditions.rows.len()
+    }
+
+    fn check(&self, formula: &Formula, unit: &Unit) -> Result<(), Vec<DiagnosticKind>> {
+        if self.conditions.unreadable {
+            return Ok(());
+        }
+        let scope = condition_scope(self.conditions);
+        let result =
+            if self.check_units { formula.check(&scope) } else { formula.check_names(&scope) };
+        let kinds = |errors: Vec<FormulaError>| {
+            errors.into_iter().map(|error| DiagnosticKind::Formula { error }).collect::<Vec<_>>()
+        };
+        let typing = result.map_err(kinds)?;
+        match typing.dimension.filter(|_| self.check_units) {
+            Some(dimension) if dimension != unit.dimension() => {
+                Err(vec![DiagnosticKind::WrongDimension {
+                    name: "mean".to_owned(),
+                    found: coherent(dimension),
+                    found_as: dimension.describe(),
+                    expected: unit.to_string(),
+                    expected_as: unit.dimension().describe(),
+                }])
+            }
+            _ => Ok(()),
+        }
+    }
+
+    fn value(&self, formula: &Formula, row: usize) -> f64 {
+        if self.conditions.unreadable {
+            return 1.0;
+        }
+        let row = self.conditions.rows.get(row).map_or(&[][..], Vec::as_slice);
+        let values: HashMap<String, f64> = self
+            .conditions
+            .quantities
+            .iter()
+            .zip(row)
+            .map(|(quantity, &value)| (quantity.name.clone(), quantity.unit.to_si(value)))
+            .collect();
+        let scope = condition_scope(self.conditions);
+        formula.evaluate(&scope, &values).unwrap_or(f64::NAN)
+    }
+
+    fn place(&self, name: &str) -> Option<usize> {
+        if self.conditions.unreadable {
+            return Some(0);
+        }
+        self.conditions.quantities.iter().position(|quantity| quantity.name == name)
+    }
+
+    fn names(&self) -> Vec<String> {
+        self.conditions.quantities.iter().map(|quantity| quantity.name.clone()).collect()
+    }
+}
