@@ -53,7 +53,7 @@ fn one(report: &Report<'_>, row: &Stated<'_>) -> Value {
     let names = asked.task.model.conditions.iter().map(|condition| condition.name.as_str());
     let conditions = names.zip(row.conditions.iter().map(|value| Value::from(*value)));
     let set = asked.set.iter().map(|(name, value)| (name.as_str(), Value::from(value.as_str())));
-    let pair = |ends: Option<[f64; 2]>| ends.map_or(Value::Null, Value::list);
+    let pair = |ends: Option<[f64; 2]>| ends.map_or(Value::Null, list);
     let (dof, status) = match statement.dof {
         Dof::Finite(dof) => (Some(dof), "finite"),
         Dof::Infinite => (None, "infinite"),

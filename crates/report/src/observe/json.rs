@@ -2,7 +2,7 @@
 
 use super::Observed;
 use crate::answer::{list, object, pretty};
-use gumption_signal::{ChannelObservation, Component, Measured, Value};
+use gumption_signal::{ChannelObservation, Component, Measured};
 use serde_json::Value;
 
 /// The observations as JSON.
@@ -124,7 +124,7 @@ fn plain(of: Measured, unit: &str) -> Value {
     ])
 }
 
-fn value(of: &Value, unit: &str) -> Value {
+fn value(of: &gumption_signal::Value, unit: &str) -> Value {
     let total: f64 = of.contributions.iter().map(|(_, u)| u * u).sum();
     let budget = of.contributions.iter().map(|(source, u)| {
         object([
