@@ -23,6 +23,7 @@ mod intervals;
 mod mutations;
 mod observe;
 mod observe_steps;
+mod one_number;
 mod recordings;
 mod reports;
 mod reproducible;

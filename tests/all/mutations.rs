@@ -281,13 +281,13 @@ fn evaluate_and_report(mut file: ModelFile) {
     };
     let warnings = warnings(&file.task, &evaluation);
     let provenance = report::Provenance { model_sha256: String::new(), files: Vec::new() };
-    let report = report::Report {
+    let report = report::EvaluationReport {
         task: &file.task,
         evaluation: &evaluation,
         warnings: &warnings,
         provenance: &provenance,
     };
-    assert!(!report::table(&report, &report::Style::default()).is_empty());
+    assert!(!report::table(&report, &report::TableStyle::default()).is_empty());
     assert!(!report::csv(&report).is_empty());
     let json = report::json(&report);
     let parsed = serde_json::from_str::<serde_json::Value>(&json);

@@ -1,5 +1,5 @@
 //! What is made of evaluations: the audit of assumptions, comparisons of results, what changed
-//! between two evaluations, and calibration certificates.
+//! between two evaluations, calibration certificates, and published values recomputed.
 
 #![deny(unsafe_code)]
 
@@ -7,3 +7,4 @@ pub mod assumptions;
 pub mod certificate;
 pub mod compare;
 pub mod diff;
+pub mod verification;

@@ -14,7 +14,7 @@ use gumption_engine::propagate::{Control, EvaluationError, warnings};
 use gumption_engine::task::{Trials, Warning};
 use gumption_files as file;
 use gumption_files::{CertificateFile, Diagnostic, DiagnosticKind, Diagnostics};
-use gumption_report::certificate::{self as report, Model, Report};
+use gumption_report::certificate::{self as report, CertificateReport, CertifiedModel};
 
 /// Make a calibration certificate.
 #[derive(Debug, Args)]
@@ -63,14 +63,14 @@ impl Certificate {
             settings.trials = self.trials.unwrap_or(settings.trials);
         }
         let provenance = run::provenance(&file.source.text, &[]);
-        let models: Vec<Model<'_>> = file
+        let models: Vec<CertifiedModel<'_>> = file
             .models
             .iter()
             .map(|model| {
                 let of = run::provenance(&model.source.text, &model.files);
                 (model, of)
             })
-            .map(|(model, of)| Model {
+            .map(|(model, of)| CertifiedModel {
                 name: &model.name,
                 text: &model.source.text,
                 digest: of.model_sha256,
@@ -82,7 +82,7 @@ impl Certificate {
         let issued = self.issue(&file, &models, &stop)?;
         let warnings = notes(&file, &issued);
         self.answer.say(&warnings);
-        let report = Report {
+        let report = CertificateReport {
             certificate: &file.certificate,
             issued: &issued,
             models: &models,
@@ -136,7 +136,7 @@ impl Certificate {
     fn issue(
         &self,
         file: &CertificateFile,
-        models: &[Model<'_>],
+        models: &[CertifiedModel<'_>],
         stop: &AtomicBool,
     ) -> Result<Issued, Failure> {
         let bar = progress::bar(trials_to_make(&file.certificate), self.answer.quiet);

@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-use super::Report;
+use super::EvaluationReport;
 use super::answer::in_memory;
 use super::number::MISSING;
 use gumption_engine::propagate::gum::Dof;
@@ -35,7 +35,7 @@ const COLUMNS: [&str; 18] = [
 /// defined.
 ///
 /// A text that a spreadsheet would take for a formula gets an apostrophe in front.
-pub fn csv(report: &Report<'_>) -> String {
+pub fn csv(report: &EvaluationReport<'_>) -> String {
     in_memory(|bytes| write_csv(report, bytes))
 }
 
@@ -43,8 +43,8 @@ pub fn csv(report: &Report<'_>) -> String {
 ///
 /// # Errors
 /// Those of the writer.
-pub fn write_csv(report: &Report<'_>, out: impl Write) -> io::Result<()> {
-    let Report { task, evaluation, .. } = report;
+pub fn write_csv(report: &EvaluationReport<'_>, out: impl Write) -> io::Result<()> {
+    let EvaluationReport { task, evaluation, .. } = report;
     let mut writer = csv::Writer::from_writer(out);
     let conditions = task.model.conditions.iter().filter(|_| task.swept);
     let names = conditions.map(|condition| text(&condition.name));

@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use serde::{Serialize, Serializer};
 
-use super::Report;
+use super::EvaluationReport;
 use super::answer::{in_order, pretty};
 use super::subtotals::Subtotals;
 use gumption_engine::propagate::gum::{BudgetLine, CorrelationLine, Dof, Gum};
@@ -18,7 +18,7 @@ use gumption_engine::task::{Task, Trials, Warning};
 /// same number, `null` for what is infinite or not defined. It ends in a newline.
 ///
 /// The same evaluation gives the same bytes always.
-pub fn json(report: &Report<'_>) -> String {
+pub fn json(report: &EvaluationReport<'_>) -> String {
     pretty(&Answer::of(report))
 }
 
@@ -26,7 +26,7 @@ pub fn json(report: &Report<'_>) -> String {
 ///
 /// # Errors
 /// Those of the writer.
-pub fn write_json(report: &Report<'_>, mut out: impl Write) -> io::Result<()> {
+pub fn write_json(report: &EvaluationReport<'_>, mut out: impl Write) -> io::Result<()> {
     serde_json::to_writer_pretty(&mut out, &Answer::of(report))?;
     out.write_all(b"\n")
 }
@@ -353,8 +353,8 @@ struct Origin<'a> {
 }
 
 impl<'a> Answer<'a> {
-    fn of(report: &Report<'a>) -> Self {
-        let Report { task, evaluation, warnings, provenance } = *report;
+    fn of(report: &EvaluationReport<'a>) -> Self {
+        let EvaluationReport { task, evaluation, warnings, provenance } = *report;
         let results = match evaluation.rows.first() {
             Some(row) if !task.swept => Results::Single(Figures::of(task, row, evaluation.stopped)),
             _ => Results::Swept { rows: Rows { task, evaluation } },

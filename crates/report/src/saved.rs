@@ -5,7 +5,7 @@ use std::io;
 use serde::Serialize;
 use serde_json::ser::{Formatter, PrettyFormatter, Serializer};
 
-use super::Report;
+use super::EvaluationReport;
 use super::answer::{in_memory, in_order};
 use gumption_engine::distribution::{RootName, Scores};
 use gumption_engine::propagate::gum::Dof;
@@ -19,7 +19,7 @@ use gumption_engine::task::Task;
 ///
 /// The same evaluation gives the same bytes always.
 pub fn saved(
-    report: &Report<'_>,
+    report: &EvaluationReport<'_>,
     origins: &Origins,
     quantiles: &[Vec<f64>],
     ranks: &[Vec<u32>],
@@ -108,13 +108,13 @@ struct Origin<'a> {
 
 impl<'a> File<'a> {
     fn of(
-        report: &Report<'a>,
+        report: &EvaluationReport<'a>,
         row: &'a RowEvaluation,
         origins: &'a Origins,
         quantiles: &'a [Vec<f64>],
         ranks: &'a [Vec<u32>],
     ) -> Self {
-        let Report { task, evaluation, provenance, .. } = *report;
+        let EvaluationReport { task, evaluation, provenance, .. } = *report;
         let names: Vec<&str> =
             task.model.outputs.iter().map(|output| output.quantity.name.as_str()).collect();
         let pairs = (0..names.len()).flat_map(|i| (i + 1..names.len()).map(move |j| (i, j)));

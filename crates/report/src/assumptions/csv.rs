@@ -1,6 +1,6 @@
 //! One line for each variant of the evaluation, in full precision, for spreadsheets.
 
-use super::Report;
+use super::AuditReport;
 use crate::csv::{number, of_records, text};
 use gumption_analysis::assumptions::{VariantChange, VariantFigures};
 
@@ -20,7 +20,7 @@ const COLUMNS: [&str; 10] = [
 /// The variants as comma-separated values: a header, for each output the baseline, then for each
 /// input its other shapes, its width halved and doubled. An empty cell stands for what is not
 /// defined.
-pub fn csv(report: &Report<'_>) -> String {
+pub fn csv(report: &AuditReport<'_>) -> String {
     let task = report.task;
     let conditions = task.model.conditions.iter().filter(|_| task.swept);
     let names = conditions.map(|condition| text(&condition.name));

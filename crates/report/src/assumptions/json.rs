@@ -1,6 +1,6 @@
 //! The answer for programs.
 
-use super::Report;
+use super::AuditReport;
 use crate::answer::{list, object, pretty};
 use gumption_analysis::assumptions::{
     EvidenceTest, InputAudit, OutputAudit, RowAudit, Sobol, VariantChange, VariantFigures,
@@ -11,8 +11,8 @@ type Entries = Vec<(&'static str, Value)>;
 
 /// The audit as JSON, keys in a fixed order; `null` stands for what is infinite or not defined. It
 /// ends in a newline.
-pub fn json(report: &Report<'_>) -> String {
-    let Report { task, audit, .. } = report;
+pub fn json(report: &AuditReport<'_>) -> String {
+    let AuditReport { task, audit, .. } = report;
     let mut entries = vec![
         ("gumption", Value::from(env!("CARGO_PKG_VERSION"))),
         ("title", task.title.as_str().into()),
@@ -50,7 +50,7 @@ pub fn json(report: &Report<'_>) -> String {
     pretty(&object(entries))
 }
 
-fn outputs(report: &Report<'_>, row: &RowAudit) -> Value {
+fn outputs(report: &AuditReport<'_>, row: &RowAudit) -> Value {
     let outputs = report.task.model.outputs.iter().zip(&row.outputs);
     object(outputs.map(|(output, of)| {
         let unit = output.quantity.unit.text();
@@ -58,7 +58,7 @@ fn outputs(report: &Report<'_>, row: &RowAudit) -> Value {
     }))
 }
 
-fn output_tree(report: &Report<'_>, unit: &str, output: &OutputAudit) -> Value {
+fn output_tree(report: &AuditReport<'_>, unit: &str, output: &OutputAudit) -> Value {
     let mut entries = vec![
         ("unit", Value::from(unit)),
         ("baseline", object(figures(Some(&output.baseline)))),
@@ -101,7 +101,7 @@ fn indices(sobol: Option<&Sobol>) -> Entries {
     ]
 }
 
-fn input_tree(report: &Report<'_>, input: &InputAudit) -> Value {
+fn input_tree(report: &AuditReport<'_>, input: &InputAudit) -> Value {
     let variable = report.task.variables.get(input.variable);
     let alternatives = input.alternatives.iter().map(|other| {
         let mut entries = vec![
@@ -126,7 +126,7 @@ fn input_tree(report: &Report<'_>, input: &InputAudit) -> Value {
     object(entries)
 }
 
-fn agreement(report: &Report<'_>, of: &EvidenceTest) -> Value {
+fn agreement(report: &AuditReport<'_>, of: &EvidenceTest) -> Value {
     let unit = report.task.variables.get(of.variable).map_or("", |v| v.unit.text());
     let supported = object([
         ("parameter", Value::from(of.supported.parameter)),

@@ -1,6 +1,6 @@
 //! One line for each row of the table, as stated, for spreadsheets.
 
-use super::Report;
+use super::CertificateReport;
 use super::stated::{self, Stated};
 use crate::csv::{number, of_records, text};
 
@@ -25,7 +25,7 @@ const COLUMNS: [&str; 15] = [
 /// The rows as comma-separated values: value, expanded uncertainty, coverage factor and interval
 /// rounded as they are stated, the standard uncertainty in full. An empty cell stands for what is
 /// infinite or not defined.
-pub fn csv(report: &Report<'_>) -> String {
+pub fn csv(report: &CertificateReport<'_>) -> String {
     of_records(|writer| {
         writer.write_record(COLUMNS)?;
         let rows = stated::rows(report);
@@ -33,7 +33,7 @@ pub fn csv(report: &Report<'_>) -> String {
     })
 }
 
-fn record(report: &Report<'_>, row: &Stated<'_>) -> Vec<String> {
+fn record(report: &CertificateReport<'_>, row: &Stated<'_>) -> Vec<String> {
     let ends = row.interval(report).map(|ends| ends.map(|end| end.text));
     let [low, high] = ends.unwrap_or_default();
     vec![

@@ -1,7 +1,7 @@
 //! The certificate for programs.
 
 use super::stated::{self, Stated};
-use super::{Report, administrative, sentences};
+use super::{CertificateReport, administrative, sentences};
 use crate::answer::{list, object, pretty};
 use gumption_engine::propagate::gum::Dof;
 use gumption_engine::task::Trials;
@@ -10,8 +10,8 @@ use serde_json::Value;
 /// The certificate as JSON, keys in a fixed order; `null` stands for what is infinite or not defined.
 /// `stated` has the texts that every format prints, the other figures have full precision. It ends in
 /// a newline.
-pub fn json(report: &Report<'_>) -> String {
-    let Report { certificate, issued, .. } = report;
+pub fn json(report: &CertificateReport<'_>) -> String {
+    let CertificateReport { certificate, issued, .. } = report;
     let languages = &certificate.languages;
     let title = administrative::title(report);
     let rows = stated::rows(report);
@@ -47,7 +47,7 @@ pub fn json(report: &Report<'_>) -> String {
     ]))
 }
 
-fn one(report: &Report<'_>, row: &Stated<'_>) -> Value {
+fn one(report: &CertificateReport<'_>, row: &Stated<'_>) -> Value {
     let languages = &report.certificate.languages;
     let Stated { statement, asked, quantity, .. } = row;
     let names = asked.task.model.conditions.iter().map(|condition| condition.name.as_str());
@@ -102,7 +102,7 @@ fn one(report: &Report<'_>, row: &Stated<'_>) -> Value {
     ])
 }
 
-fn provenance(report: &Report<'_>) -> Value {
+fn provenance(report: &CertificateReport<'_>) -> Value {
     let evaluations = &report.certificate.evaluations;
     let models = report.models.iter().enumerate().map(|(number, model)| {
         let files = model.files.iter();

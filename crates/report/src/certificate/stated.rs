@@ -1,6 +1,6 @@
 //! The rows of a certificate as texts, rounded once for all formats.
 
-use super::Report;
+use super::CertificateReport;
 use crate::number::{exact, rounded};
 use crate::sheet::Figure;
 use crate::{conditions_text, plain};
@@ -37,8 +37,8 @@ pub(super) struct Stated<'a> {
 }
 
 /// All rows.
-pub(super) fn rows<'a>(report: &Report<'a>) -> Vec<Stated<'a>> {
-    let Report { certificate, issued, .. } = *report;
+pub(super) fn rows<'a>(report: &CertificateReport<'a>) -> Vec<Stated<'a>> {
+    let CertificateReport { certificate, issued, .. } = *report;
     let lines = certificate.lines.iter().zip(&issued.statements).enumerate();
     let rows = lines.filter_map(|(number, (line, statement))| {
         let asked = certificate.evaluations.get(line.evaluation)?;
@@ -77,7 +77,7 @@ impl Stated<'_> {
     }
 
     /// The ends of the interval, where there is one.
-    pub(super) fn interval(&self, report: &Report<'_>) -> Option<[Figure; 2]> {
+    pub(super) fn interval(&self, report: &CertificateReport<'_>) -> Option<[Figure; 2]> {
         let ends = self.statement.interval?;
         let rounded = self.statement.rounded_interval(report.certificate.rounding);
         Some(match rounded {
@@ -115,7 +115,7 @@ impl Stated<'_> {
     }
 
     /// The conditions that the table shows, with their values.
-    pub(super) fn shown(&self, report: &Report<'_>) -> Vec<(&Quantity, f64)> {
+    pub(super) fn shown(&self, report: &CertificateReport<'_>) -> Vec<(&Quantity, f64)> {
         let shown = &report.certificate.shown;
         let conditions = self.asked.task.model.conditions.iter().zip(self.conditions);
         conditions
@@ -126,7 +126,7 @@ impl Stated<'_> {
 
     /// Replacements and shown conditions in words, on one line; a row with a label of its own says
     /// nothing of replacements.
-    pub(super) fn circumstances(&self, report: &Report<'_>) -> Vec<String> {
+    pub(super) fn circumstances(&self, report: &CertificateReport<'_>) -> Vec<String> {
         let mut parts = if self.line.label.is_some() { Vec::new() } else { self.replaced() };
         let shown = self.shown(report);
         let (quantities, values): (Vec<Quantity>, Vec<f64>) =

@@ -1,7 +1,7 @@
 //! Everything about one output.
 
 use super::{Shown, figures};
-use crate::Report;
+use crate::EvaluationReport;
 use crate::document::{Block, Document, sentence};
 use crate::number::{justified, position, with_uncertainty};
 use crate::sheet::Sheet;
@@ -16,11 +16,11 @@ use gumption_engine::task::{Coverage, Settings};
 /// The section of an output of the first row.
 pub(super) fn section(
     document: &mut Document,
-    report: &Report<'_>,
+    report: &EvaluationReport<'_>,
     shown: &Shown<'_>,
     output: usize,
 ) {
-    let Report { task, evaluation, .. } = *report;
+    let EvaluationReport { task, evaluation, .. } = *report;
     let Some(found) = evaluation.rows.first().and_then(|row| row.outputs.get(output)) else {
         return;
     };

@@ -3,7 +3,7 @@
 use super::Shown;
 use crate::plot::{Axis, CharacterGrid};
 use crate::table::{conditions_text, grouped, title_text};
-use crate::{Report, wrapped};
+use crate::{EvaluationReport, wrapped};
 use gumption_engine::model::Quantity;
 use gumption_engine::propagate::OutputEvaluation;
 use gumption_engine::propagate::gum::Gum;
@@ -14,8 +14,8 @@ const LEFT: usize = 16;
 const HEIGHT: usize = 10;
 
 /// The histograms of all rows, each below an empty line; nothing where none is shown.
-pub fn histograms(report: &Report<'_>, shown: &Shown<'_>) -> String {
-    let Report { task, evaluation, .. } = *report;
+pub fn histograms(report: &EvaluationReport<'_>, shown: &Shown<'_>) -> String {
+    let EvaluationReport { task, evaluation, .. } = *report;
     let mut page = String::new();
     for (row, (found, histograms)) in evaluation.rows.iter().zip(shown.histograms).enumerate() {
         if evaluation.rows.len() > 1 && !histograms.is_empty() {

@@ -1,12 +1,12 @@
 //! One line for each row and frequency, as observations of a gap case and conditions of a model take
 //! them: all cells are numbers, all names are names of quantities.
 
-use super::Observed;
+use super::ObservationReport;
 use crate::csv::{number, of_records};
 
 /// The observations as comma-separated values: the conditions, the frequency in hertz, and for each
 /// figure `NAME` its value and `u_NAME`, its standard uncertainty.
-pub fn csv(observed: &Observed<'_>) -> String {
+pub fn csv(observed: &ObservationReport<'_>) -> String {
     let figures = observed.figures();
     let mut header: Vec<String> = observed.conditions.iter().map(|c| c.name.clone()).collect();
     header.push(observed.frequency.to_owned());

@@ -1,12 +1,12 @@
 //! The whole answer for programs.
 
-use super::Observed;
+use super::ObservationReport;
 use crate::answer::{list, object, pretty};
 use gumption_signal::{ChannelObservation, Component, Measured};
 use serde_json::Value;
 
 /// The observations as JSON.
-pub fn json(observed: &Observed<'_>) -> String {
+pub fn json(observed: &ObservationReport<'_>) -> String {
     let settings = observed.settings;
     let root = settings.reference.and_then(|place| settings.channels.get(place));
     let columns = observed.figures().into_iter().map(|figure| {
@@ -46,7 +46,7 @@ pub fn json(observed: &Observed<'_>) -> String {
     ]))
 }
 
-fn row(observed: &Observed<'_>, values: &[f64], channels: &[ChannelObservation]) -> Value {
+fn row(observed: &ObservationReport<'_>, values: &[f64], channels: &[ChannelObservation]) -> Value {
     let conditions = observed.conditions.iter().zip(values);
     let conditions = conditions.map(|(of, value)| (of.name.as_str(), Value::from(*value)));
     let (hertz, u) = observed.hertz(channels);
@@ -69,7 +69,7 @@ fn row(observed: &Observed<'_>, values: &[f64], channels: &[ChannelObservation])
     ])
 }
 
-fn channel(observed: &Observed<'_>, of: &ChannelObservation) -> Value {
+fn channel(observed: &ObservationReport<'_>, of: &ChannelObservation) -> Value {
     let unit = observed.settings.channels.get(of.channel).map_or("1", |c| c.unit.text());
     let phase = observed.settings.phase.name();
     let spurious = of.spurious.iter().map(|spurious| {

@@ -1,6 +1,6 @@
 //! The tables of observations.
 
-use super::Observed;
+use super::ObservationReport;
 use crate::number::{exact, rounded, significant, with_uncertainty};
 use crate::sheet::{Figure, Sheet};
 use gumption_signal::{ChannelObservation, Component, Measured, Value};
@@ -9,7 +9,10 @@ use gumption_signal::{ChannelObservation, Component, Measured, Value};
 const DIGITS: u32 = 2;
 
 /// Components with their amplitude, phase and delay.
-pub(super) fn components(observed: &Observed<'_>, channels: &[ChannelObservation]) -> Sheet {
+pub(super) fn components(
+    observed: &ObservationReport<'_>,
+    channels: &[ChannelObservation],
+) -> Sheet {
     let rows: Vec<(&ChannelObservation, &Component)> =
         channels.iter().flat_map(|of| of.components.iter().map(move |c| (of, c))).collect();
     let channel = |of: &ChannelObservation| observed.settings.channels.get(of.channel);
@@ -34,7 +37,7 @@ pub(super) fn components(observed: &Observed<'_>, channels: &[ChannelObservation
 }
 
 /// What is said of a channel as a whole.
-pub(super) fn channels(observed: &Observed<'_>, channels: &[ChannelObservation]) -> Sheet {
+pub(super) fn channels(observed: &ObservationReport<'_>, channels: &[ChannelObservation]) -> Sheet {
     let mut sheet = Sheet::default();
     let name = |of: &ChannelObservation| {
         observed.settings.channels.get(of.channel).map_or(String::new(), |c| c.name.clone())
@@ -76,7 +79,7 @@ fn pair(sheet: &mut Sheet, headers: [&str; 2], of: impl Iterator<Item = Option<M
 }
 
 /// Of every channel what the standard uncertainty of its largest amplitude is made of.
-pub(super) fn made_of(observed: &Observed<'_>, channels: &[ChannelObservation]) -> String {
+pub(super) fn made_of(observed: &ObservationReport<'_>, channels: &[ChannelObservation]) -> String {
     let of_channel = |of: &ChannelObservation| {
         let name = &observed.settings.channels.get(of.channel)?.name;
         let size = |c: &Component| c.amplitude.measured.value;

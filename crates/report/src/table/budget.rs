@@ -1,6 +1,6 @@
 //! The uncertainty budget of one output, and what follows from it.
 
-use super::columns::{self, Column};
+use super::columns::{self, BudgetColumn};
 use super::grid::Grid;
 use super::{WIDTH, coverage_text, has_name, in_unit, text};
 use crate::number::{exact, position, rounded, significant, with_uncertainty};
@@ -72,7 +72,7 @@ pub(super) enum Layout {
 impl Budget<'_> {
     /// The budget with the combined standard uncertainty as its last line, subtotals, degrees of
     /// freedom, coverage factor and expanded uncertainty.
-    pub(super) fn table(&self, settings: &Settings, columns: &[Column]) -> String {
+    pub(super) fn table(&self, settings: &Settings, columns: &[BudgetColumn]) -> String {
         let Self { task, output, gum, digits } = *self;
         let mut page = self.grids(columns);
         page += &text::wrapped(&legend(output, columns));
@@ -82,7 +82,7 @@ impl Budget<'_> {
     }
 
     /// One table, or two where the further columns leave no room for it.
-    fn grids(&self, columns: &[Column]) -> String {
+    fn grids(&self, columns: &[BudgetColumn]) -> String {
         let usual = self.usual_fields();
         let further = columns::fields(self, columns);
         let fits = |grid: &Grid| grid.least_width() <= WIDTH;
@@ -97,7 +97,7 @@ impl Budget<'_> {
     }
 
     /// The same table without a look, with the further columns in their places.
-    pub(crate) fn sheet(&self, columns: &[Column]) -> Sheet {
+    pub(crate) fn sheet(&self, columns: &[BudgetColumn]) -> Sheet {
         let fields = arranged(&self.usual_fields(), &columns::fields(self, columns));
         let mut sheet = Sheet { footer: true, ..Sheet::default() };
         for Field { headers: [header, _], layout, cells } in fields {
@@ -227,7 +227,7 @@ fn distribution(line: &BudgetLine) -> String {
 }
 
 /// What the columns mean.
-pub(crate) fn legend(output: &Quantity, columns: &[Column]) -> String {
+pub(crate) fn legend(output: &Quantity, columns: &[BudgetColumn]) -> String {
     let mut legend = if has_name(&output.unit) {
         let unit = output.unit.text();
         format!(
@@ -236,7 +236,7 @@ pub(crate) fn legend(output: &Quantity, columns: &[Column]) -> String {
     } else {
         "sensitivity coefficients per unit of the quantity".to_owned()
     };
-    if columns.contains(&Column::Relative) {
+    if columns.contains(&BudgetColumn::Relative) {
         let name = &output.name;
         legend += &format!(
             "; relative: standard uncertainty to the modulus of the estimate; of y: \

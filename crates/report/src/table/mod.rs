@@ -8,7 +8,7 @@ mod grid;
 pub(super) mod sweep;
 mod text;
 
-pub use columns::Column;
+pub use columns::BudgetColumn;
 pub use grid::Grid;
 pub use text::wrapped;
 pub(crate) use text::{grouped, plain};
@@ -16,7 +16,7 @@ pub(crate) use text::{grouped, plain};
 use std::io::{self, Write};
 
 use self::budget::Budget;
-use super::Report;
+use super::EvaluationReport;
 use super::answer::in_memory;
 use super::number::exact;
 use gumption_engine::decimal::to_position;
@@ -30,12 +30,12 @@ pub const WIDTH: usize = 100;
 
 /// How the page looks.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Style {
+pub struct TableStyle {
     /// Significant digits of standard uncertainties, those of the settings unless given; estimates
     /// are rounded to match.
     pub digits: Option<u32>,
     /// Columns of the budget beside the usual ones. Each has its own place, whatever the order here.
-    pub columns: Vec<Column>,
+    pub columns: Vec<BudgetColumn>,
 }
 
 /// The results as a page of at most 100 columns: for each output the budget, the two methods side
@@ -43,7 +43,7 @@ pub struct Style {
 /// output with a line for each row of conditions.
 ///
 /// Warnings are not part of the page; a run that was stopped is marked at its end.
-pub fn table(report: &Report<'_>, style: &Style) -> String {
+pub fn table(report: &EvaluationReport<'_>, style: &TableStyle) -> String {
     in_memory(|bytes| write_table(report, style, bytes))
 }
 
@@ -51,8 +51,12 @@ pub fn table(report: &Report<'_>, style: &Style) -> String {
 ///
 /// # Errors
 /// Those of the writer.
-pub fn write_table(report: &Report<'_>, style: &Style, mut out: impl Write) -> io::Result<()> {
-    let Report { task, evaluation, .. } = *report;
+pub fn write_table(
+    report: &EvaluationReport<'_>,
+    style: &TableStyle,
+    mut out: impl Write,
+) -> io::Result<()> {
+    let EvaluationReport { task, evaluation, .. } = *report;
     let digits = style.digits.unwrap_or(evaluation.settings.digits);
     out.write_all(heading(task, evaluation).as_bytes())?;
     let mut below = |part: String| {
@@ -143,7 +147,7 @@ fn section(
     output: &Output,
     figures: &OutputEvaluation,
     digits: u32,
-    columns: &[Column],
+    columns: &[BudgetColumn],
 ) -> String {
     let mut parts = vec![title(&output.quantity)];
     match &figures.gum {

@@ -8,7 +8,7 @@ use super::model::ModelPlaces;
 use crate::number::position;
 use crate::table::conditions_text;
 use crate::workbook::{Cached, Leaf, Look, here};
-use crate::{Report, plain, table};
+use crate::{EvaluationReport, plain, table};
 use gumption_engine::distribution::paired;
 use gumption_engine::propagate::RowEvaluation;
 use gumption_engine::propagate::gum::{BudgetLine, CorrelationLine, Dof, Gum};
@@ -88,11 +88,11 @@ struct Block<'a> {
 
 pub(super) fn write(
     leaf: &mut Leaf,
-    report: &Report<'_>,
+    report: &EvaluationReport<'_>,
     output: usize,
     live: &Live<'_>,
 ) -> Result<Totals, XlsxError> {
-    let Report { task, evaluation, .. } = *report;
+    let EvaluationReport { task, evaluation, .. } = *report;
     let Some(declared) = task.model.outputs.get(output) else { return Ok(Vec::new()) };
     leaf.title(0, &table::title_text(&declared.quantity))?;
     let mut at = 2;
@@ -173,7 +173,7 @@ impl Block<'_> {
     fn inputs(
         &self,
         leaf: &mut Leaf,
-        report: &Report<'_>,
+        report: &EvaluationReport<'_>,
         output: usize,
         model: Option<&ModelPlaces>,
     ) -> Result<(), XlsxError> {
@@ -260,7 +260,11 @@ impl Block<'_> {
         (term, if line.dof.is_finite() { share.powi(2) / line.dof } else { 0.0 })
     }
 
-    fn coefficients(&self, leaf: &mut Leaf, report: &Report<'_>) -> Result<(), XlsxError> {
+    fn coefficients(
+        &self,
+        leaf: &mut Leaf,
+        report: &EvaluationReport<'_>,
+    ) -> Result<(), XlsxError> {
         let first = self.top + self.lines.len() as u32;
         let u = self.combined();
         for (number, (at, link)) in (first..).zip(&self.links).enumerate() {

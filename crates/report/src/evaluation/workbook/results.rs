@@ -5,7 +5,7 @@ use rust_xlsxwriter::XlsxError;
 use super::budget::Totals;
 use crate::number::position;
 use crate::workbook::{Cached, Leaf, Look};
-use crate::{Report, plain, table};
+use crate::{EvaluationReport, plain, table};
 use gumption_engine::propagate::OutputEvaluation;
 use gumption_engine::propagate::gum::Dof;
 
@@ -35,10 +35,10 @@ const HEADERS: [&str; 20] = [
 /// Writes the results; GUM figures as formulas where `totals` has their cells.
 pub(super) fn write(
     leaf: &mut Leaf,
-    report: &Report<'_>,
+    report: &EvaluationReport<'_>,
     totals: &[Totals],
 ) -> Result<(), XlsxError> {
-    let Report { task, evaluation, .. } = *report;
+    let EvaluationReport { task, evaluation, .. } = *report;
     leaf.title(0, &plain(&task.title))?;
     leaf.line(1, &table::settings_text(evaluation))?;
     let conditions: Vec<String> = task
