@@ -18,7 +18,7 @@ use measure::workloads::{PLANE, SUM, model};
 const TRIALS: u64 = 1_000_000;
 
 fn hash(task: &Task) {
-    let control = Control { threads: 1, ..Control::default() };
+    let control = Control::default().with_threads(1);
     black_box(trial_hash(task, TRIALS, &control).unwrap());
 }
 

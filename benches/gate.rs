@@ -22,7 +22,6 @@ use serde_json::{Map, Value, json};
 
 use measure::cpu_time::cpu_seconds;
 use measure::median::median;
-use measure::paths::path;
 use measure::plain;
 use measure::workloads::workload;
 
@@ -44,7 +43,7 @@ struct Arguments {
     #[arg(long)]
     record: bool,
     /// A code path to measure instead of the machine's best; the record is that of the best.
-    #[arg(long, value_parser = path)]
+    #[arg(long)]
     path: Option<CodePath>,
     /// Passed by `cargo bench`; without it everything is only tried.
     #[arg(long, hide = true)]
@@ -53,7 +52,7 @@ struct Arguments {
 
 /// CPU time of the plain loop over that of the task, each a trial: one measurement of both.
 fn ratio(task: &Task, path: CodePath) -> Result<f64, String> {
-    let control = Control { threads: 1, path, ..Control::default() };
+    let control = Control::default().with_threads(1).with_path(path);
     let mut done = Ok(());
     let loop_seconds = cpu_seconds(|| {
         black_box(plain::run());

@@ -25,7 +25,7 @@ const BUDGETS: u64 = 100_000;
 const ROUNDS: usize = 15;
 
 fn run(task: &Task, threads: usize) {
-    let control = Control { threads, ..Control::default() };
+    let control = Control::default().with_threads(threads);
     black_box(evaluate(black_box(task), &control).unwrap());
 }
 

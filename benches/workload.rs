@@ -27,7 +27,6 @@ use gumption_engine::propagate::gum::bulk::Budgets;
 use serde_json::{Value, json};
 
 use measure::columns::Columns;
-use measure::paths::path;
 use measure::workloads::workload;
 
 /// Trials of the warm-up of a single evaluation.
@@ -48,7 +47,7 @@ struct Arguments {
     #[arg(long, default_value_t = 1)]
     threads: usize,
     /// Code path: baseline, avx2, avx512; the machine's best without it.
-    #[arg(long, value_parser = path)]
+    #[arg(long)]
     path: Option<CodePath>,
     /// Repeats after the warm-up.
     #[arg(long, default_value_t = 5)]
@@ -162,12 +161,10 @@ struct Last {
 
 fn measured(name: &str, arguments: &Arguments) -> Result<Value, String> {
     let [task, warm_up] = tasks(name, arguments)?;
-    let control = Control {
-        threads: arguments.threads,
-        memory: arguments.memory << 20,
-        path: arguments.path.unwrap_or_else(CodePath::best),
-        ..Control::default()
-    };
+    let control = Control::default()
+        .with_threads(arguments.threads)
+        .with_memory(arguments.memory << 20)
+        .with_path(arguments.path.unwrap_or_else(CodePath::best));
     let columns = matches!(name, "W5" | "W5-all").then(|| Columns::of(&task, name == "W5-all"));
     let pool = rayon::ThreadPoolBuilder::new().num_threads(arguments.threads).build();
     let pool = pool.map_err(|e| e.to_string())?;

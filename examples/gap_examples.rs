@@ -12,71 +12,9 @@ use std::f64::consts::{PI, TAU};
 use std::fmt::Write;
 use std::path::Path;
 
-/// Independent random numbers that are the same on every machine and in every version: SplitMix64
-/// (Steele, Lea, Flood 2014) and the method of Box and Muller.
-struct Noise(u64);
+mod generator;
 
-impl Noise {
-    fn uniform(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 * 2f64.powi(-53)
-    }
-
-    fn normal(&mut self, deviation: f64) -> f64 {
-        let radius = (-2.0 * (1.0 - self.uniform()).ln()).sqrt();
-        deviation * radius * (TAU * self.uniform()).cos()
-    }
-
-    /// Within limits about zero.
-    fn within(&mut self, half_width: f64) -> f64 {
-        half_width * (2.0 * self.uniform() - 1.0)
-    }
-}
-
-/// A complex number: an amplitude with a phase, or a response.
-#[derive(Clone, Copy)]
-struct Phasor {
-    re: f64,
-    im: f64,
-}
-
-impl Phasor {
-    const ONE: Self = Self { re: 1.0, im: 0.0 };
-
-    fn polar(amplitude: f64, degrees: f64) -> Self {
-        let (sin, cos) = degrees.to_radians().sin_cos();
-        Self { re: amplitude * cos, im: amplitude * sin }
-    }
-
-    fn plus(self, other: Self) -> Self {
-        Self { re: self.re + other.re, im: self.im + other.im }
-    }
-
-    fn times(self, other: Self) -> Self {
-        let re = self.re * other.re - self.im * other.im;
-        Self { re, im: self.re * other.im + self.im * other.re }
-    }
-
-    fn scaled(self, factor: f64) -> Self {
-        Self { re: factor * self.re, im: factor * self.im }
-    }
-
-    fn inverse(self) -> Self {
-        let square = self.re * self.re + self.im * self.im;
-        Self { re: self.re / square, im: -self.im / square }
-    }
-
-    fn modulus(self) -> f64 {
-        self.re.hypot(self.im)
-    }
-
-    fn degrees(self) -> f64 {
-        self.im.atan2(self.re).to_degrees()
-    }
-}
+use generator::{OSCILLATIONS, Phasor, SLIDE, SplitMix64, axes_on_the_plane};
 
 /// 1 / (1 - x^2 + i x / q), the response of one degree of freedom at x times its resonance.
 fn resonance(x: f64, q: f64) -> Phasor {
@@ -118,7 +56,7 @@ impl Table {
 /// Inclined planes at the four tilts of Prato et al. and a rotation of 30 deg; `motion` gives the
 /// motions along x' and z' relative to the reference.
 fn planes(seed: u64, frequencies: &[f64], motion: impl Fn(f64) -> (Phasor, Phasor)) -> String {
-    let mut noise = Noise(seed);
+    let mut noise = SplitMix64(seed);
     let u = 0.01;
     let reference = 10.0 + noise.normal(0.01);
     let (tilt_error, turn_error) = (noise.within(0.1), noise.within(0.1));
@@ -128,11 +66,8 @@ fn planes(seed: u64, frequencies: &[f64], motion: impl Fn(f64) -> (Phasor, Phaso
             let rotation = 30.0;
             let (x, z) = motion(f);
             let (x, z) = (x.scaled(reference), z.scaled(reference));
-            let (sin, cos) = (tilt + tilt_error).to_radians().sin_cos();
-            let (sin_turn, cos_turn) = (rotation + turn_error).to_radians().sin_cos();
-            let down = z.scaled(sin).plus(x.scaled(cos));
-            let axes =
-                [down.scaled(cos_turn), down.scaled(sin_turn), z.scaled(cos).plus(x.scaled(-sin))];
+            let motions = [x, Phasor::ZERO, z];
+            let axes = axes_on_the_plane(motions, tilt + tilt_error, rotation + turn_error);
             let [a_x, a_y, a_z] = axes.map(|axis| axis.modulus() + noise.normal(u));
             table.row(&[f, tilt, rotation, a_x, a_y, a_z, u]);
         }
@@ -144,12 +79,12 @@ fn planes(seed: u64, frequencies: &[f64], motion: impl Fn(f64) -> (Phasor, Phaso
 /// scatter is the paper's 0.3 % of tangential and 1 % of radial accelerations. `seen` is the share of
 /// an amplitude at a frequency that is read.
 fn oscillation(seed: u64, radii: &[f64], offset: f64, seen: impl Fn(f64) -> f64) -> String {
-    let mut noise = Noise(seed);
+    let mut noise = SplitMix64(seed);
     let radius_error = noise.within(0.025);
     let encoder_error = noise.normal(0.005);
     let mut table = Table::new("frequency,angle_pp,radius,a_t,u_a_t,a_r,u_a_r");
     for &radius in radii {
-        for (f, angle) in [(5.0, 34.0f64), (8.0, 13.0), (10.0, 8.5)] {
+        for (f, angle) in OSCILLATIONS {
             let r = (radius + radius_error + offset) / 1000.0;
             let pulsation = TAU * f;
             let speed = pulsation * angle.to_radians() / 2.0 * (1.0 + encoder_error);
@@ -168,7 +103,7 @@ fn oscillation(seed: u64, radii: &[f64], offset: f64, seen: impl Fn(f64) -> f64)
 /// The modulus of the mean of a phasor that turns by `slip` times its frequency over a record.
 fn read_beside_the_line(f: f64, slip: f64) -> f64 {
     let steps = 1000;
-    let sum = (0..steps).fold(Phasor { re: 0.0, im: 0.0 }, |sum, step| {
+    let sum = (0..steps).fold(Phasor::ZERO, |sum, step| {
         let turned = 360.0 * f * slip * (f64::from(step) + 0.5) / f64::from(steps);
         sum.plus(Phasor::polar(1.0, turned))
     });
@@ -177,11 +112,11 @@ fn read_beside_the_line(f: f64, slip: f64) -> f64 {
 
 /// Amplitude and phase of a chain over the frequencies of D'Emilia et al., three times each.
 fn chain(seed: u64, response: impl Fn(f64) -> Phasor) -> String {
-    let mut noise = Noise(seed);
+    let mut noise = SplitMix64(seed);
     let (gain, phase) = (1.0 + noise.normal(0.005), noise.normal(0.3));
     let (u_s, u_phi) = (0.005, 0.5);
     let mut table = Table::new("f,s,u_s,phi,u_phi");
-    for f in [0.5, 0.6, 0.8, 1.0, 1.5, 2.0, 3.0, 5.0, 8.0, 10.0, 15.0, 20.0] {
+    for f in SLIDE {
         let out = response(f).times(Phasor::polar(gain, phase));
         for _ in 0..3 {
             let (s, phi) = (out.modulus() + noise.normal(u_s), out.degrees() + noise.normal(u_phi));
@@ -195,7 +130,7 @@ fn chain(seed: u64, response: impl Fn(f64) -> Phasor) -> String {
 /// 15 % less amplitude. Its noise is such that the RMS difference falls by a quarter once amplitude
 /// and phase are corrected: with a gap of g and noise of n, n = 3/4 sqrt(g^2 + n^2).
 fn signal(seed: u64) -> String {
-    let mut noise = Noise(seed);
+    let mut noise = SplitMix64(seed);
     let (f, amplitude) = (0.5, 0.25);
     let lead = Phasor::polar(0.85, 15.0);
     let gap = lead.plus(Phasor::ONE.scaled(-1.0)).modulus() * amplitude / 2f64.sqrt();
@@ -216,7 +151,7 @@ fn signal(seed: u64) -> String {
 pub(crate) fn tables() -> Vec<(&'static str, String)> {
     let low = [5.0, 10.0, 20.0, 40.0, 60.0, 70.0, 80.0, 90.0, 100.0, 125.0, 160.0, 315.0, 1000.0];
     let high = [5.0, 20.0, 80.0, 315.0, 630.0, 1000.0, 1600.0, 2000.0, 2500.0, 3000.0];
-    let none = Phasor { re: 0.0, im: 0.0 };
+    let none = Phasor::ZERO;
     // 3 % of the reference at 80 Hz, a quality factor of 6
     let lateral = |f: f64| {
         (resonance(f / 80.0, 6.0).scaled(0.03 / 6.0).times(Phasor::polar(1.0, 60.0)), Phasor::ONE)

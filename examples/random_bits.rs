@@ -61,7 +61,7 @@ fn blocks(
     task: &Task,
     mut take: impl FnMut(&[Vec<f64>]) -> Result<(), Failure> + Send,
 ) -> Result<(), Failure> {
-    let control = Control { threads: 1, ..Control::default() };
+    let control = Control::default().with_threads(1);
     let mut evaluation = evaluate(task, &control)?;
     let figures = evaluation.rows.iter_mut().flat_map(|row| &mut row.outputs);
     for figures in figures.filter_map(|output| output.monte_carlo.as_mut()) {

@@ -15,11 +15,14 @@ use std::path::Path;
 
 use hound::{SampleFormat, WavSpec, WavWriter};
 
+pub(crate) mod generator;
+
+use generator::{Phasor, SplitMix64, axes_on_the_plane};
+
 /// What the recordings are made with: what an evaluation is to find.
 pub(crate) mod truth {
-    /// Frequency of the rotating table in hertz and its oscillation angle from end to end in degrees
-    /// (Chiominto et al. 2024, section 3.4.1).
-    pub(crate) const TABLE: [(f64, f64); 3] = [(5.0, 34.0), (8.0, 13.0), (10.0, 8.5)];
+    pub(crate) use super::generator::{OSCILLATIONS, SLIDE};
+
     /// The radius of the sensor, in metres: 170 mm within the calliper's resolution.
     pub(crate) const RADIUS: f64 = 0.170_01;
     /// What the encoder reads of an angle: within its 0.5 %.
@@ -30,9 +33,6 @@ pub(crate) mod truth {
     pub(crate) const SENSITIVITY: [f64; 2] = [421.6, 416.9];
     /// Cut-off frequencies of IEPE sensor and amplifier in hertz (D'Emilia et al. 2019, section 3.1).
     pub(crate) const HIGH_PASS: [f64; 2] = [0.1, 0.3];
-    /// Frequencies of the slide, in hertz.
-    pub(crate) const SLIDE: [f64; 12] =
-        [0.5, 0.6, 0.8, 1.0, 1.5, 2.0, 3.0, 5.0, 8.0, 10.0, 15.0, 20.0];
     /// What the vibrometer reads of a velocity, and its phase in degrees.
     pub(crate) const VIBROMETER: (f64, f64) = (1.003, -0.2);
     /// Reference acceleration of the inclined plane, RMS in m/s^2.
@@ -44,34 +44,6 @@ pub(crate) mod truth {
     pub(crate) const ANGLES: [f64; 2] = [35.03, 29.96];
     /// Sensitivities of the sensor on the plane along x, y, z, in D/(m/s^2).
     pub(crate) const AXES: [f64; 3] = [419.2, 416.3, 421.8];
-}
-
-/// Independent random numbers: SplitMix64 (Steele, Lea, Flood 2014) and the method of Box and Muller.
-struct Noise(u64);
-
-impl Noise {
-    fn uniform(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 * 2f64.powi(-53)
-    }
-
-    fn normal(&mut self, deviation: f64) -> f64 {
-        let radius = (-2.0 * (1.0 - self.uniform()).ln()).sqrt();
-        deviation * radius * (TAU * self.uniform()).cos()
-    }
-}
-
-/// An amplitude with a phase in degrees, as real and imaginary part.
-fn phasor(amplitude: f64, degrees: f64) -> [f64; 2] {
-    let (sin, cos) = degrees.to_radians().sin_cos();
-    [amplitude * cos, amplitude * sin]
-}
-
-fn combined(a: [f64; 2], of_a: f64, b: [f64; 2], of_b: f64) -> [f64; 2] {
-    [of_a * a[0] + of_b * b[0], of_a * a[1] + of_b * b[1]]
 }
 
 /// A recording of whole numbers of 16 bits, `frame` being the values at an instant in seconds. The
@@ -101,7 +73,7 @@ fn wav<const N: usize>(
 
 /// The encoder of the rotating table: steps of 1/65536 turn, 1000 values a second.
 fn encoder(seed: u64, hertz: f64, angle_pp: f64) -> Result<Vec<u8>, Box<dyn Error>> {
-    let mut noise = Noise(seed);
+    let mut noise = SplitMix64(seed);
     let start = TAU * noise.uniform();
     wav(1000, 1000.0, 10.0, |t| {
         let degrees = truth::ENCODER * angle_pp / 2.0 * (TAU * hertz * t + start).cos();
@@ -111,7 +83,7 @@ fn encoder(seed: u64, hertz: f64, angle_pp: f64) -> Result<Vec<u8>, Box<dyn Erro
 
 /// The digital sensor on it: tangential acceleration r theta'' and radial acceleration r theta'^2.
 fn digital_sensor(seed: u64, hertz: f64, angle_pp: f64) -> Result<Vec<u8>, Box<dyn Error>> {
-    let mut noise = Noise(seed);
+    let mut noise = SplitMix64(seed);
     let start = TAU * noise.uniform();
     let pulsation = TAU * hertz;
     let [tangential, radial] = truth::SENSITIVITY;
@@ -129,7 +101,7 @@ fn digital_sensor(seed: u64, hertz: f64, angle_pp: f64) -> Result<Vec<u8>, Box<d
 
 /// Vibrometer (4 um/s a count) and IEPE chain (20 uV a count, 100 mV/(m/s^2)) on the slide.
 fn slide(seed: u64, hertz: f64) -> Result<Vec<u8>, Box<dyn Error>> {
-    let mut noise = Noise(seed);
+    let mut noise = SplitMix64(seed);
     let start = TAU * noise.uniform();
     let acceleration = (0.5 * hertz).min(2.0);
     let (gain, phase) = truth::VIBROMETER;
@@ -151,32 +123,29 @@ fn slide(seed: u64, hertz: f64) -> Result<Vec<u8>, Box<dyn Error>> {
     })
 }
 
-/// What the axes of the sensor on the inclined plane see, as phasors, RMS in m/s^2: motion along x',
-/// y', z' turned by tilt and rotation (Prato et al. 2020, eqs (1)-(3), with signs).
-pub(crate) fn on_the_plane() -> [[f64; 2]; 3] {
-    let [x, y, z] = truth::SPURIOUS.map(|(amplitude, degrees)| phasor(amplitude, degrees));
-    let z = [z[0] + truth::REFERENCE, z[1]];
-    let [(sin, cos), (sin_turn, cos_turn)] = truth::ANGLES.map(|a| a.to_radians().sin_cos());
-    let down = combined(z, sin, x, cos);
-    [
-        combined(down, cos_turn, y, -sin_turn),
-        combined(down, sin_turn, y, cos_turn),
-        combined(z, cos, x, -sin),
-    ]
+/// Motions along x', y', z' of the inclined plane, as phasors, RMS in m/s^2.
+fn motions() -> [Phasor; 3] {
+    let [x, y, z] = truth::SPURIOUS.map(|(amplitude, degrees)| Phasor::polar(amplitude, degrees));
+    [x, y, z.plus(Phasor::ONE.scaled(truth::REFERENCE))]
+}
+
+/// What the axes of the sensor on the plane see of them.
+pub(crate) fn on_the_plane() -> [Phasor; 3] {
+    let [tilt, rotation] = truth::ANGLES;
+    axes_on_the_plane(motions(), tilt, rotation)
 }
 
 /// Reference transducer, vibrometers along x', y', z' (all 1 mm/s^2 a count) and the digital sensor
 /// on the plane, at 80 Hz.
 fn plane(seed: u64) -> Result<Vec<u8>, Box<dyn Error>> {
-    let mut noise = Noise(seed);
+    let mut noise = SplitMix64(seed);
     let start = TAU * noise.uniform();
-    let [x, y, z] = truth::SPURIOUS.map(|(amplitude, degrees)| phasor(amplitude, degrees));
-    let reference = [truth::REFERENCE, 0.0];
-    let moved = [reference, x, y, [z[0] + truth::REFERENCE, z[1]]];
+    let [x, y, z] = motions();
+    let moved = [Phasor::ONE.scaled(truth::REFERENCE), x, y, z];
     let seen = on_the_plane();
     wav(4000, 4000.0, 2.0, |t| {
         let (sin, cos) = (TAU * 80.0 * t + start).sin_cos();
-        let at = |of: [f64; 2]| SQRT_2 * (of[0] * cos - of[1] * sin);
+        let at = |of: Phasor| SQRT_2 * (of.re * cos - of.im * sin);
         let mut frame = [0.0; 7];
         for (value, of) in frame.iter_mut().zip(moved) {
             *value = at(of) / 1e-3 + noise.normal(5.0);
@@ -194,7 +163,7 @@ type Files = Vec<(String, Vec<u8>)>;
 /// The recordings: path in `models/recordings` and content.
 pub(crate) fn recordings() -> Result<Files, Box<dyn Error>> {
     let mut made = Vec::new();
-    for (seed, (hertz, angle)) in (1..).zip(truth::TABLE) {
+    for (seed, (hertz, angle)) in (1..).zip(truth::OSCILLATIONS) {
         made.push((format!("rotating_table/encoder_{hertz}hz.wav"), encoder(seed, hertz, angle)?));
         made.push((
             format!("rotating_table/sensor_{hertz}hz.wav"),

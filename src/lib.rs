@@ -277,7 +277,7 @@ pub use gumption_units as unit;
 pub mod distribution {
     pub use gumption_engine::distribution::{
         Arcsine, Beta, Constant, Correlation, CorrelationError, CurvilinearTrapezoid, Distribution,
-        Evaluation, Exponential, External, Gamma, Input, InputError, Invalid, LogUniform,
+        EvaluationType, Exponential, External, Gamma, Input, InputError, Invalid, LogUniform,
         Lognormal, Normal, PoissonCount, Readings, Rectangular, Samples, StreamRng, StudentT,
         Trapezoidal, Triangular,
     };
@@ -298,9 +298,9 @@ pub mod number {
 /// Evaluation by the law of propagation and by the Monte Carlo method.
 pub mod propagate {
     pub use gumption_engine::propagate::{
-        Conformity, Control, Evaluation, EvaluationError, GlobalRisks, OutputEvaluation,
-        RowEvaluation, Stated, evaluate, for_each_block, histograms, quantiles, trial_hash,
-        warnings,
+        CapabilityStatement, Conformity, Control, Evaluation, EvaluationError, GlobalRisks,
+        OutputEvaluation, RowEvaluation, evaluate, for_each_block, histograms, quantiles,
+        trial_hash, warnings,
     };
 
     /// The law of propagation of uncertainty (JCGM 100).

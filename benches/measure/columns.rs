@@ -3,7 +3,7 @@
 use gumption::distribution::Distribution;
 use gumption::number::CodePath;
 use gumption::task::Task;
-use gumption_engine::propagate::gum::bulk::{Budgets, Each, Known, Options, budgets};
+use gumption_engine::propagate::gum::bulk::{Budgets, BulkInput, BulkOptions, BulkValue, budgets};
 
 /// A column, or the value of all its entries.
 #[derive(Debug)]
@@ -22,10 +22,10 @@ impl Column {
         }
     }
 
-    fn each(&self) -> Each<'_> {
+    fn each(&self) -> BulkValue<'_> {
         match self {
-            Self::Same(value) => Each::Same(*value),
-            Self::Rows(values) => Each::Rows(values),
+            Self::Same(value) => BulkValue::Same(*value),
+            Self::Rows(values) => BulkValue::Rows(values),
         }
     }
 }
@@ -62,16 +62,16 @@ impl<'a> Columns<'a> {
     /// # Errors
     /// Columns that do not fit the model.
     pub fn budgets(&self, path: CodePath) -> Result<Vec<Budgets>, String> {
-        let known = self.inputs.iter().map(|[estimate, u, dof]| Known {
+        let known = self.inputs.iter().map(|[estimate, u, dof]| BulkInput {
             estimate: estimate.each(),
             standard_uncertainty: u.each(),
             dof: dof.each(),
         });
-        let known: Vec<Known<'_>> = known.collect();
-        let conditions: Vec<Each<'_>> = self.conditions.iter().map(Column::each).collect();
+        let known: Vec<BulkInput<'_>> = known.collect();
+        let conditions: Vec<BulkValue<'_>> = self.conditions.iter().map(Column::each).collect();
         let correlations = &self.task.correlations;
         let settings = &self.task.settings;
-        let options = Options {
+        let options = BulkOptions {
             coverage: settings.coverage,
             real_dof: settings.real_dof,
             correlations,

@@ -13,7 +13,7 @@ use super::cpu_time::{CpuTime, cpu_seconds};
 /// One evaluation on one thread.
 #[allow(clippy::unwrap_used)] // the benches' own tasks can be evaluated
 pub fn run(task: &Task) {
-    let control = Control { threads: 1, ..Control::default() };
+    let control = Control::default().with_threads(1);
     black_box(evaluate(black_box(task), &control).unwrap());
 }
 

@@ -3,7 +3,7 @@
 
 use std::fmt::Write;
 
-use gumption::file::{Problems, read_text};
+use gumption::file::{Diagnostics, read_text};
 use gumption::task::{Task, Trials};
 use serde_json::{Map, Value, json};
 
@@ -11,7 +11,7 @@ use serde_json::{Map, Value, json};
 const FORMULA_INPUTS: usize = 10;
 
 /// Reads a generated model. It stands alone, so it has no folder.
-fn read(model: &Value, trials: u64) -> Result<Task, Problems> {
+fn read(model: &Value, trials: u64) -> Result<Task, Diagnostics> {
     let mut task = read_text("generated", &model.to_string(), "".as_ref(), &[])?.task;
     task.settings.trials = Trials::Fixed(trials);
     Ok(task)
@@ -34,7 +34,7 @@ fn rectangular() -> Value {
 ///
 /// # Errors
 /// A distribution that is not one.
-pub fn sum_of(count: usize, distribution: &Value, trials: u64) -> Result<Task, Problems> {
+pub fn sum_of(count: usize, distribution: &Value, trials: u64) -> Result<Task, Diagnostics> {
     let names = names(count);
     let model = json!({
         "format": 1,
@@ -49,7 +49,7 @@ pub fn sum_of(count: usize, distribution: &Value, trials: u64) -> Result<Task, P
 ///
 /// # Errors
 /// None are expected.
-pub fn sum(count: usize, trials: u64) -> Result<Task, Problems> {
+pub fn sum(count: usize, trials: u64) -> Result<Task, Diagnostics> {
     sum_of(count, &rectangular(), trials)
 }
 
@@ -58,7 +58,7 @@ pub fn sum(count: usize, trials: u64) -> Result<Task, Problems> {
 ///
 /// # Errors
 /// None are expected.
-pub fn correlated(count: usize, trials: u64) -> Result<Task, Problems> {
+pub fn correlated(count: usize, trials: u64) -> Result<Task, Diagnostics> {
     let names = names(count);
     let row = |i: usize| (0..count).map(|j| 0.9f64.powi(i.abs_diff(j) as i32)).collect();
     let values: Vec<Vec<f64>> = (0..count).map(row).collect();
@@ -77,7 +77,7 @@ pub fn correlated(count: usize, trials: u64) -> Result<Task, Problems> {
 ///
 /// # Errors
 /// None are expected.
-pub fn formula(operations: usize, trials: u64) -> Result<Task, Problems> {
+pub fn formula(operations: usize, trials: u64) -> Result<Task, Diagnostics> {
     let names = names(FORMULA_INPUTS);
     let mut text = names.join(" + ");
     for term in 0..operations / 4 {
@@ -99,7 +99,7 @@ pub fn formula(operations: usize, trials: u64) -> Result<Task, Problems> {
 ///
 /// # Errors
 /// None are expected.
-pub fn outputs(count: usize, trials: u64) -> Result<Task, Problems> {
+pub fn outputs(count: usize, trials: u64) -> Result<Task, Diagnostics> {
     let formula = |k: usize| (format!("y_{k}"), json!(format!("x_1 + {k}*x_2")));
     let output = |k: usize| (format!("y_{k}"), json!({}));
     let model = json!({

@@ -6,6 +6,5 @@ pub mod cpu_time;
 pub mod difference;
 pub mod generated;
 pub mod median;
-pub mod paths;
 pub mod plain;
 pub mod workloads;

@@ -47,7 +47,7 @@ fn run(task: &Task, rule: StoppingRule, seed: u64, digits: u32) -> MonteCarlo {
     task.settings.rule = rule;
     task.settings.seed = seed;
     task.settings.digits = digits;
-    let control = Control { threads: 1, ..Control::default() };
+    let control = Control::default().with_threads(1);
     let evaluation = evaluate(&task, &control).unwrap();
     evaluation.rows[0].outputs[0].monte_carlo.clone().unwrap()
 }

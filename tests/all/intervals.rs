@@ -115,7 +115,7 @@ fn contents_follow_beta(trials: u64, per_mille: u64, seeds: u64, control: &Contr
 }
 
 fn one_thread() -> Control<'static> {
-    Control { threads: 1, ..Control::default() }
+    Control::default().with_threads(1)
 }
 
 #[test]
@@ -148,7 +148,7 @@ fn contents_from_kept_tails() {
 #[test]
 fn contents_from_several_passes() {
     let memory = 64 << 10;
-    contents_follow_beta(70_000, 900, 100, &Control { memory, ..Control::default() });
+    contents_follow_beta(70_000, 900, 100, &Control::default().with_memory(memory));
 }
 
 /// The shortest interval is no longer than the symmetric one, and holds its share of the

@@ -2,6 +2,8 @@
 #![allow(missing_docs)]
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stdout)]
 #![allow(clippy::print_stderr)]
+// the programs that make data share a module, and the tests run both programs
+#![allow(clippy::duplicate_mod)]
 
 mod adaptive;
 mod assumptions;
@@ -20,7 +22,6 @@ mod gap;
 mod gap_check;
 mod gap_examples;
 mod intervals;
-mod mutations;
 mod observe;
 mod observe_steps;
 mod one_number;
@@ -32,3 +33,4 @@ mod schema;
 mod sizes;
 mod support;
 mod verify;
+mod workspace;

@@ -9,7 +9,7 @@ use serde_json::Value;
 use crate::support::{command, root};
 
 #[path = "../../examples/recordings.rs"]
-mod program;
+pub(crate) mod program;
 
 use program::truth;
 
@@ -72,13 +72,13 @@ fn documented_commands_find_what_was_put_in() {
     let folder = tempfile::tempdir().expect("a folder");
     let folder = folder.path();
     for bench in BENCHES {
-        let place = Path::new("models/recordings").join(bench);
-        fs::create_dir_all(folder.join(&place)).expect("made");
-        for entry in fs::read_dir(root().join(&place)).expect("the bench") {
+        let bench = Path::new("models/recordings").join(bench);
+        fs::create_dir_all(folder.join(&bench)).expect("made");
+        for entry in fs::read_dir(root().join(&bench)).expect("the bench") {
             let entry = entry.expect("an entry");
             // observations are to come from the commands
             if entry.file_name() != "observations.csv" {
-                fs::copy(entry.path(), folder.join(&place).join(entry.file_name()))
+                fs::copy(entry.path(), folder.join(&bench).join(entry.file_name()))
                     .expect("copied");
             }
         }
@@ -116,7 +116,7 @@ fn rotating_table(folder: &Path) {
     let run = json(folder, &["run", "models/recordings/rotating_table/sensitivity.json"]);
     let against = ["models/recordings/rotating_table/linear_bench.csv", "--against", "run.json"];
     let compared = json(folder, &["compare", against[0], against[1], against[2]]);
-    for (row, (hertz, angle)) in truth::TABLE.into_iter().enumerate() {
+    for (row, (hertz, angle)) in truth::OSCILLATIONS.into_iter().enumerate() {
         let channels = &observed["rows"][row]["channels"];
         let component = |channel: &str, number: usize| &channels[channel]["components"][number];
         let amplitude = truth::ENCODER * angle / 2.0;
@@ -147,12 +147,12 @@ fn rotating_table(folder: &Path) {
         let u = &component("d_t", 0)["amplitude"]["standard_uncertainty"];
         assert!((number(&of["standard_uncertainty"]) / number(u) - 1.0).abs() < 1e-12);
         // En from the two results
-        for (place, x1, u1, name) in [(row, 420.0, 7.0, "S_t"), (row + 3, 418.0, 9.0, "S_r")] {
+        for (position, x1, u1, name) in [(row, 420.0, 7.0, "S_t"), (row + 3, 418.0, 9.0, "S_r")] {
             let gum = &run["rows"][row]["outputs"][name]["gum"];
             let u2 = 2.0 * number(&gum["standard_uncertainty"]);
             let en = (x1 - number(&gum["estimate"])).abs() / f64::hypot(u1, u2);
-            assert!((number(&compared["rows"][place]["en"]) - en).abs() < 1e-9, "{name}");
-            assert_eq!(compared["rows"][place]["compatible"], true);
+            assert!((number(&compared["rows"][position]["en"]) - en).abs() < 1e-9, "{name}");
+            assert_eq!(compared["rows"][position]["compatible"], true);
         }
     }
 }
@@ -203,14 +203,14 @@ fn spurious_components(folder: &Path) {
     let run = json(folder, &["run", "models/recordings/spurious_components/plane.json"]);
     let certificate = "models/recordings/spurious_components/certificate.json";
     let stated = json(folder, &["certificate", certificate]);
-    for (place, axis) in ["x", "y", "z"].into_iter().enumerate() {
-        let [re, im] = program::on_the_plane()[place];
+    for (index, axis) in ["x", "y", "z"].into_iter().enumerate() {
+        let seen = program::on_the_plane()[index];
         let gum = &run["rows"][0]["outputs"][format!("a_{axis}")]["gum"];
-        near(axis, &gum["estimate"], &gum["standard_uncertainty"], re.hypot(im));
+        near(axis, &gum["estimate"], &gum["standard_uncertainty"], seen.modulus());
         // U is at least 1.9 u, so 1.5 U is about 3 u
-        let row = &stated["rows"][place];
+        let row = &stated["rows"][index];
         let (value, expanded) = (number(&row["value"]), number(&row["expanded_uncertainty"]));
-        assert!((value - truth::AXES[place]).abs() < 1.5 * expanded, "{axis}: {row}");
+        assert!((value - truth::AXES[index]).abs() < 1.5 * expanded, "{axis}: {row}");
         assert_eq!(row["unit"], "D/(m/s^2)");
     }
     // the budget has what the recording says of the amplitude along z' less the reference: it is

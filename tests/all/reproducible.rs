@@ -134,7 +134,7 @@ fn figures(evaluation: &Evaluation) -> Vec<[f64; 5]> {
 fn capped_runs_are_the_same_on_any_number_of_threads() {
     let task = curved(300_001);
     let with = |threads: usize| {
-        let control = Control { memory: 100 << 10, threads, ..Control::default() };
+        let control = Control::default().with_memory(100 << 10).with_threads(threads);
         format!("{:?}", evaluate(&task, &control).expect("an evaluation"))
     };
     let one = with(1);
@@ -152,7 +152,7 @@ fn capped_memory_gives_the_same_order_statistics() {
         task
     }] {
         let with = |memory: usize, threads: usize| {
-            let control = Control { memory, threads, ..Control::default() };
+            let control = Control::default().with_memory(memory).with_threads(threads);
             evaluate(&task, &control).expect("an evaluation")
         };
         let whole = with(1 << 30, 2);
@@ -176,7 +176,7 @@ fn capped_memory_gives_the_same_order_statistics() {
 fn the_code_path_and_the_number_of_threads_do_not_matter() {
     let task = curved(300_001);
     let with = |path: CodePath, threads: usize| {
-        let control = Control { path, threads, ..Control::default() };
+        let control = Control::default().with_path(path).with_threads(threads);
         format!("{:?}", evaluate(&task, &control).expect("an evaluation"))
     };
     let first = with(CodePath::best(), 1);

@@ -7,7 +7,6 @@ use clap::{Args, ValueEnum};
 use super::options::{Answer, Model, Seed, Threads};
 use super::{Exit, Failure, Program, options, progress, run};
 use gumption_analysis::assumptions::{Audit, Question, audit, trials_to_make};
-use gumption_engine::propagate::Control;
 use gumption_engine::task::{Coverage, Task, Trials, Warning};
 use gumption_files::ModelFile;
 use gumption_report as report;
@@ -129,7 +128,7 @@ impl Assumptions {
     ) -> Result<Option<Audit>, Failure> {
         let bar = progress::bar(Some(trials_to_make(task, question)), self.answer.quiet);
         let advance = |trials: u64| bar.inc(trials);
-        let control = Control { progress: Some(&advance), ..self.threads.control(stop) };
+        let control = self.threads.control(stop).with_progress(&advance);
         let result = audit(task, &file.evidence, question, &control);
         bar.finish_and_clear();
         let found = result.map_err(|error| run::failure(file, error))?;

@@ -10,7 +10,7 @@ use super::options::{self, Answer, Seed, Threads};
 use super::{Exit, Failure, Program, output, progress, run};
 use gumption_analysis::certificate::contents::Certificate as Asked;
 use gumption_analysis::certificate::{Failed, Issued, issue};
-use gumption_engine::propagate::{Control, EvaluationError, warnings};
+use gumption_engine::propagate::{EvaluationError, warnings};
 use gumption_engine::task::{Trials, Warning};
 use gumption_files as file;
 use gumption_files::{CertificateFile, Diagnostic, DiagnosticKind, Diagnostics};
@@ -141,7 +141,7 @@ impl Certificate {
     ) -> Result<Issued, Failure> {
         let bar = progress::bar(trials_to_make(&file.certificate), self.answer.quiet);
         let advance = |trials: u64| bar.inc(trials);
-        let control = Control { progress: Some(&advance), ..self.threads.control(stop) };
+        let control = self.threads.control(stop).with_progress(&advance);
         let digests: Vec<Arc<str>> =
             models.iter().map(|model| Arc::from(model.digest.as_str())).collect();
         let result = issue(&file.certificate, &digests, &control);

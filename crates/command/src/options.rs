@@ -128,7 +128,7 @@ impl Threads {
 
     /// A run on them that a flag stops.
     pub(super) fn control<'s>(&self, stop: &'s AtomicBool) -> Control<'s> {
-        Control { threads: self.count(), stop: Some(stop), ..Control::default() }
+        Control::default().with_threads(self.count()).with_stop(stop)
     }
 }
 

@@ -210,7 +210,7 @@ impl Run {
     }
 
     fn control<'s>(&self, stop: &'s AtomicBool) -> Control<'s> {
-        Control { memory: self.memory, ..self.threads.control(stop) }
+        self.threads.control(stop).with_memory(self.memory)
     }
 
     fn evaluate(
@@ -226,7 +226,7 @@ impl Run {
         };
         let bar = progress::bar(trials, self.answer.quiet);
         let advance = |trials: u64| bar.inc(trials);
-        let control = Control { progress: Some(&advance), ..self.control(stop) };
+        let control = self.control(stop).with_progress(&advance);
         let result = evaluate(task, &control);
         bar.finish_and_clear();
         let evaluation = result.map_err(|error| failure(file, error))?;
@@ -263,9 +263,8 @@ pub(super) fn failure(file: &ModelFile, error: EvaluationError) -> Failure {
     let message = error.to_string();
     match error {
         EvaluationError::Threads(_) => Failure::System(message),
-        EvaluationError::Undefined { .. }
-        | EvaluationError::NotFinite { .. }
-        | EvaluationError::Correlation { .. } => {
+        // everything else follows from what the file says
+        _ => {
             let (source, span) = file.output_place(0);
             let kind = DiagnosticKind::Evaluation { message };
             Failure::Diagnostics(Diagnostics(vec![Diagnostic { source, span, kind }]))

@@ -5,7 +5,9 @@
 
 pub mod decimal;
 pub mod distribution;
+pub mod linalg;
 pub mod model;
 pub mod number;
 pub mod propagate;
+pub mod special;
 pub mod task;

@@ -7,7 +7,9 @@ use gumption_engine::model::Program;
 use gumption_engine::number::CodePath;
 use gumption_engine::propagate::gum;
 use gumption_engine::propagate::gum::Dof;
-use gumption_engine::propagate::gum::bulk::{BulkError, Each, Known, Options, budgets};
+use gumption_engine::propagate::gum::bulk::{
+    BulkError, BulkInput, BulkOptions, BulkValue, budgets,
+};
 use gumption_engine::task::Task;
 
 /// The inclined plane with spurious motion over three conditions, some inputs of which vary with
@@ -45,9 +47,9 @@ fn columns(task: &Task) -> Vec<[Vec<f64>; 3]> {
 }
 
 /// A column; the number itself if all are the same and `short` is wanted.
-fn each(column: &[f64], short: bool) -> Each<'_> {
+fn each(column: &[f64], short: bool) -> BulkValue<'_> {
     let same = short && column.iter().all(|x| *x == column[0]);
-    if same { Each::Same(column[0]) } else { Each::Rows(column) }
+    if same { BulkValue::Same(column[0]) } else { BulkValue::Rows(column) }
 }
 
 /// The same bits as an evaluation row by row, on every code path, with a declared correlation and
@@ -61,19 +63,20 @@ fn budgets_in_columns_are_those_of_single_rows() {
             [0, 1].map(|c| task.rows.iter().map(|row| row.conditions[c]).collect());
         for (short, path) in CodePath::available().into_iter().flat_map(|p| [(false, p), (true, p)])
         {
-            let known: Vec<Known<'_>> = columns
+            let known: Vec<BulkInput<'_>> = columns
                 .iter()
-                .map(|[mean, u, dof]| Known {
+                .map(|[mean, u, dof]| BulkInput {
                     estimate: each(mean, short),
                     standard_uncertainty: each(u, short),
                     dof: each(dof, short),
                 })
                 .collect();
-            let options = Options { correlations: &task.correlations, path, ..Options::default() };
+            let options =
+                BulkOptions { correlations: &task.correlations, path, ..BulkOptions::default() };
             let made = budgets(
                 &task.model.program,
                 &known,
-                &[Each::Rows(&conditions[0]), Each::Rows(&conditions[1])],
+                &[BulkValue::Rows(&conditions[0]), BulkValue::Rows(&conditions[1])],
                 options,
             )
             .unwrap();
@@ -112,8 +115,8 @@ fn a_row_without_a_budget_says_so() {
     let recorder = gumption_engine::model::Recorder::default();
     let x = recorder.variable(0);
     let program = recorder.program(1, &[gumption_engine::number::Number::sqrt(x)]);
-    let known = [Known::new(Each::Rows(&[0.0, 4.0]), Each::Same(0.1))];
-    let made = budgets(&program, &known, &[], Options::default()).unwrap();
+    let known = [BulkInput::new(BulkValue::Rows(&[0.0, 4.0]), BulkValue::Same(0.1))];
+    let made = budgets(&program, &known, &[], BulkOptions::default()).unwrap();
     assert_eq!(made[0].estimates, [0.0, 2.0]);
     assert!(made[0].standard_uncertainties[0].is_nan() && made[0].coverage_factors[0].is_nan());
     assert!((made[0].standard_uncertainties[1] - 0.025).abs() < 1e-17);
@@ -122,11 +125,12 @@ fn a_row_without_a_budget_says_so() {
 #[test]
 fn what_does_not_fit_is_refused() {
     let program = Program { variables: 2, ..Program::default() };
-    let one = Known::new(Each::Same(1.0), Each::Same(0.1));
-    let two = Known::new(Each::Rows(&[1.0, 2.0]), Each::Same(0.1));
-    let three = Known::new(Each::Rows(&[1.0, 2.0, 3.0]), Each::Same(0.1));
-    let run = |known: &[Known<'_>], correlations: &[Correlation]| {
-        budgets(&program, known, &[], Options { correlations, ..Options::default() }).unwrap_err()
+    let one = BulkInput::new(BulkValue::Same(1.0), BulkValue::Same(0.1));
+    let two = BulkInput::new(BulkValue::Rows(&[1.0, 2.0]), BulkValue::Same(0.1));
+    let three = BulkInput::new(BulkValue::Rows(&[1.0, 2.0, 3.0]), BulkValue::Same(0.1));
+    let run = |known: &[BulkInput<'_>], correlations: &[Correlation]| {
+        budgets(&program, known, &[], BulkOptions { correlations, ..BulkOptions::default() })
+            .unwrap_err()
     };
     assert_eq!(run(&[one], &[]), BulkError::Variables { found: 1, expected: 2 });
     assert_eq!(run(&[two, three], &[]), BulkError::Rows);

@@ -21,7 +21,7 @@ fn too_few_trials_decide_nothing() {
     let mut verdict = |trials: u64, p: f64, memory: usize| {
         file.task.settings.trials = Trials::Fixed(trials);
         file.task.settings.coverage = Coverage::Probability(p);
-        let control = Control { memory, ..Control::default() };
+        let control = Control::default().with_memory(memory);
         let evaluation = evaluate(&file.task, &control).unwrap();
         let output = &evaluation.rows[0].outputs[0];
         let figures = output.monte_carlo.as_ref().unwrap();

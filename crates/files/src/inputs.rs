@@ -15,7 +15,7 @@ use super::paired;
 use super::results::Results;
 use super::samples;
 use super::shapes::{self, Estimate, Fields, Kind};
-use gumption_engine::distribution::{Constant, Distribution, Evaluation, Samples};
+use gumption_engine::distribution::{Constant, Distribution, EvaluationType, Samples};
 use gumption_engine::model::formula::Formula;
 use gumption_engine::model::{InputQuantity, Quantity};
 use gumption_engine::task::{Evidence, Sharing, Variable, Warning};
@@ -260,10 +260,10 @@ impl<'a> Reader<'a, '_> {
             self.inputs.paired.push(self.inputs.variables.len());
         }
         let evaluation = match object.text("type") {
-            Some("A") => Evaluation::A,
-            Some("B") => Evaluation::B,
-            None if readings => Evaluation::A,
-            None => Evaluation::B,
+            Some("A") => EvaluationType::A,
+            Some("B") => EvaluationType::B,
+            None if readings => EvaluationType::A,
+            None => EvaluationType::B,
             Some(other) => {
                 let diagnostic = DiagnosticKind::NotOneOf {
                     key: "type".into(),
@@ -272,7 +272,7 @@ impl<'a> Reader<'a, '_> {
                 };
                 let place = object.get("type").map_or(object.place(), |m| &m.value.span);
                 object.log.report(place, diagnostic);
-                Evaluation::B
+                EvaluationType::B
             }
         };
         let about = object.text("about").or_else(|| self.object.text("about")).unwrap_or("");

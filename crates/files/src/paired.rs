@@ -206,10 +206,10 @@ mod tests {
         let declared = "\"correlations\": [[\"t\", \"s\", 0.5], [\"s\", \"n\", -0.8]],";
         let task = read(&inputs, declared, "V/I + t*s + n").unwrap();
         let hash = |path, threads| {
-            let control = Control { path, threads, ..Control::default() };
+            let control = Control::default().with_path(path).with_threads(threads);
             trial_hash(&task, 20_000, &control).unwrap()
         };
-        let first = hash(CodePath::Baseline, 1);
+        let first = hash(CodePath::BASELINE, 1);
         for path in CodePath::available() {
             assert_eq!([hash(path, 1), hash(path, 3)], [first; 2], "{}", path.name());
         }

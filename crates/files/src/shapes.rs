@@ -12,9 +12,10 @@ use super::width::Width;
 use gumption_engine::distribution::{
     Arcsine, Beta, Constant, CurvilinearTrapezoid, Distribution, Exponential, Gamma, Invalid,
     LogUniform, Lognormal, Normal, PoissonCount, Readings, Rectangular, Samples, StudentT,
-    Trapezoidal, Triangular, special,
+    Trapezoidal, Triangular,
 };
 use gumption_engine::model::formula::Formula;
+use gumption_engine::special;
 use gumption_units::Unit;
 
 /// A shape that files can name: its canonical name, its other names, its fields.

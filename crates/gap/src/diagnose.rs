@@ -11,8 +11,8 @@ use super::setup::Setup;
 use super::shrink::{self, Correction};
 use super::{next, scan};
 use crate::Case;
-use gumption_engine::distribution::special;
 use gumption_engine::number::COLUMN;
+use gumption_engine::special;
 use gumption_engine::task::{Coverage, Row};
 
 /// Two hypotheses look alike if their best predictions differ by less than this, in standard

@@ -1,7 +1,8 @@
 //! Probabilities that know how well their integrals are known.
 
-use gumption_engine::distribution::{StreamKey, special};
+use gumption_engine::distribution::StreamKey;
 use gumption_engine::number::COLUMN;
+use gumption_engine::special;
 
 /// An error of a logarithm below this changes no probability by more than about 0.0003.
 const NEGLIGIBLE: f64 = 0.05;

@@ -5,7 +5,8 @@
 //! quantile of its prior at the probability of a standard normal score.
 
 use super::likelihood::HALF_LN_TWO_PI;
-use gumption_engine::distribution::{Distribution, special};
+use gumption_engine::distribution::Distribution;
+use gumption_engine::special;
 
 /// How a score becomes a value.
 #[derive(Clone, Debug)]

@@ -8,7 +8,7 @@ use super::covariance::{Covariance, triangle};
 use super::data::Data;
 use super::latent::Role;
 use crate::Case;
-use gumption_engine::model::{Place, Program, Schedule};
+use gumption_engine::model::{Program, Schedule, ScheduledOutput};
 use gumption_engine::number::{COLUMN, CodePath, Column, Kernel};
 use gumption_engine::task::Row;
 
@@ -138,8 +138,10 @@ impl Evaluator {
         schedule.run(registers);
         for (out, &output) in out.iter_mut().zip(&self.outputs) {
             match schedule.outputs[output] {
-                Place::Register(register) => out.0.copy_from_slice(&registers[register].0),
-                Place::Constant(value) => out.0.fill(value),
+                ScheduledOutput::Register(register) => {
+                    out.0.copy_from_slice(&registers[register].0)
+                }
+                ScheduledOutput::Constant(value) => out.0.fill(value),
             }
         }
     }

@@ -10,7 +10,8 @@ use super::doubt;
 use super::evidence::{Evidence, ln_add};
 use super::likelihood::Likelihood;
 use super::setup::Setup;
-use gumption_engine::distribution::{StreamKey, special};
+use gumption_engine::distribution::StreamKey;
+use gumption_engine::special;
 
 /// A hypothesis that effects explain the data: none of them, or one or more together.
 #[derive(Debug)]

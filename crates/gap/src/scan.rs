@@ -11,8 +11,8 @@ use super::diagnosis::Region;
 use super::setup::Setup;
 use crate::mixture::standard_normals;
 use gumption_engine::distribution::StreamKey;
-use gumption_engine::distribution::special;
 use gumption_engine::number::{COLUMN, Column};
+use gumption_engine::special;
 
 /// Conditions with more levels than this are scanned in so many bins.
 const MOST_LEVELS: usize = 40;

@@ -10,7 +10,7 @@ use super::subtotals::Subtotals;
 use gumption_engine::propagate::gum::{BudgetLine, CorrelationLine, Dof, Gum};
 use gumption_engine::propagate::monte_carlo::{MonteCarlo, NumericalError};
 use gumption_engine::propagate::{
-    Conformity, Evaluation, OutputEvaluation, RowEvaluation, Stated, validate,
+    CapabilityStatement, Conformity, Evaluation, OutputEvaluation, RowEvaluation, validate,
 };
 use gumption_engine::task::{Task, Trials, Warning};
 
@@ -294,7 +294,7 @@ struct CmcSide {
 impl CmcSide {
     fn of(output: &gumption_engine::model::Output, evaluation: &OutputEvaluation) -> Option<Self> {
         let stated = evaluation.stated(output)?;
-        let Stated { cmc, expanded_uncertainty, raised } = stated;
+        let CapabilityStatement { cmc, expanded_uncertainty, raised } = stated;
         Some(Self { cmc, expanded_uncertainty, raised })
     }
 }

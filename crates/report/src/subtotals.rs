@@ -1,6 +1,6 @@
 //! Shares of the combined variance, added up by group and by type of evaluation.
 
-use gumption_engine::distribution::Evaluation;
+use gumption_engine::distribution::EvaluationType;
 use gumption_engine::propagate::gum::Gum;
 use gumption_engine::task::Task;
 
@@ -11,13 +11,13 @@ pub(super) struct Subtotals<'a> {
     /// Groups in order of first appearance, then the inputs without one.
     pub(super) groups: Vec<(Option<&'a str>, f64)>,
     /// Type A and type B.
-    pub(super) types: [(Evaluation, f64); 2],
+    pub(super) types: [(EvaluationType, f64); 2],
 }
 
 impl<'a> Subtotals<'a> {
     pub(crate) fn of(task: &'a Task, gum: &Gum) -> Self {
         let mut groups: Vec<(Option<&str>, f64)> = Vec::new();
-        let mut types = [(Evaluation::A, 0.0), (Evaluation::B, 0.0)];
+        let mut types = [(EvaluationType::A, 0.0), (EvaluationType::B, 0.0)];
         for line in gum.budget() {
             let Some(variable) = task.variables.get(line.variable) else { continue };
             let group = variable.group.as_deref();

@@ -6,9 +6,9 @@ use std::f64::consts::PI;
 
 use super::analysis::Analysed;
 use super::polar::{Polar, wrapped};
-use gumption_engine::distribution::special::normal;
 use gumption_engine::distribution::{BLOCK, StreamKey};
 use gumption_engine::number::elementary::{atan2, hypot, sin};
+use gumption_engine::special::normal;
 
 /// Root mean square errors over the trials.
 #[derive(Clone, Debug)]

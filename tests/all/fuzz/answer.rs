@@ -11,6 +11,7 @@ use gumption::propagate::monte_carlo::MonteCarlo;
 use gumption::propagate::{Control, evaluate, warnings};
 use gumption::report;
 use gumption::task::Trials;
+use serde_json::Value;
 
 use super::folder::Folder;
 use crate::support::command;
@@ -52,7 +53,7 @@ fn in_schema(text: &str) {
 }
 
 /// Mistakes have places inside their text and a sentence of a reasonable length.
-pub(crate) fn explained(problems: &Problems) {
+pub(super) fn explained(problems: &Problems) {
     assert!(!problems.0.is_empty(), "refused without a reason");
     for problem in &problems.0 {
         let (line, column) = problem.position();
@@ -67,14 +68,14 @@ pub(crate) fn explained(problems: &Problems) {
 }
 
 /// Evaluates with few trials and writes every report.
-pub(crate) fn answered(mut file: ModelFile) {
+fn answered(mut file: ModelFile) {
     file.task.rows.truncate(3);
     file.task.settings.trials = match file.task.settings.trials {
         Trials::Fixed(trials) => Trials::Fixed(trials.min(300)),
         Trials::Adaptive => Trials::Adaptive,
     };
     file.task.settings.max_trials = file.task.settings.max_trials.min(20_000);
-    let control = Control { threads: 1, ..Control::default() };
+    let control = Control::default().with_threads(1);
     let evaluation = match evaluate(&file.task, &control) {
         Ok(evaluation) => evaluation,
         Err(error) => {
@@ -118,8 +119,7 @@ pub(crate) fn answered(mut file: ModelFile) {
     let csv = report::csv(&report);
     assert!(csv.split([',', '\n']).all(|cell| !["NaN", "inf", "-inf"].contains(&cell)), "{csv}");
     let json = report::json(&report);
-    let parsed = serde_json::from_str::<serde_json::Value>(&json);
-    assert!(parsed.is_ok(), "the answer is no JSON: {json}");
+    assert!(serde_json::from_str::<Value>(&json).is_ok(), "the answer is no JSON: {json}");
     let difference = diff::compare(&file, &file);
     assert!(difference.changes.is_empty(), "{:?}", difference.changes);
 }
@@ -181,7 +181,7 @@ pub(super) fn of_program(text: &str, folder: &Folder) {
     let said = String::from_utf8_lossy(&output.stderr);
     match output.status.code() {
         Some(0) => {
-            let parsed = serde_json::from_slice::<serde_json::Value>(&output.stdout);
+            let parsed = serde_json::from_slice::<Value>(&output.stdout);
             assert!(parsed.is_ok(), "{}", String::from_utf8_lossy(&output.stdout));
         }
         Some(2) => {

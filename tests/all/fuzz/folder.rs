@@ -9,8 +9,7 @@ use gumption::file::read_text;
 use gumption::report;
 use gumption_engine::propagate::{Control, evaluate, joint_ranks, linear, origins, quantiles};
 
-use super::random::Random;
-use super::tree::Tree;
+use super::choices::Choices;
 use super::{grammar, mutation};
 use crate::support::root;
 
@@ -24,7 +23,7 @@ const TABLE: &str = "f,g\n1,0.5\n2,1.5\n3,2.5\n";
 const SAMPLES: &str = "# volts\n1\n1.5\n2\n0.25\n";
 
 /// The result file of a small model.
-fn result() -> &'static str {
+pub(super) fn result() -> &'static str {
     static RESULT: OnceLock<String> = OnceLock::new();
     RESULT.get_or_init(|| {
         let text = r#"{"inputs": {
@@ -33,7 +32,7 @@ fn result() -> &'static str {
           "equations": {"y": "a*b", "z": "a + b"},
           "outputs": {"y": {"unit": "m^2"}, "z": {"unit": "m"}}, "monte_carlo": {"trials": 2000}}"#;
         let file = read_text("saved", text, Path::new(""), &[]).expect("a right file");
-        let control = Control { threads: 1, ..Control::default() };
+        let control = Control::default().with_threads(1);
         let evaluation = evaluate(&file.task, &control).expect("an answer");
         let provenance = report::Provenance { model_sha256: "0".repeat(64), files: Vec::new() };
         let scores: Vec<f64> = gumption_engine::distribution::Scores::WRITTEN.values().collect();
@@ -91,58 +90,56 @@ impl Folder {
     }
 
     /// Changes one of the files that cases name.
-    pub(super) fn change(&self, random: &mut Random) {
+    pub(super) fn change(&self, choices: &mut Choices) {
         self.changed.set(true);
-        match random.below(4) {
+        match choices.below(4) {
             0 => {
-                let mut file = Tree::parse(result());
-                for _ in 0..random.between(1, 4) {
-                    mutation::mutate(random, &mut file);
+                let mut file = serde_json::from_str(result()).expect("JSON");
+                for _ in 0..choices.between(1, 4) {
+                    mutation::mutate(choices, &mut file);
                 }
-                self.write("r.result", &file.render());
+                self.write("r.result", &file.to_string());
             }
             1 => {
-                let mut text = result().to_owned();
-                mutation::damage(random, &mut text);
-                self.write("r.result", &text);
+                self.write("r.result", &mutation::damage(choices, result(), 1));
             }
-            2 => self.write("t.csv", &table(random)),
+            2 => self.write("t.csv", &table(choices)),
             _ => {
-                let mut text: String = (0..random.between(0, 12))
-                    .map(|_| random.number() + random.pick(&["\n", "\n", "\r\n", "\n\n", " ", ","]))
+                let text: String = (0..choices.between(0, 12))
+                    .map(|_| {
+                        choices.spelling() + choices.pick(&["\n", "\n", "\r\n", "\n\n", " ", ","])
+                    })
                     .collect();
-                if random.chance(30) {
-                    mutation::damage(random, &mut text);
-                }
-                self.write("s.txt", &text);
+                let times = usize::from(choices.chance(30));
+                self.write("s.txt", &mutation::damage(choices, &text, times));
             }
         }
     }
 }
 
 /// A table, right or not.
-fn table(random: &mut Random) -> String {
-    let separator = random.pick(&[",", ",", ";", "\t", " , "]);
-    let header = if random.chance(80) {
+fn table(choices: &mut Choices) -> String {
+    let separator = choices.pick(&[",", ",", ";", "\t", " , "]);
+    let header = if choices.chance(80) {
         "f,g\n"
     } else {
-        random.pick(&["f;g\n", "f\n", "f,f\n", "\u{feff}f,g\n", "# c\nf,g\n", "\n"])
+        choices.pick(&["f;g\n", "f\n", "f,f\n", "\u{feff}f,g\n", "# c\nf,g\n", "\n"])
     };
     let mut whole = header.replace(',', separator.trim());
-    for _ in 0..random.between(0, 5) {
-        let cells = if random.chance(90) { 2 } else { random.between(0, 4) };
-        let cell = |random: &mut Random| match random.below(12) {
+    for _ in 0..choices.between(0, 5) {
+        let cells = if choices.chance(90) { 2 } else { choices.between(0, 4) };
+        let cell = |choices: &mut Choices| match choices.below(12) {
             0 => String::new(),
             1 => "\"1\n2\"".to_owned(),
             2 => "1,5".to_owned(),
-            _ => random.number(),
+            _ => choices.spelling(),
         };
-        let cells: Vec<String> = (0..cells).map(|_| cell(random)).collect();
+        let cells: Vec<String> = (0..cells).map(|_| cell(choices)).collect();
         whole += &cells.join(separator);
-        whole += random.pick(&["\n", "\n", "\r\n", "\n#x\n", "\n\n"]);
+        whole += choices.pick(&["\n", "\n", "\r\n", "\n#x\n", "\n\n"]);
     }
-    if random.chance(10) {
-        whole += random.pick(grammar::NAMES);
+    if choices.chance(10) {
+        whole += choices.pick(grammar::NAMES);
     }
     whole
 }

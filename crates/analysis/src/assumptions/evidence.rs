@@ -5,8 +5,9 @@
 
 use super::alternatives::limits;
 use super::anderson_darling::{p_value, statistic};
-use gumption_engine::distribution::{BLOCK, Distribution, FromScore, Normal, StreamKey, special};
+use gumption_engine::distribution::{BLOCK, Distribution, FromScore, Normal, StreamKey};
 use gumption_engine::number::{COLUMN, Column};
+use gumption_engine::special;
 use std::sync::Arc;
 
 /// What readings say about a stated distribution.

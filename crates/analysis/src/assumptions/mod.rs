@@ -24,7 +24,7 @@ pub use alternatives::Kept;
 pub use evidence::{EvidenceTest, EvidenceVerdict, SupportedWidth, agreement};
 pub use sobol::Sobol;
 
-use gumption_engine::distribution::{Distribution, Evaluation, FromScore};
+use gumption_engine::distribution::{Distribution, EvaluationType, FromScore};
 use gumption_engine::propagate::{Control, EvaluationError, gum, in_pool};
 use gumption_engine::task::{Evidence, Row, Task, Warning};
 use sampler::{Change, Sampler};
@@ -195,8 +195,8 @@ pub fn trials_to_make(task: &Task, question: Question) -> u64 {
 }
 
 /// Whether there is an assumption to be changed.
-fn changed(evaluation: Evaluation, known: &Distribution) -> bool {
-    evaluation == Evaluation::B && known.constant().is_none()
+fn changed(evaluation: EvaluationType, known: &Distribution) -> bool {
+    evaluation == EvaluationType::B && known.constant().is_none()
 }
 
 /// Compares the readings of one input with what the first row states.

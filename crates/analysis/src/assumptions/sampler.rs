@@ -2,7 +2,7 @@
 //! everything keeps its random numbers.
 
 use gumption_engine::distribution::{BLOCK, Draws, FromScore, StreamKey, Varying};
-use gumption_engine::model::{Place, Schedule};
+use gumption_engine::model::{Schedule, ScheduledOutput};
 use gumption_engine::number::{COLUMN, CodePath, Column, Kernel};
 use gumption_engine::propagate::monte_carlo::{onto_branch, stream_name};
 use gumption_engine::propagate::{EvaluationError, gum, joint};
@@ -124,7 +124,6 @@ impl Sampler {
         buffers: &mut Buffers,
         out: &mut [Block],
     ) {
-        let path = path.or_baseline();
         path.run(Changed { path, sampler: self, block, changes, buffers, out });
     }
 
@@ -139,13 +138,11 @@ impl Sampler {
         buffers: &mut Buffers,
         out: &mut [Block],
     ) {
-        let path = path.or_baseline();
         path.run(Mixed { path, sampler: self, block, sets, buffers, out });
     }
 
     /// The values of all quantities in the first `blocks` blocks, column by column.
     pub(super) fn drawn(&self, path: CodePath, block: u64, buffers: &mut Buffers) -> Vec<Column> {
-        let path = path.or_baseline();
         path.run(Drawn { path, sampler: self, block, buffers })
     }
 
@@ -176,8 +173,8 @@ impl Sampler {
     #[inline(always)]
     fn output(&self, registers: &[Column], output: usize, out: &mut [f64]) {
         match self.schedule.outputs[output] {
-            Place::Register(register) => out.copy_from_slice(&registers[register].0),
-            Place::Constant(value) => out.fill(value),
+            ScheduledOutput::Register(register) => out.copy_from_slice(&registers[register].0),
+            ScheduledOutput::Constant(value) => out.fill(value),
         }
         if let Some((middle, turn)) = self.branches[output] {
             onto_branch(out, middle, turn);

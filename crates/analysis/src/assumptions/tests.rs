@@ -15,7 +15,7 @@ fn model(inputs: &str, equation: &str, more: &str) -> ModelFile {
 
 fn audited(file: &ModelFile, trials: u64) -> Audit {
     let question = Question { trials, allowed: 0.05 };
-    let control = Control { threads: 2, ..Control::default() };
+    let control = Control::default().with_threads(2);
     audit(&file.task, &file.evidence, question, &control).unwrap().unwrap()
 }
 
@@ -200,7 +200,7 @@ fn figures_are_reproducible() {
     let file = model(RECTANGLE, "x^2", "");
     let question = Question { trials: 100_000, allowed: 0.05 };
     let run = |threads: usize, memory: usize| {
-        let control = Control { threads, memory, ..Control::default() };
+        let control = Control::default().with_threads(threads).with_memory(memory);
         format!("{:?}", audit(&file.task, &[], question, &control).unwrap().unwrap())
     };
     let one = run(1, 64 << 20);

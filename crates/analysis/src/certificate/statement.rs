@@ -3,11 +3,11 @@
 use super::rounding;
 use crate::certificate::contents::Rounding;
 use gumption_engine::decimal::{Decimal, Direction, to_position};
-use gumption_engine::distribution::special;
 use gumption_engine::model::Capability;
 use gumption_engine::propagate::OutputEvaluation;
 use gumption_engine::propagate::gum::{Dof, Gum};
 use gumption_engine::propagate::monte_carlo::MonteCarlo;
+use gumption_engine::special;
 use gumption_engine::task::{Coverage, Settings};
 
 /// What a stated expanded uncertainty rests on.

@@ -13,7 +13,7 @@ use nalgebra::{DMatrix, DVector};
 use super::pair::StatedResult;
 use super::subset::{self, SubsetSearch};
 use super::{FACTOR, probability};
-use gumption_engine::distribution::special;
+use gumption_engine::special;
 
 /// The result of a laboratory.
 #[derive(Clone, Debug, PartialEq)]

@@ -8,7 +8,7 @@ mod subset;
 pub use laboratories::{Comparison, DegreeOfEquivalence, Impossible, Laboratory};
 pub use pair::{ComparedPair, ResultPair, StatedResult};
 
-use gumption_engine::distribution::special;
+use gumption_engine::special;
 
 /// The coverage factor of expanded uncertainties in the answers.
 pub const FACTOR: f64 = 2.0;

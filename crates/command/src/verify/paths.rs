@@ -53,7 +53,7 @@ impl Paths {
         let mut text = String::new();
         let mut hashes = Vec::new();
         for path in CodePath::available() {
-            let control = Control { path, threads, ..Control::default() };
+            let control = Control::default().with_path(path).with_threads(threads);
             let hash = trial_hash(&file.task, trials, &control)
                 .map_err(|error| Failure::System(error.to_string()))?;
             let _ = writeln!(text, "{:8} {hash:016x}", path.name());

@@ -57,7 +57,7 @@ fn answer(
         task.settings.trials = Trials::Fixed(0);
     }
     let Machine { threads, stop } = machine;
-    let control = Control { threads, stop: Some(stop), ..Control::default() };
+    let control = Control::default().with_threads(threads).with_stop(stop);
     let evaluation = evaluate(&task, &control).map_err(|error| error.to_string())?;
     let provenance = Provenance::default();
     let report = EvaluationReport {

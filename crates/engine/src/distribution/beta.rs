@@ -3,9 +3,9 @@
 
 use super::gamma;
 use super::shape::{Invalid, Shape, finite, limits};
-use super::special;
 use super::stream::Stream;
 use crate::number::{COLUMN, Column, elementary};
+use crate::special;
 
 /// A beta distribution by its two shapes, from 0 to 1 or between limits.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -2,10 +2,10 @@
 //! within an interval (JCGM 101, 6.4.3).
 
 use super::shape::{Invalid, Shape, finite, limits, positive};
-use super::special::ln_1p_minus;
-use super::special::root::{Point, Trend, find};
 use super::stream::Stream;
 use crate::number::{COLUMN, Column, elementary};
+use crate::special::ln_1p_minus;
+use crate::special::root::{Point, Trend, find};
 
 /// A rectangular distribution of inexactly known width about a known middle.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,9 +1,9 @@
 //! The gamma distribution (JCGM 101, 6.4.11).
 
 use super::shape::{Invalid, Shape, positive, within};
-use super::special;
 use super::stream::Stream;
 use crate::number::{COLUMN, Column, elementary};
+use crate::special;
 
 /// The least shape: a draw in a thousand is then below the smallest normal number, which stands for
 /// it.

@@ -8,14 +8,14 @@ use gumption_units::{Unit, UnitError};
 
 /// How a standard uncertainty was evaluated (JCGM 100, 2.3.2 and 2.3.3).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Evaluation {
+pub enum EvaluationType {
     /// By statistical analysis of readings.
     A,
     /// By any other means.
     B,
 }
 
-impl Evaluation {
+impl EvaluationType {
     /// The usual evaluation of a distribution: A for readings, else B.
     pub fn of(distribution: &Distribution) -> Self {
         if matches!(distribution, Distribution::Readings(_)) { Self::A } else { Self::B }
@@ -47,7 +47,7 @@ pub struct Input {
     /// The unit.
     pub unit: Unit,
     /// Type A or B.
-    pub evaluation: Evaluation,
+    pub evaluation: EvaluationType,
     /// A group for subtotals of the budget.
     pub group: Option<String>,
     /// The source of uncertainty, in words.
@@ -62,7 +62,7 @@ impl Input {
     pub fn new(distribution: impl Into<Distribution>, unit: &str) -> Result<Self, InputError> {
         let distribution = distribution.into();
         Ok(Self {
-            evaluation: Evaluation::of(&distribution),
+            evaluation: EvaluationType::of(&distribution),
             distribution,
             unit: Unit::parse(unit)?,
             group: None,

@@ -41,7 +41,7 @@ impl LogUniform {
         }
     }
 
-    /// The value at the place `s`, from -1 to 1 between the limits, kept from leaving them by
+    /// The value at the position `s`, from -1 to 1 between the limits, kept from leaving them by
     /// rounding.
     #[inline(always)]
     fn at(&self, middle: f64, spread: f64, s: f64) -> f64 {

@@ -1,10 +1,11 @@
 //! The lognormal distribution, of a positive quantity whose logarithm is normal (JCGM 101, 6.4.7,
 //! for the logarithm).
 
+use super::normal;
 use super::shape::{Invalid, Shape, positive, within};
 use super::stream::Stream;
-use super::{normal, special};
 use crate::number::{COLUMN, Column, elementary};
+use crate::special;
 
 /// Ratios of standard deviation and expectation beyond this are no measurements any more.
 const MOST_RELATIVE: f64 = 1e6;

@@ -3,8 +3,9 @@
 
 use super::shape::{Invalid, Shape, drawn_degrees_of_freedom, finite, positive};
 use super::stream::Stream;
-use super::{special, student};
+use super::student;
 use crate::number::{COLUMN, Column, elementary};
+use crate::special;
 
 /// A normal distribution, or a scaled and shifted t if it has finite degrees of freedom.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -2,7 +2,7 @@
 //!
 //! Trials are drawn through the quantile function of the saved run's trials. It is tabulated over
 //! normal scores: entry k is the quantile at the probability Phi(z_k), z_k = from + k step. Equal
-//! steps of the score are steps that become finer towards the tails, the place in the table follows
+//! steps of the score are steps that become finer towards the tails, the position in the table follows
 //! from one multiplication, and a nearly normal result is nearly a straight line. Between entries
 //! the function is straight, so it never falls; beyond them it is constant.
 //!
@@ -12,10 +12,11 @@
 use std::collections::{BTreeMap, HashMap};
 use std::sync::Arc;
 
+use super::normal;
 use super::shape::{Invalid, Shape, finite, positive};
 use super::stream::Stream;
-use super::{normal, special};
 use crate::number::Column;
+use crate::special;
 
 /// The normal scores over which a quantile function is tabulated.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -227,10 +228,10 @@ impl SavedResult {
     #[inline(always)]
     pub(super) fn at(&self, score: f64) -> f64 {
         let last = self.cells.len() - 1;
-        let place = ((score - self.from) * self.per_score).clamp(0.0, last as f64);
-        let cell = (place as usize).min(last);
+        let position = ((score - self.from) * self.per_score).clamp(0.0, last as f64);
+        let cell = (position as usize).min(last);
         let [start, rise] = self.cells[cell];
-        start + rise * (place - cell as f64)
+        start + rise * (position - cell as f64)
     }
 
     /// The value at `share` (from 0 to 1) of the stretch of probability of the rank `rank`, counted

@@ -71,7 +71,7 @@ impl Shape for Samples {
 
     #[inline(always)]
     fn draw(&self, stream: &mut Stream, out: &mut Column) {
-        // uniform numbers are whole multiples of 2^-53, so the place floor(u n) is exact in integers
+        // uniform numbers are whole multiples of 2^-53, so the index floor(u n) is exact in integers
         const DENOMINATOR: f64 = (1_u64 << 53) as f64;
         stream.uniform(&mut out.0);
         let n = self.values.len() as u128;

@@ -1,6 +1,7 @@
 //! Where a value lies in a distribution.
 
-use super::{Distribution, special};
+use super::Distribution;
+use crate::special;
 
 /// Scores beyond this leave less than the smallest doubles.
 const FARTHEST: f64 = 37.0;

@@ -1,9 +1,10 @@
 //! The scaled and shifted t distribution (JCGM 101, 6.4.9).
 
+use super::normal;
 use super::shape::{Invalid, Shape, drawn_degrees_of_freedom, finite, positive};
 use super::stream::Stream;
-use super::{normal, special};
 use crate::number::{COLUMN, Column, elementary};
+use crate::special;
 
 /// From here on the t distribution and the normal one differ by less than 1e-9 in any probability,
 /// and the generator of t values would lose digits.

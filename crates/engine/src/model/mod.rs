@@ -11,8 +11,7 @@ mod trace;
 pub mod typed;
 pub use program::Node;
 pub use program::Program;
-pub use schedule::Place;
-pub use schedule::Schedule;
+pub use schedule::{Schedule, ScheduledOutput};
 pub(crate) use slopes::{Columns, Slope, Slopes};
 pub use trace::{Recorder, Traced};
 

@@ -12,7 +12,7 @@ const GRADIENT_CHUNK: usize = 8;
 /// Variables from which on the way back from the outputs is taken, if these are few.
 const MANY: usize = 512;
 
-/// One operation, or a leaf. Operands are places of earlier nodes.
+/// One operation, or a leaf. Operands are indices of earlier nodes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Node {
     Variable(usize),
@@ -94,14 +94,14 @@ impl Program {
         for chunk in used.chunks(GRADIENT_CHUNK) {
             let mut duals: Vec<Dual<GRADIENT_CHUNK>> =
                 variables.iter().map(|&v| Dual::constant(v)).collect();
-            for (place, &v) in chunk.iter().enumerate() {
+            for (index, &v) in chunk.iter().enumerate() {
                 if let Some(dual) = duals.get_mut(v) {
-                    *dual = Dual::variable(dual.value, place);
+                    *dual = Dual::variable(dual.value, index);
                 }
             }
             for (gradient, output) in gradients.iter_mut().zip(self.evaluate(&duals)) {
-                for (place, &v) in chunk.iter().enumerate() {
-                    gradient[v] = output.gradient[place];
+                for (index, &v) in chunk.iter().enumerate() {
+                    gradient[v] = output.gradient[index];
                 }
             }
         }
@@ -118,11 +118,11 @@ impl Program {
             let mut slopes = vec![0.0; output + 1];
             let mut needed = vec![false; output + 1];
             (slopes[output], needed[output]) = (1.0, true);
-            for (place, node) in self.nodes[..=output].iter().enumerate().rev() {
-                if !needed[place] {
+            for (index, node) in self.nodes[..=output].iter().enumerate().rev() {
+                if !needed[index] {
                     continue;
                 }
-                let slope = slopes[place];
+                let slope = slopes[index];
                 match *node {
                     Node::Constant(_) => {}
                     Node::Variable(v) => gradient[v] += slope,
@@ -158,8 +158,8 @@ impl Program {
             let mut reach = vec![false; self.variables];
             let mut needed = vec![false; self.nodes.len()];
             needed[output] = true;
-            for (place, node) in self.nodes.iter().enumerate().rev().filter(|(p, _)| *p <= output) {
-                if needed[place] {
+            for (index, node) in self.nodes.iter().enumerate().rev().filter(|(p, _)| *p <= output) {
+                if needed[index] {
                     match *node {
                         Node::Variable(v) => reach[v] = true,
                         Node::Constant(_) => {}
@@ -181,8 +181,8 @@ impl Program {
     /// uses on purpose (a filter that is absent) is not reported.
     pub fn first_undefined(&self, variables: &[f64]) -> Option<String> {
         let values = self.values(variables);
-        for (place, node) in self.nodes.iter().enumerate() {
-            if values[place].is_finite() {
+        for (index, node) in self.nodes.iter().enumerate() {
+            if values[index].is_finite() {
                 continue;
             }
             match *node {

@@ -16,7 +16,7 @@ enum Step {
 
 /// Where an output's column is found.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Place {
+pub enum ScheduledOutput {
     Register(usize),
     /// The output is the same in all trials.
     Constant(f64),
@@ -30,7 +30,7 @@ pub struct Schedule {
     pub registers: usize,
     /// For each varying variable, in order, whether an output depends on it.
     pub used: Vec<bool>,
-    pub outputs: Vec<Place>,
+    pub outputs: Vec<ScheduledOutput>,
 }
 
 impl Schedule {
@@ -59,10 +59,10 @@ impl Schedule {
         }
 
         let mut used = vec![false; registers];
-        for (place, node) in program.nodes.iter().enumerate() {
+        for (index, node) in program.nodes.iter().enumerate() {
             if let Node::Variable(v) = *node
-                && needed[place]
-                && folded[place].is_none()
+                && needed[index]
+                && folded[index].is_none()
             {
                 used[register_of_variable[v]] = true;
             }
@@ -84,12 +84,12 @@ impl Schedule {
         let mut register: Vec<usize> = vec![usize::MAX; program.nodes.len()];
         let mut free: Vec<usize> = Vec::new();
         let mut steps = Vec::new();
-        let operand = |register: &[usize], place: usize| match folded[place] {
+        let operand = |register: &[usize], index: usize| match folded[index] {
             Some(c) => Operand::Constant(c),
-            None => Operand::Register(register[place]),
+            None => Operand::Register(register[index]),
         };
-        for (place, node) in program.nodes.iter().enumerate() {
-            if !needed[place] || folded[place].is_some() {
+        for (index, node) in program.nodes.iter().enumerate() {
+            if !needed[index] || folded[index].is_some() {
                 continue;
             }
             let mut take = |free: &mut Vec<usize>| {
@@ -101,19 +101,19 @@ impl Schedule {
             let operands: [Option<usize>; 2] = match *node {
                 Node::Constant(_) => [None, None],
                 Node::Variable(v) => {
-                    register[place] = register_of_variable[v];
+                    register[index] = register_of_variable[v];
                     [None, None]
                 }
-                Node::Unary(_, x) if register[place] != usize::MAX => [Some(x), None],
+                Node::Unary(_, x) if register[index] != usize::MAX => [Some(x), None],
                 Node::Unary(operation, x) => {
-                    register[place] = take(&mut free);
-                    match partner[place] {
+                    register[index] = take(&mut free);
+                    match partner[index] {
                         Some(other) => {
                             register[other] = take(&mut free);
                             let (sin, cos) = if operation == Unary::Sin {
-                                (place, other)
+                                (index, other)
                             } else {
-                                (other, place)
+                                (other, index)
                             };
                             steps.push(Step::SinCos {
                                 angle: register[x],
@@ -121,13 +121,13 @@ impl Schedule {
                                 cos: register[cos],
                             });
                         }
-                        None => steps.push(Step::Unary(operation, register[x], register[place])),
+                        None => steps.push(Step::Unary(operation, register[x], register[index])),
                     }
                     [Some(x), None]
                 }
                 Node::Binary(operation, x, y) => {
                     let out = take(&mut free);
-                    register[place] = out;
+                    register[index] = out;
                     let (x_operand, y_operand) = (operand(&register, x), operand(&register, y));
                     steps.push(Step::Binary(operation, x_operand, y_operand, out));
                     [Some(x), (y != x).then_some(y)]
@@ -135,7 +135,7 @@ impl Schedule {
             };
             // a register is free once the last step that reads it has been written
             for x in operands.into_iter().flatten() {
-                if last_use[x] == place && folded[x].is_none() {
+                if last_use[x] == index && folded[x].is_none() {
                     free.push(register[x]);
                 }
             }
@@ -144,8 +144,8 @@ impl Schedule {
             .outputs
             .iter()
             .map(|&o| match folded[o] {
-                Some(c) => Place::Constant(c),
-                None => Place::Register(register[o]),
+                Some(c) => ScheduledOutput::Constant(c),
+                None => ScheduledOutput::Register(register[o]),
             })
             .collect();
         Self { steps, registers, used, outputs }
@@ -187,8 +187,8 @@ pub(super) fn needed(program: &Program, folded: &[Option<f64>]) -> Vec<bool> {
     for &output in &program.outputs {
         needed[output] = true;
     }
-    for (place, node) in program.nodes.iter().enumerate().rev() {
-        if !needed[place] || folded[place].is_some() {
+    for (index, node) in program.nodes.iter().enumerate().rev() {
+        if !needed[index] || folded[index].is_some() {
             continue;
         }
         match *node {
@@ -207,16 +207,16 @@ pub(super) fn needed(program: &Program, folded: &[Option<f64>]) -> Vec<bool> {
 /// computed at the first of the two, but counting the later one only keeps the angle longer.
 fn last_uses(program: &Program, folded: &[Option<f64>], needed: &[bool]) -> Vec<usize> {
     let mut last_use = vec![0; program.nodes.len()];
-    for (place, node) in program.nodes.iter().enumerate() {
-        if !needed[place] || folded[place].is_some() {
+    for (index, node) in program.nodes.iter().enumerate() {
+        if !needed[index] || folded[index].is_some() {
             continue;
         }
         match *node {
             Node::Variable(_) | Node::Constant(_) => {}
-            Node::Unary(_, x) => last_use[x] = place,
+            Node::Unary(_, x) => last_use[x] = index,
             Node::Binary(_, x, y) => {
-                last_use[x] = place;
-                last_use[y] = place;
+                last_use[x] = index;
+                last_use[y] = index;
             }
         }
     }
@@ -228,16 +228,16 @@ fn sine_partners(program: &Program, folded: &[Option<f64>], needed: &[bool]) -> 
     let mut partner = vec![None; program.nodes.len()];
     let mut sine_of = std::collections::HashMap::new();
     let mut cosine_of = std::collections::HashMap::new();
-    for (place, node) in program.nodes.iter().enumerate() {
-        if !needed[place] || folded[place].is_some() {
+    for (index, node) in program.nodes.iter().enumerate() {
+        if !needed[index] || folded[index].is_some() {
             continue;
         }
         match *node {
             Node::Unary(Unary::Sin, x) => {
-                sine_of.insert(x, place);
+                sine_of.insert(x, index);
             }
             Node::Unary(Unary::Cos, x) => {
-                cosine_of.insert(x, place);
+                cosine_of.insert(x, index);
             }
             _ => {}
         }

@@ -15,7 +15,7 @@ pub struct Recorder {
 #[derive(Debug, Default)]
 struct Graph {
     nodes: Vec<Node>,
-    places: HashMap<Key, usize>,
+    index_of: HashMap<Key, usize>,
 }
 
 /// What makes two nodes the same.
@@ -28,14 +28,14 @@ enum Key {
 }
 
 impl Graph {
-    fn place(&mut self, node: Node) -> usize {
+    fn node_index(&mut self, node: Node) -> usize {
         let key = match node {
             Node::Variable(v) => Key::Variable(v),
             Node::Constant(c) => Key::Constant(c.to_bits()),
             Node::Unary(operation, x) => Key::Unary(operation, x),
             Node::Binary(operation, x, y) => Key::Binary(operation, x, y),
         };
-        *self.places.entry(key).or_insert_with(|| {
+        *self.index_of.entry(key).or_insert_with(|| {
             self.nodes.push(node);
             self.nodes.len() - 1
         })
@@ -54,22 +54,22 @@ enum Recorded<'r> {
 }
 
 impl Recorder {
-    /// The variable of place `index`.
+    /// The variable of that index.
     pub fn variable(&self, index: usize) -> Traced<'_> {
-        let place = self.graph.borrow_mut().place(Node::Variable(index));
-        Traced(Recorded::Node(self, place))
+        let index = self.graph.borrow_mut().node_index(Node::Variable(index));
+        Traced(Recorded::Node(self, index))
     }
 
     /// The program that computes `outputs` from `variables` many variables.
     pub fn program(&self, variables: usize, outputs: &[Traced<'_>]) -> Program {
-        let outputs = outputs.iter().map(|&output| self.place(output)).collect();
+        let outputs = outputs.iter().map(|&output| self.index(output)).collect();
         Program { nodes: self.graph.borrow().nodes.clone(), variables, outputs }
     }
 
-    fn place(&self, number: Traced<'_>) -> usize {
+    fn index(&self, number: Traced<'_>) -> usize {
         match number.0 {
-            Recorded::Constant(c) => self.graph.borrow_mut().place(Node::Constant(c)),
-            Recorded::Node(_, place) => place,
+            Recorded::Constant(c) => self.graph.borrow_mut().node_index(Node::Constant(c)),
+            Recorded::Node(_, index) => index,
         }
     }
 }
@@ -83,8 +83,8 @@ impl Number for Traced<'_> {
         match self.0 {
             Recorded::Constant(c) => Self::constant(c.unary(operation)),
             Recorded::Node(recorder, x) => {
-                let place = recorder.graph.borrow_mut().place(Node::Unary(operation, x));
-                Self(Recorded::Node(recorder, place))
+                let index = recorder.graph.borrow_mut().node_index(Node::Unary(operation, x));
+                Self(Recorded::Node(recorder, index))
             }
         }
     }
@@ -96,9 +96,9 @@ impl Number for Traced<'_> {
             }
             (Recorded::Node(recorder, _), _) | (_, Recorded::Node(recorder, _)) => recorder,
         };
-        let (x, y) = (recorder.place(self), recorder.place(other));
-        let place = recorder.graph.borrow_mut().place(Node::Binary(operation, x, y));
-        Self(Recorded::Node(recorder, place))
+        let (x, y) = (recorder.index(self), recorder.index(other));
+        let index = recorder.graph.borrow_mut().node_index(Node::Binary(operation, x, y));
+        Self(Recorded::Node(recorder, index))
     }
 }
 

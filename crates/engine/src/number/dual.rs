@@ -19,7 +19,7 @@ pub struct Dual<const N: usize> {
 }
 
 impl<const N: usize> Dual<N> {
-    /// The independent variable of place `index` in the gradient; beyond the gradient's length it
+    /// The independent variable number `index` in the gradient; beyond the gradient's length it
     /// is a constant.
     pub fn variable(value: f64, index: usize) -> Self {
         let mut gradient = [0.0; N];

@@ -23,8 +23,8 @@ pub use column::{COLUMN, Column};
 pub(crate) use column::{Operand, apply_binary, apply_sin_cos, apply_unary};
 pub use dual::Dual;
 pub use operation::{Binary, Unary};
-pub use path::CodePath;
-pub use path::Kernel;
+pub(crate) use path::Instructions;
+pub use path::{CodePath, Kernel, UnavailablePath};
 pub use shortest::Shortest;
 
 use std::fmt::Debug;

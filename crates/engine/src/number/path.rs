@@ -4,9 +4,28 @@
 //! platform's own elementary functions, so all give the same bits (a test compares them).
 #![allow(unsafe_code)]
 
-/// A compiled form of the engine's inner loops.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum CodePath {
+use std::fmt;
+use std::str::FromStr;
+
+/// A compiled form of the engine's inner loops that this machine can run. Only detection makes one,
+/// so whoever holds a path may use its instructions.
+///
+/// ```
+/// use gumption_engine::number::CodePath;
+///
+/// let paths = CodePath::available();
+/// assert_eq!(paths.first(), Some(&CodePath::BASELINE));
+/// assert_eq!(paths.last(), Some(&CodePath::best()));
+/// assert_eq!("baseline".parse(), Ok(CodePath::BASELINE));
+/// assert!("avx3".parse::<CodePath>().is_err());
+/// ```
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub struct CodePath(Instructions);
+
+/// The instructions that a path is compiled for.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[cfg_attr(not(target_arch = "x86_64"), allow(dead_code))]
+pub(crate) enum Instructions {
     /// What every processor of this kind can run.
     Baseline,
     /// x86-64 with AVX2.
@@ -15,41 +34,101 @@ pub enum CodePath {
     Avx512,
 }
 
+/// A name that no code path of this machine has.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct UnavailablePath {
+    /// The name.
+    pub name: String,
+}
+
+impl fmt::Display for UnavailablePath {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let names: Vec<_> = CodePath::available().into_iter().map(CodePath::name).collect();
+        write!(f, "this machine has no code path `{}`, only {}", self.name, names.join(", "))
+    }
+}
+
+impl std::error::Error for UnavailablePath {}
+
 /// Work that is compiled once for each code path. `run` must be `#[inline(always)]`, and all that
 /// it does in its inner loops as well, so that it takes on the vector width of its caller.
 pub trait Kernel {
+    /// What the work gives.
     type Output;
+
+    /// Does the work.
     fn run(self) -> Self::Output;
 }
 
 impl CodePath {
+    /// What every processor of this kind can run.
+    pub const BASELINE: Self = Self(Instructions::Baseline);
+
     /// The paths that this machine can run, slowest first.
     pub fn available() -> Vec<Self> {
-        [Self::Baseline, Self::Avx2, Self::Avx512]
+        [Instructions::Baseline, Instructions::Avx2, Instructions::Avx512]
             .into_iter()
-            .filter(|path| path.is_available())
+            .filter(|instructions| instructions.are_available())
+            .map(Self)
             .collect()
     }
 
     /// The fastest path of this machine.
     pub fn best() -> Self {
-        [Self::Avx512, Self::Avx2]
+        [Instructions::Avx512, Instructions::Avx2]
             .into_iter()
-            .find(|path| path.is_available())
-            .unwrap_or(Self::Baseline)
+            .find(|instructions| instructions.are_available())
+            .map_or(Self::BASELINE, Self)
     }
 
     /// The name that is printed.
     pub fn name(self) -> &'static str {
-        match self {
-            Self::Baseline => "baseline",
-            Self::Avx2 => "avx2",
-            Self::Avx512 => "avx512",
+        match self.0 {
+            Instructions::Baseline => "baseline",
+            Instructions::Avx2 => "avx2",
+            Instructions::Avx512 => "avx512",
         }
     }
 
+    /// The instructions, which the machine has.
+    #[inline(always)]
+    #[cfg_attr(not(target_arch = "x86_64"), allow(dead_code))]
+    pub(crate) fn instructions(self) -> Instructions {
+        self.0
+    }
+
+    /// Runs the work on this path.
+    pub fn run<K: Kernel>(self, kernel: K) -> K::Output {
+        #[cfg(target_arch = "x86_64")]
+        match self.0 {
+            // SAFETY: a path is made only where the machine has its instructions.
+            Instructions::Avx512 => return unsafe { run_avx512(kernel) },
+            // SAFETY: as above.
+            Instructions::Avx2 => return unsafe { run_avx2(kernel) },
+            Instructions::Baseline => {}
+        }
+        kernel.run()
+    }
+}
+
+impl fmt::Debug for CodePath {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "CodePath({})", self.name())
+    }
+}
+
+impl FromStr for CodePath {
+    type Err = UnavailablePath;
+
+    fn from_str(name: &str) -> Result<Self, UnavailablePath> {
+        let path = Self::available().into_iter().find(|path| path.name() == name);
+        path.ok_or_else(|| UnavailablePath { name: name.to_owned() })
+    }
+}
+
+impl Instructions {
     #[cfg(target_arch = "x86_64")]
-    fn is_available(self) -> bool {
+    fn are_available(self) -> bool {
         match self {
             Self::Baseline => true,
             Self::Avx2 => is_x86_feature_detected!("avx2"),
@@ -64,38 +143,21 @@ impl CodePath {
     }
 
     #[cfg(not(target_arch = "x86_64"))]
-    fn is_available(self) -> bool {
+    fn are_available(self) -> bool {
         self == Self::Baseline
-    }
-
-    /// This path, or the baseline where the machine does not have it.
-    pub fn or_baseline(self) -> Self {
-        if self.is_available() { self } else { Self::Baseline }
-    }
-
-    /// Runs the work on this path, or on the baseline where the machine does not have it.
-    pub fn run<K: Kernel>(self, kernel: K) -> K::Output {
-        #[cfg(target_arch = "x86_64")]
-        {
-            if self == Self::Avx512 && self.is_available() {
-                // SAFETY: the processor has just been asked for these instructions.
-                return unsafe { run_avx512(kernel) };
-            }
-            if self == Self::Avx2 && self.is_available() {
-                // SAFETY: the processor has just been asked for these instructions.
-                return unsafe { run_avx2(kernel) };
-            }
-        }
-        kernel.run()
     }
 }
 
+/// # Safety
+/// The machine has the instructions of [`Instructions::Avx512`].
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx512bw")]
 fn run_avx512<K: Kernel>(kernel: K) -> K::Output {
     kernel.run()
 }
 
+/// # Safety
+/// The machine has AVX2.
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2")]
 fn run_avx2<K: Kernel>(kernel: K) -> K::Output {

@@ -7,7 +7,7 @@ use crate::distribution::Distribution;
 /// One input's line in the budget.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BudgetLine {
-    /// Place of the variable in the task.
+    /// Index of the variable in the task.
     pub variable: usize,
     /// Estimate x_i in the variable's unit.
     pub estimate: f64,
@@ -32,7 +32,7 @@ pub struct BudgetLine {
 /// The line of a correlation coefficient in the budget.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CorrelationLine {
-    /// Places of the two variables.
+    /// Indices of the two variables.
     pub variables: [usize; 2],
     /// The declared coefficient.
     pub coefficient: f64,

@@ -8,8 +8,8 @@ pub use global::GlobalRisks;
 use global::Inspection;
 
 use super::monte_carlo::MonteCarlo;
-use crate::distribution::special;
 use crate::model::{Output, Tolerance};
+use crate::special;
 
 /// How probable it is that an output lies within its tolerance limits, and what is decided.
 #[derive(Clone, Copy, Debug, PartialEq)]

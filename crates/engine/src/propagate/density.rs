@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 
 use super::gum::{Dof, Gum};
+use crate::number::elementary;
 
 impl Gum {
     /// The density at a value, in 1/unit of the output, of the distribution that the coverage
@@ -12,11 +13,11 @@ impl Gum {
     pub fn density(&self, value: f64) -> Option<f64> {
         let z = (value - self.estimate) / self.standard_uncertainty;
         let shape = match self.dof {
-            Dof::Infinite => (-0.5 * z * z).exp() / (2.0 * PI).sqrt(),
+            Dof::Infinite => elementary::exp(-0.5 * z * z) / (2.0 * PI).sqrt(),
             Dof::Finite(dof) => {
                 let scale = libm::lgamma(0.5 * (dof + 1.0)) - libm::lgamma(0.5 * dof);
-                let power = -0.5 * (dof + 1.0) * (z * z / dof).ln_1p();
-                (scale + power).exp() / (PI * dof).sqrt()
+                let power = -0.5 * (dof + 1.0) * libm::log1p(z * z / dof);
+                elementary::exp(scale + power) / (PI * dof).sqrt()
             }
             Dof::Undefined => return None,
         };

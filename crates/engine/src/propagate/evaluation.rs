@@ -18,6 +18,7 @@ use crate::task::{Row, Settings, Task, Trials};
 
 /// The evaluation of a whole task.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Evaluation {
     /// The coverage probability used.
     pub coverage_probability: f64,
@@ -38,6 +39,7 @@ pub struct Evaluation {
 
 /// The evaluation of one row.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct RowEvaluation {
     /// Values of the conditions.
     pub conditions: Vec<f64>,
@@ -49,14 +51,14 @@ pub struct RowEvaluation {
     /// Trials that were left out because an output was not finite.
     pub undefined: Option<Undefined>,
     /// The variables that are outputs of saved results, drawn as they varied together there.
-    pub together: Vec<Together>,
+    pub jointly_drawn: Vec<JointlyDrawn>,
     /// Coefficients that the copula of the trials does not give as they are, and what it gives.
     pub copula_changes: Arc<Vec<(Correlation, f64)>>,
 }
 
 /// Variables that are outputs of one saved result and drawn from its trials.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Together {
+pub struct JointlyDrawn {
     /// The variables, in order.
     pub variables: Vec<usize>,
     /// How many trials the result holds.
@@ -65,6 +67,7 @@ pub struct Together {
 
 /// One output by both methods.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct OutputEvaluation {
     /// By the law of propagation; `None` where a sensitivity coefficient is not finite.
     pub gum: Option<Gum>,
@@ -81,7 +84,7 @@ pub struct OutputEvaluation {
 
 /// The expanded uncertainty that a laboratory may state beside its capability.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Stated {
+pub struct CapabilityStatement {
     /// The capability (CMC) at the estimate.
     pub cmc: f64,
     /// The expanded uncertainty to be stated.
@@ -94,7 +97,7 @@ impl OutputEvaluation {
     /// The expanded uncertainty beside the laboratory's capability; `None` if there is none of
     /// either. Of an output without a GUM side, or without a coverage factor, it is half the length
     /// of the symmetric coverage interval.
-    pub fn stated(&self, output: &Output) -> Option<Stated> {
+    pub fn stated(&self, output: &Output) -> Option<CapabilityStatement> {
         let capability = output.capability?;
         let of_gum = || {
             let gum = self.gum.as_ref()?;
@@ -109,12 +112,13 @@ impl OutputEvaluation {
         let cmc = capability.at(estimate);
         let raised = capability.floor && expanded < cmc;
         let expanded_uncertainty = if raised { cmc } else { expanded };
-        Some(Stated { cmc, expanded_uncertainty, raised })
+        Some(CapabilityStatement { cmc, expanded_uncertainty, raised })
     }
 }
 
 /// Why a task cannot be evaluated.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum EvaluationError {
     /// Declared correlations that no joint distribution has, or that cannot be drawn.
     Correlation {
@@ -159,7 +163,8 @@ impl fmt::Display for EvaluationError {
             }
             Self::NotFinite { share } => write!(
                 f,
-                "{} % of the trials have no finite result; `gumption run` names the first of them",
+                "{} % of the trials have no finite result; an evaluation of the task names the first \
+                 of them",
                 Shortest(100.0 * share)
             ),
             Self::Threads(error) => write!(f, "cannot start threads: {error}"),
@@ -214,8 +219,12 @@ pub fn evaluate(task: &Task, control: &Control<'_>) -> Result<Evaluation, Evalua
 /// outputs need so much on a machine of many cores.
 const MOST_COLUMNS: usize = 256 << 20;
 
-/// Runs `work` on the number of threads that the control asks for, or as many as have room for the
-/// columns of the task.
+/// Runs `work` in the caller's thread pool (rayon's global one, unless the call comes from another),
+/// or, where the control asks for a number of threads, in a pool of that many. Either way there are
+/// no more threads than have room for the columns of the task.
+///
+/// # Errors
+/// Threads that cannot be started.
 pub fn in_pool<R: Send>(
     task: &Task,
     control: &Control<'_>,
@@ -224,12 +233,13 @@ pub fn in_pool<R: Send>(
     let program = &task.model.program;
     let columns = size_of::<Column>() * (program.variables() + program.operations())
         + size_of::<[f64; BLOCK]>() * program.outputs();
-    let asked = match control.threads {
-        0 => std::thread::available_parallelism().map_or(1, usize::from),
-        threads => threads,
-    };
+    let room = (MOST_COLUMNS / columns.max(1)).max(1);
+    if control.threads == 0 && rayon::current_num_threads() <= room {
+        return Ok(work());
+    }
+    let asked = if control.threads == 0 { room } else { control.threads };
     let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(asked.min(MOST_COLUMNS / columns.max(1)).max(1))
+        .num_threads(asked.min(room))
         .build()
         .map_err(|error| EvaluationError::Threads(error.to_string()))?;
     Ok(pool.install(work))
@@ -246,16 +256,16 @@ fn evaluate_rows(task: &Task, control: &Control<'_>) -> Result<Evaluation, Evalu
     let memory = control.memory / task.rows.len().clamp(1, ROWS_AT_A_TIME);
     let control = &Control { memory, ..*control };
     let notes = Mutex::new(Notes::default());
-    // every row has its place from the start: a million of them are not to be held twice
+    // every row has its slot from the start: a million of them are not to be held twice
     let mut rows: Vec<Option<Result<RowEvaluation, EvaluationError>>> = Vec::new();
     rows.resize_with(task.rows.len(), || None);
     rows.par_chunks_mut(COLUMN).zip(task.rows.par_chunks(COLUMN)).enumerate().for_each(
-        |(chunk, (places, rows))| {
+        |(chunk, (slots, rows))| {
             let linear = gum.evaluate_all(rows, control.path);
             let rows = rows.par_iter().zip(linear).enumerate();
-            places.par_iter_mut().zip(rows).for_each(|(place, (number, (row, linear)))| {
+            slots.par_iter_mut().zip(rows).for_each(|(slot, (number, (row, linear)))| {
                 let row = (chunk * COLUMN + number, row, linear);
-                *place = Some(evaluate_row(task, row, &reaches, control, &notes));
+                *slot = Some(evaluate_row(task, row, &reaches, control, &notes));
             });
         },
     );
@@ -306,17 +316,17 @@ fn evaluate_row(
         outputs: Vec::with_capacity(gums.len()),
         correlations: Vec::new(),
         undefined: None,
-        together: joint
-            .together()
+        jointly_drawn: joint
+            .rank_samples()
             .iter()
-            .map(|set| Together { variables: set.members.clone(), trials: set.trials() })
+            .map(|set| JointlyDrawn { variables: set.members.clone(), trials: set.trials() })
             .collect(),
         copula_changes: Arc::clone(&joint.changes),
     };
     let mut figures: Vec<Option<MonteCarlo>> = vec![None; gums.len()];
     let mut stopped = false;
     if task.settings.trials != Trials::Fixed(0) {
-        let mut trials = monte_carlo::Trials::new(task, row, &linear.estimates, &joint);
+        let mut trials = monte_carlo::RowTrials::new(task, row, &linear.estimates, &joint);
         let finished = run(task, &mut trials, &gums, &drawn_dof, control);
         stopped = finished.stopped;
         if let Some(undefined) = finished.undefined {
@@ -358,7 +368,7 @@ fn evaluate_row(
 /// The Monte Carlo run of a row, of a fixed or an adaptive number of trials.
 fn run(
     task: &Task,
-    trials: &mut monte_carlo::Trials,
+    trials: &mut monte_carlo::RowTrials,
     gums: &[Option<Gum>],
     drawn_dof: &[f64],
     control: &Control<'_>,
@@ -433,7 +443,8 @@ fn explain(task: &Task, number: usize, row: &Row, undefined: Undefined) -> Evalu
     EvaluationError::Undefined { row: number, undefined, inputs, operation }
 }
 
-/// The hash over the bits of all trials of all rows (`gumption verify --paths`).
+/// The hash over the bits of all trials of all rows: whether two machines, code paths or numbers of
+/// threads give the same trials.
 ///
 /// # Errors
 /// Correlations that cannot be drawn.
@@ -442,7 +453,7 @@ pub fn trial_hash(task: &Task, trials: u64, control: &Control<'_>) -> Result<u64
         let mut hash = 0u64;
         for row in &task.rows {
             let estimates = gum::evaluate(task, row).estimates;
-            let made = monte_carlo::Trials::new(task, row, &estimates, &joint(task, row)?);
+            let made = monte_carlo::RowTrials::new(task, row, &estimates, &joint(task, row)?);
             hash = hash.rotate_left(1) ^ monte_carlo::hash_trials(&made, trials, control.path);
         }
         Ok(hash)

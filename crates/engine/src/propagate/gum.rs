@@ -9,8 +9,9 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use rayon::prelude::*;
 
 pub use super::budget::{BudgetLine, CorrelationLine};
-use crate::distribution::{Correlation, Distribution, RootName, paired, special};
+use crate::distribution::{Correlation, Distribution, RootName, paired};
 use crate::number::CodePath;
+use crate::special;
 use crate::task::{Coverage, Row, Task};
 use gradients::{Gradients, Linear};
 
@@ -27,6 +28,7 @@ pub enum Dof {
 
 /// The evaluation of one output by the law of propagation.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Gum {
     /// Estimate y of the output.
     pub estimate: f64,
@@ -374,13 +376,13 @@ impl Default for Factors {
 impl Factors {
     fn factor(&self, coverage: Coverage, dof: Dof, real: bool) -> Option<f64> {
         let find = || coverage_factor(coverage, dof, real);
-        // the first place is that of infinite degrees of freedom
-        let place = match dof {
+        // the first index is that of infinite degrees of freedom
+        let index = match dof {
             Dof::Infinite => Some(0),
             Dof::Finite(dof) if !real && dof >= 1.0 => Some(whole(dof) as usize),
             Dof::Finite(_) | Dof::Undefined => None,
         };
-        match place.and_then(|place| self.0.get(place)) {
+        match index.and_then(|index| self.0.get(index)) {
             Some(known) => *known.get_or_init(find),
             None => find(),
         }

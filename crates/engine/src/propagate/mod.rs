@@ -3,7 +3,6 @@
 //! ([`monte_carlo`], JCGM 101) at the same time, and the comparison of the two ([`validate`],
 //! JCGM 101, clause 8).
 
-mod again;
 mod budget;
 mod conformity;
 mod control;
@@ -12,17 +11,18 @@ mod evaluation;
 pub mod gum;
 pub mod monte_carlo;
 mod origins;
+mod replay;
 pub mod validate;
 mod warnings;
 
-pub use again::{for_each_block, histograms, joint_ranks, quantiles};
 pub use conformity::{Conformity, GlobalRisks};
 pub use control::Control;
 pub use evaluation::in_pool;
 pub use evaluation::joint;
 pub use evaluation::{
-    Evaluation, EvaluationError, OutputEvaluation, RowEvaluation, Stated, Together, evaluate,
-    trial_hash,
+    CapabilityStatement, Evaluation, EvaluationError, JointlyDrawn, OutputEvaluation,
+    RowEvaluation, evaluate, trial_hash,
 };
 pub use origins::{Origins, linear, origins};
+pub use replay::{for_each_block, histograms, joint_ranks, quantiles};
 pub use warnings::warnings;

@@ -34,12 +34,12 @@ pub fn linear(output: &OutputEvaluation) -> Option<&Gum> {
 pub fn origins(task: &Task, row: &Row, outputs: &[Option<&Gum>], model: &str) -> Origins {
     let model: Arc<str> = model.into();
     let mut origins = Origins::default();
-    let mut places: BTreeMap<RootName, usize> = BTreeMap::new();
+    let mut indices: BTreeMap<RootName, usize> = BTreeMap::new();
     // for each variable, its roots with their weights in its standard uncertainty
     let mut parts: Vec<Vec<(usize, f64)>> = Vec::new();
     let mut coefficients: BTreeMap<(usize, usize), f64> = BTreeMap::new();
-    let mut place = |root: Root, roots: &mut Vec<Root>| -> usize {
-        *places.entry(root.name.clone()).or_insert_with(|| {
+    let mut index = |root: Root, roots: &mut Vec<Root>| -> usize {
+        *indices.entry(root.name.clone()).or_insert_with(|| {
             roots.push(root);
             roots.len() - 1
         })
@@ -50,7 +50,7 @@ pub fn origins(task: &Task, row: &Row, outputs: &[Option<&Gum>], model: &str) ->
         } else if let Some(saved) = distribution.saved() {
             let weights = saved.origin().roots.iter();
             let weights =
-                weights.map(|(root, weight)| (place(root.clone(), &mut origins.roots), *weight));
+                weights.map(|(root, weight)| (index(root.clone(), &mut origins.roots), *weight));
             parts.push(weights.collect());
         } else {
             let root = Root {
@@ -62,7 +62,7 @@ pub fn origins(task: &Task, row: &Row, outputs: &[Option<&Gum>], model: &str) ->
                 standard_deviation: distribution.standard_deviation(),
                 dof: distribution.dof(),
             };
-            parts.push(vec![(place(root, &mut origins.roots), 1.0)]);
+            parts.push(vec![(index(root, &mut origins.roots), 1.0)]);
         }
     }
     let find = |name: &RootName| origins.roots.iter().position(|root| root.name == *name);
@@ -95,7 +95,7 @@ pub fn origins(task: &Task, row: &Row, outputs: &[Option<&Gum>], model: &str) ->
             }
         }
     }
-    let named = |place: usize| origins.roots[place].name.clone();
+    let named = |index: usize| origins.roots[index].name.clone();
     origins.correlations = coefficients
         .iter()
         .map(|(&(a, b), &coefficient)| {

@@ -237,13 +237,13 @@ fn of_results(
     (gum, spread): (&Gum, f64),
     found: &mut Vec<Warning>,
 ) {
-    if row.together.is_empty() && row.copula_changes.is_empty() {
+    if row.jointly_drawn.is_empty() && row.copula_changes.is_empty() {
         return;
     }
     let lines: HashMap<usize, BudgetLine> =
         gum.budget().map(|line| (line.variable, line)).collect();
     let line = |v: usize| lines.get(&v);
-    for set in &row.together {
+    for set in &row.jointly_drawn {
         let contributions = set.variables.iter().filter_map(|&v| line(v)).map(|l| l.contribution);
         let largest = contributions.fold(0.0, f64::max);
         // ranks of so many trials leave less than this of what should cancel

@@ -1,6 +1,6 @@
 //! The coverage that an evaluation is asked for.
 
-use crate::distribution::special;
+use crate::special;
 
 /// A coverage probability, or the coverage factor that accreditation practice names instead.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -21,7 +21,7 @@ pub use warning::Warning;
 
 use std::sync::Arc;
 
-use crate::distribution::{Correlation, Distribution, Evaluation, Fits, Input};
+use crate::distribution::{Correlation, Distribution, EvaluationType, Fits, Input};
 use crate::model::Model;
 use crate::model::typed::Measurement;
 use gumption_units::Unit;
@@ -34,7 +34,7 @@ pub struct Variable {
     /// Unit of its values.
     pub unit: Unit,
     /// Type A or B.
-    pub evaluation: Evaluation,
+    pub evaluation: EvaluationType,
     /// Group for subtotals.
     pub group: Option<String>,
     /// Source of uncertainty, in words.

@@ -47,8 +47,16 @@ impl StoppingRule {
     }
 }
 
-/// The settings of an evaluation.
+/// The settings of an evaluation. They start from the defaults:
+///
+/// ```
+/// use gumption_engine::task::{Settings, Trials};
+///
+/// let settings = Settings::default().with_trials(Trials::Adaptive).with_seed(7);
+/// assert_eq!((settings.seed, settings.digits), (7, 2));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Settings {
     /// Coverage probability or factor.
     pub coverage: Coverage,
@@ -85,5 +93,31 @@ impl Default for Settings {
             real_dof: false,
             allowed_undefined: 0.0,
         }
+    }
+}
+
+impl Settings {
+    /// With this coverage probability or factor.
+    #[must_use]
+    pub fn with_coverage(self, coverage: Coverage) -> Self {
+        Self { coverage, ..self }
+    }
+
+    /// With these trials.
+    #[must_use]
+    pub fn with_trials(self, trials: Trials) -> Self {
+        Self { trials, ..self }
+    }
+
+    /// With this seed.
+    #[must_use]
+    pub fn with_seed(self, seed: u64) -> Self {
+        Self { seed, ..self }
+    }
+
+    /// With so many meaningful digits.
+    #[must_use]
+    pub fn with_digits(self, digits: u32) -> Self {
+        Self { digits, ..self }
     }
 }

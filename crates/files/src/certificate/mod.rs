@@ -153,14 +153,11 @@ struct Asking {
 impl Asking {
     fn apply(self, settings: &mut Settings) {
         if let Some(own) = self.trials {
-            *settings = Settings {
-                trials: own.trials,
-                rule: own.rule,
-                max_trials: own.max_trials,
-                seed: own.seed,
-                digits: own.digits,
-                ..*settings
-            };
+            settings.trials = own.trials;
+            settings.rule = own.rule;
+            settings.max_trials = own.max_trials;
+            settings.seed = own.seed;
+            settings.digits = own.digits;
         }
         settings.coverage = self.coverage;
     }

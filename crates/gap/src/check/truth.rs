@@ -64,7 +64,7 @@ impl Scores {
 
     /// A number uniform on (0, 1).
     fn uniform(&mut self) -> f64 {
-        gumption_engine::distribution::special::normal::cdf(self.next())
+        gumption_engine::special::normal::cdf(self.next())
     }
 
     fn choice(&mut self, count: usize) -> usize {

@@ -11,10 +11,10 @@ use std::sync::Arc;
 use nalgebra::{DMatrix, DVector};
 
 use crate::{Candidate, Case, Effect, Maker, Observed, Prior, Sim};
-use gumption_engine::distribution::{Distribution, Evaluation, Fits, Normal};
+use gumption_engine::distribution::{Distribution, EvaluationType, Fits, Normal};
 use gumption_engine::model::formula::{Formula, Scope, Typing};
 use gumption_engine::model::{InputQuantity, Output, Quantity};
-use gumption_engine::task::{Coverage, Row, Settings, Sharing, Task, Variable};
+use gumption_engine::task::{Row, Settings, Sharing, Task, Variable};
 use gumption_units::Unit;
 
 /// A normal distribution.
@@ -77,7 +77,7 @@ fn case(
         variables: vec![Variable {
             name: "a".to_owned(),
             unit: Unit::one(),
-            evaluation: Evaluation::B,
+            evaluation: EvaluationType::B,
             group: None,
             about: String::new(),
             sharing,
@@ -86,7 +86,7 @@ fn case(
         correlations: Vec::new(),
         rows: (0..observed[0].values.len()).map(row).collect(),
         swept: true,
-        settings: Settings { coverage: Coverage::Probability(0.95), ..Settings::default() },
+        settings: Settings::default(),
         fits: Fits::default(),
     };
     let observed = observed.into_iter().map(Some).collect();

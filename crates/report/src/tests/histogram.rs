@@ -1,8 +1,8 @@
 //! Histograms of trials, and their look in a terminal.
 
 use super::*;
-use gumption_engine::distribution::special::normal;
 use gumption_engine::propagate::histograms;
+use gumption_engine::special::normal;
 
 fn counted(
     case: &Case,
@@ -43,8 +43,8 @@ fn trials_lie_where_the_distribution_has_them() {
 #[test]
 fn counts_do_not_depend_on_threads_or_memory() {
     let case = Case::new(plane_at(35.0, 150_000));
-    let one = counted(&case, &Control { threads: 1, ..Control::default() });
-    let three = counted(&case, &Control { threads: 3, memory: 1 << 20, ..Control::default() });
+    let one = counted(&case, &Control::default().with_threads(1));
+    let three = counted(&case, &Control::default().with_threads(3).with_memory(1 << 20));
     assert_eq!(one, three);
     let histogram = one[0].as_ref().unwrap();
     let figures = case.evaluation.rows[0].outputs[0].monte_carlo.as_ref().unwrap();

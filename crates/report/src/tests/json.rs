@@ -151,7 +151,7 @@ fn whole_answer_in_the_order_of_the_contract() {
 fn same_bytes_on_any_number_of_threads() {
     let answers = [1, 2, 5].map(|threads| {
         let mut case = Case::new(plane_at(35.0, 20_000));
-        let control = Control { threads, ..Control::default() };
+        let control = Control::default().with_threads(threads);
         case.evaluation = evaluate(&case.task, &control).unwrap();
         report::json(&case.report())
     });

@@ -45,7 +45,7 @@ impl Case {
 }
 
 fn settings(trials: u64) -> Settings {
-    Settings { trials: Trials::Fixed(trials), ..Settings::default() }
+    Settings::default().with_trials(Trials::Fixed(trials))
 }
 
 /// The inclined plane of the literature at a tilt.

@@ -457,11 +457,11 @@ fn inputs_of_one_result_and_others() {
     }
     // the same table in two units, to rounding
     assert!(run.trials(2).standard_uncertainty.unwrap() < 1e-15);
-    assert_eq!(run.evaluation.rows[0].together[0].variables, [0, 1, 2]);
+    assert_eq!(run.evaluation.rows[0].jointly_drawn[0].variables, [0, 1, 2]);
 
     let linked = with(r#""correlations": [["skew", "n", 0.5]],"#);
     let first = Run::new(&linked, folder.path(), 2);
-    assert!(first.evaluation.rows[0].together.is_empty());
+    assert!(first.evaluation.rows[0].jointly_drawn.is_empty());
     std::fs::write(&path, without_ranks(&std::fs::read_to_string(&path).unwrap())).unwrap();
     let second = Run::new(&linked, folder.path(), 2);
     assert_eq!(first.evaluation.rows[0].correlations, second.evaluation.rows[0].correlations);
@@ -477,10 +477,10 @@ fn what_is_drawn_together_is_reproducible() {
     Run::new(&calibration(), folder.path(), 1).save(&folder.path().join("c.json"), "c");
     let file = file::read_text("m", &difference("c.json", "c.json"), folder.path(), &[]).unwrap();
     let hash = |threads: usize, path: CodePath| {
-        let control = Control { threads, path, ..Control::default() };
+        let control = Control::default().with_threads(threads).with_path(path);
         trial_hash(&file.task, 20_000, &control).unwrap()
     };
-    let first = hash(1, CodePath::Baseline);
+    let first = hash(1, CodePath::BASELINE);
     for path in CodePath::available() {
         assert_eq!(hash(2, path), first, "{path:?}");
     }

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::*;
 use crate::{BudgetColumn, TableStyle, table};
-use gumption_engine::distribution::{Distribution, Evaluation as Kind, Rectangular};
+use gumption_engine::distribution::{Distribution, EvaluationType as Kind, Rectangular};
 use gumption_engine::propagate::gum::Dof;
 use gumption_engine::task::Coverage;
 

@@ -46,7 +46,7 @@ mod tests {
                     let sin = (2.0 * PI * turn).sin();
                     // noise that sweeps its quantiles in a scrambled order
                     let p = (f64::from(i * 1597 % points) + 0.5) / f64::from(points);
-                    let z = gumption_engine::distribution::special::normal::quantile(p);
+                    let z = gumption_engine::special::normal::quantile(p);
                     sum += (level + amplitude * sin + noise * z).round() * sin;
                 }
                 let error = 2.0 * sum / f64::from(points) - amplitude;

@@ -6,8 +6,8 @@ use crate::{
     Amplitude, Channel, Frequency, Held, Measured, Method, Observation, PhaseUnit, Settings,
     TimeBase, Track, observe,
 };
-use gumption_engine::distribution::special::normal;
 use gumption_engine::distribution::{BLOCK, StreamKey};
+use gumption_engine::special::normal;
 use gumption_units::Unit;
 
 /// Normal numbers, a function of the seed and the name.

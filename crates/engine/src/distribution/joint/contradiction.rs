@@ -2,7 +2,7 @@
 
 use super::Correlation;
 use super::error::{CorrelationError, unit};
-use super::matrix::Symmetric;
+use crate::linalg::CorrelationMatrix;
 
 /// Units of the last decimal that the nearest possible coefficient may be away from one that was only
 /// rounded. The rounding of 2000 quantities, half a unit each and 0.29 in the root mean square, takes
@@ -13,7 +13,11 @@ const FARTHEST: f64 = 2.0;
 /// a one lies at most half a unit of the last decimal away in each coefficient, so the nearest
 /// possible one is not farther than that in all of them together. Among many quantities that leaves
 /// room for one coefficient that is quite wrong, so none may be farther than [`FARTHEST`] either.
-pub(super) fn is_rounding(declared: &Symmetric, nearest: &Symmetric, decimals: usize) -> bool {
+pub(super) fn is_rounding(
+    declared: &CorrelationMatrix,
+    nearest: &CorrelationMatrix,
+    decimals: usize,
+) -> bool {
     let n = declared.size() as f64;
     let together = 0.5 * unit(decimals) * (n * (n - 1.0)).sqrt();
     let change = |(i, j)| (declared.get(i, j) - nearest.get(i, j)).abs();
@@ -24,8 +28,8 @@ pub(super) fn is_rounding(declared: &Symmetric, nearest: &Symmetric, decimals: u
 /// What is said of coefficients that no quantities can have.
 pub(super) fn contradiction(
     members: &[usize],
-    declared: &Symmetric,
-    nearest: &Symmetric,
+    declared: &CorrelationMatrix,
+    nearest: &CorrelationMatrix,
     decimals: usize,
 ) -> CorrelationError {
     let offending = offending(declared, 0.5 * unit(decimals));
@@ -41,7 +45,7 @@ pub(super) fn contradiction(
 /// Rows that contradict each other: leaving out any one of them leaves a possible matrix. Where
 /// several sets do, it is the one that remains when row after row is left out as long as the others
 /// still contradict each other.
-fn offending(matrix: &Symmetric, rounding: f64) -> Vec<usize> {
+fn offending(matrix: &CorrelationMatrix, rounding: f64) -> Vec<usize> {
     let mut found: Vec<usize> = Vec::new();
     let mut rest: Vec<usize> = (0..matrix.size()).collect();
     loop {
@@ -49,9 +53,9 @@ fn offending(matrix: &Symmetric, rounding: f64) -> Vec<usize> {
         // the contradiction belongs to it, and what stands above that row is not needed
         let order: Vec<usize> = found.iter().chain(rest.iter().rev()).copied().collect();
         match matrix.first_below(&order, -rounding) {
-            Some(place) if place >= found.len() => {
-                let taken = place - found.len();
-                found.push(order[place]);
+            Some(index) if index >= found.len() => {
+                let taken = index - found.len();
+                found.push(order[index]);
                 rest.drain(..rest.len() - taken);
             }
             Some(_) => break,
@@ -66,8 +70,8 @@ fn offending(matrix: &Symmetric, rounding: f64) -> Vec<usize> {
 /// The coefficients that differ by half a unit of the last decimal or more.
 pub(super) fn changed(
     members: &[usize],
-    from: &Symmetric,
-    to: &Symmetric,
+    from: &CorrelationMatrix,
+    to: &CorrelationMatrix,
     decimals: usize,
 ) -> Vec<Correlation> {
     let differs = |i: usize, j: usize| (from.get(i, j) - to.get(i, j)).abs() > 0.5 * unit(decimals);

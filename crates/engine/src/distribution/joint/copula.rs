@@ -181,7 +181,7 @@ fn remainder(count: usize, r: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::distribution::special::{normal, student};
+    use crate::special::{normal, student};
 
     fn standard_deviation(variance: f64) -> f64 {
         variance.sqrt()

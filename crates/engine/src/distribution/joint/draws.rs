@@ -2,9 +2,10 @@
 
 use std::sync::Arc;
 
-use super::together::Together;
+use super::rank_sample::RankSample;
 use super::{Group, Joint, paired};
 use crate::distribution::{Distribution, Stream, StreamKey, normal};
+use crate::linalg::packed;
 use crate::number::{CodePath, Column};
 
 /// The quantities of a row that vary, and the joint draw of those that are linked.
@@ -15,14 +16,14 @@ pub struct Varying {
     /// The members of the joint draw's groups as the row has them.
     members: Vec<Vec<Member>>,
     /// Outputs of saved results.
-    together: Vec<Together>,
+    rank_samples: Vec<RankSample>,
     in_group: Vec<bool>,
 }
 
-/// A quantity of a group: its place among those that vary, and what a drawn value becomes.
+/// A quantity of a group: its index among those that vary, and what a drawn value becomes.
 #[derive(Clone, Copy, Debug)]
 struct Member {
-    place: usize,
+    index: usize,
     location: f64,
     scale: f64,
 }
@@ -35,21 +36,22 @@ impl Varying {
         let mut in_group = vec![false; distributions.len()];
         let members = joint.groups.iter().map(|group| {
             let members = group.members.iter().filter_map(|member| {
-                let place = varying.binary_search(&member.place).ok()?;
-                let [location, scale] = member.placed(distributions.get(place)?);
-                *in_group.get_mut(place)? = true;
-                Some(Member { place, location, scale })
+                let index = varying.binary_search(&member.index).ok()?;
+                let [location, scale] = member.placed(distributions.get(index)?);
+                *in_group.get_mut(index)? = true;
+                Some(Member { index, location, scale })
             });
             members.collect()
         });
         let members = members.collect();
-        let together: Vec<Together> = joint.together.iter().map(|set| set.among(varying)).collect();
-        for &place in together.iter().flat_map(|set| &set.members) {
-            if let Some(is) = in_group.get_mut(place) {
+        let rank_samples: Vec<RankSample> =
+            joint.rank_samples.iter().map(|set| set.among(varying)).collect();
+        for &index in rank_samples.iter().flat_map(|set| &set.members) {
+            if let Some(is) = in_group.get_mut(index) {
                 *is = true;
             }
         }
-        Self { distributions, joint: Arc::clone(joint), members, together, in_group }
+        Self { distributions, joint: Arc::clone(joint), members, rank_samples, in_group }
     }
 
     /// All of these quantities.
@@ -76,19 +78,19 @@ impl Varying {
         let mut without = vec![false; self.len()];
         let groups = self.joint.groups.iter().zip(&self.members);
         let paired = groups.filter(|(group, _)| group.dof.is_some());
-        let paired = paired.flat_map(|(_, members)| members.iter().map(|m| m.place));
-        let together = self.together.iter().flat_map(|set| set.members.iter().copied());
-        for place in paired.chain(together) {
-            without[place] = true;
+        let paired = paired.flat_map(|(_, members)| members.iter().map(|m| m.index));
+        let sampled = self.rank_samples.iter().flat_map(|set| set.members.iter().copied());
+        for index in paired.chain(sampled) {
+            without[index] = true;
         }
         without
     }
 
     /// The sets of quantities that are drawn together.
     pub fn linked(&self) -> Vec<Vec<usize>> {
-        let groups = self.members.iter().map(|set| set.iter().map(|m| m.place).collect());
-        let together = self.together.iter().map(|set| set.members.clone());
-        groups.chain(together).collect()
+        let groups = self.members.iter().map(|set| set.iter().map(|m| m.index).collect());
+        let sampled = self.rank_samples.iter().map(|set| set.members.clone());
+        groups.chain(sampled).collect()
     }
 }
 
@@ -115,11 +117,11 @@ impl<'a> Draws<'a> {
             }
         }
         for (group, members) in varying.joint.groups.iter().zip(&varying.members) {
-            if members.iter().any(|m| used[m.place]) {
+            if members.iter().any(|m| used[m.index]) {
                 self.group(group, members, false, registers, register);
             }
         }
-        for set in &varying.together {
+        for set in &varying.rank_samples {
             if set.members.iter().any(|&m| used[m]) {
                 set.draw(&varying.distributions, &mut self.streams, registers, register);
             }
@@ -139,7 +141,7 @@ impl<'a> Draws<'a> {
         for (group, members) in varying.joint.groups.iter().zip(&varying.members) {
             self.group(group, members, group.dof.is_none(), registers, register);
         }
-        for set in &varying.together {
+        for set in &varying.rank_samples {
             set.draw(&varying.distributions, &mut self.streams, registers, register);
         }
     }
@@ -157,24 +159,24 @@ impl<'a> Draws<'a> {
         register: &[usize],
     ) {
         if let Some(dof) = group.dof {
-            let places = members.iter().map(|m| m.place);
-            paired::draw_spherical(dof, places, &mut self.streams, registers, register);
+            let indices = members.iter().map(|m| m.index);
+            paired::draw_spherical(dof, indices, &mut self.streams, registers, register);
         } else {
             for m in members {
-                let out = &mut registers[register[m.place]];
-                normal::draw(0.0, 1.0, &mut self.streams[m.place], out);
+                let out = &mut registers[register[m.index]];
+                normal::draw(0.0, 1.0, &mut self.streams[m.index], out);
             }
         }
-        let shapes = group.members.iter().zip(&group.factor);
+        let shapes = group.members.iter().zip(packed::rows(&group.factor));
         for (member, (shape, row)) in members.iter().zip(shapes).rev() {
             let mut sum = Column::ZERO;
             for (&weight, other) in row.iter().zip(members) {
-                let z = &registers[register[other.place]].0;
+                let z = &registers[register[other.index]].0;
                 for (sum, z) in sum.0.iter_mut().zip(z) {
                     *sum += weight * z;
                 }
             }
-            let out = &mut registers[register[member.place]].0;
+            let out = &mut registers[register[member.index]].0;
             if scores {
                 *out = sum.0;
                 continue;

@@ -9,6 +9,7 @@ const LISTED: usize = 12;
 
 /// Why quantities with these correlations cannot be drawn.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum CorrelationError {
     /// More quantities are linked with each other than can be served: their matrix has a number for
     /// each pair.

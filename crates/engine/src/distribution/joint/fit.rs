@@ -7,10 +7,10 @@ use super::contradiction::changed;
 use super::copula::{Margin, Pair};
 use super::decimals::are_linked_results;
 use super::error::unit;
-use super::matrix::Symmetric;
 use super::profiles::Profiled;
 use super::{Correlation, CorrelationError};
 use crate::distribution::Distribution;
+use crate::linalg::CorrelationMatrix;
 
 /// How far the drawn coefficients of saved results may be from theirs: the copula of dependent
 /// outputs need not be Gaussian. The change is told.
@@ -31,7 +31,7 @@ pub(super) struct Fit<'a> {
 #[derive(Debug)]
 pub(super) struct Fitted {
     /// The coefficients of the normals.
-    pub(super) normals: Symmetric,
+    pub(super) normals: CorrelationMatrix,
     /// The largest change of a coefficient that was needed.
     pub(super) adjusted: f64,
     /// The coefficients that the copula does not give as they are: wanted, and drawn.
@@ -93,12 +93,12 @@ impl<'a> Pairs<'a> {
 
 impl Fit<'_> {
     /// The coefficients of the normals that give the quantities the wanted ones.
-    pub(super) fn fit(&self, wanted: &Symmetric) -> Result<Fitted, CorrelationError> {
+    pub(super) fn fit(&self, wanted: &CorrelationMatrix) -> Result<Fitted, CorrelationError> {
         let Self { members, distributions, decimals, .. } = *self;
         let mut pairs = Pairs::new(self.profiles);
         let mut adjusted: f64 = 0.0;
         let mut changes = Vec::new();
-        let mut fitted = Symmetric::identity(wanted.size());
+        let mut fitted = CorrelationMatrix::identity(wanted.size());
         for (i, j) in wanted.pairs() {
             let coefficient = wanted.get(i, j);
             if coefficient == 0.0 {
@@ -127,7 +127,7 @@ impl Fit<'_> {
         if fitted.is_semidefinite() {
             return Ok(Fitted { normals: fitted, adjusted, changes });
         }
-        let repaired = fitted.nearest_correlation();
+        let repaired = fitted.nearest();
         let mut drawn = wanted.clone();
         for (i, j) in wanted.pairs() {
             drawn.set(i, j, pairs.pair(i, j).of_normals(repaired.get(i, j)));

@@ -47,14 +47,14 @@ impl Fits {
         distributions: &[Arc<Distribution>],
         correlations: &[Correlation],
     ) -> Shared {
-        let place = self.place(distributions, correlations);
+        let entry = self.entry(distributions, correlations);
         // other rows wait for the first that needs the same fit
         let fit = || Joint::with(&self.0.profiles, distributions, correlations).map(Arc::new);
-        place.get_or_init(fit).clone()
+        entry.get_or_init(fit).clone()
     }
 
     /// Where the joint draw is kept, or will be.
-    fn place(
+    fn entry(
         &self,
         distributions: &[Arc<Distribution>],
         correlations: &[Correlation],
@@ -76,20 +76,20 @@ impl Fits {
         if draws.found.len() >= (MOST / size.max(1)).max(1) {
             draws.found.clear();
         }
-        let place = Arc::default();
-        draws.found.push((linked, Arc::clone(&place)));
-        place
+        let entry = Arc::default();
+        draws.found.push((linked, Arc::clone(&entry)));
+        entry
     }
 }
 
 fn linked(named: &[usize], distributions: &[Arc<Distribution>]) -> Linked {
     let is_paired = |d: &Distribution| matches!(d, Distribution::Readings(r) if r.together() > 1);
-    let mut places = named.to_vec();
+    let mut indices = named.to_vec();
     let all = distributions.iter().enumerate();
     let has_ranks = |d: &Distribution| d.saved().is_some_and(|s| s.origin().ranks.is_some());
-    places.extend(all.filter(|(_, d)| is_paired(d) || has_ranks(d)).map(|(place, _)| place));
-    places.sort_unstable();
-    places.dedup();
+    indices.extend(all.filter(|(_, d)| is_paired(d) || has_ranks(d)).map(|(index, _)| index));
+    indices.sort_unstable();
+    indices.dedup();
     let shape = |q: usize| Some((q, Standard::of(distributions.get(q)?)));
-    places.into_iter().filter_map(shape).collect()
+    indices.into_iter().filter_map(shape).collect()
 }

@@ -17,15 +17,15 @@ pub(super) fn connected(correlations: &[Correlation]) -> Vec<Vec<usize>> {
         }
     }
     let mut sets: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
-    for place in 0..earlier.len() {
-        sets.entry(first(&mut earlier, place)).or_default().push(place);
+    for index in 0..earlier.len() {
+        sets.entry(first(&mut earlier, index)).or_default().push(index);
     }
     sets.into_values().filter(|set| set.len() > 1).collect()
 }
 
 /// The first quantity of a set; ways that were gone become shorter.
-fn first(earlier: &mut [usize], place: usize) -> usize {
-    let mut at = place;
+fn first(earlier: &mut [usize], index: usize) -> usize {
+    let mut at = index;
     while let Some(&next) = earlier.get(at).filter(|&&next| next != at) {
         earlier[at] = earlier.get(next).copied().unwrap_or(next);
         at = next;

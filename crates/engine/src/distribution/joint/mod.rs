@@ -3,7 +3,7 @@
 //! - Quantities that declared coefficients link are drawn from joint standard normals: normal ones
 //!   exactly, all others through a Gaussian copula fitted to their coefficients ([`copula`],
 //!   [`profile`]).
-//! - Outputs of one saved result are drawn as they varied in its trials ([`together`]), unless a
+//! - Outputs of one saved result are drawn as they varied in its trials ([`rank_sample`]), unless a
 //!   coefficient links one of them to another quantity.
 //! - Paired readings are drawn from a multivariate t distribution ([`paired`]).
 //!
@@ -15,20 +15,18 @@ mod contradiction;
 mod copula;
 mod decimals;
 mod draws;
-mod eigen;
 mod error;
 mod fit;
 mod fits;
 mod links;
-mod matrix;
 pub mod paired;
 mod profile;
 mod profiles;
+mod rank_sample;
 mod scores;
 mod standard;
 #[cfg(test)]
 mod tests;
-mod together;
 
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -36,21 +34,21 @@ pub use draws::Draws;
 pub use draws::Varying;
 pub use error::CorrelationError;
 pub use fits::Fits;
-use matrix::Symmetric;
 use profile::Table;
 use profiles::{Profiled, Profiles};
+use rank_sample::{RankSample, rank_samples};
 pub use scores::FromScore;
 use standard::Standard;
-use together::{Together, together};
 
 use super::Distribution;
+use crate::linalg::CorrelationMatrix;
 
 /// A declared correlation coefficient of two quantities.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Correlation {
-    /// Place of the first quantity.
+    /// Index of the first quantity.
     pub first: usize,
-    /// Place of the second quantity.
+    /// Index of the second quantity.
     pub second: usize,
     /// The coefficient r, from -1 to 1.
     pub coefficient: f64,
@@ -63,22 +61,22 @@ const MOST_LINKED: usize = 2000;
 /// A quantity of a group.
 #[derive(Clone, Debug)]
 struct Member {
-    place: usize,
+    index: usize,
     shape: MemberShape,
 }
 
 /// What the group's own standard normal or t quantity becomes.
 #[derive(Clone, Debug)]
 enum MemberShape {
-    /// The quantity, but for its place and scale.
+    /// The quantity, but for its location and scale.
     Plain,
     /// A value of this shape, that the table gives.
     Tabulated(Standard, Arc<Table>),
 }
 
 impl Member {
-    fn plain(place: usize) -> Self {
-        Self { place, shape: MemberShape::Plain }
+    fn plain(index: usize) -> Self {
+        Self { index, shape: MemberShape::Plain }
     }
 
     fn table(&self) -> Option<&Table> {
@@ -101,18 +99,18 @@ impl Member {
 #[derive(Clone, Debug)]
 struct Group {
     members: Vec<Member>,
-    /// Lower triangular factor of the correlation matrix, row by row.
-    factor: Vec<Vec<f64>>,
+    /// Lower triangular factor of the correlation matrix, packed.
+    factor: Vec<f64>,
     /// Degrees of freedom of a multivariate t distribution; `None` for joint normals.
     dof: Option<f64>,
 }
 
-/// How a set of quantities is drawn, but for the places and scales that each row has of its own.
+/// How a set of quantities is drawn, but for the locations and scales that each row has of its own.
 #[derive(Clone, Debug, Default)]
 pub struct Joint {
     groups: Vec<Group>,
     /// Outputs of saved results.
-    together: Vec<Together>,
+    rank_samples: Vec<RankSample>,
     /// Whether some matrix was positive semi-definite only up to the rounding of its coefficients.
     pub(crate) rounded: bool,
     /// The quantities that are drawn through a Gaussian copula, in order. Normal ones that share a
@@ -167,15 +165,15 @@ impl Joint {
             });
         }
         let linked = links::connected(&active);
-        joint.together = together(distributions);
+        joint.rank_samples = rank_samples(distributions);
         // a link to another quantity takes all of them out
-        joint.together.retain(|set| {
+        joint.rank_samples.retain(|set| {
             let other = |m: &usize| !set.members.contains(m);
             !linked.iter().any(|ms| ms.iter().any(|m| !other(m)) && ms.iter().any(other))
         });
         for members in linked {
-            let inside = |set: &Together| members.iter().all(|m| set.members.contains(m));
-            if !joint.together.iter().any(inside) {
+            let inside = |set: &RankSample| members.iter().all(|m| set.members.contains(m));
+            if !joint.rank_samples.iter().any(inside) {
                 joint.add_correlated(&members, distributions, &active, profiles)?;
             }
         }
@@ -204,11 +202,11 @@ impl Joint {
         if count > MOST_LINKED {
             return Err(CorrelationError::TooMany { count, most: MOST_LINKED });
         }
-        let declared = Symmetric::of(members, active);
+        let declared = coefficients(members, active);
         let decimals = decimals::decimals(members, active, distributions);
         let mut wanted = declared;
         if !wanted.is_semidefinite() {
-            let nearest = wanted.nearest_correlation();
+            let nearest = wanted.nearest();
             if !contradiction::is_rounding(&wanted, &nearest, decimals) {
                 return Err(contradiction::contradiction(members, &wanted, &nearest, decimals));
             }
@@ -219,7 +217,7 @@ impl Joint {
         let mut drawn: Vec<Member> = members.iter().map(|&m| Member::plain(m)).collect();
         if members.iter().any(|&m| !distributions[m].is_drawn_normal()) {
             for (shaped, member) in shaped.iter_mut().zip(&mut drawn) {
-                let shape = Standard::of(&distributions[member.place]);
+                let shape = Standard::of(&distributions[member.index]);
                 let mut profiles = profiles.lock().unwrap_or_else(PoisonError::into_inner);
                 if let Some(profiled) = profiles.of(&shape) {
                     let table = Arc::clone(&profiled.table);
@@ -239,7 +237,19 @@ impl Joint {
     }
 
     /// The sets of outputs of saved results that are drawn together.
-    pub(crate) fn together(&self) -> &[Together] {
-        &self.together
+    pub(crate) fn rank_samples(&self) -> &[RankSample] {
+        &self.rank_samples
     }
+}
+
+/// The matrix of the coefficients among `members`, which are in order.
+fn coefficients(members: &[usize], correlations: &[Correlation]) -> CorrelationMatrix {
+    let mut matrix = CorrelationMatrix::identity(members.len());
+    let index = |quantity: usize| members.binary_search(&quantity).ok();
+    for c in correlations {
+        if let (Some(i), Some(j)) = (index(c.first), index(c.second)) {
+            matrix.set(i, j, c.coefficient);
+        }
+    }
+    matrix
 }

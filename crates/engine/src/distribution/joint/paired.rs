@@ -9,23 +9,23 @@ use std::sync::Arc;
 
 use super::Correlation;
 use super::error::CorrelationError;
-use super::matrix::Symmetric;
 use crate::distribution::{Distribution, Readings, Stream, student};
+use crate::linalg::CorrelationMatrix;
 use crate::number::{COLUMN, Column};
 
 /// Quantities with paired readings, in order.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Ensemble {
-    /// Places of the quantities.
+    /// Indices of the quantities.
     pub members: Vec<usize>,
     /// Correlation coefficients of the sample.
-    pub(super) coefficients: Symmetric,
+    pub(super) coefficients: CorrelationMatrix,
 }
 
-/// The ensembles among these quantities, by the place of their first members.
+/// The ensembles among these quantities, by the index of their first members.
 pub fn ensembles(distributions: &[Arc<Distribution>]) -> Vec<Ensemble> {
     let mut sets: Vec<Vec<(usize, &Readings)>> = Vec::new();
-    for (place, distribution) in distributions.iter().enumerate() {
+    for (index, distribution) in distributions.iter().enumerate() {
         let Distribution::Readings(readings) = &**distribution else {
             continue;
         };
@@ -34,12 +34,12 @@ pub fn ensembles(distributions: &[Arc<Distribution>]) -> Vec<Ensemble> {
         }
         let length = readings.values().len();
         match sets.iter_mut().find(|set| set[0].1.values().len() == length) {
-            Some(set) => set.push((place, readings)),
-            None => sets.push(vec![(place, readings)]),
+            Some(set) => set.push((index, readings)),
+            None => sets.push(vec![(index, readings)]),
         }
     }
     let ensemble = |set: Vec<(usize, &Readings)>| Ensemble {
-        members: set.iter().map(|(place, _)| *place).collect(),
+        members: set.iter().map(|(index, _)| *index).collect(),
         coefficients: coefficients(&set.iter().map(|(_, r)| r.values()).collect::<Vec<_>>()),
     };
     sets.into_iter().map(ensemble).collect()
@@ -73,7 +73,7 @@ impl Ensemble {
 }
 
 /// Correlation coefficients of samples of equal length, none of them constant.
-fn coefficients(samples: &[&[f64]]) -> Symmetric {
+fn coefficients(samples: &[&[f64]]) -> CorrelationMatrix {
     let offsets: Vec<Vec<f64>> = samples
         .iter()
         .map(|values| {
@@ -85,7 +85,7 @@ fn coefficients(samples: &[&[f64]]) -> Symmetric {
         .collect();
     let product = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(x, y)| x * y).sum::<f64>();
     let norms: Vec<f64> = offsets.iter().map(|a| product(a, a).sqrt()).collect();
-    let mut coefficients = Symmetric::identity(samples.len());
+    let mut coefficients = CorrelationMatrix::identity(samples.len());
     for (i, j) in coefficients.pairs() {
         let r = product(&offsets[i], &offsets[j]) / norms[i] / norms[j];
         coefficients.set(i, j, r.clamp(-1.0, 1.0));

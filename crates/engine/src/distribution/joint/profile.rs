@@ -8,8 +8,9 @@
 
 use std::sync::Arc;
 
-use crate::distribution::{Distribution, SavedResult, special};
+use crate::distribution::{Distribution, SavedResult};
 use crate::number::COLUMN;
+use crate::special;
 
 /// Nodes of a cell.
 pub(super) const NODES: usize = 8;
@@ -168,12 +169,12 @@ impl Table {
     #[inline(never)]
     pub(super) fn values(&self, z: &[f64; COLUMN], out: &mut [f64; COLUMN]) {
         for (&z, out) in z.iter().zip(out) {
-            let place = (z + f64::from(TABLE) * WIDTH) / WIDTH;
+            let position = (z + f64::from(TABLE) * WIDTH) / WIDTH;
             // what lies left of the table would be converted to 0
-            let number = if place >= 0.0 { place as usize } else { usize::MAX };
+            let number = if position >= 0.0 { position as usize } else { usize::MAX };
             *out = match self.cells.get(number) {
                 Some(Some(cell)) => {
-                    let t = 2.0 * (place - number as f64) - 1.0;
+                    let t = 2.0 * (position - number as f64) - 1.0;
                     let value = self.mean + horner(&cell.polynomial, t);
                     value.max(cell.low).min(cell.high)
                 }
@@ -222,11 +223,11 @@ impl Profile {
         let mut rough_variance = 0.0;
         for number in 0..MOST {
             let mut added = 0.0;
-            for place in [number, -1 - number] {
-                let sampled = sampler.piece(f64::from(place) * WIDTH, WIDTH);
+            for cell in [number, -1 - number] {
+                let sampled = sampler.piece(f64::from(cell) * WIDTH, WIDTH);
                 added += sampled.piece.variance();
                 if number < TABLE {
-                    cells[(place + TABLE) as usize] = sampled.cell(&sampler);
+                    cells[(cell + TABLE) as usize] = sampled.cell(&sampler);
                 }
                 open.push(sampled);
             }

@@ -68,7 +68,8 @@ fn quantiles(distribution: &Distribution, scores: &Column, out: &mut Column) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::distribution::{Arcsine, Normal, StudentT, Triangular, special};
+    use crate::distribution::{Arcsine, Normal, StudentT, Triangular};
+    use crate::special;
 
     /// Values are the quantiles at the scores' probabilities: the table's bound of 1e-9 of the
     /// standard deviation, and the quantile function itself for a t without a variance.

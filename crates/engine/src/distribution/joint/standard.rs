@@ -1,4 +1,4 @@
-//! What a fit of a joint draw depends on: the shape of a quantity, without its place and width
+//! What a fit of a joint draw depends on: the shape of a quantity, without its location and width
 //! where many rows of a sweep share it.
 
 use std::sync::Arc;

@@ -273,7 +273,7 @@ fn paired_readings_are_a_multivariate_t() {
     }
     // the second less its regression on the first is uncorrelated with it
     let (x, y) = (&whitened[0], &whitened[1]);
-    let r = joint.groups[0].factor[1][0];
+    let r = joint.groups[0].factor[crate::linalg::packed::triangle(1)];
     let slope = r * (variances[1] / variances[0]).sqrt();
     let rest: Vec<f64> = y.iter().zip(x).map(|(y, x)| (y - slope * x).powi(2)).collect();
     let squares: Vec<f64> = x.iter().map(|x| x * x).collect();
@@ -338,7 +338,7 @@ fn rows_share_fits() {
         fits.joint(row, &declared).unwrap()
     };
     let first = joint(&row(1.0), 0.0);
-    // place and width do not matter, nor does a quantity that nothing is said of
+    // location and width do not matter, nor does a quantity that nothing is said of
     let mut moved = row(1.0);
     moved[0] = shared(Rectangular::new(-3.0, 0.2).unwrap().into());
     moved[2] = shared(Normal::new(7.0, 0.5).unwrap().into());

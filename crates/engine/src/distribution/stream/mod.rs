@@ -12,11 +12,13 @@
 
 mod rng;
 #[cfg(target_arch = "x86_64")]
-mod wide;
+mod simd;
 
 pub use rng::StreamRng;
 
 use crate::number::CodePath;
+#[cfg(target_arch = "x86_64")]
+use crate::number::Instructions;
 
 /// Trials in a block: the granularity of random access. A multiple of a column's length.
 pub const BLOCK: usize = 1024;
@@ -70,7 +72,6 @@ fn mix(x: u64) -> u64 {
 #[derive(Clone, Debug)]
 pub struct Stream {
     state: [[u64; LANES]; 4],
-    /// A path that the machine has.
     #[cfg_attr(not(target_arch = "x86_64"), allow(dead_code))]
     path: CodePath,
 }
@@ -86,7 +87,7 @@ impl Stream {
                 *lane = mix(counter);
             }
         }
-        Self { state, path: path.or_baseline() }
+        Self { state, path }
     }
 
     #[inline(always)]
@@ -111,12 +112,12 @@ impl Stream {
     #[inline(always)]
     pub fn uniform<const N: usize>(&mut self, out: &mut [f64; N]) {
         #[cfg(target_arch = "x86_64")]
-        match self.path {
-            // SAFETY: the machine has the stream's path.
-            CodePath::Avx512 => return unsafe { wide::fill_avx512(&mut self.state, out) },
+        match self.path.instructions() {
+            // SAFETY: the machine has the instructions of a path.
+            Instructions::Avx512 => return unsafe { simd::fill_avx512(&mut self.state, out) },
             // SAFETY: as above.
-            CodePath::Avx2 => return unsafe { wide::fill_avx2(&mut self.state, out) },
-            CodePath::Baseline => {}
+            Instructions::Avx2 => return unsafe { simd::fill_avx2(&mut self.state, out) },
+            Instructions::Baseline => {}
         }
         for chunk in out.chunks_exact_mut(LANES) {
             let bits = self.next();
@@ -163,7 +164,7 @@ mod tests {
     fn lanes_follow_the_reference_generator() {
         let mut stream = Stream {
             state: [[1; LANES], [2; LANES], [3; LANES], [4; LANES]],
-            path: CodePath::Baseline,
+            path: CodePath::BASELINE,
         };
         let reference: [u64; 5] = [
             41_943_041,
@@ -186,7 +187,7 @@ mod tests {
             stream.uniform(&mut second);
             [&first[..], &second[..]].concat()
         };
-        let baseline = on(CodePath::Baseline);
+        let baseline = on(CodePath::BASELINE);
         for path in CodePath::available() {
             assert_eq!(on(path), baseline, "{path:?}");
         }

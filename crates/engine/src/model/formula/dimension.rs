@@ -296,9 +296,9 @@ impl<'c> Checker<'c> {
     }
 
     /// A node that has a dimension, although a plain number is needed.
-    fn not_plain(&self, place: usize) -> Option<Box<Operand>> {
-        let dimension = self.typing(place).dimension.filter(|dimension| !dimension.is_none())?;
-        Some(self.operand(place, dimension))
+    fn not_plain(&self, index: usize) -> Option<Box<Operand>> {
+        let dimension = self.typing(index).dimension.filter(|dimension| !dimension.is_none())?;
+        Some(self.operand(index, dimension))
     }
 
     /// The dimension of a result, or an error if it has left the range of exponents.
@@ -314,15 +314,15 @@ impl<'c> Checker<'c> {
         dimension.flatten()
     }
 
-    fn operand(&self, place: usize, dimension: Dimension) -> Box<Operand> {
-        let span = self.tree.span(place);
+    fn operand(&self, index: usize, dimension: Dimension) -> Box<Operand> {
+        let span = self.tree.span(index);
         let text = excerpt(self.text, span.clone());
-        let is_number = self.fractions.get(place).is_some_and(Option::is_some);
+        let is_number = self.fractions.get(index).is_some_and(Option::is_some);
         Box::new(Operand { text, span, dimension, is_number })
     }
 
-    fn typing(&self, place: usize) -> Typing {
-        self.done.typings.get(place).copied().unwrap_or(Typing::ANY)
+    fn typing(&self, index: usize) -> Typing {
+        self.done.typings.get(index).copied().unwrap_or(Typing::ANY)
     }
 
     fn slice(&self, span: &Range<usize>) -> &'c str {

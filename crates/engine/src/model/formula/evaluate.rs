@@ -43,9 +43,9 @@ pub(super) fn evaluate<T: Number>(
             Kind::Call { function: Some(Function::Kelvin), arguments, .. }
                 if arguments.len() == 1 =>
             {
-                let place = arguments.first().copied().unwrap_or_default();
-                let typing = typings.get(place).copied().unwrap_or(Typing::ANY);
-                let value = at(&results, place);
+                let argument = arguments[0];
+                let typing = typings.get(argument).copied().unwrap_or(Typing::ANY);
+                let value = at(&results, argument);
                 if typing.kelvin_shifts() { value + CELSIUS_ZERO } else { value }
             }
             kind => apply(kind, &results, &constants).ok_or_else(|| wrong_call(text, kind))?,
@@ -60,7 +60,7 @@ fn constants(tree: &Tree) -> Vec<Option<f64>> {
     let mut constants: Vec<Option<f64>> = Vec::with_capacity(tree.nodes.len());
     let mut values: Vec<f64> = Vec::with_capacity(tree.nodes.len());
     for node in &tree.nodes {
-        let known = |place: &usize| constants.get(*place).is_some_and(Option::is_some);
+        let known = |index: &usize| constants.get(*index).is_some_and(Option::is_some);
         let is_constant = match &node.kind {
             Kind::Number(_) | Kind::Pi => true,
             Kind::Name => false,
@@ -95,7 +95,7 @@ fn apply<T: Number>(kind: &Kind, results: &[T], constants: &[Option<f64>]) -> Op
             if !function.arity().admits(arguments.len()) {
                 return None;
             }
-            let mut arguments = arguments.iter().map(|&place| at(results, place));
+            let mut arguments = arguments.iter().map(|&index| at(results, index));
             let first = arguments.next()?;
             match function {
                 Function::One(operation) => first.unary(operation),
@@ -135,8 +135,8 @@ fn power<T: Number>(base: T, exponent: T, constant: Option<f64>) -> T {
     }
 }
 
-fn at<T: Number>(results: &[T], place: usize) -> T {
-    results.get(place).copied().unwrap_or_else(|| T::constant(f64::NAN))
+fn at<T: Number>(results: &[T], index: usize) -> T {
+    results.get(index).copied().unwrap_or_else(|| T::constant(f64::NAN))
 }
 
 /// The error for a call that cannot be computed.

@@ -88,7 +88,7 @@ impl Fraction {
 pub(super) fn fractions(text: &str, tree: &Tree) -> Vec<Option<Fraction>> {
     let mut found: Vec<Option<Fraction>> = Vec::with_capacity(tree.nodes.len());
     for node in &tree.nodes {
-        let at = |place: usize| found.get(place).copied().flatten();
+        let at = |index: usize| found.get(index).copied().flatten();
         let fraction = match &node.kind {
             Kind::Number(_) => text.get(node.span.clone()).and_then(Fraction::of_decimal),
             Kind::Negate(x) => at(*x).and_then(Fraction::negate),

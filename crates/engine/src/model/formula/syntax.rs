@@ -21,7 +21,7 @@ pub(super) struct Node {
     pub(super) span: Range<usize>,
 }
 
-/// What a node is. Operands are places in the list of nodes.
+/// What a node is. Operands are indices in the list of nodes.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Kind {
     /// A number as written.

@@ -99,7 +99,7 @@ impl Celsius {
 #[derive(Clone, Debug, Default)]
 pub struct Scope {
     names: Vec<(String, Typing)>,
-    places: HashMap<String, usize>,
+    index_of: HashMap<String, usize>,
     later: HashSet<String>,
 }
 
@@ -114,27 +114,27 @@ impl Scope {
         let name = name.into();
         self.later.remove(&name);
         if let Some((_, known)) =
-            self.places.get(&name).and_then(|&place| self.names.get_mut(place))
+            self.index_of.get(&name).and_then(|&index| self.names.get_mut(index))
         {
             *known = typing;
             return;
         }
-        self.places.insert(name.clone(), self.names.len());
+        self.index_of.insert(name.clone(), self.names.len());
         self.names.push((name, typing));
     }
 
     /// Says that a name will be defined later, so that a formula that uses it too early is told so.
     pub fn announce(&mut self, name: impl Into<String>) {
         let name = name.into();
-        if !self.places.contains_key(&name) {
+        if !self.index_of.contains_key(&name) {
             self.later.insert(name);
         }
     }
 
     /// What is known about a name; `None` if it is not defined.
     pub fn get(&self, name: &str) -> Option<Typing> {
-        let place = *self.places.get(name)?;
-        self.names.get(place).map(|(_, typing)| *typing)
+        let index = *self.index_of.get(name)?;
+        self.names.get(index).map(|(_, typing)| *typing)
     }
 
     /// The defined names, in the order of their definition.

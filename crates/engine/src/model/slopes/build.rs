@@ -18,7 +18,7 @@ struct Known {
     gradient: BTreeMap<usize, Operand>,
 }
 
-/// Registers are numbered as they come; [`registers::assign`] gives them their places.
+/// Registers are numbered as they come; [`registers::assign`] assigns the final ones.
 #[derive(Debug, Default)]
 struct Builder {
     steps: Vec<Step>,
@@ -37,7 +37,7 @@ pub(super) fn build(program: &Program, same: &[Option<f64>], wanted: usize) -> O
     let mut varying = Vec::new();
     let mut known: Vec<Option<Known>> = Vec::with_capacity(program.nodes.len());
     for (node, needed) in program.nodes.iter().zip(needed) {
-        let at = |place: usize| known.get(place).and_then(Option::as_ref);
+        let at = |index: usize| known.get(index).and_then(Option::as_ref);
         let made = match *node {
             _ if !needed => None,
             Node::Constant(c) => Some(Known::constant(c)),

@@ -1,4 +1,4 @@
-//! Places for registers: one is free again once nothing more reads it, so that few columns are in
+//! Assignment of registers: one is free again once nothing more reads it, so that few columns are in
 //! use at a time.
 
 use super::{Slopes, Step};
@@ -70,9 +70,9 @@ pub(super) fn assign(mut slopes: Slopes) -> Slopes {
     /// Never free again.
     const ALWAYS: usize = usize::MAX;
     let mut last: [Vec<usize>; 2] = slopes.registers.map(|count| vec![0; count]);
-    for (place, step) in slopes.steps.iter_mut().enumerate() {
+    for (number, step) in slopes.steps.iter_mut().enumerate() {
         // what nothing reads is free after the step that writes it
-        step.registers(|arena, register, _| last[arena as usize][*register] = place);
+        step.registers(|arena, register, _| last[arena as usize][*register] = number);
     }
     for (arena, filled) in slopes.filled.iter().enumerate() {
         for &(register, _) in filled {
@@ -88,7 +88,7 @@ pub(super) fn assign(mut slopes: Slopes) -> Slopes {
         }
     }
 
-    let mut place: [Vec<usize>; 2] = slopes.registers.map(|count| vec![usize::MAX; count]);
+    let mut assigned: [Vec<usize>; 2] = slopes.registers.map(|count| vec![usize::MAX; count]);
     let mut free: [Vec<usize>; 2] = [Vec::new(), Vec::new()];
     let mut count = [0; 2];
     let mut take = |free: &mut [Vec<usize>; 2], arena: usize| {
@@ -98,13 +98,13 @@ pub(super) fn assign(mut slopes: Slopes) -> Slopes {
         })
     };
     for (_, register) in &mut slopes.varying {
-        place[0][*register] = take(&mut free, 0);
-        *register = place[0][*register];
+        assigned[0][*register] = take(&mut free, 0);
+        *register = assigned[0][*register];
     }
     for (arena, filled) in slopes.filled.iter_mut().enumerate() {
         for (register, _) in filled {
-            place[arena][*register] = take(&mut free, arena);
-            *register = place[arena][*register];
+            assigned[arena][*register] = take(&mut free, arena);
+            *register = assigned[arena][*register];
         }
     }
     for (number, step) in slopes.steps.iter_mut().enumerate() {
@@ -112,9 +112,9 @@ pub(super) fn assign(mut slopes: Slopes) -> Slopes {
         step.registers(|arena, register, written| {
             let (arena, of) = (arena as usize, *register);
             if written {
-                place[arena][of] = take(&mut free, arena);
+                assigned[arena][of] = take(&mut free, arena);
             }
-            *register = place[arena][of];
+            *register = assigned[arena][of];
             if last[arena][of] == number && !ended.contains(&(arena, *register)) {
                 ended.push((arena, *register));
             }
@@ -125,7 +125,7 @@ pub(super) fn assign(mut slopes: Slopes) -> Slopes {
     }
     let placed = |arena: usize, operand: &mut Operand| {
         if let Operand::Register(register) = operand {
-            *register = place[arena][*register];
+            *register = assigned[arena][*register];
         }
     };
     for output in &mut slopes.outputs {

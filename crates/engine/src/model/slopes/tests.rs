@@ -61,8 +61,8 @@ fn program(numbers: &mut Numbers) -> Program {
     nodes.push(Node::Constant(0.75));
     nodes.push(Node::Constant(0.0));
     for _ in 0..5 + numbers.next() % 40 {
-        let mut place = || numbers.next() % nodes.len();
-        let (x, y) = (place(), place());
+        let mut index = || numbers.next() % nodes.len();
+        let (x, y) = (index(), index());
         nodes.push(if numbers.next().is_multiple_of(3) {
             Node::Unary(UNARY[numbers.next() % UNARY.len()], x)
         } else {

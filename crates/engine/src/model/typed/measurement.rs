@@ -92,12 +92,12 @@ impl Typed {
         Self { declaration: M::DECLARATION, record: record::<M> }
     }
 
-    /// The declared input of that name, with its place.
+    /// The declared input of that name, with its index.
     pub fn input(&self, name: &str) -> Option<(usize, &'static DeclaredInput)> {
         self.declaration.inputs.iter().enumerate().find(|(_, input)| input.name == name)
     }
 
-    /// The declared output of that name, with its place.
+    /// The declared output of that name, with its index.
     pub fn output(&self, name: &str) -> Option<(usize, &'static DeclaredOutput)> {
         self.declaration.outputs.iter().enumerate().find(|(_, output)| output.name == name)
     }
@@ -136,7 +136,8 @@ impl Typed {
     }
 
     /// The declared outputs in SI units from the values of the inputs in SI units. A declared input
-    /// without a value takes its default (or 0).
+    /// without a value takes its default; without a default, or if its declared unit cannot be read,
+    /// it is not a number.
     pub fn record_with<'r>(&self, value: impl Fn(&str) -> Option<Traced<'r>>) -> Vec<Traced<'r>> {
         let values: Vec<Traced<'r>> = self
             .declaration
@@ -144,8 +145,9 @@ impl Typed {
             .iter()
             .map(|declared| {
                 value(declared.name).unwrap_or_else(|| {
-                    let factor = Unit::parse(declared.unit).map_or(1.0, |unit| unit.factor());
-                    Traced::constant(declared.default.unwrap_or(0.0) * factor)
+                    let unit = Unit::parse(declared.unit).ok();
+                    let default = declared.default.zip(unit).map(|(value, u)| value * u.factor());
+                    Traced::constant(default.unwrap_or(f64::NAN))
                 })
             })
             .collect();
@@ -153,8 +155,8 @@ impl Typed {
     }
 
     /// The model whose variables are the parts of `inputs`, then `conditions`, and whose results are
-    /// `outputs`, each in its own unit. A declared input that is in neither list takes its default
-    /// (or 0); an output that is not declared is not a number.
+    /// `outputs`, each in its own unit. A declared input that is in neither list is as in
+    /// [`Typed::record_with`]; an output that is not declared is not a number.
     pub fn model_with(
         &self,
         inputs: Vec<InputQuantity>,
@@ -169,8 +171,8 @@ impl Typed {
         let results: Vec<Traced<'_>> = outputs
             .iter()
             .map(|output| {
-                let place = self.output(&output.quantity.name).map(|(place, _)| place);
-                let result = place.and_then(|place| results.get(place)).copied();
+                let index = self.output(&output.quantity.name).map(|(index, _)| index);
+                let result = index.and_then(|index| results.get(index)).copied();
                 in_unit(result.unwrap_or_else(|| Traced::constant(f64::NAN)), &output.quantity.unit)
             })
             .collect();

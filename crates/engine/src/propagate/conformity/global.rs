@@ -7,7 +7,8 @@
 //! integrals run over the standard normal scores of the prior, so that any shape will do.
 
 use super::smallest;
-use crate::distribution::{Distribution, special};
+use crate::distribution::Distribution;
+use crate::special;
 
 /// Risks over all items that are inspected.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -54,11 +55,11 @@ impl<'a> Inspection<'a> {
         let density = |z: f64| libm::exp(-0.5 * z * z) / (2.0 * std::f64::consts::PI).sqrt();
         let f = |z: f64| density(z) * accepted(self.prior.at_score(z));
         let rejected = |z: f64| density(z) * (1.0 - accepted(self.prior.at_score(z)));
-        let places = self.places(acceptance);
+        let cuts = self.cuts(acceptance);
         GlobalRisks {
-            false_acceptance: integral(&f, -FARTHEST, lower, &places)
-                + integral(&f, upper, FARTHEST, &places),
-            false_rejection: integral(&rejected, lower, upper, &places),
+            false_acceptance: integral(&f, -FARTHEST, lower, &cuts)
+                + integral(&f, upper, FARTHEST, &cuts),
+            false_rejection: integral(&rejected, lower, upper, &cuts),
         }
     }
 
@@ -81,22 +82,22 @@ impl<'a> Inspection<'a> {
 
     /// Scores about which the integrands change: the acceptance limits, and some standard
     /// uncertainties from them.
-    fn places(&self, acceptance: [f64; 2]) -> Vec<f64> {
+    fn cuts(&self, acceptance: [f64; 2]) -> Vec<f64> {
         let steps = [-8.0, -4.0, -2.0, 0.0, 2.0, 4.0, 8.0];
         let finite = acceptance.into_iter().filter(|limit| limit.is_finite());
         let values = finite.flat_map(|limit| steps.map(|step| limit + step * self.u));
-        let mut places: Vec<f64> = values.map(|value| self.score(value)).collect();
-        places.extend([-4.0, -2.0, 0.0, 2.0, 4.0]);
-        places.sort_by(f64::total_cmp);
-        places
+        let mut cuts: Vec<f64> = values.map(|value| self.score(value)).collect();
+        cuts.extend([-4.0, -2.0, 0.0, 2.0, 4.0]);
+        cuts.sort_by(f64::total_cmp);
+        cuts
     }
 }
 
-/// The integral between two scores, cut at the places between them.
-fn integral(f: &impl Fn(f64) -> f64, from: f64, to: f64, places: &[f64]) -> f64 {
+/// The integral between two scores, cut at those between them.
+fn integral(f: &impl Fn(f64) -> f64, from: f64, to: f64, cuts: &[f64]) -> f64 {
     let mut sum = 0.0;
     let mut start = from;
-    let between = places.iter().copied().filter(|place| *place > from && *place < to);
+    let between = cuts.iter().copied().filter(|cut| *cut > from && *cut < to);
     for end in between.chain([to]) {
         if end > start {
             let (a, b) = (f(start), f(end));

@@ -21,11 +21,11 @@ use crate::task::Coverage;
 macro_rules! with {
     ($each:expr, $rows:expr, $value:ident => $work:block) => {
         match $each {
-            Each::Same(value) => {
+            BulkValue::Same(value) => {
                 let $value = |_: usize| value;
                 $work
             }
-            Each::Rows(values) => {
+            BulkValue::Rows(values) => {
                 let values = &values[$rows];
                 let $value = |i: usize| values[i];
                 $work
@@ -36,14 +36,14 @@ macro_rules! with {
 
 /// A quantity's value in every row.
 #[derive(Clone, Copy, Debug)]
-pub enum Each<'a> {
+pub enum BulkValue<'a> {
     /// The same in all rows.
     Same(f64),
     /// One value a row.
     Rows(&'a [f64]),
 }
 
-impl Each<'_> {
+impl BulkValue<'_> {
     fn at(&self, row: usize) -> f64 {
         match self {
             Self::Same(value) => *value,
@@ -68,19 +68,19 @@ impl Each<'_> {
 
 /// What is known about an input in every row, in its unit.
 #[derive(Clone, Copy, Debug)]
-pub struct Known<'a> {
+pub struct BulkInput<'a> {
     /// The estimate.
-    pub estimate: Each<'a>,
+    pub estimate: BulkValue<'a>,
     /// The standard uncertainty, zero or more.
-    pub standard_uncertainty: Each<'a>,
+    pub standard_uncertainty: BulkValue<'a>,
     /// Its degrees of freedom; infinite unless it was estimated.
-    pub dof: Each<'a>,
+    pub dof: BulkValue<'a>,
 }
 
-impl<'a> Known<'a> {
+impl<'a> BulkInput<'a> {
     /// Estimate and standard uncertainty, with infinite degrees of freedom.
-    pub fn new(estimate: Each<'a>, standard_uncertainty: Each<'a>) -> Self {
-        Self { estimate, standard_uncertainty, dof: Each::Same(f64::INFINITY) }
+    pub fn new(estimate: BulkValue<'a>, standard_uncertainty: BulkValue<'a>) -> Self {
+        Self { estimate, standard_uncertainty, dof: BulkValue::Same(f64::INFINITY) }
     }
 }
 
@@ -140,7 +140,7 @@ impl std::error::Error for BulkError {}
 
 /// How budgets are made.
 #[derive(Clone, Copy, Debug)]
-pub struct Options<'a> {
+pub struct BulkOptions<'a> {
     /// The coverage probability, or factor.
     pub coverage: Coverage,
     /// Whether the t factor is taken at the real degrees of freedom rather than at their integer
@@ -152,7 +152,7 @@ pub struct Options<'a> {
     pub path: CodePath,
 }
 
-impl Default for Options<'_> {
+impl Default for BulkOptions<'_> {
     fn default() -> Self {
         let coverage = Coverage::Probability(0.95);
         Self { coverage, real_dof: false, correlations: &[], path: CodePath::best() }
@@ -168,7 +168,7 @@ impl Default for Options<'_> {
 /// ```
 /// use gumption_engine::model::Recorder;
 /// use gumption_engine::number::Number;
-/// use gumption_engine::propagate::gum::bulk::{Each, Known, Options, budgets};
+/// use gumption_engine::propagate::gum::bulk::{BulkValue, BulkInput, BulkOptions, budgets};
 ///
 /// // the resistance of a conductor at 1000 voltages, all measured with the same ammeter
 /// let recorder = Recorder::default();
@@ -176,10 +176,10 @@ impl Default for Options<'_> {
 /// let program = recorder.program(2, &[voltage / current]);
 /// let volts: Vec<f64> = (1..=1000).map(f64::from).collect();
 /// let known = [
-///     Known::new(Each::Rows(&volts), Each::Same(0.1)),
-///     Known::new(Each::Same(2.0), Each::Same(0.01)),
+///     BulkInput::new(BulkValue::Rows(&volts), BulkValue::Same(0.1)),
+///     BulkInput::new(BulkValue::Same(2.0), BulkValue::Same(0.01)),
 /// ];
-/// let resistance = &budgets(&program, &known, &[], Options::default())?[0];
+/// let resistance = &budgets(&program, &known, &[], BulkOptions::default())?[0];
 /// assert_eq!(resistance.estimates[99], 50.0);
 /// // 100 V / (2 A)^2 x 0.01 A = 0.25 Ohm and 0.1 V / 2 A = 0.05 Ohm
 /// assert!((resistance.standard_uncertainties[99] - 0.065_f64.sqrt()).abs() < 1e-15);
@@ -190,9 +190,9 @@ impl Default for Options<'_> {
 /// [`BulkError`].
 pub fn budgets(
     program: &Program,
-    inputs: &[Known<'_>],
-    conditions: &[Each<'_>],
-    options: Options<'_>,
+    inputs: &[BulkInput<'_>],
+    conditions: &[BulkValue<'_>],
+    options: BulkOptions<'_>,
 ) -> Result<Vec<Budgets>, BulkError> {
     let found = inputs.len() + conditions.len();
     if found != program.variables() {
@@ -208,9 +208,9 @@ pub fn budgets(
     }
     let mut made: Vec<Budgets> =
         (0..program.outputs()).map(|_| Budgets::new(inputs.len(), rows)).collect();
-    let values: Vec<Each<'_>> =
+    let values: Vec<BulkValue<'_>> =
         inputs.iter().map(|known| known.estimate).chain(conditions.iter().copied()).collect();
-    let same: Vec<Option<f64>> = values.iter().map(Each::same).collect();
+    let same: Vec<Option<f64>> = values.iter().map(BulkValue::same).collect();
     let slopes = Slopes::new(program, &same, inputs.len());
     let bulk = Bulk { program, inputs, values, options, slopes, factors: Factors::default() };
     let mut pieces: Vec<Vec<Piece<'_>>> = Vec::new();
@@ -233,10 +233,10 @@ pub fn budgets(
 const PIECE: usize = 32 * COLUMN;
 
 /// The number of rows, if all columns have it.
-fn rows(inputs: &[Known<'_>], conditions: &[Each<'_>]) -> Option<usize> {
-    let of = |k: &Known<'_>| [k.estimate.len(), k.standard_uncertainty.len(), k.dof.len()];
+fn rows(inputs: &[BulkInput<'_>], conditions: &[BulkValue<'_>]) -> Option<usize> {
+    let of = |k: &BulkInput<'_>| [k.estimate.len(), k.standard_uncertainty.len(), k.dof.len()];
     let of_inputs = inputs.iter().flat_map(of);
-    let mut lengths = of_inputs.chain(conditions.iter().map(Each::len)).flatten();
+    let mut lengths = of_inputs.chain(conditions.iter().map(BulkValue::len)).flatten();
     let Some(rows) = lengths.next() else { return Some(1) };
     (rows > 0 && lengths.all(|length| length == rows)).then_some(rows)
 }
@@ -297,10 +297,10 @@ fn chunks(columns: &mut [Vec<f64>]) -> Vec<ChunksMut<'_, f64>> {
 
 struct Bulk<'a> {
     program: &'a Program,
-    inputs: &'a [Known<'a>],
+    inputs: &'a [BulkInput<'a>],
     /// The values of the program's variables.
-    values: Vec<Each<'a>>,
-    options: Options<'a>,
+    values: Vec<BulkValue<'a>>,
+    options: BulkOptions<'a>,
     slopes: Option<Slopes>,
     factors: Factors,
 }
@@ -339,7 +339,7 @@ impl Bulk<'_> {
             dof if dof.is_nan() => Dof::Undefined,
             dof => Dof::Finite(dof),
         };
-        let Options { coverage, real_dof, .. } = self.options;
+        let BulkOptions { coverage, real_dof, .. } = self.options;
         self.factors.factor(coverage, dof, real_dof).unwrap_or(f64::NAN)
     }
 
@@ -383,7 +383,7 @@ impl Kernel for LanesKernel<'_, '_, '_, '_> {
         let Self { of: Lanes { bulk, slopes, columns, first, rows }, budget, outputs } = self;
         let of_sweep = first + rows.start..first + rows.end;
         for &(variable, register) in &slopes.varying {
-            if let Each::Rows(values) = bulk.values[variable] {
+            if let BulkValue::Rows(values) = bulk.values[variable] {
                 columns.values[register].0[..rows.len()].copy_from_slice(&values[of_sweep.clone()]);
             }
         }

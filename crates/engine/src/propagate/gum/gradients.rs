@@ -97,7 +97,7 @@ fn estimate(row: &Row, variable: usize) -> f64 {
     let inputs = row.distributions.len();
     match row.distributions.get(variable) {
         Some(distribution) => distribution.mean(),
-        None => row.conditions.get(variable - inputs).copied().unwrap_or(0.0),
+        None => row.conditions.get(variable - inputs).copied().unwrap_or(f64::NAN),
     }
 }
 

@@ -5,13 +5,13 @@ use std::sync::Arc;
 use rayon::prelude::*;
 
 use crate::distribution::{BLOCK, Draws, Joint, StreamKey, Varying};
-use crate::model::{Place, Schedule};
+use crate::model::{Schedule, ScheduledOutput};
 use crate::number::{COLUMN, CodePath, Column, Kernel};
 use crate::task::{Row, Sharing, Task};
 
 /// One row of a task made ready for trials.
 #[derive(Debug)]
-pub(crate) struct Trials {
+pub(crate) struct RowTrials {
     schedule: Schedule,
     /// The variables that vary, in the order of their registers.
     varying: Varying,
@@ -33,7 +33,7 @@ pub(crate) struct Workspace {
     pub outputs: Vec<[f64; BLOCK]>,
 }
 
-impl Trials {
+impl RowTrials {
     /// A row of the task. `estimates` are the outputs' values at the estimates of the inputs, the
     /// middle of a phase's branch; `joint` is the joint draw of the row's distributions.
     pub(crate) fn new(task: &Task, row: &Row, estimates: &[f64], joint: &Arc<Joint>) -> Self {
@@ -55,11 +55,10 @@ impl Trials {
                 output.period.map(|turn| (if middle.is_finite() { middle } else { 0.0 }, turn))
             })
             .collect();
-        let limits = task.model.outputs.iter().map(|output| {
-            let limits = output.tolerance.map(|t| (t.lower, t.upper)).unwrap_or_default();
-            [limits.0.unwrap_or(f64::NEG_INFINITY), limits.1.unwrap_or(f64::INFINITY)]
-        });
-        let limits = limits.collect();
+        let unlimited = [f64::NEG_INFINITY, f64::INFINITY];
+        let limits = task.model.outputs.iter();
+        let limits =
+            limits.map(|output| output.tolerance.map_or(unlimited, |t| t.ends())).collect();
         Self {
             registers: (0..varying.len()).collect(),
             varying: Varying::new(&row.distributions, &varying, joint),
@@ -106,20 +105,19 @@ impl Trials {
             workspace.outputs.copy_from_slice(held);
             return;
         }
-        let path = path.or_baseline();
-        path.run(BlockKernel { path, trials: self, block, workspace });
+        let wanted = Wanted::Outputs;
+        path.run(BlockKernel { path, trials: self, block, workspace, wanted });
     }
 
     /// The drawn values of the varying variables, in the order of the task's variables with
     /// constants left out, in trial `trial` of block `block`.
-    pub(crate) fn inputs_of(&self, block: u64, trial: usize) -> Vec<f64> {
-        let mut registers = vec![Column::ZERO; self.schedule.registers];
-        let all = vec![true; self.varying.len()];
-        let mut draws = Draws::new(&self.varying, &self.keys, CodePath::best(), block);
-        for _ in 0..=trial / COLUMN {
-            draws.column(&mut registers, &self.registers, &all);
-        }
-        registers.iter().take(all.len()).map(|column| column.0[trial % COLUMN]).collect()
+    #[cold]
+    pub(crate) fn inputs_of(&self, path: CodePath, block: u64, trial: usize) -> Vec<f64> {
+        let mut workspace = self.workspace();
+        let wanted = Wanted::Inputs { column: trial / COLUMN };
+        path.run(BlockKernel { path, trials: self, block, workspace: &mut workspace, wanted });
+        let registers = self.registers.iter().map(|&register| &workspace.registers[register]);
+        registers.map(|column| column.0[trial % COLUMN]).collect()
     }
 }
 
@@ -136,9 +134,20 @@ pub fn stream_name(task: &Task, row: &Row, variable: usize) -> String {
 
 struct BlockKernel<'a> {
     path: CodePath,
-    trials: &'a Trials,
+    trials: &'a RowTrials,
     block: u64,
     workspace: &'a mut Workspace,
+    wanted: Wanted,
+}
+
+/// What is asked of a block. Both stand in one kernel, so that drawing is compiled once for each
+/// code path.
+#[derive(Clone, Copy)]
+enum Wanted {
+    /// The outputs' values in all trials.
+    Outputs,
+    /// The drawn values of all inputs in one column of trials, left in the registers.
+    Inputs { column: usize },
 }
 
 impl Kernel for BlockKernel<'_> {
@@ -146,18 +155,31 @@ impl Kernel for BlockKernel<'_> {
 
     #[inline(always)]
     fn run(self) {
-        let Self { path, trials, block, workspace } = self;
+        let Self { path, trials, block, workspace, wanted } = self;
         let Workspace { registers, outputs } = workspace;
         let schedule = &trials.schedule;
         let mut draws = Draws::new(&trials.varying, &trials.keys, path, block);
+        let all: Vec<bool>;
+        let (used, last) = match wanted {
+            Wanted::Outputs => (&schedule.used, BLOCK),
+            Wanted::Inputs { column } => {
+                all = vec![true; trials.varying.len()];
+                (&all, column * COLUMN)
+            }
+        };
         for first in (0..BLOCK).step_by(COLUMN) {
-            draws.column(registers, &trials.registers, &schedule.used);
+            draws.column(registers, &trials.registers, used);
+            if first == last {
+                return;
+            }
             schedule.run(registers);
-            for (output, place) in schedule.outputs.iter().enumerate() {
+            for (output, slot) in schedule.outputs.iter().enumerate() {
                 let out = &mut outputs[output][first..first + COLUMN];
-                match *place {
-                    Place::Register(register) => out.copy_from_slice(&registers[register].0),
-                    Place::Constant(value) => out.fill(value),
+                match *slot {
+                    ScheduledOutput::Register(register) => {
+                        out.copy_from_slice(&registers[register].0)
+                    }
+                    ScheduledOutput::Constant(value) => out.fill(value),
                 }
                 if let Some((middle, turn)) = trials.branches[output] {
                     onto_branch(out, middle, turn);

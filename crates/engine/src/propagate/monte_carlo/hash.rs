@@ -3,13 +3,13 @@
 
 use rayon::prelude::*;
 
-use super::block::Trials;
+use super::block::RowTrials;
 use crate::distribution::BLOCK;
 use crate::number::CodePath;
 
 /// The hash of the outputs' bits in the first `count` trials. Every value enters with its output
-/// and trial, so equal hashes mean equal trials in equal places (up to a chance of 2^-64).
-pub(crate) fn hash_trials(trials: &Trials, count: u64, path: CodePath) -> u64 {
+/// and trial, so equal hashes mean equal trials in equal positions (up to a chance of 2^-64).
+pub(crate) fn hash_trials(trials: &RowTrials, count: u64, path: CodePath) -> u64 {
     let blocks = count.div_ceil(BLOCK as u64);
     let parts: Vec<u64> = (0..blocks)
         .into_par_iter()

@@ -4,10 +4,10 @@
 
 use rayon::prelude::*;
 
-use super::block::{Trials, Workspace};
-use super::fold::drop_undefined;
+use super::accumulate::drop_undefined;
+use super::block::{RowTrials, Workspace};
 use super::repeat::repeat;
-use super::run::trials_in;
+use super::request::trials_in;
 use crate::distribution::BLOCK;
 use crate::propagate::Control;
 
@@ -71,9 +71,9 @@ impl Histogram {
     fn add(&mut self, values: &[f64]) {
         let (low, inverse) = (self.low, 1.0 / self.width);
         for value in values {
-            let place = (value - low) * inverse;
-            match self.counts.get_mut(place as usize) {
-                _ if place < 0.0 => self.beyond[0] += 1,
+            let position = (value - low) * inverse;
+            match self.counts.get_mut(position as usize) {
+                _ if position < 0.0 => self.beyond[0] += 1,
                 Some(count) => *count += 1,
                 None => self.beyond[1] += 1,
             }
@@ -95,7 +95,7 @@ impl Histogram {
 /// needs; `None` for an output that does not vary, and nothing at all if the run is stopped. Each
 /// shows at least its entry of `shown`, a range of values.
 pub(crate) fn histograms(
-    trials: &Trials,
+    trials: &RowTrials,
     count: u64,
     shown: &[Option<[f64; 2]>],
     control: &Control<'_>,
@@ -140,7 +140,7 @@ pub(crate) fn histograms(
 }
 
 /// For each output the range of nearly all of its first trials, `None` where they are all equal.
-fn ranges(trials: &Trials, count: u64, control: &Control<'_>) -> Option<Vec<Option<[f64; 2]>>> {
+fn ranges(trials: &RowTrials, count: u64, control: &Control<'_>) -> Option<Vec<Option<[f64; 2]>>> {
     let mut pilot: Vec<Vec<f64>> = vec![Vec::new(); trials.outputs()];
     let first = count.min(PILOT_BLOCKS * BLOCK as u64);
     let whole = repeat(trials, first, control, |block| {

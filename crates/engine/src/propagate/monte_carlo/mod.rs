@@ -2,46 +2,55 @@
 //!
 //! Trials are made in blocks (`block`) whose draws are functions of (seed, input, block), so any
 //! thread can compute any block and the results are the same bits however the work is shared. A
-//! pilot of the first blocks fixes where the tails lie (`windows`); the main pass keeps only what
-//! the coverage intervals and the median can depend on (`fold`); order statistics of what was
-//! kept are then those of all trials (`order`, `interval`). Where that would not fit into memory,
-//! the trials are generated again in a few passes (`capped`).
+//! pilot of the first blocks (`pilot`) fixes where the tails lie (`windows`); the main pass (`run`)
+//! accumulates sums and keeps only what the coverage intervals and the median can depend on
+//! (`accumulate`); order statistics of what was kept are then those of all trials (`order`,
+//! `bucket_partition`, `interval`). Where that would not fit into memory, the trials are generated
+//! again in a few passes (`several_pass`).
 
+mod accumulate;
 mod adaptive;
 mod block;
-mod capped;
-mod fold;
-mod foresight;
+mod bucket_partition;
+mod figures;
 mod hash;
 mod histogram;
 mod interval;
+mod joint_ranks;
 mod moments;
 mod order;
 mod partition;
+mod passes;
+mod pilot;
+mod pilot_refinement;
+mod plan;
 mod products;
 mod quantiles;
 mod repeat;
+mod request;
 mod run;
-mod shelves;
-mod sorting;
-mod together;
+mod several_pass;
 #[cfg(target_arch = "x86_64")]
-mod wide;
+mod simd;
+mod sorting;
+mod sums;
+mod targets;
 mod windows;
 
 pub use adaptive::Adaptive;
 pub use adaptive::FIRST_STAGE;
 pub(crate) use adaptive::{Search, find_trials};
-pub(crate) use block::Trials;
+pub(crate) use block::RowTrials;
 pub use block::onto_branch;
 pub use block::stream_name;
+pub(crate) use figures::Finished;
+pub use figures::{MonteCarlo, NumericalError, Undefined};
 pub(crate) use hash::hash_trials;
 pub use histogram::Histogram;
 pub(crate) use histogram::histograms;
 pub use interval::Ranks;
+pub(crate) use joint_ranks::joint_ranks;
 pub(crate) use quantiles::quantiles;
 pub(crate) use repeat::repeat;
-pub use run::run;
-pub(crate) use run::{Finished, Request};
-pub use run::{MonteCarlo, NumericalError, Undefined};
-pub(crate) use together::joint_ranks;
+pub(crate) use request::Request;
+pub(crate) use run::run;

@@ -1,87 +1,8 @@
-//! Moments of the trials, added up in a fixed order about a pilot value.
-#![allow(unsafe_code)] // instructions of a path that the machine has
+//! Moments of the trials from their sums.
 
+use super::plan::Reference;
 use super::products::Products;
-#[cfg(target_arch = "x86_64")]
-use super::wide;
-use crate::number::CodePath;
-
-/// Where an output's values lie and how far they spread: the pilot's median and a width. Sums are
-/// taken of (value - middle)/scale, so that they neither cancel nor overflow.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Reference {
-    pub(crate) middle: f64,
-    pub(crate) scale: f64,
-    /// The output's tolerance limits, infinite where there are none.
-    pub(crate) limits: [f64; 2],
-}
-
-/// Sums over trials of the powers 1 to 4 of one output, and of its products with the outputs after
-/// it ([`super::products`]), all about the reference.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub(crate) struct Sums {
-    /// How many values lie within the output's tolerance limits.
-    pub(crate) inside: u64,
-    pub(crate) powers: [f64; 4],
-    pub(crate) products: Vec<f64>,
-}
-
-pub(super) const LANES: usize = 8;
-
-impl Sums {
-    /// Adds a block's values. Every lane adds its own trials, and the lanes are added in order, so
-    /// the result does not depend on the width of the machine's vectors.
-    #[inline(always)]
-    pub(crate) fn add(&mut self, path: CodePath, values: &[f64], reference: Reference) {
-        let [lower, upper] = reference.limits;
-        self.inside += if lower == f64::NEG_INFINITY && upper == f64::INFINITY {
-            values.len() as u64
-        } else {
-            values.iter().map(|&v| u64::from((v >= lower) & (v <= upper))).sum::<u64>()
-        };
-        for (sum, lane) in self.powers.iter_mut().zip(powers(path, values, reference)) {
-            *sum += pairwise(lane);
-        }
-    }
-
-    /// The sums of two sets of trials, but for the products, which are added up by themselves.
-    pub(crate) fn merge(&mut self, other: &Self) {
-        self.inside += other.inside;
-        for (sum, term) in self.powers.iter_mut().zip(other.powers) {
-            *sum += term;
-        }
-    }
-}
-
-/// For the powers 1 to 4 of the values' distances from the reference the sum in each lane.
-#[inline(always)]
-fn powers(path: CodePath, values: &[f64], reference: Reference) -> [[f64; LANES]; 4] {
-    #[cfg(target_arch = "x86_64")]
-    if path == CodePath::Avx512 {
-        // SAFETY: a kernel runs on a path only where the machine has it.
-        return unsafe { wide::powers(values, reference) };
-    }
-    let _ = path;
-    let inverse = 1.0 / reference.scale;
-    let mut lanes = [[0.0; LANES]; 4];
-    for chunk in values.chunks(LANES) {
-        for (i, &value) in chunk.iter().enumerate() {
-            let d = (value - reference.middle) * inverse;
-            let d2 = d * d;
-            lanes[0][i] += d;
-            lanes[1][i] += d2;
-            lanes[2][i] += d2 * d;
-            lanes[3][i] += d2 * d2;
-        }
-    }
-    lanes
-}
-
-#[inline(always)]
-pub(super) fn pairwise(lane: [f64; LANES]) -> f64 {
-    let [a, b, c, d, e, f, g, h] = lane;
-    ((a + e) + (c + g)) + ((b + f) + (d + h))
-}
+use super::sums::Sums;
 
 /// Mean, standard deviation and shape of one output's trials.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -120,13 +41,13 @@ impl Moments {
         let n = trials as f64;
         let [s1, s2, s3, s4] = sums.powers.map(|s| s / n);
         let m2 = f64::max(s2 - s1 * s1, 0.0);
-        let m3 = s3 - 3.0 * s1 * s2 + 2.0 * s1.powi(3);
-        let m4 = s4 - 4.0 * s1 * s3 + 6.0 * s1 * s1 * s2 - 3.0 * s1.powi(4);
+        let m3 = s3 - 3.0 * s1 * s2 + 2.0 * s1 * s1 * s1;
+        let m4 = s4 - 4.0 * s1 * s3 + 6.0 * s1 * s1 * s2 - 3.0 * (s1 * s1) * (s1 * s1);
         Self {
             trials: n,
             mean: reference.middle + reference.scale * s1,
             std: reference.scale * (m2 * n / (n - 1.0)).sqrt(),
-            skewness: m3 / m2.powf(1.5),
+            skewness: m3 / (m2 * m2.sqrt()),
             excess_kurtosis: m4 / (m2 * m2) - 3.0,
             shape_errors: None,
             inside: sums.inside as f64 / n,
@@ -190,6 +111,7 @@ fn correlation(trials: u64, a: &Sums, b: &Sums, product: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::number::CodePath;
 
     /// Moments of the numbers 1 to 1000 about a middle far off, against their closed forms:
     /// variance (n^2 - 1)/12 with divisor n, excess kurtosis -6/5 (n^2 + 1)/(n^2 - 1).
@@ -198,9 +120,9 @@ mod tests {
         let values: Vec<f64> = (1..=1000).map(f64::from).collect();
         let reference = Reference { middle: 480.0, scale: 300.0, limits: [11.0, 20.0] };
         let mut sums = Sums::default();
-        sums.add(CodePath::Baseline, &values[..617], reference);
+        sums.add(CodePath::BASELINE, &values[..617], reference);
         let mut rest = Sums::default();
-        rest.add(CodePath::Baseline, &values[617..], reference);
+        rest.add(CodePath::BASELINE, &values[617..], reference);
         sums.merge(&rest);
         let m = Moments::new(1000, reference, &sums);
         assert!((m.mean - 500.5).abs() < 1e-10);

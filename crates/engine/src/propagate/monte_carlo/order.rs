@@ -1,6 +1,6 @@
 //! Order statistics of all trials from the values that were kept.
 
-use super::shelves::Shelves;
+use super::bucket_partition::BucketPartition;
 use super::windows::Windows;
 use crate::number::CodePath;
 
@@ -9,15 +9,15 @@ use crate::number::CodePath;
 pub(crate) struct Order {
     /// Number of all trials.
     pub(crate) trials: u64,
-    shelves: Shelves,
-    /// Runs of kept values: first rank (from 1), place among the kept ones, length.
+    buckets: BucketPartition,
+    /// Runs of kept values: first rank (from 1), index among the kept ones, length.
     runs: Vec<Run>,
 }
 
 #[derive(Clone, Copy, Debug)]
 struct Run {
     rank: u64,
-    place: usize,
+    index: usize,
     length: usize,
 }
 
@@ -37,9 +37,9 @@ impl Order {
         below_median: u64,
         windows: &Windows,
     ) -> Self {
-        let shelves = Shelves::new(path, kept, windows);
-        let [low, median, high] = shelves.regions();
-        let run = |rank: u64, place: usize, length: usize| Run { rank, place, length };
+        let buckets = BucketPartition::new(path, kept, windows);
+        let [low, median, high] = buckets.regions();
+        let run = |rank: u64, index: usize, length: usize| Run { rank, index, length };
         let runs = if windows.keep_all() {
             vec![run(1, 0, low + median + high)]
         } else {
@@ -49,21 +49,21 @@ impl Order {
                 run((trials + 1).saturating_sub(high as u64), low + median, high),
             ]
         };
-        Self { trials, shelves, runs }
+        Self { trials, buckets, runs }
     }
 
-    /// The place of a rank among the kept values, and how many ranks from it on are kept.
-    fn place(&self, rank: u64) -> Option<(usize, usize)> {
+    /// The index of a rank among the kept values, and how many ranks from it on are kept.
+    fn index_of(&self, rank: u64) -> Option<(usize, usize)> {
         self.runs.iter().find_map(|run| {
             let offset = rank.checked_sub(run.rank)? as usize;
-            (offset < run.length).then(|| (run.place + offset, run.length - offset))
+            (offset < run.length).then(|| (run.index + offset, run.length - offset))
         })
     }
 
     /// The order statistic of rank `rank`, counted from 1; `None` if it was not kept.
     pub(crate) fn get(&mut self, rank: u64) -> Option<f64> {
-        let (place, _) = self.place(rank)?;
-        Some(self.shelves.at(place))
+        let (index, _) = self.index_of(rank)?;
+        Some(self.buckets.at(index))
     }
 
     /// The median: the middle value, or the mean of the two middle ones.
@@ -76,11 +76,11 @@ impl Order {
     /// ones that with r nearest to `middle`. `None` if an order statistic was not kept.
     pub(crate) fn closest(&mut self, q: u64, count: u64, middle: u64) -> Option<[f64; 2]> {
         let length = usize::try_from(count).ok()?;
-        let (low, low_length) = self.place(1)?;
-        let (high, high_length) = self.place(q + 1)?;
+        let (low, low_length) = self.index_of(1)?;
+        let (high, high_length) = self.index_of(q + 1)?;
         if low_length < length || high_length < length {
             return None;
         }
-        self.shelves.closest(low, high, length, middle.saturating_sub(1) as usize)
+        self.buckets.closest(low, high, length, middle.saturating_sub(1) as usize)
     }
 }

@@ -57,7 +57,7 @@ pub(super) struct Leaf {
     /// The least and the greatest value.
     pub(super) least: f64,
     pub(super) greatest: f64,
-    /// Place of its first value among the kept ones, if they were kept.
+    /// Index of its first value among the kept ones, if they were kept.
     pub(super) kept: Option<usize>,
 }
 
@@ -72,9 +72,9 @@ impl Grid {
     /// The cell of a value; a greater value never has a lower cell.
     #[inline(always)]
     fn cell(&self, value: f64) -> usize {
-        let place = (value - self.low) * self.inverse;
+        let position = (value - self.low) * self.inverse;
         // the conversion takes what is below 0 to 0
-        (place as usize).min(self.cells.len() - 1)
+        (position as usize).min(self.cells.len() - 1)
     }
 
     fn number(&mut self, next: &mut usize) {
@@ -151,13 +151,13 @@ impl Partition {
     pub(super) fn leaves(&self, tally: &Tally) -> Vec<Leaf> {
         let mut kept = Vec::with_capacity(self.leaves);
         self.root.kept(&mut kept);
-        let (mut below, mut place) = (0, 0);
+        let (mut below, mut index) = (0, 0);
         let found = tally.counts.iter().zip(&tally.extremes).zip(kept);
         found
             .map(|((&count, &[least, greatest]), is_kept)| {
-                let leaf = Leaf { count, below, least, greatest, kept: is_kept.then_some(place) };
+                let leaf = Leaf { count, below, least, greatest, kept: is_kept.then_some(index) };
                 below += count;
-                place += if is_kept { count as usize } else { 0 };
+                index += if is_kept { count as usize } else { 0 };
                 leaf
             })
             .collect()

@@ -4,8 +4,8 @@
 
 use std::ops::Range;
 
-use super::fold::Plan;
-use super::moments::{LANES, Sums, pairwise};
+use super::plan::{LANES, Plan, pairwise};
+use super::sums::Sums;
 use crate::distribution::BLOCK;
 
 /// Bytes for sums of products at a time.
@@ -86,7 +86,8 @@ pub(super) fn waves(chunks: u64, outputs: usize) -> impl Iterator<Item = Range<u
 
 #[cfg(test)]
 mod tests {
-    use super::super::moments::{Reference, correlations};
+    use super::super::moments::correlations;
+    use super::super::plan::Reference;
     use super::super::windows::Windows;
     use super::*;
     use crate::number::CodePath;
@@ -115,7 +116,7 @@ mod tests {
         let mut products = Products::new(outputs);
         for _ in 0..2 {
             for ((sums, values), plan) in sums.iter_mut().zip(&values).zip(&plans) {
-                sums.add(CodePath::Baseline, &values[..100], plan.reference);
+                sums.add(CodePath::BASELINE, &values[..100], plan.reference);
             }
             add(&values, 100, &plans, sums.iter_mut());
             products.take(sums.iter_mut());

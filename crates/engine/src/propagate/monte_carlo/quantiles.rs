@@ -4,13 +4,15 @@
 //! greatest value; the cells of the first pass are 0.002 of a quartile's distance wide, and wider
 //! ones (in far tails) are kept or split in further passes.
 
-use super::block::Trials;
-use super::capped::{first_partitions, kept_budget, leaf_of, narrow, pass};
+use super::block::RowTrials;
 use super::partition::Leaf;
+use super::passes::{first_partitions, kept_budget, narrow, pass};
+use super::pilot::plans;
 use super::repeat::repeat;
-use super::run::{Request, plans};
-use crate::distribution::special;
+use super::request::Request;
+use super::targets::leaf_of;
 use crate::propagate::Control;
+use crate::special;
 
 /// Widest cell within which ranks are interpolated, as a share of half the quartiles' distance.
 /// That of the first pass is 30/16384.
@@ -24,7 +26,7 @@ const MOST_PASSES: usize = 8;
 /// for the probability (k - 1/2)/M, between them the quantile is interpolated, beyond the first and
 /// the last one it is constant.
 pub(crate) fn quantiles(
-    trials: &Trials,
+    trials: &RowTrials,
     count: u64,
     scores: &[f64],
     control: &Control<'_>,
@@ -69,7 +71,7 @@ fn interpolate(rank: f64, at: impl Fn(u64) -> f64) -> f64 {
 }
 
 fn of_cells(
-    trials: &Trials,
+    trials: &RowTrials,
     count: u64,
     scores: &[f64],
     control: &Control<'_>,
@@ -182,7 +184,7 @@ mod tests {
         let task = Task::of(inputs, Settings::default()).unwrap();
         let row = &task.rows[0];
         let estimates = gum::evaluate(&task, row).estimates;
-        let trials = Trials::new(
+        let trials = RowTrials::new(
             &task,
             row,
             &estimates,

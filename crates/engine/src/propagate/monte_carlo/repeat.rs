@@ -2,9 +2,9 @@
 
 use rayon::prelude::*;
 
-use super::block::{Trials, Workspace};
-use super::fold::drop_undefined;
-use super::run::trials_in;
+use super::accumulate::drop_undefined;
+use super::block::{RowTrials, Workspace};
+use super::request::trials_in;
 use crate::distribution::BLOCK;
 use crate::propagate::Control;
 
@@ -15,7 +15,7 @@ const MOST_BLOCKS: u64 = 256;
 /// outputs' values, without the trials in which one is not finite. A few blocks are held at a time.
 /// `false` if the run was stopped.
 pub(crate) fn repeat<E: Send>(
-    trials: &Trials,
+    trials: &RowTrials,
     count: u64,
     control: &Control<'_>,
     mut take: impl FnMut(&[Vec<f64>]) -> Result<(), E>,

@@ -27,7 +27,7 @@ impl Windows {
         ends: [f64::NEG_INFINITY, f64::INFINITY],
     };
 
-    /// The windows for coverage probability `p`, from a pilot of `count` values, `nth` a place in
+    /// The windows for coverage probability `p`, from a pilot of `count` values, `nth` the value at an index in
     /// their order; their margins are times `widening`. The lower end of any interval of that content
     /// is one of the lowest 1 - p of the values, the upper end one of the highest.
     pub(crate) fn from_pilot(
@@ -41,8 +41,8 @@ impl Windows {
             let rank = share * n
                 + margin * widening * MARGIN * (n * share * (1.0 - share)).sqrt()
                 + 2.0 * margin;
-            let place = rank.round();
-            if place < 0.0 || place >= n { None } else { nth(place as usize) }
+            let index = rank.round();
+            if index < 0.0 || index >= n { None } else { nth(index as usize) }
         };
         let [low, high] = [at(1.0 - p, 1.0), at(p, -1.0)];
         let [median_low, median_high] = [at(0.5, -1.0), at(0.5, 1.0)];

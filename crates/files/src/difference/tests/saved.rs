@@ -4,7 +4,7 @@ use std::path::Path;
 use super::super::difference;
 use crate::{DiagnosticKind, ModelOrResult, read_result, read_text};
 use gumption_analysis::diff::{ChangeCause, Difference, OutputDifference};
-use gumption_engine::distribution::special::student::two_sided_factor;
+use gumption_engine::special::student::two_sided_factor;
 
 /// An input: file hash, name, estimate, standard uncertainty, degrees of freedom (0 for infinite).
 type Input<'a> = (&'a str, &'a str, f64, f64, f64);

@@ -6,12 +6,14 @@ use super::{FIGURES, Search};
 use crate::distribution::BLOCK;
 use crate::number::{CodePath, Kernel};
 use crate::propagate::Control;
-use crate::propagate::monte_carlo::Request;
-use crate::propagate::monte_carlo::block::{Trials, Workspace};
-use crate::propagate::monte_carlo::fold::{Plan, drop_undefined, keep};
+use crate::propagate::monte_carlo::accumulate::{drop_undefined, keep};
+use crate::propagate::monte_carlo::block::{RowTrials, Workspace};
 use crate::propagate::monte_carlo::interval::Ranks;
-use crate::propagate::monte_carlo::moments::{Moments, Sums};
-use crate::propagate::monte_carlo::run::plans;
+use crate::propagate::monte_carlo::moments::Moments;
+use crate::propagate::monte_carlo::pilot::plans;
+use crate::propagate::monte_carlo::plan::Plan;
+use crate::propagate::monte_carlo::request::Request;
+use crate::propagate::monte_carlo::sums::Sums;
 use crate::propagate::monte_carlo::windows::Windows;
 
 /// One output's figures in one block of the procedure: estimate, standard uncertainty, ends.
@@ -31,7 +33,7 @@ const MANY: u64 = 1 << 40;
 const WIDENING: f64 = 1.5;
 
 /// Where in a block the ends of the symmetric interval lie: windows from the pilot.
-pub(super) fn fences(trials: &Trials, search: Search<'_>, control: &Control<'_>) -> Vec<Plan> {
+pub(super) fn fences(trials: &RowTrials, search: Search<'_>, control: &Control<'_>) -> Vec<Plan> {
     let Search { probability, drawn_dof, .. } = search;
     // each end leaves half of what is not covered
     let probability = 0.5 + 0.5 * probability;
@@ -42,7 +44,7 @@ pub(super) fn fences(trials: &Trials, search: Search<'_>, control: &Control<'_>)
 
 /// The figures of every output in some blocks of `size` trials.
 pub(super) fn figures(
-    trials: &Trials,
+    trials: &RowTrials,
     numbers: std::ops::Range<u64>,
     size: u64,
     fences: &[Plan],
@@ -64,7 +66,7 @@ pub(super) fn figures(
 /// How blocks are made.
 #[derive(Clone, Copy)]
 struct Run<'a> {
-    trials: &'a Trials,
+    trials: &'a RowTrials,
     size: u64,
     search: Search<'a>,
     control: &'a Control<'a>,
@@ -79,7 +81,7 @@ impl Run<'_> {
         fences: &[Plan],
     ) -> Option<Vec<Option<Figures>>> {
         let Self { trials, size, search, control } = self;
-        let path = control.path.or_baseline();
+        let path = control.path;
         let (first, last) = (number * size, (number + 1) * size);
         let new = |plan: &Plan| Values::new(size, search.probability, *plan);
         let mut values: Vec<Values> = fences.iter().map(new).collect();
@@ -249,7 +251,7 @@ impl Tails {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::propagate::monte_carlo::moments::Reference;
+    use crate::propagate::monte_carlo::plan::Reference;
 
     /// Mean and standard deviation in two passes, the ends from a full sort.
     fn directly(values: &[f64], probability: f64) -> Figures {

@@ -23,11 +23,11 @@ mod watch;
 
 use watch::Watch;
 
-use super::block::Trials;
-use super::fold::Plan;
+use super::block::RowTrials;
+use super::plan::Plan;
 use crate::distribution::BLOCK;
-use crate::distribution::special::student;
 use crate::propagate::Control;
+use crate::special::student;
 use crate::task::StoppingRule;
 
 /// Figures of an output that are watched: estimate, standard uncertainty, ends of the interval.
@@ -93,7 +93,7 @@ impl Search<'_> {
 /// Finds how many trials are needed. Gives their number and, for each output, how the procedure
 /// ended. `trials` hold what was computed of them, as far as the memory for kept values goes.
 pub(crate) fn find_trials(
-    trials: &mut Trials,
+    trials: &mut RowTrials,
     search: Search<'_>,
     control: &Control<'_>,
 ) -> (u64, Vec<Adaptive>) {
@@ -128,7 +128,7 @@ pub(crate) fn find_trials(
 
 /// The blocks made so far.
 struct Blocks<'a> {
-    trials: &'a mut Trials,
+    trials: &'a mut RowTrials,
     search: Search<'a>,
     control: &'a Control<'a>,
     /// Trials in each.

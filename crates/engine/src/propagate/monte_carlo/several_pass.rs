@@ -1,22 +1,32 @@
-//! Runs whose kept values would not fit into memory: several passes over the same trials, which are
-//! generated again in each. The first counts values in cells, narrow ones where a part of the trials
-//! lets them be expected ([`foresight`]); the next keep or count more finely what the wanted order
-//! statistics can depend on, until they are known. Memory does not grow with
-//! the trials, and the order statistics are exactly those of all trials, except that beyond 10^8
-//! trials the shortest interval is only sought to 10^-5 of the standard uncertainty.
+//! Order statistics in several passes, for runs whose kept values would not fit into memory.
+//!
+//! Exact quantiles of a stream of values need either all of them or a second look (Munro and
+//! Paterson, Theoretical Computer Science 12, 1980: a pass over n values in memory for s narrows a
+//! rank to about n/s candidates). Here a second look costs no storage: a trial is a function of seed
+//! and number, so each pass generates the same trials again. A pass counts every output's values in
+//! the cells of a partition; the counts bracket each wanted rank by one cell, and the next pass
+//! divides that cell, or keeps its values where they fit. The shortest interval needs all cells
+//! whose distance to the cell of the matching upper rank can still be the least; counts bound these
+//! distances from both sides, so most cells are ruled out after one pass. A pilot refinement
+//! ([`pilot_refinement`]) chooses narrow cells from a part of the trials first, so that one pass over
+//! all of them is mostly enough.
+//!
+//! Memory does not grow with the trials, and the order statistics are exactly those of all trials,
+//! except that beyond 10^8 trials the shortest interval is only sought to 10^-5 of the standard
+//! uncertainty.
 
-use rayon::prelude::*;
-
-use super::block::Trials;
-use super::fold::{Plan, drop_undefined};
-use super::foresight;
-use super::interval::{Ranks, is_extreme, rank_spread};
-use super::moments::{Moments, Sums, correlations};
-use super::partition::{Leaf, Partition, Tally};
-use super::products::{self, Products, waves};
-use super::run::{Finished, MonteCarlo, NumericalError, Request, Undefined, trials_in};
-use crate::distribution::BLOCK;
-use crate::number::{CodePath, Kernel};
+use super::block::RowTrials;
+use super::figures::{Finished, MonteCarlo, NumericalError, Undefined};
+use super::interval::{Ranks, is_extreme};
+use super::moments::{Moments, correlations};
+use super::partition::Leaf;
+use super::passes::{Pass, first_partitions, kept_budget, narrow, pass};
+use super::pilot_refinement;
+use super::plan::Plan;
+use super::request::Request;
+use super::sums::Sums;
+use super::targets::{SearchTargets, leaf_of};
+use crate::number::CodePath;
 use crate::propagate::Control;
 
 /// Up to so many trials the shortest interval is exactly that of the trials.
@@ -25,51 +35,14 @@ const EXACT_SHORTEST: u64 = 100_000_000;
 /// Beyond, its length is within this share of the standard uncertainty of the least.
 const SHORTEST_TOLERANCE: f64 = 1e-5;
 
-/// Blocks that a thread works on at a time.
-const CHUNK: u64 = 64;
-
 /// Passes after which a search ends at what it has; each narrows a cell at least sixteenfold, so
 /// that the 2^53 numbers of a binade are told apart earlier.
 const MOST_PASSES: usize = 20;
 
-/// What one pass over all trials gives.
-#[derive(Debug)]
-pub(super) struct Pass {
-    pub(super) trials: u64,
-    undefined: u64,
-    first_undefined: Option<(u64, usize)>,
-    /// Sums of each chunk with its number and its trials, without the products.
-    sums: Vec<(u64, u64, Vec<Sums>)>,
-    products: Products,
-    pub(super) tallies: Vec<Tally>,
-}
-
-/// Adds a block's moments.
-struct SumKernel<'a> {
-    path: CodePath,
-    values: &'a [[f64; BLOCK]],
-    count: usize,
-    plans: &'a [Plan],
-    sums: &'a mut [Sums],
-}
-
-impl Kernel for SumKernel<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn run(self) {
-        let Self { path, values, count, plans, sums } = self;
-        for ((plan, sums), values) in plans.iter().zip(sums.iter_mut()).zip(values) {
-            sums.add(path, &values[..count], plan.reference);
-        }
-        products::add(values, count, plans, sums.iter_mut());
-    }
-}
-
 /// Runs all trials. `shortest_errors` are the numerical standard errors of the shortest intervals'
 /// ends, found otherwise. `None` if the run was stopped.
 pub(super) fn run(
-    trials: &Trials,
+    trials: &RowTrials,
     request: Request<'_>,
     control: &Control<'_>,
     plans: &[Plan],
@@ -77,7 +50,7 @@ pub(super) fn run(
 ) -> Option<Finished> {
     let mut partitions = first_partitions(plans);
     let budget = kept_budget(plans, control);
-    foresight::prepare(trials, request, control, plans, &mut partitions, budget)?;
+    pilot_refinement::prepare(trials, request, control, plans, &mut partitions, budget)?;
     let mut searches: Vec<Option<Search>> = vec![None; plans.len()];
     let mut first: Option<(Pass, Vec<(Moments, Sums)>)> = None;
     for number in 0..MOST_PASSES {
@@ -113,126 +86,7 @@ pub(super) fn run(
         }
     }
     let (whole, summaries) = first?;
-    Some(finish(trials, request, whole, &summaries, searches, shortest_errors))
-}
-
-/// The cells of the first pass: the quartiles lie one scale from the middle, and fifteen of them
-/// hold nearly all values of most shapes.
-pub(super) fn first_partitions(plans: &[Plan]) -> Vec<Partition> {
-    let references = plans.iter().map(|plan| (plan.reference.middle, plan.reference.scale));
-    references
-        .map(|(middle, scale)| Partition::new(middle - 15.0 * scale, middle + 15.0 * scale))
-        .collect()
-}
-
-/// How many values of each output may be kept: half of the memory, as the threads' values are
-/// copied when they are put together.
-pub(super) fn kept_budget(plans: &[Plan], control: &Control<'_>) -> usize {
-    control.memory / 16 / plans.len().max(1)
-}
-
-/// Decides which leaves to keep and which to split, within the budget of kept values.
-pub(super) fn narrow(partition: &mut Partition, leaves: &[Leaf], needed: &[bool], budget: usize) {
-    let wanted: Vec<usize> = (0..leaves.len()).filter(|&l| needed[l]).collect();
-    let total: u64 = wanted.iter().map(|&l| leaves[l].count).sum();
-    let parts = (1 << 16) / wanted.len().max(1);
-    let parts = parts.clamp(16, 4096);
-    let share = (budget / wanted.len().max(1)) as u64;
-    let splits = |l: usize| total > budget as u64 && leaves[l].count > share;
-    partition.refine(
-        leaves,
-        |l| needed[l] && !splits(l),
-        |l| if needed[l] && splits(l) { parts } else { 0 },
-    );
-}
-
-pub(super) fn pass(
-    trials: &Trials,
-    count: u64,
-    control: &Control<'_>,
-    plans: &[Plan],
-    partitions: &[Partition],
-    with_sums: bool,
-) -> Option<Pass> {
-    let blocks = count.div_ceil(BLOCK as u64);
-    let empty = || Pass {
-        trials: 0,
-        undefined: 0,
-        first_undefined: None,
-        sums: Vec::new(),
-        products: Products::default(),
-        tallies: partitions.iter().map(Partition::tally).collect(),
-    };
-    let mut whole = empty();
-    whole.products = Products::new(if with_sums { plans.len() } else { 0 });
-    for wave in waves(blocks.div_ceil(CHUNK), if with_sums { plans.len() } else { 0 }) {
-        let wave = wave.into_par_iter().with_min_len(16).fold(
-            || (empty(), trials.workspace()),
-            |(mut pass, mut workspace), chunk| {
-                let chunk = chunk as u64;
-                let mut sums = vec![Sums::default(); plans.len()];
-                let before = pass.trials;
-                for block in chunk * CHUNK..((chunk + 1) * CHUNK).min(blocks) {
-                    if control.is_stopped() {
-                        break;
-                    }
-                    trials.block(control.path, block, &mut workspace);
-                    let wanted = trials_in(block, count);
-                    let (left, first) =
-                        drop_undefined(control.path, &mut workspace.outputs, wanted);
-                    if let Some(first) = first {
-                        pass.undefined += (wanted - left) as u64;
-                        let found = (block, first);
-                        let earlier = pass.first_undefined.unwrap_or(found);
-                        pass.first_undefined = Some(earlier.min(found));
-                    }
-                    let values = &workspace.outputs;
-                    if with_sums {
-                        let sums = &mut sums[..];
-                        let path = control.path.or_baseline();
-                        path.run(SumKernel { path, values, count: left, plans, sums });
-                        control.advance(wanted as u64);
-                    }
-                    pass.trials += left as u64;
-                    for ((tally, partition), v) in
-                        pass.tallies.iter_mut().zip(partitions).zip(values)
-                    {
-                        tally.add(partition, &v[..left]);
-                    }
-                }
-                if with_sums {
-                    pass.sums.push((chunk, pass.trials - before, sums));
-                }
-                (pass, workspace)
-            },
-        );
-        let mut found = wave.map(|(pass, _)| pass).reduce(empty, |mut a, b| {
-            a.add(b);
-            a
-        });
-        found.sums.sort_by_key(|(chunk, ..)| *chunk);
-        for (_, _, sums) in &mut found.sums {
-            whole.products.take(sums.iter_mut());
-        }
-        whole.add(found);
-    }
-    (!control.is_stopped()).then_some(whole)
-}
-
-impl Pass {
-    /// Takes over what another part of the trials gave.
-    fn add(&mut self, other: Self) {
-        self.trials += other.trials;
-        self.undefined += other.undefined;
-        self.first_undefined = match (self.first_undefined, other.first_undefined) {
-            (Some(x), Some(y)) => Some(x.min(y)),
-            (x, y) => x.or(y),
-        };
-        self.sums.extend(other.sums);
-        for (tally, other) in self.tallies.iter_mut().zip(other.tallies) {
-            tally.merge(other);
-        }
-    }
+    Some(finish(trials, (request, control.path), whole, &summaries, searches, shortest_errors))
 }
 
 /// One output's moments and total from its sums, chunk by chunk in order.
@@ -250,38 +104,6 @@ struct Found {
     errors: [f64; 3],
     shortest: [f64; 2],
     exact: bool,
-}
-
-/// The order statistics that the symmetric interval, the median and their errors are made of.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct SearchTargets {
-    trials: u64,
-    ranks: Ranks,
-}
-
-impl SearchTargets {
-    pub(super) fn new(trials: u64, probability: f64) -> Self {
-        Self { trials, ranks: Ranks::new(trials, probability) }
-    }
-
-    /// The ranks of the lower end, the upper end and the median with one standard deviation of the
-    /// rank below and above each, and the two middle ranks.
-    fn ranks(&self) -> [u64; 11] {
-        let Ranks { q, r } = self.ranks;
-        let upper = (r + q).min(self.trials);
-        let (middle, next) = (self.trials.div_ceil(2), self.trials / 2 + 1);
-        let around = |rank: u64| {
-            let spread = rank_spread(self.trials, rank);
-            [rank.saturating_sub(spread).max(1), rank, (rank + spread).min(self.trials)]
-        };
-        let ([a, b, c], [d, e, f], [g, h, i]) = (around(r), around(upper), around(middle));
-        [a, b, c, d, e, f, g, h, i, middle, next]
-    }
-
-    /// The share of the trials that each rank is.
-    pub(super) fn shares(&self) -> [f64; 11] {
-        self.ranks().map(|rank| (rank as f64 - 0.5) / self.trials as f64)
-    }
 }
 
 /// The search for one output's order statistics.
@@ -402,17 +224,6 @@ impl Search {
     }
 }
 
-/// The leaf that holds the order statistic of a rank.
-pub(super) fn leaf_of(leaves: &[Leaf], rank: u64) -> usize {
-    let after = leaves.partition_point(|leaf| leaf.below < rank);
-    // the last leaf that begins below the rank; empty ones begin there too
-    let mut number = after.saturating_sub(1);
-    while number > 0 && leaves[number].count == 0 {
-        number -= 1;
-    }
-    number
-}
-
 /// Whether every order statistic in a leaf is known.
 fn is_known(leaf: &Leaf) -> bool {
     leaf.kept.is_some() || leaf.least == leaf.greatest
@@ -427,8 +238,8 @@ fn value_at(leaf: &Leaf, kept: &[f64], rank: u64, anyway: bool) -> Option<f64> {
 }
 
 fn finish(
-    trials: &Trials,
-    request: Request<'_>,
+    trials: &RowTrials,
+    (request, path): (Request<'_>, CodePath),
     whole: Pass,
     summaries: &[(Moments, Sums)],
     searches: Vec<Option<Search>>,
@@ -437,7 +248,7 @@ fn finish(
     let undefined = whole.first_undefined.map(|(block, trial)| Undefined {
         count: whole.undefined,
         trials: whole.trials + whole.undefined,
-        first: trials.inputs_of(block, trial),
+        first: trials.inputs_of(path, block, trial),
     });
     let totals: Vec<&Sums> = summaries.iter().map(|(_, total)| total).collect();
     let correlations = correlations(whole.trials, &totals, &whole.products);

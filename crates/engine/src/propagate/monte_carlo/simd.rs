@@ -1,4 +1,4 @@
-//! The inner loops of the fold with AVX-512 instructions: the compiler does not find compression, and
+//! The inner loops of the accumulation with AVX-512 instructions: the compiler does not find compression, and
 //! splits sums over lanes. The same operations in the same order as the plain loops, so the same bits.
 #![cfg(target_arch = "x86_64")]
 #![allow(unsafe_code)]
@@ -9,7 +9,7 @@ use std::arch::x86_64::{
     _mm512_mul_pd, _mm512_set1_pd, _mm512_setzero_pd, _mm512_storeu_pd,
 };
 
-use super::moments::{LANES, Reference};
+use super::plan::{LANES, Reference};
 use super::windows::Windows;
 
 /// The lanes of a chunk that hold a value.
@@ -18,6 +18,9 @@ fn lanes_of(chunk: &[f64]) -> __mmask8 {
 }
 
 /// Appends the values that the windows keep; returns how many lie below the window about the median.
+///
+/// # Safety
+/// The machine has AVX-512 F, DQ, VL and BW, and POPCNT.
 #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx512bw,popcnt")]
 pub(super) fn keep(block: &[f64], windows: &Windows, kept: &mut Vec<f64>) -> u64 {
     kept.reserve(block.len() + LANES);
@@ -50,6 +53,9 @@ pub(super) fn keep(block: &[f64], windows: &Windows, kept: &mut Vec<f64>) -> u64
 }
 
 /// For the powers 1 to 4 of the values' distances from the reference the sum in each lane.
+///
+/// # Safety
+/// As [`keep`].
 #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx512bw,popcnt")]
 pub(super) fn powers(values: &[f64], reference: Reference) -> [[f64; LANES]; 4] {
     let middle = _mm512_set1_pd(reference.middle);
@@ -75,7 +81,7 @@ pub(super) fn powers(values: &[f64], reference: Reference) -> [[f64; LANES]; 4] 
     // no closures: they would not be compiled for these instructions
     let mut lanes = [[0.0; LANES]; 4];
     for (lanes, sum) in lanes.iter_mut().zip(sums) {
-        // SAFETY: there are eight places.
+        // SAFETY: there are eight lanes.
         unsafe { _mm512_storeu_pd(lanes.as_mut_ptr(), sum) };
     }
     lanes

@@ -13,8 +13,8 @@ use crate::number::{COLUMN, Column};
 
 /// Inputs that are outputs of one result file with ranks.
 #[derive(Clone, Debug)]
-pub(crate) struct Together {
-    /// Places of the inputs, in order.
+pub(crate) struct RankSample {
+    /// Indices of the inputs, in order.
     pub members: Vec<usize>,
     /// For each member, which of the outputs it is.
     columns: Vec<usize>,
@@ -23,9 +23,9 @@ pub(crate) struct Together {
 }
 
 /// The sets of inputs that are drawn together, by their first members.
-pub(super) fn together(distributions: &[Arc<Distribution>]) -> Vec<Together> {
-    let mut found: Vec<(&str, Vec<&str>, Together)> = Vec::new();
-    for (place, distribution) in distributions.iter().enumerate() {
+pub(super) fn rank_samples(distributions: &[Arc<Distribution>]) -> Vec<RankSample> {
+    let mut found: Vec<(&str, Vec<&str>, RankSample)> = Vec::new();
+    for (index, distribution) in distributions.iter().enumerate() {
         let Some(origin) = distribution.saved().map(|saved| saved.origin()) else {
             continue;
         };
@@ -34,7 +34,7 @@ pub(super) fn together(distributions: &[Arc<Distribution>]) -> Vec<Together> {
         };
         let known = found.iter().position(|(file, ..)| **file == *origin.file);
         let at = known.unwrap_or_else(|| {
-            let empty = Together { members: Vec::new(), columns: Vec::new(), ranks: Vec::new() };
+            let empty = RankSample { members: Vec::new(), columns: Vec::new(), ranks: Vec::new() };
             found.push((&origin.file, Vec::new(), empty));
             found.len() - 1
         });
@@ -45,14 +45,14 @@ pub(super) fn together(distributions: &[Arc<Distribution>]) -> Vec<Together> {
                 set.ranks.push(Arc::clone(ranks));
                 outputs.len() - 1
             });
-            set.members.push(place);
+            set.members.push(index);
             set.columns.push(column);
         }
     }
     found.into_iter().map(|(.., set)| set).filter(|set| set.members.len() > 1).collect()
 }
 
-impl Together {
+impl RankSample {
     /// How many trials the file holds.
     pub(crate) fn trials(&self) -> usize {
         self.ranks.first().map_or(0, |ranks| ranks.len())
@@ -60,8 +60,8 @@ impl Together {
 
     /// The same inputs counted among those at `varying` (in order) only; all of them are there.
     pub(super) fn among(&self, varying: &[usize]) -> Self {
-        let place = |member: &usize| varying.binary_search(member).unwrap_or(*member);
-        Self { members: self.members.iter().map(place).collect(), ..self.clone() }
+        let index = |member: &usize| varying.binary_search(member).unwrap_or(*member);
+        Self { members: self.members.iter().map(index).collect(), ..self.clone() }
     }
 
     /// Draws the next column of every member; `register[q]` is where it goes. A function of its own,

@@ -3,7 +3,7 @@
 
 use super::{beta, gamma, normal, student};
 
-const ROWS: &str = include_str!("../../../tests/data/quantiles.csv");
+const ROWS: &str = include_str!("../../tests/data/quantiles.csv");
 
 fn evaluate(function: &str, x: f64, second: f64, third: f64) -> f64 {
     match function {

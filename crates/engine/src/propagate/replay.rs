@@ -2,11 +2,11 @@
 
 use super::evaluation::{in_pool, joint};
 use super::gum::Gum;
-use super::monte_carlo::{self, Histogram, Trials};
+use super::monte_carlo::{self, Histogram, RowTrials};
 use super::{Control, Evaluation, EvaluationError, gum};
 use crate::task::Task;
 
-/// Trials that stand for all, at most.
+/// RowTrials that stand for all, at most.
 const MOST_ROWS: usize = 1 << 15;
 
 /// Their ranks in all outputs together, at most: some megabytes of a result file.
@@ -22,12 +22,12 @@ fn made(evaluation: &Evaluation, row: usize) -> u64 {
     trials.map_or(0, |figures| figures.trials + undefined)
 }
 
-fn trials(task: &Task, row: usize) -> Result<Option<Trials>, EvaluationError> {
+fn trials(task: &Task, row: usize) -> Result<Option<RowTrials>, EvaluationError> {
     let Some(row) = task.rows.get(row) else {
         return Ok(None);
     };
     let estimates = gum::evaluate(task, row).estimates;
-    Ok(Some(Trials::new(task, row, &estimates, &joint(task, row)?)))
+    Ok(Some(RowTrials::new(task, row, &estimates, &joint(task, row)?)))
 }
 
 /// For each output of a row the quantiles of the run's trials at the probabilities Phi(score);

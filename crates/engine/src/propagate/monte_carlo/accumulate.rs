@@ -1,30 +1,34 @@
-//! Folding trials: a block's values become sums and the few values that intervals depend on.
+//! Accumulation of trials: of a block's values only sums are kept and the few values that coverage
+//! intervals can depend on, so that memory does not grow with the trials as such.
 #![allow(unsafe_code)] // instructions of a path that the machine has
 
-use super::moments::{Reference, Sums};
+use super::plan::Plan;
 use super::products;
 #[cfg(target_arch = "x86_64")]
-use super::wide;
+use super::simd;
+use super::sums::Sums;
 use super::windows::Windows;
 use crate::distribution::BLOCK;
+#[cfg(target_arch = "x86_64")]
+use crate::number::Instructions;
 use crate::number::{CodePath, Kernel};
 
-/// What is left of a run of blocks.
+/// What is kept of some consecutive blocks.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Folded {
-    /// Number of trials folded in.
+pub(crate) struct Accumulated {
+    /// Number of trials.
     pub(crate) trials: u64,
     /// Trials whose outputs were not all finite; they are not among `trials`.
     pub(crate) undefined: u64,
-    /// The first of them: its block and its place in it.
+    /// The first of them: its block and its index there.
     pub(crate) first_undefined: Option<(u64, usize)>,
     /// One entry for each output.
-    pub outputs: Vec<FoldedOutput>,
+    pub outputs: Vec<AccumulatedOutput>,
 }
 
-/// What is left of one output's values.
+/// What is kept of one output's values.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct FoldedOutput {
+pub(crate) struct AccumulatedOutput {
     pub(crate) sums: Sums,
     /// Kept values, in the order of the trials.
     pub(crate) kept: Vec<f64>,
@@ -32,27 +36,18 @@ pub(crate) struct FoldedOutput {
     pub(crate) below_median: u64,
 }
 
-/// How one output is folded.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Plan {
-    pub(crate) reference: Reference,
-    pub(crate) windows: Windows,
-    /// Share of the values that the windows keep.
-    pub(crate) kept: f64,
-}
-
-impl Folded {
+impl Accumulated {
     /// For so many trials, with room for what the plans keep.
     pub(super) fn new(plans: &[Plan], trials: u64) -> Self {
         let room = |plan: &Plan| (1.1 * plan.kept * trials as f64) as usize + 2 * BLOCK;
         let output =
-            |plan| FoldedOutput { kept: Vec::with_capacity(room(plan)), ..Default::default() };
+            |plan| AccumulatedOutput { kept: Vec::with_capacity(room(plan)), ..Default::default() };
         Self { outputs: plans.iter().map(output).collect(), ..Self::default() }
     }
 }
 
 /// Removes the trials of a block in which an output is not finite; returns how many trials are left
-/// of the first `count`, and the place of the first that was removed.
+/// of the first `count`, and the index of the first that was removed.
 pub(crate) fn drop_undefined(
     path: CodePath,
     values: &mut [[f64; BLOCK]],
@@ -98,29 +93,34 @@ impl Kernel for AllFinite<'_> {
     }
 }
 
-/// Folds the first `count` trials of a block.
-pub(crate) struct FoldKernel<'a> {
-    /// The path that it runs on, which the machine has.
+/// Accumulates the first `count` trials of a block.
+pub(crate) struct AccumulateKernel<'a> {
+    /// The path that it runs on.
     pub(crate) path: CodePath,
     pub(crate) values: &'a [[f64; BLOCK]],
     pub(crate) count: usize,
     pub(crate) plans: &'a [Plan],
-    pub(crate) folded: &'a mut Folded,
+    pub(crate) accumulated: &'a mut Accumulated,
 }
 
-impl Kernel for FoldKernel<'_> {
+impl Kernel for AccumulateKernel<'_> {
     type Output = ();
 
     #[inline(always)]
     fn run(self) {
-        let Self { path, values, count, plans, folded } = self;
-        folded.trials += count as u64;
-        for (output, (plan, out)) in plans.iter().zip(&mut folded.outputs).enumerate() {
+        let Self { path, values, count, plans, accumulated } = self;
+        accumulated.trials += count as u64;
+        for (output, (plan, out)) in plans.iter().zip(&mut accumulated.outputs).enumerate() {
             let block = &values[output][..count];
             out.sums.add(path, block, plan.reference);
             out.below_median += keep(path, block, &plan.windows, &mut out.kept);
         }
-        products::add(values, count, plans, folded.outputs.iter_mut().map(|out| &mut out.sums));
+        products::add(
+            values,
+            count,
+            plans,
+            accumulated.outputs.iter_mut().map(|out| &mut out.sums),
+        );
     }
 }
 
@@ -129,9 +129,9 @@ impl Kernel for FoldKernel<'_> {
 #[inline(always)]
 pub(super) fn keep(path: CodePath, block: &[f64], windows: &Windows, kept: &mut Vec<f64>) -> u64 {
     #[cfg(target_arch = "x86_64")]
-    if path == CodePath::Avx512 {
-        // SAFETY: a kernel runs on a path only where the machine has it.
-        return unsafe { wide::keep(block, windows, kept) };
+    if path.instructions() == Instructions::Avx512 {
+        // SAFETY: the machine has the instructions of a path.
+        return unsafe { simd::keep(block, windows, kept) };
     }
     let _ = path;
     let mut wanted = [0u8; BLOCK];

@@ -10,10 +10,10 @@
 
 use rayon::prelude::*;
 
-use super::block::Trials;
+use super::block::RowTrials;
 use super::repeat::repeat;
-use crate::distribution::special;
 use crate::propagate::Control;
+use crate::special;
 
 /// Values of all outputs together that are looked at, at most: 64 MiB with what is needed beside
 /// them.
@@ -29,7 +29,7 @@ const NEGLIGIBLE: f64 = 1e-6;
 /// outputs is of the same trial. An output that does not vary has none. `None` if the run was
 /// stopped.
 pub(crate) fn joint_ranks(
-    trials: &Trials,
+    trials: &RowTrials,
     count: u64,
     rows: usize,
     control: &Control<'_>,
@@ -53,9 +53,9 @@ fn ranks_of(values: &[Vec<f64>], rows: usize) -> Vec<Vec<u32>> {
     let varying: Vec<&Vec<f64>> = values.iter().filter(|values| varies(values)).collect();
     let scores = independent(varying.par_iter().map(|values| scores(values)).collect());
     let count = values.first().map_or(0, Vec::len);
-    let mut places: Vec<u32> = (0..count as u32).collect();
+    let mut indices: Vec<u32> = (0..count as u32).collect();
     let mut chosen = vec![0; rows.min(count)];
-    choose(&scores, &mut places, &mut chosen);
+    choose(&scores, &mut indices, &mut chosen);
     chosen.sort_unstable();
     values
         .par_iter()
@@ -63,49 +63,49 @@ fn ranks_of(values: &[Vec<f64>], rows: usize) -> Vec<Vec<u32>> {
             if !varies(values) {
                 return Vec::new();
             }
-            let of_chosen: Vec<f64> = chosen.iter().map(|&place| values[place as usize]).collect();
+            let of_chosen: Vec<f64> = chosen.iter().map(|&index| values[index as usize]).collect();
             let mut ranks = vec![0; of_chosen.len()];
-            for (rank, place) in (1..).zip(order(&of_chosen)) {
-                ranks[place as usize] = rank;
+            for (rank, index) in (1..).zip(order(&of_chosen)) {
+                ranks[index as usize] = rank;
             }
             ranks
         })
         .collect()
 }
 
-/// The places of values in ascending order; of equal ones the first comes first.
+/// The indices of values in ascending order; of equal ones the first comes first.
 fn order(values: &[f64]) -> Vec<u32> {
-    let mut places: Vec<u32> = (0..values.len() as u32).collect();
-    places.sort_unstable_by(|&a, &b| {
+    let mut indices: Vec<u32> = (0..values.len() as u32).collect();
+    indices.sort_unstable_by(|&a, &b| {
         values[a as usize].total_cmp(&values[b as usize]).then(a.cmp(&b))
     });
-    places
+    indices
 }
 
 /// Standard normal scores of the ranks, all different ones.
 fn scores(values: &[f64]) -> Vec<f32> {
     let n = values.len() as f64;
     let mut scores = vec![0.0; values.len()];
-    for (rank, place) in order(values).into_iter().enumerate() {
-        scores[place as usize] = special::normal::quantile((rank as f64 + 0.5) / n) as f32;
+    for (rank, index) in order(values).into_iter().enumerate() {
+        scores[index as usize] = special::normal::quantile((rank as f64 + 0.5) / n) as f32;
     }
     scores
 }
 
-/// Cuts the trials at `places` into as many cells as there is room in `chosen`, and puts the first
+/// Cuts the trials at `indices` into as many cells as there is room in `chosen`, and puts the first
 /// trial of each there. There are at least as many trials as cells.
-fn choose(scores: &[Vec<f32>], places: &mut [u32], chosen: &mut [u32]) {
+fn choose(scores: &[Vec<f32>], indices: &mut [u32], chosen: &mut [u32]) {
     if let [only] = chosen {
-        *only = places.iter().copied().min().unwrap_or(0);
+        *only = indices.iter().copied().min().unwrap_or(0);
         return;
     }
     if chosen.is_empty() {
         return;
     }
     let extent = |scores: &Vec<f32>| {
-        places
+        indices
             .iter()
-            .map(|&place| scores[place as usize])
+            .map(|&index| scores[index as usize])
             .fold((f32::INFINITY, f32::NEG_INFINITY), |(least, most), score| {
                 (least.min(score), most.max(score))
             })
@@ -119,12 +119,12 @@ fn choose(scores: &[Vec<f32>], places: &mut [u32], chosen: &mut [u32]) {
         .fold((0, f32::NEG_INFINITY), |best, width| if width.1 > best.1 { width } else { best });
     let cells = chosen.len() / 2;
     // as many trials for each cell, to one
-    let cut = (places.len() as u64 * cells as u64 / chosen.len() as u64) as usize;
+    let cut = (indices.len() as u64 * cells as u64 / chosen.len() as u64) as usize;
     if let Some(scores) = scores.get(widest.0) {
-        let key = |place: &u32| scores[*place as usize];
-        places.select_nth_unstable_by(cut, |a, b| key(a).total_cmp(&key(b)).then(a.cmp(b)));
+        let key = |index: &u32| scores[*index as usize];
+        indices.select_nth_unstable_by(cut, |a, b| key(a).total_cmp(&key(b)).then(a.cmp(b)));
     }
-    let (low, high) = places.split_at_mut(cut);
+    let (low, high) = indices.split_at_mut(cut);
     let (of_low, of_high) = chosen.split_at_mut(cells);
     rayon::join(|| choose(scores, low, of_low), || choose(scores, high, of_high));
 }
@@ -135,8 +135,8 @@ fn independent(mut scores: Vec<Vec<f32>>) -> Vec<Vec<f32>> {
     let mut found: Vec<Vec<f32>> = Vec::new();
     loop {
         let variances: Vec<f64> = scores.par_iter().map(|s| mean_product(s, s)).collect();
-        let widest = variances.iter().enumerate().fold((0, 0.0), |best, (place, &variance)| {
-            if variance > best.1 { (place, variance) } else { best }
+        let widest = variances.iter().enumerate().fold((0, 0.0), |best, (index, &variance)| {
+            if variance > best.1 { (index, variance) } else { best }
         });
         if widest.1 < NEGLIGIBLE {
             return found;
@@ -220,17 +220,17 @@ mod tests {
         let (x, y) = (normals("x", 128), normals("y", 128));
         let sum: Vec<f64> = x.iter().zip(&y).map(|(x, y)| x + 0.05 * y).collect();
         let values = [x, sum];
-        let difference = |place: usize| values[1][place] - values[0][place];
+        let difference = |index: usize| values[1][index] - values[0][index];
         let mut all: Vec<f64> = (0..values[0].len()).map(difference).collect();
         all.sort_unstable_by(f64::total_cmp);
         let scores = independent(values.iter().map(|v| scores(v)).collect());
-        let mut places: Vec<u32> = (0..all.len() as u32).collect();
+        let mut indices: Vec<u32> = (0..all.len() as u32).collect();
         let mut chosen = vec![0; 1024];
-        choose(&scores, &mut places, &mut chosen);
+        choose(&scores, &mut indices, &mut chosen);
         let squares = (1..20).map(|k| {
             let p = f64::from(k) / 20.0;
             let limit = all[(p * all.len() as f64) as usize];
-            let below = chosen.iter().filter(|&&place| difference(place as usize) < limit).count();
+            let below = chosen.iter().filter(|&&index| difference(index as usize) < limit).count();
             let random = (p * (1.0 - p) / 1024.0).sqrt();
             ((below as f64 / 1024.0 - p) / random).powi(2)
         });

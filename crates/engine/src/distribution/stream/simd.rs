@@ -18,6 +18,9 @@ use super::{LANES, ONE, SHIFT};
 const HALF: usize = LANES / 2;
 
 /// Fills `out`, whose length is a multiple of eight, with uniform numbers.
+///
+/// # Safety
+/// The machine has AVX-512 F, DQ, VL and BW.
 #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx512bw")]
 pub(super) fn fill_avx512(state: &mut [[u64; LANES]; 4], out: &mut [f64]) {
     // no closures: they would not be compiled for these instructions
@@ -41,7 +44,7 @@ pub(super) fn fill_avx512(state: &mut [[u64; LANES]; 4], out: &mut [f64]) {
         s3 = _mm512_rol_epi64::<45>(s3);
         let mantissa = _mm512_or_si512(_mm512_srli_epi64::<12>(bits), one);
         let value = _mm512_sub_pd(_mm512_castsi512_pd(mantissa), shift);
-        // SAFETY: the chunk has eight places.
+        // SAFETY: the chunk has eight numbers.
         unsafe { _mm512_storeu_pd(chunk.as_mut_ptr(), value) };
     }
     for (word, lanes) in state.iter_mut().zip([s0, s1, s2, s3]) {
@@ -51,6 +54,9 @@ pub(super) fn fill_avx512(state: &mut [[u64; LANES]; 4], out: &mut [f64]) {
 }
 
 /// The same four lanes at a time.
+///
+/// # Safety
+/// The machine has AVX2.
 #[target_feature(enable = "avx2")]
 pub(super) fn fill_avx2(state: &mut [[u64; LANES]; 4], out: &mut [f64]) {
     for first in [0, HALF] {
@@ -76,7 +82,7 @@ pub(super) fn fill_avx2(state: &mut [[u64; LANES]; 4], out: &mut [f64]) {
             s3 = _mm256_or_si256(_mm256_slli_epi64::<45>(s3), _mm256_srli_epi64::<19>(s3));
             let mantissa = _mm256_or_si256(_mm256_srli_epi64::<12>(bits), one);
             let value = _mm256_sub_pd(_mm256_castsi256_pd(mantissa), shift);
-            // SAFETY: the chunk has eight places, four from 0 or 4 on.
+            // SAFETY: the chunk has eight numbers, four from 0 or 4 on.
             unsafe { _mm256_storeu_pd(chunk.as_mut_ptr().add(first), value) };
         }
         for (word, lanes) in state.iter_mut().zip([s0, s1, s2, s3]) {

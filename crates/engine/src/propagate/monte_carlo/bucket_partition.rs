@@ -1,21 +1,28 @@
-//! Values put on shelves by their size. A shelf is sorted only when one of its values is asked for:
-//! a coverage interval looks at few of them.
+//! Bucket partition: order statistics of values in memory without sorting all of them.
+//!
+//! The ends of the symmetric interval, the median and their numerical errors are a dozen order
+//! statistics, and the shortest interval needs those of the pairs of buckets whose distance can be
+//! the least. So most values need not be sorted: they are distributed into buckets by size in one
+//! pass, as in a bucket sort (Knuth, The Art of Computer Programming 3, 5.2.5), and a bucket is
+//! sorted only when one of its values is asked for. Buckets follow the windows: most of them lie in
+//! the two tails, where the ends of intervals are. What is found are exact order statistics; how the
+//! buckets lie affects time alone.
 
 use super::windows::Windows;
 use crate::number::{CodePath, Kernel};
 
-/// Values to a shelf, on average.
-const PER_SHELF: usize = 24;
+/// Values to a bucket, on average.
+const PER_BUCKET: usize = 24;
 
-/// Shelves at most: their heads stay in the caches, also that of addresses, while values are put
-/// there.
-const MOST_SHELVES: usize = 1 << 11;
+/// Buckets at most: the addresses of their next free entries stay in the first caches, that of the
+/// page table too, while values are distributed.
+const MOST_BUCKETS: usize = 1 << 11;
 
-/// Values on shelves: every value of a shelf lies below every one of the next.
+/// Values in buckets: every value of a bucket lies below every one of the next.
 #[derive(Clone, Debug)]
-pub(super) struct Shelves {
+pub(super) struct BucketPartition {
     values: Vec<f64>,
-    /// Where each shelf begins, and the end.
+    /// Where each bucket begins, and the end.
     starts: Vec<usize>,
     /// The least and the greatest value of each; of an empty one the wrong way round.
     extremes: Vec<[f64; 2]>,
@@ -24,7 +31,7 @@ pub(super) struct Shelves {
     regions: [usize; 3],
 }
 
-/// Equal shelves from one value on.
+/// Equal buckets from one value on.
 #[derive(Clone, Copy, Debug)]
 struct Region {
     from: f64,
@@ -34,16 +41,16 @@ struct Region {
     more: f64,
 }
 
-/// Which shelf a value belongs on.
+/// Which bucket a value belongs in.
 #[derive(Clone, Copy, Debug)]
-struct Plan {
+struct Layout {
     low: f64,
     high: f64,
     regions: [Region; 3],
 }
 
-impl Plan {
-    fn new(kept: &[&[f64]], windows: &Windows, shelves: usize) -> Self {
+impl Layout {
+    fn new(kept: &[&[f64]], windows: &Windows, buckets: usize) -> Self {
         let region = |from: f64, to: f64, first: usize, count: usize| {
             let inverse = count as f64 / (to - from);
             let inverse = if inverse.is_finite() && inverse > 0.0 { inverse } else { 0.0 };
@@ -55,12 +62,12 @@ impl Plan {
                 .fold([f64::INFINITY, f64::NEG_INFINITY], |[least, greatest], &value| {
                     [least.min(value), greatest.max(value)]
                 });
-            let all = region(least, greatest, 0, shelves);
+            let all = region(least, greatest, 0, buckets);
             return Self { low: f64::INFINITY, high: f64::INFINITY, regions: [all; 3] };
         }
         // the tails have most of the values, and what is asked for lies there
-        let about = (shelves / 8).max(1);
-        let tail = ((shelves - about.min(shelves - 1)) / 2).max(1);
+        let about = (buckets / 8).max(1);
+        let tail = ((buckets - about.min(buckets - 1)) / 2).max(1);
         let ends = windows.ends;
         Self {
             low: windows.low,
@@ -73,10 +80,10 @@ impl Plan {
         }
     }
 
-    /// The shelf of a value: greater values never have a lower one, and those beyond the ends are on
+    /// The bucket of a value: greater values never have a lower one, and those beyond the ends are in
     /// the outermost ones.
     #[inline(always)]
-    fn shelf(&self, value: f64) -> u16 {
+    fn bucket(&self, value: f64) -> u16 {
         // adding 2^52 rounds and leaves the integer in the low bits
         const ROUND: f64 = 4_503_599_627_370_496.0;
         let [low, median, high] = self.regions;
@@ -84,71 +91,71 @@ impl Plan {
             let tail = if value <= self.low { of(&low) } else { of(&high) };
             if (value > self.low) & (value < self.high) { of(&median) } else { tail }
         };
-        let place = (value - or(|r| r.from)) * or(|r| r.inverse);
-        let place = if place > 0.0 { place } else { 0.0 };
+        let index = (value - or(|r| r.from)) * or(|r| r.inverse);
+        let index = if index > 0.0 { index } else { 0.0 };
         let more = or(|r| r.more);
-        let place = if place < more { place } else { more };
-        (place + or(|r| r.first) + ROUND).to_bits() as u16
+        let index = if index < more { index } else { more };
+        (index + or(|r| r.first) + ROUND).to_bits() as u16
     }
 
-    /// Number of shelves, and where those of the three regions end.
+    /// Number of buckets, and where those of the three regions end.
     fn ends(&self) -> [usize; 3] {
         self.regions.map(|region| (region.first + region.more) as usize + 1)
     }
 }
 
-/// The shelves of some values.
-struct ShelfKernel<'a> {
-    plan: &'a Plan,
+/// The buckets of some values.
+struct BucketKernel<'a> {
+    layout: &'a Layout,
     values: &'a [f64],
     out: &'a mut [u16],
 }
 
-impl Kernel for ShelfKernel<'_> {
+impl Kernel for BucketKernel<'_> {
     type Output = ();
 
     #[inline(always)]
     fn run(self) {
         for (out, &value) in self.out.iter_mut().zip(self.values) {
-            *out = self.plan.shelf(value);
+            *out = self.layout.bucket(value);
         }
     }
 }
 
-impl Shelves {
+impl BucketPartition {
     pub(super) fn new(path: CodePath, kept: &[&[f64]], windows: &Windows) -> Self {
         let count: usize = kept.iter().map(|part| part.len()).sum();
-        let plan = Plan::new(kept, windows, (count / PER_SHELF).clamp(1, MOST_SHELVES));
-        let ends = plan.ends();
-        let shelves = ends[2];
-        let mut shelf_of = vec![0u16; count];
-        let mut counts = vec![0usize; shelves];
-        let mut rest = &mut shelf_of[..];
+        let layout = Layout::new(kept, windows, (count / PER_BUCKET).clamp(1, MOST_BUCKETS));
+        let ends = layout.ends();
+        let buckets = ends[2];
+        let mut bucket_of = vec![0u16; count];
+        let mut counts = vec![0usize; buckets];
+        let mut rest = &mut bucket_of[..];
         for values in kept {
             let (own, after) = rest.split_at_mut(values.len());
-            path.run(ShelfKernel { plan: &plan, values, out: own });
-            for &shelf in own.iter() {
-                counts[usize::from(shelf)] += 1;
+            path.run(BucketKernel { layout: &layout, values, out: own });
+            for &bucket in own.iter() {
+                counts[usize::from(bucket)] += 1;
             }
             rest = after;
         }
-        let mut starts = vec![0; shelves + 1];
-        for shelf in 0..shelves {
-            starts[shelf + 1] = starts[shelf] + counts[shelf];
+        let mut starts = vec![0; buckets + 1];
+        for bucket in 0..buckets {
+            starts[bucket + 1] = starts[bucket] + counts[bucket];
         }
         let mut heads = starts.clone();
         let mut values = vec![0.0; count];
-        let mut places = shelf_of.iter();
+        let mut indices = bucket_of.iter();
         for part in kept {
-            for (&value, &shelf) in part.iter().zip(&mut places) {
-                let head = &mut heads[usize::from(shelf)];
+            for (&value, &bucket) in part.iter().zip(&mut indices) {
+                let head = &mut heads[usize::from(bucket)];
                 values[*head] = value;
                 *head += 1;
             }
         }
-        let extremes = (0..shelves).map(|shelf| {
+        let extremes = (0..buckets).map(|bucket| {
             let (mut least, mut greatest) = (f64::INFINITY, f64::NEG_INFINITY);
-            for &v in &values[starts[shelf]..starts[shelf + 1]] {
+            for &v in &values[starts[bucket]..starts[bucket + 1]] {
                 least = if v < least { v } else { least };
                 greatest = if v > greatest { v } else { greatest };
             }
@@ -157,7 +164,7 @@ impl Shelves {
         let extremes = extremes.collect();
         let [low, median, high] = ends.map(|end| starts[end]);
         let regions = [low, median.saturating_sub(low), high.saturating_sub(median)];
-        Self { values, starts, extremes, sorted: vec![false; shelves], regions }
+        Self { values, starts, extremes, sorted: vec![false; buckets], regions }
     }
 
     /// Number of values in the low tail, about the median, in the high tail.
@@ -165,22 +172,22 @@ impl Shelves {
         self.regions
     }
 
-    fn shelf_of_place(&self, place: usize) -> usize {
-        self.starts.partition_point(|&start| start <= place) - 1
+    fn bucket_of_index(&self, index: usize) -> usize {
+        self.starts.partition_point(|&start| start <= index) - 1
     }
 
-    fn sort(&mut self, shelf: usize) {
-        if !self.sorted[shelf] {
-            let values = &mut self.values[self.starts[shelf]..self.starts[shelf + 1]];
+    fn sort(&mut self, bucket: usize) {
+        if !self.sorted[bucket] {
+            let values = &mut self.values[self.starts[bucket]..self.starts[bucket + 1]];
             values.sort_unstable_by(f64::total_cmp);
-            self.sorted[shelf] = true;
+            self.sorted[bucket] = true;
         }
     }
 
-    /// The value that has this place when all are in order.
-    pub(super) fn at(&mut self, place: usize) -> f64 {
-        self.sort(self.shelf_of_place(place));
-        self.values[place]
+    /// The value that has this index when all are in order.
+    pub(super) fn at(&mut self, index: usize) -> f64 {
+        self.sort(self.bucket_of_index(index));
+        self.values[index]
     }
 
     /// The two values at `low` + i and `high` + i with the least difference, i below `count`; of
@@ -192,9 +199,9 @@ impl Shelves {
         count: usize,
         middle: usize,
     ) -> Option<[f64; 2]> {
-        // stretches over which both places stay on one shelf, with the least difference there can be
+        // stretches over which both indices stay in one bucket, with the least difference there can be
         let mut stretches = Vec::new();
-        let (mut a, mut b) = (self.shelf_of_place(low), self.shelf_of_place(high));
+        let (mut a, mut b) = (self.bucket_of_index(low), self.bucket_of_index(high));
         let mut i = 0;
         while i < count {
             while self.starts[a + 1] <= low + i {
@@ -206,7 +213,7 @@ impl Shelves {
             let end = (self.starts[a + 1] - low).min(self.starts[b + 1] - high).min(count);
             let least = self.extremes[b][0] - self.extremes[a][1];
             let most = self.extremes[b][1] - self.extremes[a][0];
-            stretches.push(Stretch { from: i, to: end, shelves: [a, b], least, most });
+            stretches.push(Stretch { from: i, to: end, buckets: [a, b], least, most });
             i = end;
         }
         let bound = stretches.iter().map(|s| s.most).fold(f64::INFINITY, f64::min);
@@ -217,8 +224,8 @@ impl Shelves {
             if best.is_some_and(|(length, ..)| stretch.least > length) {
                 break;
             }
-            for shelf in stretch.shelves {
-                self.sort(shelf);
+            for bucket in stretch.buckets {
+                self.sort(bucket);
             }
             for i in stretch.from..stretch.to {
                 let ends = [self.values[low + i], self.values[high + i]];
@@ -235,12 +242,12 @@ impl Shelves {
     }
 }
 
-/// Places over which both ends stay on one shelf each.
+/// Indices over which both ends stay in one bucket each.
 #[derive(Clone, Copy, Debug)]
 struct Stretch {
     from: usize,
     to: usize,
-    shelves: [usize; 2],
+    buckets: [usize; 2],
     /// No difference is less.
     least: f64,
     /// Some difference is no more.
@@ -252,7 +259,7 @@ mod tests {
     use super::*;
 
     /// Order statistics and the shortest interval against a full sort, for values that fill the
-    /// shelves evenly, pile up on one, or are all equal.
+    /// buckets evenly, pile up in one, or are all equal.
     #[test]
     fn values_are_found_as_in_order() {
         let of = |f: &dyn Fn(f64) -> f64| -> Vec<f64> {
@@ -270,9 +277,9 @@ mod tests {
             let mut sorted = values.clone();
             sorted.sort_by(f64::total_cmp);
             let parts: Vec<&[f64]> = values.chunks(777).collect();
-            let mut shelves = Shelves::new(CodePath::best(), &parts, &Windows::ALL);
-            for place in (0..values.len()).step_by(97) {
-                assert_eq!(shelves.at(place).to_bits(), sorted[place].to_bits());
+            let mut buckets = BucketPartition::new(CodePath::best(), &parts, &Windows::ALL);
+            for index in (0..values.len()).step_by(97) {
+                assert_eq!(buckets.at(index).to_bits(), sorted[index].to_bits());
             }
             let (count, q) = (values.len() / 4, values.len() - values.len() / 4);
             let lengths = (0..count).map(|i| sorted[q + i] - sorted[i]);
@@ -282,7 +289,7 @@ mod tests {
                 .filter(|&i| sorted[q + i] - sorted[i] == least)
                 .min_by_key(|i| i.abs_diff(middle))
                 .map(|i| [sorted[i], sorted[q + i]]);
-            assert_eq!(shelves.closest(0, q, count, middle), wanted);
+            assert_eq!(buckets.closest(0, q, count, middle), wanted);
         }
     }
 }

@@ -1,0 +1,166 @@
+//! Lower triangles stored row by row: the entry (i, j), j <= i, stands at `triangle(i) + j`.
+//!
+//! A symmetric matrix and its Cholesky root L, with L L' the matrix, both fit such a triangle, and
+//! factoring, inverting and solving work in place. A slice's length gives the order.
+
+use nalgebra::DMatrix;
+
+use super::{add_multiple, dot};
+use crate::number::elementary;
+
+/// Number of entries of a lower triangle of so many rows.
+pub const fn triangle(order: usize) -> usize {
+    order * (order + 1) / 2
+}
+
+/// The rows of a lower triangle, each up to its diagonal entry.
+pub fn rows(lower: &[f64]) -> impl DoubleEndedIterator<Item = &[f64]> + ExactSizeIterator {
+    (0..order(lower)).map(|i| row(lower, i))
+}
+
+/// The order of a lower triangle.
+fn order(lower: &[f64]) -> usize {
+    // (sqrt(8 n + 1) - 1)/2, exact as long as n is: no triangle in memory is beyond 2^53
+    (((8 * lower.len() + 1) as f64).sqrt() as usize - 1) / 2
+}
+
+/// Row i of a lower triangle.
+fn row(lower: &[f64], i: usize) -> &[f64] {
+    &lower[triangle(i)..triangle(i + 1)]
+}
+
+/// The lower triangle of a square matrix.
+pub fn of_matrix(matrix: &DMatrix<f64>) -> Vec<f64> {
+    let entries = (0..matrix.nrows()).flat_map(|i| (0..=i).map(move |j| matrix[(i, j)]));
+    entries.collect()
+}
+
+/// The lower triangular matrix with these entries; zeros above the diagonal.
+pub fn to_matrix(lower: &[f64]) -> DMatrix<f64> {
+    let order = order(lower);
+    DMatrix::from_fn(order, order, |i, j| if j <= i { lower[triangle(i) + j] } else { 0.0 })
+}
+
+/// Replaces the lower triangle of a symmetric matrix by its Cholesky root.
+///
+/// # Errors
+/// The first row whose pivot (the square of the root's diagonal entry) is not above `least`; rows
+/// before it are replaced.
+pub fn cholesky(matrix: &mut [f64], least: f64) -> Result<(), usize> {
+    for i in 0..order(matrix) {
+        let pivot = eliminate(matrix, i);
+        if pivot <= least || pivot.is_nan() {
+            return Err(i);
+        }
+        matrix[triangle(i) + i] = pivot.sqrt();
+    }
+    Ok(())
+}
+
+/// The same for a matrix that is positive definite but for rounding, such as the identity plus
+/// products: a pivot that rounding leaves at zero or below is taken as the smallest normal number.
+pub fn cholesky_of_definite(matrix: &mut [f64]) {
+    for i in 0..order(matrix) {
+        matrix[triangle(i) + i] = eliminate(matrix, i).max(f64::MIN_POSITIVE).sqrt();
+    }
+}
+
+/// Replaces row i of a matrix by that of its root, given the root's rows above; the pivot is given
+/// back and not stored.
+fn eliminate(matrix: &mut [f64], i: usize) -> f64 {
+    let (above, rest) = matrix.split_at_mut(triangle(i));
+    let (row, diagonal) = rest.split_at_mut(i);
+    for j in 0..i {
+        let other = &above[triangle(j)..triangle(j + 1)];
+        row[j] = (row[j] - dot(&row[..j], other)) / other[j];
+    }
+    diagonal[0] - dot(row, row)
+}
+
+/// The sum of the logarithms of a triangle's diagonal: of a Cholesky root half the logarithm of the
+/// determinant of its matrix.
+pub fn ln_diagonal(lower: &[f64]) -> f64 {
+    rows(lower).filter_map(<[f64]>::last).map(|pivot| elementary::ln(*pivot)).sum()
+}
+
+/// Replaces a lower triangle by its inverse.
+pub fn invert(lower: &mut [f64]) {
+    for i in 0..order(lower) {
+        let (above, rest) = lower.split_at_mut(triangle(i));
+        let pivot = 1.0 / rest[i];
+        for j in 0..i {
+            // columns left of j in this row are the inverse's already, those from j on are not
+            let sum: f64 = (j..i).map(|k| rest[k] * above[triangle(k) + j]).sum();
+            rest[j] = -pivot * sum;
+        }
+        rest[i] = pivot;
+    }
+}
+
+/// Replaces y by inv(L) y for a lower triangle L of its length.
+pub fn solve(lower: &[f64], y: &mut [f64]) {
+    for (i, row) in rows(lower).enumerate() {
+        y[i] = (y[i] - dot(&row[..i], y)) / row[i];
+    }
+}
+
+/// Replaces y by inv(L') y for a lower triangle L of its length.
+pub fn solve_transposed(lower: &[f64], y: &mut [f64]) {
+    for (i, row) in rows(lower).enumerate().rev() {
+        let (before, rest) = y.split_at_mut(i);
+        rest[0] /= row[i];
+        add_multiple(before, -rest[0], row);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const MATRIX: [[f64; 3]; 3] = [[4.0, 0.6, -0.4], [0.6, 2.0, 0.3], [-0.4, 0.3, 1.0]];
+
+    fn lower() -> Vec<f64> {
+        of_matrix(&DMatrix::from_fn(3, 3, |i, j| MATRIX[i][j]))
+    }
+
+    // Rounding of a 3 x 3 factorization: a few 1e-16.
+    #[test]
+    fn a_root_gives_its_matrix_back_and_its_inverse_whitens_it() {
+        let dense = DMatrix::from_fn(3, 3, |i, j| MATRIX[i][j]);
+        let mut root = lower();
+        cholesky(&mut root, 0.0).unwrap();
+        let mut clamped = lower();
+        cholesky_of_definite(&mut clamped);
+        assert_eq!(root, clamped);
+        assert!((to_matrix(&root) * to_matrix(&root).transpose() - &dense).abs().max() < 1e-15);
+        assert!((ln_diagonal(&root) - 0.5 * libm::log(dense.determinant())).abs() < 1e-15);
+        let mut inverse = root.clone();
+        invert(&mut inverse);
+        let inverse = to_matrix(&inverse);
+        let white = &inverse * &dense * inverse.transpose();
+        assert!((white - DMatrix::identity(3, 3)).abs().max() < 1e-14);
+        let mut y = [1.0, -2.0, 0.5];
+        let expected = dense.try_inverse().unwrap() * DMatrix::from_column_slice(3, 1, &y);
+        solve(&root, &mut y);
+        solve_transposed(&root, &mut y);
+        for (y, expected) in y.iter().zip(expected.iter()) {
+            assert!((y - expected).abs() < 1e-14);
+        }
+    }
+
+    #[test]
+    fn the_first_row_without_a_pivot_is_named() {
+        // the third row is the sum of the first two
+        let mut singular = vec![1.0, 0.0, 1.0, 1.0, 1.0, 2.0, 0.0, 0.0, 0.0, 1.0];
+        assert_eq!(cholesky(&mut singular, 0.0), Err(2));
+        assert_eq!(cholesky(&mut [f64::NAN], 0.0), Err(0));
+        assert_eq!(cholesky(&mut [], 0.0), Ok(()));
+    }
+
+    #[test]
+    fn lengths_give_orders() {
+        for n in [0, 1, 2, 3, 10, 99, 2000] {
+            assert_eq!(order(&vec![0.0; triangle(n)]), n);
+        }
+    }
+}

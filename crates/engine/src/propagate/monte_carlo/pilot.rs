@@ -1,0 +1,106 @@
+//! The pilot: the first blocks of a run tell where each output's values lie, how far they spread and
+//! where the ends of its coverage intervals will be, so that the main pass keeps few values.
+
+use std::ops::Range;
+
+use super::accumulate::drop_undefined;
+use super::block::RowTrials;
+use super::bucket_partition::BucketPartition;
+use super::plan::{Plan, Reference};
+use super::request::{Request, trials_in};
+use super::windows::Windows;
+use crate::distribution::BLOCK;
+use crate::propagate::Control;
+
+/// Blocks of the pilot of a long run.
+const PILOT_BLOCKS: u64 = 16;
+
+/// Blocks of the pilot of a short one, where a longer pilot would cost more than narrower windows
+/// save.
+const SHORT_PILOT: u64 = 4;
+
+/// From so many trials on a run is long.
+const LONG: u64 = 1_000_000;
+
+/// Up to so many trials all values are kept.
+const ALL_KEPT: u64 = 1 << 16;
+
+/// Outputs whose pilot values are held at a time: 64 MiB.
+const PILOT_OUTPUTS: usize = (64 << 20) / (8 * BLOCK * PILOT_BLOCKS as usize);
+
+/// Windows wider than this many times the first ones keep everything.
+pub(super) const KEEP_ALL_MARGIN: f64 = 20.0;
+
+/// The blocks of the pilot of a run.
+pub(super) fn pilot_blocks(trials: u64) -> u64 {
+    let most = if trials >= LONG { PILOT_BLOCKS } else { SHORT_PILOT };
+    trials.div_ceil(BLOCK as u64).min(most)
+}
+
+/// The values of some outputs in the first blocks.
+fn pilot(
+    trials: &RowTrials,
+    request: Request<'_>,
+    control: &Control<'_>,
+    outputs: Range<usize>,
+) -> Vec<Vec<f64>> {
+    let blocks = pilot_blocks(request.trials);
+    let mut workspace = trials.workspace();
+    let mut pilot: Vec<Vec<f64>> = vec![Vec::new(); outputs.len()];
+    for block in 0..blocks {
+        let count = trials_in(block, request.trials);
+        trials.block(control.path, block, &mut workspace);
+        let (count, _) = drop_undefined(control.path, &mut workspace.outputs, count);
+        for (values, out) in pilot.iter_mut().zip(workspace.outputs.iter().skip(outputs.start)) {
+            values.extend_from_slice(&out[..count]);
+        }
+    }
+    pilot
+}
+
+/// References and windows from the first blocks.
+pub(super) fn plans(
+    trials: &RowTrials,
+    request: Request<'_>,
+    control: &Control<'_>,
+    margin: f64,
+) -> Vec<Plan> {
+    let groups = (0..trials.outputs()).step_by(PILOT_OUTPUTS);
+    let groups = groups.map(|first| first..(first + PILOT_OUTPUTS).min(trials.outputs()));
+    groups
+        .flat_map(|group| group.clone().zip(pilot(trials, request, control, group)))
+        .map(|(output, values)| {
+            let mut order = BucketPartition::new(control.path, &[&values], &Windows::ALL);
+            let mut at = |index: usize| (index < values.len()).then(|| order.at(index));
+            let reference = reference(values.len(), &mut at, trials.limits(output));
+            let all = request.trials <= ALL_KEPT || margin > KEEP_ALL_MARGIN;
+            let windows = if all {
+                Windows::ALL
+            } else {
+                Windows::from_pilot(values.len(), at, request.probability, margin)
+            };
+            let kept = values.iter().filter(|v| windows.keeps(**v)).count() as f64;
+            Plan { reference, windows, kept: kept / values.len().max(1) as f64 }
+        })
+        .collect()
+}
+
+/// The median and a width of `count` values, `at` gives that at an index in their order: half the distance of the
+/// quartiles, or what is there.
+fn reference(
+    count: usize,
+    at: &mut impl FnMut(usize) -> Option<f64>,
+    limits: [f64; 2],
+) -> Reference {
+    let mut share = |share: f64| at((share * count as f64) as usize);
+    let middle = share(0.5).unwrap_or(0.0);
+    let quartiles = share(0.25).zip(share(0.75));
+    let widths = [quartiles, at(0).zip(at(count.saturating_sub(1)))];
+    let scale = widths
+        .into_iter()
+        .flatten()
+        .map(|(low, high)| 0.5 * high - 0.5 * low)
+        .find(|width| *width > 0.0)
+        .unwrap_or(1.0);
+    Reference { middle, scale, limits }
+}

@@ -1,0 +1,33 @@
+//! How one output's trials are summed up: about which value, in which lanes, and which values are
+//! kept.
+
+use super::windows::Windows;
+
+/// Where an output's values lie and how far they spread: the pilot's median and a width. Sums are
+/// taken of (value - middle)/scale, so that they neither cancel nor overflow.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Reference {
+    pub(crate) middle: f64,
+    pub(crate) scale: f64,
+    /// The output's tolerance limits, infinite where there are none.
+    pub(crate) limits: [f64; 2],
+}
+
+/// How one output's trials are accumulated.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Plan {
+    pub(crate) reference: Reference,
+    pub(crate) windows: Windows,
+    /// Share of the values that the windows keep.
+    pub(crate) kept: f64,
+}
+
+/// Lanes of a sum: every lane adds its own trials.
+pub(super) const LANES: usize = 8;
+
+/// The sum of the lanes, in an order that every vector width can follow.
+#[inline(always)]
+pub(super) fn pairwise(lane: [f64; LANES]) -> f64 {
+    let [a, b, c, d, e, f, g, h] = lane;
+    ((a + e) + (c + g)) + ((b + f) + (d + h))
+}

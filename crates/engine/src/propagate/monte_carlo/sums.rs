@@ -1,0 +1,68 @@
+//! Sums of powers of the trials, added up in a fixed order about a pilot value.
+#![allow(unsafe_code)] // instructions of a path that the machine has
+
+use super::plan::{LANES, Reference, pairwise};
+#[cfg(target_arch = "x86_64")]
+use super::simd;
+use crate::number::CodePath;
+#[cfg(target_arch = "x86_64")]
+use crate::number::Instructions;
+
+/// Sums over trials of the powers 1 to 4 of one output, and of its products with the outputs after
+/// it ([`super::products`]), all about the reference.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Sums {
+    /// How many values lie within the output's tolerance limits.
+    pub(crate) inside: u64,
+    pub(crate) powers: [f64; 4],
+    pub(crate) products: Vec<f64>,
+}
+
+impl Sums {
+    /// Adds a block's values. Every lane adds its own trials, and the lanes are added in order, so
+    /// the result does not depend on the width of the machine's vectors.
+    #[inline(always)]
+    pub(crate) fn add(&mut self, path: CodePath, values: &[f64], reference: Reference) {
+        let [lower, upper] = reference.limits;
+        self.inside += if lower == f64::NEG_INFINITY && upper == f64::INFINITY {
+            values.len() as u64
+        } else {
+            values.iter().map(|&v| u64::from((v >= lower) & (v <= upper))).sum::<u64>()
+        };
+        for (sum, lane) in self.powers.iter_mut().zip(powers(path, values, reference)) {
+            *sum += pairwise(lane);
+        }
+    }
+
+    /// The sums of two sets of trials, but for the products, which are added up by themselves.
+    pub(crate) fn merge(&mut self, other: &Self) {
+        self.inside += other.inside;
+        for (sum, term) in self.powers.iter_mut().zip(other.powers) {
+            *sum += term;
+        }
+    }
+}
+
+/// For the powers 1 to 4 of the values' distances from the reference the sum in each lane.
+#[inline(always)]
+fn powers(path: CodePath, values: &[f64], reference: Reference) -> [[f64; LANES]; 4] {
+    #[cfg(target_arch = "x86_64")]
+    if path.instructions() == Instructions::Avx512 {
+        // SAFETY: the machine has the instructions of a path.
+        return unsafe { simd::powers(values, reference) };
+    }
+    let _ = path;
+    let inverse = 1.0 / reference.scale;
+    let mut lanes = [[0.0; LANES]; 4];
+    for chunk in values.chunks(LANES) {
+        for (i, &value) in chunk.iter().enumerate() {
+            let d = (value - reference.middle) * inverse;
+            let d2 = d * d;
+            lanes[0][i] += d;
+            lanes[1][i] += d2;
+            lanes[2][i] += d2 * d;
+            lanes[3][i] += d2 * d2;
+        }
+    }
+    lanes
+}
