@@ -4,7 +4,8 @@
 //! distribution. Draws are those of `rand_distr`; mean, standard deviation and quantiles are those of
 //! `statrs`, and draws that do not follow them are refused.
 //!
-//! Run with `cargo run --release --example other_distributions`.
+//! Run with `cargo run --release --example other_distributions` (a program of one's own takes the
+//! feature `statrs` of gumption).
 #![allow(clippy::print_stdout)]
 
 use std::error::Error;

@@ -12,7 +12,6 @@ use gumption_analysis::certificate::contents::Certificate as Asked;
 use gumption_analysis::certificate::{Failed, Issued, issue};
 use gumption_engine::propagate::{EvaluationError, warnings};
 use gumption_engine::task::{Trials, Warning};
-use gumption_files as file;
 use gumption_files::{CertificateFile, Diagnostic, DiagnosticKind, Diagnostics};
 use gumption_report::certificate::{self as report, CertificateReport, CertifiedModel};
 
@@ -114,8 +113,9 @@ impl Certificate {
     }
 
     fn read(&self, program: &Program) -> Result<CertificateFile, Failure> {
-        let text = |text: &str| file::read_certificate_text("<stdin>", text, Path::new(""));
-        Ok(options::given(&self.file, text, file::read_certificate)??)
+        let files = program.files();
+        let text = |text: &str| files.certificate_text("<stdin>", text, Path::new(""));
+        Ok(options::given(&self.file, text, |path| files.certificate(path))??)
     }
 
     /// Whether the certificate can be given in the format that was asked for.

@@ -7,7 +7,6 @@ use serde::Serialize;
 
 use super::options::{self, Answer, Format};
 use super::{Exit, Failure, Program, diagnostics};
-use gumption_files as file;
 use gumption_files::{Diagnostic, Diagnostics};
 
 /// Check a file.
@@ -52,8 +51,9 @@ impl From<&Diagnostic> for Mistake {
 
 impl Check {
     pub(super) fn execute(&self, program: &Program) -> Result<Exit, Failure> {
-        let text = |text: &str| file::check_text("<stdin>", text, Path::new(""));
-        let result = options::given(&self.file, text, file::check)?;
+        let files = program.files();
+        let text = |text: &str| files.check_text("<stdin>", text, Path::new(""));
+        let result = options::given(&self.file, text, |path| files.check(path))?;
         let found = match result {
             Ok(()) => Diagnostics(Vec::new()),
             Err(found) => found,

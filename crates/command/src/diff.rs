@@ -58,6 +58,7 @@ impl Diff {
 }
 
 fn read(program: &Program, path: &Path) -> Result<Result<ModelOrResult, Diagnostics>, Failure> {
-    let text = |text: &str| file::read_either_text("<stdin>", text, Path::new(""));
-    options::given(path, text, file::read_either)
+    let files = program.files();
+    let text = |text: &str| files.either_text("<stdin>", text, Path::new(""));
+    options::given(path, text, |path| files.either(path))
 }

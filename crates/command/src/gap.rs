@@ -7,7 +7,6 @@ use clap::{Args, ValueEnum};
 use super::options::{Answer, Seed, Threads};
 use super::{Exit, Failure, Program, output, progress, run};
 use gumption_engine::task::Row;
-use gumption_files as file;
 use gumption_files::CaseFile;
 use gumption_gap as gap;
 use gumption_gap::Diagnosis;
@@ -46,9 +45,9 @@ enum Format {
 impl Gap {
     pub(super) fn execute(&self, program: &Program) -> Result<Exit, Failure> {
         let whole = progress::whole_on_interrupt();
-        let file = file::read_case(&self.case)?;
+        let file = program.files().case(&self.case)?;
         let at = match &self.predict {
-            Some(path) => Some(file::read_case_at(&self.case, path)?),
+            Some(path) => Some(program.files().case_at(&self.case, path)?),
             None => None,
         };
         self.answer.say(&file.warnings);

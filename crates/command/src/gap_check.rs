@@ -11,7 +11,6 @@ use rayon::prelude::*;
 
 use super::options::{Answer, Seed, Threads};
 use super::{Exit, Failure, Program, progress, run};
-use gumption_files as file;
 use gumption_files::CaseFile;
 use gumption_gap as gap;
 use gumption_gap::check::{Checked, Report, Truth, score, truth};
@@ -56,7 +55,7 @@ fn draws(text: &str) -> Result<u64, String> {
 
 impl GapCheck {
     pub(super) fn execute(&self, program: &Program) -> Result<Exit, Failure> {
-        let file = file::read_case(&self.case)?;
+        let file = program.files().case(&self.case)?;
         self.answer.say(&file.warnings);
         let seed = self.seed.or(file.case.task.settings.seed);
         let kept;
@@ -166,7 +165,7 @@ impl GapCheck {
                     return Ok(None);
                 }
                 let path = folder.join(format!("{number:05}")).join("case.json");
-                let file = file::read_case(&path)?;
+                let file = program.files().case(&path)?;
                 let answer = gap::answer(&file.case, seed);
                 bar.inc(1);
                 Ok(Some(answer))

@@ -23,6 +23,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 use gumption_engine::model::typed::{Catalogue, CatalogueEntry};
+use gumption_files::FileReader;
 
 pub use exit::{Exit, Failure};
 pub use verify::PublishedExamples;
@@ -81,6 +82,11 @@ impl Program {
     #[must_use]
     pub fn with(self, entry: CatalogueEntry) -> Self {
         Self { catalogue: self.catalogue.with(entry), ..self }
+    }
+
+    /// The readers of files that may name the measurements.
+    fn files(&self) -> FileReader<'_> {
+        FileReader::new(&self.catalogue)
     }
 
     /// Runs with the arguments of the process: says what is wrong on standard error, and ends with

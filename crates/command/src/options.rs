@@ -10,7 +10,6 @@ use clap::{Args, ValueEnum};
 use super::{Failure, Program, output};
 use gumption_engine::propagate::Control;
 use gumption_engine::task::{StoppingRule, Trials, Warning};
-use gumption_files as file;
 use gumption_files::{ModelFile, Override, bytes};
 use gumption_report::BudgetColumn;
 
@@ -145,9 +144,9 @@ pub(super) struct Model {
 impl Model {
     /// The model file with the replacements.
     pub(super) fn read(&self, program: &Program) -> Result<ModelFile, Failure> {
-        let replaced = &self.replacements;
-        let text = |text: &str| file::read_text("<stdin>", text, Path::new(""), replaced);
-        Ok(given(&self.model, text, |path| file::read(path, replaced))??)
+        let (files, replaced) = (program.files(), &self.replacements);
+        let text = |text: &str| files.model_text("<stdin>", text, Path::new(""), replaced);
+        Ok(given(&self.model, text, |path| files.model(path, replaced))??)
     }
 }
 

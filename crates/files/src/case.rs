@@ -6,7 +6,8 @@ use std::sync::Arc;
 use super::diagnostics::Diagnostics;
 use super::effect_context::EffectContext;
 use super::effects;
-use super::model_reader::{Found, ModelOptions, ModelReader, read_file, read_with};
+use super::model_reader::{Found, ModelOptions, ModelReader, read_with};
+use super::reader::FileReader;
 use super::results::Results;
 use super::source::SourceText;
 use super::{DiagnosticKind, catalogue, prior, soundness};
@@ -29,30 +30,28 @@ pub struct CaseFile {
     pub files: Vec<(String, Vec<u8>)>,
 }
 
-/// Reads and checks a case.
-///
-/// # Errors
-/// All mistakes of the file and its tables, in the order of their places.
-pub fn read(path: &Path) -> Result<CaseFile, Diagnostics> {
-    read_file(path, ModelOptions::default(), |reader| reader.case())
-}
-
 /// What a case's sim has in the rows of a table of conditions, which stands in the current folder.
-///
-/// # Errors
-/// All mistakes of the file and its tables, in the order of their places.
-pub fn read_at(path: &Path, conditions: &Path) -> Result<Vec<Row>, Diagnostics> {
-    let options = ModelOptions { at: Some(conditions), ..ModelOptions::default() };
-    read_file(path, options, |reader| reader.found().map(|found| found.file.task.rows))
+pub(super) fn read_at(
+    files: FileReader<'_>,
+    name: &str,
+    text: &str,
+    folder: &Path,
+    conditions: &Path,
+) -> Result<Vec<Row>, Diagnostics> {
+    let options = ModelOptions { at: Some(conditions), ..ModelOptions::with(files) };
+    read_with(name, text, folder, options, |reader| {
+        reader.found().map(|found| found.file.task.rows)
+    })
 }
 
-/// Reads and checks a case's text; `name` is used in messages, and tables are looked for in
-/// `folder`.
-///
-/// # Errors
-/// All mistakes of the text and its tables, in the order of their places.
-pub fn read_text(name: &str, text: &str, folder: &Path) -> Result<CaseFile, Diagnostics> {
-    read_with(name, text, folder, ModelOptions::default(), |reader| reader.case())
+/// Reads and checks a case's text.
+pub(super) fn read_text(
+    files: FileReader<'_>,
+    name: &str,
+    text: &str,
+    folder: &Path,
+) -> Result<CaseFile, Diagnostics> {
+    read_with(name, text, folder, ModelOptions::with(files), |reader| reader.case())
 }
 
 impl Found {

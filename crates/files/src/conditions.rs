@@ -11,7 +11,7 @@ use super::object::Object;
 use super::table::{self, Table};
 use gumption_engine::model::Quantity;
 use gumption_engine::model::formula::{Formula, FormulaError, Scope};
-use gumption_units::Unit;
+use gumption_units::{Unit, nearest};
 
 /// At most so many rows: a sweep of a million.
 const MOST_ROWS: usize = 1_000_000;
@@ -127,7 +127,7 @@ fn columns_of(object: &Object<'_>, data: &Table) -> Option<Conditions> {
         }
         let place = data.columns.iter().position(|column| *column == member.key);
         if place.is_none() {
-            let near = super::nearest(&member.key, data.columns.iter().map(String::as_str));
+            let near = nearest(&member.key, data.columns.iter().map(String::as_str));
             let reason = format!(
                 "`{}` has no column `{}` for this condition{}",
                 data.source.name,
@@ -232,7 +232,7 @@ fn from_table(object: &Object<'_>, file: &Member, folder: &Path) -> Option<Condi
         for member in units.members() {
             if !table.columns.contains(&member.key) {
                 let known: Vec<String> = table.columns.clone();
-                let nearest = super::nearest(&member.key, known.iter().map(String::as_str));
+                let nearest = nearest(&member.key, known.iter().map(String::as_str));
                 let reason = format!(
                     "`{}` has no column `{}`{}",
                     table.source.name,
@@ -290,7 +290,7 @@ fn only(object: &Object<'_>, member: &Member, mut table: Table) -> Option<Table>
             }
             Some(place) => places.push(place),
             None => {
-                let near = super::nearest(name, table.columns.iter().map(String::as_str));
+                let near = nearest(name, table.columns.iter().map(String::as_str));
                 let near = near.map(|near| format!("; did you mean `{near}`?")).unwrap_or_default();
                 let reason = format!("`{}` has no column `{name}`{near}", table.source.name);
                 object.log.report(&node.span, DiagnosticKind::Table { reason });

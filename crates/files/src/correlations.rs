@@ -10,11 +10,11 @@ use super::diagnostics::Collector;
 use super::input_set::InputSet;
 use super::json::{Json, Node};
 use super::links;
-use super::nearest::nearest;
 use super::object::Object;
 use super::{sharing, table};
 use gumption_engine::distribution::{Correlation, CorrelationError, Distribution, Fits};
 use gumption_engine::task::Warning;
+use gumption_units::nearest;
 
 /// Reads `correlations` and `correlation_matrix` of the root object and checks that the quantities
 /// can have them in each of the rows; the joint draws are kept in `fits`. Those of saved results come

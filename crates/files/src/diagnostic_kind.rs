@@ -3,12 +3,12 @@
 use std::fmt;
 use std::sync::Arc;
 
-use super::nearest::nearest;
 use super::shapes::KINDS;
 use gumption_engine::distribution::Invalid;
 use gumption_engine::model::formula::FormulaError;
 use gumption_engine::number::Shortest;
 use gumption_units::UnitError;
+use gumption_units::nearest;
 
 /// A mistake, without its place.
 #[derive(Clone, Debug, PartialEq)]

@@ -6,7 +6,6 @@ use super::conditions::NoConditions;
 use super::diagnostics::Collector;
 use super::input_set::InputSet;
 use super::json::{Json, Member};
-use super::nearest;
 use super::object::Object;
 use super::results::Results;
 use super::scopes::report_formula;
@@ -17,6 +16,7 @@ use gumption_engine::model::formula::{Formula, FormulaError};
 use gumption_engine::task::Warning;
 use gumption_gap::Candidate;
 use gumption_gap::{Circular, Effect, Sim};
+use gumption_units::nearest;
 
 /// At most so many effects: their pairs are tried as well.
 const MOST_EFFECTS: usize = 200;

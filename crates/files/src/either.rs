@@ -4,8 +4,8 @@ use std::path::Path;
 
 use super::diagnostics::{Diagnostic, Diagnostics};
 use super::json::{self, Json};
-use super::model_file::{ModelFile, read_text};
-use super::open::open;
+use super::model_file::ModelFile;
+use super::reader::FileReader;
 use super::result_file::{ResultFile, read_result};
 use super::{DiagnosticKind, SourceText};
 
@@ -28,20 +28,9 @@ impl ModelOrResult {
     }
 }
 
-/// Reads and checks a file: one with the key `result` is a result file.
-///
-/// # Errors
-/// All mistakes of the file, in the order of their places.
-pub fn read_either(path: &Path) -> Result<ModelOrResult, Diagnostics> {
-    open(path, read_either_text)
-}
-
-/// Reads and checks a text as [`read_either`] does a file; `folder` is where a model file's tables
-/// are looked for.
-///
-/// # Errors
-/// All mistakes of the text, in the order of their places.
-pub fn read_either_text(
+/// Reads and checks a text: one with the key `result` is a saved result.
+pub(super) fn read_text(
+    files: FileReader<'_>,
     name: &str,
     text: &str,
     folder: &Path,
@@ -54,7 +43,7 @@ pub fn read_either_text(
     Ok(if is_result {
         ModelOrResult::Result(read_result(name, text)?)
     } else {
-        ModelOrResult::Model(Box::new(read_text(name, text, folder, &[])?))
+        ModelOrResult::Model(Box::new(files.model_text(name, text, folder, &[])?))
     })
 }
 

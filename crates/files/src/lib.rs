@@ -27,7 +27,6 @@ mod links;
 mod model_checks;
 mod model_file;
 mod model_reader;
-mod nearest;
 mod object;
 mod observations;
 mod open;
@@ -35,6 +34,7 @@ mod outputs;
 mod overrides;
 mod paired;
 mod prior;
+mod reader;
 mod recipe;
 mod recording;
 mod result_file;
@@ -54,21 +54,18 @@ mod text_table;
 mod variant;
 mod width;
 
-pub use case::{CaseFile, read as read_case, read_at as read_case_at, read_text as read_case_text};
+pub use case::CaseFile;
 pub use catalogue::{EffectListing, ListedEffect, ListedParameter, catalogue};
 pub(crate) use certificate::keys as certificate_keys;
-pub use certificate::{
-    CertificateFile, CertifiedModel, read as read_certificate, read_text as read_certificate_text,
-};
-pub use checked::{check, check_text};
+pub use certificate::{CertificateFile, CertifiedModel};
 pub use comparison::{ComparisonOptions, ComparisonTable, read_comparison, read_comparison_text};
 pub use diagnostic_kind::DiagnosticKind;
 pub use diagnostics::{Diagnostic, Diagnostics};
 pub use difference::difference;
-pub use either::{ModelOrResult, read_either, read_either_text};
-pub use model_file::{ModelFile, read, read_text};
-pub use nearest::nearest;
+pub use either::ModelOrResult;
+pub use model_file::ModelFile;
 pub use overrides::{Override, Overrides};
+pub use reader::{FileReader, check, check_text, read, read_case, read_certificate, read_text};
 pub(crate) use recipe::{OWN as RECIPE_KEY, STEPS};
 pub use recipe::{
     OpenedRow, RecipeCondition, RecipeFile, RecipeRow, read as read_recipe,

@@ -5,6 +5,7 @@ use std::collections::{HashMap, HashSet};
 use std::ops::Range;
 use std::sync::Arc;
 
+use super::DiagnosticKind;
 use super::conditions::Conditions;
 use super::diagnostics::Collector;
 use super::input_set::InputSet;
@@ -13,12 +14,12 @@ use super::model_reader::{Equation, ModelBody};
 use super::object::Object;
 use super::outputs::Outputs;
 use super::scopes::{coherent, condition_scope, report_formula};
-use super::{DiagnosticKind, nearest};
 use gumption_engine::model::formula::{Scope, Typing, check_name};
+use gumption_engine::model::typed::CatalogueEntry;
 use gumption_engine::model::{Output, Quantity};
 use gumption_engine::task::Warning;
-use gumption_measurements::Entry;
 use gumption_units::Unit;
+use gumption_units::nearest;
 
 /// The quantities of a file.
 #[derive(Debug)]
@@ -71,7 +72,12 @@ pub(super) fn check_names(root: &Object<'_>, of: &Quantities, body: &Option<Mode
 }
 
 /// Checks that a typed model has the quantities, all of those that it needs, and units that fit.
-pub(super) fn check_typed(log: &Collector, entry: &Entry, place: &Range<usize>, of: &Quantities) {
+pub(super) fn check_typed(
+    log: &Collector,
+    entry: &CatalogueEntry,
+    place: &Range<usize>,
+    of: &Quantities,
+) {
     let Quantities { inputs, conditions, outputs, .. } = of;
     let unknown_units = of.unknown_units();
     let declaration = entry.typed.declaration;

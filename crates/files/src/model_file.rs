@@ -5,8 +5,9 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::diagnostics::Diagnostics;
-use super::model_reader::{ModelOptions, read_file, read_with};
+use super::model_reader::{ModelOptions, read_with};
 use super::overrides::Override;
+use super::reader::FileReader;
 use super::source::SourceText;
 use gumption_engine::task::{Evidence, Task, Warning};
 
@@ -27,27 +28,15 @@ pub struct ModelFile {
     pub evidence: Vec<Evidence>,
 }
 
-/// Reads and checks a model file.
-///
-/// # Errors
-/// All mistakes of the file, in the order of their places.
-pub fn read(path: &Path, overrides: &[Override]) -> Result<ModelFile, Diagnostics> {
-    let options = ModelOptions { overrides, ..ModelOptions::default() };
-    read_file(path, options, |reader| Some(reader.found()?.file))
-}
-
-/// Reads and checks a model file's text; `name` is used in messages, and tables are looked for in
-/// `folder`.
-///
-/// # Errors
-/// All mistakes of the text, in the order of their places.
-pub fn read_text(
+/// Reads and checks a model file's text.
+pub(super) fn read_text(
+    files: FileReader<'_>,
     name: &str,
     text: &str,
     folder: &Path,
     overrides: &[Override],
 ) -> Result<ModelFile, Diagnostics> {
-    let options = ModelOptions { overrides, ..ModelOptions::default() };
+    let options = ModelOptions { files, overrides, at: None };
     read_with(name, text, folder, options, |reader| Some(reader.found()?.file))
 }
 

@@ -34,23 +34,25 @@ use super::model_checks::{
 use super::model_file::ModelFile;
 use super::object::Object;
 use super::observations::{self, Observations};
-use super::open::{check_format, open, read_changed_root};
+use super::open::{check_format, read_changed_root};
 use super::outputs;
 use super::overrides::{self, Override};
+use super::reader::FileReader;
 use super::results::Results;
 use super::scopes::{ConditionSet, report_formula, typed_scope};
 use super::simulated::{names_simulation, simulated};
 use super::size::Size;
 use super::table::{self, Table};
-use super::{DiagnosticKind, correlations, inputs, nearest, settings};
+use super::{DiagnosticKind, correlations, inputs, settings};
 use gumption_engine::distribution::{Correlation, Fits};
 use gumption_engine::model::formula::Formula;
+use gumption_engine::model::typed::{Catalogue, CatalogueEntry};
 use gumption_engine::model::{Output, typed};
 use gumption_engine::task::{Row, Settings, Task, Warning};
 use gumption_gap::Observed;
 use gumption_gap::{Maker as SimMaker, Sim};
-use gumption_measurements::Entry;
 use gumption_units::Unit;
+use gumption_units::nearest;
 
 /// The keys of a model file and of a case.
 const KEYS: [&str; 21] = [
@@ -78,12 +80,21 @@ const KEYS: [&str; 21] = [
 ];
 
 /// How a model file is to be read.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct ModelOptions<'a> {
+    /// The typed measurements that the file may name.
+    pub(super) files: FileReader<'a>,
     /// Values in place of those of the file.
     pub(super) overrides: &'a [Override],
     /// A table of conditions in place of those of the data.
     pub(super) at: Option<&'a Path>,
+}
+
+impl<'a> ModelOptions<'a> {
+    /// Of a file as it is.
+    pub(super) fn with(files: FileReader<'a>) -> Self {
+        Self { files, overrides: &[], at: None }
+    }
 }
 
 /// What was found in a file.
@@ -114,7 +125,7 @@ pub(super) type Equation<'a> = (String, Option<&'a Member>, Option<Formula>);
 /// What computes the outputs.
 #[derive(Debug)]
 pub(super) enum ModelBody<'a> {
-    Typed(Entry, &'a Range<usize>),
+    Typed(&'a CatalogueEntry, &'a Range<usize>),
     Equations(Vec<Equation<'a>>),
 }
 
@@ -124,15 +135,6 @@ struct Data {
     conditions: Conditions,
     /// Outputs with the column that holds them.
     simulated: Vec<(String, String)>,
-}
-
-/// Reads and checks a file; `read` makes what is wanted of it.
-pub(super) fn read_file<T>(
-    path: &Path,
-    options: ModelOptions<'_>,
-    read: impl FnOnce(&ModelReader<'_>) -> Option<T>,
-) -> Result<T, Diagnostics> {
-    open(path, |name, text, folder| read_with(name, text, folder, options, read))
 }
 
 /// Reads and checks a text; `read` makes what is wanted of it.
@@ -332,7 +334,8 @@ impl<'a> ModelReader<'a> {
         match (self.root.get("model"), self.root.get("equations")) {
             (Some(member), None) => {
                 let name = self.root.text("model")?;
-                let entry = typed_model(self.root.log, name, &member.value.span)?;
+                let catalogue = self.options.files.catalogue();
+                let entry = typed_model(self.root.log, catalogue, name, &member.value.span)?;
                 Some(ModelBody::Typed(entry, &member.value.span))
             }
             (None, Some(member)) => {
@@ -358,11 +361,15 @@ impl<'a> ModelReader<'a> {
 }
 
 /// The typed model of a name.
-fn typed_model(log: &Collector, name: &str, place: &Range<usize>) -> Option<Entry> {
-    let found = gumption_measurements::find(name);
+fn typed_model<'c>(
+    log: &Collector,
+    catalogue: &'c Catalogue,
+    name: &str,
+    place: &Range<usize>,
+) -> Option<&'c CatalogueEntry> {
+    let found = catalogue.find(name);
     if found.is_none() {
-        let known = gumption_measurements::all();
-        let nearest = nearest(name, known.iter().map(|e| e.typed.declaration.name));
+        let nearest = nearest(name, catalogue.iter().map(CatalogueEntry::name));
         let (name, nearest) = (name.to_owned(), nearest.map(str::to_owned));
         log.report(place, DiagnosticKind::UnknownModel { name, nearest });
     }

@@ -6,7 +6,7 @@ use std::ops::Range;
 use super::DiagnosticKind;
 use super::diagnostics::Collector;
 use super::json::{Json, Member, Node};
-use super::nearest::nearest;
+use gumption_units::nearest;
 
 /// An object that is being read.
 #[derive(Clone, Copy, Debug)]

@@ -8,11 +8,11 @@ use nalgebra::DMatrix;
 use super::DiagnosticKind;
 use super::diagnostics::Collector;
 use super::json::{Json, Member};
-use super::nearest;
 use super::object::Object;
 use super::source::Place;
 use super::table::{self, Table};
 use gumption_gap::Observed;
+use gumption_units::nearest;
 
 /// The data's table with the columns of the observed outputs.
 #[derive(Debug)]

@@ -1,9 +1,10 @@
 //! Values that stand in place of those of a file: estimates, fields of inputs, values of conditions.
 
+use super::DiagnosticKind;
 use super::diagnostics::Collector;
 use super::json::{Json, Member, Node};
-use super::{DiagnosticKind, nearest};
 use gumption_units::Unit;
+use gumption_units::nearest;
 
 /// A replacement as text: `NAME=VALUE` or `NAME.field=VALUE`.
 #[derive(Clone, Debug, PartialEq)]

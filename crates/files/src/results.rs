@@ -7,13 +7,13 @@ use std::sync::Arc;
 
 use super::diagnostics::{Collector, Diagnostics};
 use super::json::Node;
-use super::nearest::nearest;
 use super::object::Object;
 use super::result_file::{ResultFile, SavedOutput, read_result};
 use super::source::Place;
 use super::{DiagnosticKind, bytes};
 use gumption_engine::distribution::Distribution;
 use gumption_units::Unit;
+use gumption_units::nearest;
 
 /// The result files that a model file names, each read once.
 #[derive(Debug)]

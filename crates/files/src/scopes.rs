@@ -10,7 +10,7 @@ use super::input_set::InputSet;
 use super::json::Member;
 use gumption_engine::model::Quantity;
 use gumption_engine::model::formula::{Formula, FormulaError, Scope, Typing};
-use gumption_measurements::Entry;
+use gumption_engine::model::typed::CatalogueEntry;
 use gumption_units::{Dimension, Unit};
 
 /// A formula's mistake at its place inside the JSON text.
@@ -35,7 +35,11 @@ pub(super) fn coherent(dimension: Dimension) -> String {
 }
 
 /// What is known of the names of a typed model.
-pub(super) fn typed_scope(entry: &Entry, inputs: &InputSet, conditions: &Conditions) -> Scope {
+pub(super) fn typed_scope(
+    entry: &CatalogueEntry,
+    inputs: &InputSet,
+    conditions: &Conditions,
+) -> Scope {
     let mut scope = condition_scope(conditions);
     for input in &inputs.quantities {
         let Quantity { name, unit, .. } = &input.quantity;

@@ -5,7 +5,6 @@ use std::ops::Range;
 use super::DiagnosticKind;
 use super::condition_values::ConditionValues;
 use super::json::Json;
-use super::nearest::nearest;
 use super::object::Object;
 use super::results::Results;
 use super::width::Width;
@@ -17,6 +16,7 @@ use gumption_engine::distribution::{
 use gumption_engine::model::formula::Formula;
 use gumption_engine::special;
 use gumption_units::Unit;
+use gumption_units::nearest;
 
 /// A shape that files can name: its canonical name, its other names, its fields.
 #[derive(Debug)]

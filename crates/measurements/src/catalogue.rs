@@ -45,13 +45,3 @@ pub fn catalogue() -> &'static Catalogue {
 fn of<M: Measurement>() -> CatalogueEntry {
     CatalogueEntry::of::<M>()
 }
-
-/// All measurements.
-pub fn all() -> Vec<CatalogueEntry> {
-    catalogue().iter().copied().collect()
-}
-
-/// The measurement that files call `name`.
-pub fn find(name: &str) -> Option<CatalogueEntry> {
-    catalogue().find(name).copied()
-}

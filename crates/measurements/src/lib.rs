@@ -4,8 +4,7 @@
 
 mod catalogue;
 
-pub use catalogue::{all, catalogue, find};
-pub use gumption_engine::model::typed::CatalogueEntry as Entry;
+pub use catalogue::catalogue;
 
 mod axis_sensitivity;
 mod inclined_plane;

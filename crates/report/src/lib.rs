@@ -17,7 +17,6 @@ mod plot;
 mod samples;
 mod saved;
 mod sheet;
-mod si;
 mod subtotals;
 mod table;
 pub mod verification;

@@ -3,6 +3,7 @@
 use std::fmt;
 
 use super::exponent::Exponent;
+use super::factor::Factor;
 
 /// The base units in the order in which a dimension is written.
 const SYMBOLS: [&str; 7] = ["kg", "m", "s", "A", "K", "mol", "cd"];
@@ -112,6 +113,14 @@ impl Dimension {
             Some(words) => format!("{words} ({self})"),
             None => format!("a quantity in {self}"),
         }
+    }
+}
+
+impl Dimension {
+    /// The coherent SI unit in factors: the base units in order, without those of exponent 0.
+    pub(super) fn factors(&self) -> Vec<Factor> {
+        let powers = SYMBOLS.iter().zip(self.exponents).filter(|(_, exponent)| !exponent.is_zero());
+        powers.filter_map(|(symbol, exponent)| Factor::named(symbol, exponent)).collect()
     }
 }
 

@@ -52,7 +52,7 @@ pub enum UnitError {
         /// Where it stands.
         span: Range<usize>,
         /// On which side of it, or within it, something is missing.
-        side: Side,
+        side: MissingSide,
     },
     /// A parenthesis that is opened and not closed, or closed and not opened.
     UnbalancedParenthesis {
@@ -111,7 +111,8 @@ pub enum UnitError {
 
 /// On which side of an operator its unit or number is missing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Side {
+#[non_exhaustive]
+pub enum MissingSide {
     /// Before it.
     Before,
     /// After it.
@@ -174,13 +175,13 @@ impl fmt::Display for UnitError {
                     None => Ok(()),
                 }
             }
-            Self::MissingFactor { operator, side: Side::Before, .. } => {
+            Self::MissingFactor { operator, side: MissingSide::Before, .. } => {
                 write!(f, "`{operator}` needs a unit or a number before it, such as `1{operator}`")
             }
-            Self::MissingFactor { operator, side: Side::After, .. } => {
+            Self::MissingFactor { operator, side: MissingSide::After, .. } => {
                 write!(f, "`{operator}` needs a unit or a number after it")
             }
-            Self::MissingFactor { operator, side: Side::Inside, .. } => {
+            Self::MissingFactor { operator, side: MissingSide::Inside, .. } => {
                 write!(f, "`{operator}` needs a unit or a number between the parentheses")
             }
             Self::UnbalancedParenthesis { found: ')', .. } => {
@@ -248,6 +249,7 @@ impl fmt::Display for Shown {
 
 /// Two units of different dimension, between which nothing can be converted.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct IncompatibleUnits {
     /// The text of the unit to convert from.
     pub from: String,

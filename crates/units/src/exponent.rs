@@ -18,6 +18,9 @@ impl Exponent {
     /// The exponent 1.
     pub const ONE: Self = Self::integer(1);
 
+    /// The exponent 1/2, of a square root.
+    pub const HALF: Self = Self { numerator: 1, denominator: 2 };
+
     /// A whole exponent.
     pub const fn integer(value: i8) -> Self {
         Self { numerator: value as i16, denominator: 1 }

@@ -18,7 +18,9 @@
 mod dimension;
 mod error;
 mod exponent;
+mod factor;
 mod names;
+mod nearest;
 mod parse;
 mod power;
 mod scale;
@@ -30,19 +32,47 @@ use std::fmt;
 use std::str::FromStr;
 
 pub use dimension::Dimension;
-pub use error::{IncompatibleUnits, Side, UnitError};
+pub use error::{IncompatibleUnits, MissingSide, UnitError};
 pub use exponent::Exponent;
+pub use factor::{Factor, FactorBase};
+pub use names::{Prefix, Symbol};
+pub use nearest::{all_nearest, nearest};
 
 use names::{Flavour, Meaning};
 use scale::Scale;
 
-/// A unit of measurement: its text as written, its dimension, and its size in coherent SI units.
+/// A unit of measurement: its text as written, its factors, its dimension, and its size in coherent
+/// SI units.
 ///
-/// Two units are equal if their texts, dimensions and sizes are; `mm` and `1e-3*m` are compatible
-/// but not equal.
+/// Two units are equal if their texts are; `mm` and `1e-3*m` are compatible but not equal.
+///
+/// ```
+/// use gumption_units::{Dimension, Unit};
+///
+/// let sensitivity = Unit::parse("mV/(m/s²)")?;
+/// assert_eq!(sensitivity.factor(), 1e-3);
+/// assert_eq!(sensitivity.dimension().to_string(), "kg m s^-1 A^-1");
+///
+/// // the spelling is gone from the factors
+/// let factors = sensitivity.factors();
+/// assert_eq!(factors, Unit::parse("mV*m**-1 s^(2)")?.factors());
+/// let written: Vec<String> =
+///     factors.iter().map(|factor| format!("{}^{}", factor.base, factor.exponent)).collect();
+/// assert_eq!(written, ["mV^1", "m^-1", "s^2"]);
+///
+/// let (speed, wanted) = (Unit::parse("km/h")?, Unit::parse("m/s")?);
+/// assert_eq!(speed.to_si(36.0), 10.0);
+/// assert_eq!(Unit::conversion_factor(&wanted, &speed)?, 3.6);
+/// assert!(Unit::conversion_factor(&speed, &sensitivity).is_err());
+///
+/// let error = Unit::parse("m/sec").unwrap_err();
+/// assert_eq!((error.span(), error.suggestions()), (2..5, vec!["s"]));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Unit {
     text: String,
+    factors: Vec<Factor>,
     dimension: Dimension,
     scale: Scale,
     factor: f64,
@@ -59,12 +89,13 @@ impl Unit {
 
     /// The unit of a plain number, `1`.
     pub fn one() -> Self {
-        Self::new("1".to_owned(), parse::ONE)
+        Self::new("1".to_owned(), parse::ONE, Vec::new())
     }
 
     /// The coherent SI unit of a dimension in base units, such as `kg m^2 s^-2`.
     pub fn coherent(dimension: Dimension) -> Self {
-        Self::new(dimension.to_string(), Meaning { dimension, ..parse::ONE })
+        let meaning = Meaning { dimension, ..parse::ONE };
+        Self::new(dimension.to_string(), meaning, dimension.factors())
     }
 
     /// Reads a unit from text; an empty text is a plain number.
@@ -74,17 +105,32 @@ impl Unit {
     /// [`UnitError`] says what is wrong, where, and what may be meant. No text makes this panic or
     /// take long.
     pub fn parse(text: &str) -> Result<Self, UnitError> {
-        Ok(Self::new(text.to_owned(), parse::parse(text)?))
+        let (meaning, factors) = parse::parse(text)?;
+        Ok(Self::new(text.to_owned(), meaning, factors))
     }
 
-    fn new(text: String, meaning: Meaning) -> Self {
+    fn new(text: String, meaning: Meaning, factors: Vec<Factor>) -> Self {
         let Meaning { dimension, scale, flavour } = meaning;
-        Self { text, dimension, scale, factor: scale.value(), fraction: scale.fraction(), flavour }
+        let (factor, fraction) = (scale.value(), scale.fraction());
+        Self { text, factors, dimension, scale, factor, fraction, flavour }
     }
 
     /// The text as written.
     pub fn text(&self) -> &str {
         &self.text
+    }
+
+    /// The factors that the unit is the product of, in the order in which they are written; none for
+    /// the number 1. Every spelling of a unit has the same: `m/s^2`, `m·s⁻²`, `m s**-2`. Factors of
+    /// one unit are not merged: `um/m` and `s*s` have two each.
+    pub fn factors(&self) -> &[Factor] {
+        &self.factors
+    }
+
+    /// The factors as a text that is the same for every spelling of the unit and reads back as the
+    /// same unit: `D·s^2/m` for `D/(m/s²)`, `W/(m^2·K)` for `W m^-2 K^-1`.
+    pub fn normal_text(&self) -> String {
+        factor::normal_text(&self.factors)
     }
 
     /// The dimension.

@@ -14,11 +14,15 @@ pub(super) enum Flavour {
     Relative,
 }
 
-/// A unit symbol and its meaning.
+/// A unit with a symbol of its own, in every spelling that is read, and its names elsewhere.
+///
+/// Two symbols are equal if they are the same unit: `Ω` and `ohm` are read as one symbol.
 #[derive(Debug)]
-pub(super) struct Symbol {
-    /// The symbol as written.
-    pub(super) name: &'static str,
+pub struct Symbol {
+    /// The symbol, in letters that can be typed on any keyboard where there is such a spelling.
+    name: &'static str,
+    /// Other spellings.
+    also: &'static [&'static str],
     /// Its dimension.
     pub(super) dimension: Dimension,
     /// Its size in coherent SI units: `fraction.0 / fraction.1 * 10^decimal * pi^pi`.
@@ -29,25 +33,80 @@ pub(super) struct Symbol {
     pub(super) prefixes: bool,
     /// What it is besides its size.
     pub(super) flavour: Flavour,
+    dsi: Option<&'static str>,
+    siunitx: Option<&'static str>,
 }
 
 impl Symbol {
+    /// The symbol: `m`, `ohm`, `degC`.
+    pub const fn name(&self) -> &'static str {
+        self.name
+    }
+
+    /// The name in D-SI, the digital system of units that Digital Calibration Certificates are
+    /// written in: `metre`. `None` if D-SI does not have the unit.
+    pub const fn dsi_name(&self) -> Option<&'static str> {
+        self.dsi
+    }
+
+    /// The name of the macro of the LaTeX package `siunitx`, without its backslash: `metre`.
+    /// `None` if the package has none.
+    pub const fn siunitx_name(&self) -> Option<&'static str> {
+        self.siunitx
+    }
+
     /// The size in coherent SI units.
     pub(super) fn scale(&self) -> Scale {
         Scale::new(self.fraction.0, self.fraction.1, self.decimal, self.pi)
     }
+
+    /// Every spelling, [`Symbol::name`] first.
+    pub(super) fn spellings(&self) -> impl Iterator<Item = &'static str> {
+        std::iter::once(self.name).chain(self.also.iter().copied())
+    }
+
+    /// The same symbol, also in other spellings.
+    const fn also(self, also: &'static [&'static str]) -> Self {
+        Self { also, ..self }
+    }
+
+    /// The same symbol with its name in D-SI and in siunitx.
+    const fn named(self, name: &'static str) -> Self {
+        Self { dsi: Some(name), siunitx: Some(name), ..self }
+    }
+
+    /// The same symbol with a name in D-SI alone.
+    const fn dsi(self, name: &'static str) -> Self {
+        Self { dsi: Some(name), ..self }
+    }
+
+    /// The same symbol, pi times as large.
+    const fn times_pi(self) -> Self {
+        Self { pi: 1, ..self }
+    }
 }
+
+impl PartialEq for Symbol {
+    fn eq(&self, other: &Self) -> bool {
+        self.name() == other.name()
+    }
+}
+
+impl Eq for Symbol {}
 
 /// A symbol that takes prefixes, `10^decimal` coherent SI units in size.
 const fn si(name: &'static str, exponents: [i8; 7], decimal: i32) -> Symbol {
     Symbol {
         name,
+        also: &[],
         dimension: Dimension::of(exponents),
         fraction: (1, 1),
         decimal,
         pi: 0,
         prefixes: true,
         flavour: Flavour::Plain,
+        dsi: None,
+        siunitx: None,
     }
 }
 
@@ -81,9 +140,14 @@ const fn relative(name: &'static str, decimal: i32) -> Symbol {
     Symbol { flavour: Flavour::Relative, ..bare(name, NUMBER, (1, 1), decimal) }
 }
 
-/// A spelling of the degree Celsius.
+/// The degree Celsius.
 const fn celsius(name: &'static str) -> Symbol {
-    Symbol { flavour: Flavour::Celsius, ..bare(name, TEMPERATURE, (1, 1), 0) }
+    Symbol {
+        flavour: Flavour::Celsius,
+        dsi: Some("degreecelsius"),
+        siunitx: Some("degreeCelsius"),
+        ..bare(name, TEMPERATURE, (1, 1), 0)
+    }
 }
 
 // Exponents of kg, m, s, A, K, mol, cd.
@@ -109,58 +173,53 @@ const DOSE: [i8; 7] = [0, 2, -2, 0, 0, 0, 0];
 /// 3rd CGPM (1901). The conventional millimetre of mercury, the inch, foot, pound, pound-force and
 /// psi follow NIST SP 811, appendix B; the atmosphere is 101 325 Pa and the torr 1/760 of it.
 #[rustfmt::skip]
-pub(super) const SYMBOLS: &[Symbol] = &[
+pub(super) static SYMBOLS: &[Symbol] = &[
     // SI base units; the kilogram is `g` with a prefix.
-    si("m", LENGTH, 0),
-    si("g", MASS, -3),
-    si("s", TIME, 0),
-    si("A", [0, 0, 0, 1, 0, 0, 0], 0),
-    si("K", TEMPERATURE, 0),
-    si("mol", [0, 0, 0, 0, 0, 1, 0], 0),
-    si("cd", [0, 0, 0, 0, 0, 0, 1], 0),
+    si("m", LENGTH, 0).named("metre"),
+    si("g", MASS, -3).named("gram"),
+    si("s", TIME, 0).named("second"),
+    si("A", [0, 0, 0, 1, 0, 0, 0], 0).named("ampere"),
+    si("K", TEMPERATURE, 0).named("kelvin"),
+    si("mol", [0, 0, 0, 0, 0, 1, 0], 0).named("mole"),
+    si("cd", [0, 0, 0, 0, 0, 0, 1], 0).named("candela"),
     // SI units with names of their own.
-    si("rad", NUMBER, 0),
-    si("sr", NUMBER, 0),
-    si("Hz", RATE, 0),
-    si("N", FORCE, 0),
-    si("Pa", PRESSURE, 0),
-    si("J", ENERGY, 0),
-    si("W", [1, 2, -3, 0, 0, 0, 0], 0),
-    si("C", [0, 0, 1, 1, 0, 0, 0], 0),
-    si("V", [1, 2, -3, -1, 0, 0, 0], 0),
-    si("F", [-1, -2, 4, 2, 0, 0, 0], 0),
-    si("ohm", RESISTANCE, 0),
-    si("Ω", RESISTANCE, 0),
-    si("\u{2126}", RESISTANCE, 0),
-    si("S", [-1, -2, 3, 2, 0, 0, 0], 0),
-    si("Wb", [1, 2, -2, -1, 0, 0, 0], 0),
-    si("T", [1, 0, -2, -1, 0, 0, 0], 0),
-    si("H", [1, 2, -2, -2, 0, 0, 0], 0),
-    si("lm", [0, 0, 0, 0, 0, 0, 1], 0),
-    si("lx", [0, -2, 0, 0, 0, 0, 1], 0),
-    si("Bq", RATE, 0),
-    si("Gy", DOSE, 0),
-    si("Sv", DOSE, 0),
-    si("kat", [0, 0, -1, 0, 0, 1, 0], 0),
-    celsius("degC"),
-    celsius("°C"),
-    celsius("℃"),
+    si("rad", NUMBER, 0).named("radian"),
+    si("sr", NUMBER, 0).named("steradian"),
+    si("Hz", RATE, 0).named("hertz"),
+    si("N", FORCE, 0).named("newton"),
+    si("Pa", PRESSURE, 0).named("pascal"),
+    si("J", ENERGY, 0).named("joule"),
+    si("W", [1, 2, -3, 0, 0, 0, 0], 0).named("watt"),
+    si("C", [0, 0, 1, 1, 0, 0, 0], 0).named("coulomb"),
+    si("V", [1, 2, -3, -1, 0, 0, 0], 0).named("volt"),
+    si("F", [-1, -2, 4, 2, 0, 0, 0], 0).named("farad"),
+    si("ohm", RESISTANCE, 0).named("ohm").also(&["Ω", "\u{2126}"]),
+    si("S", [-1, -2, 3, 2, 0, 0, 0], 0).named("siemens"),
+    si("Wb", [1, 2, -2, -1, 0, 0, 0], 0).named("weber"),
+    si("T", [1, 0, -2, -1, 0, 0, 0], 0).named("tesla"),
+    si("H", [1, 2, -2, -2, 0, 0, 0], 0).named("henry"),
+    si("lm", [0, 0, 0, 0, 0, 0, 1], 0).named("lumen"),
+    si("lx", [0, -2, 0, 0, 0, 0, 1], 0).named("lux"),
+    si("Bq", RATE, 0).named("becquerel"),
+    si("Gy", DOSE, 0).named("gray"),
+    si("Sv", DOSE, 0).named("sievert"),
+    si("kat", [0, 0, -1, 0, 0, 1, 0], 0).named("katal"),
+    celsius("degC").also(&["°C", "℃"]),
     // Non-SI units with prefixes.
-    si("L", VOLUME, -3),
-    si("l", VOLUME, -3),
-    si("t", MASS, 3),
+    si("L", VOLUME, -3).named("litre").also(&["l"]),
+    si("t", MASS, 3).named("tonne"),
     si("bar", PRESSURE, 5),
     si("Gal", ACCELERATION, -2),
     measured("g_n", ACCELERATION, 980_665, -5),
-    measured("eV", ENERGY, 1_602_176_634, -28),
-    measured("Da", MASS, 166_053_906_660, -38),
+    measured("eV", ENERGY, 1_602_176_634, -28).named("electronvolt"),
+    measured("Da", MASS, 166_053_906_660, -38).named("dalton"),
     // Non-SI units without prefixes.
     bare("u", MASS, (166_053_906_660, 1), -38),
-    bare("min", TIME, (60, 1), 0),
-    bare("h", TIME, (3_600, 1), 0),
-    bare("d", TIME, (86_400, 1), 0),
+    bare("min", TIME, (60, 1), 0).named("minute"),
+    bare("h", TIME, (3_600, 1), 0).named("hour"),
+    bare("d", TIME, (86_400, 1), 0).named("day"),
     bare("au", LENGTH, (149_597_870_700, 1), 0),
-    bare("ha", AREA, (1, 1), 4),
+    bare("ha", AREA, (1, 1), 4).named("hectare"),
     bare("in", LENGTH, (254, 1), -4),
     bare("ft", LENGTH, (3_048, 1), -4),
     bare("lb", MASS, (45_359_237, 1), -8),
@@ -172,21 +231,15 @@ pub(super) const SYMBOLS: &[Symbol] = &[
     bare("atm", PRESSURE, (101_325, 1), 0),
     bare("rpm", RATE, (1, 30), 0).times_pi(),
     // Angles.
-    angle("deg", (1, 180)),
-    angle("°", (1, 180)),
-    angle("arcmin", (1, 10_800)),
-    angle("'", (1, 10_800)),
-    angle("′", (1, 10_800)),
-    angle("arcsec", (1, 648_000)),
-    angle("''", (1, 648_000)),
-    angle("″", (1, 648_000)),
-    angle("′′", (1, 648_000)),
+    angle("deg", (1, 180)).named("degree").also(&["°"]),
+    angle("arcmin", (1, 10_800)).named("arcminute").also(&["'", "′"]),
+    angle("arcsec", (1, 648_000)).named("arcsecond").also(&["''", "″", "′′"]),
     angle("rev", (2, 1)),
     angle("turn", (2, 1)),
     // Numbers.
-    relative("%", -2),
+    relative("%", -2).named("percent"),
     relative("‰", -3),
-    relative("ppm", -6),
+    relative("ppm", -6).dsi("ppm"),
     relative("ppb", -9),
     number("dB"),
     number("D"),
@@ -194,34 +247,55 @@ pub(super) const SYMBOLS: &[Symbol] = &[
     number("count"),
 ];
 
-impl Symbol {
-    /// The same symbol, pi times as large.
-    const fn times_pi(self) -> Self {
-        Self { pi: 1, ..self }
-    }
+/// An SI prefix (SI Brochure, 9th ed., table 7).
+#[derive(Debug, PartialEq, Eq)]
+pub struct Prefix {
+    symbol: &'static str,
+    /// Other spellings.
+    also: &'static [&'static str],
+    name: &'static str,
+    decimal: i32,
 }
 
-/// An SI prefix (SI Brochure, 9th ed., table 7).
-#[derive(Debug)]
-pub(super) struct Prefix {
-    /// The symbol.
-    pub(super) symbol: &'static str,
-    /// The name, or nothing for a second spelling of a symbol.
-    pub(super) name: &'static str,
-    /// The power of ten.
-    pub(super) decimal: i32,
+impl Prefix {
+    /// The symbol: `m`, `k`; `u` for micro.
+    pub const fn symbol(&self) -> &'static str {
+        self.symbol
+    }
+
+    /// The English name: `milli`.
+    pub const fn name(&self) -> &'static str {
+        self.name
+    }
+
+    /// The power of ten: -3 for milli.
+    pub const fn decimal(&self) -> i32 {
+        self.decimal
+    }
+
+    /// The name in D-SI and in siunitx. `None` for the prefixes beyond 10^24 and 10^-24, added in
+    /// 2022, which not every version of these has.
+    pub fn macro_name(&self) -> Option<&'static str> {
+        (self.decimal.abs() <= 24).then_some(self.name)
+    }
+
+    /// Every spelling, [`Prefix::symbol`] first.
+    pub(super) fn spellings(&self) -> impl Iterator<Item = &'static str> {
+        std::iter::once(self.symbol).chain(self.also.iter().copied())
+    }
 }
 
 /// One row of [`PREFIXES`].
 const fn prefix(symbol: &'static str, name: &'static str, decimal: i32) -> Prefix {
-    Prefix { symbol, name, decimal }
+    Prefix { symbol, also: &[], name, decimal }
 }
 
 /// Every prefix, the commonest first.
-pub(super) const PREFIXES: &[Prefix] = &[
+pub(super) static PREFIXES: &[Prefix] = &[
     prefix("m", "milli", -3),
     prefix("k", "kilo", 3),
-    prefix("u", "micro", -6),
+    // the micro sign and the Greek letter
+    Prefix { also: &["\u{b5}", "\u{3bc}"], ..prefix("u", "micro", -6) },
     prefix("M", "mega", 6),
     prefix("n", "nano", -9),
     prefix("c", "centi", -2),
@@ -243,24 +317,58 @@ pub(super) const PREFIXES: &[Prefix] = &[
     prefix("y", "yocto", -24),
     prefix("r", "ronto", -27),
     prefix("q", "quecto", -30),
-    // The micro sign and the Greek letter.
-    prefix("\u{b5}", "", -6),
-    prefix("\u{3bc}", "", -6),
 ];
 
-/// The symbol with exactly this name.
+/// The symbol with exactly this spelling.
 pub(super) fn symbol(name: &str) -> Option<&'static Symbol> {
-    SYMBOLS.iter().find(|symbol| symbol.name == name)
+    SYMBOLS.iter().find(|symbol| symbol.spellings().any(|spelling| spelling == name))
 }
 
-/// Every way to read a name as a prefix before a symbol, allowed or not.
-pub(super) fn prefixed(name: &str) -> impl Iterator<Item = (&'static Prefix, &'static Symbol)> {
-    PREFIXES.iter().filter_map(move |prefix| {
-        name.strip_prefix(prefix.symbol).and_then(symbol).map(|symbol| (prefix, symbol))
+/// Every way to read a name as a prefix before a symbol, allowed or not, with the spelling of each.
+pub(super) fn prefixed<'n>(name: &'n str) -> impl Iterator<Item = Prefixed<'n>> {
+    prefix_spellings().filter_map(move |(spelling, prefix)| {
+        let unit = name.strip_prefix(spelling)?;
+        Some(Prefixed { prefix, spelling, symbol: symbol(unit)?, unit })
     })
 }
 
-/// What a unit name means.
+/// Every spelling of every prefix.
+pub(super) fn prefix_spellings() -> impl Iterator<Item = (&'static str, &'static Prefix)> {
+    PREFIXES.iter().flat_map(|prefix| prefix.spellings().map(move |spelling| (spelling, prefix)))
+}
+
+/// A name read as a prefix before a symbol.
+#[derive(Debug)]
+pub(super) struct Prefixed<'n> {
+    /// The prefix.
+    pub(super) prefix: &'static Prefix,
+    /// The prefix as written.
+    pub(super) spelling: &'static str,
+    /// The symbol.
+    pub(super) symbol: &'static Symbol,
+    /// The symbol as written.
+    pub(super) unit: &'n str,
+}
+
+/// A name read as a unit: a symbol as it stands first (so that `min` is a minute, `ft` a foot,
+/// `Pa` a pascal and `cd` a candela), then a prefix and a symbol that takes one. No name has two
+/// readings of the second kind.
+pub(super) fn read(name: &str) -> Option<(Option<&'static Prefix>, &'static Symbol)> {
+    match symbol(name) {
+        Some(symbol) => Some((None, symbol)),
+        None => {
+            let found = prefixed(name).find(|found| found.symbol.prefixes)?;
+            Some((Some(found.prefix), found.symbol))
+        }
+    }
+}
+
+/// Whether a name is a unit.
+pub(super) fn is_unit(name: &str) -> bool {
+    read(name).is_some()
+}
+
+/// What a text means besides its factors.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Meaning {
     /// The dimension.
@@ -271,21 +379,12 @@ pub(super) struct Meaning {
     pub(super) flavour: Flavour,
 }
 
-/// The meaning of a name: a symbol as it stands first (so that `min` is a minute, `ft` a foot,
-/// `Pa` a pascal and `cd` a candela), then a prefix and a symbol that takes one. No name has two
-/// readings of the second kind.
-pub(super) fn meaning(name: &str) -> Option<Meaning> {
-    if let Some(symbol) = symbol(name) {
-        return Some(Meaning {
-            dimension: symbol.dimension,
-            scale: symbol.scale(),
-            flavour: symbol.flavour,
-        });
-    }
-    let (prefix, symbol) = prefixed(name).find(|(_, symbol)| symbol.prefixes)?;
+/// The meaning of a symbol after a prefix or none.
+pub(super) fn meaning(prefix: Option<&Prefix>, symbol: &Symbol) -> Option<Meaning> {
+    let power = prefix.map_or(Scale::ONE, |prefix| Scale::power_of_ten(prefix.decimal));
     Some(Meaning {
         dimension: symbol.dimension,
-        scale: symbol.scale().times(Scale::power_of_ten(prefix.decimal))?,
+        scale: symbol.scale().times(power)?,
         flavour: symbol.flavour,
     })
 }

@@ -24,9 +24,10 @@
 use std::ops::Range;
 
 use super::dimension::Dimension;
-use super::error::{MAX_EXPONENT, Side, UnitError};
+use super::error::{MAX_EXPONENT, MissingSide, UnitError};
 use super::exponent::Exponent;
-use super::names::{Flavour, Meaning, meaning};
+use super::factor::{Factor, FactorBase};
+use super::names::{Flavour, Meaning, meaning, read};
 use super::power::superscript;
 use super::scale::Scale;
 use super::suggest;
@@ -45,20 +46,23 @@ const OPERATOR: &str = "`*`, `/`, `^` or the end of the unit";
 const SECOND_EXPONENT: &str =
     "`*`, `/` or the end of the unit, because a unit takes one exponent only";
 
+/// The exponent of what is divided by.
+const MINUS_ONE: Exponent = Exponent::integer(-1);
+
 /// The number 1.
 pub(super) const ONE: Meaning =
     Meaning { dimension: Dimension::NONE, scale: Scale::ONE, flavour: Flavour::Plain };
 
-/// Reads a whole text.
-pub(super) fn parse(text: &str) -> Result<Meaning, UnitError> {
+/// Reads a whole text: its meaning and its factors.
+pub(super) fn parse(text: &str) -> Result<(Meaning, Vec<Factor>), UnitError> {
     if text.len() > MAX_LENGTH {
         return Err(UnitError::TooLong { length: text.len(), limit: MAX_LENGTH });
     }
-    let mut parser = Parser { text, at: 0 };
+    let mut parser = Parser::new(text, 0);
     parser.skip_space();
     let start = parser.at;
     if parser.peek().is_none() {
-        return Ok(ONE);
+        return Ok((ONE, Vec::new()));
     }
     let meaning = parser.product(0)?;
     if let Some(found) = parser.peek() {
@@ -67,13 +71,15 @@ pub(super) fn parse(text: &str) -> Result<Meaning, UnitError> {
     if !meaning.scale.in_range() {
         return Err(UnitError::FactorOutOfRange { span: start..text.trim_end().len() });
     }
-    Ok(meaning)
+    Ok((meaning, parser.factors))
 }
 
 /// A text and how far it has been read.
 pub(super) struct Parser<'t> {
     pub(super) text: &'t str,
     pub(super) at: usize,
+    /// The factors read. Those of a group or behind a division are raised when it ends.
+    factors: Vec<Factor>,
 }
 
 /// What kind of factor has been read, for the rules that depend on it.
@@ -93,14 +99,19 @@ struct Power {
 }
 
 impl<'t> Parser<'t> {
+    /// Reads a text from an index on.
+    pub(super) fn new(text: &'t str, at: usize) -> Self {
+        Self { text, at, factors: Vec::new() }
+    }
+
     /// What has not been read yet.
     pub(super) fn rest(&self) -> &'t str {
         self.slice(self.at..self.text.len())
     }
 
-    /// A part of the text.
+    /// A part of the text, between characters.
     pub(super) fn slice(&self, span: Range<usize>) -> &'t str {
-        self.text.get(span).unwrap_or_default()
+        &self.text[span]
     }
 
     /// The next character.
@@ -127,7 +138,7 @@ impl<'t> Parser<'t> {
         let rest = self.rest();
         let end = rest.find(|c| !condition(c)).unwrap_or(rest.len());
         self.at += end;
-        rest.get(..end).unwrap_or_default()
+        &rest[..end]
     }
 
     /// Reads white space; whether there was any.
@@ -144,7 +155,7 @@ impl<'t> Parser<'t> {
     /// Reads factors up to the end or a closing parenthesis. Something other than space is next.
     fn product(&mut self, depth: usize) -> Result<Meaning, UnitError> {
         if let [b'.', b'0'..=b'9', ..] = self.rest().as_bytes() {
-            let mut ahead = Parser { text: self.text, at: self.at + 1 };
+            let mut ahead = Parser::new(self.text, self.at + 1);
             let suggestion = format!("0.{}", ahead.take_while(|c| c.is_ascii_digit()));
             let suggestion = Some(suggestion).filter(|text| parse(text).is_ok());
             return Err(self.unexpected(FACTOR, suggestion));
@@ -152,7 +163,7 @@ impl<'t> Parser<'t> {
         if self.peek().is_some_and(is_operator) {
             let span = self.next_span();
             let operator = self.slice(span.clone()).to_owned();
-            return Err(UnitError::MissingFactor { operator, span, side: Side::Before });
+            return Err(UnitError::MissingFactor { operator, span, side: MissingSide::Before });
         }
         let mut last = self.power(depth)?;
         let start = last.start;
@@ -178,8 +189,10 @@ impl<'t> Parser<'t> {
                 }
                 Some(_) => return Err(self.no_operator(&last, end)),
             };
+            let from = self.factors.len();
             last = self.power(depth)?;
-            product = self.combine(product, last.meaning, divide, start)?;
+            let fits = !divide || self.raise(from, MINUS_ONE);
+            product = self.combine(product, last.meaning, divide, start, fits)?;
         }
     }
 
@@ -192,7 +205,7 @@ impl<'t> Parser<'t> {
             Some(next) if !is_operator(next) && !matches!(next, ')' | '^') => Ok(()),
             _ => {
                 let operator = self.slice(span.clone()).to_owned();
-                Err(UnitError::MissingFactor { operator, span, side: Side::After })
+                Err(UnitError::MissingFactor { operator, span, side: MissingSide::After })
             }
         }
     }
@@ -204,7 +217,7 @@ impl<'t> Parser<'t> {
             return self.unexpected(SECOND_EXPONENT, None);
         }
         // `m-3` and `m 2` are powers without their sign, `10 000` is one number.
-        let mut ahead = Parser { text: self.text, at: self.at };
+        let mut ahead = Parser::new(self.text, self.at);
         let sign = if ahead.sign() { "-" } else { "" };
         let digits = ahead.take_while(|c| c.is_ascii_digit());
         let before = self.slice(last.start..end);
@@ -217,13 +230,27 @@ impl<'t> Parser<'t> {
         self.unexpected(OPERATOR, suggestion.filter(|text| parse(text).is_ok()))
     }
 
-    /// The product or quotient of what has been read since `start`.
+    /// Raises the factors from an index on to a power; whether all exponents fit.
+    fn raise(&mut self, from: usize, power: Exponent) -> bool {
+        let mut raised = self.factors.iter_mut().skip(from);
+        raised.all(|factor| match factor.exponent.checked_mul(power) {
+            Some(exponent) => {
+                factor.exponent = exponent;
+                true
+            }
+            None => false,
+        })
+    }
+
+    /// The product or quotient of what has been read since `start`, if the exponents of its factors
+    /// fit.
     fn combine(
         &self,
         left: Meaning,
         right: Meaning,
         divide: bool,
         start: usize,
+        fits: bool,
     ) -> Result<Meaning, UnitError> {
         let span = start..self.at;
         let (dimension, scale) = if divide {
@@ -234,7 +261,7 @@ impl<'t> Parser<'t> {
         } else {
             (left.dimension.checked_mul(right.dimension), left.scale.times(right.scale))
         };
-        self.meaning(dimension, scale, Flavour::Plain, span)
+        self.meaning(dimension.filter(|_| fits), scale, Flavour::Plain, span)
     }
 
     /// A meaning of which both parts must be in range.
@@ -257,7 +284,7 @@ impl<'t> Parser<'t> {
 
     /// Reads a factor and its exponent, if it has one.
     fn power(&mut self, depth: usize) -> Result<Power, UnitError> {
-        let start = self.at;
+        let (start, from) = (self.at, self.factors.len());
         let (base, kind) = self.factor(depth)?;
         let end = self.at;
         let limit = if kind == Kind::Number { MAX_NUMBER_EXPONENT } else { MAX_EXPONENT };
@@ -270,8 +297,9 @@ impl<'t> Parser<'t> {
             self.refuse_ambiguous(start..end, &read)?;
         }
         let flavour = if read.exponent == Exponent::ONE { base.flavour } else { Flavour::Plain };
+        let fits = self.raise(from, read.exponent);
         let meaning = self.meaning(
-            base.dimension.checked_pow(read.exponent),
+            base.dimension.checked_pow(read.exponent).filter(|_| fits),
             base.scale.power(read.exponent),
             flavour,
             start..self.at,
@@ -281,7 +309,7 @@ impl<'t> Parser<'t> {
 
     /// Reads a number, a name, a group or a root.
     fn factor(&mut self, depth: usize) -> Result<(Meaning, Kind), UnitError> {
-        let start = self.at;
+        let (start, from) = (self.at, self.factors.len());
         match self.peek() {
             Some('(') => self.group(start, depth),
             Some('√') => {
@@ -290,10 +318,14 @@ impl<'t> Parser<'t> {
                 self.skip_space();
                 if !self.peek().is_some_and(starts_factor) {
                     let operator = "√".to_owned();
-                    return Err(UnitError::MissingFactor { operator, span, side: Side::After });
+                    return Err(UnitError::MissingFactor {
+                        operator,
+                        span,
+                        side: MissingSide::After,
+                    });
                 }
                 let (inner, _) = self.factor(deeper(depth, span)?)?;
-                self.root(inner, start)
+                self.root(inner, start, from)
             }
             Some(c) if c.is_ascii_digit() => self.number(),
             Some(c) if starts_factor(c) => self.name(depth),
@@ -316,7 +348,7 @@ impl<'t> Parser<'t> {
                 return Err(UnitError::MissingFactor {
                     operator: "()".to_owned(),
                     span: start..self.at + 1,
-                    side: Side::Inside,
+                    side: MissingSide::Inside,
                 });
             }
             Some(_) => Some(self.product(depth)?),
@@ -327,11 +359,16 @@ impl<'t> Parser<'t> {
         }
     }
 
-    /// The square root of what has been read since `start`.
-    fn root(&self, inner: Meaning, start: usize) -> Result<(Meaning, Kind), UnitError> {
-        let half = Exponent::new(1, 2).unwrap_or(Exponent::ONE);
-        let dimension = inner.dimension.checked_pow(half);
-        let scale = inner.scale.power(half);
+    /// The square root of what has been read since `start`, of the factors from an index on.
+    fn root(
+        &mut self,
+        inner: Meaning,
+        start: usize,
+        from: usize,
+    ) -> Result<(Meaning, Kind), UnitError> {
+        let fits = self.raise(from, Exponent::HALF);
+        let dimension = inner.dimension.checked_pow(Exponent::HALF).filter(|_| fits);
+        let scale = inner.scale.power(Exponent::HALF);
         let meaning = self.meaning(dimension, scale, Flavour::Plain, start..self.at)?;
         Ok((meaning, Kind::Group))
     }
@@ -349,6 +386,18 @@ impl<'t> Parser<'t> {
         }
         let span = start..self.at;
         let scale = Scale::literal(self.slice(span.clone()));
+        if let Some(literal) = scale {
+            let (number, power) = literal.number_and_power();
+            if number != 1.0 {
+                self.factors.push(Factor::of(FactorBase::Number(number)));
+            }
+            if power != 0 {
+                let exponent = i32::try_from(power).ok().and_then(|power| Exponent::new(power, 1));
+                let exponent =
+                    exponent.ok_or(UnitError::FactorOutOfRange { span: span.clone() })?;
+                self.factors.push(Factor { base: FactorBase::Number(10.0), exponent });
+            }
+        }
         Ok((self.meaning(Some(Dimension::NONE), scale, Flavour::Plain, span)?, Kind::Number))
     }
 
@@ -363,7 +412,7 @@ impl<'t> Parser<'t> {
 
     /// Reads a name; its first character is next.
     fn name(&mut self, depth: usize) -> Result<(Meaning, Kind), UnitError> {
-        let start = self.at;
+        let (start, from) = (self.at, self.factors.len());
         match self.peek() {
             Some(c) if is_quote(c) => {
                 self.take_while(is_quote);
@@ -382,12 +431,14 @@ impl<'t> Parser<'t> {
         if name == "sqrt" && self.rest().trim_start().starts_with('(') {
             self.skip_space();
             let (inner, _) = self.group(self.at, depth)?;
-            return self.root(inner, start);
+            return self.root(inner, start, from);
         }
-        match meaning(name) {
-            Some(meaning) => Ok((meaning, Kind::Name)),
-            None => Err(suggest::unknown(name, span)),
-        }
+        let Some((prefix, symbol)) = read(name) else {
+            return Err(suggest::unknown(name, span));
+        };
+        self.factors.push(Factor::of(FactorBase::Named { prefix, symbol }));
+        let meaning = meaning(prefix, symbol).ok_or(UnitError::FactorOutOfRange { span })?;
+        Ok((meaning, Kind::Name))
     }
 
     /// Reads a sign; whether it is a minus.

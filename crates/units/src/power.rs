@@ -61,7 +61,10 @@ impl Parser<'_> {
         }
         let mut value = exponent(&inner, written, span.clone(), limit)?;
         if !bare && negative {
-            value = value.checked_neg().unwrap_or(value);
+            let found = written.to_owned();
+            let negative = value.checked_neg();
+            value =
+                negative.ok_or(UnitError::ExponentTooLarge { found, span: span.clone(), limit })?;
         }
         Ok(Some(Read { exponent: value, span, bare: bare && !inner.contains('.') }))
     }
@@ -72,7 +75,7 @@ impl Parser<'_> {
         base: Range<usize>,
         read: &Read,
     ) -> Result<(), UnitError> {
-        let mut ahead = Parser { text: self.text, at: self.at };
+        let mut ahead = Parser::new(self.text, self.at);
         ahead.skip_space();
         if !ahead.take("/") {
             return Ok(());

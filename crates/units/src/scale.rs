@@ -74,6 +74,18 @@ impl Scale {
         }
     }
 
+    /// A literal as a number and a power of ten: the number is 1 for a power of ten, and the power
+    /// is 0 for what is none and fits in an `f64`.
+    pub(super) fn number_and_power(self) -> (f64, i64) {
+        if self.numerator == 1 && self.rest == 1.0 {
+            (1.0, self.decimal)
+        } else if self.in_range() {
+            (self.value(), 0)
+        } else {
+            (Self { decimal: 0, ..self }.value(), self.decimal)
+        }
+    }
+
     /// The product.
     pub(super) fn times(self, other: Self) -> Option<Self> {
         let cross = gcd(self.numerator, other.denominator);
@@ -134,8 +146,8 @@ impl Scale {
         let inner = Self { decimal: self.decimal.rem_euclid(degree), ..self }.value();
         let rest = match n {
             2 => inner.sqrt(),
-            3 => inner.cbrt(),
-            _ => inner.powf(1.0 / f64::from(n)),
+            3 => libm::cbrt(inner),
+            _ => libm::pow(inner, 1.0 / f64::from(n)),
         };
         Self { decimal, rest, ..Self::ONE }.checked()
     }
@@ -183,7 +195,7 @@ impl Scale {
                 return (Self { denominator, decimal: self.decimal - shift, ..self }, 1.0);
             }
         }
-        (self, PI.powf(self.pi as f64))
+        (self, libm::pow(PI, self.pi as f64))
     }
 
     /// The same number in lowest terms, with the tens taken out of the integers.
@@ -232,7 +244,8 @@ fn quotient(numerator: u128, denominator: u128, decimal: i64) -> f64 {
         digits.push('1');
         decimal -= 1;
     }
-    format!("{digits}e{decimal}").parse().unwrap_or(f64::NAN)
+    #[expect(clippy::expect_used, reason = "digits and an exponent are a number")]
+    format!("{digits}e{decimal}").parse().expect("a number in decimal digits")
 }
 
 /// The product, if it is within [`LARGEST`].
@@ -248,7 +261,7 @@ fn exact(value: u128) -> Option<f64> {
 
 /// The integer `n`-th root, if there is one.
 fn exact_root(value: u128, n: u32) -> Option<u128> {
-    let guess = (value as f64).powf(1.0 / f64::from(n)).round() as u128;
+    let guess = libm::pow(value as f64, 1.0 / f64::from(n)).round() as u128;
     (guess.saturating_sub(1)..=guess.saturating_add(1))
         .find(|root| root.checked_pow(n) == Some(value))
 }

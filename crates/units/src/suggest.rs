@@ -3,10 +3,16 @@
 use std::ops::Range;
 
 use super::error::UnitError;
-use super::names::{Flavour, PREFIXES, SYMBOLS, meaning, prefixed, symbol};
+use super::names::{
+    Flavour, PREFIXES, SYMBOLS, Symbol, is_unit, prefix_spellings, prefixed, symbol,
+};
+use super::nearest;
 
 /// The most suggestions given.
 const MOST: usize = 3;
+
+/// The fewest letters of a name for which, and of those among which, similar ones are looked for.
+const SHORTEST: usize = 3;
 
 /// Names that are not units here, in lower case, and what is probably meant. The right-hand sides
 /// are unit texts, likeliest first; none where nothing corresponds.
@@ -75,7 +81,7 @@ pub(super) fn unknown(name: &str, span: Range<usize>) -> UnitError {
         return UnitError::UnknownUnit { name: name.to_owned(), span, nearest };
     }
     // `Min` and `MIN` are minutes in the wrong case, not a mega-inch.
-    let unprefixed = SYMBOLS.iter().any(|symbol| same_letters(symbol.name, name));
+    let unprefixed = spellings().any(|symbol| same_letters(symbol, name));
     if !unprefixed && let Some(error) = bare_unit_with_prefix(name, &span) {
         return error;
     }
@@ -104,26 +110,25 @@ fn spelled_out(name: &str) -> Option<Vec<String>> {
     if let Some(right) = word(&lower) {
         return Some(right.iter().map(|text| (*text).to_owned()).collect());
     }
-    for prefix in PREFIXES {
-        if let Some(rest) = name.strip_prefix(prefix.symbol) {
+    for (spelling, prefix) in prefix_spellings() {
+        if let Some(rest) = name.strip_prefix(spelling) {
             if let Some((_, right)) = JOINED.iter().find(|(wrong, _)| *wrong == rest) {
-                return Some(vec![format!("{}{right}", prefix.symbol)]);
+                return Some(vec![format!("{spelling}{right}")]);
             }
             if let Some(text) = word(&rest.to_lowercase()).and_then(|right| right.first())
                 && rest.chars().count() > 2
                 && takes_prefix(text)
             {
-                return Some(vec![format!("{}{text}", prefix.symbol)]);
+                return Some(vec![format!("{spelling}{text}")]);
             }
         }
-        if !prefix.name.is_empty()
-            && let Some(rest) = lower.strip_prefix(prefix.name)
-            && let Some(text) = word(rest).and_then(|right| right.first()).copied().or_else(|| {
-                SYMBOLS.iter().map(|symbol| symbol.name).find(|symbol| same_letters(symbol, rest))
-            })
+        if let Some(rest) = lower.strip_prefix(prefix.name())
+            && let Some(text) = word(rest)
+                .and_then(|right| right.first().copied())
+                .or_else(|| spellings().find(|symbol| same_letters(symbol, rest)))
             && takes_prefix(text)
         {
-            return Some(vec![format!("{}{text}", prefix.symbol)]);
+            return Some(vec![format!("{spelling}{text}")]);
         }
     }
     if name.starts_with('%') {
@@ -131,13 +136,13 @@ fn spelled_out(name: &str) -> Option<Vec<String>> {
     }
     if let Some(singular) = name.strip_suffix('s')
         && singular.chars().count() > 2
-        && meaning(singular).is_some()
+        && is_unit(singular)
     {
         return Some(vec![singular.to_owned()]);
     }
     let stem = name.trim_end_matches(|c: char| c.is_ascii_digit());
     let power = name.strip_prefix(stem).filter(|power| power.len() == 1 && *power != "0")?;
-    meaning(stem).map(|_| vec![format!("{stem}^{power}")])
+    is_unit(stem).then(|| vec![format!("{stem}^{power}")])
 }
 
 /// The meaning of a word in lower case, in the singular or the plural.
@@ -158,14 +163,14 @@ fn same_letters(a: &str, b: &str) -> bool {
 
 /// A prefix before a unit that takes none.
 fn bare_unit_with_prefix(name: &str, span: &Range<usize>) -> Option<UnitError> {
-    let (prefix, symbol) = prefixed(name).find(|(_, symbol)| !symbol.prefixes)?;
-    let instead = match symbol.flavour {
-        Flavour::Celsius => format!("{}K", prefix.symbol),
-        _ => format!("1e{}*{}", prefix.decimal, symbol.name),
+    let found = prefixed(name).find(|found| !found.symbol.prefixes)?;
+    let instead = match found.symbol.flavour {
+        Flavour::Celsius => format!("{}K", found.spelling),
+        _ => format!("1e{}*{}", found.prefix.decimal(), found.unit),
     };
     Some(UnitError::PrefixNotAllowed {
-        prefix: prefix.symbol.to_owned(),
-        unit: symbol.name.to_owned(),
+        prefix: found.spelling.to_owned(),
+        unit: found.unit.to_owned(),
         span: span.clone(),
         instead,
     })
@@ -173,19 +178,19 @@ fn bare_unit_with_prefix(name: &str, span: &Range<usize>) -> Option<UnitError> {
 
 /// A prefix before a unit that has one already.
 fn two_prefixes(name: &str, span: &Range<usize>) -> Option<UnitError> {
-    PREFIXES.iter().find_map(|outer| {
-        let unit = name.strip_prefix(outer.symbol)?;
-        let (inner, symbol) = prefixed(unit).find(|(_, symbol)| symbol.prefixes)?;
-        let decimal = outer.decimal + inner.decimal;
+    prefix_spellings().find_map(|(spelling, outer)| {
+        let unit = name.strip_prefix(spelling)?;
+        let inner = prefixed(unit).find(|inner| inner.symbol.prefixes)?;
+        let decimal = outer.decimal() + inner.prefix.decimal();
         let instead = if decimal == 0 {
-            symbol.name.to_owned()
-        } else if let Some(one) = PREFIXES.iter().find(|prefix| prefix.decimal == decimal) {
-            format!("{}{}", one.symbol, symbol.name)
+            inner.unit.to_owned()
+        } else if let Some(one) = PREFIXES.iter().find(|prefix| prefix.decimal() == decimal) {
+            format!("{}{}", one.symbol(), inner.unit)
         } else {
-            format!("1e{decimal}*{}", symbol.name)
+            format!("1e{decimal}*{}", inner.unit)
         };
         Some(UnitError::PrefixNotAllowed {
-            prefix: outer.symbol.to_owned(),
+            prefix: spelling.to_owned(),
             unit: unit.to_owned(),
             span: span.clone(),
             instead,
@@ -207,14 +212,19 @@ fn wrong_case(name: &str) -> Vec<String> {
 
 /// Every unit name that can be typed on any keyboard: symbols, then symbols with prefixes.
 fn every_name() -> impl Iterator<Item = String> {
-    let plain = SYMBOLS.iter().map(|symbol| symbol.name.to_owned());
     let with_prefix = PREFIXES.iter().flat_map(|prefix| {
         SYMBOLS
             .iter()
             .filter(|symbol| symbol.prefixes)
-            .map(move |symbol| format!("{}{}", prefix.symbol, symbol.name))
+            .flat_map(Symbol::spellings)
+            .map(move |symbol| format!("{}{symbol}", prefix.symbol()))
     });
-    plain.chain(with_prefix).filter(|name| name.is_ascii())
+    spellings().map(str::to_owned).chain(with_prefix).filter(|name| name.is_ascii())
+}
+
+/// Every spelling of every symbol.
+fn spellings() -> impl Iterator<Item = &'static str> {
+    SYMBOLS.iter().flat_map(Symbol::spellings)
 }
 
 /// The name as two units without a sign between them.
@@ -222,7 +232,7 @@ fn joined(name: &str) -> Vec<String> {
     name.char_indices()
         .skip(1)
         .filter_map(|(at, _)| name.split_at_checked(at))
-        .filter(|(left, right)| meaning(left).is_some() && meaning(right).is_some())
+        .filter(|(left, right)| is_unit(left) && is_unit(right))
         .map(|(left, right)| format!("{left}*{right}"))
         .take(MOST)
         .collect()
@@ -230,30 +240,19 @@ fn joined(name: &str) -> Vec<String> {
 
 /// Words and symbols of three letters or more that are a typing error away.
 fn similar(name: &str) -> Vec<String> {
-    let lower = name.to_lowercase();
-    let limit = match lower.chars().count() {
-        0..=2 => return Vec::new(),
-        3..=5 => 1,
-        _ => 2,
-    };
-    let words = SPELLED.iter().map(|(wrong, right)| (*wrong, right.first().copied()));
-    let symbols = SYMBOLS.iter().map(|symbol| (symbol.name, Some(symbol.name)));
-    let mut found: Vec<(usize, &str)> = words
-        .chain(symbols)
-        .filter(|(known, _)| known.chars().count() >= 3)
-        .filter_map(|(known, right)| {
-            let distance = strsim::damerau_levenshtein(&known.to_lowercase(), &lower);
-            right.filter(|_| distance <= limit).map(|right| (distance, right))
-        })
-        .collect();
-    found.sort_by_key(|(distance, _)| *distance);
-    let mut nearest: Vec<String> = Vec::new();
-    for (_, right) in found {
-        if nearest.len() < MOST && !nearest.iter().any(|text| text == right) {
-            nearest.push(right.to_owned());
+    if name.chars().count() < SHORTEST {
+        return Vec::new();
+    }
+    let words = SPELLED.iter().filter(|(_, right)| !right.is_empty()).map(|(wrong, _)| *wrong);
+    let known = words.chain(spellings()).filter(|known| known.chars().count() >= SHORTEST);
+    let mut found: Vec<String> = Vec::new();
+    for near in nearest::all_nearest(name, known) {
+        let right = word(near).and_then(|right| right.first()).copied().unwrap_or(near);
+        if found.len() < MOST && !found.iter().any(|text| text == right) {
+            found.push(right.to_owned());
         }
     }
-    nearest
+    found
 }
 
 /// The table of spelled-out names.

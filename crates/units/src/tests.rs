@@ -1,7 +1,7 @@
 use std::f64::consts::PI;
 
-use super::names::{PREFIXES, SYMBOLS, meaning, prefixed};
-use super::{Dimension, Exponent, Side, Unit, UnitError};
+use super::names::{PREFIXES, SYMBOLS, Symbol, prefix_spellings, prefixed, read};
+use super::{Dimension, Exponent, MissingSide, Unit, UnitError};
 
 /// Text, factor, dimension.
 type Right = (&'static str, f64, &'static str);
@@ -126,9 +126,9 @@ fn variant(error: &UnitError) -> &'static str {
         UnitError::UnknownUnit { .. } => "unknown",
         UnitError::PrefixNotAllowed { .. } => "prefix",
         UnitError::UnexpectedCharacter { .. } => "character",
-        UnitError::MissingFactor { side: Side::Before, .. } => "missing before",
-        UnitError::MissingFactor { side: Side::After, .. } => "missing after",
-        UnitError::MissingFactor { side: Side::Inside, .. } => "missing inside",
+        UnitError::MissingFactor { side: MissingSide::Before, .. } => "missing before",
+        UnitError::MissingFactor { side: MissingSide::After, .. } => "missing after",
+        UnitError::MissingFactor { side: MissingSide::Inside, .. } => "missing inside",
         UnitError::UnbalancedParenthesis { .. } => "parenthesis",
         UnitError::ExponentNotANumber { .. } => "exponent",
         UnitError::ExponentTooLarge { .. } => "too large",
@@ -359,25 +359,107 @@ fn coherent_units_read_back() {
 
 #[test]
 fn no_name_has_two_meanings() {
-    for (i, a) in SYMBOLS.iter().enumerate() {
-        assert!(SYMBOLS[i + 1..].iter().all(|b| a.name != b.name), "{}", a.name);
-        if !a.prefixes {
-            continue;
-        }
-        for prefix in PREFIXES {
-            let name = format!("{}{}", prefix.symbol, a.name);
-            assert!(meaning(&name).is_some());
-            let readings: Vec<_> = prefixed(&name).filter(|(_, s)| s.prefixes).collect();
-            assert_eq!(readings.len(), 1, "{name}: {readings:?}");
+    let spellings: Vec<&str> = SYMBOLS.iter().flat_map(Symbol::spellings).collect();
+    for (i, a) in spellings.iter().enumerate() {
+        assert!(!spellings[i + 1..].contains(a), "{a}");
+    }
+    let prefixes: Vec<&str> = prefix_spellings().map(|(spelling, _)| spelling).collect();
+    assert_eq!(prefixes.len(), 26);
+    for a in SYMBOLS.iter().filter(|symbol| symbol.prefixes).flat_map(Symbol::spellings) {
+        for prefix in &prefixes {
+            let name = format!("{prefix}{a}");
+            assert!(read(&name).is_some());
+            let readings = prefixed(&name).filter(|found| found.symbol.prefixes).count();
+            assert_eq!(readings, 1, "{name}");
         }
     }
     // The only symbols that hide a prefix and a unit.
-    let hidden: Vec<_> = SYMBOLS
-        .iter()
-        .filter(|s| prefixed(s.name).any(|(_, inner)| inner.prefixes))
-        .map(|s| s.name)
-        .collect();
-    assert_eq!(hidden, ["ft"]);
+    let hidden: Vec<_> =
+        spellings.iter().filter(|name| prefixed(name).any(|found| found.symbol.prefixes)).collect();
+    assert_eq!(hidden, [&"ft"]);
+}
+
+/// Factors as `base^exponent`.
+fn shown(unit: &Unit) -> Vec<String> {
+    let factors = unit.factors().iter();
+    factors.map(|factor| format!("{}^{}", factor.base, factor.exponent)).collect()
+}
+
+#[test]
+fn factors_keep_the_order_and_not_the_spelling() {
+    let cases: &[(&[&str], &[&str], &str)] = &[
+        (&["", "1", "1.0", "(1)", "1*1", "1^3"], &[], "1"),
+        (&["m^2", "m**2", "m²", "m^(2)", "m^2.0", "(m)^2", "m^+2", "1*m^2"], &["m^2"], "m^2"),
+        (
+            &["m/s^2", "m/s²", "m·s⁻²", "m*s**-2", "m s^-2", "m.s^(-2)", "(m)/(s^2)", "m×s^(-4/2)"],
+            &["m^1", "s^-2"],
+            "m/s^2",
+        ),
+        (&["m/s/s", "m/(s s)"], &["m^1", "s^-1", "s^-1"], "m/(s·s)"),
+        (
+            &["mV/(m/s²)", "mV*m^-1*s^2", "mV/m*s^2", "(mV/m) s²"],
+            &["mV^1", "m^-1", "s^2"],
+            "mV·s^2/m",
+        ),
+        (&["J/kg*K", "J kg^-1 K"], &["J^1", "kg^-1", "K^1"], "J·K/kg"),
+        (
+            &["nV/√Hz", "nV/Hz^(1/2)", "nV/sqrt(Hz)", "nV Hz^-0.5", "√(nV^2/Hz)"],
+            &["nV^1", "Hz^-1/2"],
+            "nV/Hz^(1/2)",
+        ),
+        (&["1e-6/K", "10^-6/K", "10⁻⁶ K⁻¹", "0.000001/K"], &["10^-6", "K^-1"], "10^-6/K"),
+        (&["1/30*deg", "30^-1 °", "1/(30/deg)"], &["30^-1", "deg^1"], "30^-1·deg"),
+        (&["2.5e3*Pa", "2500 Pa", "2500Pa"], &["2500^1", "Pa^1"], "2500·Pa"),
+        (&["µΩ", "uohm", "μ\u{2126}"], &["uohm^1"], "uohm"),
+        (&["1/K", "K^-1"], &["K^-1"], "1/K"),
+        (&["um/m", "µm m⁻¹"], &["um^1", "m^-1"], "um/m"),
+        (&["degC", "°C", "℃"], &["degC^1"], "degC"),
+        (&["25e400/1e400*m"], &["25^1", "10^400", "10^-400", "m^1"], "25·10^400·10^-400·m"),
+    ];
+    for (spellings, factors, normal) in cases {
+        for spelling in *spellings {
+            let unit = Unit::parse(spelling).unwrap();
+            assert_eq!(shown(&unit), *factors, "{spelling}");
+            assert_eq!(unit.normal_text(), *normal, "{spelling}");
+        }
+    }
+}
+
+/// What the factors multiply to is what the text was read as: two ways to the same number.
+#[test]
+fn factors_multiply_to_the_unit() {
+    for (text, ..) in RIGHT.iter().chain(NEARLY) {
+        let unit = Unit::parse(text).unwrap();
+        let mut dimension = Dimension::NONE;
+        let mut logarithm = 0.0;
+        for factor in unit.factors() {
+            let base = Unit::parse(&factor.base.to_string()).unwrap();
+            let power = base.dimension().checked_pow(factor.exponent).unwrap();
+            dimension = dimension.checked_mul(power).unwrap();
+            logarithm += base.factor().log10() * factor.exponent.to_f64();
+        }
+        assert_eq!(dimension, unit.dimension(), "{text}");
+        // a few roundings of logarithms up to some hundreds
+        assert!((logarithm - unit.factor().log10()).abs() < 1e-12, "{text}");
+        let normal = Unit::parse(&unit.normal_text()).unwrap_or_else(|e| panic!("{text}: {e}"));
+        assert_eq!(normal.normal_text(), unit.normal_text(), "{text}");
+        assert!((normal.factor() / unit.factor() - 1.0).abs() < 1e-14, "{text}");
+        assert_eq!(normal.dimension(), unit.dimension(), "{text}");
+    }
+}
+
+/// Every name that another language of units has for a symbol is that of one symbol only.
+#[test]
+fn names_in_other_languages_are_unique() {
+    for name_of in [Symbol::dsi_name, Symbol::siunitx_name] {
+        let names: Vec<&str> = SYMBOLS.iter().filter_map(name_of).collect();
+        for (i, name) in names.iter().enumerate() {
+            assert!(!names[i + 1..].contains(name), "{name}");
+            assert!(!name.is_empty() && name.chars().all(|c| c.is_ascii_alphabetic()));
+        }
+    }
+    let named = PREFIXES.iter().filter(|prefix| prefix.macro_name().is_some());
+    assert_eq!(named.count(), 20);
 }
 
 #[test]

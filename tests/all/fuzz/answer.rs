@@ -5,7 +5,7 @@ use std::process::Command;
 use std::sync::OnceLock;
 
 use gumption::diff;
-use gumption::file::{ModelFile, Problems, read_text};
+use gumption::file::{Diagnostics, ModelFile, read_text};
 use gumption::propagate::gum::Gum;
 use gumption::propagate::monte_carlo::MonteCarlo;
 use gumption::propagate::{Control, evaluate, warnings};
@@ -53,15 +53,15 @@ fn in_schema(text: &str) {
 }
 
 /// Mistakes have places inside their text and a sentence of a reasonable length.
-pub(super) fn explained(problems: &Problems) {
-    assert!(!problems.0.is_empty(), "refused without a reason");
-    for problem in &problems.0 {
-        let (line, column) = problem.position();
+pub(super) fn explained(diagnostics: &Diagnostics) {
+    assert!(!diagnostics.0.is_empty(), "refused without a reason");
+    for diagnostic in &diagnostics.0 {
+        let (line, column) = diagnostic.position();
         assert!(line > 0 && column > 0);
-        assert!(problem.span.start <= problem.span.end, "{problem}");
-        assert!(problem.source.text.get(problem.span.clone()).is_some(), "{problem}");
-        assert!(!problem.source.name.is_empty());
-        let message = problem.message();
+        assert!(diagnostic.span.start <= diagnostic.span.end, "{diagnostic}");
+        assert!(diagnostic.source.text.get(diagnostic.span.clone()).is_some(), "{diagnostic}");
+        assert!(!diagnostic.source.name.is_empty());
+        let message = diagnostic.message();
         assert!(!message.trim().is_empty());
         assert!(message.len() < 10_000, "a message without end: {message}");
     }
@@ -120,7 +120,7 @@ fn answered(mut file: ModelFile) {
     assert!(csv.split([',', '\n']).all(|cell| !["NaN", "inf", "-inf"].contains(&cell)), "{csv}");
     let json = report::json(&report);
     assert!(serde_json::from_str::<Value>(&json).is_ok(), "the answer is no JSON: {json}");
-    let difference = diff::compare(&file, &file);
+    let difference = diff::compare(&file.task, &file.task);
     assert!(difference.changes.is_empty(), "{:?}", difference.changes);
 }
 

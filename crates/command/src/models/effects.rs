@@ -5,7 +5,8 @@ use std::fmt::Write;
 use super::{one_line, plain_table, render, wrapped, wrapped_to};
 use crate::Failure;
 use gumption_files as file;
-use gumption_files::{EffectListing, nearest};
+use gumption_files::EffectListing;
+use gumption_units::nearest;
 
 /// The effects of that name, or all of them.
 pub(super) fn named(name: Option<&str>) -> Result<EffectListing, Failure> {

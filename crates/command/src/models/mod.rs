@@ -10,7 +10,7 @@ use comfy_table::{ContentArrangement, Table, presets};
 use super::options::Format;
 use super::{Exit, Failure, Program, output};
 use gumption_engine::model::typed::{Catalogue, CatalogueEntry};
-use gumption_files::nearest;
+use gumption_units::nearest;
 
 /// List the typed models or describe one, or list the ready-made effects of the gap diagnosis.
 #[derive(Debug, Args)]

@@ -9,7 +9,6 @@ use crate::{Exit, Failure, Program, options, output};
 use gumption_engine::number::CodePath;
 use gumption_engine::propagate::{Control, trial_hash};
 use gumption_engine::task::Trials;
-use gumption_files as file;
 
 /// Compare code paths.
 #[derive(Debug, Args)]
@@ -37,14 +36,14 @@ impl Paths {
         fail: bool,
     ) -> Result<Exit, Failure> {
         let file = match &self.model {
-            Some(path) => file::read(path, &[])?,
+            Some(path) => program.files().model(path, &[])?,
             None => {
                 let name = "inclined-plane-spurious";
                 let template = program.catalogue.find(name).and_then(|entry| entry.template);
                 let template = template.ok_or_else(|| {
                     Failure::Argument(format!("there is no `{name}` here; give a file (`--model`)"))
                 })?;
-                file::read_text(name, template, Path::new(""), &[])?
+                program.files().model_text(name, template, Path::new(""), &[])?
             }
         };
         let Trials::Fixed(trials) = self.trials else {

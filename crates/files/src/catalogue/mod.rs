@@ -16,6 +16,7 @@ use std::sync::Arc;
 
 pub use listing::{EffectListing, ListedEffect, ListedParameter};
 
+use super::DiagnosticKind;
 use super::diagnostics::Collector;
 use super::effect_context::EffectContext;
 use super::effects::{self, Placed};
@@ -23,9 +24,9 @@ use super::json::{self, Json, Member, Node};
 use super::object::Object;
 use super::results::Results;
 use super::source::SourceText;
-use super::{DiagnosticKind, nearest};
 use fit::Misfit;
 use gumption_engine::task::Warning;
+use gumption_units::nearest;
 
 /// The catalogue's text.
 const TEXT: &str = include_str!("catalogue.json");

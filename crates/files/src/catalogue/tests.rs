@@ -2,9 +2,8 @@
 
 use std::collections::BTreeSet;
 
-use super::super::case::read_text;
 use super::super::effect_context::EffectContext;
-use super::super::{CaseFile, DiagnosticKind};
+use super::super::{CaseFile, DiagnosticKind, FileReader};
 use super::{ANY_BENCH, Catalogue, TEXT, catalogue, fit};
 use gumption_engine::model::formula::is_name;
 
@@ -132,7 +131,7 @@ impl Bench {
         std::fs::write(folder.path().join("data.csv"), self.data).unwrap();
         let names: Vec<String> = effects.iter().map(|name| format!("{name:?}")).collect();
         let text = format!("{}, \"catalogue\": [{}]}}", self.file, names.join(", "));
-        let read = read_text("case.json", &text, folder.path());
+        let read = FileReader::default().case_text("case.json", &text, folder.path());
         read.map_err(|diagnostics| {
             diagnostics.0.into_iter().map(|diagnostic| diagnostic.kind).collect()
         })

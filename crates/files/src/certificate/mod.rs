@@ -11,7 +11,8 @@ use std::sync::Arc;
 use super::diagnostics::{Collector, Diagnostics};
 use super::json::{self, Json, Node};
 use super::object::Object;
-use super::open::{check_format, open, read_root};
+use super::open::{check_format, read_root};
+use super::reader::FileReader;
 use super::source::SourceText;
 use super::{DiagnosticKind, settings};
 use gumption_analysis::certificate::contents::{Certificate, Language, Rounding};
@@ -118,21 +119,14 @@ impl CertificateFile {
     }
 }
 
-/// Reads and checks a certificate file and its model files.
-///
-/// # Errors
-/// All mistakes of the files, those of the certificate first.
-pub fn read(path: &Path) -> Result<CertificateFile, Diagnostics> {
-    open(path, read_text)
-}
-
-/// Reads and checks a certificate file's text; `name` is used in messages, and model files are looked
-/// for in `folder`.
-///
-/// # Errors
-/// All mistakes of the text and its model files, those of the certificate first.
-pub fn read_text(name: &str, text: &str, folder: &Path) -> Result<CertificateFile, Diagnostics> {
-    read_root(name, text, "a certificate file", |root| certificate(root, folder))
+/// Reads and checks a certificate file's text and its model files.
+pub(super) fn read_text(
+    files: FileReader<'_>,
+    name: &str,
+    text: &str,
+    folder: &Path,
+) -> Result<CertificateFile, Diagnostics> {
+    read_root(name, text, "a certificate file", |root| certificate(files, root, folder))
 }
 
 /// Whether a text is meant as a certificate file.
@@ -163,7 +157,7 @@ impl Asking {
     }
 }
 
-fn certificate(root: Object<'_>, folder: &Path) -> Option<CertificateFile> {
+fn certificate(files: FileReader<'_>, root: Object<'_>, folder: &Path) -> Option<CertificateFile> {
     root.check_keys(&KEYS);
     check_format(&root);
     let administrative = administrative::read(&root);
@@ -176,7 +170,7 @@ fn certificate(root: Object<'_>, folder: &Path) -> Option<CertificateFile> {
         fixed: root.truth("coverage_factor_fixed").unwrap_or(false),
     });
     let trials = root.get("monte_carlo").map(|_| settings::read(&root));
-    let mut rows = Rows::new(root.log, folder, Asking { coverage, trials });
+    let mut rows = Rows::new(root.log, (files, folder), Asking { coverage, trials });
     match root.required("rows").and_then(|_| root.list("rows")) {
         Some([]) => {
             let place = root.get("rows").map_or(root.place(), |member| &member.key_span);

@@ -7,11 +7,11 @@ use std::path::Path;
 use super::super::DiagnosticKind;
 use super::super::diagnostics::{Collector, Diagnostic};
 use super::super::json::{Json, Member, Node};
-use super::super::model_file::{self, ModelFile};
-use super::super::nearest::nearest;
+use super::super::model_file::ModelFile;
 use super::super::object::Object;
 use super::super::outputs;
 use super::super::overrides::Override;
+use super::super::reader::FileReader;
 use super::super::source::Place;
 use super::administrative::localized;
 use super::{Asking, CertifiedModel};
@@ -19,6 +19,7 @@ use gumption_analysis::certificate::contents::{Asked, Line};
 use gumption_engine::model::Quantity;
 use gumption_engine::task::{Task, Warning};
 use gumption_units::Unit;
+use gumption_units::nearest;
 
 /// The keys of a row.
 const KEYS: [&str; 7] = ["model", "output", "set", "nominal", "label", "cmc", "cmc_floor"];
@@ -39,7 +40,8 @@ pub(super) struct Read {
 /// Rows that are being read.
 pub(super) struct Rows<'a> {
     log: &'a Collector,
-    folder: &'a Path,
+    /// What reads the model files, and where these are looked for.
+    files_in: (FileReader<'a>, &'a Path),
     asking: Asking,
     /// The model files without replacements, by name; `None` after a mistake.
     files: BTreeMap<String, Option<usize>>,
@@ -51,10 +53,14 @@ pub(super) struct Rows<'a> {
 }
 
 impl<'a> Rows<'a> {
-    pub(super) fn new(log: &'a Collector, folder: &'a Path, asking: Asking) -> Self {
+    pub(super) fn new(
+        log: &'a Collector,
+        files_in: (FileReader<'a>, &'a Path),
+        asking: Asking,
+    ) -> Self {
         Self {
             log,
-            folder,
+            files_in,
             asking,
             files: BTreeMap::new(),
             models: Vec::new(),
@@ -149,7 +155,8 @@ impl<'a> Rows<'a> {
 
     /// A model file with replacements; mistakes of the replacements are reported at `member`.
     fn model(&self, name: &str, member: &Member, overrides: &[Override]) -> Option<ModelFile> {
-        let diagnostics = match model_file::read(&self.folder.join(name), overrides) {
+        let (files, folder) = self.files_in;
+        let diagnostics = match files.model(&folder.join(name), overrides) {
             Ok(file) => return Some(file),
             Err(diagnostics) => diagnostics,
         };

@@ -5,7 +5,6 @@ use std::ops::Range;
 use super::super::DiagnosticKind;
 use super::super::diagnostics::Collector;
 use super::super::json::Member;
-use super::super::nearest::nearest;
 use super::super::object::Object;
 use super::super::recording::{ColumnName, Conversion, Wanted};
 use super::column::column;
@@ -14,6 +13,7 @@ use super::recordings::{RecordingFile, SearchFile};
 use super::{check_name, steps};
 use gumption_signal::{Channel, Search};
 use gumption_units::Unit;
+use gumption_units::nearest;
 
 /// The keys of a channel.
 pub(super) const KEYS: [&str; 11] = [

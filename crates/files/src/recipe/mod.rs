@@ -14,7 +14,6 @@ use std::sync::Arc;
 use super::DiagnosticKind;
 use super::diagnostics::{Collector, Diagnostics};
 use super::json::{Json, Node};
-use super::nearest::nearest;
 use super::object::Object;
 use super::open::{check_format, open, read_root};
 use super::recording::{self, Recording};
@@ -26,6 +25,7 @@ use gumption_signal::{
     Amplitude, Frequency, Method, PhaseUnit, Refused, Search, Settings, TimeBase, Track,
 };
 use gumption_units::Unit;
+use gumption_units::nearest;
 use recordings::RecordingFile;
 pub(crate) use steps::ALL as STEPS;
 

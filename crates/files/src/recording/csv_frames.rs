@@ -6,7 +6,7 @@ use std::io::{self, BufRead, BufReader, Cursor, Read};
 use csv::{ByteRecord, Reader};
 
 use super::{BLOCK, ColumnName, Frames, Wanted, place};
-use crate::nearest;
+use gumption_units::nearest;
 
 /// Longer cells are cut in messages.
 const LONGEST: usize = 40;

@@ -18,7 +18,7 @@ pub(super) const SOBOL: &str = "Sobol indices (Jansen's estimators) are shares o
     Where they depart from the share of the linear budget, the model is not linear.";
 
 pub(super) const EVIDENCE: &str = "The p-value (Anderson-Darling) is that of the stated distribution \
-    as it stands, centre and width. SupportedWidth is the width of that shape about the stated centre. \
+    as it stands, centre and width. Supported is the width of that shape about the stated centre. \
     Too narrow: a reading outside the limits, or the whole 95 % interval above the stated width. Too \
     wide: the interval at 99 % below it. Wrong shape: a p-value below 0.01. Fewer than five readings \
     tell nothing.";

@@ -12,6 +12,8 @@ mod words;
 mod workbook;
 
 pub use csv::csv;
+#[cfg(test)]
+pub(crate) use dcc::unit::unit as dcc_unit;
 pub use dcc::{Needed, dcc, needed};
 pub use json::json;
 pub use workbook::xlsx;

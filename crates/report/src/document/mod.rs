@@ -8,6 +8,8 @@ mod text;
 
 pub(super) use html::html;
 pub(super) use latex::latex;
+#[cfg(test)]
+pub(crate) use latex::unit::Declared;
 pub(super) use markdown::markdown;
 pub(crate) use text::text;
 

@@ -6,6 +6,7 @@ mod json;
 mod pages;
 mod saved;
 mod table;
+mod units;
 mod workbook;
 
 use super::{EvaluationReport, Provenance};

@@ -9,7 +9,7 @@
 mod people;
 mod results;
 mod statements;
-mod unit;
+pub(super) mod unit;
 mod xml;
 
 use super::{CertificateReport, administrative};

@@ -1,112 +1,38 @@
 //! Units as D-SI writes them: `\metre\second\tothe{-2}` for `m/s^2`.
 
-use crate::si;
-use gumption_units::Unit;
+use gumption_units::{Factor, FactorBase, Unit};
 
-/// D-SI's names beside those that all know.
-const OWN: [(&str, &str); 6] = [
-    ("kg", "kilogram"),
-    ("degC", "degreecelsius"),
-    ("°C", "degreecelsius"),
-    ("℃", "degreecelsius"),
-    ("ppm", "ppm"),
-    ("1", "one"),
-];
-
-/// Symbols that take no prefix.
-const BARE: [&str; 4] = ["1", "%", "ppm", "kg"];
-
-/// A unit as D-SI writes it; one that D-SI does not have stands behind a bar, as it is written.
-pub(super) fn unit(unit: &Unit) -> String {
-    of_the_si(unit.text()).unwrap_or_else(|| {
-        let text: String = unit.text().split_whitespace().collect::<Vec<_>>().join("·");
-        format!("|{text}")
-    })
+/// A unit as D-SI writes it; one that D-SI does not have stands behind a bar, in a text that is the
+/// same for every spelling of the unit.
+pub(crate) fn unit(unit: &Unit) -> String {
+    of_the_si(unit).unwrap_or_else(|| format!("|{}", unit.normal_text()))
 }
 
 /// Whether D-SI has a unit.
 pub(super) fn is_of_the_si(unit: &Unit) -> bool {
-    of_the_si(unit.text()).is_some()
+    of_the_si(unit).is_some()
 }
 
-fn of_the_si(text: &str) -> Option<String> {
-    let text = text.trim();
-    if text.is_empty() {
-        return Some("\\one".to_owned());
+fn of_the_si(unit: &Unit) -> Option<String> {
+    match unit.factors() {
+        [] => Some("\\one".to_owned()),
+        factors => factors.iter().map(factor).collect(),
     }
-    let mut reader = Reader { rest: text, factors: Vec::new() };
-    reader.product(1)?;
-    if !reader.rest.is_empty() {
-        return None;
-    }
-    let mut factors = reader.factors;
-    if factors.len() > 1 {
-        factors.retain(|(name, _)| name != "\\one");
-    }
-    let written = factors.iter().map(|(name, power)| match power {
-        1 => name.clone(),
-        power => format!("{name}\\tothe{{{power}}}"),
-    });
-    Some(written.collect())
 }
 
-/// Reads products, quotients and whole powers of units.
-struct Reader<'a> {
-    rest: &'a str,
-    factors: Vec<(String, i32)>,
-}
-
-impl Reader<'_> {
-    /// Factors up to the end or a closing parenthesis, all to the power `sign` besides their own.
-    fn product(&mut self, sign: i32) -> Option<()> {
-        let mut side = sign;
-        loop {
-            self.skip();
-            if let Some(rest) = self.rest.strip_prefix('(') {
-                self.rest = rest;
-                let from = self.factors.len();
-                self.product(side)?;
-                self.rest = self.rest.strip_prefix(')')?;
-                let power = self.power()?;
-                for (_, own) in self.factors.iter_mut().skip(from) {
-                    *own = own.checked_mul(power)?;
-                }
-            } else {
-                let name = self.name()?;
-                let power = self.power()?.checked_mul(side)?;
-                self.factors.push((name, power));
-            }
-            self.skip();
-            let Some(next) = self.rest.chars().next() else { return Some(()) };
-            match next {
-                ')' => return Some(()),
-                '/' => side = -sign,
-                _ => side = sign,
-            }
-            if matches!(next, '/' | '*' | '.' | '·' | '⋅' | '×') {
-                self.rest = self.rest.get(next.len_utf8()..)?;
-            }
-        }
-    }
-
-    fn skip(&mut self) {
-        self.rest = self.rest.trim_start();
-    }
-
-    fn name(&mut self) -> Option<String> {
-        let end = self.rest.find(['*', '.', '·', '⋅', '×', '/', '^', ' ', '(', ')']);
-        let (name, behind) = self.rest.split_at(end.unwrap_or(self.rest.len()));
-        let found = si::macros(name, &OWN, &BARE)?;
-        self.rest = behind;
-        Some(found)
-    }
-
-    fn power(&mut self) -> Option<i32> {
-        let Some(power) = self.rest.strip_prefix('^') else { return Some(1) };
-        let end = power.find(|c: char| !c.is_ascii_digit() && c != '-').unwrap_or(power.len());
-        let (power, behind) = power.split_at(end);
-        self.rest = behind;
-        power.parse().ok().filter(|power: &i32| power.abs() < 100)
+/// A factor; `None` for what D-SI does not have: numbers, its own names of other units, roots.
+fn factor(factor: &Factor) -> Option<String> {
+    let FactorBase::Named { prefix, symbol } = factor.base else { return None };
+    let name = match (prefix.map(|prefix| prefix.macro_name()), symbol.dsi_name()?) {
+        (None, name) => format!("\\{name}"),
+        // the one unit that has a name with its prefix
+        (Some(Some("kilo")), "gram") => "\\kilogram".to_owned(),
+        (Some(prefix), name) => format!("\\{}\\{name}", prefix?),
+    };
+    match (factor.exponent.numerator(), factor.exponent.denominator()) {
+        (1, 1) => Some(name),
+        (power, 1) => Some(format!("{name}\\tothe{{{power}}}")),
+        _ => None,
     }
 }
 
@@ -128,25 +54,14 @@ mod tests {
         assert_eq!(said("degC"), r"\degreecelsius");
         assert_eq!(said("kHz"), r"\kilo\hertz");
         assert_eq!(said("%"), r"\percent");
+        assert_eq!(said("ppm/K"), r"\ppm\kelvin\tothe{-1}");
         assert_eq!(said("1"), r"\one");
         assert_eq!(said(""), r"\one");
         // the digit of a converter is no unit of the SI
-        assert_eq!(said("D/(m/s^2)"), "|D/(m/s^2)");
+        assert_eq!(said("D/(m/s^2)"), "|D·s^2/m");
         assert_eq!(said("nV/Hz^(1/2)"), "|nV/Hz^(1/2)");
         assert_eq!(said("W/(m^2 lbf)"), "|W/(m^2·lbf)");
-    }
-
-    /// What stands in the text means the same unit: its factors multiply to the same dimension.
-    #[test]
-    fn names_belong_to_their_symbols() {
-        for (symbol, name) in OWN.iter().chain(&si::UNITS) {
-            let parsed = Unit::parse(symbol).unwrap();
-            assert!(!name.is_empty() && parsed.factor() > 0.0, "{symbol}");
-        }
-        for (symbol, prefix) in si::PREFIXES {
-            let parsed = Unit::parse(&format!("{symbol}m")).unwrap();
-            let power = parsed.factor().log10();
-            assert!((power - power.round()).abs() < 1e-9, "{prefix}");
-        }
+        assert_eq!(said("10^-6/K"), "|10^-6/K");
+        assert_eq!(said("Qm"), "|Qm");
     }
 }

@@ -2,7 +2,7 @@
 //! numbers and units by `siunitx`.
 
 mod text;
-mod unit;
+pub(super) mod unit;
 
 use super::{Block, Document};
 use crate::sheet::{Column, Kind, Sheet};

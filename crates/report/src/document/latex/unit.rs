@@ -2,99 +2,81 @@
 
 use std::collections::BTreeMap;
 
-use super::text::escaped;
-use crate::si;
+use gumption_units::{Factor, FactorBase, Unit};
 
-/// The package's names beside those that all know.
-const OWN: [(&str, &str); 3] =
-    [("degC", "degreeCelsius"), ("°C", "degreeCelsius"), ("℃", "degreeCelsius")];
+use super::text::escaped;
 
 /// The units that a document declares because the package does not know them.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Declared {
+pub(crate) struct Declared {
     /// Macro and what it prints.
     units: BTreeMap<String, String>,
 }
 
 impl Declared {
     /// The declarations, in order.
-    pub(super) fn lines(&self) -> Vec<String> {
+    pub(crate) fn lines(&self) -> Vec<String> {
         let units = self.units.iter();
         units.map(|(name, text)| format!("\\DeclareSIUnit{{\\{name}}}{{{text}}}")).collect()
     }
 
-    /// A unit; the number 1 stands as it is.
-    pub(super) fn unit(&mut self, text: &str) -> String {
-        let text = text.trim();
-        if text == "1" {
-            return text.to_owned();
-        }
-        let macros = self.product(text).unwrap_or_else(|| {
-            // parentheses, roots, broken exponents: as it is written
-            let name = format!("gumptionunit{}", letters(self.units.len()));
-            let known = self.units.iter().find(|(_, t)| **t == boxed(text)).map(|(n, _)| n.clone());
-            let name = known.unwrap_or(name);
-            self.units.insert(name.clone(), boxed(text));
-            format!("\\{name}")
-        });
+    /// A unit; the number 1 stands as it is. What is not a unit is printed as it is written.
+    pub(crate) fn unit(&mut self, text: &str) -> String {
+        let macros = match Unit::parse(text) {
+            Ok(unit) if unit.factors().is_empty() => return "1".to_owned(),
+            Ok(unit) => unit.factors().iter().map(|factor| self.factor(factor)).collect(),
+            Err(_) => self.declared(text.trim()),
+        };
         format!("\\unit{{{macros}}}")
     }
 
-    /// A product of powers; `None` where it is more than that.
-    fn product(&mut self, text: &str) -> Option<String> {
-        let mut out = String::new();
-        let mut rest = text;
-        let mut per = false;
-        loop {
-            rest = rest.trim_start();
-            let end = rest.find(['*', '.', '·', '⋅', '×', '/', '^', ' ', '(', ')', '√']);
-            let (name, behind) = rest.split_at(end.unwrap_or(rest.len()));
-            let unit = self.factor(name)?;
-            if per {
-                out += "\\per";
-            }
-            out += &unit;
-            rest = behind.trim_start();
-            if let Some(power) = rest.strip_prefix('^') {
-                let end = power.find(|c: char| !c.is_ascii_digit() && c != '-');
-                let (power, behind) = power.split_at(end.unwrap_or(power.len()));
-                match power.parse::<i8>().ok()? {
-                    1 => {}
-                    2 => out += "\\squared",
-                    3 => out += "\\cubed",
-                    power => out += &format!("\\tothe{{{power}}}"),
-                }
-                rest = behind.trim_start();
-            }
-            let Some(sign) = rest.chars().next() else {
-                return Some(out);
-            };
-            per = sign == '/';
-            if matches!(sign, '*' | '.' | '·' | '⋅' | '×' | '/') {
-                rest = rest.get(sign.len_utf8()..)?;
-            } else if !sign.is_alphabetic() {
-                return None;
-            }
+    /// A factor. A root keeps its sign in the exponent, because the package does not calculate with
+    /// fractions behind `\per`.
+    fn factor(&mut self, factor: &Factor) -> String {
+        let base = self.base(&factor.base);
+        let (power, denominator) = (factor.exponent.numerator(), factor.exponent.denominator());
+        if denominator != 1 {
+            return format!("{base}\\tothe{{{power}/{denominator}}}");
+        }
+        let per = if power < 0 { "\\per" } else { "" };
+        let power = match power.unsigned_abs() {
+            1 => String::new(),
+            2 => "\\squared".to_owned(),
+            3 => "\\cubed".to_owned(),
+            power => format!("\\tothe{{{power}}}"),
+        };
+        format!("{per}{base}{power}")
+    }
+
+    /// A unit with its prefix, or a number.
+    fn base(&mut self, base: &FactorBase) -> String {
+        let FactorBase::Named { prefix, symbol } = base else {
+            return self.declared(&base.to_string());
+        };
+        let unit = |declared: &mut Self| match symbol.siunitx_name() {
+            Some(name) => format!("\\{name}"),
+            None => declared.declared(symbol.name()),
+        };
+        match prefix.map(|prefix| prefix.macro_name()) {
+            None => unit(self),
+            Some(Some(prefix)) => format!("\\{prefix}{}", unit(self)),
+            Some(None) => self.declared(&base.to_string()),
         }
     }
 
-    /// A unit with its prefix.
-    fn factor(&mut self, name: &str) -> Option<String> {
-        if let Some(macros) = si::macros(name, &OWN, &[]) {
-            return Some(macros);
-        }
-        // a name of its own: ppm, psi, kgf
-        if name.is_empty() || !name.chars().all(|c| c.is_ascii_alphabetic()) {
-            return None;
-        }
-        let declared = format!("gumption{name}");
-        self.units.insert(declared.clone(), name.to_owned());
-        Some(format!("\\{declared}"))
+    /// The macro of a text that the package does not know: of its letters, or counted.
+    fn declared(&mut self, text: &str) -> String {
+        let (name, printed) = if text.chars().all(|c| c.is_ascii_alphabetic()) {
+            (format!("gumption{text}"), text.to_owned())
+        } else {
+            let printed = format!("\\mbox{{{}}}", escaped(text));
+            let known = self.units.iter().find(|(_, t)| **t == printed).map(|(n, _)| n.clone());
+            let counted = || format!("gumptionunit{}", letters(self.units.len()));
+            (known.unwrap_or_else(counted), printed)
+        };
+        self.units.insert(name.clone(), printed);
+        format!("\\{name}")
     }
-}
-
-fn boxed(text: &str) -> String {
-    format!("\\mbox{{{}}}", escaped(text))
 }
 
 /// A number in letters, because a macro has no digits.
@@ -111,19 +93,29 @@ mod tests {
         let mut declared = Declared::default();
         let mut unit = |text: &str| declared.unit(text);
         assert_eq!(unit("m/s^2"), r"\unit{\metre\per\second\squared}");
-        assert_eq!(unit("kg*m^-3"), r"\unit{\kilo\gram\metre\tothe{-3}}");
-        assert_eq!(unit("mV/(m/s^2)"), r"\unit{\gumptionunita}");
+        assert_eq!(unit("kg*m^-3"), r"\unit{\kilo\gram\per\metre\cubed}");
+        assert_eq!(unit("mV/(m/s^2)"), r"\unit{\milli\volt\per\metre\second\squared}");
         assert_eq!(unit("J/kg K"), r"\unit{\joule\per\kilo\gram\kelvin}");
         assert_eq!(unit("µm"), r"\unit{\micro\metre}");
         assert_eq!(unit("1"), "1");
+        assert_eq!(unit("1/K"), r"\unit{\per\kelvin}");
+        assert_eq!(unit("°C"), r"\unit{\degreeCelsius}");
         assert_eq!(unit("D/psi"), r"\unit{\gumptionD\per\gumptionpsi}");
-        assert_eq!(unit("mV/(m/s^2)"), r"\unit{\gumptionunita}");
+        assert_eq!(unit("mbar"), r"\unit{\milli\gumptionbar}");
+        assert_eq!(unit("Qm"), r"\unit{\gumptionQm}");
+        assert_eq!(unit("nV/√Hz"), r"\unit{\nano\volt\hertz\tothe{-1/2}}");
+        assert_eq!(unit("1e-6/K"), r"\unit{\per\gumptionunite\tothe{6}\per\kelvin}");
+        assert_eq!(unit("10^-6"), r"\unit{\per\gumptionunite\tothe{6}}");
+        assert_eq!(unit("several units"), r"\unit{\gumptionunitf}");
         assert_eq!(
             declared.lines(),
             [
                 r"\DeclareSIUnit{\gumptionD}{D}",
+                r"\DeclareSIUnit{\gumptionQm}{Qm}",
+                r"\DeclareSIUnit{\gumptionbar}{bar}",
                 r"\DeclareSIUnit{\gumptionpsi}{psi}",
-                r"\DeclareSIUnit{\gumptionunita}{\mbox{mV/(m/s$^{2}$)}}",
+                r"\DeclareSIUnit{\gumptionunite}{\mbox{10}}",
+                r"\DeclareSIUnit{\gumptionunitf}{\mbox{several units}}",
             ]
         );
     }

@@ -1,0 +1,143 @@
+//! All files that may name typed measurements, read with a catalogue of these.
+
+use std::path::Path;
+
+use super::case::{self, CaseFile};
+use super::certificate::{self, CertificateFile};
+use super::checked;
+use super::diagnostics::Diagnostics;
+use super::either::{self, ModelOrResult};
+use super::model_file::{self, ModelFile};
+use super::open::open;
+use super::overrides::Override;
+use gumption_engine::model::typed::Catalogue;
+use gumption_engine::task::Row;
+
+/// Reads files that may name the typed measurements of a catalogue: the built-in ones
+/// ([`FileReader::default`]), or those of one's own as well.
+///
+/// Some methods have a function that does the same with the built-in measurements. A text's `name` is
+/// used in messages, and the files that it names are looked for in `folder`.
+///
+/// # Errors
+/// Each method gives all mistakes of the file and of those that it names, in the order of their
+/// places, those of the file first.
+#[derive(Clone, Copy, Debug)]
+pub struct FileReader<'c> {
+    catalogue: &'c Catalogue,
+}
+
+impl Default for FileReader<'static> {
+    fn default() -> Self {
+        Self::new(gumption_measurements::catalogue())
+    }
+}
+
+#[allow(clippy::missing_errors_doc)] // said of all of them at the type
+impl<'c> FileReader<'c> {
+    /// Readers of files that may name these measurements.
+    pub fn new(catalogue: &'c Catalogue) -> Self {
+        Self { catalogue }
+    }
+
+    /// The measurements that files may name.
+    pub(crate) fn catalogue(self) -> &'c Catalogue {
+        self.catalogue
+    }
+
+    /// A model file, with values in place of some of its own.
+    pub fn model(self, path: &Path, overrides: &[Override]) -> Result<ModelFile, Diagnostics> {
+        open(path, |name, text, folder| self.model_text(name, text, folder, overrides))
+    }
+
+    /// A model file's text, with values in place of some of its own.
+    pub fn model_text(
+        self,
+        name: &str,
+        text: &str,
+        folder: &Path,
+        overrides: &[Override],
+    ) -> Result<ModelFile, Diagnostics> {
+        model_file::read_text(self, name, text, folder, overrides)
+    }
+
+    /// A model file or a saved result: a file with the key `result` is one.
+    pub fn either(self, path: &Path) -> Result<ModelOrResult, Diagnostics> {
+        open(path, |name, text, folder| self.either_text(name, text, folder))
+    }
+
+    /// A text as [`FileReader::either`] reads a file.
+    pub fn either_text(
+        self,
+        name: &str,
+        text: &str,
+        folder: &Path,
+    ) -> Result<ModelOrResult, Diagnostics> {
+        either::read_text(self, name, text, folder)
+    }
+
+    /// A case of the gap diagnosis.
+    pub fn case(self, path: &Path) -> Result<CaseFile, Diagnostics> {
+        open(path, |name, text, folder| self.case_text(name, text, folder))
+    }
+
+    /// A case's text.
+    pub fn case_text(self, name: &str, text: &str, folder: &Path) -> Result<CaseFile, Diagnostics> {
+        case::read_text(self, name, text, folder)
+    }
+
+    /// What a case's sim has in the rows of a table of conditions, which stands in the current
+    /// folder.
+    pub fn case_at(self, path: &Path, conditions: &Path) -> Result<Vec<Row>, Diagnostics> {
+        open(path, |name, text, folder| case::read_at(self, name, text, folder, conditions))
+    }
+
+    /// A certificate file with its model files.
+    pub fn certificate(self, path: &Path) -> Result<CertificateFile, Diagnostics> {
+        open(path, |name, text, folder| self.certificate_text(name, text, folder))
+    }
+
+    /// A certificate file's text with its model files.
+    pub fn certificate_text(
+        self,
+        name: &str,
+        text: &str,
+        folder: &Path,
+    ) -> Result<CertificateFile, Diagnostics> {
+        certificate::read_text(self, name, text, folder)
+    }
+
+    /// Checks a file: as a certificate, a recipe or a case of the gap diagnosis where it has a key
+    /// that only those have, else as a model.
+    pub fn check(self, path: &Path) -> Result<(), Diagnostics> {
+        open(path, |name, text, folder| self.check_text(name, text, folder))
+    }
+
+    /// Checks a file's text as [`FileReader::check`] does.
+    pub fn check_text(self, name: &str, text: &str, folder: &Path) -> Result<(), Diagnostics> {
+        checked::check_text(self, name, text, folder)
+    }
+}
+
+macro_rules! with_built_in_measurements {
+    ($($name:ident = $method:ident($($argument:ident: $kind:ty),*) -> $read:ty;)*) => {
+        $(
+            #[doc = concat!("[`FileReader::", stringify!($method), "`] with the built-in measurements.")]
+            ///
+            /// # Errors
+            /// All mistakes, in the order of their places.
+            pub fn $name($($argument: $kind),*) -> Result<$read, Diagnostics> {
+                FileReader::default().$method($($argument),*)
+            }
+        )*
+    };
+}
+
+with_built_in_measurements! {
+    read = model(path: &Path, overrides: &[Override]) -> ModelFile;
+    read_text = model_text(name: &str, text: &str, folder: &Path, overrides: &[Override]) -> ModelFile;
+    read_case = case(path: &Path) -> CaseFile;
+    read_certificate = certificate(path: &Path) -> CertificateFile;
+    check = check(path: &Path) -> ();
+    check_text = check_text(name: &str, text: &str, folder: &Path) -> ();
+}
