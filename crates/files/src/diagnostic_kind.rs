@@ -258,10 +258,12 @@ fn counted(count: usize, what: &str) -> String {
 
 /// "; did you mean `x`?" or the list of what there is.
 fn hint(nearest: Option<&String>, known: &str) -> String {
-    match nearest {
-        Some(name) => format!("; did you mean `{name}`?"),
-        None => format!("; there are {known}"),
-    }
+    if nearest.is_some() { meant(nearest) } else { format!("; there are {known}") }
+}
+
+/// The near name, where there is one.
+fn meant(nearest: Option<&String>) -> String {
+    nearest.map_or_else(String::new, |name| format!("; did you mean `{name}`?"))
 }
 
 impl fmt::Display for DiagnosticKind {
@@ -291,15 +293,13 @@ impl fmt::Display for DiagnosticKind {
                 write!(f, "file format {found} is not known; this version reads `\"format\": 1`")
             }
             Self::NoModel => f.write_str(
-                "a model file needs `equations` (formulas) or `model` (the name of a typed model; \
-                 `gumption models` lists them)",
+                "a model file needs `equations` (formulas) or `model` (the name of a typed model)",
             ),
             Self::TwoModels => f.write_str(
                 "a model file has either `equations` or `model`, not both; take one of them out",
             ),
             Self::UnknownModel { name, nearest } => {
-                let known = "those that `gumption models` lists";
-                write!(f, "there is no typed model `{name}`{}", hint(nearest.as_ref(), known))
+                write!(f, "there is no typed model `{name}`{}", meant(nearest.as_ref()))
             }
             Self::UnknownInput { name, model, nearest, known } => write!(
                 f,
@@ -408,20 +408,16 @@ impl fmt::Display for DiagnosticKind {
                 f.write_str(reason)
             }
             Self::UnknownEffect { name, nearest } => {
-                let known = "those that `gumption models --effects` lists";
-                let hint = hint(nearest.as_ref(), known);
-                write!(f, "the catalogue has no effect `{name}`{hint}")
+                write!(f, "the catalogue has no effect `{name}`{}", meant(nearest.as_ref()))
             }
             Self::Effect { name, reason } => write!(f, "the effect `{name}` {reason}"),
             Self::Correlation { reason } => f.write_str(reason),
             Self::TooMany { what, found, most } => {
                 write!(f, "there are {found} {what}; this version takes {most} at most")
             }
-            Self::NotResult { file } => write!(
-                f,
-                "`{file}` is not a saved result (`\"result\": true` is missing); `gumption run \
-                 --save` writes one"
-            ),
+            Self::NotResult { file } => {
+                write!(f, "`{file}` is not a saved result (`\"result\": true` is missing)")
+            }
             Self::NoSuchResult { file, name, nearest, known } => {
                 let hint = hint(nearest.as_ref(), &list(known));
                 write!(f, "the saved result `{file}` has no output `{name}`{hint}")
@@ -452,7 +448,7 @@ impl fmt::Display for DiagnosticKind {
             Self::NotDate { key, found } => {
                 write!(f, "`{key}` is `{found}`, but must be a day such as 2026-03-02")
             }
-            Self::Override { text, reason } => write!(f, "`--set {text}`: {reason}"),
+            Self::Override { text, reason } => write!(f, "the replacement `{text}`: {reason}"),
         }
     }
 }

@@ -277,15 +277,13 @@ impl<'a> Reader<'a, '_> {
         };
         let about = object.text("about").or_else(|| self.object.text("about")).unwrap_or("");
         let sharing = self.sharing();
-        self.inputs.variables.push(Variable {
-            name,
-            unit: unit.clone(),
-            evaluation,
-            group: object.text("group").or_else(|| self.object.text("group")).map(str::to_owned),
-            about: about.to_owned(),
-            sharing,
-            shown: true,
-        });
+        let mut variable = Variable::new(name, unit.clone());
+        variable.evaluation = evaluation;
+        let group = object.text("group").or_else(|| self.object.text("group"));
+        variable.group = group.map(str::to_owned);
+        variable.about = about.to_owned();
+        variable.sharing = sharing;
+        self.inputs.variables.push(variable);
         self.inputs.places.push(object.place().clone());
     }
 

@@ -3,6 +3,8 @@
 //! Reading goes on after a mistake, so that all of a file's mistakes are reported at once; only
 //! text that is not JSON stops it.
 
+#![cfg_attr(test, allow(clippy::disallowed_methods))] // tests compare within tolerances
+
 mod answer;
 pub mod bytes;
 mod case;

@@ -432,5 +432,8 @@ fn task(parts: Parts, sim: &Sim, of: Quantities) -> Option<Task> {
     let rows = conditions.rows.into_iter().zip(known);
     let rows = rows.map(|(conditions, distributions)| Row { conditions, distributions }).collect();
     let (model, variables) = (sim.model(), inputs.variables);
-    Some(Task { title, model, variables, correlations, rows, swept, settings, fits })
+    let mut task = Task::new(model, variables, rows);
+    (task.title, task.swept, task.settings) = (title, swept, settings);
+    (task.correlations, task.fits) = (correlations, fits);
+    Some(task)
 }

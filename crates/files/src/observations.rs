@@ -3,14 +3,13 @@
 use std::ops::Range;
 use std::path::Path;
 
-use nalgebra::DMatrix;
-
 use super::DiagnosticKind;
 use super::diagnostics::Collector;
 use super::json::{Json, Member};
 use super::object::Object;
 use super::source::Place;
 use super::table::{self, Table};
+use gumption_engine::linalg::packed;
 use gumption_gap::Observed;
 use gumption_units::nearest;
 
@@ -229,11 +228,16 @@ impl Reader<'_> {
 
 /// Whether a symmetric matrix is positive semi-definite, but for the rounding of its numbers.
 fn is_covariance(rows: &[Vec<f64>]) -> bool {
-    let size = rows.len();
-    let value = |i: usize, j: usize| rows.get(i).and_then(|row| row.get(j)).copied().unwrap_or(0.0);
-    let largest = (0..size).map(|i| value(i, i)).fold(0.0, f64::max);
+    let largest = rows.iter().enumerate().filter_map(|(i, row)| row.get(i)).copied();
+    let largest = largest.fold(0.0, f64::max);
     let slack = 1e-8 * largest;
-    let matrix =
-        DMatrix::from_fn(size, size, |i, j| value(i, j) + if i == j { slack } else { 0.0 });
-    largest > 0.0 && matrix.cholesky().is_some()
+    let mut lower = Vec::with_capacity(packed::triangle(rows.len()));
+    for (i, row) in rows.iter().enumerate() {
+        let Some(row) = row.get(..=i) else { return false };
+        lower.extend(row);
+        if let Some(diagonal) = lower.last_mut() {
+            *diagonal += slack;
+        }
+    }
+    largest > 0.0 && packed::cholesky(&mut lower, 0.0).is_ok()
 }

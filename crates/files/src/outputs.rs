@@ -66,7 +66,10 @@ pub(super) fn read(log: &Collector, member: &Member, results: &Results<'_>) -> O
         };
         let unit_place = object.get("unit").map_or(&member.key_span, |m| &m.value.span);
         let Decision { tolerance, prior, risk } = decision;
-        outputs.outputs.push(Output { quantity, period, tolerance, prior, risk, capability });
+        let mut output = Output::new(quantity);
+        (output.period, output.capability) = (period, capability);
+        (output.tolerance, output.prior, output.risk) = (tolerance, prior, risk);
+        outputs.outputs.push(output);
         outputs.places.push(member.key_span.clone());
         outputs.unit_places.push(unit_place.clone());
     }

@@ -1,5 +1,7 @@
 //! Reports: what an evaluation looks like, one file for each format.
 
+#![cfg_attr(test, allow(clippy::disallowed_methods))] // tests compare within tolerances
+
 mod answer;
 pub mod assumptions;
 pub mod certificate;

@@ -21,6 +21,8 @@
 //! There are two fits: `sine_fit` takes any tones of a recording that streams in blocks, `periodic`
 //! harmonics of one signal in memory, for steps that take them out and put them back.
 
+#![allow(clippy::disallowed_methods)] // elementary functions of the platform, to be replaced
+
 mod analysis;
 mod effects;
 mod fit;

@@ -4,6 +4,7 @@ use super::rounding;
 use crate::certificate::contents::Rounding;
 use gumption_engine::decimal::{Decimal, Direction, to_position};
 use gumption_engine::model::Capability;
+use gumption_engine::number::elementary;
 use gumption_engine::propagate::OutputEvaluation;
 use gumption_engine::propagate::gum::{Dof, Gum};
 use gumption_engine::propagate::monte_carlo::MonteCarlo;
@@ -198,7 +199,7 @@ fn interval(figures: &MonteCarlo) -> [f64; 2] {
     let length = |[low, high]: [f64; 2]| high - low;
     let (symmetric, shortest) = (figures.symmetric_interval, figures.shortest_interval);
     let [low, high] = figures.errors.symmetric_interval;
-    let allowed = AS_SHORT * low.hypot(high);
+    let allowed = AS_SHORT * elementary::hypot(low, high);
     if length(symmetric) - length(shortest) <= allowed { symmetric } else { shortest }
 }
 

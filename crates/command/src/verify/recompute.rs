@@ -46,8 +46,10 @@ fn answer(
     machine: Machine<'_>,
     trials: &mut Option<(Trials, u64)>,
 ) -> Result<Value, String> {
-    let overrides: Vec<Override> =
-        example.set.iter().filter_map(|text| Override::parse(text)).collect();
+    let replacement = |text: &String| {
+        Override::parse(text).ok_or_else(|| format!("`{text}` is no replacement of an input"))
+    };
+    let overrides = example.set.iter().map(replacement).collect::<Result<Vec<_>, String>>()?;
     let file = file::read_text(&example.name, example.model, Path::new(""), &overrides)
         .map_err(|diagnostics| diagnostics.to_string())?;
     let mut task = file.task;

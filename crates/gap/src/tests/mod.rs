@@ -11,10 +11,10 @@ use std::sync::Arc;
 use nalgebra::{DMatrix, DVector};
 
 use crate::{Candidate, Case, Effect, Maker, Observed, Prior, Sim};
-use gumption_engine::distribution::{Distribution, EvaluationType, Fits, Normal};
+use gumption_engine::distribution::{Distribution, Normal};
 use gumption_engine::model::formula::{Formula, Scope, Typing};
 use gumption_engine::model::{InputQuantity, Output, Quantity};
-use gumption_engine::task::{Row, Settings, Sharing, Task, Variable};
+use gumption_engine::task::{Row, Sharing, Task, Variable};
 use gumption_units::Unit;
 
 /// A normal distribution.
@@ -55,40 +55,16 @@ fn case(
     let sim = Sim {
         inputs: vec![InputQuantity { quantity: quantity("a"), parts: 1 }],
         conditions: vec![quantity("x")],
-        outputs: equations
-            .iter()
-            .map(|(name, _)| Output {
-                quantity: quantity(name),
-                period: None,
-                tolerance: None,
-                prior: None,
-                risk: None,
-                capability: None,
-            })
-            .collect(),
+        outputs: equations.iter().map(|(name, _)| Output::new(quantity(name))).collect(),
         maker: Maker::Equations(formulas(equations)),
         scope: Scope::from_iter(names.map(|name| (name, Typing::in_unit(&Unit::one())))),
     };
     let distributions: Arc<[Arc<Distribution>]> = Arc::new([Arc::new(a)]);
     let row = |n: usize| Row { conditions: vec![n as f64], distributions: distributions.clone() };
-    let task = Task {
-        title: String::new(),
-        model: sim.model(),
-        variables: vec![Variable {
-            name: "a".to_owned(),
-            unit: Unit::one(),
-            evaluation: EvaluationType::B,
-            group: None,
-            about: String::new(),
-            sharing,
-            shown: true,
-        }],
-        correlations: Vec::new(),
-        rows: (0..observed[0].values.len()).map(row).collect(),
-        swept: true,
-        settings: Settings::default(),
-        fits: Fits::default(),
-    };
+    let mut variable = Variable::new("a", Unit::one());
+    variable.sharing = sharing;
+    let rows = (0..observed[0].values.len()).map(row).collect();
+    let task = Task::new(sim.model(), vec![variable], rows);
     let observed = observed.into_iter().map(Some).collect();
     Case { task, sim, observed, simulated: 0, candidates, prior: Prior::DEFAULT }
 }

@@ -7,6 +7,7 @@ use crate::number::{exact, rounded};
 use crate::plain;
 use crate::sheet::{Figure, Sheet};
 use gumption_engine::model::Quantity;
+use gumption_engine::number::elementary::log10;
 
 /// Rows up to which a page shows the matrix of their correlation coefficients.
 pub(super) const MOST_CORRELATED: usize = 12;
@@ -117,7 +118,7 @@ pub(super) fn correlations(report: &CertificateReport<'_>) -> Sheet {
 fn coefficient(r: f64) -> Figure {
     let apart = 1.0 - r.abs();
     let place = if apart > 1e-9 && apart < 0.01 {
-        apart.log10().floor() as i32 - 1
+        log10(apart).floor() as i32 - 1
     } else {
         COEFFICIENT_PLACE
     };
