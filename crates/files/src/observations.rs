@@ -6,11 +6,12 @@ use std::path::Path;
 use super::DiagnosticKind;
 use super::diagnostics::Collector;
 use super::json::{Json, Member};
+use super::keys;
 use super::object::Object;
 use super::source::Place;
 use super::table::{self, Table};
 use gumption_engine::linalg::packed;
-use gumption_gap::Observed;
+use gumption_gap::ObservedOutput;
 use gumption_units::nearest;
 
 /// The data's table with the columns of the observed outputs.
@@ -27,7 +28,7 @@ pub(super) struct Observations {
 pub(super) struct Column {
     pub(super) output: String,
     pub(super) place: Range<usize>,
-    pub(super) observed: Observed,
+    pub(super) observed: ObservedOutput,
     /// The column with somebody else's simulation of the output.
     pub(super) simulated: Option<String>,
 }
@@ -35,7 +36,7 @@ pub(super) struct Column {
 /// Reads `observations`; paths are relative to `folder`.
 pub(super) fn read(log: &Collector, member: &Member, folder: &Path) -> Option<Observations> {
     let object = Object::new(log, "`observations`", &member.value, &member.key_span)?;
-    object.check_keys(&["file", "columns"]);
+    object.check_keys(keys::OBSERVATIONS);
     let file = object.required("file")?;
     let name = object.text("file")?;
     let columns = object.required("columns");
@@ -86,13 +87,7 @@ struct Reader<'a> {
 impl Reader<'_> {
     fn column(&self, member: &Member, files: &mut Vec<(String, Vec<u8>)>) -> Option<Column> {
         let object = Object::new(self.log, "an observed output", &member.value, &member.key_span)?;
-        object.check_keys(&[
-            "value",
-            "standard_uncertainty",
-            "sim",
-            "sim_standard_uncertainty",
-            "sim_covariance",
-        ]);
+        object.check_keys(keys::OBSERVED);
         object.required("value")?;
         let values = self.values(&object, "value");
         let uncertainties = self.uncertainties(&object, "standard_uncertainty");
@@ -117,7 +112,7 @@ impl Reader<'_> {
         Some(Column {
             output: member.key.clone(),
             place: member.key_span.clone(),
-            observed: Observed {
+            observed: ObservedOutput {
                 values: values?,
                 standard_uncertainties: uncertainties?,
                 simulation_uncertainties: simulation?,

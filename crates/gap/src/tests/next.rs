@@ -59,7 +59,7 @@ fn promises_are_kept() {
     let next = crate::next::best(&setup, &found, own, rival, &variances, 1).unwrap();
     let mut row: Row = case.task.rows[0].clone();
     row.conditions = next.conditions.clone();
-    let draws = predict::resampled(&found.hypotheses[own].evidence, 100);
+    let draws = found.hypotheses[own].evidence.resampled(100);
     let values = predict::values(&setup, &[0], &draws, &[row.clone()]);
     let mut stream = StreamKey::new(9, "test").block(0);
     let mut normals = [Column::ZERO, Column::ZERO];

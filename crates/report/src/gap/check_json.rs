@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 
 use crate::answer::pretty;
-use gumption_gap::check::{Checked, Report, SmallestEffect};
+use gumption_gap::check::{BlindCheckScores, BlindDraw, SmallestEffect};
 
 #[derive(Serialize)]
 struct Answer<'r> {
@@ -28,7 +28,7 @@ struct Answer<'r> {
     worse_than_none: f64,
     claim_bias: f64,
     smallest_effect: BTreeMap<&'r str, Smallest<'r>>,
-    cases: &'r [Checked],
+    cases: &'r [BlindDraw],
     version: &'static str,
 }
 
@@ -50,7 +50,7 @@ impl<'r> Smallest<'r> {
 }
 
 /// The scores as JSON, keys in a fixed order. It ends in a newline.
-pub fn check_json(title: &str, report: &Report) -> String {
+pub fn check_json(title: &str, report: &BlindCheckScores) -> String {
     let answer = Answer {
         title,
         draws: report.draws,

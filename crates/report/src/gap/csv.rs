@@ -28,7 +28,7 @@ fn record(hypothesis: &Hypothesis) -> [String; 7] {
         number(Some(hypothesis.prior)),
         number(Some(hypothesis.probability)),
         number(Some(hypothesis.log_evidence)),
-        number(Some(hypothesis.error)),
-        number(Some(hypothesis.effective)),
+        number(Some(hypothesis.standard_error)),
+        number(Some(hypothesis.effective_sample_size)),
     ]
 }

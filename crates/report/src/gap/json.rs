@@ -5,12 +5,12 @@ use std::collections::BTreeMap;
 use serde_json::{Value, json};
 
 use crate::answer::{list, object, pretty};
-use gumption_gap::{Diagnosis, Hypothesis, Named, Parameter};
+use gumption_gap::{Diagnosis, EffectParameter, Hypothesis, NamedQuantity};
 
 /// The diagnosis as JSON, keys in a fixed order; `null` for what is not defined. It ends in a
 /// newline.
 pub fn json(diagnosis: &Diagnosis) -> String {
-    let Diagnosis { gap, verdict, .. } = diagnosis;
+    let Diagnosis { gap, most_probable: verdict, .. } = diagnosis;
     let mut entries = vec![
         ("title", json!(diagnosis.title)),
         (
@@ -29,8 +29,8 @@ pub fn json(diagnosis: &Diagnosis) -> String {
                 "kind": verdict.kind.name(),
                 "effects": verdict.effects,
                 "probability": verdict.probability,
-                "group": verdict.group,
-                "group_probability": verdict.group_probability,
+                "group": verdict.indistinguishable,
+                "group_probability": verdict.indistinguishable_probability,
             }),
         ),
         ("hypotheses", list(diagnosis.hypotheses.iter().map(hypothesis))),
@@ -51,7 +51,7 @@ pub fn json(diagnosis: &Diagnosis) -> String {
 }
 
 /// Values by name, in the order in which they are given.
-fn named<V: Into<Value>>(names: &[Named], values: impl IntoIterator<Item = V>) -> Value {
+fn named<V: Into<Value>>(names: &[NamedQuantity], values: impl IntoIterator<Item = V>) -> Value {
     object(names.iter().map(|named| named.name.as_str()).zip(values))
 }
 
@@ -72,7 +72,7 @@ fn regions(diagnosis: &Diagnosis) -> Value {
 }
 
 fn hypothesis(of: &Hypothesis) -> Value {
-    let parameter = |of: &Parameter| {
+    let parameter = |of: &EffectParameter| {
         json!({
             "unit": of.unit,
             "estimate": of.estimate,
@@ -87,8 +87,8 @@ fn hypothesis(of: &Hypothesis) -> Value {
         "prior": of.prior,
         "log_evidence": of.log_evidence,
         // an error that is not known is larger than any
-        "standard_error": if of.error.is_finite() { of.error } else { f64::MAX },
-        "ess": of.effective,
+        "standard_error": if of.standard_error.is_finite() { of.standard_error } else { f64::MAX },
+        "ess": of.effective_sample_size,
         "parameters": object(parameters.map(|of| (of.name.as_str(), parameter(of)))),
     })
 }

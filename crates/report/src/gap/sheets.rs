@@ -5,7 +5,9 @@ use super::words;
 use crate::number::{MISSING, position, rounded, significant, to, with_uncertainty};
 use crate::plain;
 use crate::sheet::Sheet;
-use gumption_gap::{Diagnosis, Hypothesis, Kind, Named, Parameter, Predicted, Shrunk};
+use gumption_gap::{
+    Diagnosis, EffectParameter, Hypothesis, HypothesisKind, NamedQuantity, Predicted, Shrunk,
+};
 
 /// So much of the probability is shown by name, in so many lines at most.
 const SHOWN_PROBABILITY: f64 = 0.999;
@@ -47,10 +49,11 @@ pub(super) fn shown(diagnosis: &Diagnosis) -> &[Hypothesis] {
 pub(super) fn hypotheses(diagnosis: &Diagnosis) -> Sheet {
     let shown = shown(diagnosis);
     let evidence = |hypothesis: &Hypothesis| {
-        let Hypothesis { log_evidence, error, effective, .. } = *hypothesis;
+        let Hypothesis { log_evidence, standard_error: error, effective_sample_size, .. } =
+            *hypothesis;
         if error > 0.0 && error.is_finite() {
             let (value, error) = with_uncertainty(log_evidence, error, digits::UNCERTAINTY);
-            [value, error, rounded(effective, 0)]
+            [value, error, rounded(effective_sample_size, 0)]
         } else {
             [rounded(log_evidence, -2), missing(), missing()]
         }
@@ -80,15 +83,16 @@ pub(super) fn left_out(diagnosis: &Diagnosis) -> Option<String> {
 
 /// The hypothesis of the verdict.
 pub(super) fn winner(diagnosis: &Diagnosis) -> Option<&Hypothesis> {
-    let verdict = &diagnosis.verdict;
-    let explained = verdict.kind != Kind::Unexplained;
+    let verdict = &diagnosis.most_probable;
+    let explained = verdict.kind != HypothesisKind::Unexplained;
     let wanted = explained.then_some(&verdict.effects);
     diagnosis.hypotheses.iter().find(|hypothesis| hypothesis.effects.as_ref() == wanted)
 }
 
 /// A parameter as it is printed: estimate, standard uncertainty and the ends of the interval.
-pub(super) fn parameter(parameter: &Parameter) -> [String; 4] {
-    let Parameter { estimate, standard_uncertainty: u, interval: [low, high], .. } = *parameter;
+pub(super) fn parameter(parameter: &EffectParameter) -> [String; 4] {
+    let EffectParameter { estimate, standard_uncertainty: u, interval: [low, high], .. } =
+        *parameter;
     let position = position(u, digits::UNCERTAINTY);
     [to(estimate, position), to(u, position), to(low, position), to(high, position)]
 }
@@ -103,7 +107,7 @@ pub(super) fn parameters(diagnosis: &Diagnosis) -> Option<Sheet> {
     let column = |position: usize| figures.iter().map(move |cells| cells[position].clone());
     let mut sheet = Sheet::default();
     sheet.text("parameter", parameters.iter().map(|parameter| plain(&parameter.name)));
-    let unit = |parameter: &Parameter| words::unit(&parameter.unit).unwrap_or_default();
+    let unit = |parameter: &EffectParameter| words::unit(&parameter.unit).unwrap_or_default();
     sheet.text("unit", parameters.iter().map(unit));
     sheet.numbers("estimate", column(0));
     sheet.numbers("standard\nuncertainty", column(1));
@@ -178,7 +182,7 @@ pub(super) fn prediction(
     sheet
 }
 
-fn header(named: &Named) -> String {
+fn header(named: &NamedQuantity) -> String {
     let name = plain(&named.name);
     words::unit(&named.unit).map_or(name.clone(), |unit| format!("{name}\nin {unit}"))
 }

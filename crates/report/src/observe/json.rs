@@ -2,7 +2,7 @@
 
 use super::ObservationReport;
 use crate::answer::{list, object, pretty};
-use gumption_signal::{ChannelObservation, Component, Measured};
+use gumption_signal::{ChannelObservation, Measured, ToneComponent};
 use serde_json::Value;
 
 /// The observations as JSON.
@@ -105,7 +105,7 @@ fn channel(observed: &ObservationReport<'_>, of: &ChannelObservation) -> Value {
     ])
 }
 
-fn component(of: &Component, unit: &str, phase: &str) -> Value {
+fn component(of: &ToneComponent, unit: &str, phase: &str) -> Value {
     object([
         ("multiple", Value::from(u64::from(of.multiple))),
         ("frequency", plain(of.frequency, "Hz")),
@@ -124,7 +124,7 @@ fn plain(of: Measured, unit: &str) -> Value {
     ])
 }
 
-fn value(of: &gumption_signal::Value, unit: &str) -> Value {
+fn value(of: &gumption_signal::BudgetedValue, unit: &str) -> Value {
     let total: f64 = of.contributions.iter().map(|(_, u)| u * u).sum();
     let budget = of.contributions.iter().map(|(source, u)| {
         object([

@@ -12,7 +12,7 @@ pub use table::table;
 use super::Provenance;
 use gumption_engine::task::Warning;
 use gumption_files::RecipeCondition;
-use gumption_signal::{ChannelObservation, Observation, Settings, Value};
+use gumption_signal::{BudgetedValue, ChannelObservation, Observation, RecipeSettings};
 
 /// Observations with what a report says about them.
 #[derive(Clone, Debug)]
@@ -20,7 +20,7 @@ pub struct ObservationReport<'a> {
     /// The title, if the recipe has one.
     pub title: Option<&'a str>,
     /// What is the same for all rows.
-    pub settings: &'a Settings,
+    pub settings: &'a RecipeSettings,
     /// The conditions.
     pub conditions: &'a [RecipeCondition],
     /// The name of the column of frequencies.
@@ -74,7 +74,8 @@ impl ObservationReport<'_> {
                     figures.push(Figure { name, unit: unit.to_owned(), values });
                 }
             };
-            let pair = |value: &Value| (value.measured.value, value.measured.standard_uncertainty);
+            let pair =
+                |value: &BudgetedValue| (value.measured.value, value.measured.standard_uncertainty);
             for (number, multiple) in self.settings.components.iter().enumerate() {
                 let suffix = if *multiple == 1 { String::new() } else { format!("_{multiple}") };
                 let phase = self.settings.phase.name();

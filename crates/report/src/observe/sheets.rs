@@ -3,7 +3,7 @@
 use super::ObservationReport;
 use crate::number::{exact, rounded, significant, with_uncertainty};
 use crate::sheet::{Figure, Sheet};
-use gumption_signal::{ChannelObservation, Component, Measured, Value};
+use gumption_signal::{BudgetedValue, ChannelObservation, Measured, ToneComponent};
 
 /// Significant digits of standard uncertainties.
 const DIGITS: u32 = 2;
@@ -13,7 +13,7 @@ pub(super) fn components(
     observed: &ObservationReport<'_>,
     channels: &[ChannelObservation],
 ) -> Sheet {
-    let rows: Vec<(&ChannelObservation, &Component)> =
+    let rows: Vec<(&ChannelObservation, &ToneComponent)> =
         channels.iter().flat_map(|of| of.components.iter().map(move |c| (of, c))).collect();
     let channel = |of: &ChannelObservation| observed.settings.channels.get(of.channel);
     let mut sheet = Sheet::default();
@@ -82,7 +82,7 @@ fn pair(sheet: &mut Sheet, headers: [&str; 2], of: impl Iterator<Item = Option<M
 pub(super) fn made_of(observed: &ObservationReport<'_>, channels: &[ChannelObservation]) -> String {
     let of_channel = |of: &ChannelObservation| {
         let name = &observed.settings.channels.get(of.channel)?.name;
-        let size = |c: &Component| c.amplitude.measured.value;
+        let size = |c: &ToneComponent| c.amplitude.measured.value;
         let largest = of.components.iter().max_by(|a, b| size(a).total_cmp(&size(b)))?;
         let sources = sources(&largest.amplitude);
         (!sources.is_empty()).then(|| format!("`{name}` {sources}"))
@@ -92,7 +92,7 @@ pub(super) fn made_of(observed: &ObservationReport<'_>, channels: &[ChannelObser
 }
 
 /// The sources of an uncertainty with a share of a percent and more, the largest first.
-fn sources(of: &Value) -> String {
+fn sources(of: &BudgetedValue) -> String {
     let total: f64 = of.contributions.iter().map(|(_, u)| u * u).sum();
     let mut shares: Vec<(&str, f64)> = of
         .contributions
