@@ -66,7 +66,7 @@ impl Scale {
     }
 
     fn position(self, value: f64) -> f64 {
-        if self.linear { value } else { value.asinh() }
+        if self.linear { value } else { libm::asinh(value) }
     }
 
     /// The row of the plot in which a value stands; `None` beyond its ends.

@@ -2,7 +2,7 @@
 
 use crate::number::{exact, rounded};
 use gumption_engine::decimal::Decimal;
-use gumption_engine::number::elementary::{log10, pow};
+use gumption_engine::number::elementary::{ln, log10, pow};
 
 /// Positive values that span more than this factor may be spaced geometrically.
 const WIDE: f64 = 8.0;
@@ -110,7 +110,7 @@ fn is_geometric(levels: &[f64]) -> bool {
         let square = steps.iter().map(|step| (step / mean - 1.0).powi(2)).sum::<f64>();
         square / steps.len() as f64
     };
-    unevenness(&f64::ln) < CLEARLY * unevenness(&|value| value)
+    unevenness(&ln) < CLEARLY * unevenness(&|value| value)
 }
 
 /// Multiples of powers of ten between two positions of a logarithmic axis.
