@@ -92,7 +92,7 @@
 //! # use gumption::distribution::Input;
 //! # use gumption::propagate::{Control, evaluate, warnings};
 //! # use gumption::task::Task;
-//! use gumption::report::{Provenance, Report, Shown, Style, html, table};
+//! use gumption::report::{EvaluationReport, Provenance, Shown, TableStyle, html, table};
 //!
 //! let task = Task::builder("power of a heater")
 //!     .input("U", Input::normal(10.0, 0.05, "V")?)
@@ -102,14 +102,14 @@
 //!     .trials(10_000)
 //!     .build()?;
 //! let evaluation = evaluate(&task, &Control::default())?;
-//! let report = Report {
+//! let report = EvaluationReport {
 //!     task: &task,
 //!     evaluation: &evaluation,
 //!     warnings: &warnings(&task, &evaluation),
 //!     provenance: &Provenance::default(),
 //! };
 //! // P = 2 W, u = 2 W sqrt((2 * 0.005)^2 + (0.01 / sqrt(3))^2) = 0.0231 W
-//! assert!(table(&report, &Style::default()).contains("0.023"));
+//! assert!(table(&report, &TableStyle::default()).contains("0.023"));
 //! assert!(html(&report, &Shown::default()).contains("power of a heater"));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
@@ -264,7 +264,7 @@ pub use program::Program;
 pub use templates::catalogue;
 
 pub use gumption_analysis::{assumptions, certificate, compare, diff};
-pub use gumption_engine::measurement;
+pub use gumption_engine::{decimal, measurement};
 pub use gumption_files as file;
 pub use gumption_files::schema;
 pub use gumption_gap as gap;

@@ -25,6 +25,7 @@ mod gap_examples;
 mod intervals;
 mod observe;
 mod observe_steps;
+mod one_number;
 mod other_distributions;
 mod own_program;
 mod recordings;

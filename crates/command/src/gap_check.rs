@@ -73,7 +73,7 @@ impl GapCheck {
         let Some(scores) = self.threads.install(scores)?? else {
             return Ok(Exit::Interrupted);
         };
-        let design = report::gap::check::Design::of(&file.case);
+        let design = report::gap::check::CheckedDesign::of(&file.case);
         let answer = match self.answer.format {
             Format::Table => report::gap::check::table(&design, &scores),
             Format::Html => {

@@ -4,6 +4,7 @@
 #![cfg_attr(test, allow(clippy::disallowed_methods))] // tests compare within tolerances
 #![deny(unsafe_code)]
 
+pub mod decimal;
 pub mod distribution;
 pub mod linalg;
 pub mod model;

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
+use crate::answer::pretty;
 use gumption_gap::check::{BlindCheckScores, BlindDraw, SmallestEffect};
 
 #[derive(Serialize)]
@@ -85,7 +86,5 @@ pub fn check_json(title: &str, report: &BlindCheckScores) -> String {
         cases: &report.checked,
         version: env!("CARGO_PKG_VERSION"),
     };
-    let mut text = serde_json::to_string_pretty(&answer).unwrap_or_default();
-    text.push('\n');
-    text
+    pretty(&answer)
 }

@@ -2,7 +2,7 @@
 
 use super::digits::{self, p_value, probability, share, tenths};
 use super::words;
-use crate::number::{MISSING, place, rounded, significant, to, with_uncertainty};
+use crate::number::{MISSING, position, rounded, significant, to, with_uncertainty};
 use crate::plain;
 use crate::sheet::Sheet;
 use gumption_gap::{
@@ -59,7 +59,7 @@ pub(super) fn hypotheses(diagnosis: &Diagnosis) -> Sheet {
         }
     };
     let evidence: Vec<[String; 3]> = shown.iter().map(evidence).collect();
-    let column = |place: usize| evidence.iter().map(move |cells| cells[place].clone());
+    let column = |position: usize| evidence.iter().map(move |cells| cells[position].clone());
     let mut sheet = Sheet::default();
     sheet.text("hypothesis", shown.iter().map(|h| words::hypothesis(h.effects.as_deref())));
     sheet.numbers("prior", shown.iter().map(|h| significant(h.prior, 2)));
@@ -93,8 +93,8 @@ pub(super) fn winner(diagnosis: &Diagnosis) -> Option<&Hypothesis> {
 pub(super) fn parameter(parameter: &EffectParameter) -> [String; 4] {
     let EffectParameter { estimate, standard_uncertainty: u, interval: [low, high], .. } =
         *parameter;
-    let place = place(u, digits::UNCERTAINTY);
-    [to(estimate, place), to(u, place), to(low, place), to(high, place)]
+    let position = position(u, digits::UNCERTAINTY);
+    [to(estimate, position), to(u, position), to(low, position), to(high, position)]
 }
 
 /// The parameters of the verdict's effects; `None` where there are none.
@@ -104,7 +104,7 @@ pub(super) fn parameters(diagnosis: &Diagnosis) -> Option<Sheet> {
         return None;
     }
     let figures: Vec<[String; 4]> = parameters.iter().map(parameter).collect();
-    let column = |place: usize| figures.iter().map(move |cells| cells[place].clone());
+    let column = |position: usize| figures.iter().map(move |cells| cells[position].clone());
     let mut sheet = Sheet::default();
     sheet.text("parameter", parameters.iter().map(|parameter| plain(&parameter.name)));
     let unit = |parameter: &EffectParameter| words::unit(&parameter.unit).unwrap_or_default();
@@ -140,7 +140,7 @@ pub(super) fn shrinkage(diagnosis: &Diagnosis) -> Sheet {
     let hundredths = |value: f64| rounded(value, -2);
     lines.push(pair("chi-square per degree of freedom", shrinkage.chi2_per_dof, hundredths));
     lines.push(pair("share of values with |En| <= 1", shrinkage.within, share));
-    let column = |place: usize| lines.iter().map(move |line| line[place].clone());
+    let column = |position: usize| lines.iter().map(move |line| line[position].clone());
     let mut sheet = Sheet::default();
     sheet.text("", column(0));
     sheet.text("unit", column(1));
@@ -163,9 +163,9 @@ pub(super) fn prediction(
     if joined {
         sheet.text("conditions", rows.iter().map(|row| words::at(conditions, &row.conditions)));
     } else {
-        for (place, named) in conditions.iter().enumerate() {
+        for (position, named) in conditions.iter().enumerate() {
             let value = |row: &Predicted| {
-                row.conditions.get(place).map_or_else(missing, |&value| digits::condition(value))
+                row.conditions.get(position).map_or_else(missing, |&value| digits::condition(value))
             };
             sheet.numbers(&header(named), rows.iter().map(value));
         }

@@ -1,7 +1,7 @@
 //! The answer in sentences.
 
 use super::digits::{condition, p_equals, percent, probability, share, tenths};
-use crate::number::{exact, place, rounded, significant};
+use crate::number::{exact, position, rounded, significant};
 use crate::plain;
 use gumption_gap::{Diagnosis, GapRegion, HypothesisKind, NamedQuantity};
 
@@ -135,8 +135,9 @@ pub(super) fn output_of(diagnosis: &Diagnosis, region: &GapRegion) -> String {
 
 /// The range of a region.
 pub(super) fn range_of(diagnosis: &Diagnosis, region: &GapRegion) -> String {
-    let found =
-        region.range.and_then(|(place, range)| Some((diagnosis.conditions.get(place)?, range)));
+    let found = region
+        .range
+        .and_then(|(position, range)| Some((diagnosis.conditions.get(position)?, range)));
     let Some((named, [from, to])) = found else { return "everywhere".to_owned() };
     let name = plain(&named.name);
     if from == to {
@@ -179,7 +180,7 @@ pub(super) fn at(conditions: &[NamedQuantity], values: &[f64]) -> String {
 pub(super) fn shrinkage(diagnosis: &Diagnosis) -> Vec<String> {
     let shrinkage = &diagnosis.shrinkage;
     let [low, high] = shrinkage.rms_after_interval;
-    let digits = place(0.5 * (high - low), 2).unwrap_or(-2);
+    let digits = position(0.5 * (high - low), 2).unwrap_or(-2);
     let mut said = Vec::new();
     if diagnosis.most_probable.kind == HypothesisKind::None {
         said.push(

@@ -16,7 +16,7 @@ use gumption_signal::{BudgetedValue, ChannelObservation, Observation, RecipeSett
 
 /// Observations with what a report says about them.
 #[derive(Clone, Debug)]
-pub struct Observed<'a> {
+pub struct ObservationReport<'a> {
     /// The title, if the recipe has one.
     pub title: Option<&'a str>,
     /// What is the same for all rows.
@@ -42,7 +42,7 @@ pub(super) struct Figure {
     pub(super) values: Vec<(f64, f64)>,
 }
 
-impl Observed<'_> {
+impl ObservationReport<'_> {
     /// One line for each row and frequency: the conditions, the frequency and the channels.
     pub(super) fn lines(&self) -> impl Iterator<Item = (&[f64], &[ChannelObservation])> {
         self.rows.iter().flat_map(|(conditions, observation)| {

@@ -1,6 +1,7 @@
 //! An axis: where values lie on it, and at which it is marked.
 
 use crate::number::{exact, rounded};
+use gumption_engine::decimal::Decimal;
 use gumption_engine::number::elementary::{ln, log10, pow};
 
 /// Positive values that span more than this factor may be spaced geometrically.
@@ -74,13 +75,13 @@ impl Axis {
         let most = most.max(2);
         if self.log {
             let [from, to] = self.ends.map(|end| pow(10.0, end));
-            for digits in [[1.0, 2.0, 5.0].as_slice(), &[1.0, 3.0], &[1.0]] {
+            for digits in [[1, 2, 5].as_slice(), &[1, 3], &[1]] {
                 let marks = decades(self.ends, digits);
                 if (3..=most).contains(&marks.len()) {
                     return marks.into_iter().map(|value| (log10(value), exact(value))).collect();
                 }
             }
-            let decades = decades(self.ends, &[1.0]);
+            let decades = decades(self.ends, &[1]);
             if decades.len() > most {
                 let step = decades.len().div_ceil(most);
                 let marks = decades.into_iter().step_by(step);
@@ -113,12 +114,10 @@ fn is_geometric(levels: &[f64]) -> bool {
 }
 
 /// Multiples of powers of ten between two positions of a logarithmic axis.
-fn decades(ends: [f64; 2], digits: &[f64]) -> Vec<f64> {
+fn decades(ends: [f64; 2], digits: &[u64]) -> Vec<f64> {
     let powers = ends[0].floor() as i32..=ends[1].ceil() as i32;
-    let all = powers.flat_map(|power| {
-        // from its decimal form, which is the nearest number
-        digits.iter().filter_map(move |digit| format!("{digit}e{power}").parse::<f64>().ok())
-    });
+    let all = powers
+        .flat_map(|power| digits.iter().map(move |digit| Decimal::new(*digit, power).value()));
     all.filter(|value| (ends[0]..=ends[1]).contains(&log10(*value))).collect()
 }
 

@@ -5,7 +5,7 @@ use gumption_gap::NamedQuantity;
 
 /// What a page says of the case whose design was checked.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Design {
+pub struct CheckedDesign {
     /// The case's title.
     pub title: String,
     /// Number of rows of data.
@@ -18,7 +18,7 @@ pub struct Design {
     pub effects: usize,
 }
 
-impl Design {
+impl CheckedDesign {
     /// The design of a case.
     pub fn of(case: &Case) -> Self {
         let rows = &case.task.rows;

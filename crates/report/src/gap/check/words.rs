@@ -3,14 +3,14 @@
 use super::super::digits::{condition, share};
 use super::super::words::in_unit;
 use super::confusion::Wrong;
-use super::design::Design;
+use super::design::CheckedDesign;
 use super::label::Label;
 use super::sheets;
 use crate::plain;
 use gumption_gap::check::BlindCheckScores;
 
 /// The title of the page.
-pub(super) fn title(design: &Design) -> String {
+pub(super) fn title(design: &CheckedDesign) -> String {
     let title = plain(&design.title);
     if title.is_empty() {
         "Blind check of the diagnosis".to_owned()
@@ -49,7 +49,7 @@ pub(super) fn verdict(report: &BlindCheckScores) -> String {
 }
 
 /// What was done.
-pub(super) fn done(design: &Design, report: &BlindCheckScores) -> String {
+pub(super) fn done(design: &CheckedDesign, report: &BlindCheckScores) -> String {
     let mut drawn = [0usize; 4];
     for one in &report.checked {
         let place = match Label::truth(one) {
@@ -77,7 +77,7 @@ pub(super) fn done(design: &Design, report: &BlindCheckScores) -> String {
 }
 
 /// Over which conditions, if there are any.
-fn over(design: &Design) -> String {
+fn over(design: &CheckedDesign) -> String {
     let ranges = design.conditions.iter().map(|(named, [low, high])| {
         let name = plain(&named.name);
         if low == high {

@@ -3,14 +3,14 @@
 use roxmltree::Node;
 use serde_json::Value;
 
-use super::super::check::{Design, html, table};
+use super::super::check::{CheckedDesign, html, table};
 use super::super::check_json;
 use super::html::{SVG, assert_inside, parsed, text, with_body};
 use super::{assert_rounded, named, provenance, strings};
 use gumption_gap::check::{BlindCheckScores, BlindDraw, Confusion, Reliability, SmallestEffect};
 
-fn design() -> Design {
-    Design {
+fn design() -> CheckedDesign {
+    CheckedDesign {
         title: "A rotating table".to_owned(),
         rows: 40,
         outputs: strings(&["a_t", "a_r"]),
@@ -132,7 +132,7 @@ fn crowded() -> BlindCheckScores {
 }
 
 /// Names that are long and hostile.
-fn hostile() -> (Design, BlindCheckScores) {
+fn hostile() -> (CheckedDesign, BlindCheckScores) {
     let name = |text: &str| {
         format!(
             "{text}<script>alert('&amp;')</script>\"\u{1b}[31m\u{202e}{}",
@@ -156,8 +156,8 @@ fn hostile() -> (Design, BlindCheckScores) {
 }
 
 /// One draw that tells nothing.
-fn bare() -> (Design, BlindCheckScores) {
-    let design = Design {
+fn bare() -> (CheckedDesign, BlindCheckScores) {
+    let design = CheckedDesign {
         title: String::new(),
         rows: 1,
         outputs: strings(&["y"]),
@@ -171,7 +171,7 @@ fn bare() -> (Design, BlindCheckScores) {
     (design, report)
 }
 
-fn page(design: &Design, report: &BlindCheckScores) -> String {
+fn page(design: &CheckedDesign, report: &BlindCheckScores) -> String {
     let page = table(design, report);
     let widest = page.lines().map(|line| line.chars().count()).max().unwrap_or(0);
     assert!(widest <= 100, "{widest} columns:\n{page}");
