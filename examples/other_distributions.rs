@@ -6,6 +6,7 @@
 //!
 //! Run with `cargo run --release --example other_distributions` (a program of one's own takes the
 //! feature `statrs` of gumption).
+#![allow(clippy::disallowed_methods)] // nothing of this is printed as a result
 #![allow(clippy::print_stdout)]
 
 use std::error::Error;
@@ -16,7 +17,7 @@ use gumption::task::Task;
 use rand_distr::Distribution;
 
 /// Wind speed: scale 8 m/s, shape 2; increment of the gust: location 3 m/s, scale 1.2 m/s.
-pub fn task(trials: u64) -> Result<Task, Box<dyn Error>> {
+pub(crate) fn task(trials: u64) -> Result<Task, Box<dyn Error>> {
     let (drawn, law) =
         (rand_distr::Weibull::new(8.0, 2.0)?, statrs::distribution::Weibull::new(2.0, 8.0)?);
     let wind = External::of_law("weibull", law, move |random| drawn.sample(random))?;
@@ -33,7 +34,7 @@ pub fn task(trials: u64) -> Result<Task, Box<dyn Error>> {
 }
 
 /// Mean, standard deviation and 95 % coverage interval of the speed in a gust, in m/s.
-pub fn figures(evaluation: &Evaluation) -> Option<[f64; 4]> {
+pub(crate) fn figures(evaluation: &Evaluation) -> Option<[f64; 4]> {
     let found = evaluation.rows.first()?.outputs.first()?.monte_carlo.as_ref()?;
     let [low, high] = found.symmetric_interval;
     Some([found.estimate, found.standard_uncertainty?, low, high])

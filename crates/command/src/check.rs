@@ -43,7 +43,7 @@ impl From<&Diagnostic> for Mistake {
             line,
             column,
             code: diagnostic.kind.code(),
-            message: diagnostic.message(),
+            message: diagnostic.message() + diagnostics::command(&diagnostic.kind),
             suggestion: diagnostic.kind.suggestion(),
         }
     }

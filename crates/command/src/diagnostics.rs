@@ -2,7 +2,7 @@
 
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 
-use gumption_files::{Diagnostic, Diagnostics};
+use gumption_files::{Diagnostic, DiagnosticKind, Diagnostics};
 
 /// Longer lines are cut around the place.
 const LONGEST: usize = 160;
@@ -22,8 +22,23 @@ pub(crate) fn render(diagnostics: &Diagnostics, colours: bool) -> String {
     text
 }
 
+/// The command that helps with a mistake, to be said after its sentence.
+pub(crate) fn command(kind: &DiagnosticKind) -> &'static str {
+    match kind {
+        DiagnosticKind::NoModel => "; `gumption models` lists these",
+        DiagnosticKind::UnknownModel { nearest: None, .. } => {
+            "; `gumption models` lists those that there are"
+        }
+        DiagnosticKind::UnknownEffect { nearest: None, .. } => {
+            "; `gumption models --effects` lists those that there are"
+        }
+        DiagnosticKind::NotResult { .. } => "; `gumption run --save` writes one",
+        _ => "",
+    }
+}
+
 fn one(diagnostic: &Diagnostic, renderer: &Renderer) -> String {
-    let mut text = format!("{diagnostic}\n");
+    let mut text = format!("{diagnostic}{}\n", command(&diagnostic.kind));
     let source = &diagnostic.source.text;
     let (line, _) = diagnostic.position();
     let start =

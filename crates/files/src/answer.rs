@@ -43,7 +43,7 @@ pub(super) fn read(log: &Collector, path: &Path) -> Option<Answer> {
         None => object(answer.get("outputs")).map(|outputs| vec![(Map::new(), outputs)]),
     };
     if rows.is_none() {
-        let reason = "this is not an answer of `gumption run --format json`".to_owned();
+        let reason = "this is not the JSON answer of an evaluation".to_owned();
         report("", DiagnosticKind::Table { reason });
     }
     Some(Answer { name, rows: rows? })

@@ -4,34 +4,8 @@
 //! condition (`per`). A coefficient between one value for all rows and one for each row would tie
 //! the values of the rows to each other, although `per` says that they are independent.
 
-use std::collections::HashMap;
-
 use super::input_set::InputSet;
 use gumption_engine::task::{Sharing, Variable};
-
-/// Which rows have a value of a variable in common: equal keys.
-fn keys(sharing: &Sharing, rows: &[Vec<f64>]) -> Vec<Vec<u64>> {
-    let bits = |values: &[f64]| values.iter().map(|value| value.to_bits()).collect();
-    rows.iter()
-        .map(|row| match sharing {
-            Sharing::All => Vec::new(),
-            Sharing::Row => bits(row),
-            Sharing::Condition(place) => bits(row.get(*place..=*place).unwrap_or_default()),
-        })
-        .collect()
-}
-
-/// Whether two variables have their values in common over the same rows.
-fn is_same(a: &Sharing, b: &Sharing, rows: &[Vec<f64>]) -> bool {
-    if a == b {
-        return true;
-    }
-    let (a, b) = (keys(a, rows), keys(b, rows));
-    let (mut forth, mut back) = (HashMap::new(), HashMap::new());
-    a.iter()
-        .zip(&b)
-        .all(|(a, b)| *forth.entry(a).or_insert(b) == b && *back.entry(b).or_insert(a) == a)
-}
 
 /// In which rows a variable has the same value, in words.
 fn describe(variable: &Variable, conditions: &[String]) -> String {
@@ -58,7 +32,7 @@ pub(super) fn contradiction(
 ) -> Option<String> {
     let (a, b) = (inputs.variables.get(first)?, inputs.variables.get(second)?);
     let varies = |place: usize| inputs.known.varies(place);
-    if is_same(&a.sharing, &b.sharing, rows) || !varies(first) || !varies(second) {
+    if a.sharing.is_alike(&b.sharing, rows) || !varies(first) || !varies(second) {
         return None;
     }
     let both = format!("{}, {}", describe(a, conditions), describe(b, conditions));

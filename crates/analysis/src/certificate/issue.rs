@@ -58,7 +58,7 @@ impl fmt::Display for Failed {
             Self::NoUncertainty { line } => write!(
                 f,
                 "row {} has no expanded uncertainty: neither the law of propagation nor the trials \
-                 give one; `gumption run` says why",
+                 give one",
                 line + 1
             ),
         }

@@ -45,7 +45,11 @@ impl<'a> Mixture<'a> {
         Self {
             tasks,
             rows,
-            empty: tasks.map(|task| Task { rows: Vec::new(), ..task.clone() }),
+            empty: tasks.map(|task| {
+                let mut empty = task.clone();
+                empty.rows = Vec::new();
+                empty
+            }),
             indices,
             outputs: outputs.iter().map(|output| output.indices).collect(),
             factors: outputs.iter().map(|output| output.factor).collect(),

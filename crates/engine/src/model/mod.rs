@@ -42,6 +42,7 @@ pub struct InputQuantity {
 
 /// An output quantity (measurand).
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Output {
     /// Name and unit.
     pub quantity: Quantity,

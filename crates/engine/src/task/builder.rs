@@ -5,7 +5,7 @@ use std::fmt;
 use std::sync::Arc;
 
 use super::{Coverage, Row, Settings, Sharing, Task, TaskError, Trials, Variable};
-use crate::distribution::{Correlation, Distribution, Fits, Input, Invalid};
+use crate::distribution::{Correlation, Distribution, Input, Invalid};
 use crate::model::formula::{Formula, Scope, Typing, check_name};
 use crate::model::typed::{Measurement, Typed};
 use crate::model::{
@@ -273,13 +273,9 @@ impl TaskBuilder {
         let rows = self.known_rows(&model, &variables)?;
         let task = Task {
             title: self.title,
-            model,
-            variables,
             correlations,
-            rows,
-            swept: !self.conditions.is_empty(),
             settings: self.settings,
-            fits: Fits::default(),
+            ..Task::new(model, variables, rows)
         };
         for row in &task.rows {
             let joint = task.fits.joint(&row.distributions, &task.correlations);
@@ -493,10 +489,12 @@ impl TaskBuilder {
             // the constant that components are added to has no uncertainty of its own
             let shown =
                 given.components.is_empty() || given.input.distribution.constant().is_none();
-            variables.push(Variable { shown, ..Variable::of(&given.name, &given.input) });
-            variables.extend(given.components.iter().map(|(component, input)| {
-                Variable::of(&format!("{}/{component}", given.name), input)
-            }));
+            variables.push(Variable { shown, ..variable(&given.name, &given.input) });
+            variables.extend(
+                given.components.iter().map(|(component, input)| {
+                    variable(&format!("{}/{component}", given.name), input)
+                }),
+            );
         }
         let mut names = HashSet::new();
         if let Some(twice) = variables.iter().find(|v| !names.insert(v.name.as_str())) {
@@ -606,18 +604,13 @@ impl TaskBuilder {
     }
 }
 
-impl Variable {
-    /// A variable with one value for all rows, shown in budgets.
-    pub fn of(name: &str, input: &Input) -> Self {
-        Self {
-            name: name.to_owned(),
-            unit: input.unit.clone(),
-            evaluation: input.evaluation,
-            group: input.group.clone(),
-            about: input.about.clone(),
-            sharing: Sharing::All,
-            shown: true,
-        }
+/// The variable of an input, with one value for all rows.
+fn variable(name: &str, input: &Input) -> Variable {
+    Variable {
+        evaluation: input.evaluation,
+        group: input.group.clone(),
+        about: input.about.clone(),
+        ..Variable::new(name, input.unit.clone())
     }
 }
 

@@ -28,6 +28,7 @@ use gumption_units::Unit;
 
 /// One random variable of the model: an input quantity, or a component of one.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Variable {
     /// Name, `quantity` or `quantity/component`.
     pub name: String,
@@ -56,6 +57,7 @@ pub struct Row {
 
 /// A model with everything that its evaluation needs.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Task {
     /// Title, for reports.
     pub title: String,
@@ -75,7 +77,38 @@ pub struct Task {
     pub fits: Fits,
 }
 
+impl Variable {
+    /// A variable in a unit, evaluated by other means than readings (Type B), with one value for all
+    /// rows and shown in budgets.
+    pub fn new(name: impl Into<String>, unit: Unit) -> Self {
+        Self {
+            name: name.into(),
+            unit,
+            evaluation: EvaluationType::B,
+            group: None,
+            about: String::new(),
+            sharing: Sharing::All,
+            shown: true,
+        }
+    }
+}
+
 impl Task {
+    /// The evaluation of a model whose program's variables are these, then the conditions, in these
+    /// rows: without a title and correlations, with the usual settings.
+    pub fn new(model: Model, variables: Vec<Variable>, rows: Vec<Row>) -> Self {
+        Self {
+            title: String::new(),
+            swept: !model.conditions.is_empty(),
+            model,
+            variables,
+            correlations: Vec::new(),
+            rows,
+            settings: Settings::default(),
+            fits: Fits::default(),
+        }
+    }
+
     /// A task of equations, step by step.
     pub fn builder(title: &str) -> TaskBuilder {
         TaskBuilder::new(title)
