@@ -8,6 +8,7 @@
 //! With `--on-demand` it makes one repeat for each line of standard input, so that several tools
 //! can be measured in turn; it answers `ready` after the warm-up and `done` after each repeat, and
 //! prints the JSON at the end of input. Without a workload it tries all of them on a few trials.
+#![allow(clippy::disallowed_methods)] // nothing of this is printed as a result
 #![allow(missing_docs, clippy::print_stderr)]
 
 mod measure;

@@ -7,6 +7,7 @@
 //! What is measured is computed here with complex numbers, apart from the formulas of the cases and
 //! of the catalogue, from the figures that the papers print. What the papers do not print (noise,
 //! repetitions, some parameters) is assumed, and said so in `models/gap/README.md`.
+#![allow(clippy::disallowed_methods)] // nothing of this is printed as a result
 
 use std::f64::consts::{PI, TAU};
 use std::fmt::Write;

@@ -1,13 +1,14 @@
 //! Diagnoses the practice cases and the published data sets, and writes how that went to `reports/`.
 //!
 //! `cargo run --release --example gap_reports` from the project's folder.
+#![allow(clippy::disallowed_methods)] // nothing of this is printed as a result
 
 use std::error::Error;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use gumption::file::read_case;
-use gumption::gap::{Diagnosis, Hypothesis, Kind, Options, diagnose};
+use gumption::gap::{Diagnosis, DiagnosisOptions, Hypothesis, HypothesisKind, diagnose};
 use serde_json::Value;
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -28,8 +29,8 @@ fn cases(folder: &Path) -> Result<Vec<PathBuf>, Box<dyn Error>> {
 
 fn diagnosed(folder: &Path) -> Result<Diagnosis, Box<dyn Error>> {
     let file = read_case(&folder.join("case.json"))?;
-    let options = Options { seed: file.case.task.settings.seed };
-    Ok(diagnose(&file.case, None, options, &|_| {}))
+    let options = DiagnosisOptions::new(file.case.task.settings.seed);
+    Ok(diagnose(&file.case, None, options, &|_| {})?)
 }
 
 fn truth(folder: &Path) -> Result<Value, Box<dyn Error>> {
@@ -50,9 +51,9 @@ fn name(hypothesis: &Hypothesis) -> String {
 }
 
 fn said(diagnosis: &Diagnosis) -> String {
-    match diagnosis.verdict.kind {
-        Kind::Unexplained => "unexplained".to_owned(),
-        _ => label(&diagnosis.verdict.effects),
+    match diagnosis.most_probable.kind {
+        HypothesisKind::Unexplained => "unexplained".to_owned(),
+        _ => label(&diagnosis.most_probable.effects),
     }
 }
 
@@ -101,7 +102,7 @@ fn blind(folder: &Path) -> Result<String, Box<dyn Error>> {
             rows,
             "| {number} | {} | {wanted} | {said} | {:.3} | {p:.3} | {:.2} | {:.2} | {} |",
             truth["family"].as_str().unwrap_or_default(),
-            diagnosis.verdict.probability,
+            diagnosis.most_probable.probability,
             shrinkage.rms_before,
             shrinkage.rms_after,
             if right { "" } else { "x" },
@@ -168,7 +169,7 @@ fn real(folder: &Path) -> Result<String, Box<dyn Error>> {
             page,
             "| {title} | {wanted} | {} | {:.3} | {} | {} |",
             said(&diagnosis),
-            diagnosis.verdict.probability,
+            diagnosis.most_probable.probability,
             best(&|h| h.best_log_likelihood),
             best(&|h| 2.0 * h.best_log_likelihood - h.fitted as f64 * values.ln()),
         )?;

@@ -7,6 +7,7 @@
 //! Motions, sensors and filters are computed here from the figures that the papers print and from
 //! those of [`truth`], apart from the models and cases that take the observations. What the papers do
 //! not print is assumed, and said so in `models/recordings/README.md`.
+#![allow(clippy::disallowed_methods)] // nothing of this is printed as a result
 
 use std::error::Error;
 use std::f64::consts::{SQRT_2, TAU};

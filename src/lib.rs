@@ -92,7 +92,7 @@
 //! # use gumption::distribution::Input;
 //! # use gumption::propagate::{Control, evaluate, warnings};
 //! # use gumption::task::Task;
-//! use gumption::report::{Provenance, Report, Shown, Style, html, table};
+//! use gumption::report::{EvaluationReport, Provenance, Shown, TableStyle, html, table};
 //!
 //! let task = Task::builder("power of a heater")
 //!     .input("U", Input::normal(10.0, 0.05, "V")?)
@@ -102,14 +102,14 @@
 //!     .trials(10_000)
 //!     .build()?;
 //! let evaluation = evaluate(&task, &Control::default())?;
-//! let report = Report {
+//! let report = EvaluationReport {
 //!     task: &task,
 //!     evaluation: &evaluation,
 //!     warnings: &warnings(&task, &evaluation),
 //!     provenance: &Provenance::default(),
 //! };
 //! // P = 2 W, u = 2 W sqrt((2 * 0.005)^2 + (0.01 / sqrt(3))^2) = 0.0231 W
-//! assert!(table(&report, &Style::default()).contains("0.023"));
+//! assert!(table(&report, &TableStyle::default()).contains("0.023"));
 //! assert!(html(&report, &Shown::default()).contains("power of a heater"));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
@@ -124,12 +124,12 @@
 //! use gumption::{file, gap};
 //!
 //! let case = file::read_case(Path::new("models/gap/sampling_rate/case.json"))?.case;
-//! let diagnosis = gap::diagnose(&case, None, gap::Options { seed: 1 }, &|_| ());
+//! let diagnosis = gap::diagnose(&case, None, gap::DiagnosisOptions::new(1), &|_| ())?;
 //! // the data were made with a sampling rate that is 0.05 % off
 //! assert!(diagnosis.gap.present);
-//! assert_eq!(diagnosis.verdict.effects, ["sampling-rate"]);
+//! assert_eq!(diagnosis.most_probable.effects, ["sampling-rate"]);
 //! // without another seed the error of the integrals leaves the second decimal alone
-//! assert!((diagnosis.verdict.probability - 0.746).abs() < 0.01);
+//! assert!((diagnosis.most_probable.probability - 0.746).abs() < 0.01);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
@@ -139,8 +139,8 @@
 //!
 //! ```
 //! use gumption::observe::{
-//!     Amplitude, Channel, Frequency, Held, Measured, Method, PhaseUnit, Settings, TimeBase, Track,
-//!     observe,
+//!     Amplitude, Channel, ChannelRecording, Frequency, InMemorySamples, Measured, Method, PhaseUnit,
+//!     RecipeSettings, TimeBase, observe,
 //! };
 //! use gumption::unit::Unit;
 //!
@@ -152,7 +152,7 @@
 //!     standard_uncertainty: 0.0,
 //!     degrees_of_freedom: f64::INFINITY,
 //! };
-//! let settings = Settings {
+//! let settings = RecipeSettings {
 //!     channels: vec![Channel {
 //!         name: "a".to_owned(),
 //!         unit: Unit::parse("m/s^2")?,
@@ -171,8 +171,8 @@
 //! };
 //! let frequency = Frequency { hertz: Some(5.0), standard_uncertainty: 0.0, estimate: false };
 //! let base = TimeBase { rate: exact(1000.0), start: 0.0, jitter: 0.0, beside_frequency: None };
-//! let passes = Held { channels: vec![values] };
-//! let mut tracks = [Track { passes, base, channels: vec![0], search: None }];
+//! let passes = InMemorySamples { channels: vec![values] };
+//! let mut tracks = [ChannelRecording { passes, base, channels: vec![0], search: None }];
 //! let found = observe(&settings, &[frequency], &mut tracks).map_err(|refused| format!("{refused:?}"))?;
 //! let amplitude = &found.frequencies[0][0].components[0].amplitude.measured;
 //! // half a step at most, and its uncertainty is smaller than a step
@@ -264,7 +264,7 @@ pub use program::Program;
 pub use templates::catalogue;
 
 pub use gumption_analysis::{assumptions, certificate, compare, diff};
-pub use gumption_engine::measurement;
+pub use gumption_engine::{decimal, measurement};
 pub use gumption_files as file;
 pub use gumption_files::schema;
 pub use gumption_gap as gap;

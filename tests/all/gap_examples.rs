@@ -78,8 +78,8 @@ fn the_data_are_what_the_program_makes() {
 #[test]
 fn the_effect_is_found() {
     for (name, effect) in CASES {
-        let answer = gap::answer(&read(name).case, 1);
-        let verdict = &answer.verdict;
+        let answer = gap::select_model(&read(name).case, 1).unwrap();
+        let verdict = &answer.most_probable;
         assert_eq!(verdict.effects, [effect], "{name}: {verdict:?}");
         assert!(verdict.probability > 0.5, "{name}: {verdict:?}");
     }
@@ -92,7 +92,7 @@ fn the_effect_is_found() {
 #[test]
 fn the_signal_comes_nearer_by_a_quarter() {
     let file = read("iepe_signal");
-    let answer = gap::answer(&file.case, 1);
+    let answer = gap::select_model(&file.case, 1).unwrap();
     let observed = file.case.observed[0].as_ref().expect("the signal");
     let before = gap::nominal(&file.case).remove(0);
     let rms = |predicted: &mut dyn Iterator<Item = f64>| {

@@ -1,4 +1,5 @@
 //! Tests of the whole program: files in, answers out.
+#![allow(clippy::disallowed_methods)] // nothing of this is printed as a result
 #![allow(missing_docs)]
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stdout)]
 #![allow(clippy::print_stderr)]
@@ -24,6 +25,7 @@ mod gap_examples;
 mod intervals;
 mod observe;
 mod observe_steps;
+mod one_number;
 mod other_distributions;
 mod own_program;
 mod recordings;

@@ -1,9 +1,11 @@
 //! What is made of evaluations: the audit of assumptions, comparisons of results, what changed
-//! between two evaluations, and calibration certificates.
+//! between two evaluations, calibration certificates, and published values recomputed.
 
+#![cfg_attr(test, allow(clippy::disallowed_methods))] // tests compare within tolerances
 #![deny(unsafe_code)]
 
 pub mod assumptions;
 pub mod certificate;
 pub mod compare;
 pub mod diff;
+pub mod verification;

@@ -85,7 +85,7 @@ impl Assumptions {
         };
         warnings.extend(found.warnings.iter().cloned());
         let provenance = run::provenance(&file.source.text, &file.files);
-        let report = report::assumptions::Report {
+        let report = report::assumptions::AuditReport {
             task: &task,
             audit: &found,
             warnings: &warnings,

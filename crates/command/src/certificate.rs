@@ -13,8 +13,7 @@ use gumption_analysis::certificate::{Failed, Issued, issue};
 use gumption_engine::propagate::{EvaluationError, warnings};
 use gumption_engine::task::{Trials, Warning};
 use gumption_files::{CertificateFile, Diagnostic, DiagnosticKind, Diagnostics};
-use gumption_report::certificate::{self as report, Model, Report};
-use gumption_report::number::rounded;
+use gumption_report::certificate::{self as report, CertificateReport, CertifiedModel};
 
 /// Make a calibration certificate.
 #[derive(Debug, Args)]
@@ -63,14 +62,14 @@ impl Certificate {
             settings.trials = self.trials.unwrap_or(settings.trials);
         }
         let provenance = run::provenance(&file.source.text, &[]);
-        let models: Vec<Model<'_>> = file
+        let models: Vec<CertifiedModel<'_>> = file
             .models
             .iter()
             .map(|model| {
                 let of = run::provenance(&model.source.text, &model.files);
                 (model, of)
             })
-            .map(|(model, of)| Model {
+            .map(|(model, of)| CertifiedModel {
                 name: &model.name,
                 text: &model.source.text,
                 digest: of.model_sha256,
@@ -82,7 +81,7 @@ impl Certificate {
         let issued = self.issue(&file, &models, &stop)?;
         let warnings = notes(&file, &issued);
         self.answer.say(&warnings);
-        let report = Report {
+        let report = CertificateReport {
             certificate: &file.certificate,
             issued: &issued,
             models: &models,
@@ -137,7 +136,7 @@ impl Certificate {
     fn issue(
         &self,
         file: &CertificateFile,
-        models: &[Model<'_>],
+        models: &[CertifiedModel<'_>],
         stop: &AtomicBool,
     ) -> Result<Issued, Failure> {
         let bar = progress::bar(trials_to_make(&file.certificate), self.answer.quiet);
@@ -183,13 +182,13 @@ fn notes(file: &CertificateFile, issued: &Issued) -> Vec<Warning> {
     }
     for (number, statement) in issued.statements.iter().enumerate() {
         let Some(limit) = statement.limit.filter(|limit| limit.below) else { continue };
-        let (row, cmc) = (number + 1, gumption_report::number::significant(limit.cmc, 3));
+        let (row, cmc) = (number + 1, gumption_engine::decimal::significant(limit.cmc, 3));
         let (code, text) = if limit.raised {
             let text =
                 format!("row {row}: U is raised to the laboratory's capability (CMC) of {cmc}");
             ("raised-to-cmc", text)
         } else {
-            let u = statement.rounded.map_or("0".to_owned(), |to| rounded(to.value, to.place));
+            let u = statement.rounded.map_or("0".to_owned(), |to| to.to_string());
             let text = format!(
                 "row {row}: U = {u} is below the laboratory's capability (CMC) of {cmc}, which an \
                  accredited certificate may not state (ILAC-P14); `\"cmc_floor\": true` raises it"

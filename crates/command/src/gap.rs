@@ -88,9 +88,9 @@ impl Gap {
         let seed = self.seed.or(file.case.task.settings.seed);
         let bar = progress::share(self.answer.quiet);
         let told = |share: f64| progress::tell(&bar, share);
-        let diagnose = || gap::diagnose(&file.case, at, gap::Options { seed }, &told);
+        let diagnose = || gap::diagnose(&file.case, at, gap::DiagnosisOptions::new(seed), &told);
         let diagnosis = self.threads.install(diagnose)?;
         bar.finish_and_clear();
-        Ok(diagnosis)
+        diagnosis.map_err(|error| Failure::System(error.to_string()))
     }
 }

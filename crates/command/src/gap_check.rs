@@ -13,7 +13,7 @@ use super::options::{Answer, Seed, Threads};
 use super::{Exit, Failure, Program, progress, run};
 use gumption_files::CaseFile;
 use gumption_gap as gap;
-use gumption_gap::check::{Checked, Report, Truth, score, truth};
+use gumption_gap::check::{BlindCheckScores, BlindDraw, Truth, score, truth};
 use gumption_report as report;
 
 /// Check the diagnosis blindly at a case's own design.
@@ -73,7 +73,7 @@ impl GapCheck {
         let Some(scores) = self.threads.install(scores)?? else {
             return Ok(Exit::Interrupted);
         };
-        let design = report::gap::check::Design::of(&file.case);
+        let design = report::gap::check::CheckedDesign::of(&file.case);
         let answer = match self.answer.format {
             Format::Table => report::gap::check::table(&design, &scores),
             Format::Html => {
@@ -95,8 +95,8 @@ impl GapCheck {
         folder: &Path,
         seed: u64,
         stop: &AtomicBool,
-    ) -> Result<Option<Report>, Failure> {
-        let noise = gap::noise(&file.case, seed);
+    ) -> Result<Option<BlindCheckScores>, Failure> {
+        let noise = gap::noise(&file.case, seed).map_err(impossible)?;
         self.write(file, &noise, folder, seed)?;
         let Some(answers) = self.diagnose(program, folder, seed, stop)? else {
             return Ok(None);
@@ -107,7 +107,7 @@ impl GapCheck {
             .enumerate()
             .map(|(number, answer)| {
                 let sealed = open(&folder.join("sealed").join(format!("{number:05}.json")))?;
-                Ok(Checked::new(&sealed, answer, &sim, &noise))
+                Ok(BlindDraw::new(&sealed, answer, &sim, &noise))
             })
             .collect::<Result<Vec<_>, Failure>>()?;
         Ok(Some(score(&file.case, checked, seed)))
@@ -129,7 +129,7 @@ impl GapCheck {
         let sealed = folder.join("sealed");
         make(&sealed)?;
         (0..self.draws).into_par_iter().try_for_each(|number| {
-            let (truth, measured) = truth(&file.case, noise, seed, number);
+            let (truth, measured) = truth(&file.case, noise, seed, number).map_err(impossible)?;
             let own = folder.join(format!("{number:05}"));
             make(&own)?;
             let withheld = (truth.kind == gap::check::TruthKind::Withheld)
@@ -156,9 +156,9 @@ impl GapCheck {
         folder: &Path,
         seed: u64,
         stop: &AtomicBool,
-    ) -> Result<Option<Vec<gap::Answer>>, Failure> {
+    ) -> Result<Option<Vec<gap::ModelSelection>>, Failure> {
         let bar = progress::counted(self.draws, "draws", self.answer.quiet);
-        let answers: Result<Vec<Option<gap::Answer>>, Failure> = (0..self.draws)
+        let answers: Result<Vec<Option<gap::ModelSelection>>, Failure> = (0..self.draws)
             .into_par_iter()
             .map(|number| {
                 if stop.load(Ordering::Relaxed) {
@@ -166,7 +166,7 @@ impl GapCheck {
                 }
                 let path = folder.join(format!("{number:05}")).join("case.json");
                 let file = program.files().case(&path)?;
-                let answer = gap::answer(&file.case, seed);
+                let answer = gap::select_model(&file.case, seed).map_err(impossible)?;
                 bar.inc(1);
                 Ok(Some(answer))
             })
@@ -174,6 +174,11 @@ impl GapCheck {
         bar.finish_and_clear();
         Ok(answers?.into_iter().collect())
     }
+}
+
+/// Effects that cannot act on the model.
+fn impossible(error: gap::OverrideError) -> Failure {
+    Failure::System(error.to_string())
 }
 
 fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {

@@ -1,5 +1,7 @@
 //! The command line: arguments in, exit code out. One file for each subcommand.
 
+#![cfg_attr(test, allow(clippy::disallowed_methods))] // tests compare within tolerances
+
 mod assumptions;
 mod certificate;
 mod check;

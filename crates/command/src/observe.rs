@@ -9,7 +9,7 @@ use super::{Exit, Failure, run};
 use gumption_engine::task::Warning;
 use gumption_files as file;
 use gumption_files::RecipeFile;
-use gumption_report::observe::{self as report, Observed};
+use gumption_report::observe::{self as report, ObservationReport};
 use gumption_signal::{Observation, observe};
 
 /// Take amplitudes, phases and delays from recordings.
@@ -45,7 +45,7 @@ impl Observe {
             }
             rows.push((file.rows[row].conditions.clone(), observation));
         }
-        let found = Observed {
+        let found = ObservationReport {
             title: file.title.as_deref(),
             settings: &file.settings,
             conditions: &file.conditions,

@@ -11,7 +11,7 @@ use super::{Failure, Program, output};
 use gumption_engine::propagate::Control;
 use gumption_engine::task::{StoppingRule, Trials, Warning};
 use gumption_files::{ModelFile, Override, bytes};
-use gumption_report::Column;
+use gumption_report::BudgetColumn;
 
 /// The format of an answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -201,9 +201,9 @@ pub(super) fn memory(text: &str) -> Result<usize, String> {
 }
 
 /// A further column of the budget, by its name.
-pub(super) fn columns() -> impl TypedValueParser<Value = Column> {
-    PossibleValuesParser::new(Column::ALL.map(Column::name))
-        .try_map(|name| Column::named(&name).ok_or("there is no such column"))
+pub(super) fn columns() -> impl TypedValueParser<Value = BudgetColumn> {
+    PossibleValuesParser::new(BudgetColumn::ALL.map(BudgetColumn::name))
+        .try_map(|name| BudgetColumn::named(&name).ok_or("there is no such column"))
 }
 
 /// When an adaptive run stops.

@@ -16,7 +16,7 @@ use gumption_engine::propagate::{
 use gumption_engine::task::{Coverage, StoppingRule, Task, Trials, Warning};
 use gumption_files::{Diagnostic, DiagnosticKind, Diagnostics, ModelFile};
 use gumption_report as report;
-use gumption_report::{Column, Provenance, Report, Shown, Style};
+use gumption_report::{BudgetColumn, EvaluationReport, Provenance, Shown, TableStyle};
 
 /// Evaluate a model file.
 #[derive(Debug, Args)]
@@ -57,7 +57,7 @@ pub(super) struct Run {
     dof: Option<DofRule>,
     /// More columns of the budget in a table: names with commas between them
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = options::columns())]
-    columns: Vec<Column>,
+    columns: Vec<BudgetColumn>,
     /// Draw the distribution of each output below the table, with the coverage intervals
     #[arg(long)]
     histogram: bool,
@@ -95,7 +95,7 @@ impl Run {
         let stop = progress::stop_flag();
         let (evaluation, warnings) = self.evaluate(&file, &task, &stop)?;
         let provenance = provenance(text, &file.files);
-        let report = Report {
+        let report = EvaluationReport {
             task: &task,
             evaluation: &evaluation,
             warnings: &warnings,
@@ -175,10 +175,10 @@ impl Run {
     /// For each row the histograms of its outputs, where the answer shows them.
     fn histograms(
         &self,
-        report: &Report<'_>,
+        report: &EvaluationReport<'_>,
         control: &Control<'_>,
     ) -> Result<Vec<Vec<Option<Histogram>>>, Failure> {
-        let Report { task, evaluation, .. } = *report;
+        let EvaluationReport { task, evaluation, .. } = *report;
         let rows = match self.answer.format {
             Page::Html if evaluation.rows.len() == 1 => 1,
             Page::Table if self.histogram => evaluation.rows.len(),
@@ -239,13 +239,13 @@ impl Run {
 /// Writes the answer in a format.
 fn write(
     format: Page,
-    report: &Report<'_>,
+    report: &EvaluationReport<'_>,
     shown: &Shown<'_>,
     out: &mut dyn Write,
 ) -> io::Result<()> {
     match format {
         Page::Table => {
-            let style = Style { columns: shown.columns.to_vec(), ..Style::default() };
+            let style = TableStyle { columns: shown.columns.to_vec(), ..TableStyle::default() };
             report::write_table(report, &style, &mut *out)?;
             out.write_all(report::histograms(report, shown).as_bytes())
         }

@@ -9,19 +9,19 @@ use gumption_engine::propagate::{
 };
 use gumption_engine::task::{Task, Trials};
 use gumption_report as report;
-use gumption_report::{Report, Samples};
+use gumption_report::{EvaluationReport, TrialsForm};
 
 /// Where to write trials, and in which form.
 #[derive(Clone, Debug)]
 pub(super) struct SampleFile {
     path: PathBuf,
-    form: Samples,
+    form: TrialsForm,
 }
 
 /// A file of trials; its extension says the form.
 pub(super) fn samples(text: &str) -> Result<SampleFile, String> {
     let path = PathBuf::from(text);
-    let form = path.extension().and_then(|e| Samples::of_extension(&e.to_string_lossy()));
+    let form = path.extension().and_then(|e| TrialsForm::of_extension(&e.to_string_lossy()));
     let form = form.ok_or("a file name that ends in .csv or .npy is needed")?;
     Ok(SampleFile { path, form })
 }
@@ -53,7 +53,7 @@ pub(super) fn check(
 /// Writes what was asked for beside the answer.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Saver<'a> {
-    pub(super) report: &'a Report<'a>,
+    pub(super) report: &'a EvaluationReport<'a>,
     pub(super) control: &'a Control<'a>,
 }
 
@@ -66,7 +66,7 @@ impl From<EvaluationError> for Failure {
 impl Saver<'_> {
     /// The result file; nothing if the run is stopped meanwhile.
     pub(super) fn result(&self, path: &Path) -> Result<(), Failure> {
-        let Report { task, evaluation, provenance, .. } = *self.report;
+        let EvaluationReport { task, evaluation, provenance, .. } = *self.report;
         let scores: Vec<f64> = Scores::WRITTEN.values().collect();
         let (Some(row), Some(evaluated)) = (task.rows.first(), evaluation.rows.first()) else {
             return Ok(());
@@ -93,7 +93,7 @@ impl Saver<'_> {
 
     /// The trials, block by block; nothing is left if the run is stopped meanwhile.
     pub(super) fn samples(&self, file: &SampleFile) -> Result<(), Failure> {
-        let Report { task, evaluation, .. } = *self.report;
+        let EvaluationReport { task, evaluation, .. } = *self.report;
         let SampleFile { path, form } = file;
         let names: Vec<&str> =
             task.model.outputs.iter().map(|output| output.quantity.name.as_str()).collect();

@@ -1,5 +1,5 @@
 //! Budgets in columns against budgets of single rows.
-
+#![allow(clippy::disallowed_methods)] // nothing of this is printed as a result
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 use gumption_engine::distribution::Correlation;

@@ -1,7 +1,8 @@
 //! The content of files, up to a size.
 
+use std::fmt;
 use std::fs::File;
-use std::io::Read;
+use std::io::{self, Read};
 use std::path::Path;
 
 /// Bytes of a model file, a result file or a table, at most. What is read takes up to a dozen times
@@ -15,16 +16,45 @@ pub(super) const MOST_OF_SAMPLES: u64 = 200_000_000;
 /// device without an end, no more than that is read.
 pub(super) fn of_file(path: &Path, most: u64) -> Result<Vec<u8>, String> {
     let file = File::open(path).map_err(|error| error.to_string())?;
-    of(file, most)
+    of(file, most).map_err(|error| error.to_string())
 }
 
-/// All that a reader gives, up to so many bytes, or why not.
-pub fn of(reader: impl Read, most: u64) -> Result<Vec<u8>, String> {
+/// Why there is no content.
+#[derive(Debug)]
+#[non_exhaustive]
+pub enum ReadError {
+    /// The system cannot read it.
+    Io(io::Error),
+    /// There are more than so many bytes.
+    TooLarge {
+        /// The most that are read.
+        most: u64,
+    },
+}
+
+impl fmt::Display for ReadError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Io(error) => error.fmt(f),
+            Self::TooLarge { most } => {
+                let most = most / 1_000_000;
+                write!(f, "it is larger than {most} MB, which this version takes at most")
+            }
+        }
+    }
+}
+
+impl std::error::Error for ReadError {}
+
+/// All that a reader gives, up to so many bytes.
+///
+/// # Errors
+/// More bytes, or what the system says.
+pub fn of(reader: impl Read, most: u64) -> Result<Vec<u8>, ReadError> {
     let mut bytes = Vec::new();
-    reader.take(most + 1).read_to_end(&mut bytes).map_err(|error| error.to_string())?;
+    reader.take(most + 1).read_to_end(&mut bytes).map_err(ReadError::Io)?;
     if bytes.len() as u64 > most {
-        let most = most / 1_000_000;
-        return Err(format!("it is larger than {most} MB, which this version takes at most"));
+        return Err(ReadError::TooLarge { most });
     }
     Ok(bytes)
 }
@@ -37,7 +67,7 @@ mod tests {
     fn a_file_without_an_end_is_refused() {
         assert_eq!(of(&b"abc"[..], 3).unwrap(), b"abc");
         assert!(of(&b"abcd"[..], 3).is_err());
-        let message = of(std::io::repeat(0), 2_000_000).unwrap_err();
+        let message = of(io::repeat(0), 2_000_000).unwrap_err().to_string();
         assert_eq!(message, "it is larger than 2 MB, which this version takes at most");
     }
 }

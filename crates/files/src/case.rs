@@ -99,7 +99,8 @@ impl ModelReader<'_> {
         let Found { file, sim, observed, simulated, .. } = found?;
         warnings.splice(0..0, file.warnings);
         let candidates = placed.into_iter().map(|placed| placed.candidate).collect();
-        let case = Case { task: file.task, sim, observed, simulated, candidates, prior: prior? };
+        let case =
+            Case { task: file.task, model: sim, observed, simulated, candidates, prior: prior? };
         Some(CaseFile { case, warnings, source: file.source, files: file.files })
     }
 }

@@ -7,6 +7,7 @@ use std::path::Path;
 use super::DiagnosticKind;
 use super::diagnostics::Collector;
 use super::json::{Json, Member};
+use super::keys;
 use super::object::Object;
 use super::table::{self, Table};
 use gumption_engine::model::Quantity;
@@ -116,7 +117,7 @@ fn columns_of(object: &Object<'_>, data: &Table) -> Option<Conditions> {
         else {
             continue;
         };
-        condition.check_keys(&["unit", "values", "about"]);
+        condition.check_keys(keys::CONDITION);
         if let Some(values) = condition.get("values") {
             let reason = format!(
                 "the condition `{}` has values of its own, but with observations it is the column of \
@@ -162,7 +163,7 @@ fn grid(object: &Object<'_>) -> Option<Conditions> {
         else {
             continue;
         };
-        condition.check_keys(&["unit", "values", "about"]);
+        condition.check_keys(keys::CONDITION);
         let values = if condition.get("values").is_some() {
             condition.numbers("values")
         } else {
@@ -210,7 +211,7 @@ fn grid(object: &Object<'_>) -> Option<Conditions> {
 }
 
 fn from_table(object: &Object<'_>, file: &Member, folder: &Path) -> Option<Conditions> {
-    object.check_keys(&["file", "units", "columns"]);
+    object.check_keys(keys::TABLE_OF_CONDITIONS);
     let log = object.log;
     let name = object.text("file")?;
     let table = table::read(log, folder, name, &file.value.span);

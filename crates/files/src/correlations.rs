@@ -9,6 +9,7 @@ use super::DiagnosticKind;
 use super::diagnostics::Collector;
 use super::input_set::InputSet;
 use super::json::{Json, Node};
+use super::keys;
 use super::links;
 use super::object::Object;
 use super::{sharing, table};
@@ -136,7 +137,7 @@ impl Reader<'_> {
         else {
             return;
         };
-        object.check_keys(&["names", "values", "file"]);
+        object.check_keys(keys::CORRELATION_MATRIX);
         let (names, values, spans) = if let Some(file) = object.text("file") {
             let place = object.get("file").map_or(object.place(), |m| &m.value.span).clone();
             let Some((table, bytes)) = table::read(log, folder, file, &place) else {

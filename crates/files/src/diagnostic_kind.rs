@@ -3,7 +3,7 @@
 use std::fmt;
 use std::sync::Arc;
 
-use super::shapes::KINDS;
+use super::keys::SHAPES;
 use gumption_engine::distribution::Invalid;
 use gumption_engine::model::formula::FormulaError;
 use gumption_engine::number::Shortest;
@@ -12,141 +12,408 @@ use gumption_units::nearest;
 
 /// A mistake, without its place.
 #[derive(Clone, Debug, PartialEq)]
-#[allow(missing_docs)] // the fields are what the sentences below say
+#[non_exhaustive]
 pub enum DiagnosticKind {
     /// The file cannot be read.
-    Unreadable { message: String },
+    Unreadable {
+        /// What the system or the parser says.
+        message: String,
+    },
     /// The file has no content.
     Empty,
     /// The text is not JSON.
-    NotJson { message: String },
+    NotJson {
+        /// What the system or the parser says.
+        message: String,
+    },
     /// JSON has no NaN and no infinity.
     NotFiniteInJson,
     /// A number beyond double precision.
     NumberTooLarge,
     /// A value of another type.
-    WrongType { what: String, found: &'static str, expected: &'static str },
+    WrongType {
+        /// What is concerned, in words.
+        what: String,
+        /// What stands there.
+        found: &'static str,
+        /// What must stand there.
+        expected: &'static str,
+    },
     /// A key that does not exist here.
     UnknownKey {
+        /// The key.
         key: String,
+        /// What is concerned, in words.
         what: &'static str,
+        /// The known name that is nearest, if one is near.
         nearest: Option<String>,
+        /// What is known there.
         known: Vec<&'static str>,
     },
     /// The same key twice.
-    DuplicateKey { key: String },
+    DuplicateKey {
+        /// The key.
+        key: String,
+    },
     /// A required key is not there.
-    MissingKey { key: &'static str, what: &'static str },
+    MissingKey {
+        /// The key.
+        key: &'static str,
+        /// What is concerned, in words.
+        what: &'static str,
+    },
     /// A version of the file format that this program does not know.
-    UnknownFormat { found: String },
+    UnknownFormat {
+        /// What stands there.
+        found: String,
+    },
     /// Neither a typed model nor equations.
     NoModel,
     /// Both a typed model and equations.
     TwoModels,
     /// No typed model of that name.
-    UnknownModel { name: String, nearest: Option<String> },
+    UnknownModel {
+        /// The name that is concerned.
+        name: String,
+        /// The known name that is nearest, if one is near.
+        nearest: Option<String>,
+    },
     /// The typed model has no such input.
-    UnknownInput { name: String, model: String, nearest: Option<String>, known: Vec<String> },
+    UnknownInput {
+        /// The name that is concerned.
+        name: String,
+        /// The typed model.
+        model: String,
+        /// The known name that is nearest, if one is near.
+        nearest: Option<String>,
+        /// What is known there.
+        known: Vec<String>,
+    },
     /// The typed model has no such output, or no equation defines it.
-    UnknownOutput { name: String, nearest: Option<String>, known: Arc<[String]> },
+    UnknownOutput {
+        /// The name that is concerned.
+        name: String,
+        /// The known name that is nearest, if one is near.
+        nearest: Option<String>,
+        /// What is known there.
+        known: Arc<[String]>,
+    },
     /// The typed model needs an input that is not there.
-    MissingInput { name: String, model: String, unit: String },
+    MissingInput {
+        /// The name that is concerned.
+        name: String,
+        /// The typed model.
+        model: String,
+        /// The unit.
+        unit: String,
+    },
     /// A name that cannot be used.
-    BadName { name: String, reason: String },
+    BadName {
+        /// The name that is concerned.
+        name: String,
+        /// Why, as a part of the sentence.
+        reason: String,
+    },
     /// The same name for two quantities.
-    NameTaken { name: String },
+    NameTaken {
+        /// The name that is concerned.
+        name: String,
+    },
     /// A name that is not that of an input.
-    NoSuchInput { name: String, nearest: Option<String> },
+    NoSuchInput {
+        /// The name that is concerned.
+        name: String,
+        /// The known name that is nearest, if one is near.
+        nearest: Option<String>,
+    },
     /// A unit that does not parse.
-    Unit { unit: String, error: UnitError },
+    Unit {
+        /// The unit.
+        unit: String,
+        /// What is wrong with it.
+        error: UnitError,
+    },
     /// A unit of another dimension than the quantity.
     WrongDimension {
+        /// The name that is concerned.
         name: String,
+        /// What stands there.
         found: String,
+        /// The quantity that this unit is one of.
         found_as: String,
+        /// The quantity that is needed.
         expected_as: String,
+        /// What must stand there.
         expected: String,
     },
     /// No distribution of that name.
-    UnknownDistribution { name: String, nearest: Option<String> },
+    UnknownDistribution {
+        /// The name that is concerned.
+        name: String,
+        /// The known name that is nearest, if one is near.
+        nearest: Option<String>,
+    },
     /// Parameters that no distribution has.
-    Distribution { name: String, error: Invalid },
+    Distribution {
+        /// The name that is concerned.
+        name: String,
+        /// What is wrong with it.
+        error: Invalid,
+    },
     /// Two keys that say the same thing in different ways.
-    Exclusive { first: &'static str, second: &'static str },
+    Exclusive {
+        /// The first of the two.
+        first: &'static str,
+        /// The second of the two.
+        second: &'static str,
+    },
     /// `expanded` without `k` or `p`.
-    NoCoverage { name: String },
+    NoCoverage {
+        /// The name that is concerned.
+        name: String,
+    },
     /// A key that says something about another one, which is not there.
-    OnlyWith { key: &'static str, with: &'static str },
+    OnlyWith {
+        /// The key.
+        key: &'static str,
+        /// The key that is not there.
+        with: &'static str,
+    },
     /// A probability outside 0 to 1.
-    NotProbability { key: String, found: f64 },
+    NotProbability {
+        /// The key.
+        key: String,
+        /// What stands there.
+        found: f64,
+    },
     /// A number that is not a positive one.
-    NotPositive { key: String, found: f64 },
+    NotPositive {
+        /// The key.
+        key: String,
+        /// What stands there.
+        found: f64,
+    },
     /// Not a whole number, or out of range.
-    NotWhole { key: String, found: String, least: u64, most: u64 },
+    NotWhole {
+        /// The key.
+        key: String,
+        /// What stands there.
+        found: String,
+        /// The least that is allowed.
+        least: u64,
+        /// The most that is allowed.
+        most: u64,
+    },
     /// Not a number of trials.
-    NotTrials { found: String, most: u64 },
+    NotTrials {
+        /// What stands there.
+        found: String,
+        /// The most that is allowed.
+        most: u64,
+    },
     /// A number out of its range.
-    OutOfRange { key: String, found: f64, range: &'static str },
+    OutOfRange {
+        /// The key.
+        key: String,
+        /// What stands there.
+        found: f64,
+        /// The range, in words.
+        range: &'static str,
+    },
     /// A value that must be one of a few.
-    NotOneOf { key: String, found: String, allowed: Vec<String> },
+    NotOneOf {
+        /// The key.
+        key: String,
+        /// What stands there.
+        found: String,
+        /// The values that are allowed.
+        allowed: Vec<String>,
+    },
     /// A width that does not parse.
-    Width { name: String, found: String, reason: String },
+    Width {
+        /// The name that is concerned.
+        name: String,
+        /// What stands there.
+        found: String,
+        /// Why, as a part of the sentence.
+        reason: String,
+    },
     /// A component without a name, or with the name of another.
-    Component { name: String, reason: String },
+    Component {
+        /// The name that is concerned.
+        name: String,
+        /// Why, as a part of the sentence.
+        reason: String,
+    },
     /// A formula's mistake.
-    Formula { error: FormulaError },
+    Formula {
+        /// What is wrong with it.
+        error: FormulaError,
+    },
     /// An estimate's formula that gives no finite number.
-    EstimateUndefined { row: usize, found: f64 },
+    EstimateUndefined {
+        /// The row, from 1.
+        row: usize,
+        /// What stands there.
+        found: f64,
+    },
     /// A condition or list without values.
-    NoValues { name: String },
+    NoValues {
+        /// The name that is concerned.
+        name: String,
+    },
     /// A condition that has no values of its own and no table to take them from.
-    NoTable { name: String },
+    NoTable {
+        /// The name that is concerned.
+        name: String,
+    },
     /// A table's cell that is empty or not a number.
-    Cell { row: usize, column: String, found: String },
+    Cell {
+        /// The row, from 1.
+        row: usize,
+        /// The column.
+        column: String,
+        /// What stands there.
+        found: String,
+    },
     /// A table's row with another number of cells than the header.
-    ShortRow { row: usize, found: usize, expected: usize },
+    ShortRow {
+        /// The row, from 1.
+        row: usize,
+        /// What stands there.
+        found: usize,
+        /// What must stand there.
+        expected: usize,
+    },
     /// A line of a file of samples that is not a number.
-    Sample { found: String },
+    Sample {
+        /// What stands there.
+        found: String,
+    },
     /// A table without rows, or a bad header.
-    Table { reason: String },
+    Table {
+        /// Why, as a part of the sentence.
+        reason: String,
+    },
     /// A coefficient out of range, of unknown or equal quantities.
-    Correlation { reason: String },
+    Correlation {
+        /// Why, as a part of the sentence.
+        reason: String,
+    },
     /// Too many rows, inputs, nodes.
-    TooMany { what: &'static str, found: usize, most: usize },
+    TooMany {
+        /// What is concerned, in words.
+        what: &'static str,
+        /// What stands there.
+        found: usize,
+        /// The most that is allowed.
+        most: usize,
+    },
     /// A file that `--save` did not write.
-    NotResult { file: String },
+    NotResult {
+        /// The file.
+        file: String,
+    },
     /// A result file has no such output.
-    NoSuchResult { file: String, name: String, nearest: Option<String>, known: Vec<String> },
+    NoSuchResult {
+        /// The file.
+        file: String,
+        /// The name that is concerned.
+        name: String,
+        /// The known name that is nearest, if one is near.
+        nearest: Option<String>,
+        /// What is known there.
+        known: Vec<String>,
+    },
     /// A list of a result file whose entries do not fit.
-    SavedEntry { reason: &'static str },
+    SavedEntry {
+        /// Why, as a part of the sentence.
+        reason: &'static str,
+    },
     /// A result in degC for an input in another unit, or the other way round.
-    SavedCelsius { name: String, found: String, saved: String },
+    SavedCelsius {
+        /// The name that is concerned.
+        name: String,
+        /// What stands there.
+        found: String,
+        /// The unit of the saved result.
+        saved: String,
+    },
     /// A declared coefficient between inputs whose saved results have one.
-    SavedCorrelation { first: String, second: String },
+    SavedCorrelation {
+        /// The first of the two.
+        first: String,
+        /// The second of the two.
+        second: String,
+    },
     /// More mistakes than are listed.
-    MoreMistakes { most: usize },
+    MoreMistakes {
+        /// The most that is allowed.
+        most: usize,
+    },
     /// A model file with several rows of conditions, to be compared with a saved result.
-    SeveralRows { rows: usize },
+    SeveralRows {
+        /// How many rows there are.
+        rows: usize,
+    },
     /// The evaluation met numbers that it cannot go on with.
-    Evaluation { message: String },
+    Evaluation {
+        /// What the system or the parser says.
+        message: String,
+    },
     /// The catalogue has no effect of that name.
-    UnknownEffect { name: String, nearest: Option<String> },
+    UnknownEffect {
+        /// The name that is concerned.
+        name: String,
+        /// The known name that is nearest, if one is near.
+        nearest: Option<String>,
+    },
     /// An effect that cannot act on the sim.
-    Effect { name: String, reason: String },
+    Effect {
+        /// The name that is concerned.
+        name: String,
+        /// Why, as a part of the sentence.
+        reason: String,
+    },
     /// Observations that say nothing about the sim, or contradict themselves.
-    Observation { reason: String },
+    Observation {
+        /// Why, as a part of the sentence.
+        reason: String,
+    },
     /// Prior probabilities that do not sum to one.
-    Prior { reason: String },
+    Prior {
+        /// Why, as a part of the sentence.
+        reason: String,
+    },
     /// Something in a certificate file that does not fit.
-    Certificate { reason: String },
+    Certificate {
+        /// Why, as a part of the sentence.
+        reason: String,
+    },
     /// Not a day of the calendar.
-    NotDate { key: &'static str, found: String },
+    NotDate {
+        /// The key.
+        key: &'static str,
+        /// What stands there.
+        found: String,
+    },
     /// A recipe whose parts do not fit.
-    Recipe { reason: String },
+    Recipe {
+        /// Why, as a part of the sentence.
+        reason: String,
+    },
     /// A recording that cannot be used, with its line or sample and channel.
-    Recording { reason: String },
+    Recording {
+        /// Why, as a part of the sentence.
+        reason: String,
+    },
     /// An override of the command line that does not fit.
-    Override { text: String, reason: String },
+    Override {
+        /// The replacement as it is written.
+        text: String,
+        /// Why, as a part of the sentence.
+        reason: String,
+    },
 }
 
 impl DiagnosticKind {
@@ -335,7 +602,7 @@ impl fmt::Display for DiagnosticKind {
                  `{expected}`"
             ),
             Self::UnknownDistribution { name, nearest } => {
-                let known: Vec<&str> = KINDS.iter().map(|kind| kind.name).collect();
+                let known: Vec<&str> = SHAPES.iter().map(|kind| kind.name).collect();
                 write!(
                     f,
                     "there is no distribution `{name}`{}",

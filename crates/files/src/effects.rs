@@ -6,6 +6,7 @@ use super::conditions::NoConditions;
 use super::diagnostics::Collector;
 use super::input_set::InputSet;
 use super::json::{Json, Member};
+use super::keys;
 use super::object::Object;
 use super::results::Results;
 use super::scopes::report_formula;
@@ -15,7 +16,7 @@ use gumption_engine::model::formula;
 use gumption_engine::model::formula::{Formula, FormulaError};
 use gumption_engine::task::Warning;
 use gumption_gap::Candidate;
-use gumption_gap::{Circular, Effect, Sim};
+use gumption_gap::{Effect, OverridableModel};
 use gumption_units::nearest;
 
 /// At most so many effects: their pairs are tried as well.
@@ -33,7 +34,7 @@ pub(super) struct Placed {
 pub(super) fn read(
     log: &Collector,
     member: &Member,
-    sim: Option<&Sim>,
+    sim: Option<&OverridableModel>,
     results: &Results<'_>,
     warnings: &mut Vec<Warning>,
 ) -> Option<Vec<Placed>> {
@@ -51,7 +52,7 @@ pub(super) fn read(
 pub(super) fn read_one(
     log: &Collector,
     member: &Member,
-    sim: Option<&Sim>,
+    sim: Option<&OverridableModel>,
     results: &Results<'_>,
     warnings: &mut Vec<Warning>,
 ) -> Option<Placed> {
@@ -60,7 +61,7 @@ pub(super) fn read_one(
 }
 
 /// What the effects have in common: not too many, and no pair that needs each other.
-pub(super) fn check_together(log: &Collector, placed: &[Placed], sim: &Sim) {
+pub(super) fn check_together(log: &Collector, placed: &[Placed], sim: &OverridableModel) {
     if let Some(excess) = placed.get(MOST_EFFECTS) {
         let found = placed.len();
         log.report(
@@ -87,8 +88,7 @@ pub(super) fn check_together(log: &Collector, placed: &[Placed], sim: &Sim) {
             if let Err(circular) = sim.program(&[one, other]) {
                 let reason = format!(
                     "and the effect `{}` together override quantities that need each other: {}",
-                    one.name,
-                    in_a_circle(&circular)
+                    one.name, circular
                 );
                 let diagnostic = DiagnosticKind::Effect { name: other.name.clone(), reason };
                 log.report(&second.place, diagnostic);
@@ -97,15 +97,9 @@ pub(super) fn check_together(log: &Collector, placed: &[Placed], sim: &Sim) {
     }
 }
 
-/// "`a` needs `b` needs `a`"
-fn in_a_circle(circular: &Circular) -> String {
-    let names = circular.names.iter().chain(circular.names.first());
-    names.map(|name| format!("`{name}`")).collect::<Vec<_>>().join(" needs ")
-}
-
 struct Reader<'a> {
     log: &'a Collector,
-    sim: Option<&'a Sim>,
+    sim: Option<&'a OverridableModel>,
     results: &'a Results<'a>,
     warnings: &'a mut Vec<Warning>,
 }
@@ -113,7 +107,7 @@ struct Reader<'a> {
 impl Reader<'_> {
     fn effect(&mut self, member: &Member) -> Option<Candidate> {
         let object = Object::new(self.log, "an effect", &member.value, &member.key_span)?;
-        object.check_keys(&["parameters", "overrides", "about", "source"]);
+        object.check_keys(keys::EFFECT);
         let diagnostic = |reason: &str| DiagnosticKind::Effect {
             name: member.key.clone(),
             reason: reason.to_owned(),
@@ -153,8 +147,7 @@ impl Reader<'_> {
             }
         }
         if let Err(circular) = self.sim?.program(&[&effect]) {
-            let reason =
-                format!("overrides quantities that need each other: {}", in_a_circle(&circular));
+            let reason = format!("overrides quantities that need each other: {}", circular);
             let diagnostic = DiagnosticKind::Effect { name: effect.name.clone(), reason };
             self.log.report(overrides.place(), diagnostic);
         }

@@ -9,12 +9,13 @@ use super::conditions::unit;
 use super::diagnostics::Collector;
 use super::input_set::InputSet;
 use super::json::{Json, Member};
+use super::keys::{self, Shape};
 use super::object::Object;
 use super::overrides::Override;
 use super::paired;
 use super::results::Results;
 use super::samples;
-use super::shapes::{self, Estimate, Fields, Kind};
+use super::shapes::{self, Estimate, Fields};
 use gumption_engine::distribution::{Constant, Distribution, EvaluationType, Samples};
 use gumption_engine::model::formula::Formula;
 use gumption_engine::model::{InputQuantity, Quantity};
@@ -23,9 +24,6 @@ use gumption_units::Unit;
 
 /// At most so many variables.
 const MOST_VARIABLES: usize = 100_000;
-
-/// Keys of any input or component beside those of its distribution.
-const COMMON: [&str; 6] = ["distribution", "about", "type", "group", "unit", "per"];
 
 /// Where a quantity's estimate comes from.
 enum EstimateSource {
@@ -165,9 +163,8 @@ impl<'a> Reader<'a, '_> {
         let Some(kind) = shapes::kind(&object) else {
             return self.variable(self.name.to_owned(), &object, None, unit);
         };
-        let mut known: Vec<&str> = COMMON.into_iter().chain(kind.fields.iter().copied()).collect();
-        known.push("evidence");
-        object.check_keys(&known);
+        let known: Vec<&str> = keys::INPUT.into_iter().chain(kind.fields.iter().copied()).collect();
+        object.check_names(&known);
         self.evidence();
         let variable = self.inputs.variables.len();
         self.variable(self.name.to_owned(), &object, Some(kind), unit);
@@ -231,7 +228,7 @@ impl<'a> Reader<'a, '_> {
         let Some(object) = object else {
             return;
         };
-        object.check_keys(&["values", "file"]);
+        object.check_keys(keys::READINGS);
         let name = format!("{}/evidence", self.name);
         let files = &mut self.inputs.files;
         let Some((readings, place)) = samples::numbers(&object, &name, self.folder, files) else {
@@ -246,7 +243,7 @@ impl<'a> Reader<'a, '_> {
     }
 
     /// The samples of an input or component, if that is its shape.
-    fn samples(&mut self, object: &Object<'_>, name: &str, kind: &Kind) -> Option<Samples> {
+    fn samples(&mut self, object: &Object<'_>, name: &str, kind: &Shape) -> Option<Samples> {
         if kind.name != "samples" {
             return None;
         }
@@ -254,7 +251,7 @@ impl<'a> Reader<'a, '_> {
     }
 
     /// Adds a variable of the budget.
-    fn variable(&mut self, name: String, object: &Object<'_>, kind: Option<&Kind>, unit: &Unit) {
+    fn variable(&mut self, name: String, object: &Object<'_>, kind: Option<&Shape>, unit: &Unit) {
         let readings = kind.is_some_and(|kind| kind.name == "readings");
         if readings && object.truth("paired") == Some(true) {
             self.inputs.paired.push(self.inputs.variables.len());
@@ -314,7 +311,7 @@ impl<'a> Reader<'a, '_> {
     /// An input that is the sum of an estimate and its components.
     fn components(&mut self, unit: &Unit) {
         let object = self.object;
-        object.check_keys(&["unit", "mean", "components", "about", "type", "group", "per"]);
+        object.check_names(&keys::COMPOSED);
         // the estimate: a constant without a line of its own
         let first = self.inputs.variables.len();
         self.variable(self.name.to_owned(), &object, None, unit);
@@ -426,9 +423,9 @@ impl<'a> Reader<'a, '_> {
             } else if !names.insert(full.clone()) {
                 component.report(diagnostic(format!("has the name `{name}` of another one")));
             } else if let Some(kind) = shapes::kind(&component) {
-                let mut known: Vec<&str> = vec!["name", "distribution", "about", "type", "group"];
-                known.extend(kind.fields);
-                component.check_keys(&known);
+                let known: Vec<&str> =
+                    keys::COMPONENT.into_iter().chain(kind.fields.iter().copied()).collect();
+                component.check_names(&known);
                 let samples = self.samples(&component, &full, kind);
                 parts.push(Part { object: component, full, kind, samples });
             }
@@ -444,7 +441,7 @@ impl<'a> Reader<'a, '_> {
 struct Part<'a> {
     object: Object<'a>,
     full: String,
-    kind: &'static Kind,
+    kind: &'static Shape,
     samples: Option<Samples>,
 }
 

@@ -43,41 +43,15 @@ use super::scopes::{ConditionSet, report_formula, typed_scope};
 use super::simulated::{names_simulation, simulated};
 use super::size::Size;
 use super::table::{self, Table};
-use super::{DiagnosticKind, correlations, inputs, settings};
+use super::{DiagnosticKind, correlations, inputs, keys, settings};
 use gumption_engine::distribution::{Correlation, Fits};
 use gumption_engine::model::formula::Formula;
 use gumption_engine::model::typed::{Catalogue, CatalogueEntry};
-use gumption_engine::model::{Output, typed};
+use gumption_engine::model::{Model, Output, typed};
 use gumption_engine::task::{Row, Settings, Task, Warning};
-use gumption_gap::Observed;
-use gumption_gap::{Maker as SimMaker, Sim};
+use gumption_gap::{ModelForm, ObservedOutput, OverridableModel};
 use gumption_units::Unit;
 use gumption_units::nearest;
-
-/// The keys of a model file and of a case.
-const KEYS: [&str; 21] = [
-    "format",
-    "title",
-    "source",
-    "about",
-    "inputs",
-    "correlations",
-    "correlation_matrix",
-    "conditions",
-    "equations",
-    "model",
-    "outputs",
-    "coverage_probability",
-    "coverage_factor",
-    "coverage_factor_fixed",
-    "monte_carlo",
-    "check_units",
-    "allow_undefined",
-    "observations",
-    "effects",
-    "catalogue",
-    "prior",
-];
 
 /// How a model file is to be read.
 #[derive(Clone, Copy, Debug)]
@@ -101,9 +75,9 @@ impl<'a> ModelOptions<'a> {
 #[derive(Debug)]
 pub(super) struct Found {
     pub(super) file: ModelFile,
-    pub(super) sim: Sim,
+    pub(super) sim: OverridableModel,
     /// What was measured of each output.
-    pub(super) observed: Vec<Option<Observed>>,
+    pub(super) observed: Vec<Option<ObservedOutput>>,
     /// How many of the last conditions are columns of somebody else's simulation.
     pub(super) simulated: usize,
     /// The table of the data.
@@ -155,7 +129,7 @@ impl<'a> ModelReader<'a> {
     /// All that the file holds, unless it has mistakes.
     pub(super) fn found(&self) -> Option<Found> {
         let root = &self.root;
-        root.check_keys(&KEYS);
+        root.check_keys(keys::MODEL);
         check_format(root);
         let title = root.text("title").unwrap_or("").to_owned();
         root.text("source");
@@ -183,7 +157,10 @@ impl<'a> ModelReader<'a> {
         let swept = root.get("conditions").is_some() || observations.is_some();
         let output_places = std::mem::take(&mut of.outputs.places);
         let evidence = std::mem::take(&mut of.inputs.evidence);
-        let task = task(Parts { title, settings, fits, swept, correlations }, &sim, of)?;
+        let model = sim.model().map_err(|error| {
+            root.report(DiagnosticKind::Evaluation { message: error.to_string() });
+        });
+        let task = task(Parts { title, settings, fits, swept, correlations }, model.ok()?, of)?;
         let source = root.log.source.clone();
         let file = ModelFile { task, warnings, source, files, output_places, evidence };
         let data = observations.map(|observations| observations.table);
@@ -273,7 +250,7 @@ impl<'a> ModelReader<'a> {
         body: ModelBody<'a>,
         of: &mut Quantities,
         warnings: &mut Vec<Warning>,
-    ) -> Option<Sim> {
+    ) -> Option<OverridableModel> {
         let log = self.root.log;
         let (scope, maker) = match body {
             ModelBody::Typed(entry, place) => {
@@ -284,7 +261,7 @@ impl<'a> ModelReader<'a> {
                 }
                 check_typed(log, &entry, place, of);
                 let scope = typed_scope(&entry, &of.inputs, &of.conditions);
-                (scope, SimMaker::Typed(entry.typed))
+                (scope, ModelForm::Typed(entry.typed))
             }
             ModelBody::Equations(equations) => {
                 let scope = check_equations(log, &equations, of);
@@ -292,10 +269,10 @@ impl<'a> ModelReader<'a> {
                 warnings.extend(celsius_as_kelvin(&scope, &of.outputs.outputs));
                 let formulas =
                     equations.into_iter().filter_map(|(name, _, formula)| Some((name, formula?)));
-                (scope, SimMaker::Equations(formulas.collect()))
+                (scope, ModelForm::Equations(formulas.collect()))
             }
         };
-        log.is_clean().then(|| Sim {
+        log.is_clean().then(|| OverridableModel {
             scope,
             inputs: std::mem::take(&mut of.inputs.quantities),
             conditions: of.conditions.quantities.clone(),
@@ -308,8 +285,8 @@ impl<'a> ModelReader<'a> {
     fn observed(
         &self,
         observations: Option<&Observations>,
-        sim: &Sim,
-    ) -> Option<Vec<Option<Observed>>> {
+        sim: &OverridableModel,
+    ) -> Option<Vec<Option<ObservedOutput>>> {
         let Some(observations) = observations else {
             return Some(vec![None; sim.outputs.len()]);
         };
@@ -422,7 +399,7 @@ struct Parts {
 }
 
 /// The task; none where something is not known about a variable, which has been reported.
-fn task(parts: Parts, sim: &Sim, of: Quantities) -> Option<Task> {
+fn task(parts: Parts, model: Model, of: Quantities) -> Option<Task> {
     let Parts { title, settings, fits, swept, correlations } = parts;
     let Quantities { inputs, conditions, .. } = of;
     if !inputs.known.is_complete(inputs.variables.len()) {
@@ -431,8 +408,7 @@ fn task(parts: Parts, sim: &Sim, of: Quantities) -> Option<Task> {
     let known = inputs.known.rows(conditions.rows.len());
     let rows = conditions.rows.into_iter().zip(known);
     let rows = rows.map(|(conditions, distributions)| Row { conditions, distributions }).collect();
-    let (model, variables) = (sim.model(), inputs.variables);
-    let mut task = Task::new(model, variables, rows);
+    let mut task = Task::new(model, inputs.variables, rows);
     (task.title, task.swept, task.settings) = (title, swept, settings);
     (task.correlations, task.fits) = (correlations, fits);
     Some(task)

@@ -6,6 +6,7 @@ use std::ops::Range;
 use super::DiagnosticKind;
 use super::diagnostics::Collector;
 use super::json::{Json, Member, Node};
+use super::keys::Key;
 use gumption_units::nearest;
 
 /// An object that is being read.
@@ -63,7 +64,12 @@ impl<'a> Object<'a> {
     }
 
     /// Reports every key that is not among `known`; keys that begin with `$` belong to editors.
-    pub(crate) fn check_keys(&self, known: &[&'static str]) {
+    pub(crate) fn check_keys(&self, known: &[Key]) {
+        self.check_names(&known.iter().map(|key| key.name).collect::<Vec<_>>());
+    }
+
+    /// As [`check_keys`](Self::check_keys), for keys that are put together.
+    pub(crate) fn check_names(&self, known: &[&'static str]) {
         for member in self.members {
             if !known.contains(&member.key.as_str()) && !member.key.starts_with('$') {
                 self.log.report(

@@ -3,15 +3,15 @@
 use std::ops::Range;
 use std::path::Path;
 
-use nalgebra::DMatrix;
-
 use super::DiagnosticKind;
 use super::diagnostics::Collector;
 use super::json::{Json, Member};
+use super::keys;
 use super::object::Object;
 use super::source::Place;
 use super::table::{self, Table};
-use gumption_gap::Observed;
+use gumption_engine::linalg::packed;
+use gumption_gap::ObservedOutput;
 use gumption_units::nearest;
 
 /// The data's table with the columns of the observed outputs.
@@ -28,7 +28,7 @@ pub(super) struct Observations {
 pub(super) struct Column {
     pub(super) output: String,
     pub(super) place: Range<usize>,
-    pub(super) observed: Observed,
+    pub(super) observed: ObservedOutput,
     /// The column with somebody else's simulation of the output.
     pub(super) simulated: Option<String>,
 }
@@ -36,7 +36,7 @@ pub(super) struct Column {
 /// Reads `observations`; paths are relative to `folder`.
 pub(super) fn read(log: &Collector, member: &Member, folder: &Path) -> Option<Observations> {
     let object = Object::new(log, "`observations`", &member.value, &member.key_span)?;
-    object.check_keys(&["file", "columns"]);
+    object.check_keys(keys::OBSERVATIONS);
     let file = object.required("file")?;
     let name = object.text("file")?;
     let columns = object.required("columns");
@@ -87,13 +87,7 @@ struct Reader<'a> {
 impl Reader<'_> {
     fn column(&self, member: &Member, files: &mut Vec<(String, Vec<u8>)>) -> Option<Column> {
         let object = Object::new(self.log, "an observed output", &member.value, &member.key_span)?;
-        object.check_keys(&[
-            "value",
-            "standard_uncertainty",
-            "sim",
-            "sim_standard_uncertainty",
-            "sim_covariance",
-        ]);
+        object.check_keys(keys::OBSERVED);
         object.required("value")?;
         let values = self.values(&object, "value");
         let uncertainties = self.uncertainties(&object, "standard_uncertainty");
@@ -118,7 +112,7 @@ impl Reader<'_> {
         Some(Column {
             output: member.key.clone(),
             place: member.key_span.clone(),
-            observed: Observed {
+            observed: ObservedOutput {
                 values: values?,
                 standard_uncertainties: uncertainties?,
                 simulation_uncertainties: simulation?,
@@ -229,11 +223,16 @@ impl Reader<'_> {
 
 /// Whether a symmetric matrix is positive semi-definite, but for the rounding of its numbers.
 fn is_covariance(rows: &[Vec<f64>]) -> bool {
-    let size = rows.len();
-    let value = |i: usize, j: usize| rows.get(i).and_then(|row| row.get(j)).copied().unwrap_or(0.0);
-    let largest = (0..size).map(|i| value(i, i)).fold(0.0, f64::max);
+    let largest = rows.iter().enumerate().filter_map(|(i, row)| row.get(i)).copied();
+    let largest = largest.fold(0.0, f64::max);
     let slack = 1e-8 * largest;
-    let matrix =
-        DMatrix::from_fn(size, size, |i, j| value(i, j) + if i == j { slack } else { 0.0 });
-    largest > 0.0 && matrix.cholesky().is_some()
+    let mut lower = Vec::with_capacity(packed::triangle(rows.len()));
+    for (i, row) in rows.iter().enumerate() {
+        let Some(row) = row.get(..=i) else { return false };
+        lower.extend(row);
+        if let Some(diagonal) = lower.last_mut() {
+            *diagonal += slack;
+        }
+    }
+    largest > 0.0 && packed::cholesky(&mut lower, 0.0).is_ok()
 }

@@ -7,6 +7,7 @@ use super::DiagnosticKind;
 use super::conditions::unit;
 use super::diagnostics::Collector;
 use super::json::{Json, Member};
+use super::keys;
 use super::object::Object;
 use super::results::Results;
 use super::shapes::{self, Estimate, Fields};
@@ -45,7 +46,7 @@ pub(super) fn read(log: &Collector, member: &Member, results: &Results<'_>) -> O
         let Some(object) = Object::new(log, "an output", &member.value, &member.key_span) else {
             continue;
         };
-        object.check_keys(&["unit", "about", "periodic", "tolerance", "cmc", "cmc_floor"]);
+        object.check_keys(keys::OUTPUT);
         let period = object.number("periodic");
         if let (Some(period), Some(member)) = (period, object.get("periodic"))
             && period <= 0.0
@@ -111,7 +112,7 @@ impl Decision {
         let Some(object) = object else {
             return Self::default();
         };
-        object.check_keys(&["lower", "upper", "prior", "risk"]);
+        object.check_keys(keys::TOLERANCE);
         let risk = object.number("risk");
         if let (Some(risk), Some(member)) = (risk, object.get("risk"))
             && !(risk > 0.0 && risk < 0.5)
@@ -131,7 +132,7 @@ fn prior(tolerance: &Object<'_>, unit: &Unit, results: &Results<'_>) -> Option<D
     let object = Object::new(tolerance.log, "`prior`", &member.value, &member.key_span)?;
     let kind = shapes::kind(&object)?;
     if NO_PRIORS.contains(&kind.name) {
-        let allowed = shapes::KINDS.iter().map(|kind| kind.name);
+        let allowed = keys::SHAPES.iter().map(|kind| kind.name);
         let diagnostic = DiagnosticKind::NotOneOf {
             key: "distribution".into(),
             found: kind.name.to_owned(),
@@ -143,7 +144,7 @@ fn prior(tolerance: &Object<'_>, unit: &Unit, results: &Results<'_>) -> Option<D
     }
     let mut known = vec!["distribution", "about"];
     known.extend(kind.fields);
-    object.check_keys(&known);
+    object.check_names(&known);
     let (estimate, name) = (Estimate::Own, "prior");
     Fields { object, name, unit, estimate, share_of: None, samples: None, results, at: None }
         .distribution(kind)

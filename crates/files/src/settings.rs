@@ -2,6 +2,7 @@
 
 use super::DiagnosticKind;
 use super::json::Json;
+use super::keys;
 use super::object::{Object, whole_number};
 use gumption_engine::task::{Coverage, Settings, StoppingRule, Trials};
 
@@ -32,7 +33,7 @@ pub(super) fn read(root: &Object<'_>) -> Settings {
     else {
         return settings;
     };
-    object.check_keys(&["trials", "rule", "seed", "digits", "max_trials"]);
+    object.check_keys(keys::MONTE_CARLO);
     if let Some(trials) = trials(&object) {
         settings.trials = trials;
     }

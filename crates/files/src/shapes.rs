@@ -5,6 +5,7 @@ use std::ops::Range;
 use super::DiagnosticKind;
 use super::condition_values::ConditionValues;
 use super::json::Json;
+use super::keys::{SHAPES, Shape};
 use super::object::Object;
 use super::results::Results;
 use super::width::Width;
@@ -17,57 +18,6 @@ use gumption_engine::model::formula::Formula;
 use gumption_engine::special;
 use gumption_units::Unit;
 use gumption_units::nearest;
-
-/// A shape that files can name: its canonical name, its other names, its fields.
-#[derive(Debug)]
-pub(super) struct Kind {
-    pub(super) name: &'static str,
-    aliases: &'static [&'static str],
-    pub(super) fields: &'static [&'static str],
-}
-
-const LIMITS: [&str; 5] = ["mean", "half_width", "semi_range", "lower", "upper"];
-
-/// The shapes, in the order of the contract.
-pub(super) const KINDS: [Kind; 17] = [
-    Kind { name: "constant", aliases: &[], fields: &["value"] },
-    Kind {
-        name: "normal",
-        aliases: &["gaussian"],
-        fields: &["mean", "std", "expanded", "k", "p", "dof"],
-    },
-    Kind {
-        name: "rectangular",
-        aliases: &["uniform"],
-        fields: &[LIMITS[0], LIMITS[1], LIMITS[2], LIMITS[3], LIMITS[4], "dof"],
-    },
-    Kind {
-        name: "triangular",
-        aliases: &[],
-        fields: &[LIMITS[0], LIMITS[1], LIMITS[2], LIMITS[3], LIMITS[4], "mode"],
-    },
-    Kind {
-        name: "trapezoidal",
-        aliases: &[],
-        fields: &[LIMITS[0], LIMITS[1], LIMITS[2], LIMITS[3], LIMITS[4], "beta"],
-    },
-    Kind {
-        name: "curvilinear-trapezoid",
-        aliases: &[],
-        fields: &["lower", "upper", "inexactness"],
-    },
-    Kind { name: "arcsine", aliases: &["u-shaped"], fields: &LIMITS },
-    Kind { name: "t", aliases: &["student-t"], fields: &["mean", "scale", "dof"] },
-    Kind { name: "readings", aliases: &[], fields: &["values", "paired"] },
-    Kind { name: "exponential", aliases: &[], fields: &["mean"] },
-    Kind { name: "gamma", aliases: &[], fields: &["shape", "rate"] },
-    Kind { name: "lognormal", aliases: &[], fields: &["mean", "std"] },
-    Kind { name: "beta", aliases: &[], fields: &["alpha", "beta", "lower", "upper"] },
-    Kind { name: "log-uniform", aliases: &[], fields: &["lower", "upper"] },
-    Kind { name: "poisson-count", aliases: &[], fields: &["count"] },
-    Kind { name: "samples", aliases: &[], fields: &["file", "values"] },
-    Kind { name: "result", aliases: &[], fields: &["file", "output"] },
-];
 
 /// The distribution, if its standard uncertainty is a number: widths near the largest and the least
 /// doubles have squares beyond them.
@@ -85,7 +35,7 @@ fn with_uncertainty(distribution: Distribution) -> Result<Distribution, Invalid>
 /// The largest count of events; one more is still a whole number in double precision.
 const MOST_COUNT: u64 = 999_999_999_999_999;
 
-impl Kind {
+impl Shape {
     /// Whether a component of this shape is about 0 unless it says otherwise. Shapes of positive
     /// quantities and those without a field for their estimate are where their fields put them.
     pub(super) fn is_about_zero(&self) -> bool {
@@ -99,17 +49,17 @@ const KEYS: [&str; 9] =
     ["name", "distribution", "about", "type", "group", "unit", "per", "evidence", "components"];
 
 /// The shape that an object names.
-pub(super) fn kind(object: &Object<'_>) -> Option<&'static Kind> {
+pub(super) fn kind(object: &Object<'_>) -> Option<&'static Shape> {
     let Some(member) = object.required("distribution") else {
         // it may be misspelt; nothing else can be said of the keys
-        let fields = KINDS.iter().flat_map(|kind| kind.fields).copied();
-        object.check_keys(&KEYS.into_iter().chain(fields).collect::<Vec<_>>());
+        let fields = SHAPES.iter().flat_map(|kind| kind.fields).copied();
+        object.check_names(&KEYS.into_iter().chain(fields).collect::<Vec<_>>());
         return None;
     };
     let name = object.text("distribution")?;
-    let found = KINDS.iter().find(|kind| kind.name == name || kind.aliases.contains(&name));
+    let found = SHAPES.iter().find(|kind| kind.name == name || kind.aliases.contains(&name));
     if found.is_none() {
-        let known = KINDS.iter().flat_map(|k| std::iter::once(&k.name).chain(k.aliases)).copied();
+        let known = SHAPES.iter().flat_map(|k| std::iter::once(&k.name).chain(k.aliases)).copied();
         let nearest = nearest(name, known).map(str::to_owned);
         let diagnostic = DiagnosticKind::UnknownDistribution { name: name.to_owned(), nearest };
         object.log.report(&member.value.span, diagnostic);
@@ -160,13 +110,13 @@ fn formula_of_width(object: &Object<'_>, key: &str) -> Option<String> {
 }
 
 /// Whether a width of the object is a formula of conditions, so that it differs from row to row.
-pub(super) fn has_width_of_row(object: &Object<'_>, kind: &Kind) -> bool {
+pub(super) fn has_width_of_row(object: &Object<'_>, kind: &Shape) -> bool {
     WIDTHS.iter().any(|key| kind.fields.contains(key) && formula_of_width(object, key).is_some())
 }
 
 impl<'a> Fields<'a> {
     /// The distribution, with what cannot be reported.
-    pub(super) fn distribution(&self, kind: &Kind) -> Option<Distribution> {
+    pub(super) fn distribution(&self, kind: &Shape) -> Option<Distribution> {
         match kind.name {
             "constant" => {
                 let value = self.estimate("value")?;

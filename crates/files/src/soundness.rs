@@ -33,7 +33,8 @@ fn enough(log: &Collector, read: &EffectContext<'_>, placed: &[Placed], data: &T
             log.report(&placed.place, DiagnosticKind::Effect { name: name.clone(), reason });
         }
     }
-    let unknown = |observed: &&gumption_gap::Observed| observed.standard_uncertainties.is_none();
+    let unknown =
+        |observed: &&gumption_gap::ObservedOutput| observed.standard_uncertainties.is_none();
     if rows < 2 && read.observed.iter().flatten().any(|observed| unknown(&observed)) {
         let reason = "the data have one row and no standard uncertainties; the noise can be \
                       estimated from several rows only"

@@ -45,7 +45,7 @@ impl CaseFile {
             let table = table::parse(&SourceText::new(name.as_str(), text))
                 .map_err(|_| whole("the data"))?;
             let mut rows = table.rows.clone();
-            let observed = self.case.sim.outputs.iter().zip(&self.case.observed);
+            let observed = self.case.model.outputs.iter().zip(&self.case.observed);
             let observed = observed.filter(|(_, observed)| observed.is_some());
             for ((output, _), values) in observed.zip(values) {
                 let column = member(&columns.value, &output.quantity.name)

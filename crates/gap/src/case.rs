@@ -1,19 +1,20 @@
-//! A case of the gap diagnosis: a sim, what was measured, and the effects that may be missing.
+//! A case of the gap diagnosis: a model, what was measured, and the effects that may be missing.
 
-use crate::{Effect, Sim};
+use crate::{Effect, OverridableModel, OverrideError};
 use gumption_engine::distribution::Distribution;
+use gumption_engine::model::Program;
 use gumption_engine::task::Task;
 
-/// A sim with measured data and candidate effects.
+/// A model with measured data and candidate effects.
 #[derive(Clone, Debug)]
 pub struct Case {
-    /// The sim at the conditions of every row of the data.
+    /// The model at the conditions of every row of the data.
     pub task: Task,
-    /// The sim in a form that effects can override.
-    pub sim: Sim,
-    /// What was measured of each output of the sim, in the order of the outputs; `None` where an
+    /// The model in a form that effects can override.
+    pub model: OverridableModel,
+    /// What was measured of each output of the model, in the order of the outputs; `None` where an
     /// output was not observed.
-    pub observed: Vec<Option<Observed>>,
+    pub observed: Vec<Option<ObservedOutput>>,
     /// How many of the last conditions are columns of somebody else's simulation rather than
     /// conditions of the measurement.
     pub simulated: usize,
@@ -25,7 +26,7 @@ pub struct Case {
 
 /// Measured values of one output, a row of the data each, in the output's unit.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Observed {
+pub struct ObservedOutput {
     /// The values.
     pub values: Vec<f64>,
     /// Their standard uncertainties; without them the noise is estimated from the data.
@@ -62,6 +63,35 @@ pub struct Prior {
     pub three: f64,
     /// A gap that no candidate makes.
     pub unexplained: f64,
+}
+
+impl Case {
+    /// Checks that every effect, and every pair that is among the hypotheses, can act on the model.
+    ///
+    /// # Errors
+    /// Of the first that cannot.
+    pub(crate) fn check(&self) -> Result<(), OverrideError> {
+        self.recorded(&[])?;
+        for one in 0..self.candidates.len() {
+            self.recorded(&[one])?;
+            let pairs = if self.prior.two > 0.0 { one + 1 } else { self.candidates.len() };
+            for other in pairs..self.candidates.len() {
+                self.recorded(&[one, other])?;
+            }
+        }
+        Ok(())
+    }
+
+    fn recorded(&self, effects: &[usize]) -> Result<Program, OverrideError> {
+        let acting: Vec<&Effect> = effects.iter().map(|&e| &self.candidates[e].effect).collect();
+        self.model.program(&acting)
+    }
+
+    /// The program with these effects acting, of a case that was checked.
+    #[expect(clippy::expect_used, reason = "hypotheses have the effects that `check` tried")]
+    pub(crate) fn program(&self, effects: &[usize]) -> Program {
+        self.recorded(effects).expect("effects that were checked")
+    }
 }
 
 impl Prior {

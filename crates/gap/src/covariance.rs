@@ -3,10 +3,12 @@
 //!
 //! It is a block for each row of the data plus a matrix of low rank, and is never formed.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DMatrix;
 
 use super::data::{Data, Spread};
 use crate::Case;
+use gumption_engine::linalg::dot;
+use gumption_engine::linalg::packed::{self, triangle};
 
 /// Covariance V = B + L L', with B in blocks of the outputs of a row.
 #[derive(Clone, Debug)]
@@ -21,17 +23,12 @@ pub(crate) struct Covariance {
     pub(crate) basis: Vec<Vec<f64>>,
     /// The columns of L in the outputs' units.
     pub(crate) raw_basis: Vec<Vec<f64>>,
-    /// Lower Cholesky root of I + L' inv(B) L.
-    pub(crate) inner: DMatrix<f64>,
+    /// Lower Cholesky root of I + L' inv(B) L, row by row of the triangle.
+    pub(crate) inner: Vec<f64>,
     /// Half the logarithm of the determinant of V.
     pub(crate) half_ln_det: f64,
     /// Whether the noise of some output is to be estimated.
     pub(crate) fitted: bool,
-}
-
-/// Number of elements of a lower triangle.
-pub(crate) const fn triangle(order: usize) -> usize {
-    order * (order + 1) / 2
 }
 
 impl Covariance {
@@ -107,7 +104,7 @@ impl Covariance {
             variances,
             raw_basis: basis.clone(),
             basis,
-            inner: DMatrix::zeros(0, 0),
+            inner: Vec::new(),
             half_ln_det: 0.0,
             fitted,
         };
@@ -122,25 +119,22 @@ impl Covariance {
         let outputs = self.outputs;
         let mut half_ln_det = 0.0;
         for block in blocks.chunks_exact_mut(triangle(outputs)) {
-            half_ln_det += invert_root(block, outputs);
+            packed::cholesky_of_definite(block);
+            half_ln_det += packed::ln_diagonal(block);
+            packed::invert(block);
         }
         self.roots = blocks;
         let basis = std::mem::take(&mut self.basis);
         self.basis = basis.into_iter().map(|column| self.whiten_blocks(&column)).collect();
         let k = self.basis.len();
-        let mut inner = DMatrix::identity(k, k);
+        let mut inner = Vec::with_capacity(triangle(k));
         for i in 0..k {
-            for j in 0..=i {
-                let dot = dot(&self.basis[i], &self.basis[j]);
-                inner[(i, j)] += dot;
-                if i != j {
-                    inner[(j, i)] += dot;
-                }
-            }
+            inner.extend((0..=i).map(|j| dot(&self.basis[i], &self.basis[j])));
+            inner[triangle(i) + i] += 1.0;
         }
-        // the identity plus products has a root whatever the basis is
-        self.inner = inner.cholesky().map_or_else(|| DMatrix::identity(k, k), |root| root.l());
-        self.half_ln_det = half_ln_det + (0..k).map(|i| self.inner[(i, i)].ln()).sum::<f64>();
+        packed::cholesky_of_definite(&mut inner);
+        self.half_ln_det = half_ln_det + packed::ln_diagonal(&inner);
+        self.inner = inner;
     }
 
     /// inv(root of B) x, for x row by row with outputs fastest.
@@ -153,8 +147,8 @@ impl Covariance {
             .zip(values.chunks_exact(outputs))
             .zip(whitened.chunks_exact_mut(outputs))
         {
-            for i in 0..outputs {
-                y[i] = (0..=i).map(|j| root[triangle(i) + j] * x[j]).sum();
+            for (y, row) in y.iter_mut().zip(packed::rows(root)) {
+                *y = dot(row, x);
             }
         }
         whitened
@@ -162,12 +156,17 @@ impl Covariance {
 
     /// inv(inner root) L' x for an x that is whitened by the blocks: x'x less its square is the
     /// squared length of x in the metric of V.
-    pub(crate) fn project(&self, whitened: &[f64]) -> DVector<f64> {
-        let products = DVector::from_iterator(
-            self.basis.len(),
-            self.basis.iter().map(|column| dot(column, whitened)),
-        );
-        self.inner.solve_lower_triangular(&products).unwrap_or(products)
+    pub(crate) fn project(&self, whitened: &[f64]) -> Vec<f64> {
+        let mut products: Vec<f64> =
+            self.basis.iter().map(|column| dot(column, whitened)).collect();
+        packed::solve(&self.inner, &mut products);
+        products
+    }
+
+    /// The squared length of an x, whitened by the blocks, in the metric of V.
+    pub(crate) fn square(&self, whitened: &[f64]) -> f64 {
+        let projected = self.project(whitened);
+        dot(whitened, whitened) - dot(&projected, &projected)
     }
 }
 
@@ -214,69 +213,4 @@ fn roots_of(matrix: &[Vec<f64>]) -> Vec<Vec<f64>> {
             eigen.eigenvectors.column(k).iter().map(|value| scale * value).collect()
         })
         .collect()
-}
-
-/// Replaces the lower triangle of a positive definite block by the inverse of its Cholesky root;
-/// gives half the logarithm of its determinant.
-fn invert_root(block: &mut [f64], order: usize) -> f64 {
-    let mut half_ln_det = 0.0;
-    for i in 0..order {
-        for j in 0..=i {
-            let mut sum = block[triangle(i) + j];
-            for k in 0..j {
-                sum -= block[triangle(i) + k] * block[triangle(j) + k];
-            }
-            block[triangle(i) + j] = if i == j {
-                let root = sum.max(f64::MIN_POSITIVE).sqrt();
-                half_ln_det += root.ln();
-                root
-            } else {
-                sum / block[triangle(j) + j]
-            };
-        }
-    }
-    // forward substitution on the unit vectors, in place from the last row on
-    for i in 0..order {
-        let pivot = 1.0 / block[triangle(i) + i];
-        for j in 0..i {
-            let sum: f64 = (j..i).map(|k| block[triangle(i) + k] * block[triangle(k) + j]).sum();
-            block[triangle(i) + j] = -pivot * sum;
-        }
-        block[triangle(i) + i] = pivot;
-    }
-    half_ln_det
-}
-
-/// The lower Cholesky root of a lower triangle.
-pub(crate) fn root_of(matrix: &[f64], order: usize) -> Vec<f64> {
-    let mut root = matrix.to_vec();
-    super::likelihood::root_in_place(&mut root, order);
-    root
-}
-
-/// Sum of products.
-pub(crate) fn dot(x: &[f64], y: &[f64]) -> f64 {
-    x.iter().zip(y).map(|(x, y)| x * y).sum()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_inverse_root_whitens_its_block() {
-        let block = [[4.0, 0.6, -0.4], [0.6, 2.0, 0.3], [-0.4, 0.3, 1.0]];
-        let mut root: Vec<f64> = Vec::new();
-        for (i, row) in block.iter().enumerate() {
-            root.extend(&row[..=i]);
-        }
-        let half_ln_det = invert_root(&mut root, 3);
-        let dense = DMatrix::from_fn(3, 3, |i, j| block[i][j]);
-        let inverse =
-            DMatrix::from_fn(3, 3, |i, j| if j <= i { root[triangle(i) + j] } else { 0.0 });
-        let white = &inverse * &dense * inverse.transpose();
-        // rounding of a 3 x 3 factorization: a few 1e-16
-        assert!((white - DMatrix::identity(3, 3)).abs().max() < 1e-14);
-        assert!((half_ln_det - 0.5 * dense.determinant().ln()).abs() < 1e-14);
-    }
 }

@@ -1,14 +1,15 @@
-//! What was measured and what the sim says of it, row by row.
+//! What was measured and what the model says of it, row by row.
 
 use std::collections::HashMap;
 
 use crate::Case;
+use gumption_engine::number::elementary;
 use gumption_engine::task::Sharing;
 
-/// The data of a case beside the sim's estimates.
+/// The data of a case beside the model's estimates.
 #[derive(Clone, Debug)]
 pub(crate) struct Data {
-    /// The observed outputs, as places in the sim's outputs.
+    /// The observed outputs, as places in the model's outputs.
     pub outputs: Vec<usize>,
     /// For each of them the length of a turn, for phases.
     pub(crate) turns: Vec<Option<f64>>,
@@ -30,7 +31,7 @@ pub(crate) struct Data {
 pub(crate) struct Point {
     /// The rows.
     pub(crate) rows: Vec<usize>,
-    /// For each observed output what the sim says at the inputs' estimates.
+    /// For each observed output what the model says at the inputs' estimates.
     pub(crate) nominal: Vec<f64>,
     /// For each observed output its partial derivatives with respect to the variables.
     pub(crate) gradients: Vec<Vec<f64>>,
@@ -70,14 +71,15 @@ impl Data {
             points[place].rows.push(number);
             point_of.push(place);
         }
-        let in_quadrature = |of: &&crate::Observed| {
+        let in_quadrature = |of: &&crate::ObservedOutput| {
             let own = of.standard_uncertainties.as_ref()?;
             let other = of.simulation_uncertainties.as_ref();
-            let both = |&id: &usize| other.map_or(own[id], |other| own[id].hypot(other[id]));
+            let both =
+                |&id: &usize| other.map_or(own[id], |other| elementary::hypot(own[id], other[id]));
             Some(ids.iter().map(both).collect())
         };
         Self {
-            turns: outputs.iter().map(|&output| case.sim.outputs[output].period).collect(),
+            turns: outputs.iter().map(|&output| case.model.outputs[output].period).collect(),
             values: observed
                 .iter()
                 .map(|observed| ids.iter().map(|&id| observed.values[id]).collect())
@@ -100,7 +102,7 @@ impl Data {
         self.rows() * self.outputs.len()
     }
 
-    /// A measured value less a value of the sim, for phases within half a turn.
+    /// A measured value less a value of the model, for phases within half a turn.
     pub(crate) fn residual(&self, output: usize, row: usize, sim: f64) -> f64 {
         let residual = self.values[output][row] - sim;
         match self.turns[output] {
@@ -109,7 +111,7 @@ impl Data {
         }
     }
 
-    /// The residuals against the sim at the inputs' estimates, output by output.
+    /// The residuals against the model at the inputs' estimates, output by output.
     pub(crate) fn nominal_residuals(&self) -> Vec<Vec<f64>> {
         (0..self.outputs.len())
             .map(|output| {
@@ -123,6 +125,12 @@ impl Data {
             })
             .collect()
     }
+}
+
+/// Values of outputs as one list, row by row, outputs fastest.
+pub(crate) fn by_rows(values: &[Vec<f64>]) -> Vec<f64> {
+    let rows = values.first().map_or(0, Vec::len);
+    (0..rows).flat_map(|row| values.iter().map(move |output| output[row])).collect()
 }
 
 /// Standard deviations of the variables in every row, and which rows share a value.

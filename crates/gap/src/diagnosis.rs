@@ -6,15 +6,15 @@ pub struct Diagnosis {
     /// Title of the case.
     pub title: String,
     /// The observed outputs with their units.
-    pub outputs: Vec<Named>,
+    pub outputs: Vec<NamedQuantity>,
     /// The conditions with their units.
-    pub conditions: Vec<Named>,
+    pub conditions: Vec<NamedQuantity>,
     /// Whether there is a gap.
-    pub gap: Gap,
+    pub gap: GapTest,
     /// Where it lies, most surprising region first.
-    pub regions: Vec<Region>,
+    pub regions: Vec<GapRegion>,
     /// The hypothesis of highest posterior probability.
-    pub verdict: Verdict,
+    pub most_probable: MostProbable,
     /// All hypotheses, most probable first.
     pub hypotheses: Vec<Hypothesis>,
     /// How far the gap shrinks.
@@ -26,9 +26,9 @@ pub struct Diagnosis {
     /// The data row by row, before and after.
     pub rows: Vec<RowGap>,
     /// Estimated noise of outputs without stated uncertainties.
-    pub noise: Vec<Noise>,
+    pub noise: Vec<NoiseEstimate>,
     /// What to bear in mind.
-    pub notes: Vec<Note>,
+    pub notes: Vec<DiagnosisNote>,
     /// Coverage probability of all intervals.
     pub probability: f64,
     /// Seed of the random numbers.
@@ -37,16 +37,16 @@ pub struct Diagnosis {
 
 /// A quantity's name and unit.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Named {
+pub struct NamedQuantity {
     /// Name.
     pub name: String,
     /// Unit as written; empty for a plain number.
     pub unit: String,
 }
 
-/// Whether the data depart from the sim by more than the stated uncertainties explain.
+/// Whether the data depart from the model by more than the stated uncertainties explain.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Gap {
+pub struct GapTest {
     /// Whether the verdict is another than "none".
     pub present: bool,
     /// The probability of residuals as large as these without a gap, by the chi-square test of all
@@ -60,7 +60,7 @@ pub struct Gap {
 
 /// A region of the conditions that departs from the rest.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Region {
+pub struct GapRegion {
     /// Place of the output; `None` for all of them together.
     pub output: Option<usize>,
     /// Place of the condition and its least and largest value, in its unit; `None` for all of them.
@@ -75,7 +75,7 @@ pub struct Region {
 
 /// What kind of answer the verdict is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum HypothesisKind {
     /// There is no gap.
     None,
     /// Effects of the catalogue explain the gap.
@@ -84,7 +84,7 @@ pub enum Kind {
     Unexplained,
 }
 
-impl Kind {
+impl HypothesisKind {
     /// The word that files have.
     pub fn name(self) -> &'static str {
         match self {
@@ -97,17 +97,17 @@ impl Kind {
 
 /// The most probable hypothesis and those that these data cannot tell from it.
 #[derive(Clone, Debug)]
-pub struct Verdict {
+pub struct MostProbable {
     /// What kind of answer it is.
-    pub kind: Kind,
+    pub kind: HypothesisKind,
     /// The effects named.
     pub effects: Vec<String>,
     /// Posterior probability of exactly these.
     pub probability: f64,
     /// The verdict and its look-alikes, each a list of effects.
-    pub group: Vec<Vec<String>>,
+    pub indistinguishable: Vec<Vec<String>>,
     /// The sum of their probabilities.
-    pub group_probability: f64,
+    pub indistinguishable_probability: f64,
 }
 
 /// A hypothesis with its posterior probability.
@@ -122,20 +122,20 @@ pub struct Hypothesis {
     /// Natural logarithm of the evidence (density of the data in the outputs' units).
     pub log_evidence: f64,
     /// Its standard error.
-    pub error: f64,
+    pub standard_error: f64,
     /// Effective number of draws.
-    pub effective: f64,
+    pub effective_sample_size: f64,
     /// Largest logarithm of the likelihood that was found: what a best fit would rank by.
     pub best_log_likelihood: f64,
     /// Number of parameters of the effects.
     pub fitted: usize,
     /// The effects' parameters.
-    pub parameters: Vec<Parameter>,
+    pub parameters: Vec<EffectParameter>,
 }
 
 /// A parameter of an effect after the data.
 #[derive(Clone, Debug)]
-pub struct Parameter {
+pub struct EffectParameter {
     /// `effect/parameter`.
     pub name: String,
     /// Unit.
@@ -174,9 +174,9 @@ pub struct Shrinkage {
 /// Root mean squares before and after a correction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Shrunk {
-    /// Of the residuals against the sim.
+    /// Of the residuals against the model.
     pub rms_before: f64,
-    /// Of the residuals against the corrected sim, fitted without the block of each value.
+    /// Of the residuals against the corrected model, fitted without the block of each value.
     pub rms_after: f64,
     /// Of the noise alone.
     pub noise_floor: f64,
@@ -213,18 +213,18 @@ pub struct RowGap {
     pub outputs: Vec<ValueGap>,
 }
 
-/// One measured value beside the sim, before and after the correction, in the output's unit.
+/// One measured value beside the model, before and after the correction, in the output's unit.
 #[derive(Clone, Copy, Debug)]
 pub struct ValueGap {
     /// Measured value.
     pub measured: f64,
     /// Its standard uncertainty (noise).
     pub u: f64,
-    /// Measured value less the sim.
+    /// Measured value less the model.
     pub before: f64,
     /// Standard uncertainty of that residual: noise and inputs.
     pub u_before: f64,
-    /// Measured value less the corrected sim that was fitted without its block.
+    /// Measured value less the corrected model that was fitted without its block.
     pub after: f64,
     /// Standard uncertainty of that residual: noise and what was fitted.
     pub u_after: f64,
@@ -232,18 +232,18 @@ pub struct ValueGap {
 
 /// Estimated noise of an output.
 #[derive(Clone, Debug)]
-pub struct Noise {
+pub struct NoiseEstimate {
     /// Place of the output.
     pub output: usize,
-    /// Standard deviation at the sim's typical size, in the output's unit.
+    /// Standard deviation at the model's typical size, in the output's unit.
     pub standard_uncertainty: f64,
-    /// Power of the sim's size that it grows with: 0 constant, 1 proportional.
+    /// Power of the model's size that it grows with: 0 constant, 1 proportional.
     pub power: f64,
 }
 
 /// Something to bear in mind when the answer is read.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Note {
+pub struct DiagnosisNote {
     /// Short fixed name.
     pub code: &'static str,
     /// The sentence.

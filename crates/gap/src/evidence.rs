@@ -2,21 +2,22 @@
 //! that is unknown, by adaptive multiple importance sampling (Cornuet, Marin, Mira, Robert 2012,
 //! Scandinavian Journal of Statistics 39, 798).
 
+use super::differential_evolution;
 use super::latent::bounded_from_normal;
 use super::likelihood::Likelihood;
+use super::logarithm::ln_add;
 use super::mixture::{Mixture, ln_priors, standard_normals};
-use super::ridge;
-use super::roam::roam;
+use super::profile_path;
 use super::search::{self, Mode};
 use gumption_engine::distribution::StreamKey;
-use gumption_engine::number::{COLUMN, Column};
+use gumption_engine::number::{COLUMN, Column, elementary};
 
 /// Draws of the prior from which the search starts.
 const SCREENED: usize = 4;
 
 /// An integral that is being refined.
 #[derive(Clone, Debug)]
-pub(crate) struct Evidence {
+pub(crate) struct EvidenceEstimate {
     unknowns: usize,
     key: StreamKey,
     /// The modes found.
@@ -33,12 +34,12 @@ pub(crate) struct Evidence {
     /// Logarithm of the evidence.
     pub(crate) ln_evidence: f64,
     /// Its standard error.
-    pub(crate) error: f64,
+    pub(crate) standard_error: f64,
     /// Effective number of draws.
-    pub(crate) effective: f64,
+    pub(crate) effective_sample_size: f64,
 }
 
-impl Evidence {
+impl EvidenceEstimate {
     /// Finds the modes and draws once from them. `seeds` are points to start from beside draws of
     /// the prior.
     pub(crate) fn begin(
@@ -58,8 +59,8 @@ impl Evidence {
             ln_proposals: Vec::new(),
             weights: Vec::new(),
             ln_evidence: f64::NEG_INFINITY,
-            error: f64::INFINITY,
-            effective: 0.0,
+            standard_error: f64::INFINITY,
+            effective_sample_size: 0.0,
         };
         let mut points = vec![vec![0.0; unknowns]];
         points.extend_from_slice(seeds);
@@ -120,31 +121,51 @@ impl Evidence {
     }
 
     /// Draws along the ridges of the posterior in the quantities after the first `shared` ones.
-    pub(crate) fn along_ridges(&mut self, likelihood: &Likelihood<'_>, shared: usize) {
-        if let Some(mixture) = ridge::mixture(likelihood, &self.modes, shared) {
+    pub(crate) fn along_profile_paths(&mut self, likelihood: &Likelihood<'_>, shared: usize) {
+        if let Some(mixture) = profile_path::mixture(likelihood, &self.modes, shared) {
             self.draw(likelihood, mixture, 4);
             self.refine(likelihood, 4);
         }
     }
 
-    /// Lets walkers roam from what was drawn, and draws from a mixture fitted to where they went.
-    pub(crate) fn roam(&mut self, likelihood: &Likelihood<'_>, generations: usize) {
-        if self.unknowns == 0 || self.effective == 0.0 {
+    /// Lets chains roam from what was drawn, and draws from a mixture fitted to where they went.
+    pub(crate) fn sample_chains(&mut self, likelihood: &Likelihood<'_>, generations: usize) {
+        if self.unknowns == 0 || self.effective_sample_size == 0.0 {
             return;
         }
-        let drawn = super::predict::resampled(self, COLUMN);
+        let drawn = self.resampled(COLUMN);
         let mut start = vec![Column::ZERO; self.unknowns];
         for (lane, draw) in drawn.iter().enumerate() {
             for (column, score) in start.iter_mut().zip(draw) {
                 column.0[lane] = *score;
             }
         }
-        let key = StreamKey::new(u64::from(self.columns.len() as u32), "gap/roam");
-        let visited = roam(likelihood, start, generations, key);
+        let visited = differential_evolution::sample(likelihood, start, generations, self.key);
         let count = if self.unknowns > 2 { 12 } else { 6 };
         if let Some(mixture) = Mixture::fitted(&likelihood.bounded(), &visited, count) {
             self.draw(likelihood, mixture, 4);
         }
+    }
+
+    /// Draws of equal weight from a posterior: systematic resampling.
+    pub(crate) fn resampled(&self, count: usize) -> Vec<Vec<f64>> {
+        let mut draws = Vec::with_capacity(count);
+        let mut sum = 0.0;
+        let mut next = 0.5 / count as f64;
+        for (place, weight) in self.weights.iter().enumerate() {
+            sum += weight;
+            while next < sum && draws.len() < count {
+                let column = &self.columns[place / COLUMN];
+                draws.push(column.iter().map(|scores| scores.0[place % COLUMN]).collect());
+                next += 1.0 / count as f64;
+            }
+        }
+        // rounding may leave the last one out
+        while draws.len() < count {
+            let Some(last) = draws.last().cloned() else { break };
+            draws.push(last);
+        }
+        draws
     }
 
     /// Number of unknown quantities.
@@ -154,7 +175,7 @@ impl Evidence {
 
     fn draw(&mut self, likelihood: &Likelihood<'_>, mixture: Mixture, columns: usize) {
         let first = self.columns.len();
-        let ln_count = (columns as f64).ln();
+        let ln_count = elementary::ln(columns as f64);
         // the new mixture's density at the old draws
         for (scores, sums) in self.columns.iter().zip(self.ln_proposals.chunks_mut(COLUMN)) {
             for (sum, ln) in sums.iter_mut().zip(mixture.ln_density(scores)) {
@@ -169,7 +190,7 @@ impl Evidence {
             let likelihoods = likelihood.log_likelihood(&scores, COLUMN);
             let mut sums = [f64::NEG_INFINITY; COLUMN];
             for (mixture, columns) in &self.mixtures {
-                let ln_count = (*columns as f64).ln();
+                let ln_count = elementary::ln(*columns as f64);
                 for (sum, ln) in sums.iter_mut().zip(mixture.ln_density(&scores)) {
                     *sum = ln_add(*sum, ln + ln_count);
                 }
@@ -184,7 +205,7 @@ impl Evidence {
     }
 
     fn weigh(&mut self) {
-        let ln_total = (self.columns.len() as f64).ln();
+        let ln_total = elementary::ln(self.columns.len() as f64);
         let ln_weights: Vec<f64> = self
             .ln_targets
             .iter()
@@ -198,20 +219,14 @@ impl Evidence {
             self.ln_evidence = f64::NEG_INFINITY;
             return;
         }
-        self.weights = ln_weights.iter().map(|ln| (ln - most).exp()).collect();
+        self.weights = ln_weights.iter().map(|ln| elementary::exp(ln - most)).collect();
         let sum: f64 = self.weights.iter().sum();
         let squares: f64 = self.weights.iter().map(|w| w * w).sum();
-        self.ln_evidence = most + (sum / count).ln();
-        self.effective = sum * sum / squares;
-        self.error = (1.0 / self.effective - 1.0 / count).max(0.0).sqrt();
+        self.ln_evidence = most + elementary::ln(sum / count);
+        self.effective_sample_size = sum * sum / squares;
+        self.standard_error = (1.0 / self.effective_sample_size - 1.0 / count).max(0.0).sqrt();
         for weight in &mut self.weights {
             *weight /= sum;
         }
     }
-}
-
-/// The logarithm of the sum of two numbers given by their logarithms.
-pub(crate) fn ln_add(a: f64, b: f64) -> f64 {
-    let (most, least) = if a > b { (a, b) } else { (b, a) };
-    if most == f64::NEG_INFINITY { most } else { most + (least - most).exp().ln_1p() }
 }

@@ -4,8 +4,9 @@
 //! rectangular itself, so that ridges of the posterior stay straight; every other quantity is the
 //! quantile of its prior at the probability of a standard normal score.
 
-use super::likelihood::HALF_LN_TWO_PI;
+use super::logarithm::HALF_LN_TWO_PI;
 use gumption_engine::distribution::Distribution;
+use gumption_engine::number::elementary;
 use gumption_engine::special;
 
 /// How a score becomes a value.
@@ -20,12 +21,12 @@ pub(crate) enum Map {
 /// What an unknown quantity is.
 #[derive(Clone, Debug)]
 pub(crate) enum Role {
-    /// A variable of the program: an input of the sim or a parameter of an effect. Its prior at each
+    /// A variable of the program: an input of the model or a parameter of an effect. Its prior at each
     /// point of the data, or one for all of them.
     Variable { place: usize, maps: Vec<Map> },
     /// The logarithm of an output's standard deviation of noise, in the output's unit.
     Noise { output: usize, map: Map },
-    /// The power of the sim's value that an output's noise is proportional to.
+    /// The power of the model's value that an output's noise is proportional to.
     Power { output: usize, map: Map },
 }
 
@@ -42,8 +43,10 @@ impl Map {
                 Self::Uniform { lower: lower - 0.25 * width, width }
             }
             Distribution::LogUniform(_) => {
-                let (lower, upper) =
-                    (distribution.quantile(0.25).ln(), distribution.quantile(0.75).ln());
+                let (lower, upper) = (
+                    elementary::ln(distribution.quantile(0.25)),
+                    elementary::ln(distribution.quantile(0.75)),
+                );
                 let ln_ratio = 2.0 * (upper - lower);
                 Self::LogUniform { ln_lower: lower - 0.25 * ln_ratio, ln_ratio }
             }
@@ -67,7 +70,7 @@ impl Map {
         match self {
             Self::Normal { mean, deviation } => mean + deviation * score,
             Self::Uniform { lower, width } => lower + width * share,
-            Self::LogUniform { ln_lower, ln_ratio } => (ln_lower + ln_ratio * share).exp(),
+            Self::LogUniform { ln_lower, ln_ratio } => elementary::exp(ln_lower + ln_ratio * share),
             Self::Other(distribution) if score > 0.0 => {
                 distribution.quantile_upper(special::normal::sf(score).max(f64::MIN_POSITIVE))
             }
@@ -115,7 +118,7 @@ impl Role {
         self.map().is_some_and(Map::is_bounded)
     }
 
-    /// Whether it belongs to the noise and not to the sim.
+    /// Whether it belongs to the noise and not to the model.
     pub(crate) fn is_noise(&self) -> bool {
         !matches!(self, Self::Variable { .. })
     }

@@ -1,23 +1,35 @@
 //! The likelihood of a hypothesis at many points of its unknown quantities at once.
 //!
-//! Points stand side by side in the lanes of columns; the program runs once for each distinct
-//! condition of the data, and squares and products are summed up row by row, so that memory does not
-//! grow with the data.
+//! The integral over the unknown quantities needs the likelihood at thousands of points, and each
+//! evaluation runs the model at every condition of the data. Two things make that cheap. Points stand
+//! side by side in the lanes of columns, so that the recorded program is interpreted once for 128 of
+//! them, and repeats at one condition share one run of it. And what acts linearly is integrated out
+//! in closed form: the covariance of the residuals is V = B + L L', with B in small blocks (one for
+//! each row of the data) and a column of L for each shared input, so that by the matrix inversion
+//! lemma (Sherman, Morrison, Woodbury)
+//!
+//! r' inv(V) r = |w|^2 - |inv(K) M' w|^2 and |V| = |B| |K|^2,
+//!
+//! where w and M are r and L whitened by B and K is the Cholesky root of I + M' M. V is never formed:
+//! time and memory grow with the number of rows and not with its square.
+//!
+//! Where the noise of an output is estimated, B depends on the point. Then M' M is summed up lane by
+//! lane with the squares, and K is factored for each point.
 
-use super::covariance::{Covariance, triangle};
+use super::covariance::Covariance;
 use super::data::Data;
 use super::latent::Role;
+use super::logarithm::HALF_LN_TWO_PI;
 use crate::Case;
+use gumption_engine::linalg::dot;
+use gumption_engine::linalg::packed::{self, triangle};
 use gumption_engine::model::{Program, Schedule, ScheduledOutput};
-use gumption_engine::number::{COLUMN, CodePath, Column, Kernel};
+use gumption_engine::number::{COLUMN, CodePath, Column, Kernel, elementary};
 use gumption_engine::task::Row;
 
 /// Points with more conditions than this share one schedule: those of single points would not stay
 /// in the cache.
 const MOST_SCHEDULES: usize = 2048;
-
-/// Half the logarithm of two pi.
-pub(crate) const HALF_LN_TWO_PI: f64 = 0.918_938_533_204_672_7;
 
 /// Everything that does not change while a hypothesis is explored.
 #[derive(Debug)]
@@ -28,7 +40,7 @@ pub(crate) struct Likelihood<'c> {
     /// How scores that are correlated beforehand follow from independent ones.
     mixing: Option<Vec<Vec<f64>>>,
     evaluator: Evaluator,
-    /// For each value the logarithm of the sim's size, which proportional noise follows.
+    /// For each value the logarithm of the model's size, which proportional noise follows.
     ln_sizes: Vec<f64>,
 }
 
@@ -210,7 +222,7 @@ impl<'c> Likelihood<'c> {
         path.run(Walk { likelihood: self, scores: self.mixed(scores), lanes, visitor });
     }
 
-    /// The logarithms of the likelihood of up to a column of points; minus infinity where the sim is
+    /// The logarithms of the likelihood of up to a column of points; minus infinity where the model is
     /// not finite.
     pub(crate) fn log_likelihood(&self, scores: &[Column], lanes: usize) -> Vec<f64> {
         let mut sums = Sums::new(self.covariance);
@@ -305,21 +317,21 @@ impl<V: Visitor> Kernel for Walk<'_, '_, V> {
                         let place = row * count + output;
                         let known = covariance.variances[place];
                         if data.uncertainties[output].is_some() {
-                            ln_variances[output].0.fill(known.ln());
+                            ln_variances[output].0.fill(elementary::ln(known));
                         } else {
                             for lane in 0..lanes {
                                 let ln = ln_noise[output].0[lane]
                                     + power[output].0[lane] * ln_sizes[place];
                                 ln_variances[output].0[lane] = if known > 0.0 {
-                                    ((2.0 * ln).exp() + known).ln()
+                                    elementary::ln(elementary::exp(2.0 * ln) + known)
                                 } else {
                                     2.0 * ln
                                 };
                             }
                         }
                         for lane in 0..lanes {
-                            residuals[output].0[lane] =
-                                raw[output].0[lane] * (-0.5 * ln_variances[output].0[lane]).exp();
+                            residuals[output].0[lane] = raw[output].0[lane]
+                                * elementary::exp(-0.5 * ln_variances[output].0[lane]);
                         }
                     }
                 } else {
@@ -369,41 +381,29 @@ impl<'c> Sums<'c> {
 
     fn log_likelihood(&self, covariance: &Covariance, values: usize, lanes: usize) -> Vec<f64> {
         let k = self.products.len();
-        let mut inner = vec![0.0; triangle(k)];
+        let mut inner = vec![0.0; self.inner.len()];
         let mut y = vec![0.0; k];
         (0..lanes)
             .map(|lane| {
                 let mut half_ln_det = covariance.half_ln_det + self.half_ln_variances.0[lane];
-                let mut square = self.squares.0[lane];
-                if k > 0 {
-                    if self.fitted {
-                        for i in 0..k {
-                            for j in 0..=i {
-                                let own = if i == j { 1.0 } else { 0.0 };
-                                inner[triangle(i) + j] = own + self.inner[triangle(i) + j].0[lane];
-                            }
-                        }
-                        half_ln_det += root_in_place(&mut inner, k);
+                let root = if self.fitted {
+                    for (sum, lanes) in inner.iter_mut().zip(&self.inner) {
+                        *sum = lanes.0[lane];
                     }
                     for i in 0..k {
-                        let mut sum = self.products[i].0[lane];
-                        for j in 0..i {
-                            let l = if self.fitted {
-                                inner[triangle(i) + j]
-                            } else {
-                                covariance.inner[(i, j)]
-                            };
-                            sum -= l * y[j];
-                        }
-                        let pivot = if self.fitted {
-                            inner[triangle(i) + i]
-                        } else {
-                            covariance.inner[(i, i)]
-                        };
-                        y[i] = sum / pivot;
-                        square -= y[i] * y[i];
+                        inner[triangle(i) + i] += 1.0;
                     }
+                    packed::cholesky_of_definite(&mut inner);
+                    half_ln_det += packed::ln_diagonal(&inner);
+                    &inner
+                } else {
+                    &covariance.inner
+                };
+                for (y, product) in y.iter_mut().zip(&self.products) {
+                    *y = product.0[lane];
                 }
+                packed::solve(root, &mut y);
+                let square = self.squares.0[lane] - dot(&y, &y);
                 let log = -0.5 * square - half_ln_det - values as f64 * HALF_LN_TWO_PI;
                 if log.is_finite() { log } else { f64::NEG_INFINITY }
             })
@@ -439,7 +439,7 @@ impl Visitor for Sums<'_> {
             }
             let mut root = Column::ZERO;
             for lane in 0..COLUMN {
-                root.0[lane] = (-0.5 * ln_variances[output].0[lane]).exp();
+                root.0[lane] = elementary::exp(-0.5 * ln_variances[output].0[lane]);
             }
             for (i, column) in self.basis.iter().enumerate() {
                 let factor = column[place];
@@ -461,25 +461,4 @@ impl Visitor for Sums<'_> {
             }
         }
     }
-}
-
-/// Replaces a lower triangle by its Cholesky root; gives half the logarithm of the determinant.
-pub(crate) fn root_in_place(matrix: &mut [f64], order: usize) -> f64 {
-    let mut half_ln_det = 0.0;
-    for i in 0..order {
-        for j in 0..=i {
-            let mut sum = matrix[triangle(i) + j];
-            for k in 0..j {
-                sum -= matrix[triangle(i) + k] * matrix[triangle(j) + k];
-            }
-            matrix[triangle(i) + j] = if i == j {
-                let root = sum.max(f64::MIN_POSITIVE).sqrt();
-                half_ln_det += root.ln();
-                root
-            } else {
-                sum / matrix[triangle(j) + j]
-            };
-        }
-    }
-    half_ln_det
 }

@@ -1,12 +1,23 @@
-//! A mixture of t distributions to draw the unknown quantities of a hypothesis from.
+//! The proposal of the importance sampling: a mixture of t distributions.
+//!
+//! An integral by importance sampling is as good as its proposal is near to the posterior, and fails
+//! silently where the proposal has no mass. Hence three precautions. The components have heavier tails
+//! than a posterior, so that no single draw can carry most of the weight. The prior itself is one of
+//! them with a small share (defensive sampling, Hesterberg 1995, Technometrics 37, 185), so that no
+//! region is left out altogether. And a new proposal is not used instead of the old ones but beside
+//! them: every draw is weighed by the mixture of all proposals so far (adaptive multiple importance
+//! sampling; see the module `evidence`), so that a bad adaptation costs draws and not correctness.
+//!
+//! Between rounds the mixture is adapted to the weighted draws by one step of expectation maximization.
 
 use nalgebra::{DMatrix, DVector};
 
-use super::covariance::triangle;
 use super::latent::{bounded_from_normal, ln_prior};
+use super::logarithm::{HALF_LN_TWO_PI, ln_sum};
 use super::search::Mode;
 use gumption_engine::distribution::{Normal, Stream};
-use gumption_engine::number::{COLUMN, Column};
+use gumption_engine::linalg::packed::{self, triangle};
+use gumption_engine::number::{COLUMN, Column, elementary};
 
 /// Degrees of freedom of the components: heavier tails than those of a posterior, so that no draw
 /// can carry most of the weight.
@@ -42,23 +53,16 @@ struct Component {
 impl Component {
     fn new(share: f64, mean: Vec<f64>, scale: &DMatrix<f64>) -> Option<Self> {
         let d = mean.len();
-        let root = scale.clone().cholesky()?.l();
-        let inverse = root.clone().solve_lower_triangular(&DMatrix::identity(d, d))?;
-        let lower = |matrix: &DMatrix<f64>| {
-            (0..d).flat_map(|i| (0..=i).map(move |j| (i, j))).map(|(i, j)| matrix[(i, j)]).collect()
-        };
+        let mut root = packed::of_matrix(scale);
+        packed::cholesky(&mut root, 0.0).ok()?;
+        let mut inverse = root.clone();
+        packed::invert(&mut inverse);
         let (nu, dim) = (DOF as f64, d as f64);
         let ln_peak = libm::lgamma(0.5 * (nu + dim))
             - libm::lgamma(0.5 * nu)
-            - 0.5 * dim * (nu * std::f64::consts::PI).ln()
-            - (0..d).map(|i| root[(i, i)].ln()).sum::<f64>();
-        (ln_peak.is_finite()).then(|| Self {
-            share,
-            mean,
-            root: lower(&root),
-            inverse: lower(&inverse),
-            ln_peak,
-        })
+            - 0.5 * dim * elementary::ln(nu * std::f64::consts::PI)
+            - packed::ln_diagonal(&root);
+        (ln_peak.is_finite()).then_some(Self { share, mean, root, inverse, ln_peak })
     }
 
     /// The squared distance of each lane from the mean, in the metric of the scale.
@@ -90,8 +94,8 @@ impl Mixture {
         let mut components = Vec::new();
         for mode in modes {
             let Some(inverse) = mode.information.clone().try_inverse() else { continue };
-            let half_ln_det = 0.5 * inverse.determinant().max(f64::MIN_POSITIVE).ln();
-            let share = (0.7 * (best - mode.cost) + half_ln_det).max(-600.0).exp();
+            let half_ln_det = 0.5 * elementary::ln(inverse.determinant().max(f64::MIN_POSITIVE));
+            let share = elementary::exp((0.7 * (best - mode.cost) + half_ln_det).max(-600.0));
             components.extend(Component::new(share, mode.scores.clone(), &inverse));
         }
         let mut mixture = Self { unknowns, bounded: bounded.to_vec(), components };
@@ -105,7 +109,9 @@ impl Mixture {
         let components = components
             .into_iter()
             .filter(|(ln, ..)| *ln > most - DEPTH)
-            .filter_map(|(ln, mean, scale)| Component::new((ln - most).exp(), mean, &scale))
+            .filter_map(|(ln, mean, scale)| {
+                Component::new(elementary::exp(ln - most), mean, &scale)
+            })
             .collect();
         let mut mixture = Self { unknowns: bounded.len(), bounded: bounded.to_vec(), components };
         mixture.normalize();
@@ -164,7 +170,7 @@ impl Mixture {
                 }
             }
         }
-        let shrink = (count as f64).powf(-2.0 / d.max(1) as f64);
+        let shrink = elementary::pow(count as f64, -2.0 / d.max(1) as f64);
         let components = centres
             .into_iter()
             .filter_map(|centre| Component::new(1.0, centre, &(&covariance * shrink)))
@@ -232,21 +238,21 @@ impl Mixture {
     /// without its constant: ln q + d/2 ln(2 pi).
     pub(crate) fn ln_density(&self, scores: &[Column]) -> [f64; COLUMN] {
         let half = 0.5 * (DOF + self.unknowns) as f64;
-        let constant = self.unknowns as f64 * super::likelihood::HALF_LN_TWO_PI;
+        let constant = self.unknowns as f64 * HALF_LN_TWO_PI;
         let ln_priors = ln_priors(&self.bounded, scores);
-        let prior = if self.components.is_empty() { 1.0 } else { DEFENCE };
-        let mut terms: Vec<[f64; COLUMN]> = vec![ln_priors.map(|ln| prior.ln() + ln)];
+        let ln_prior = if self.components.is_empty() { 0.0 } else { elementary::ln(DEFENCE) };
+        let mut terms: Vec<[f64; COLUMN]> = vec![ln_priors.map(|ln| ln_prior + ln)];
         let mut distances = Column::ZERO;
         for component in &self.components {
             component.distances(scores, &mut distances);
-            let ln = component.share.max(f64::MIN_POSITIVE).ln() + component.ln_peak + constant;
-            terms.push(distances.0.map(|m| ln - half * (m / DOF as f64).ln_1p()));
+            let ln = elementary::ln(component.share.max(f64::MIN_POSITIVE))
+                + component.ln_peak
+                + constant;
+            terms.push(distances.0.map(|m| ln - half * libm::log1p(m / DOF as f64)));
         }
         let mut out = [0.0; COLUMN];
         for lane in 0..COLUMN {
-            let most = terms.iter().map(|term| term[lane]).fold(f64::NEG_INFINITY, f64::max);
-            let sum: f64 = terms.iter().map(|term| (term[lane] - most).exp()).sum();
-            out[lane] = most + sum.ln();
+            out[lane] = ln_sum(terms.iter().map(|term| term[lane]));
         }
         out
     }
@@ -273,13 +279,13 @@ impl Mixture {
                 }
                 let ln = |k: usize| {
                     let component = &self.components[k];
-                    component.share.max(f64::MIN_POSITIVE).ln() + component.ln_peak
-                        - half * (distances[k].0[lane] / DOF as f64).ln_1p()
+                    elementary::ln(component.share.max(f64::MIN_POSITIVE)) + component.ln_peak
+                        - half * libm::log1p(distances[k].0[lane] / DOF as f64)
                 };
                 let most = (0..count).map(ln).fold(f64::NEG_INFINITY, f64::max);
-                let sum: f64 = (0..count).map(|k| (ln(k) - most).exp()).sum();
+                let sum: f64 = (0..count).map(|k| elementary::exp(ln(k) - most)).sum();
                 for k in 0..count {
-                    let part = weight * (ln(k) - most).exp() / sum;
+                    let part = weight * elementary::exp(ln(k) - most) / sum;
                     if part < 1e-12 {
                         continue;
                     }

@@ -3,13 +3,13 @@
 use rayon::prelude::*;
 
 use super::diagnosis::NextMeasurement;
-use super::likelihood::HALF_LN_TWO_PI;
+use super::logarithm::{HALF_LN_TWO_PI, ln_sum};
 use super::posterior::Posterior;
 use super::predict;
 use super::setup::Setup;
 use crate::mixture::standard_normals;
 use gumption_engine::distribution::StreamKey;
-use gumption_engine::number::{COLUMN, Column};
+use gumption_engine::number::{COLUMN, Column, elementary};
 use gumption_engine::task::{Row, Sharing};
 
 /// Conditions that are tried at most.
@@ -33,11 +33,11 @@ pub(crate) fn best(
 ) -> Option<NextMeasurement> {
     let rows = candidates(setup);
     let draws = |place: usize| {
-        let hypothesis = posterior.hypotheses.get(place)?;
-        let draws = predict::resampled(&hypothesis.evidence, DRAWS);
-        Some(predict::values(setup, &hypothesis.effects, &draws, &rows))
+        let hypothesis = &posterior.hypotheses[place];
+        let draws = hypothesis.evidence.resampled(DRAWS);
+        predict::values(setup, &hypothesis.effects, &draws, &rows)
     };
-    let (own, other) = (draws(verdict)?, draws(rival)?);
+    let (own, other) = (draws(verdict), draws(rival));
     let outputs = setup.data.outputs.len();
     let noise: Vec<f64> = (0..outputs)
         .map(|output| {
@@ -58,8 +58,7 @@ pub(crate) fn best(
         .map(|(_, row)| (expected(&own[row], &other[row], &noise, seed), row))
         .max_by(|a, b| a.0.total_cmp(&b.0))?;
     let names = |place: usize| {
-        let effects =
-            posterior.hypotheses.get(place).map(|h| h.effects.clone()).unwrap_or_default();
+        let effects = &posterior.hypotheses[place].effects;
         effects.iter().map(|&e| setup.case.candidates[e].effect.name.clone()).collect()
     };
     Some(NextMeasurement {
@@ -73,7 +72,7 @@ pub(crate) fn best(
 /// levels, their middles. What is known about inputs that differ from row to row is taken from the
 /// row with the nearest conditions, so such cases stay at the data's own rows.
 fn candidates(setup: &Setup<'_>) -> Vec<Row> {
-    let conditions = setup.case.sim.conditions.len();
+    let conditions = setup.case.model.conditions.len();
     let first = |point: &super::data::Point| point.rows.first().map(|&row| setup.data.ids[row]);
     let measured: Vec<&Row> =
         setup.data.points.iter().filter_map(first).map(|id| &setup.case.task.rows[id]).collect();
@@ -136,7 +135,7 @@ fn rough(own: &[Vec<f64>], other: &[Vec<f64>], noise: &[f64]) -> f64 {
         .map(|((own, other), noise)| {
             let ((a, va), (b, vb)) = (moments(own), moments(other));
             let (va, vb) = (va + noise, vb + noise);
-            0.5 * ((va + (a - b).powi(2)) / vb - 1.0 + (vb / va).ln())
+            0.5 * ((va + (a - b).powi(2)) / vb - 1.0 + elementary::ln(vb / va))
         })
         .sum()
 }
@@ -164,14 +163,12 @@ pub(crate) fn expected(own: &[Vec<f64>], other: &[Vec<f64>], noise: &[f64], seed
                 (0..outputs)
                     .map(|o| {
                         let z = (measured[o] - values[o][draw]).powi(2) / noise[o];
-                        -0.5 * (z + noise[o].ln()) - HALF_LN_TWO_PI
+                        -0.5 * (z + elementary::ln(noise[o])) - HALF_LN_TWO_PI
                     })
                     .sum()
             })
             .collect();
-        let most = each.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        let sum: f64 = each.iter().map(|ln: &f64| (ln - most).exp()).sum();
-        most + (sum / each.len().max(1) as f64).ln()
+        ln_sum(each.iter().copied()) - elementary::ln(each.len().max(1) as f64)
     };
     let total: f64 = (0..draws)
         .map(|draw| {

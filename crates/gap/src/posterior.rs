@@ -4,24 +4,26 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
-use super::covariance::dot;
-use super::discrepancy::{Base, Discrepancy, Unexplained, by_rows};
-use super::doubt;
-use super::evidence::{Evidence, ln_add};
+use super::data::by_rows;
+use super::discrepancy::{Base, Discrepancy, Unexplained};
+use super::evidence::EvidenceEstimate;
+use super::evidence_error;
 use super::likelihood::Likelihood;
+use super::logarithm::ln_add;
 use super::setup::Setup;
 use gumption_engine::distribution::StreamKey;
+use gumption_engine::number::elementary;
 use gumption_engine::special;
 
 /// A hypothesis that effects explain the data: none of them, or one or more together.
 #[derive(Debug)]
-pub(crate) struct Hypothesis {
+pub(crate) struct WeighedHypothesis {
     /// Places of the candidates that act.
     pub(crate) effects: Vec<usize>,
     /// Prior probability.
     pub(crate) prior: f64,
     /// Its evidence.
-    pub(crate) evidence: Evidence,
+    pub(crate) evidence: EvidenceEstimate,
     /// Posterior probability.
     pub(crate) probability: f64,
 }
@@ -29,7 +31,7 @@ pub(crate) struct Hypothesis {
 /// All hypotheses with their probabilities.
 #[derive(Debug)]
 pub(crate) struct Posterior {
-    pub(crate) hypotheses: Vec<Hypothesis>,
+    pub(crate) hypotheses: Vec<WeighedHypothesis>,
     pub(crate) unexplained: Unexplained,
     /// Prior probability of "unexplained".
     pub(crate) prior: f64,
@@ -44,28 +46,38 @@ pub(crate) struct Effort {
     pub(crate) starts: usize,
     /// The standard error of a probability that is good enough.
     pub(crate) error: f64,
-    /// Generations of walkers.
+    /// Generations of chains.
     pub(crate) generations: usize,
     /// Refinements at most.
     pub(crate) rounds: usize,
     /// The effective number of draws of hypotheses that are reported in detail.
-    pub(crate) effective: f64,
+    pub(crate) effective_sample_size: f64,
 }
 
 impl Effort {
-    pub(crate) const FULL: Self =
-        Self { starts: 16, error: 0.005, generations: 240, rounds: 24, effective: 1000.0 };
+    pub(crate) const FULL: Self = Self {
+        starts: 16,
+        error: 0.005,
+        generations: 240,
+        rounds: 24,
+        effective_sample_size: 1000.0,
+    };
     /// Less where every draw costs a pass over much data: there the posterior is narrow and nearly
     /// normal, so that few draws serve as well.
     fn for_values(self, values: usize) -> Self {
         if values <= MANY_VALUES {
             return self;
         }
-        Self { starts: 0, generations: 0, rounds: 3, effective: 60.0, error: 0.03 }
+        Self { starts: 0, generations: 0, rounds: 3, effective_sample_size: 60.0, error: 0.03 }
     }
 
-    pub(crate) const QUICK: Self =
-        Self { starts: 8, error: 0.015, generations: 120, rounds: 12, effective: 400.0 };
+    pub(crate) const QUICK: Self = Self {
+        starts: 8,
+        error: 0.015,
+        generations: 120,
+        rounds: 12,
+        effective_sample_size: 400.0,
+    };
 }
 
 /// Hypotheses above this probability are looked at from end to end.
@@ -78,7 +90,7 @@ const MANY_VALUES: usize = 20_000;
 const PART: usize = 2000;
 
 /// Seeds for a pair: the modes of its parts beside each other.
-fn seeds(setup: &Setup<'_>, effects: &[usize], singles: &[Hypothesis]) -> Vec<Vec<f64>> {
+fn seeds(setup: &Setup<'_>, effects: &[usize], singles: &[WeighedHypothesis]) -> Vec<Vec<f64>> {
     let shared = setup.roles.len();
     let unknowns =
         shared + effects.iter().map(|&e| setup.case.candidates[e].priors.len()).sum::<usize>();
@@ -123,18 +135,18 @@ pub(crate) fn posterior(
     let prior = setup.case.prior;
     let mut wanted: Vec<Vec<usize>> = vec![Vec::new()];
     wanted.extend((0..count).map(|effect| vec![effect]));
-    let begin = |effects: Vec<usize>, singles: &[Hypothesis]| {
+    let begin = |effects: Vec<usize>, singles: &[WeighedHypothesis]| {
         let likelihood = setup.likelihood(&effects);
         let name: Vec<&str> =
             effects.iter().map(|&e| setup.case.candidates[e].effect.name.as_str()).collect();
         let key = StreamKey::new(seed, &format!("gap/{}", name.join("+")));
         let mut seeds = seeds(setup, &effects, singles);
         if let Some(part) = &part {
-            let found = Evidence::begin(&part.likelihood(&effects), key, &seeds, 16);
+            let found = EvidenceEstimate::begin(&part.likelihood(&effects), key, &seeds, 16);
             seeds = found.modes.into_iter().take(3).map(|mode| mode.scores).collect();
         }
         let starts = effort.starts;
-        let evidence = Evidence::begin(&likelihood, key, &seeds, starts);
+        let evidence = EvidenceEstimate::begin(&likelihood, key, &seeds, starts);
         let share = |of: f64, count: usize| if count == 0 { 0.0 } else { of / count as f64 };
         let prior = match effects.len() {
             0 => prior.none,
@@ -142,9 +154,9 @@ pub(crate) fn posterior(
             2 => share(prior.two, count * count.saturating_sub(1) / 2),
             _ => share(prior.three, count * count.saturating_sub(1) * count.saturating_sub(2) / 6),
         };
-        Hypothesis { effects, prior, evidence, probability: 0.0 }
+        WeighedHypothesis { effects, prior, evidence, probability: 0.0 }
     };
-    let mut hypotheses: Vec<Hypothesis> =
+    let mut hypotheses: Vec<WeighedHypothesis> =
         wanted.into_par_iter().map(|effects| begin(effects, &[])).collect();
     progress(0.2);
     let residuals = by_rows(&setup.data.nominal_residuals());
@@ -154,7 +166,7 @@ pub(crate) fn posterior(
     if prior.two > 0.0 {
         let pairs: Vec<Vec<usize>> =
             (0..count).flat_map(|a| (a + 1..count).map(move |b| vec![a, b])).collect();
-        let of_pairs: Vec<Hypothesis> =
+        let of_pairs: Vec<WeighedHypothesis> =
             pairs.into_par_iter().map(|effects| begin(effects, &hypotheses)).collect();
         hypotheses.extend(of_pairs);
     }
@@ -163,13 +175,13 @@ pub(crate) fn posterior(
         Posterior { hypotheses, unexplained, prior: prior.unexplained, probability: 0.0 };
     posterior.weigh();
     // the leading hypotheses are looked at from end to end
-    let leads = |h: &&mut Hypothesis| h.probability > LEADING && !h.effects.is_empty();
+    let leads = |h: &&mut WeighedHypothesis| h.probability > LEADING && !h.effects.is_empty();
     posterior.hypotheses.par_iter_mut().filter(leads).for_each(|hypothesis| {
         let likelihood = setup.likelihood(&hypothesis.effects);
         if effort.generations > 0 {
-            hypothesis.evidence.along_ridges(&likelihood, setup.roles.len());
+            hypothesis.evidence.along_profile_paths(&likelihood, setup.roles.len());
         }
-        hypothesis.evidence.roam(&likelihood, effort.generations);
+        hypothesis.evidence.sample_chains(&likelihood, effort.generations);
     });
     posterior.weigh();
     for round in 0..effort.rounds {
@@ -194,8 +206,10 @@ pub(crate) fn posterior(
     posterior.guard(setup, discrepancy);
     // what is reported in detail deserves smooth intervals
     for _ in 0..effort.rounds {
-        let worth = |h: &Hypothesis| {
-            h.probability > 0.05 && !h.effects.is_empty() && h.evidence.effective < effort.effective
+        let worth = |h: &WeighedHypothesis| {
+            h.probability > 0.05
+                && !h.effects.is_empty()
+                && h.evidence.effective_sample_size < effort.effective_sample_size
         };
         if !posterior.hypotheses.iter().any(worth) {
             break;
@@ -206,35 +220,37 @@ pub(crate) fn posterior(
         });
         posterior.weigh();
     }
-    posterior.doubt(seed);
+    posterior.average_over_errors(seed);
     progress(1.0);
     posterior
 }
 
-impl Hypothesis {
+impl WeighedHypothesis {
     /// Whether its probability is not yet known well enough.
     fn is_open(&self, error: f64) -> bool {
         let p = self.probability;
-        if self.evidence.error == 0.0 || self.prior == 0.0 {
+        if self.evidence.standard_error == 0.0 || self.prior == 0.0 {
             return false;
         }
         // what one more standard error, or a region that was missed by few draws, could change
-        let own = self.evidence.error.min(3.0);
-        let poor = self.evidence.effective < 60.0;
+        let own = self.evidence.standard_error.min(3.0);
+        let poor = self.evidence.effective_sample_size < 60.0;
         p * (1.0 - p) * own > error || (p > 0.02 && poor) || (poor && p * 20.0 > error)
     }
 }
 
 /// The logarithm of a prior probability times an evidence.
 fn ln_weight(prior: f64, ln_evidence: f64) -> f64 {
-    if prior > 0.0 { prior.ln() + ln_evidence } else { f64::NEG_INFINITY }
+    if prior > 0.0 { elementary::ln(prior) + ln_evidence } else { f64::NEG_INFINITY }
 }
 
 /// The evidence of "unexplained" that would make it as probable as the leading hypothesis.
-fn floor(hypotheses: &[Hypothesis], prior: f64) -> f64 {
-    let ln = |h: &Hypothesis| h.prior.max(f64::MIN_POSITIVE).ln() + h.evidence.ln_evidence;
+fn floor(hypotheses: &[WeighedHypothesis], prior: f64) -> f64 {
+    let ln = |h: &WeighedHypothesis| {
+        elementary::ln(h.prior.max(f64::MIN_POSITIVE)) + h.evidence.ln_evidence
+    };
     let most = hypotheses.iter().map(ln).fold(f64::NEG_INFINITY, f64::max);
-    most - prior.max(f64::MIN_POSITIVE).ln()
+    most - elementary::ln(prior.max(f64::MIN_POSITIVE))
 }
 
 /// Share of "unexplained" in which an effect of the catalogue acts as well.
@@ -264,7 +280,7 @@ impl Posterior {
         leading.truncate(MOST_GUARDED);
         let count = setup.case.candidates.len();
         let all = count + count * count.saturating_sub(1) / 2;
-        let ln_share = (BESIDE_AN_EFFECT / all.max(1) as f64).ln();
+        let ln_share = elementary::ln(BESIDE_AN_EFFECT / all.max(1) as f64);
         let floor = floor(&self.hypotheses, self.prior);
         let others: Vec<(f64, Arc<Base>, Unexplained)> = leading
             .into_iter()
@@ -275,10 +291,9 @@ impl Posterior {
                 let residuals = base.residuals(setup);
                 if !setup.linear.fitted {
                     let whitened = setup.linear.whiten_blocks(&residuals);
-                    let projected = setup.linear.project(&whitened);
-                    let chi2 = dot(&whitened, &whitened) - projected.norm_squared();
+                    let chi2 = setup.linear.square(&whitened);
                     let dof = 0.5 * whitened.len() as f64;
-                    if special::gamma::ln_sf(0.5 * chi2, dof) > DOUBTFUL.ln() {
+                    if special::gamma::ln_sf(0.5 * chi2, dof) > elementary::ln(DOUBTFUL) {
                         return None;
                     }
                 }
@@ -303,25 +318,27 @@ impl Posterior {
         });
         for hypothesis in &mut self.hypotheses {
             let own = ln_weight(hypothesis.prior, hypothesis.evidence.ln_evidence);
-            hypothesis.probability = (own - total).exp();
+            hypothesis.probability = elementary::exp(own - total);
         }
-        self.probability = (unexplained - total).exp();
+        self.probability = elementary::exp(unexplained - total);
     }
 
     /// Averages the probabilities over the errors of the integrals.
-    fn doubt(&mut self, seed: u64) {
-        let known = |prior: f64, evidence: f64, error: f64, effective: f64| doubt::Known {
-            ln: ln_weight(prior, evidence),
-            error,
-            effective,
+    fn average_over_errors(&mut self, seed: u64) {
+        let known = |prior: f64, evidence: &EvidenceEstimate| evidence_error::LnWeight {
+            ln: ln_weight(prior, evidence.ln_evidence),
+            standard_error: evidence.standard_error,
+            effective_sample_size: evidence.effective_sample_size,
         };
-        let mut all: Vec<doubt::Known> = self
-            .hypotheses
-            .iter()
-            .map(|h| known(h.prior, h.evidence.ln_evidence, h.evidence.error, h.evidence.effective))
-            .collect();
-        all.push(known(self.prior, self.unexplained.ln_evidence, 0.0, 0.0));
-        let averaged = doubt::averaged(&all, seed);
+        let mut all: Vec<evidence_error::LnWeight> =
+            self.hypotheses.iter().map(|h| known(h.prior, &h.evidence)).collect();
+        // the evidence of "unexplained" is exact
+        all.push(evidence_error::LnWeight {
+            ln: ln_weight(self.prior, self.unexplained.ln_evidence),
+            standard_error: 0.0,
+            effective_sample_size: 0.0,
+        });
+        let averaged = evidence_error::averaged(&all, seed);
         let mut averaged = averaged.into_iter();
         for (hypothesis, own) in self.hypotheses.iter_mut().zip(&mut averaged) {
             hypothesis.probability = own;

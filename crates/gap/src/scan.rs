@@ -1,17 +1,27 @@
 //! Where the gap lies: a scan over outputs and intervals of each condition.
 //!
-//! A region's statistic is how much of the squared residuals goes when its values are left out, the
-//! shared inputs being free to explain the rest. How surprising the most surprising region is comes
-//! from the same scan of data without a gap.
+//! A chi-square test of all residuals says that something is wrong, not where; and the residuals of
+//! one interval may be large only because shared inputs were fitted to the others. The statistic of a
+//! region is therefore by how much the smallest sum of squares falls when the region's values are left
+//! out, the shared inputs being free to explain the rest. Without a gap it follows the chi-square
+//! distribution with as many degrees of freedom as the region has values, which makes regions of
+//! different sizes comparable.
+//!
+//! There are many regions, and they overlap, so that the smallest of their probabilities is no
+//! probability. How surprising the most surprising one is, is found by the same scan of simulated data
+//! without a gap (a scan statistic with a Monte Carlo reference, as Kulldorff 1997, Communications in
+//! Statistics: Theory and Methods 26, 1481, has it). Sums of products over the bins of a condition are
+//! cumulated once, so that every interval costs a difference and a small Cholesky factorization.
 
 use rayon::prelude::*;
 
-use super::covariance::{root_of, triangle};
-use super::diagnosis::Region;
+use super::diagnosis::GapRegion;
 use super::setup::Setup;
 use crate::mixture::standard_normals;
 use gumption_engine::distribution::StreamKey;
-use gumption_engine::number::{COLUMN, Column};
+use gumption_engine::linalg::dot;
+use gumption_engine::linalg::packed::{self, triangle};
+use gumption_engine::number::{COLUMN, Column, elementary};
 use gumption_engine::special;
 
 /// Conditions with more levels than this are scanned in so many bins.
@@ -51,8 +61,8 @@ struct Axis {
 }
 
 /// Names the regions that depart. `variances` are those of the values without shared inputs.
-pub(crate) fn regions(setup: &Setup<'_>, variances: &[f64], seed: u64) -> Vec<Region> {
-    let residuals = super::discrepancy::by_rows(&setup.data.nominal_residuals());
+pub(crate) fn regions(setup: &Setup<'_>, variances: &[f64], seed: u64) -> Vec<GapRegion> {
+    let residuals = crate::data::by_rows(&setup.data.nominal_residuals());
     let white: Vec<f64> = residuals.iter().zip(variances).map(|(r, v)| r / v.sqrt()).collect();
     let design = Design::new(setup, variances);
     let null: Vec<f64> = (0..SIMULATED / COLUMN)
@@ -65,7 +75,7 @@ pub(crate) fn regions(setup: &Setup<'_>, variances: &[f64], seed: u64) -> Vec<Re
                 .collect::<Vec<_>>()
         })
         .collect();
-    let mut found: Vec<Region> = Vec::new();
+    let mut found: Vec<GapRegion> = Vec::new();
     let mut taken: Vec<usize> = Vec::new();
     let total: f64 = white.iter().map(|z| z * z).sum::<f64>() - white.len() as f64;
     while found.len() < MOST_REGIONS {
@@ -73,7 +83,7 @@ pub(crate) fn regions(setup: &Setup<'_>, variances: &[f64], seed: u64) -> Vec<Re
         let beyond = null.iter().filter(|surprise| **surprise >= best.surprise).count();
         let by_rank = (1 + beyond) as f64 / (1 + null.len()) as f64;
         // beyond all simulated sets the bound of all regions together tells more
-        let bound = design.regions() as f64 * (-best.surprise).exp();
+        let bound = design.regions() as f64 * elementary::exp(-best.surprise);
         let p_value = if beyond == 0 { by_rank.min(bound) } else { by_rank };
         if p_value > NAMED {
             break;
@@ -82,7 +92,7 @@ pub(crate) fn regions(setup: &Setup<'_>, variances: &[f64], seed: u64) -> Vec<Re
         let values: Vec<usize> = axis.bins[best.from..=best.to].iter().flatten().copied().collect();
         let own: f64 = values.iter().map(|&v| white[v] * white[v] - 1.0).sum();
         let whole = best.from == 0 && best.to + 1 == axis.bins.len();
-        found.push(Region {
+        found.push(GapRegion {
             output: axis.output,
             range: axis
                 .condition
@@ -119,7 +129,7 @@ impl Design {
             .iter()
             .map(|column| column.iter().zip(variances).map(|(c, v)| c / v.sqrt()).collect())
             .collect();
-        let conditions = setup.case.sim.conditions.len() - setup.case.simulated;
+        let conditions = setup.case.model.conditions.len() - setup.case.simulated;
         let mut outputs: Vec<Option<usize>> = (0..count).map(Some).collect();
         if count > 1 {
             outputs.push(None);
@@ -148,22 +158,22 @@ impl Design {
         output: Option<usize>,
         condition: Option<usize>,
         bins: Vec<(Vec<usize>, [f64; 2])>,
-        count: usize,
+        outputs: usize,
     ) {
         let of_bin = |rows: &Vec<usize>| -> Vec<usize> {
             let of_row = |&row: &usize| {
-                (0..count)
+                (0..outputs)
                     .filter(move |o| output.is_none_or(|own| own == *o))
-                    .map(move |o| row * count + o)
+                    .map(move |o| row * outputs + o)
             };
             rows.iter().flat_map(of_row).collect()
         };
         let ranges = bins.iter().map(|(_, range)| *range).collect();
         let bins: Vec<Vec<usize>> = bins.iter().map(|(rows, _)| of_bin(rows)).collect();
-        let mut products = vec![vec![0.0; triangle(self.shared)]];
-        let mut counts = vec![0];
+        let mut sums = vec![0.0; triangle(self.shared)];
+        let mut count = 0;
+        let (mut products, mut counts) = (vec![sums.clone()], vec![count]);
         for bin in &bins {
-            let mut sums = products.last().cloned().unwrap_or_default();
             for &value in bin {
                 for i in 0..self.shared {
                     for j in 0..=i {
@@ -171,8 +181,9 @@ impl Design {
                     }
                 }
             }
-            products.push(sums);
-            counts.push(counts.last().copied().unwrap_or(0) + bin.len());
+            products.push(sums.clone());
+            count += bin.len();
+            counts.push(count);
         }
         self.axes.push(Axis { output, condition, bins, ranges, products, counts });
     }
@@ -227,7 +238,7 @@ impl Design {
                 }
             }
         }
-        let all = square - explained(&inner, &cross, k);
+        let all = square - explained(&inner, &cross);
         let mut best: Option<Best> = None;
         for (number, axis) in self.axes.iter().enumerate() {
             let bins = axis.bins.len();
@@ -289,7 +300,7 @@ impl Design {
                     }
                     let rest = square
                         - (squares[to + 1] - squares[from])
-                        - explained(&rest_inner, &rest_cross, k);
+                        - explained(&rest_inner, &rest_cross);
                     let gone = (all - rest).max(0.0);
                     // a cheap bound spares most regions the tail of the chi-square distribution
                     let bounded =
@@ -309,22 +320,11 @@ impl Design {
 }
 
 /// The part of the squared residuals that shared unknowns explain.
-fn explained(inner: &[f64], cross: &[f64], k: usize) -> f64 {
-    if k == 0 {
-        return 0.0;
-    }
-    let root = root_of(inner, k);
-    let mut y = vec![0.0; k];
-    let mut sum = 0.0;
-    for i in 0..k {
-        let mut value = cross[i];
-        for j in 0..i {
-            value -= root[triangle(i) + j] * y[j];
-        }
-        y[i] = value / root[triangle(i) + i];
-        sum += y[i] * y[i];
-    }
-    sum
+fn explained(inner: &[f64], cross: &[f64]) -> f64 {
+    let (mut root, mut y) = (inner.to_vec(), cross.to_vec());
+    packed::cholesky_of_definite(&mut root);
+    packed::solve(&root, &mut y);
+    dot(&y, &y)
 }
 
 /// The rows at each level of a condition, in order; many levels are put together.

@@ -2,10 +2,12 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::covariance::{Covariance, triangle};
+use super::covariance::Covariance;
 use super::latent::EDGE;
-use super::likelihood::{HALF_LN_TWO_PI, Likelihood, Visitor};
-use gumption_engine::number::{COLUMN, Column};
+use super::likelihood::{Likelihood, Visitor};
+use super::logarithm::HALF_LN_TWO_PI;
+use gumption_engine::linalg::packed::{self, triangle};
+use gumption_engine::number::{COLUMN, Column, elementary};
 
 /// The step of differences, in standard normal scores: the truncation error is of its order and the
 /// rounding error about 1e-11 over it.
@@ -41,8 +43,11 @@ impl Mode {
     /// the data leave, in the Gaussian approximation.
     pub(crate) fn ln_occam(&self, shared: usize) -> f64 {
         let own: f64 = self.scores.iter().skip(shared).map(|score| score * score).sum();
+        // the prior adds the identity, so that the information is positive definite
         let ln_det = |matrix: DMatrix<f64>| {
-            matrix.cholesky().map_or(0.0, |root| 2.0 * root.l().diagonal().map(f64::ln).sum())
+            let mut root = packed::of_matrix(&matrix);
+            packed::cholesky_of_definite(&mut root);
+            2.0 * packed::ln_diagonal(&root)
         };
         let first = self.information.view((0, 0), (shared, shared)).into_owned();
         -0.5 * (own + ln_det(self.information.clone()) - ln_det(first))
@@ -321,7 +326,8 @@ impl Visitor for Moments<'_> {
                     continue;
                 }
                 let place = row * outputs + output;
-                let root = if self.fitted { (-0.5 * ln_variance.0[lane]).exp() } else { 1.0 };
+                let root =
+                    if self.fitted { elementary::exp(-0.5 * ln_variance.0[lane]) } else { 1.0 };
                 for (i, column) in self.basis.iter().enumerate() {
                     let factor = column[place] * root;
                     if factor == 0.0 {
@@ -359,10 +365,11 @@ impl Group {
                 for i in 0..k {
                     root[triangle(i) + i] += 1.0;
                 }
-                half_ln_det += super::likelihood::root_in_place(&mut root, k);
-                DMatrix::from_fn(k, k, |i, j| if j <= i { root[triangle(i) + j] } else { 0.0 })
+                packed::cholesky_of_definite(&mut root);
+                half_ln_det += packed::ln_diagonal(&root);
+                packed::to_matrix(&root)
             } else {
-                covariance.inner.clone()
+                packed::to_matrix(&covariance.inner)
             };
             let products =
                 DMatrix::from_fn(k, unknowns + 1, |i, j| self.products[i * (unknowns + 1) + j]);

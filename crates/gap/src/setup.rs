@@ -6,8 +6,8 @@ use super::data::{Data, Spread};
 use super::latent::{Map, Role};
 use super::likelihood::Likelihood;
 use crate::Case;
-use crate::Effect;
 use gumption_engine::distribution::Distribution;
+use gumption_engine::number::elementary;
 
 /// Inputs whose whole effect on the data is below so many standard uncertainties act linearly as far
 /// as anybody can tell, and are integrated out exactly.
@@ -16,7 +16,7 @@ const NEGLIGIBLE: f64 = 0.3;
 /// At most so many inputs are unknown quantities of their own; the others act linearly.
 const MOST_UNKNOWN_INPUTS: usize = 12;
 
-/// Noise is taken to be proportional to a power of the sim's size where that spans this factor.
+/// Noise is taken to be proportional to a power of the model's size where that spans this factor.
 const SPAN_FOR_POWER: f64 = 3.0;
 
 /// What all hypotheses of a case have in common.
@@ -84,10 +84,8 @@ impl<'c> Setup<'c> {
     /// The likelihood with these effects acting.
     pub(crate) fn likelihood(&self, effects: &[usize]) -> Likelihood<'_> {
         let candidates: Vec<_> = effects.iter().map(|&e| &self.case.candidates[e]).collect();
-        let acting: Vec<&Effect> = candidates.iter().map(|candidate| &candidate.effect).collect();
-        // circular pairs were refused when the case was read
-        let program = self.case.sim.program(&acting).unwrap_or_default();
-        let first = self.case.task.variables.len() + self.case.sim.conditions.len();
+        let program = self.case.program(effects);
+        let first = self.case.task.variables.len() + self.case.model.conditions.len();
         let parameters = candidates.iter().flat_map(|candidate| &candidate.priors).enumerate();
         let mut roles = self.roles.clone();
         roles.extend(parameters.map(|(place, prior)| Role::Variable {
@@ -207,7 +205,7 @@ fn unknown_inputs(case: &Case, data: &Data, spread: &Spread) -> Vec<usize> {
     chosen
 }
 
-/// For each value the logarithm of the sim's size relative to its geometric mean over the rows.
+/// For each value the logarithm of the model's size relative to its geometric mean over the rows.
 fn ln_sizes(data: &Data) -> Vec<f64> {
     let count = data.outputs.len();
     let mut ln_sizes = vec![0.0; data.len()];
@@ -221,7 +219,7 @@ fn ln_sizes(data: &Data) -> Vec<f64> {
         if most <= 0.0 || !least.is_finite() {
             continue;
         }
-        let ln = |row: usize| size(data.point_of[row]).max(least).ln();
+        let ln = |row: usize| elementary::ln(size(data.point_of[row]).max(least));
         let mean = (0..data.rows()).map(ln).sum::<f64>() / data.rows().max(1) as f64;
         for row in 0..data.rows() {
             ln_sizes[row * count + output] = ln(row) - mean;
@@ -231,7 +229,7 @@ fn ln_sizes(data: &Data) -> Vec<f64> {
 }
 
 /// The noise of an output without stated uncertainties: its standard deviation is log-uniform over
-/// all sizes that the data allow, and it may grow with the sim's size.
+/// all sizes that the data allow, and it may grow with the model's size.
 fn noise(output: usize, residuals: &[f64], data: &Data, ln_sizes: &[f64]) -> Vec<Role> {
     let rms = |values: &mut dyn Iterator<Item = f64>| {
         let (count, squares) = values.fold((0usize, 0.0), |(n, sum), v| (n + 1, sum + v * v));
@@ -240,13 +238,15 @@ fn noise(output: usize, residuals: &[f64], data: &Data, ln_sizes: &[f64]) -> Vec
     let scale = rms(&mut residuals.iter().copied())
         .max(1e-12 * rms(&mut data.values[output].iter().copied()))
         .max(f64::MIN_POSITIVE.sqrt());
-    let ln_lower = (1e-6 * scale).ln();
-    let mut roles =
-        vec![Role::Noise { output, map: Map::Uniform { lower: ln_lower, width: (3e6f64).ln() } }];
+    let ln_lower = elementary::ln(1e-6 * scale);
+    let mut roles = vec![Role::Noise {
+        output,
+        map: Map::Uniform { lower: ln_lower, width: elementary::ln(3e6f64) },
+    }];
     let sizes = ln_sizes.iter().skip(output).step_by(data.outputs.len().max(1));
     let (least, most) =
         sizes.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), &ln| (a.min(ln), b.max(ln)));
-    if most - least > SPAN_FOR_POWER.ln() {
+    if most - least > elementary::ln(SPAN_FOR_POWER) {
         roles.push(Role::Power { output, map: Map::Uniform { lower: 0.0, width: 1.0 } });
     }
     roles

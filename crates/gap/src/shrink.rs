@@ -3,14 +3,16 @@
 use rayon::prelude::*;
 
 use super::data::Data;
+use super::data::by_rows;
 use super::diagnosis::{RowGap, Shrinkage, Shrunk, ValueGap};
-use super::discrepancy::{Base, Discrepancy, Weighted, by_rows};
-use super::evidence::Evidence;
-use super::likelihood::HALF_LN_TWO_PI;
+use super::discrepancy::{Base, Discrepancy, Weighted};
+use super::evidence::EvidenceEstimate;
+use super::logarithm::{HALF_LN_TWO_PI, ln_sum};
 use super::posterior::Posterior;
 use super::predict::{self, Normals, Values};
 use super::setup::Setup;
 use gumption_engine::distribution::StreamKey;
+use gumption_engine::number::elementary;
 use gumption_engine::task::Row;
 
 /// Blocks of conditions that are left out in turn.
@@ -22,7 +24,7 @@ const DRAWS: usize = 192;
 /// Below this gap, in standard uncertainties, a removed fraction is a ratio of two noises.
 const MEANINGFUL: f64 = 3.0;
 
-/// What is added to the sim.
+/// What is added to the model.
 #[derive(Clone, Debug)]
 pub(crate) enum Correction {
     /// Effects, or none of them.
@@ -201,7 +203,7 @@ fn claimed(setup: &Setup<'_>, fitted: &Normals, variances: &[f64]) -> f64 {
     if gap > 0.0 { (1.0 - left / gap).clamp(0.0, 1.0) } else { 0.0 }
 }
 
-/// Variances of the sim's values from all inputs, by the law of propagation.
+/// Variances of the model's values from all inputs, by the law of propagation.
 pub(crate) fn input_variances(setup: &Setup<'_>) -> Vec<f64> {
     let data = &setup.data;
     let outputs = data.outputs.len();
@@ -229,12 +231,12 @@ fn in_sample(
         Correction::Effects(effects) => {
             let own = posterior.hypotheses.iter().find(|h| h.effects == *effects);
             own.map_or_else(Vec::new, |own| {
-                let draws = predict::resampled(&own.evidence, draws_for(rows.len()));
+                let draws = own.evidence.resampled(draws_for(rows.len()));
                 moments(&predict::values(setup, effects, &draws, rows))
             })
         }
         Correction::Unexplained => {
-            predict::unexplained(setup, discrepancy, top(&posterior.unexplained.kinds), rows)
+            discrepancy.predict(setup, top(&posterior.unexplained.kinds), rows)
         }
     }
 }
@@ -290,7 +292,7 @@ impl Density {
 
     fn ln_density(&self, measured: &[f64], noise: &[f64]) -> f64 {
         let ln = |mean: f64, value: f64, variance: f64| {
-            -0.5 * ((value - mean).powi(2) / variance + variance.ln()) - HALF_LN_TWO_PI
+            -0.5 * ((value - mean).powi(2) / variance + elementary::ln(variance)) - HALF_LN_TWO_PI
         };
         match self {
             Self::Draws(draws) => {
@@ -300,9 +302,7 @@ impl Density {
                         draw.iter().zip(measured).zip(noise).map(|((m, y), v)| ln(*m, *y, *v)).sum()
                     })
                     .collect();
-                let most = each.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-                let sum: f64 = each.iter().map(|ln| (ln - most).exp()).sum();
-                most + (sum / each.len().max(1) as f64).ln()
+                ln_sum(each.iter().copied()) - elementary::ln(each.len().max(1) as f64)
             }
             Self::Normal(values) => values
                 .iter()
@@ -342,14 +342,17 @@ fn fold(
             .unwrap_or_default();
         let key = StreamKey::new(seed, "gap/without a block");
         let many = part.data.len() > 20_000;
-        let mut evidence = Evidence::begin(&likelihood, key, &seeds, if many { 0 } else { 4 });
+        let mut evidence =
+            EvidenceEstimate::begin(&likelihood, key, &seeds, if many { 0 } else { 4 });
         for _ in 0..6 {
-            if evidence.effective > 150.0 || many && evidence.effective > 30.0 {
+            if evidence.effective_sample_size > 150.0
+                || many && evidence.effective_sample_size > 30.0
+            {
                 break;
             }
             evidence.refine(&likelihood, 2);
         }
-        let draws = predict::resampled(&evidence, draws_for(rows.len()));
+        let draws = evidence.resampled(draws_for(rows.len()));
         predict::values(&part, effects, &draws, &rows)
     };
     let none = of(&Vec::new());
@@ -375,7 +378,7 @@ fn fold(
                     .collect();
                 let likelihood = part.likelihood(&base.effects);
                 let key = StreamKey::new(seed, "gap/without a block");
-                let evidence = Evidence::begin(&likelihood, key, &seeds, 0);
+                let evidence = EvidenceEstimate::begin(&likelihood, key, &seeds, 0);
                 Base::at(&part, &base.effects, evidence.modes.first()?)
             });
             let residuals = match &base {
@@ -386,7 +389,7 @@ fn fold(
             if let Some(base) = base {
                 found = found.beside(base);
             }
-            let predicted = predict::unexplained(&part, &discrepancy, top(&found.kinds), &rows);
+            let predicted = discrepancy.predict(&part, top(&found.kinds), &rows);
             let density = Density::Normal(predicted.iter().flatten().copied().collect());
             Fold { predicted, density, base: Density::of(&none) }
         }
@@ -397,7 +400,7 @@ fn fold(
 /// take turns, so that what is left out lies between conditions that are not.
 fn blocks(setup: &Setup<'_>) -> Vec<Vec<usize>> {
     let rows = setup.data.rows();
-    let conditions = setup.case.sim.conditions.len() - setup.case.simulated;
+    let conditions = setup.case.model.conditions.len() - setup.case.simulated;
     let value = |row: usize, condition: usize| {
         setup.case.task.rows[setup.data.ids[row]].conditions[condition]
     };

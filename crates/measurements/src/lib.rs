@@ -1,5 +1,6 @@
 //! Measurement models of published calibrations as typed functions.
 
+#![cfg_attr(test, allow(clippy::disallowed_methods))] // tests compare within tolerances
 #![deny(unsafe_code)]
 
 mod catalogue;

@@ -2,7 +2,8 @@
 
 use std::io::{self, Write};
 
-use super::Report;
+use super::EvaluationReport;
+use super::answer::in_memory;
 use super::number::MISSING;
 use gumption_engine::propagate::gum::Dof;
 use gumption_engine::propagate::{OutputEvaluation, RowEvaluation};
@@ -34,20 +35,16 @@ const COLUMNS: [&str; 18] = [
 /// defined.
 ///
 /// A text that a spreadsheet would take for a formula gets an apostrophe in front.
-pub fn csv(report: &Report<'_>) -> String {
-    let mut bytes = Vec::new();
-    // writing to memory cannot fail, and all records have as many cells
-    let written = write_csv(report, &mut bytes);
-    debug_assert!(written.is_ok(), "{written:?}");
-    String::from_utf8(bytes).unwrap_or_default()
+pub fn csv(report: &EvaluationReport<'_>) -> String {
+    in_memory(|bytes| write_csv(report, bytes))
 }
 
 /// Writes what [`csv()`] gives, line by line.
 ///
 /// # Errors
 /// Those of the writer.
-pub fn write_csv(report: &Report<'_>, out: impl Write) -> io::Result<()> {
-    let Report { task, evaluation, .. } = report;
+pub fn write_csv(report: &EvaluationReport<'_>, out: impl Write) -> io::Result<()> {
+    let EvaluationReport { task, evaluation, .. } = report;
     let mut writer = csv::Writer::from_writer(out);
     let conditions = task.model.conditions.iter().filter(|_| task.swept);
     let names = conditions.map(|condition| text(&condition.name));
@@ -108,20 +105,28 @@ fn cells(output: &OutputEvaluation) -> [String; 16] {
 /// everything else as a page shows it. An empty cell stands for what is not defined.
 #[cfg_attr(not(test), expect(dead_code, reason = "tables of reports to come"))]
 pub(crate) fn of_sheet(sheet: &super::sheet::Sheet) -> String {
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    let mut written = writer.write_record(sheet.columns.iter().map(|column| column.title()));
-    for row in 0..sheet.rows() {
-        let cells = sheet.columns.iter().map(|column| match column.value(row) {
-            Some(value) => number(Some(value)),
-            None if !column.is_numeric() => text(column.cell(row)),
-            None if column.cell(row) == MISSING => String::new(),
-            None => column.cell(row).to_owned(),
-        });
-        written = written.and_then(|()| writer.write_record(cells));
-    }
-    // writing to memory cannot fail, and all records have as many cells
-    debug_assert!(written.is_ok(), "{written:?}");
-    writer.into_inner().ok().and_then(|bytes| String::from_utf8(bytes).ok()).unwrap_or_default()
+    of_records(|writer| {
+        writer.write_record(sheet.columns.iter().map(|column| column.title()))?;
+        (0..sheet.rows()).try_for_each(|row| {
+            writer.write_record(sheet.columns.iter().map(|column| match column.value(row) {
+                Some(value) => number(Some(value)),
+                None if !column.is_numeric() => text(column.cell(row)),
+                None if column.cell(row) == MISSING => String::new(),
+                None => column.cell(row).to_owned(),
+            }))
+        })
+    })
+}
+
+/// The records that `write` writes, as text.
+pub(crate) fn of_records(
+    write: impl FnOnce(&mut csv::Writer<&mut Vec<u8>>) -> csv::Result<()>,
+) -> String {
+    in_memory(|bytes| {
+        let mut writer = csv::Writer::from_writer(bytes);
+        write(&mut writer)?;
+        csv::Result::Ok(writer.flush()?)
+    })
 }
 
 /// Shortest text that reads back as the same number.

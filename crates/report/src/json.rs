@@ -2,10 +2,10 @@
 
 use std::io::{self, Write};
 
-use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
 
-use super::Report;
+use super::EvaluationReport;
+use super::answer::{in_order, pretty};
 use super::subtotals::Subtotals;
 use gumption_engine::propagate::gum::{BudgetLine, CorrelationLine, Dof, Gum};
 use gumption_engine::propagate::monte_carlo::{MonteCarlo, NumericalError};
@@ -18,19 +18,15 @@ use gumption_engine::task::{Task, Trials, Warning};
 /// same number, `null` for what is infinite or not defined. It ends in a newline.
 ///
 /// The same evaluation gives the same bytes always.
-pub fn json(report: &Report<'_>) -> String {
-    let mut bytes = Vec::new();
-    // writing to memory cannot fail, and no map has keys that are not text
-    let written = write_json(report, &mut bytes);
-    debug_assert!(written.is_ok(), "{written:?}");
-    String::from_utf8(bytes).unwrap_or_default()
+pub fn json(report: &EvaluationReport<'_>) -> String {
+    pretty(&Answer::of(report))
 }
 
 /// Writes what [`json`] gives, piece by piece: it may be much larger than the evaluation.
 ///
 /// # Errors
 /// Those of the writer.
-pub fn write_json(report: &Report<'_>, mut out: impl Write) -> io::Result<()> {
+pub fn write_json(report: &EvaluationReport<'_>, mut out: impl Write) -> io::Result<()> {
     serde_json::to_writer_pretty(&mut out, &Answer::of(report))?;
     out.write_all(b"\n")
 }
@@ -68,14 +64,15 @@ impl Serialize for Rows<'_> {
             let names = task.model.conditions.iter().map(|condition| condition.name.as_str());
             let conditions = names.zip(row.conditions.iter().copied()).collect();
             let figures = Figures::of(task, row, evaluation.stopped);
-            Row { conditions: Map(conditions), figures }
+            Row { conditions, figures }
         }))
     }
 }
 
 #[derive(Serialize)]
 struct Row<'a> {
-    conditions: Map<&'a str, f64>,
+    #[serde(serialize_with = "in_order")]
+    conditions: Vec<(&'a str, f64)>,
     #[serde(flatten)]
     figures: Figures<'a>,
 }
@@ -351,12 +348,13 @@ struct Origin<'a> {
     model_sha256: &'a str,
     seed: u64,
     trials: Asked,
-    files: Map<&'a str, &'a str>,
+    #[serde(serialize_with = "in_order")]
+    files: &'a [(String, String)],
 }
 
 impl<'a> Answer<'a> {
-    fn of(report: &Report<'a>) -> Self {
-        let Report { task, evaluation, warnings, provenance } = *report;
+    fn of(report: &EvaluationReport<'a>) -> Self {
+        let EvaluationReport { task, evaluation, warnings, provenance } = *report;
         let results = match evaluation.rows.first() {
             Some(row) if !task.swept => Results::Single(Figures::of(task, row, evaluation.stopped)),
             _ => Results::Swept { rows: Rows { task, evaluation } },
@@ -365,7 +363,6 @@ impl<'a> Answer<'a> {
             Trials::Fixed(trials) => Asked::Number(trials),
             Trials::Adaptive => Asked::Word("adaptive"),
         };
-        let files = provenance.files.iter().map(|(name, sha)| (name.as_str(), sha.as_str()));
         Self {
             gumption: env!("CARGO_PKG_VERSION"),
             title: &task.title,
@@ -377,7 +374,7 @@ impl<'a> Answer<'a> {
                 model_sha256: &provenance.model_sha256,
                 seed: evaluation.settings.seed,
                 trials,
-                files: Map(files.collect()),
+                files: &provenance.files,
             },
         }
     }
@@ -514,25 +511,6 @@ impl From<validate::Validation> for Validation {
 impl<'a> Remark<'a> {
     fn of(warning: &'a Warning) -> Self {
         Self { code: warning.code, r#where: &warning.place, text: &warning.text }
-    }
-}
-
-/// Pairs that become an object in their own order.
-pub(super) struct Map<K, V>(pub(super) Vec<(K, V)>);
-
-impl<K, V> Default for Map<K, V> {
-    fn default() -> Self {
-        Self(Vec::new())
-    }
-}
-
-impl<K: Serialize, V: Serialize> Serialize for Map<K, V> {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let mut map = serializer.serialize_map(Some(self.0.len()))?;
-        for (key, value) in &self.0 {
-            map.serialize_entry(key, value)?;
-        }
-        map.end()
     }
 }
 

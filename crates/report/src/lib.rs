@@ -1,9 +1,13 @@
 //! Reports: what an evaluation looks like, one file for each format.
 
+#![cfg_attr(test, allow(clippy::disallowed_methods))] // tests compare within tolerances
+
+mod answer;
 pub mod assumptions;
 pub mod certificate;
 pub mod compare;
 mod csv;
+pub mod diff;
 mod document;
 mod evaluation;
 pub mod gap;
@@ -17,18 +21,18 @@ mod saved;
 mod sheet;
 mod subtotals;
 mod table;
-mod tree;
+pub mod verification;
 mod workbook;
 
 pub use csv::{csv, write_csv};
 pub use evaluation::{MOST_RESULTS, Shown, histograms, html, latex, markdown, xlsx};
 pub use json::{json, write_json};
-pub use samples::Samples;
+pub use samples::TrialsForm;
 pub use saved::saved;
 pub use table::Grid;
 pub use table::WIDTH;
 pub use table::wrapped;
-pub use table::{Column, Style, table, write_table};
+pub use table::{BudgetColumn, TableStyle, table, write_table};
 pub(crate) use table::{conditions_text, grouped, plain};
 
 use gumption_engine::propagate::Evaluation;
@@ -45,7 +49,7 @@ pub struct Provenance {
 
 /// Everything that a report may show.
 #[derive(Clone, Copy, Debug)]
-pub struct Report<'a> {
+pub struct EvaluationReport<'a> {
     /// What was evaluated.
     pub task: &'a Task,
     /// The results.

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 /// The form of a file of trials.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Samples {
+pub enum TrialsForm {
     /// A header of the outputs' names, then one line for each trial; numbers in the shortest text
     /// that reads back as the same number.
     Csv,
@@ -13,7 +13,7 @@ pub enum Samples {
     Npy,
 }
 
-impl Samples {
+impl TrialsForm {
     /// The form that a file's extension names.
     pub fn of_extension(extension: &str) -> Option<Self> {
         match extension.to_ascii_lowercase().as_str() {
@@ -71,7 +71,7 @@ mod tests {
     /// The header as `numpy.lib.format` describes it: the array begins at a multiple of 64 bytes.
     #[test]
     fn the_header_of_numpy() {
-        let header = Samples::Npy.header(&["a", "b"], 1_000_000);
+        let header = TrialsForm::Npy.header(&["a", "b"], 1_000_000);
         assert_eq!(header.len() % 64, 0);
         assert_eq!(&header[..8], b"\x93NUMPY\x01\x00");
         assert_eq!(usize::from(u16::from_le_bytes([header[8], header[9]])), header.len() - 10);
@@ -84,10 +84,10 @@ mod tests {
     #[test]
     fn trials_are_rows() {
         let block = [vec![1.0, 1e-7], vec![0.1, -3e300]];
-        assert_eq!(Samples::Csv.block(&block), b"1.0,0.1\n1e-7,-3e300\n");
-        assert_eq!(Samples::Csv.header(&["a", "b"], 2), b"a,b\n");
+        assert_eq!(TrialsForm::Csv.block(&block), b"1.0,0.1\n1e-7,-3e300\n");
+        assert_eq!(TrialsForm::Csv.header(&["a", "b"], 2), b"a,b\n");
         let bytes: Vec<u8> =
             [1.0, 0.1, 1e-7, -3e300f64].iter().flat_map(|v| v.to_le_bytes()).collect();
-        assert_eq!(Samples::Npy.block(&block), bytes);
+        assert_eq!(TrialsForm::Npy.block(&block), bytes);
     }
 }

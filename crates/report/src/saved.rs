@@ -5,8 +5,8 @@ use std::io;
 use serde::Serialize;
 use serde_json::ser::{Formatter, PrettyFormatter, Serializer};
 
-use super::Report;
-use super::json::Map;
+use super::EvaluationReport;
+use super::answer::{in_memory, in_order};
 use gumption_engine::distribution::{RootName, Scores};
 use gumption_engine::propagate::gum::Dof;
 use gumption_engine::propagate::monte_carlo::MonteCarlo;
@@ -19,7 +19,7 @@ use gumption_engine::task::Task;
 ///
 /// The same evaluation gives the same bytes always.
 pub fn saved(
-    report: &Report<'_>,
+    report: &EvaluationReport<'_>,
     origins: &Origins,
     quantiles: &[Vec<f64>],
     ranks: &[Vec<u32>],
@@ -28,13 +28,10 @@ pub fn saved(
         return String::new();
     };
     let file = File::of(report, row, origins, quantiles, ranks);
-    let mut bytes = Vec::new();
-    let mut serializer = Serializer::with_formatter(&mut bytes, Layout::default());
-    // writing to memory does not fail, and all keys are text
-    let written = file.serialize(&mut serializer).is_ok();
-    let mut text = String::from_utf8(bytes).ok().filter(|_| written).unwrap_or_default();
-    text.push('\n');
-    text
+    let written = |bytes: &mut Vec<u8>| {
+        file.serialize(&mut Serializer::with_formatter(bytes, Layout::default()))
+    };
+    in_memory(written) + "\n"
 }
 
 #[derive(Serialize)]
@@ -45,7 +42,8 @@ struct File<'a> {
     gumption: &'static str,
     title: &'a str,
     coverage_probability: f64,
-    outputs: Map<&'a str, Output<'a>>,
+    #[serde(serialize_with = "in_order")]
+    outputs: Vec<(&'a str, Output<'a>)>,
     output_correlations: Vec<(&'a str, &'a str, f64)>,
     /// Entry k of `quantiles` belongs to the probability Phi(from + k step).
     scores: ScoresSide,
@@ -104,18 +102,19 @@ struct Origin<'a> {
     model_sha256: &'a str,
     seed: u64,
     trials: u64,
-    files: Map<&'a str, &'a str>,
+    #[serde(serialize_with = "in_order")]
+    files: &'a [(String, String)],
 }
 
 impl<'a> File<'a> {
     fn of(
-        report: &Report<'a>,
+        report: &EvaluationReport<'a>,
         row: &'a RowEvaluation,
         origins: &'a Origins,
         quantiles: &'a [Vec<f64>],
         ranks: &'a [Vec<u32>],
     ) -> Self {
-        let Report { task, evaluation, provenance, .. } = *report;
+        let EvaluationReport { task, evaluation, provenance, .. } = *report;
         let names: Vec<&str> =
             task.model.outputs.iter().map(|output| output.quantity.name.as_str()).collect();
         let pairs = (0..names.len()).flat_map(|i| (i + 1..names.len()).map(move |j| (i, j)));
@@ -134,7 +133,6 @@ impl<'a> File<'a> {
         let coefficients =
             coefficients.filter_map(|c| Some((place(&c.first)?, place(&c.second)?, c.coefficient)));
         let Scores { from, step, count } = Scores::WRITTEN;
-        let files = provenance.files.iter().map(|(name, sha)| (name.as_str(), sha.as_str()));
         let trials = row.outputs.iter().find_map(|output| output.monte_carlo.as_ref());
         Self {
             format: 1,
@@ -142,7 +140,7 @@ impl<'a> File<'a> {
             gumption: env!("CARGO_PKG_VERSION"),
             title: &task.title,
             coverage_probability: evaluation.coverage_probability,
-            outputs: Map(found.collect()),
+            outputs: found.collect(),
             output_correlations: pairs
                 .zip(&row.correlations)
                 .map(|((i, j), &r)| (names[i], names[j], r))
@@ -167,7 +165,7 @@ impl<'a> File<'a> {
                 model_sha256: &provenance.model_sha256,
                 seed: evaluation.settings.seed,
                 trials: trials.map_or(0, |figures| figures.trials),
-                files: Map(files.collect()),
+                files: &provenance.files,
             },
         }
     }

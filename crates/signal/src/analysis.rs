@@ -3,17 +3,17 @@
 use std::rc::Rc;
 
 use super::Measured;
+use super::analysed::{Analysed, Fundamental, local, shares};
 use super::effects::{Effects, KnownNoise};
 use super::frequency::{self, NoFrequency};
-use super::passes::{Held, Passes, Selected, gathered};
-use super::polar::shares;
+use super::passes::{InMemorySamples, SampleSource, Selected, gathered};
 use super::quantization::amplitude_error;
-use super::recipe::{Frequency, Method, Settings, TimeBase};
+use super::recipe::{Frequency, Method, RecipeSettings, TimeBase};
 use super::residuals::{self, Residuals};
-use super::sine_fit::{Coefficients, Design, NoFit, Tone};
-use super::spurious::{self, Spurious};
+use super::sine_fit::{NoFit, Tone, ToneDesign};
+use super::spurious;
 use super::whole_periods::whole_periods;
-use gumption_engine::number::elementary::hypot;
+use gumption_engine::number::elementary;
 
 /// Values of one channel that are held in memory at most (1 GiB): what a channel with steps, or of
 /// a recipe with `"method": "fft"`, may have.
@@ -79,44 +79,6 @@ pub enum Refused<E> {
     },
 }
 
-/// A frequency in a recording.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Fundamental {
-    /// Cycles in a sample interval that are fitted.
-    pub(super) cycles: f64,
-    /// Cycles in a sample interval by which phases go on from the middle of the record: the same, but
-    /// for a cut at whole samples.
-    pub(super) turning: f64,
-    /// In hertz.
-    pub(super) hertz: Measured,
-    /// The standard uncertainty of the cycles from a stated frequency.
-    pub(super) of_stated: f64,
-    /// The same from noise, where the frequency was estimated.
-    pub(super) of_estimate: f64,
-    /// The same from the sampling rate, for a stated frequency.
-    pub(super) of_rate: f64,
-    /// The same from cutting at whole samples.
-    pub(super) of_cut: f64,
-}
-
-/// A channel's fit with what surrounds it.
-#[derive(Clone, Debug)]
-pub(super) struct Analysed {
-    pub(super) channel: usize,
-    /// Which analysis it comes from: channels of one share their estimated frequency.
-    pub(super) track: usize,
-    /// Which clock: channels of one share the error of the sampling rate.
-    pub(super) clock: usize,
-    pub(super) base: TimeBase,
-    pub(super) design: Rc<Design>,
-    pub(super) fit: Coefficients,
-    pub(super) residuals: Residuals,
-    pub(super) fundamentals: Vec<Fundamental>,
-    pub(super) spurious: Vec<Spurious>,
-    /// What the channel's steps did.
-    pub(super) effects: Rc<Effects>,
-}
-
 /// Steps that a channel went through.
 #[derive(Clone, Debug)]
 pub(super) struct Through {
@@ -128,7 +90,7 @@ pub(super) struct Through {
 /// The channels of one time base.
 #[derive(Debug)]
 pub(super) struct Group<'g> {
-    pub(super) settings: &'g Settings,
+    pub(super) settings: &'g RecipeSettings,
     pub(super) frequencies: &'g [Frequency],
     pub(super) base: TimeBase,
     pub(super) track: usize,
@@ -141,7 +103,7 @@ pub(super) struct Group<'g> {
 
 impl Group<'_> {
     /// Analyses the channels.
-    pub(super) fn analyse<P: Passes>(
+    pub(super) fn analyse<P: SampleSource>(
         &self,
         passes: &mut P,
     ) -> Result<Vec<Analysed>, Refused<P::Error>> {
@@ -187,7 +149,7 @@ impl Group<'_> {
         Ok(multiples)
     }
 
-    fn fundamentals<P: Passes>(
+    fn fundamentals<P: SampleSource>(
         &self,
         passes: &mut P,
     ) -> Result<Vec<Fundamental>, Refused<P::Error>> {
@@ -288,7 +250,7 @@ impl Group<'_> {
         Ok(tones)
     }
 
-    fn fitted<P: Passes>(
+    fn fitted<P: SampleSource>(
         &self,
         passes: &mut P,
         base: TimeBase,
@@ -296,7 +258,7 @@ impl Group<'_> {
     ) -> Result<Vec<Analysed>, Refused<P::Error>> {
         let samples = passes.frames();
         let tones = self.tones(&fundamentals, samples)?;
-        let design = Design::new(tones, samples).map_err(|no| self.refusal(no, samples))?;
+        let design = ToneDesign::new(tones, samples).map_err(|no| self.refusal(no, samples))?;
         let mut fits = design.fit(passes).map_err(Refused::Unreadable)?;
         let mut left = residuals::of(&design, passes, &mut fits).map_err(Refused::Unreadable)?;
         if let Some(through) = self.through {
@@ -315,7 +277,8 @@ impl Group<'_> {
                 of.of_estimate *= (residuals.variance * local(residuals, tone)).sqrt();
                 let rate = base.rate;
                 let of_rate = of.hertz.value * rate.standard_uncertainty / rate.value;
-                of.hertz.standard_uncertainty = (of.of_estimate * rate.value).hypot(of_rate);
+                of.hertz.standard_uncertainty =
+                    elementary::hypot(of.of_estimate * rate.value, of_rate);
             }
         }
         let design = Rc::new(design);
@@ -341,7 +304,7 @@ impl Group<'_> {
     /// least-squares fit at the bins' frequencies is that transform.
     fn over_whole_periods(
         &self,
-        mut held: Held,
+        mut held: InMemorySamples,
     ) -> Result<Vec<Analysed>, Refused<std::convert::Infallible>> {
         let (channel, place) = self.lead();
         let mut fundamentals = self.fundamentals(&mut held)?;
@@ -364,22 +327,16 @@ impl Group<'_> {
     }
 }
 
-/// The noise power near a tone over that of white noise of the same variance, where the residuals
-/// are not white and the record is long enough to tell; else 1.
-pub(super) fn local(residuals: &Residuals, tone: usize) -> f64 {
-    if let Some(KnownNoise { factors: Some(factors), .. }) = &residuals.known {
-        return factors.get(tone).copied().unwrap_or(1.0);
-    }
-    match &residuals.local {
-        Some(local) if residuals.correlated => local.get(tone).copied().unwrap_or(1.0),
-        _ => 1.0,
-    }
-}
-
 impl Through {
     /// The noise after the steps. Where it was white before them it is theirs; where it was not, it
     /// is measured after them, or before them, or taken as even over what the steps let pass.
-    fn noise(&self, design: &Design, after: &Residuals, rate: f64, resolution: f64) -> KnownNoise {
+    fn noise(
+        &self,
+        design: &ToneDesign,
+        after: &Residuals,
+        rate: f64,
+        resolution: f64,
+    ) -> KnownNoise {
         let before = &self.before.residuals;
         let frequencies: Vec<f64> =
             [0.0].into_iter().chain(design.tones.iter().map(|tone| tone.cycles * rate)).collect();
@@ -412,14 +369,6 @@ impl Through {
             shares,
             rounding: tones.iter().map(|d| rounding * d.sqrt()).collect(),
         }
-    }
-}
-
-impl Analysed {
-    /// The peak amplitude of the strongest tone.
-    pub(super) fn strongest(&self) -> f64 {
-        let tones = self.fit.cosines.iter().zip(&self.fit.sines);
-        tones.map(|(a, b)| hypot(*a, *b)).fold(0.0, f64::max)
     }
 }
 

@@ -4,8 +4,8 @@
 
 use std::f64::consts::PI;
 
-use super::observation::Source;
-use super::periodic::dirichlet;
+use super::budget::UncertaintySource;
+use super::dirichlet::sum_of_cosines;
 use super::{Correction, Derivative, Filter, Measured, Phasor, phasor};
 use gumption_engine::number::elementary;
 
@@ -18,7 +18,7 @@ const NEAR: usize = 256;
 
 /// What one step did.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Effect {
+pub enum StepEffect {
     /// A filter ran over the signal.
     Filtered {
         /// The filter.
@@ -63,7 +63,7 @@ pub enum Effect {
 
 /// All that the steps of a channel did, in order.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Effects(pub(super) Vec<Effect>);
+pub(super) struct Effects(pub(super) Vec<StepEffect>);
 
 /// What is left of white noise of variance 1.
 #[derive(Clone, Debug)]
@@ -82,7 +82,7 @@ impl Effects {
     pub(super) fn left(&self, frequency: f64) -> Phasor {
         let one = Phasor::new(1.0, 0.0);
         self.0.iter().fold(one, |gain, effect| match effect {
-            Effect::Filtered { filter, correct: true } => gain * filter.response(frequency),
+            StepEffect::Filtered { filter, correct: true } => gain * filter.response(frequency),
             _ => gain,
         })
     }
@@ -90,31 +90,43 @@ impl Effects {
     /// Contributions to a tone: source, relative to the amplitude, and to the phase in radians.
     /// `frequency` is the tone's in hertz, `rate` the relative standard uncertainty of the sampling
     /// rate.
-    pub(super) fn contributions(&self, frequency: Measured, rate: f64) -> Vec<(Source, f64, f64)> {
+    pub(super) fn contributions(
+        &self,
+        frequency: Measured,
+        rate: f64,
+    ) -> Vec<(UncertaintySource, f64, f64)> {
         let relative = frequency.standard_uncertainty / frequency.value;
         let mut found = Vec::new();
         for effect in &self.0 {
             match effect {
-                Effect::Filtered { filter, .. } => {
+                StepEffect::Filtered { filter, .. } => {
                     let passage = filter.passage(frequency, rate);
                     let gain = passage.gain;
                     let of_gain =
                         if gain.value > 0.0 { gain.standard_uncertainty / gain.value } else { 0.0 };
-                    found.push((Source::Filter, of_gain, passage.phase.standard_uncertainty));
+                    found.push((
+                        UncertaintySource::Filter,
+                        of_gain,
+                        passage.phase.standard_uncertainty,
+                    ));
                 }
-                Effect::Derived { derivative, of_radius, .. } => {
+                StepEffect::Derived { derivative, of_radius, .. } => {
                     let times = f64::from(derivative.order).abs();
-                    found.push((Source::Derivative, times * relative, 0.0));
-                    found.push((Source::Radius, *of_radius, 0.0));
+                    found.push((UncertaintySource::Derivative, times * relative, 0.0));
+                    found.push((UncertaintySource::Radius, *of_radius, 0.0));
                 }
-                Effect::Squared { derivative, of_radius, .. } => {
+                StepEffect::Squared { derivative, of_radius, .. } => {
                     let times = 2.0 * f64::from(derivative.order).abs();
-                    found.push((Source::Derivative, times * relative, 0.0));
-                    found.push((Source::Radius, *of_radius, 0.0));
+                    found.push((UncertaintySource::Derivative, times * relative, 0.0));
+                    found.push((UncertaintySource::Radius, *of_radius, 0.0));
                 }
-                Effect::Corrected { of_gain, of_phase, of_delay, .. } => {
+                StepEffect::Corrected { of_gain, of_phase, of_delay, .. } => {
                     let turned = 2.0 * PI * frequency.value * of_delay;
-                    found.push((Source::Correction, *of_gain, of_phase.hypot(turned)));
+                    found.push((
+                        UncertaintySource::Correction,
+                        *of_gain,
+                        elementary::hypot(*of_phase, turned),
+                    ));
                 }
             }
         }
@@ -123,7 +135,7 @@ impl Effects {
 
     /// The power of the channel's scale that amplitudes have: 2 after a square.
     pub(super) fn power_of_scale(&self) -> f64 {
-        let squares = self.0.iter().filter(|effect| matches!(effect, Effect::Squared { .. }));
+        let squares = self.0.iter().filter(|effect| matches!(effect, StepEffect::Squared { .. }));
         2f64.powi(squares.count() as i32)
     }
 
@@ -150,7 +162,7 @@ impl Effects {
         let power: f64 = all().map(|((_, many), d)| 2.0 * many * d / n).sum();
         let fourth: f64 = all().map(|((_, many), d)| 2.0 * many * d * d / n).sum();
         let kernel = |apart: f64| {
-            let part = dirichlet(samples as usize, apart / n) / n;
+            let part = sum_of_cosines(apart / n, samples) / n;
             part * part
         };
         let at = |frequency: f64| {
@@ -195,23 +207,23 @@ impl Effects {
 }
 
 /// The spectral density at a frequency in hertz after steps, of white noise of variance 1 before.
-fn density(effects: &[Effect], frequency: f64) -> f64 {
+fn density(effects: &[StepEffect], frequency: f64) -> f64 {
     let Some((last, before)) = effects.split_last() else { return 1.0 };
     let earlier = |f: f64| density(before, f);
     match last {
-        Effect::Filtered { filter, .. } => {
+        StepEffect::Filtered { filter, .. } => {
             filter.response(frequency).norm_sqr() * earlier(frequency)
         }
-        Effect::Derived { derivative, factor, .. } => {
+        StepEffect::Derived { derivative, factor, .. } => {
             derivative.response(frequency).norm_sqr() * factor * factor * earlier(frequency)
         }
-        Effect::Squared { derivative, factor, speed, frequency: of_speed, .. } => {
+        StepEffect::Squared { derivative, factor, speed, frequency: of_speed, .. } => {
             // 2 r w(t) n(t): the noise of both frequencies that differ from it by that of w
             let side = |f: f64| derivative.response(f).norm_sqr() * earlier(f);
             let size = factor * speed;
             size * size * (side((frequency - of_speed).abs()) + side(frequency + of_speed))
         }
-        Effect::Corrected { correction, .. } => {
+        StepEffect::Corrected { correction, .. } => {
             correction.gain(frequency).norm_sqr() * earlier(frequency)
         }
     }

@@ -1,7 +1,7 @@
 //! What steps find in a signal beside what they hand on: root mean squares, delays, and how much
 //! nearer to the reference a correction brings it.
 
-use super::step::{Finding, Surroundings};
+use super::surroundings::{Finding, Surroundings};
 use super::{
     CrossCorrelation, CrossSpectrum, Measured, Noise, RmsOf, Signal, Unsuitable, agreement,
     improvement,

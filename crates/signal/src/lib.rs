@@ -18,11 +18,17 @@
 //! comes out (`analysis`, `sine_fit`, `frequency`, `residuals`, `spurious`), and makes values with
 //! budgets of it (`polar`, `trials`, `values`, `observation`). `butterworth`, `derivative`,
 //! `rotation`, `correction`, `delay`, `rms` and `sampling_rate` are steps as functions of signals.
-//! There are two fits: `sine_fit` takes any tones of a recording that streams in blocks, `periodic`
-//! harmonics of one signal in memory, for steps that take them out and put them back.
+//! The one fit is `sine_fit`: any tones of a recording that streams in blocks, or of a signal in
+//! memory; `periodic` is its form for steps that take harmonics out of a signal and put them back.
 
+// the expected values of tests may be as inexact as the platform
+#![cfg_attr(test, allow(clippy::disallowed_methods))]
+
+mod analysed;
 mod analysis;
+mod budget;
 mod effects;
+mod fft;
 mod fit;
 mod found;
 mod measured;
@@ -35,6 +41,8 @@ mod search;
 mod signal;
 mod step;
 mod steps;
+mod surroundings;
+mod track;
 mod trials;
 mod unsuitable;
 mod values;
@@ -49,30 +57,35 @@ use steps::{
 };
 
 pub use analysis::{MOST_HELD, Refused};
+pub use budget::{BudgetedValue, UncertaintySource};
 pub use butterworth::{Band, Butterworth, Filter, Passage};
 pub use changed::Changed;
 pub use correction::{Correction, Response, ResponsePoint, corrected};
-pub use delay::{Agreement, CrossCorrelation, CrossPhase, CrossSpectrum, Delay, agreement};
+pub use delay::{CrossCorrelation, CrossPhase, CrossSpectrum, Delay, DelayAgreement, agreement};
 pub use derivative::Derivative;
-pub use effects::Effect;
+pub use effects::StepEffect;
 pub use measured::Measured;
-pub use noise::{Noise, NoiseGain, jitter_variance, quantization_variance};
-pub use observation::{ChannelObservation, Component, Observation, Source, Value};
-pub use passes::{BLOCK, Each, Held, Passes, in_blocks};
-pub use periodic::{Harmonics, Part, Periodic};
+pub use noise::{Noise, NoiseGain, jitter_variance};
+pub use observation::{ChannelObservation, Observation, ToneComponent};
+pub use passes::{BLOCK, BlockVisitor, InMemorySamples, SampleSource, in_blocks};
+pub use periodic::{Harmonic, Harmonics, Periodic};
 pub use phasor::{Phasor, wrapped};
-pub use quantization::amplitude_error;
-pub use recipe::{Amplitude, Channel, Frequency, Method, PhaseUnit, Search, Settings, TimeBase};
+pub use quantization::{amplitude_error, quantization_variance};
+pub use recipe::{
+    Amplitude, Channel, ChannelRateSearch, Frequency, Method, PhaseUnit, RecipeSettings, TimeBase,
+};
 pub use resimulation::{Colour, Resimulation, Scatter};
 pub use rms::{Improvement, Rms, RmsOf, improvement};
 pub use rotation::{Accelerations, Oscillation, Rotation};
-pub use run::{Track, observe};
+pub use run::observe;
 pub use sampling_rate::{Rate, RateSearch, sampling_rate};
 pub use signal::Signal;
-pub use sine_fit::{Coefficients, Design, NoFit, Tone};
+pub use sine_fit::{NoFit, Tone, ToneCoefficients, ToneDesign};
 pub use spectral::Ends;
 pub use spurious::Spurious;
-pub use step::{Finding, Step, Stepped, Surroundings};
+pub use step::{ChannelStep, Stepped};
+pub use surroundings::{Finding, Surroundings};
+pub use track::ChannelRecording;
 pub use unsuitable::Unsuitable;
 pub use whole_periods::{WholePeriods, whole_periods};
 

@@ -6,11 +6,11 @@ use std::convert::Infallible;
 pub const BLOCK: usize = 4096;
 
 /// What is called with each block: the number of its first frame, and the values of each channel.
-pub type Each<'e> = dyn FnMut(u64, &[&[f64]]) + 'e;
+pub type BlockVisitor<'e> = dyn FnMut(u64, &[&[f64]]) + 'e;
 
 /// Channels on one time base that can be gone through again and again in blocks of at most
 /// [`BLOCK`] frames, always the same.
-pub trait Passes {
+pub trait SampleSource {
     /// Why values cannot be had.
     type Error;
 
@@ -21,31 +21,31 @@ pub trait Passes {
     ///
     /// # Errors
     /// Where the values cannot be read (again).
-    fn pass(&mut self, each: &mut Each<'_>) -> Result<(), Self::Error>;
+    fn pass(&mut self, each: &mut BlockVisitor<'_>) -> Result<(), Self::Error>;
 }
 
 /// Channels held in memory, of equal length.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Held {
+pub struct InMemorySamples {
     /// The values of each channel.
     pub channels: Vec<Vec<f64>>,
 }
 
-impl Passes for Held {
+impl SampleSource for InMemorySamples {
     type Error = Infallible;
 
     fn frames(&self) -> u64 {
         self.channels.first().map_or(0, Vec::len) as u64
     }
 
-    fn pass(&mut self, each: &mut Each<'_>) -> Result<(), Infallible> {
+    fn pass(&mut self, each: &mut BlockVisitor<'_>) -> Result<(), Infallible> {
         in_blocks(&self.channels, each);
         Ok(())
     }
 }
 
 /// Goes through channels in memory in blocks.
-pub fn in_blocks(channels: &[Vec<f64>], each: &mut Each<'_>) {
+pub fn in_blocks(channels: &[Vec<f64>], each: &mut BlockVisitor<'_>) {
     let frames = channels.first().map_or(0, Vec::len);
     for first in (0..frames).step_by(BLOCK) {
         let end = (first + BLOCK).min(frames);
@@ -63,14 +63,14 @@ pub(super) struct Selected<'p, P> {
     pub(super) columns: &'p [usize],
 }
 
-impl<P: Passes> Passes for Selected<'_, P> {
+impl<P: SampleSource> SampleSource for Selected<'_, P> {
     type Error = P::Error;
 
     fn frames(&self) -> u64 {
         self.passes.frames()
     }
 
-    fn pass(&mut self, each: &mut Each<'_>) -> Result<(), P::Error> {
+    fn pass(&mut self, each: &mut BlockVisitor<'_>) -> Result<(), P::Error> {
         let columns = self.columns;
         self.passes.pass(&mut |first, channels| {
             let chosen: Vec<&[f64]> =
@@ -81,12 +81,15 @@ impl<P: Passes> Passes for Selected<'_, P> {
 }
 
 /// The values of some channels, in memory.
-pub(super) fn gathered<P: Passes>(passes: &mut P, columns: &[usize]) -> Result<Held, P::Error> {
+pub(super) fn gathered<P: SampleSource>(
+    passes: &mut P,
+    columns: &[usize],
+) -> Result<InMemorySamples, P::Error> {
     let mut channels = vec![Vec::new(); columns.len()];
     Selected { passes, columns }.pass(&mut |_, values| {
         for (channel, values) in channels.iter_mut().zip(values) {
             channel.extend_from_slice(values);
         }
     })?;
-    Ok(Held { channels })
+    Ok(InMemorySamples { channels })
 }

@@ -6,7 +6,7 @@ use gumption_engine::number::elementary;
 
 /// A complex amplitude: `A cos(2 pi f t + phi)` is the real part of `P exp(2 pi i f t)` with
 /// `P = A exp(i phi)`.
-pub type Phasor = rustfft::num_complex::Complex<f64>;
+pub type Phasor = nalgebra::Complex<f64>;
 
 /// exp(2 pi i `turns`), with an absolute error of 2^-52 and that of the argument.
 pub(super) fn at_turns(turns: f64) -> Phasor {

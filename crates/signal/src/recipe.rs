@@ -1,7 +1,7 @@
 //! A recipe: what is to be taken from which channels.
 
 use super::Measured;
-use super::step::Step;
+use super::step::ChannelStep;
 use gumption_units::Unit;
 
 /// How amplitudes and phases are taken.
@@ -117,7 +117,7 @@ pub struct TimeBase {
 /// The search for a recording's sampling rate: that at which an oscillation of known frequency is
 /// strongest.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Search {
+pub struct ChannelRateSearch {
     /// The channel that has the oscillation.
     pub channel: usize,
     /// Its frequency, in hertz; none: the recipe's first.
@@ -140,12 +140,12 @@ pub struct Channel {
     /// The resolution of its values before the steps, in their unit; 0 where it is not known.
     pub resolution: f64,
     /// What is done with it before amplitudes are taken.
-    pub steps: Vec<Step>,
+    pub steps: Vec<ChannelStep>,
 }
 
 /// What is the same for all rows of a recipe.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Settings {
+pub struct RecipeSettings {
     /// The channels.
     pub channels: Vec<Channel>,
     /// The channel that phases are counted from.

@@ -2,35 +2,26 @@
 
 use std::rc::Rc;
 
-use super::analysis::{Analysed, Group, MOST_HELD, Refused, Through, local, unreadable};
-use super::effects::{Effect, Effects};
+use super::analysed::{Analysed, local};
+use super::analysis::{Group, MOST_HELD, Refused, Through, unreadable};
+use super::effects::{Effects, StepEffect};
 use super::observation::{ChannelObservation, Observation};
-use super::passes::{Held, Passes, gathered};
-use super::recipe::{Frequency, Method, Search, Settings, TimeBase};
+use super::passes::{InMemorySamples, SampleSource, gathered};
+use super::recipe::{Frequency, Method, RecipeSettings, TimeBase};
 use super::search;
-use super::step::{Finding, Step, Surroundings};
+use super::step::ChannelStep;
+use super::surroundings::{Finding, Surroundings};
+use super::track::ChannelRecording;
 use super::values::observed;
 use super::{Measured, Signal};
-
-/// A recording with the channels that it holds.
-#[derive(Debug)]
-pub struct Track<P> {
-    /// The values, in the units of their channels.
-    pub passes: P,
-    /// Their instants.
-    pub base: TimeBase,
-    /// The channels that it holds, by their places in the recipe.
-    pub channels: Vec<usize>,
-    /// How the sampling rate is found in it, where it is.
-    pub search: Option<Search>,
-}
+use gumption_engine::number::elementary;
 
 /// A channel that went through its steps.
 struct Stepped {
     channel: usize,
     clock: usize,
     base: TimeBase,
-    held: Held,
+    held: InMemorySamples,
     findings: Vec<Finding>,
     through: Option<Through>,
     notes: Vec<Note>,
@@ -43,10 +34,10 @@ type Note = (&'static str, usize, String);
 ///
 /// # Errors
 /// [`Refused`] says what is missing in which channel.
-pub fn observe<P: Passes>(
-    settings: &Settings,
+pub fn observe<P: SampleSource>(
+    settings: &RecipeSettings,
     frequencies: &[Frequency],
-    tracks: &mut [Track<P>],
+    tracks: &mut [ChannelRecording<P>],
 ) -> Result<Observation, Refused<P::Error>> {
     let mut findings: Vec<(usize, Finding)> = search::rates(settings, frequencies, tracks)?;
     let mut stepped: Vec<Stepped> = Vec::new();
@@ -104,15 +95,15 @@ pub fn observe<P: Passes>(
 }
 
 /// The channels, the reference first.
-fn in_order(settings: &Settings) -> Vec<usize> {
+fn in_order(settings: &RecipeSettings) -> Vec<usize> {
     let others = (0..settings.channels.len()).filter(|c| Some(*c) != settings.reference);
     settings.reference.into_iter().chain(others).collect()
 }
 
-fn through_steps<P: Passes>(
-    settings: &Settings,
+fn through_steps<P: SampleSource>(
+    settings: &RecipeSettings,
     frequencies: &[Frequency],
-    tracks: &mut [Track<P>],
+    tracks: &mut [ChannelRecording<P>],
     done: &[Stepped],
     channel: usize,
 ) -> Result<Option<Stepped>, Refused<P::Error>> {
@@ -121,7 +112,9 @@ fn through_steps<P: Passes>(
         return Ok(None);
     }
     let reference = match settings.reference {
-        Some(reference) if steps.iter().any(Step::takes_reference) && reference != channel => {
+        Some(reference)
+            if steps.iter().any(ChannelStep::takes_reference) && reference != channel =>
+        {
             match done.iter().find(|of| of.channel == reference) {
                 Some(of) => Some(signal(of.base, of.held.channels.first())),
                 None => held(tracks, reference)?
@@ -135,7 +128,7 @@ fn through_steps<P: Passes>(
     let highest = settings.components.iter().copied().max().unwrap_or(1).max(settings.harmonics);
     let mut now = signal(base, held.channels.first());
     let (mut findings, mut notes) = (Vec::new(), Vec::new());
-    let mut effects: Vec<Effect> = Vec::new();
+    let mut effects: Vec<StepEffect> = Vec::new();
     let mut before: Option<Analysed> = None;
     for (step, of) in steps.iter().enumerate() {
         let refused = |reason| Refused::Step { channel, step, reason };
@@ -151,7 +144,7 @@ fn through_steps<P: Passes>(
                 channels: &channels,
                 through: None,
             };
-            let mut held = Held { channels: vec![now.values] };
+            let mut held = InMemorySamples { channels: vec![now.values] };
             before = group.analyse(&mut held).map_err(unreadable)?.pop();
             now.values = held.channels.pop().unwrap_or_default();
             let first = before.as_ref().and_then(|of| of.fundamentals.first());
@@ -185,7 +178,7 @@ fn through_steps<P: Passes>(
         }
     }
     base.start = now.start;
-    let held = Held { channels: vec![now.values] };
+    let held = InMemorySamples { channels: vec![now.values] };
     let through = before.map(|before| Through { effects: Rc::new(Effects(effects)), before });
     Ok(Some(Stepped { channel, clock, base, held, findings, through, notes }))
 }
@@ -196,13 +189,13 @@ const LEAST_GAIN: f64 = 1e-4;
 /// What a filter does to the components that are asked for: a mistake where it takes one of them out,
 /// findings where its gain is not corrected.
 fn through_filter(
-    settings: &Settings,
+    settings: &RecipeSettings,
     channel: usize,
-    step: &Step,
-    effect: &Effect,
+    step: &ChannelStep,
+    effect: &StepEffect,
     before: &Analysed,
 ) -> Result<Vec<Finding>, String> {
-    let Effect::Filtered { filter, correct } = effect else { return Ok(Vec::new()) };
+    let StepEffect::Filtered { filter, correct } = effect else { return Ok(Vec::new()) };
     let mut findings = Vec::new();
     let rate = before.base.rate;
     for fundamental in &before.fundamentals {
@@ -244,7 +237,7 @@ fn through_filter(
 }
 
 /// What to bear in mind about a gain that is left in the answer.
-fn not_corrected(settings: &Settings, channel: usize, finding: &Finding) -> Note {
+fn not_corrected(settings: &RecipeSettings, channel: usize, finding: &Finding) -> Note {
     let unit = if finding.unit == "1" { "" } else { &finding.unit };
     let text = format!(
         "`{}`: {}, {:.6} {unit}",
@@ -257,10 +250,13 @@ fn signal(base: TimeBase, values: Option<&Vec<f64>>) -> Signal {
     Signal { values: values.cloned().unwrap_or_default(), rate: base.rate.value, start: base.start }
 }
 
-type InMemory = Option<(usize, TimeBase, Held)>;
+type InMemory = Option<(usize, TimeBase, InMemorySamples)>;
 
 /// A channel's values in memory, with its recording and its instants.
-fn held<P: Passes>(tracks: &mut [Track<P>], channel: usize) -> Result<InMemory, Refused<P::Error>> {
+fn held<P: SampleSource>(
+    tracks: &mut [ChannelRecording<P>],
+    channel: usize,
+) -> Result<InMemory, Refused<P::Error>> {
     for (clock, track) in tracks.iter_mut().enumerate() {
         let Some(column) = track.channels.iter().position(|of| *of == channel) else { continue };
         let samples = track.passes.frames();
@@ -274,7 +270,7 @@ fn held<P: Passes>(tracks: &mut [Track<P>], channel: usize) -> Result<InMemory, 
 }
 
 /// What to bear in mind about fits.
-fn notes(settings: &Settings, analysed: &[Analysed]) -> Vec<Note> {
+fn notes(settings: &RecipeSettings, analysed: &[Analysed]) -> Vec<Note> {
     let mut notes = Vec::new();
     for of in analysed {
         let name = &settings.channels[of.channel].name;
@@ -299,9 +295,13 @@ fn notes(settings: &Settings, analysed: &[Analysed]) -> Vec<Note> {
         }
         for (number, fundamental) in of.fundamentals.iter().enumerate() {
             let Some((step, variance)) = residuals.cycles.get(number) else { continue };
-            let stated = fundamental.of_stated.hypot(fundamental.of_rate).hypot(fundamental.of_cut);
+            let stated = elementary::hypot(
+                elementary::hypot(fundamental.of_stated, fundamental.of_rate),
+                fundamental.of_cut,
+            );
             let noise = (variance * residuals.variance * local(residuals, 0).max(1.0)).sqrt();
-            if fundamental.of_estimate == 0.0 && step.abs() > 5.0 * stated.hypot(noise) {
+            if fundamental.of_estimate == 0.0 && step.abs() > 5.0 * elementary::hypot(stated, noise)
+            {
                 let hertz = |cycles: f64| cycles * of.base.rate.value;
                 let text = format!(
                     "`{name}`: the recording fits a frequency that differs by {:.2e} Hz from {} Hz, \

@@ -2,17 +2,17 @@
 //! at which it is strongest, refined with its multiples in the fit.
 
 use super::analysis::{Group, Refused, unreadable};
-use super::passes::{Passes, gathered};
-use super::recipe::{Frequency, Search, Settings};
-use super::run::Track;
-use super::step::Finding;
+use super::passes::{SampleSource, gathered};
+use super::recipe::{ChannelRateSearch, Frequency, RecipeSettings};
+use super::surroundings::Finding;
+use super::track::ChannelRecording;
 use super::{Measured, Noise, RateSearch, Signal, measured, sampling_rate};
 
 /// Gives every recording that is searched its rate; what was found, with the channels.
-pub(super) fn rates<P: Passes>(
-    settings: &Settings,
+pub(super) fn rates<P: SampleSource>(
+    settings: &RecipeSettings,
     frequencies: &[Frequency],
-    tracks: &mut [Track<P>],
+    tracks: &mut [ChannelRecording<P>],
 ) -> Result<Vec<(usize, Finding)>, Refused<P::Error>> {
     let mut findings = Vec::new();
     for track in tracks {
@@ -28,11 +28,11 @@ pub(super) fn rates<P: Passes>(
 
 /// The rate, and the part of its standard uncertainty that is the noise's where the frequency is the
 /// recipe's own.
-fn rate<P: Passes>(
-    settings: &Settings,
+fn rate<P: SampleSource>(
+    settings: &RecipeSettings,
     frequencies: &[Frequency],
-    track: &mut Track<P>,
-    search: Search,
+    track: &mut ChannelRecording<P>,
+    search: ChannelRateSearch,
 ) -> Result<(Measured, Option<f64>), Refused<P::Error>> {
     let channel = search.channel;
     let refused = |reason: &str| Refused::Rate { channel, reason: reason.to_owned() };
@@ -69,7 +69,7 @@ fn rate<P: Passes>(
     let hertz = Some(frequency.value);
     let frequencies = [Frequency { hertz, standard_uncertainty: 0.0, estimate: true }];
     let channels = [(channel, 0)];
-    let settings = Settings { method: super::Method::SineFit, ..settings.clone() };
+    let settings = RecipeSettings { method: super::Method::SineFit, ..settings.clone() };
     let group = Group {
         settings: &settings,
         frequencies: &frequencies,

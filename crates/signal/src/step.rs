@@ -1,18 +1,17 @@
 //! The steps of a channel: what is done with its signal before amplitudes are taken.
 
-use super::effects::Effect;
+use super::effects::StepEffect;
 use super::found;
+use super::surroundings::{Finding, Surroundings};
 use super::whole_periods::whole_periods;
-use super::{
-    Butterworth, Correction, Derivative, Ends, Harmonics, Measured, Response, Rotation, Signal,
-};
+use super::{Butterworth, Correction, Derivative, Measured, Response, Rotation, Signal};
 
 /// What may be left of a filter's start, of the signal's greatest distance from its mean.
 const TRANSIENT: f64 = 1e-6;
 
 /// A step of a channel, with its parameters.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Step {
+pub enum ChannelStep {
     /// The mean is taken off.
     RemoveMean,
     /// The straight line of least squares is taken off.
@@ -70,32 +69,6 @@ pub enum Step {
     Rms,
 }
 
-/// What a step may use beside its signal.
-#[derive(Clone, Copy, Debug)]
-pub struct Surroundings<'a> {
-    /// The recipe's frequency, in hertz; the first where there are several, 0 where it is unknown.
-    pub frequency: f64,
-    /// How many frequencies there are.
-    pub frequencies: usize,
-    /// The highest multiple that is fitted.
-    pub multiples: u32,
-    /// The signal of the reference channel, after its own steps.
-    pub reference: Option<&'a Signal>,
-    /// The step that the values are rounded to, in their unit; 0 where it is not known.
-    pub resolution: f64,
-}
-
-/// What a step found beside the signal that it hands on.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Finding {
-    /// What it is: `sampling rate`.
-    pub name: String,
-    /// Its unit: `Hz`.
-    pub unit: String,
-    /// The value.
-    pub value: Measured,
-}
-
 /// A signal after a step, and what the step found.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stepped {
@@ -104,10 +77,10 @@ pub struct Stepped {
     /// What was found.
     pub findings: Vec<Finding>,
     /// What it did to oscillations and noise, where it did.
-    pub effect: Option<Effect>,
+    pub effect: Option<StepEffect>,
 }
 
-impl Step {
+impl ChannelStep {
     /// Its name in files.
     pub fn name(&self) -> &'static str {
         use super::Band;
@@ -181,7 +154,7 @@ impl Step {
                         signal.values.len()
                     )
                 })?;
-                let effect = Some(Effect::Filtered { filter, correct: *correct });
+                let effect = Some(StepEffect::Filtered { filter, correct: *correct });
                 Ok(Stepped { signal, findings: Vec::new(), effect })
             }
             Self::Derivative { order, highest, factor } => {
@@ -189,7 +162,7 @@ impl Step {
                 let highest = highest.unwrap_or_else(|| surroundings.highest());
                 let derivative = Derivative { order: *order, highest, ends };
                 let after = derivative.apply(&signal).map_err(|error| error.to_string())?;
-                let effect = Effect::Derived { derivative, factor: *factor, of_radius: 0.0 };
+                let effect = StepEffect::Derived { derivative, factor: *factor, of_radius: 0.0 };
                 Ok(after.signal.scaled(*factor, effect))
             }
             Self::Rotation { radial, radius, highest, radians, factor } => {
@@ -209,7 +182,7 @@ impl Step {
                     let mean = values.iter().sum::<f64>() / values.len().max(1) as f64;
                     // of a square of a sine the mean is half of the peak
                     let speed = (2.0 * mean / radius.value).max(0.0).sqrt();
-                    let effect = Effect::Squared {
+                    let effect = StepEffect::Squared {
                         derivative: derivative(1),
                         factor: factor_of_radius * radians,
                         of_radius: known,
@@ -218,7 +191,7 @@ impl Step {
                     };
                     Ok(of_radius.signal.scaled(*factor, effect))
                 } else {
-                    let effect = Effect::Derived {
+                    let effect = StepEffect::Derived {
                         derivative: derivative(2),
                         factor: factor_of_radius * radians,
                         of_radius: known,
@@ -236,7 +209,7 @@ impl Step {
                 let between = [lowest, f64::INFINITY];
                 let correction = Correction { response: response.clone(), between, ends };
                 let after = correction.apply(&signal).map_err(|error| error.to_string())?;
-                let effect = Some(Effect::Corrected {
+                let effect = Some(StepEffect::Corrected {
                     correction,
                     of_gain: *of_gain,
                     of_phase: *of_phase,
@@ -263,32 +236,8 @@ impl Step {
     }
 }
 
-impl Surroundings<'_> {
-    /// The oscillation and its multiples below half the rate, which are taken out of the signal
-    /// before the transform and put back after it.
-    fn ends(&self, signal: &Signal) -> Result<Ends, String> {
-        if self.frequencies > 1 {
-            return Err("this step takes one frequency in each row".to_owned());
-        }
-        Ok(Ends::Periodic(self.harmonics(signal)))
-    }
-
-    pub(super) fn harmonics(&self, signal: &Signal) -> Harmonics {
-        let below = (1..=self.multiples).rev().find(|multiple| {
-            self.frequency * f64::from(*multiple) < 0.499 * signal.rate
-                && signal.values.len() > 2 * *multiple as usize + 3
-        });
-        Harmonics { frequency: self.frequency, count: below.unwrap_or(1) as usize }
-    }
-
-    /// One multiple above the highest that is fitted.
-    fn highest(&self) -> f64 {
-        self.frequency * f64::from(self.multiples + 1)
-    }
-}
-
 impl Signal {
-    fn scaled(mut self, factor: f64, effect: Effect) -> Stepped {
+    fn scaled(mut self, factor: f64, effect: StepEffect) -> Stepped {
         self.values.iter_mut().for_each(|value| *value *= factor);
         Stepped { signal: self, findings: Vec::new(), effect: Some(effect) }
     }
@@ -325,12 +274,12 @@ mod tests {
     fn lines_and_part_periods_go() {
         let signal = |values: Vec<f64>| Signal { values, rate: 1000.0, start: 2.0 };
         let line = signal((0..100).map(|i| 3.0 + 0.5 * f64::from(i)).collect());
-        let flat = Step::RemoveTrend.apply(line.clone(), ALONE).unwrap().signal;
+        let flat = ChannelStep::RemoveTrend.apply(line.clone(), ALONE).unwrap().signal;
         assert!(flat.values.iter().all(|v| v.abs() < 1e-12));
-        let centred = Step::RemoveMean.apply(line, ALONE).unwrap().signal;
+        let centred = ChannelStep::RemoveMean.apply(line, ALONE).unwrap().signal;
         assert!((centred.values[0] + 24.75).abs() < 1e-12);
         let sine = (0..1050).map(|i| (0.02 * std::f64::consts::PI * f64::from(i) - 1.0).sin());
-        let whole = Step::WholePeriods.apply(signal(sine.collect()), ALONE).unwrap().signal;
+        let whole = ChannelStep::WholePeriods.apply(signal(sine.collect()), ALONE).unwrap().signal;
         // crossings at 1/(0.02 pi) = 15.9 and 10 periods of 100 samples later; the mean of the half
         // period too much, 0.03, moves them by half a sample
         assert_eq!(whole.values.len(), 1000);

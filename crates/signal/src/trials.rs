@@ -4,8 +4,9 @@
 
 use std::f64::consts::PI;
 
-use super::analysis::Analysed;
-use super::polar::{Polar, wrapped};
+use super::analysed::Analysed;
+use super::phasor::wrapped;
+use super::polar::Polar;
 use gumption_engine::distribution::{BLOCK, StreamKey};
 use gumption_engine::number::elementary::{atan2, hypot, sin};
 use gumption_engine::special::normal;
@@ -51,7 +52,7 @@ pub(super) fn scatter(
     let size = square(plain(first)).sqrt();
     let stated = of(&mut harmonics().map(|p| (square(plain(p)), noise(p)))) / size;
     for _ in 0..trials {
-        let detuned = first.of.of_stated.hypot(first.of.of_estimate).hypot(first.of.of_rate);
+        let detuned = hypot(hypot(first.of.of_stated, first.of.of_estimate), first.of.of_rate);
         let detuned = detuned * normals.next();
         let drawn: Vec<(f64, f64)> = tones
             .iter()

@@ -3,13 +3,15 @@
 use std::f64::consts::{LN_10, PI};
 
 use super::Measured;
-use super::analysis::Analysed;
-use super::observation::{ChannelObservation, Component, Source, Value};
-use super::polar::{Polar, polar, wrapped};
-use super::recipe::Settings;
-use super::step::Finding;
+use super::analysed::Analysed;
+use super::budget::{BudgetedValue, UncertaintySource};
+use super::observation::{ChannelObservation, ToneComponent};
+use super::phasor::wrapped;
+use super::polar::{Polar, polar};
+use super::recipe::RecipeSettings;
+use super::surroundings::Finding;
 use super::trials::{Scatter, scatter};
-use gumption_engine::number::elementary::log10;
+use gumption_engine::number::elementary::{hypot, log10};
 
 /// The least gain of a filter at a multiple that counts as distortion.
 const LEAST_GAIN: f64 = 1e-3;
@@ -17,7 +19,7 @@ const LEAST_GAIN: f64 = 1e-3;
 /// What was found in a channel at one of the frequencies; `reference` is the analysis of the
 /// reference channel where there is one.
 pub(super) fn observed(
-    settings: &Settings,
+    settings: &RecipeSettings,
     analysed: &Analysed,
     reference: Option<&Analysed>,
     fundamental: usize,
@@ -52,7 +54,7 @@ pub(super) fn observed(
     });
     let periods = of.cycles * analysed.design.samples as f64;
     let relative =
-        of.of_stated.hypot(of.of_estimate).hypot(of.of_rate).hypot(of.of_cut) / of.cycles;
+        hypot(hypot(hypot(of.of_stated, of.of_estimate), of.of_rate), of.of_cut) / of.cycles;
     Some(ChannelObservation {
         channel: analysed.channel,
         frequency: of.hertz,
@@ -84,14 +86,14 @@ pub(super) fn observed(
 }
 
 fn component(
-    settings: &Settings,
+    settings: &RecipeSettings,
     analysed: &Analysed,
     root: Option<&(&Analysed, Polar)>,
     polar: &Polar,
     multiple: u32,
     trials: Option<(f64, f64)>,
     noise_dof: f64,
-) -> Component {
+) -> ToneComponent {
     let of = polar.of;
     let times = f64::from(multiple);
     let frequency = Measured {
@@ -99,7 +101,7 @@ fn component(
         standard_uncertainty: of.hertz.standard_uncertainty * times,
         ..of.hertz
     };
-    let mut amplitude: Vec<(Source, f64)> = Vec::new();
+    let mut amplitude: Vec<(UncertaintySource, f64)> = Vec::new();
     for (source, along, _) in &polar.own {
         join(&mut amplitude, *source, *along);
     }
@@ -109,17 +111,17 @@ fn component(
     for (source, u) in &polar.shared {
         join(&mut amplitude, *source, *u);
     }
-    let mut amplitude = Value::new(polar.amplitude, amplitude, noise_dof);
+    let mut amplitude = BudgetedValue::new(polar.amplitude, amplitude, noise_dof);
     if let Some((drawn, _)) = trials {
         // trials know noise and the frequency; the scale and the steps are added as they are
-        let others = |(source, _): &&(Source, f64)| {
+        let others = |(source, _): &&(UncertaintySource, f64)| {
             matches!(
                 source,
-                Source::Scale
-                    | Source::Filter
-                    | Source::Derivative
-                    | Source::Radius
-                    | Source::Correction
+                UncertaintySource::Scale
+                    | UncertaintySource::Filter
+                    | UncertaintySource::Derivative
+                    | UncertaintySource::Radius
+                    | UncertaintySource::Correction
             )
         };
         let rest: f64 = amplitude.contributions.iter().filter(others).map(|(_, u)| u * u).sum();
@@ -127,12 +129,12 @@ fn component(
     }
     let is_root = root.is_some_and(|(reference, _)| reference.channel == analysed.channel);
     let own = if is_root && multiple == 1 {
-        Value::new(0.0, Vec::new(), noise_dof)
+        BudgetedValue::new(0.0, Vec::new(), noise_dof)
     } else {
         phase(analysed, root, polar, times, trials, noise_dof)
     };
     let delay = root.filter(|_| multiple == 1).map(|_| delay(&own, frequency));
-    Component {
+    ToneComponent {
         multiple,
         frequency,
         amplitude: amplitude.times(settings.amplitude.factor()),
@@ -142,9 +144,9 @@ fn component(
 }
 
 /// Adds a contribution to those of its source.
-fn join(contributions: &mut Vec<(Source, f64)>, source: Source, u: f64) {
+fn join(contributions: &mut Vec<(UncertaintySource, f64)>, source: UncertaintySource, u: f64) {
     match contributions.iter_mut().find(|(known, _)| *known == source) {
-        Some((_, known)) => *known = known.hypot(u),
+        Some((_, known)) => *known = hypot(*known, u),
         None => contributions.push((source, u)),
     }
 }
@@ -157,8 +159,8 @@ fn phase(
     times: f64,
     trials: Option<(f64, f64)>,
     noise_dof: f64,
-) -> Value {
-    let mut parts: Vec<(Source, f64)> = Vec::new();
+) -> BudgetedValue {
+    let mut parts: Vec<(UncertaintySource, f64)> = Vec::new();
     for (source, _, across) in &polar.own {
         join(&mut parts, *source, *across);
     }
@@ -196,15 +198,16 @@ fn phase(
         let c = slope * of.of_rate;
         if reference.clock == analysed.clock { clock.0 -= c } else { clock.1 = c }
     }
-    join(&mut parts, Source::Frequency, estimated.0.hypot(estimated.1).hypot(stated));
-    join(&mut parts, Source::SamplingRate, clock.0.hypot(clock.1));
-    let total = Value::new(wrapped(value), parts, noise_dof);
+    join(&mut parts, UncertaintySource::Frequency, hypot(hypot(estimated.0, estimated.1), stated));
+    join(&mut parts, UncertaintySource::SamplingRate, hypot(clock.0, clock.1));
+    let total = BudgetedValue::new(wrapped(value), parts, noise_dof);
     match trials {
         Some((_, drawn)) => {
             // the trials draw this channel's own noise; everything else is as it is
             let u = total.measured.standard_uncertainty;
             let rest = (u * u - own).max(0.0);
-            let jitter = polar.own.iter().filter(|(source, ..)| *source == Source::Jitter);
+            let jitter =
+                polar.own.iter().filter(|(source, ..)| *source == UncertaintySource::Jitter);
             let extra: f64 = jitter.map(|(_, _, u)| u * u / 3.0).sum();
             total.checked((drawn * drawn + extra + rest).sqrt())
         }
@@ -212,14 +215,14 @@ fn phase(
     }
 }
 
-fn delay(phase: &Value, frequency: Measured) -> Value {
+fn delay(phase: &BudgetedValue, frequency: Measured) -> BudgetedValue {
     let speed = 2.0 * PI * frequency.value;
     let mut delay = phase.clone().times(1.0 / speed);
     delay.measured.value = 0.0 - delay.measured.value;
     delay
 }
 
-fn offset(settings: &Settings, analysed: &Analysed, noise_dof: f64) -> Value {
+fn offset(settings: &RecipeSettings, analysed: &Analysed, noise_dof: f64) -> BudgetedValue {
     let residuals = &analysed.residuals;
     let scale = settings.channels.get(analysed.channel).map_or(0.0, |c| c.scale_uncertainty);
     // the noise at zero frequency over that of white noise, from the autocorrelation
@@ -232,18 +235,19 @@ fn offset(settings: &Settings, analysed: &Analysed, noise_dof: f64) -> Value {
     let noise = (residuals.variance * slow * analysed.design.even[(0, 0)]).sqrt();
     let value = analysed.fit.offset;
     let scale = scale * analysed.effects.power_of_scale();
-    let parts = vec![(Source::Noise, noise), (Source::Scale, value.abs() * scale)];
-    Value::new(value, parts, noise_dof)
+    let parts =
+        vec![(UncertaintySource::Noise, noise), (UncertaintySource::Scale, value.abs() * scale)];
+    BudgetedValue::new(value, parts, noise_dof)
 }
 
 /// Total harmonic distortion, with the power that noise alone gives taken off.
 fn distortion(
-    settings: &Settings,
+    settings: &RecipeSettings,
     analysed: &Analysed,
     tones: &[Polar],
     drawn: Option<&Scatter>,
     noise_dof: f64,
-) -> Option<Value> {
+) -> Option<BudgetedValue> {
     let first = tones.first()?;
     let above: Vec<&Polar> = tones
         .iter()
@@ -276,7 +280,7 @@ fn distortion(
     let u = (square + spread).sqrt() - value;
     // far from zero the root is straight; near it its upper end counts
     let u = if value > 0.0 { u.min(spread / (2.0 * value)) } else { u };
-    let found = Value::new(value, vec![(Source::Noise, u)], noise_dof);
+    let found = BudgetedValue::new(value, vec![(UncertaintySource::Noise, u)], noise_dof);
     Some(match drawn {
         Some(drawn) if value > 0.0 => found.checked(drawn.distortion),
         _ => found,
@@ -285,7 +289,7 @@ fn distortion(
 
 /// The power of the fundamental over that of the residuals, and of its multiples if they count, in
 /// decibels.
-fn ratio(analysed: &Analysed, tones: &[Polar], with_multiples: bool) -> Value {
+fn ratio(analysed: &Analysed, tones: &[Polar], with_multiples: bool) -> BudgetedValue {
     let residuals = &analysed.residuals;
     let amplitude = tones.first().map_or(0.0, |polar| polar.amplitude);
     let scatter = |polar: &Polar| polar.scatter.map(|s| s * s).iter().sum::<f64>() / 2.0;
@@ -296,7 +300,7 @@ fn ratio(analysed: &Analysed, tones: &[Polar], with_multiples: bool) -> Value {
     let noise = residuals.variance;
     let disturbance = noise + others;
     if disturbance <= 0.0 || amplitude <= 0.0 {
-        return Value::new(f64::INFINITY, Vec::new(), f64::INFINITY);
+        return BudgetedValue::new(f64::INFINITY, Vec::new(), f64::INFINITY);
     }
     let value = 10.0 * log10(amplitude * amplitude / 2.0 / disturbance);
     let decibel = 10.0 / LN_10;
@@ -313,6 +317,6 @@ fn ratio(analysed: &Analysed, tones: &[Polar], with_multiples: bool) -> Value {
         let along: f64 = polar.own.iter().map(|(_, u, _)| u * u).sum();
         2.0 * along.sqrt() / amplitude
     });
-    let u = decibel * of_noise.hypot(of_multiples).hypot(first);
-    Value::new(value, vec![(Source::Noise, u)], residuals.degrees_of_freedom)
+    let u = decibel * hypot(hypot(of_noise, of_multiples), first);
+    BudgetedValue::new(value, vec![(UncertaintySource::Noise, u)], residuals.degrees_of_freedom)
 }

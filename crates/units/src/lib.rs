@@ -15,6 +15,8 @@
 //! * Angles are dimensionless, so `deg`, `rad`, `%` and `1` convert into each other.
 //! * `g` is the gram and `mg` the milligram; the standard acceleration of free fall is `g_n`.
 
+#![cfg_attr(test, allow(clippy::disallowed_methods))] // tests compare within tolerances
+
 mod dimension;
 mod error;
 mod exponent;

@@ -98,15 +98,18 @@ fn answered(mut file: ModelFile) {
     }
     let warnings = warnings(&file.task, &evaluation);
     let provenance = report::Provenance { model_sha256: String::new(), files: Vec::new() };
-    let report = report::Report {
+    let report = report::EvaluationReport {
         task: &file.task,
         evaluation: &evaluation,
         warnings: &warnings,
         provenance: &provenance,
     };
-    let columns = report::Column::ALL.to_vec();
+    let columns = report::BudgetColumn::ALL.to_vec();
     for columns in [Vec::new(), columns] {
-        let page = report::table(&report, &report::Style { columns, ..report::Style::default() });
+        let page = report::table(
+            &report,
+            &report::TableStyle { columns, ..report::TableStyle::default() },
+        );
         assert!(!page.is_empty());
         let shown = |c: char| c == '\n' || !c.is_control();
         assert!(page.chars().all(shown), "{page:?}");

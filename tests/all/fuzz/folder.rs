@@ -42,7 +42,7 @@ pub(super) fn result() -> &'static str {
         let ranks = ranks.expect("threads").expect("trials");
         let gums: Vec<_> = evaluation.rows[0].outputs.iter().map(linear).collect();
         let origins = origins(&file.task, &file.task.rows[0], &gums, &provenance.model_sha256);
-        let whole = report::Report {
+        let whole = report::EvaluationReport {
             task: &file.task,
             evaluation: &evaluation,
             warnings: &[],

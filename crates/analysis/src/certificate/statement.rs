@@ -1,8 +1,10 @@
 //! What a certificate states of one result.
 
-use super::rounding::{self, Direction, Rounded};
+use super::rounding;
 use crate::certificate::contents::Rounding;
+use gumption_engine::decimal::{Decimal, Direction, to_position};
 use gumption_engine::model::Capability;
+use gumption_engine::number::elementary;
 use gumption_engine::propagate::OutputEvaluation;
 use gumption_engine::propagate::gum::{Dof, Gum};
 use gumption_engine::propagate::monte_carlo::MonteCarlo;
@@ -72,25 +74,25 @@ pub struct Statement {
     /// The laboratory's capability, where it is known.
     pub limit: Option<Limit>,
     /// The expanded uncertainty to the digits of the certificate; `None` if it is 0.
-    pub rounded: Option<Rounded>,
+    pub rounded: Option<Decimal>,
 }
 
 impl Statement {
-    /// The value to the place of the rounded expanded uncertainty.
-    pub fn rounded_value(&self) -> f64 {
-        self.rounded.map_or(self.value, |to| rounding::at(self.value, to.place, Direction::Nearest))
+    /// The value to the last digit of the rounded expanded uncertainty; `None` where that is 0.
+    pub fn rounded_value(&self) -> Option<Decimal> {
+        Some(Decimal::shortest(self.value)?.round(self.rounded?.position(), Direction::Nearest))
     }
 
-    /// The ends of the interval to the same place: to the nearest, or outwards where expanded
-    /// uncertainties are always rounded up.
-    pub fn rounded_interval(&self, rule: Rounding) -> Option<[f64; 2]> {
-        let ends = self.interval?;
-        let Some(Rounded { place, .. }) = self.rounded else { return Some(ends) };
-        let [low, high] = match rule {
+    /// The ends of the interval to the same digit: to the nearest, or outwards where expanded
+    /// uncertainties are always rounded up. `None` where there is no interval, or no such digit.
+    pub fn rounded_interval(&self, rule: Rounding) -> Option<[Decimal; 2]> {
+        let position = self.rounded?.position();
+        let [low, high] = self.interval?.map(Decimal::shortest);
+        let [down, up] = match rule {
             Rounding::Up => [Direction::Down, Direction::Up],
             Rounding::Nearest | Rounding::Ea => [Direction::Nearest; 2],
         };
-        Some([rounding::at(ends[0], place, low), rounding::at(ends[1], place, high)])
+        Some([low?.round(position, down), high?.round(position, up)])
     }
 }
 
@@ -135,7 +137,7 @@ pub(super) fn of(
     // rounding must not bring below the capability what is not below it
     let kept = limit.filter(|limit| limit.raised || !limit.below).map(|limit| limit.cmc);
     if let (Some(to), Some(cmc)) = (rounded, kept)
-        && to.value < cmc
+        && to.value() < cmc
     {
         rounded = rounding::expanded(expanded_uncertainty, wanted.digits, Rounding::Up);
     }
@@ -183,7 +185,7 @@ fn is_normal(factor: f64, coverage: Coverage) -> bool {
         Coverage::Factor { factor, .. } => factor,
         Coverage::Probability(p) => special::normal::quantile(0.5 + 0.5 * p),
     };
-    (100.0 * factor).round() == (100.0 * normal).round()
+    to_position(factor, -2) == to_position(normal, -2)
 }
 
 /// How many numerical standard errors longer than the shortest interval another one may be and
@@ -197,7 +199,7 @@ fn interval(figures: &MonteCarlo) -> [f64; 2] {
     let length = |[low, high]: [f64; 2]| high - low;
     let (symmetric, shortest) = (figures.symmetric_interval, figures.shortest_interval);
     let [low, high] = figures.errors.symmetric_interval;
-    let allowed = AS_SHORT * low.hypot(high);
+    let allowed = AS_SHORT * elementary::hypot(low, high);
     if length(symmetric) - length(shortest) <= allowed { symmetric } else { shortest }
 }
 

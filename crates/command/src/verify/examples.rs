@@ -1,6 +1,7 @@
 //! The published examples that ship with the program: model files with the values that documents
 //! print, and where these stand in the answer.
 
+use gumption_analysis::verification::PublishedValue;
 use serde::Deserialize;
 
 /// A worked example with its published values.
@@ -13,29 +14,16 @@ pub(super) struct Example {
     pub(super) set: Vec<String>,
     /// The document.
     pub(super) source: String,
-    pub(super) published: Vec<Published>,
+    pub(super) published: Vec<PublishedValue>,
     /// What a reader of the table should know.
     pub(super) notes: String,
-}
-
-/// A number that a document prints.
-#[derive(Debug, Deserialize)]
-pub(super) struct Published {
-    /// The output; none for what belongs to all of them.
-    pub(super) output: Option<String>,
-    /// Where it stands in the answer: `gum.interval[0]`.
-    pub(super) path: String,
-    pub(super) value: f64,
-    pub(super) tolerance: f64,
-    /// Where the tolerance comes from.
-    pub(super) why: String,
 }
 
 /// The values of one of the files under `tests/cases`; other keys are for other checks.
 #[derive(Deserialize)]
 struct Expectation {
     source: String,
-    published: Vec<Published>,
+    published: Vec<PublishedValue>,
     notes: String,
 }
 
@@ -46,7 +34,7 @@ struct PublishedMeasurement {
     model: String,
     set: Vec<String>,
     source: String,
-    published: Vec<Published>,
+    published: Vec<PublishedValue>,
     notes: String,
 }
 

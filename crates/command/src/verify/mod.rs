@@ -2,10 +2,8 @@
 //! this machine's code paths compared.
 
 mod examples;
-mod page;
 mod paths;
 mod recompute;
-mod words;
 
 use std::sync::atomic::Ordering;
 
@@ -14,7 +12,9 @@ use clap::{Args, ValueEnum};
 use super::options::{Answer, Threads};
 use super::{Exit, Failure, Program, output, progress};
 pub use examples::PublishedExamples;
-use recompute::{Machine, Recomputed, Verdict};
+use gumption_analysis::verification::{PublishedVerdict, RecomputedExample};
+use gumption_report::verification;
+use recompute::Machine;
 
 /// Recompute the published examples.
 #[derive(Debug, Args)]
@@ -57,7 +57,7 @@ impl Verify {
         let examples = examples::all(&program.published).map_err(Failure::System)?;
         let bar = progress::counted(examples.len() as u64, "examples", self.answer.quiet);
         let machine = Machine { threads, stop: &stop };
-        let mut found: Vec<Recomputed> = Vec::new();
+        let mut found: Vec<RecomputedExample> = Vec::new();
         for example in examples {
             let recomputed = recompute::recompute(example, machine);
             if stop.load(Ordering::Relaxed) {
@@ -68,17 +68,18 @@ impl Verify {
         }
         bar.finish_and_clear();
         let answer = match self.answer.format {
-            Format::Table => page::table(&found),
-            Format::Json => page::json(&found),
-            Format::Csv => page::csv(&found),
-            Format::Markdown => page::markdown(&found),
+            Format::Table => verification::table(&found),
+            Format::Json => verification::json(&found),
+            Format::Csv => verification::csv(&found),
+            Format::Markdown => verification::markdown(&found),
         };
         if stop.load(Ordering::Relaxed) {
             output::write(&answer, None)?;
             return Ok(Exit::Interrupted);
         }
         self.answer.write(&answer)?;
-        let differs = found.iter().flat_map(|e| &e.rows).any(|row| row.verdict == Verdict::Diff);
+        let differs =
+            found.iter().flat_map(|e| &e.rows).any(|row| row.verdict == PublishedVerdict::Diff);
         Ok(if differs && self.fail { Exit::No } else { Exit::Done })
     }
 }

@@ -5,14 +5,14 @@ use std::sync::atomic::AtomicBool;
 
 use serde_json::Value;
 
-use super::examples::{Example, Published};
-use super::words;
+use super::examples::Example;
+use gumption_analysis::verification::{PublishedValue, RecomputedExample, RecomputedValue};
 use gumption_engine::propagate::{Control, evaluate};
 use gumption_engine::task::Trials;
 use gumption_files as file;
 use gumption_files::Override;
 use gumption_report as report;
-use gumption_report::{Provenance, Report};
+use gumption_report::{EvaluationReport, Provenance};
 
 /// What is shared by all runs.
 #[derive(Clone, Copy)]
@@ -22,46 +22,6 @@ pub(super) struct Machine<'a> {
     pub(super) stop: &'a AtomicBool,
 }
 
-/// The verdict on one published value.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Verdict {
-    Pass,
-    Diff,
-}
-
-impl Verdict {
-    pub(super) fn text(self) -> &'static str {
-        match self {
-            Self::Pass => "PASS",
-            Self::Diff => "DIFF",
-        }
-    }
-}
-
-/// One published value and what this machine makes of it.
-#[derive(Debug)]
-pub(super) struct Row {
-    pub(super) published: Published,
-    /// The figure in words.
-    pub(super) words: String,
-    /// The recomputed value, if there is one.
-    pub(super) got: Option<f64>,
-    pub(super) verdict: Verdict,
-}
-
-/// An example with its rows.
-#[derive(Debug)]
-pub(super) struct Recomputed {
-    pub(super) name: String,
-    pub(super) source: String,
-    pub(super) notes: String,
-    /// Trials and seed, or that there were none.
-    pub(super) trials: Option<(Trials, u64)>,
-    pub(super) rows: Vec<Row>,
-    /// Why the example could not be evaluated.
-    pub(super) failure: Option<String>,
-}
-
 /// Whether a figure comes from trials.
 fn needs_trials(path: &str) -> bool {
     !path.starts_with("gum.")
@@ -69,7 +29,7 @@ fn needs_trials(path: &str) -> bool {
 
 /// Evaluates an example with the settings of its file, without trials where no published value
 /// comes from them.
-pub(super) fn recompute(example: Example, machine: Machine<'_>) -> Recomputed {
+pub(super) fn recompute(example: Example, machine: Machine<'_>) -> RecomputedExample {
     let mut trials = None;
     let (answer, failure) = match answer(&example, machine, &mut trials) {
         Ok(answer) => (answer, None),
@@ -77,7 +37,7 @@ pub(super) fn recompute(example: Example, machine: Machine<'_>) -> Recomputed {
     };
     let Example { name, source, published, notes, .. } = example;
     let rows = published.into_iter().map(|published| judge(published, &answer)).collect();
-    Recomputed { name, source, notes, trials, rows, failure }
+    RecomputedExample { name, source, notes, trials, rows, failure }
 }
 
 /// The answer for programs, as `gumption run --format json` gives it.
@@ -102,21 +62,23 @@ fn answer(
     let control = Control::default().with_threads(threads).with_stop(stop);
     let evaluation = evaluate(&task, &control).map_err(|error| error.to_string())?;
     let provenance = Provenance::default();
-    let report =
-        Report { task: &task, evaluation: &evaluation, warnings: &[], provenance: &provenance };
+    let report = EvaluationReport {
+        task: &task,
+        evaluation: &evaluation,
+        warnings: &[],
+        provenance: &provenance,
+    };
     serde_json::from_str(&report::json(&report)).map_err(|error| error.to_string())
 }
 
-fn judge(published: Published, answer: &Value) -> Row {
+fn judge(published: PublishedValue, answer: &Value) -> RecomputedValue {
     let root = match &published.output {
         Some(output) => answer.get("outputs").and_then(|outputs| outputs.get(output)),
         None => Some(answer),
     };
     let got = root.and_then(|root| dig(root, &published.path)).and_then(Value::as_f64);
-    let near = got.is_some_and(|got| (got - published.value).abs() <= published.tolerance);
-    let verdict = if near { Verdict::Pass } else { Verdict::Diff };
-    let words = words::of(&published.path, answer);
-    Row { published, words, got, verdict }
+    let words = report::verification::words(&published.path, answer);
+    RecomputedValue::new(published, words, got)
 }
 
 /// The value at a path such as `gum.interval[0]`.
@@ -132,10 +94,11 @@ fn dig<'v>(root: &'v Value, path: &str) -> Option<&'v Value> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use gumption_analysis::verification::PublishedVerdict;
 
-    fn published(path: &str, value: f64, tolerance: f64) -> Published {
+    fn published(path: &str, value: f64, tolerance: f64) -> PublishedValue {
         let (path, why) = (path.to_owned(), String::new());
-        Published { output: Some("y".into()), path, value, tolerance, why }
+        PublishedValue { output: Some("y".into()), path, value, tolerance, why }
     }
 
     #[test]
@@ -143,13 +106,13 @@ mod tests {
         let answer = serde_json::json!(
             {"outputs": {"y": {"gum": {"estimate": 1.25, "dof": null, "interval": [1.0, 1.5]}}}}
         );
-        let verdict = |p: Published| judge(p, &answer).verdict;
-        assert_eq!(verdict(published("gum.estimate", 1.0, 0.25)), Verdict::Pass);
-        assert_eq!(verdict(published("gum.estimate", 1.0, 0.24)), Verdict::Diff);
-        assert_eq!(verdict(published("gum.interval[1]", 1.5, 0.0)), Verdict::Pass);
-        assert_eq!(verdict(published("gum.interval[2]", 1.5, 9.0)), Verdict::Diff);
-        assert_eq!(verdict(published("gum.dof", 1.0, 9.0)), Verdict::Diff);
-        assert_eq!(verdict(published("monte_carlo.estimate", 1.0, 9.0)), Verdict::Diff);
+        let verdict = |p: PublishedValue| judge(p, &answer).verdict;
+        assert_eq!(verdict(published("gum.estimate", 1.0, 0.25)), PublishedVerdict::Pass);
+        assert_eq!(verdict(published("gum.estimate", 1.0, 0.24)), PublishedVerdict::Diff);
+        assert_eq!(verdict(published("gum.interval[1]", 1.5, 0.0)), PublishedVerdict::Pass);
+        assert_eq!(verdict(published("gum.interval[2]", 1.5, 9.0)), PublishedVerdict::Diff);
+        assert_eq!(verdict(published("gum.dof", 1.0, 9.0)), PublishedVerdict::Diff);
+        assert_eq!(verdict(published("monte_carlo.estimate", 1.0, 9.0)), PublishedVerdict::Diff);
     }
 
     /// An example that this program cannot read is a difference with its reason, no failure.
@@ -165,7 +128,7 @@ mod tests {
         };
         let stop = AtomicBool::new(false);
         let found = recompute(example, Machine { threads: 1, stop: &stop });
-        assert_eq!(found.rows[0].verdict, Verdict::Diff);
+        assert_eq!(found.rows[0].verdict, PublishedVerdict::Diff);
         assert_eq!(found.rows[0].got, None);
         assert!(found.failure.unwrap().contains("equations"));
     }

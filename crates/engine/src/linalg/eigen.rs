@@ -123,7 +123,7 @@ fn sweep(first: usize, last: usize, reduced: &mut Tridiagonal) {
         let r = length(f, g);
         beside[i + 1] = r;
         if r == 0.0 {
-            // the block fell apart
+            // the block splits here
             diagonal[i + 1] -= taken;
             beside[last] = 0.0;
             return;

@@ -15,17 +15,24 @@ const MANY: usize = 512;
 /// One operation, or a leaf. Operands are indices of earlier nodes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Node {
+    /// The variable of this number.
     Variable(usize),
+    /// A value.
     Constant(f64),
+    /// An operation of one earlier node.
     Unary(Unary, usize),
+    /// An operation of two earlier nodes.
     Binary(Binary, usize, usize),
 }
 
 /// A function from variables to outputs.
 #[derive(Clone, Debug, Default)]
 pub struct Program {
+    /// The operations, each after those that it needs.
     pub nodes: Vec<Node>,
+    /// Number of variables.
     pub variables: usize,
+    /// For each output the index of its node.
     pub outputs: Vec<usize>,
 }
 

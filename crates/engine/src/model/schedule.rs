@@ -17,6 +17,7 @@ enum Step {
 /// Where an output's column is found.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ScheduledOutput {
+    /// In this register.
     Register(usize),
     /// The output is the same in all trials.
     Constant(f64),
@@ -30,6 +31,7 @@ pub struct Schedule {
     pub registers: usize,
     /// For each varying variable, in order, whether an output depends on it.
     pub used: Vec<bool>,
+    /// Where each output is found after a run.
     pub outputs: Vec<ScheduledOutput>,
 }
 

@@ -68,7 +68,7 @@ pub(crate) fn binary(operation: Binary, x: f64, y: f64, value: f64) -> [f64; 2] 
 }
 
 /// A derivative on its way through an operation: times the slope. One that is 0 stays 0 whatever the
-/// slope, so that an infinite slope of a constant part harms nobody.
+/// slope, so that an infinite slope of a constant part does no harm.
 /// What comes out as 0 has no sign.
 #[inline(always)]
 pub(crate) fn chain(gradient: f64, slope: f64) -> f64 {

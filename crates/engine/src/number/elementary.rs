@@ -362,19 +362,19 @@ pub fn tan(x: f64) -> f64 {
 
 /// Arc sine in radians, by `libm` (below 1 ulp); NaN outside [−1, 1].
 #[inline]
-pub(crate) fn asin(x: f64) -> f64 {
+pub fn asin(x: f64) -> f64 {
     one_nan(libm::asin(x))
 }
 
 /// Arc cosine in radians, by `libm` (below 1 ulp); NaN outside [−1, 1].
 #[inline]
-pub(crate) fn acos(x: f64) -> f64 {
+pub fn acos(x: f64) -> f64 {
     one_nan(libm::acos(x))
 }
 
 /// Arc tangent in radians, by `libm` (below 1 ulp).
 #[inline]
-pub(crate) fn atan(x: f64) -> f64 {
+pub fn atan(x: f64) -> f64 {
     one_nan(libm::atan(x))
 }
 
@@ -386,19 +386,19 @@ pub fn atan2(y: f64, x: f64) -> f64 {
 
 /// Hyperbolic sine, by `libm` (below 2 ulp).
 #[inline]
-pub(crate) fn sinh(x: f64) -> f64 {
+pub fn sinh(x: f64) -> f64 {
     one_nan(libm::sinh(x))
 }
 
 /// Hyperbolic cosine, by `libm` (below 2 ulp).
 #[inline]
-pub(crate) fn cosh(x: f64) -> f64 {
+pub fn cosh(x: f64) -> f64 {
     one_nan(libm::cosh(x))
 }
 
 /// Hyperbolic tangent, by `libm` (below 3 ulp).
 #[inline]
-pub(crate) fn tanh(x: f64) -> f64 {
+pub fn tanh(x: f64) -> f64 {
     one_nan(libm::tanh(x))
 }
 
@@ -410,7 +410,7 @@ pub fn log10(x: f64) -> f64 {
 
 /// Cube root, by `libm` (correctly rounded).
 #[inline]
-pub(crate) fn cbrt(x: f64) -> f64 {
+pub fn cbrt(x: f64) -> f64 {
     one_nan(libm::cbrt(x))
 }
 

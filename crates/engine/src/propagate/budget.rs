@@ -1,5 +1,5 @@
 //! The lines of an uncertainty budget. They follow from the sensitivity coefficients and from what is
-//! known about the inputs, and are made when somebody asks: a sweep of a million rows has millions.
+//! known about the inputs, and are computed on request: a sweep of a million rows has millions.
 
 use super::gum::Gum;
 use crate::distribution::Distribution;

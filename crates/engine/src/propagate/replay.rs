@@ -6,10 +6,10 @@ use super::monte_carlo::{self, Histogram, RowTrials};
 use super::{Control, Evaluation, EvaluationError, gum};
 use crate::task::Task;
 
-/// RowTrials that stand for all, at most.
+/// Trials in the sample that represents all of them in a result file, at most.
 const MOST_ROWS: usize = 1 << 15;
 
-/// Their ranks in all outputs together, at most: some megabytes of a result file.
+/// Ranks of that sample in all outputs together, at most: some megabytes of the file.
 const MOST_RANKS: usize = 1 << 20;
 
 /// How many trials the run of a row made, undefined ones included; 0 without trials.

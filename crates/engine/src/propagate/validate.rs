@@ -2,6 +2,7 @@
 
 use super::gum::Gum;
 use super::monte_carlo::MonteCarlo;
+use crate::decimal::{self, Decimal};
 
 /// The comparison of the two coverage intervals.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,17 +33,8 @@ pub struct Validation {
 /// assert_eq!(numerical_tolerance(0.0996, 2), 0.005);
 /// ```
 pub fn numerical_tolerance(value: f64, digits: u32) -> f64 {
-    let digits = digits.clamp(1, 15) as i32;
-    if value == 0.0 || !value.is_finite() {
-        return 0.0;
-    }
-    let rounded = format!("{:.*e}", digits as usize - 1, value.abs());
-    let exponent = rounded.split_once('e').and_then(|(_, e)| e.parse::<i32>().ok());
-    #[expect(clippy::expect_used, reason = "a finite number in scientific form has an exponent")]
-    let exponent = exponent.expect("a finite number in scientific form has an exponent");
     // read back from decimal text, so that the tolerance is the double nearest to 5 x 10^(l - 1)
-    #[expect(clippy::expect_used, reason = "a digit with an exponent is a number")]
-    format!("5e{}", exponent - digits).parse().expect("a digit with an exponent is a number")
+    decimal::position(value, digits).map_or(0.0, |last| Decimal::new(5, last - 1).value())
 }
 
 /// Compares the GUM interval with the probabilistically symmetric Monte Carlo interval (8.1.3).

@@ -6,7 +6,7 @@ use super::measured::Measured;
 use super::{ANY_BENCH, Catalogue, Entry};
 use gumption_engine::model::Output;
 use gumption_engine::model::formula::Formula;
-use gumption_gap::Sim;
+use gumption_gap::OverridableModel;
 
 /// Why an entry does not fit a sim.
 #[derive(Clone, Debug, Default)]
@@ -31,7 +31,7 @@ impl Misfit {
     }
 
     /// What is missing and what would be needed, after "the effect `x`".
-    pub(super) fn reason(&self, shipped: &Catalogue, sim: &Sim) -> String {
+    pub(super) fn reason(&self, shipped: &Catalogue, sim: &OverridableModel) -> String {
         let called = |name: &str| {
             let quoted = shipped.alternatives(name).into_iter().map(|name| format!("`{name}`"));
             quoted.collect::<Vec<_>>().join(" or ")

@@ -182,7 +182,7 @@ fn every_effect_fits_its_bench_without_a_warning() {
     for bench in &BENCHES {
         let plain = bench.read(&[]).unwrap();
         let observed = &plain.case.observed;
-        let read = EffectContext { sim: &plain.case.sim, task: &plain.case.task, observed };
+        let read = EffectContext { sim: &plain.case.model, task: &plain.case.task, observed };
         for entry in &shipped.entries {
             if entry.bench != bench.name && entry.bench != ANY_BENCH {
                 continue;
@@ -225,7 +225,7 @@ fn with(bench: &Bench, effect: &str, parameters: &[f64], conditions: &[f64]) -> 
     let case = &file.case;
     let effect = &case.candidates[0].effect;
     assert_eq!(effect.parameters.len(), parameters.len());
-    let program = case.sim.program(&[effect]).unwrap();
+    let program = case.model.program(&[effect]).unwrap();
     let inputs = case.task.rows[0].distributions.iter().map(|distribution| distribution.mean());
     let all: Vec<f64> =
         inputs.chain(conditions.iter().copied()).chain(parameters.iter().copied()).collect();
@@ -344,7 +344,7 @@ fn typed(bench: &Bench, effect: &str, parameters: &[f64], conditions: &[f64]) ->
     let [f, tilt, rotation] = conditions else { panic!("three conditions") };
     let file = bench.read(&[effect]).unwrap();
     let case = &file.case;
-    let program = case.sim.program(&[&case.candidates[0].effect]).unwrap();
+    let program = case.model.program(&[&case.candidates[0].effect]).unwrap();
     let mut all = vec![10.0, *tilt, *rotation, *f, *tilt, *rotation];
     all.extend(parameters);
     program.evaluate(&all)
@@ -375,7 +375,7 @@ fn effects_of_the_oscillating_table() {
         }
         // the typed model: inputs radius and angle_pp, conditions frequency and angle
         let file = TABLE_TYPED.read(&[name]).unwrap();
-        let program = file.case.sim.program(&[&file.case.candidates[0].effect]).unwrap();
+        let program = file.case.model.program(&[&file.case.candidates[0].effect]).unwrap();
         let mut all = vec![170.0, 13.0, 8.0, 13.0];
         all.extend(parameters);
         let got = program.evaluate(&all);
@@ -392,7 +392,7 @@ fn effects_of_the_oscillating_table() {
     }
     let typed = |bench: &Bench, all: &[f64]| {
         let file = bench.read(&["encoder-scale"]).unwrap();
-        let program = file.case.sim.program(&[&file.case.candidates[0].effect]).unwrap();
+        let program = file.case.model.program(&[&file.case.candidates[0].effect]).unwrap();
         program.evaluate(all)[..2].to_vec()
     };
     let expected = [49.215367237758029, 2.8195696843788331];
@@ -448,7 +448,7 @@ fn effects_of_the_measuring_chain() {
         assert_close(name, &with(&CHAIN, name, parameters, &[f]), &expected[..2]);
         // the typed model with its own high-pass filter taken out
         let file = CHAIN_TYPED.read(&[name]).unwrap();
-        let program = file.case.sim.program(&[&file.case.candidates[0].effect]).unwrap();
+        let program = file.case.model.program(&[&file.case.candidates[0].effect]).unwrap();
         let mut all = vec![0.0, f];
         all.extend(parameters);
         assert_close(name, &program.evaluate(&all), &expected);
@@ -541,7 +541,7 @@ fn a_part_of_the_outputs_is_enough() {
     let case = fewer.read(&["lateral-mode"]).unwrap().case;
     assert_eq!(case.candidates[0].effect.overrides.len(), 1);
     let shipped = Catalogue::shipped();
-    let read = EffectContext { sim: &case.sim, task: &case.task, observed: &case.observed };
+    let read = EffectContext { sim: &case.model, task: &case.task, observed: &case.observed };
     let count = |name: &str| {
         let entry = shipped.entries.iter().find(|entry| entry.name == name).unwrap();
         fit::fit(&shipped, entry, &read).map(|(count, _)| count).ok()

@@ -10,6 +10,7 @@ use std::sync::Arc;
 
 use super::diagnostics::{Collector, Diagnostics};
 use super::json::{self, Json, Node};
+use super::keys;
 use super::object::Object;
 use super::open::{check_format, read_root};
 use super::reader::FileReader;
@@ -18,42 +19,6 @@ use super::{DiagnosticKind, settings};
 use gumption_analysis::certificate::contents::{Certificate, Language, Rounding};
 use gumption_engine::task::{Coverage, Settings, Warning};
 use rows::Rows;
-
-/// The keys of a certificate file.
-const KEYS: [&str; 25] = [
-    "format",
-    "title",
-    "number",
-    "device",
-    "customer",
-    "laboratory",
-    "responsible",
-    "calibration_date",
-    "issue_date",
-    "place",
-    "environment",
-    "method",
-    "traceability",
-    "remarks",
-    "language",
-    "coverage_factor",
-    "coverage_probability",
-    "coverage_factor_fixed",
-    "rounding",
-    "digits",
-    "monte_carlo",
-    "conditions",
-    "shared_inputs",
-    "separate_inputs",
-    "rows",
-];
-
-/// Keys that only certificates have; a file with one of them, and without outputs, is meant as one.
-pub(crate) fn keys() -> [&'static str; 4] {
-    OWN
-}
-
-const OWN: [&str; 4] = ["rows", "device", "customer", "laboratory"];
 
 /// The most significant digits of a stated uncertainty.
 const MOST_DIGITS: u64 = 4;
@@ -133,7 +98,7 @@ pub(super) fn read_text(
 pub(super) fn is_meant(root: &Node) -> bool {
     let Json::Object(members) = &root.value else { return false };
     let has = |key: &str| members.iter().any(|member| member.key == key);
-    OWN.iter().any(|key| has(key)) && !has("outputs") && !has("result")
+    keys::CERTIFICATE_KEYS.iter().any(|key| has(key)) && !has("outputs") && !has("result")
 }
 
 /// What is asked of every model.
@@ -158,7 +123,7 @@ impl Asking {
 }
 
 fn certificate(files: FileReader<'_>, root: Object<'_>, folder: &Path) -> Option<CertificateFile> {
-    root.check_keys(&KEYS);
+    root.check_keys(keys::CERTIFICATE);
     check_format(&root);
     let administrative = administrative::read(&root);
     let languages = languages(&root);

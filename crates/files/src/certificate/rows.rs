@@ -7,6 +7,7 @@ use std::path::Path;
 use super::super::DiagnosticKind;
 use super::super::diagnostics::{Collector, Diagnostic};
 use super::super::json::{Json, Member, Node};
+use super::super::keys;
 use super::super::model_file::ModelFile;
 use super::super::object::Object;
 use super::super::outputs;
@@ -20,9 +21,6 @@ use gumption_engine::model::Quantity;
 use gumption_engine::task::{Task, Warning};
 use gumption_units::Unit;
 use gumption_units::nearest;
-
-/// The keys of a row.
-const KEYS: [&str; 7] = ["model", "output", "set", "nominal", "label", "cmc", "cmc_floor"];
 
 /// At most so many rows: their correlations are a matrix.
 const MOST_ROWS: usize = 1000;
@@ -92,7 +90,7 @@ impl<'a> Rows<'a> {
 
     fn row(&mut self, node: &'a Node) -> Option<()> {
         let row = Object::new(self.log, "a row", node, &node.span)?;
-        row.check_keys(&KEYS);
+        row.check_keys(keys::CERTIFICATE_ROW);
         let model = row.required("model");
         let output = row.required("output");
         let name = model.and_then(|_| row.text("model"));
@@ -347,7 +345,7 @@ impl<'a> Rows<'a> {
             used.sort_unstable();
             used.dedup();
             for line in &mut lines {
-                line.row = used.binary_search(&line.row).unwrap_or(0);
+                line.row = used.partition_point(|row| *row < line.row);
             }
             let rows = std::mem::take(&mut asked.task.rows);
             let kept = rows.into_iter().enumerate().filter(|(row, _)| used.contains(row));

@@ -5,30 +5,16 @@ use std::ops::Range;
 use super::super::DiagnosticKind;
 use super::super::diagnostics::Collector;
 use super::super::json::Member;
+use super::super::keys;
 use super::super::object::Object;
 use super::super::recording::{ColumnName, Conversion, Wanted};
 use super::column::column;
 use super::quantity::{of_member, positive, unit};
 use super::recordings::{RecordingFile, SearchFile};
 use super::{check_name, steps};
-use gumption_signal::{Channel, Search};
+use gumption_signal::{Channel, ChannelRateSearch};
 use gumption_units::Unit;
 use gumption_units::nearest;
-
-/// The keys of a channel.
-pub(super) const KEYS: [&str; 11] = [
-    "recording",
-    "column",
-    "unit",
-    "raw_unit",
-    "scale",
-    "sensitivity",
-    "offset",
-    "resolution",
-    "bits",
-    "range",
-    "steps",
-];
 
 /// A channel, as the recipe describes it.
 #[derive(Clone, Debug)]
@@ -59,7 +45,7 @@ pub(super) fn read(root: &Object<'_>, recordings: &[RecordingFile]) -> Option<Ve
 fn channel(log: &Collector, member: &Member, recordings: &[RecordingFile]) -> Option<ChannelFile> {
     check_name(log, &member.key, &member.key_span);
     let of = Object::new(log, "a channel", &member.value, &member.key_span)?;
-    of.check_keys(&KEYS);
+    of.check_keys(keys::CHANNEL);
     let recording = recording(&of, recordings);
     let column = of.required("column").and_then(|member| column(log, member));
     let own = unit(&of, "unit", "1");
@@ -217,7 +203,7 @@ impl SearchFile {
         log: &Collector,
         recording: usize,
         channels: &[ChannelFile],
-    ) -> Option<Search> {
+    ) -> Option<ChannelRateSearch> {
         let at =
             |file: &ChannelFile| file.channel.name == self.channel && file.recording == recording;
         let channel = channels.iter().position(at);
@@ -225,7 +211,7 @@ impl SearchFile {
             let reason = format!("this recording has no channel `{}`", self.channel);
             log.report(&self.place, DiagnosticKind::Recipe { reason });
         }
-        Some(Search {
+        Some(ChannelRateSearch {
             channel: channel?,
             frequency: self.frequency,
             between: self.between,

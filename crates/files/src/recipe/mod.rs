@@ -14,6 +14,7 @@ use std::sync::Arc;
 use super::DiagnosticKind;
 use super::diagnostics::{Collector, Diagnostics};
 use super::json::{Json, Node};
+use super::keys;
 use super::object::Object;
 use super::open::{check_format, open, read_root};
 use super::recording::{self, Recording};
@@ -22,35 +23,12 @@ use channels::ChannelFile;
 use gumption_engine::model::formula;
 use gumption_engine::task::Warning;
 use gumption_signal::{
-    Amplitude, Frequency, Method, PhaseUnit, Refused, Search, Settings, TimeBase, Track,
+    Amplitude, ChannelRateSearch, ChannelRecording, Frequency, Method, PhaseUnit, RecipeSettings,
+    Refused, TimeBase,
 };
 use gumption_units::Unit;
 use gumption_units::nearest;
 use recordings::RecordingFile;
-pub(crate) use steps::ALL as STEPS;
-
-/// The keys of a recipe.
-const KEYS: [&str; 16] = [
-    "format",
-    "title",
-    "source",
-    "recordings",
-    "channels",
-    "reference",
-    "frequency",
-    "components",
-    "harmonics",
-    "method",
-    "amplitude",
-    "phase_unit",
-    "conditions",
-    "rows",
-    "trials",
-    "seed",
-];
-
-/// The key that only recipes have.
-pub(crate) const OWN: &str = "recordings";
 
 /// The highest multiple of a frequency.
 const MOST_MULTIPLE: u64 = 50;
@@ -85,7 +63,7 @@ pub struct RecipeFile {
     /// The title, if it has one.
     pub title: Option<String>,
     /// What is the same for all rows.
-    pub settings: Settings,
+    pub settings: RecipeSettings,
     /// The conditions.
     pub conditions: Vec<RecipeCondition>,
     /// The name of the column of frequencies.
@@ -95,7 +73,7 @@ pub struct RecipeFile {
     /// The file's text.
     pub source: Arc<SourceText>,
     recordings: Vec<RecordingFile>,
-    searches: Vec<Option<Search>>,
+    searches: Vec<Option<ChannelRateSearch>>,
     channels: Vec<ChannelFile>,
 }
 
@@ -103,9 +81,9 @@ pub struct RecipeFile {
 #[derive(Debug)]
 pub struct OpenedRow {
     /// What is the same for all rows, with the resolution that the files have.
-    pub settings: Settings,
+    pub settings: RecipeSettings,
     /// The recordings with their channels.
-    pub tracks: Vec<Track<Recording>>,
+    pub tracks: Vec<ChannelRecording<Recording>>,
     /// The digest of each file, by its name.
     pub digests: Vec<(String, String)>,
     /// What to bear in mind about the recordings.
@@ -133,7 +111,7 @@ pub fn read_text(name: &str, text: &str, folder: &Path) -> Result<RecipeFile, Di
 /// Whether a text is meant as a recipe.
 pub(super) fn is_meant(root: &Node) -> bool {
     let Json::Object(members) = &root.value else { return false };
-    members.iter().any(|member| member.key == OWN)
+    members.iter().any(|member| member.key == keys::RECIPE_KEY)
 }
 
 /// Reads a recipe and all of its recordings.
@@ -152,7 +130,7 @@ pub(super) fn check_text(name: &str, text: &str, folder: &Path) -> Result<(), Di
 }
 
 fn recipe(root: &Object<'_>, folder: &Path) -> Option<RecipeFile> {
-    root.check_keys(&KEYS);
+    root.check_keys(keys::RECIPE);
     check_format(root);
     let title = root.text("title").map(str::to_owned);
     root.text("source");
@@ -174,7 +152,7 @@ fn recipe(root: &Object<'_>, folder: &Path) -> Option<RecipeFile> {
     });
     let searches = searches.collect();
     check_references(root.log, &channels, reference?);
-    let settings = Settings {
+    let settings = RecipeSettings {
         channels: channels.iter().map(|file| file.channel.clone()).collect(),
         reference: reference?,
         components: components?,
@@ -333,7 +311,12 @@ impl RecipeFile {
                         beside_frequency: None,
                     };
                     let search = self.searches.get(number).copied().flatten();
-                    opened.tracks.push(Track { passes: recording, base, channels, search });
+                    opened.tracks.push(ChannelRecording {
+                        passes: recording,
+                        base,
+                        channels,
+                        search,
+                    });
                     opened.of.push(number);
                 }
                 Err(reason) => {

@@ -2,11 +2,9 @@
 
 use super::super::DiagnosticKind;
 use super::super::json::{Json, Member};
+use super::super::keys;
 use super::super::object::Object;
 use gumption_units::Unit;
-
-/// The keys of a quantity.
-pub(super) const KEYS: [&str; 3] = ["value", "unit", "standard_uncertainty"];
 
 /// A value and its standard uncertainty, with the unit that they are in.
 #[derive(Clone, Debug, PartialEq)]
@@ -33,14 +31,20 @@ impl Quantity {
 pub(super) fn quantity(object: &Object<'_>, key: &'static str, default: &str) -> Option<Quantity> {
     let member = object.get(key)?;
     let quantity = of_member(object, member, default)?;
-    let expected = Unit::parse(default).unwrap_or_default();
+    let expected = own_unit(default);
     same_dimension(object, member, &quantity.unit, &expected).then_some(quantity)
+}
+
+/// A unit that this program names itself.
+#[expect(clippy::expect_used, reason = "all of them stand in the sources of this reader")]
+pub(super) fn own_unit(text: &str) -> Unit {
+    Unit::parse(text).expect("the units of recipes' keys can be read")
 }
 
 /// The quantity of a member, of any dimension.
 pub(super) fn of_member(object: &Object<'_>, member: &Member, default: &str) -> Option<Quantity> {
     if let Some(value) = member.value.number() {
-        let unit = Unit::parse(default).unwrap_or_default();
+        let unit = own_unit(default);
         return Some(Quantity { value, standard_uncertainty: 0.0, unit });
     }
     if !matches!(member.value.value, Json::Object(_)) {
@@ -52,7 +56,7 @@ pub(super) fn of_member(object: &Object<'_>, member: &Member, default: &str) -> 
         return None;
     }
     let inner = Object::new(object.log, "a quantity", &member.value, &member.key_span)?;
-    inner.check_keys(&KEYS);
+    inner.check_keys(keys::QUANTITY);
     of_object(&inner, default)
 }
 

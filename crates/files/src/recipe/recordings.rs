@@ -5,19 +5,13 @@ use std::path::{Path, PathBuf};
 
 use super::super::DiagnosticKind;
 use super::super::json::{Json, Member};
+use super::super::keys;
 use super::super::object::Object;
 use super::super::recording::{ColumnName, Conversion, Reading, Wanted};
 use super::check_name;
 use super::column::column;
 use super::quantity::{positive, quantity, unit};
 use gumption_signal::Measured;
-
-/// The keys of a recording.
-pub(super) const KEYS: [&str; 7] =
-    ["file", "sampling_rate", "time", "time_unit", "jitter", "from", "to"];
-
-/// The keys of a search for the sampling rate.
-const SEARCH: [&str; 5] = ["channel", "frequency", "from", "to", "step"];
 
 /// The search for a sampling rate, as the recipe describes it.
 #[derive(Clone, Debug)]
@@ -58,7 +52,7 @@ pub(super) fn read(root: &Object<'_>, folder: &Path) -> Option<Vec<RecordingFile
         let Some(of) = Object::new(root.log, "a recording", &member.value, &member.key_span) else {
             continue;
         };
-        of.check_keys(&KEYS);
+        of.check_keys(keys::RECORDING);
         let search = search(&of);
         let found = search.as_ref().map(|of| Measured {
             value: f64::midpoint(of.between[0], of.between[1]),
@@ -77,7 +71,7 @@ pub(super) fn read(root: &Object<'_>, folder: &Path) -> Option<Vec<RecordingFile
             .filter(|jitter| jitter.value == 0.0 || positive(&of, "jitter", jitter));
         let unit = unit(&of, "time_unit", "s");
         if let (Some(unit), Some(member)) = (&unit, of.get("time_unit")) {
-            let second = gumption_units::Unit::parse("s").unwrap_or_default();
+            let second = super::quantity::own_unit("s");
             super::quantity::same_dimension(&of, member, unit, &second);
             if of.get("time").is_none() {
                 let diagnostic = DiagnosticKind::OnlyWith { key: "time_unit", with: "time" };
@@ -110,28 +104,22 @@ pub(super) fn read(root: &Object<'_>, folder: &Path) -> Option<Vec<RecordingFile
 }
 
 /// The search within `sampling_rate`, if there is one.
-fn searched<'a>(of: &Object<'a>) -> Option<(&'a Member, &'a [Member])> {
-    match &of.get("sampling_rate")?.value.value {
+fn searched<'a>(of: &Object<'a>) -> Option<(&'a Member, &'a Member)> {
+    let whole = of.get("sampling_rate")?;
+    match &whole.value.value {
         Json::Object(members) => {
-            members.iter().find(|member| member.key == "search").map(|m| (m, &members[..]))
+            members.iter().find(|member| member.key == "search").map(|search| (whole, search))
         }
         _ => None,
     }
 }
 
 fn search(of: &Object<'_>) -> Option<SearchFile> {
-    let (member, all) = searched(of)?;
-    if let Some(other) = all.iter().find(|other| other.key != "search") {
-        let diagnostic = DiagnosticKind::UnknownKey {
-            key: other.key.clone(),
-            what: "a sampling rate that is searched",
-            nearest: None,
-            known: vec!["search"],
-        };
-        of.log.report(&other.key_span, diagnostic);
-    }
+    let (whole, member) = searched(of)?;
+    Object::new(of.log, "a sampling rate that is searched", &whole.value, &whole.key_span)?
+        .check_keys(keys::SEARCHED);
     let of = Object::new(of.log, "a search", &member.value, &member.key_span)?;
-    of.check_keys(&SEARCH);
+    of.check_keys(keys::SEARCH);
     let place = of.required("channel").map(|member| member.value.span.clone());
     let channel = of.text("channel")?.to_owned();
     let hertz = |key: &'static str| {

@@ -5,39 +5,20 @@ use std::ops::Range;
 
 use super::super::DiagnosticKind;
 use super::super::json::{Json, Member, Node};
+use super::super::keys::{self, STEPS};
 use super::super::object::Object;
 use super::quantity::{Quantity, positive, quantity, same_dimension, unit};
-use gumption_signal::{Band, Butterworth, Measured, Response, ResponsePoint, Step};
+use gumption_signal::{Band, Butterworth, ChannelStep, Measured, Response, ResponsePoint};
 use gumption_units::Unit;
-
-/// The names of the steps, and their keys beside `step`.
-pub(crate) const ALL: [(&str, &[&str]); 13] = [
-    ("remove-mean", &[]),
-    ("remove-trend", &[]),
-    ("whole-periods", &[]),
-    ("low-pass", &["cutoff", "order", "both_ways", "correct"]),
-    ("high-pass", &["cutoff", "order", "both_ways", "correct"]),
-    ("band-pass", &["low", "high", "order", "both_ways", "correct"]),
-    ("derivative", &["times", "unit", "highest"]),
-    ("integral", &["times", "unit", "highest"]),
-    ("tangential", &["radius", "unit", "highest"]),
-    ("radial", &["radius", "unit", "highest"]),
-    ("correct", &["gain", "phase", "delay", "response", "high_passes"]),
-    ("delay", &["segments"]),
-    ("rms", &[]),
-];
-
-/// The keys of a point of a response.
-const POINT: [&str; 3] = ["frequency", "gain", "phase"];
 
 /// The step that an object describes, whose keys were checked, and the unit that values have after
 /// it. `of_values` is the unit before.
-fn step(name: &str, of: &Object<'_>, of_values: &Unit) -> Option<(Step, Unit)> {
+fn step(name: &str, of: &Object<'_>, of_values: &Unit) -> Option<(ChannelStep, Unit)> {
     let same = |step| Some((step, of_values.clone()));
     match name {
-        "remove-mean" => same(Step::RemoveMean),
-        "remove-trend" => same(Step::RemoveTrend),
-        "whole-periods" => same(Step::WholePeriods),
+        "remove-mean" => same(ChannelStep::RemoveMean),
+        "remove-trend" => same(ChannelStep::RemoveTrend),
+        "whole-periods" => same(ChannelStep::WholePeriods),
         "low-pass" => same(filter(of, Band::LowPass(hertz(of, "cutoff")?))?),
         "high-pass" => same(filter(of, Band::HighPass(hertz(of, "cutoff")?))?),
         "band-pass" => {
@@ -61,9 +42,9 @@ fn step(name: &str, of: &Object<'_>, of_values: &Unit) -> Option<(Step, Unit)> {
                 Some(_) => Some(usize::try_from(of.whole("segments", 2, 10_000)?).ok()?),
                 None => None,
             };
-            same(Step::Delay { segments })
+            same(ChannelStep::Delay { segments })
         }
-        "rms" => same(Step::Rms),
+        "rms" => same(ChannelStep::Rms),
         _ => None,
     }
 }
@@ -75,7 +56,7 @@ fn hertz(of: &Object<'_>, key: &'static str) -> Option<f64> {
     positive(of, key, &found).then(|| found.si())
 }
 
-fn filter(of: &Object<'_>, band: Band) -> Option<Step> {
+fn filter(of: &Object<'_>, band: Band) -> Option<ChannelStep> {
     let poles = match of.get("order") {
         Some(_) => of.whole("order", 1, 24)?,
         None if matches!(band, Band::BandPass(..)) => 2,
@@ -93,7 +74,7 @@ fn filter(of: &Object<'_>, band: Band) -> Option<Step> {
     };
     let both_ways = truth("both_ways", false)?;
     let filter = Butterworth { band, poles, both_ways };
-    Some(Step::Filter { filter, correct: truth("correct", true)? })
+    Some(ChannelStep::Filter { filter, correct: truth("correct", true)? })
 }
 
 /// The highest frequency that is kept, where the recipe says.
@@ -101,7 +82,7 @@ fn highest(of: &Object<'_>) -> Option<Option<f64>> {
     if of.get("highest").is_some() { hertz(of, "highest").map(Some) } else { Some(None) }
 }
 
-fn derivative(of: &Object<'_>, of_values: &Unit, integral: bool) -> Option<(Step, Unit)> {
+fn derivative(of: &Object<'_>, of_values: &Unit, integral: bool) -> Option<(ChannelStep, Unit)> {
     let times = match of.get("times") {
         Some(_) => of.whole("times", 1, 4)?,
         None => 1,
@@ -118,7 +99,7 @@ fn derivative(of: &Object<'_>, of_values: &Unit, integral: bool) -> Option<(Step
         _ => format!("{whole}/s^{times}"),
     };
     let (factor, after) = converted(of, &text)?;
-    Some((Step::Derivative { order, highest: highest(of)?, factor }, after))
+    Some((ChannelStep::Derivative { order, highest: highest(of)?, factor }, after))
 }
 
 /// The unit of the answer, that of the step's key `unit` or else `natural`, and how many of it are
@@ -131,7 +112,7 @@ fn converted(of: &Object<'_>, natural: &str) -> Option<(f64, Unit)> {
     Some((Unit::conversion_factor(&natural, &wanted).ok()?, wanted))
 }
 
-fn rotation(of: &Object<'_>, of_values: &Unit, radial: bool) -> Option<(Step, Unit)> {
+fn rotation(of: &Object<'_>, of_values: &Unit, radial: bool) -> Option<(ChannelStep, Unit)> {
     let member = of.required("radius")?;
     if member.value.number().is_some() {
         let reason = "`radius` needs a unit, such as {\"value\": 170, \"unit\": \"mm\"}".to_owned();
@@ -149,7 +130,7 @@ fn rotation(of: &Object<'_>, of_values: &Unit, radial: bool) -> Option<(Step, Un
         return None;
     }
     let (factor, after) = converted(of, "m/s^2")?;
-    let step = Step::Rotation {
+    let step = ChannelStep::Rotation {
         radial,
         radius: measured(&found),
         highest: highest(of)?,
@@ -167,7 +148,7 @@ fn measured(of: &Quantity) -> Measured {
     }
 }
 
-fn correct(of: &Object<'_>) -> Option<Step> {
+fn correct(of: &Object<'_>) -> Option<ChannelStep> {
     let kinds = ["response", "high_passes", "delay", "phase"];
     let given: Vec<&'static str> = kinds.into_iter().filter(|key| of.get(key).is_some()).collect();
     if let [first, second, ..] = given[..] {
@@ -218,7 +199,7 @@ fn correct(of: &Object<'_>) -> Option<Step> {
         None => Response::Delayed { gain: gain.value, delay: 0.0 },
     };
     let of_gain = gain.standard_uncertainty / gain.value;
-    Some(Step::Correct { response, of_gain, of_phase, of_delay })
+    Some(ChannelStep::Correct { response, of_gain, of_phase, of_delay })
 }
 
 /// The points of a response, by rising frequency.
@@ -227,7 +208,7 @@ fn points(of: &Object<'_>) -> Option<Vec<ResponsePoint>> {
     let member = of.get("response")?;
     for node in of.list("response")? {
         let point = Object::new(of.log, "a point of a response", node, &node.span)?;
-        point.check_keys(&POINT);
+        point.check_keys(keys::POINT);
         point.required("gain")?;
         let gain = quantity(&point, "gain", "1")?;
         positive(&point, "gain", &gain).then_some(())?;
@@ -252,7 +233,7 @@ fn points(of: &Object<'_>) -> Option<Vec<ResponsePoint>> {
 
 /// The steps of a channel.
 pub(super) struct Steps {
-    pub(super) steps: Vec<Step>,
+    pub(super) steps: Vec<ChannelStep>,
     /// Where they stand.
     pub(super) places: Vec<Range<usize>>,
     /// The unit of values after them.
@@ -279,14 +260,14 @@ pub(super) fn read(channel: &Object<'_>, unit: &Unit) -> Option<Steps> {
         let object = Object::new(channel.log, "a step", whole, &whole.span)?;
         object.required("step")?;
         let name = object.text("step")?;
-        let Some((_, keys)) = ALL.iter().find(|(known, _)| *known == name) else {
-            let allowed = ALL.map(|(name, _)| name.to_owned()).to_vec();
+        let Some((_, keys)) = STEPS.iter().find(|(known, _)| *known == name) else {
+            let allowed = STEPS.map(|(name, _)| name.to_owned()).to_vec();
             let diagnostic =
                 DiagnosticKind::NotOneOf { key: "step".into(), found: name.to_owned(), allowed };
             channel.log.report(&node.span, diagnostic);
             return None;
         };
-        object.check_keys(&[&["step"], *keys].concat());
+        object.check_names(&[&["step"], *keys].concat());
         let (step, unit) = step(name, &object, &read.unit)?;
         read.steps.push(step);
         read.places.push(node.span.clone());

@@ -15,7 +15,7 @@ use std::rc::Rc;
 use sha2::{Digest, Sha256};
 
 use gumption_engine::task::Warning;
-use gumption_signal::{BLOCK, Each, Held, Measured, Passes, in_blocks};
+use gumption_signal::{BLOCK, BlockVisitor, InMemorySamples, Measured, SampleSource, in_blocks};
 
 /// Values that are held in memory at most, over all channels of a recording (256 MiB); a longer
 /// recording is read again for each pass.
@@ -73,7 +73,7 @@ pub struct Recording {
     /// The first frame that is used, and how many are.
     first: u64,
     frames: u64,
-    held: Option<Held>,
+    held: Option<InMemorySamples>,
     /// The sampling rate, in hertz.
     pub(super) rate: Measured,
     /// The instant of the first frame that is used, in seconds.
@@ -130,14 +130,14 @@ impl Reading {
     }
 }
 
-impl Passes for Recording {
+impl SampleSource for Recording {
     type Error = String;
 
     fn frames(&self) -> u64 {
         self.frames
     }
 
-    fn pass(&mut self, each: &mut Each<'_>) -> Result<(), String> {
+    fn pass(&mut self, each: &mut BlockVisitor<'_>) -> Result<(), String> {
         if let Some(held) = &self.held {
             in_blocks(&held.channels, each);
             return Ok(());

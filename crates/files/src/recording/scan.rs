@@ -6,7 +6,9 @@ use std::rc::Rc;
 
 use sha2::{Digest, Sha256};
 
-use super::{BLOCK, Digesting, Held, MOST_IN_MEMORY, Measured, Reading, Recording, opened, place};
+use super::{
+    BLOCK, Digesting, InMemorySamples, MOST_IN_MEMORY, Measured, Reading, Recording, opened, place,
+};
 use gumption_engine::number::Shortest;
 use gumption_engine::task::Warning;
 
@@ -70,7 +72,7 @@ pub(super) fn scan(reading: Reading) -> Result<Recording, String> {
         Some(clock) => clock.first,
         None => scanned.first as f64 / rate.value,
     };
-    let held = scanned.held.take().map(|channels| Held { channels });
+    let held = scanned.held.take().map(|channels| InMemorySamples { channels });
     let (first, frames) = (scanned.first, scanned.kept);
     let digest = digest.borrow().clone().finalize();
     let digest = digest.iter().map(|byte| format!("{byte:02x}")).collect();

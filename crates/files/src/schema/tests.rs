@@ -7,10 +7,10 @@ use std::path::{Path, PathBuf};
 
 use serde_json::{Value, json};
 
-use super::shapes::SHAPES;
 use super::text;
 use crate as file;
 use crate::DiagnosticKind;
+use crate::keys::SHAPES;
 
 fn schema() -> Value {
     serde_json::from_str(&text()).unwrap()

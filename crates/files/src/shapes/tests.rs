@@ -3,7 +3,7 @@
 use std::f64::consts::SQRT_2;
 use std::path::Path;
 
-use super::KINDS;
+use crate::keys::SHAPES;
 use crate::{Override, read_text};
 use gumption_engine::distribution::Distribution;
 
@@ -54,7 +54,7 @@ const EXAMPLES: [(&str, &str, f64, f64); 19] = [
 #[test]
 fn every_shape_is_read() {
     // a saved result needs a file; its tests are where it is written
-    for kind in KINDS.iter().filter(|kind| kind.name != "result") {
+    for kind in SHAPES.iter().filter(|kind| kind.name != "result") {
         assert!(EXAMPLES.iter().any(|(name, ..)| *name == kind.name), "{}", kind.name);
     }
     for (name, fields, mean, u) in EXAMPLES {

@@ -4,7 +4,7 @@
 mod score;
 mod truth;
 
-pub use score::{Checked, Confusion, Reliability, Report, SmallestEffect, score};
+pub use score::{BlindCheckScores, BlindDraw, Confusion, Reliability, SmallestEffect, score};
 #[cfg(test)]
 pub(crate) use truth::truth_with;
 pub use truth::{Truth, TruthKind, truth};

@@ -3,9 +3,10 @@
 use serde::Serialize;
 
 use super::truth::{Truth, TruthKind};
-use crate::Answer;
 use crate::Case;
-use crate::diagnosis::Kind;
+use crate::ModelSelection;
+use crate::diagnosis::HypothesisKind;
+use gumption_engine::number::elementary;
 
 /// A correction is within the uncertainties if its errors are, in the root mean square.
 const WITHIN: f64 = 1.0;
@@ -18,7 +19,7 @@ const MEANINGFUL: f64 = 3.0;
 
 /// The result of one blind draw.
 #[derive(Clone, Debug, Serialize)]
-pub struct Checked {
+pub struct BlindDraw {
     /// The true label: effects joined by `+`, `none`, or `unexplained` where the effect was withheld.
     pub truth: String,
     /// The effect that was withheld.
@@ -39,7 +40,7 @@ pub struct Checked {
     pub held: Vec<bool>,
     /// Root mean square of what the effects change, in standard uncertainties.
     pub gap: f64,
-    /// Root mean square error of the corrected prediction over that of the sim, without noise.
+    /// Root mean square error of the corrected prediction over that of the model, without noise.
     pub left: f64,
     /// Claimed and true removed fraction, where the gap is large enough.
     pub fractions: Option<[f64; 2]>,
@@ -95,7 +96,7 @@ pub struct SmallestEffect {
 
 /// The scores of a blind check.
 #[derive(Clone, Debug)]
-pub struct Report {
+pub struct BlindCheckScores {
     /// Number of draws.
     pub draws: usize,
     /// Seed of the truths.
@@ -133,10 +134,10 @@ pub struct Report {
     /// For each parameter the smallest size that is found.
     pub smallest: Vec<SmallestEffect>,
     /// Every draw.
-    pub checked: Vec<Checked>,
+    pub checked: Vec<BlindDraw>,
 }
 
-impl Report {
+impl BlindCheckScores {
     /// Number of gap-free data sets in which a gap was found.
     pub fn alarms(&self) -> usize {
         self.checked.iter().filter(|one| one.truth == "none" && one.said != "none").count()
@@ -158,24 +159,29 @@ fn label(effects: &[String]) -> String {
     sorted.join("+")
 }
 
-impl Checked {
-    /// Compares an answer with the truth; `sim` and `noise` are what the sim says and the standard
+impl BlindDraw {
+    /// Compares a selection with the truth; `sim` and `noise` are what the model says and the standard
     /// deviations of the noise, output by output.
-    pub fn new(truth: &Truth, answer: &Answer, sim: &[Vec<f64>], noise: &[Vec<f64>]) -> Self {
+    pub fn new(
+        truth: &Truth,
+        selected: &ModelSelection,
+        sim: &[Vec<f64>],
+        noise: &[Vec<f64>],
+    ) -> Self {
         let of_truth = match truth.kind {
             TruthKind::Withheld => "unexplained".to_owned(),
             _ => label(&truth.effects),
         };
-        let said = match answer.verdict.kind {
-            Kind::Unexplained => "unexplained".to_owned(),
-            _ => label(&answer.verdict.effects),
+        let said = match selected.most_probable.kind {
+            HypothesisKind::Unexplained => "unexplained".to_owned(),
+            _ => label(&selected.most_probable.effects),
         };
         let name = |effects: &Option<Vec<String>>| {
             effects.as_deref().map_or_else(|| "unexplained".to_owned(), label)
         };
         let mut brier = 0.0;
         let mut probability_of_truth = 0.0;
-        for hypothesis in &answer.hypotheses {
+        for hypothesis in &selected.hypotheses {
             let true_one = name(&hypothesis.effects) == of_truth;
             brier += (hypothesis.probability - f64::from(u8::from(true_one))).powi(2);
             if true_one {
@@ -185,7 +191,7 @@ impl Checked {
         let (mut before, mut after, mut normalized, mut count) = (0.0, 0.0, 0.0, 0usize);
         for (output, values) in truth.values.iter().enumerate() {
             for (row, &value) in values.iter().enumerate() {
-                let (predicted, u) = answer.predicted[row].outputs[output];
+                let (predicted, u) = selected.predicted[row].outputs[output];
                 let noise = noise[output][row];
                 before += ((value - sim[output][row]) / noise).powi(2);
                 after += ((value - predicted) / noise).powi(2);
@@ -197,7 +203,7 @@ impl Checked {
         let within = (normalized / n).sqrt() <= WITHIN;
         let right = said == of_truth || truth.kind == TruthKind::Withheld && within;
         let held = if said == of_truth && truth.kind == TruthKind::Catalogue {
-            let own = answer.hypotheses.iter().find(|h| name(&h.effects) == of_truth);
+            let own = selected.hypotheses.iter().find(|h| name(&h.effects) == of_truth);
             let interval = |parameter: &String| {
                 own?.parameters.iter().find(|p| p.name == *parameter).map(|p| p.interval)
             };
@@ -216,23 +222,23 @@ impl Checked {
             withheld: (truth.kind == TruthKind::Withheld).then(|| label(&truth.effects)),
             truth: of_truth,
             said,
-            probability: answer.verdict.probability,
+            probability: selected.most_probable.probability,
             of_truth: probability_of_truth,
             brier,
             right,
             held,
             gap: truth.gap,
             left: if before > 0.0 { (after / before).sqrt() } else { 0.0 },
-            fractions: large.then(|| [answer.claimed_fraction, 1.0 - after / before]),
+            fractions: large.then(|| [selected.claimed_fraction, 1.0 - after / before]),
             parameters: truth.parameters.clone(),
             effects: truth.effects.clone(),
-            named: answer.verdict.effects.clone(),
+            named: selected.most_probable.effects.clone(),
         }
     }
 }
 
 /// The scores of all draws.
-pub fn score(case: &Case, checked: Vec<Checked>, seed: u64) -> Report {
+pub fn score(case: &Case, checked: Vec<BlindDraw>, seed: u64) -> BlindCheckScores {
     let draws = checked.len();
     let n = draws.max(1) as f64;
     let mean = |values: &mut dyn Iterator<Item = f64>| {
@@ -240,7 +246,7 @@ pub fn score(case: &Case, checked: Vec<Checked>, seed: u64) -> Report {
         if count == 0 { 0.0 } else { sum / count as f64 }
     };
     let right = checked.iter().filter(|c| c.right).count();
-    let free: Vec<&Checked> = checked.iter().filter(|c| c.truth == "none").collect();
+    let free: Vec<&BlindDraw> = checked.iter().filter(|c| c.truth == "none").collect();
     let mut confusion: Vec<Confusion> = Vec::new();
     for one in &checked {
         match confusion.iter_mut().find(|c| c.truth == one.truth && c.said == one.said) {
@@ -256,16 +262,18 @@ pub fn score(case: &Case, checked: Vec<Checked>, seed: u64) -> Report {
     let verdicts: Vec<(f64, bool)> = checked.iter().map(|c| (c.probability, c.right)).collect();
     let reliability = reliability(&verdicts);
     let held: Vec<bool> = checked.iter().flat_map(|c| c.held.clone()).collect();
-    let with_gap: Vec<&Checked> = checked.iter().filter(|c| c.truth != "none").collect();
+    let with_gap: Vec<&BlindDraw> = checked.iter().filter(|c| c.truth != "none").collect();
     let mut left: Vec<f64> = with_gap.iter().map(|c| c.left).collect();
     left.sort_by(f64::total_cmp);
-    Report {
+    BlindCheckScores {
         draws,
         seed,
         top1: right as f64 / n,
         top1_interval: wilson(right, draws),
         brier: mean(&mut checked.iter().map(|c| c.brier)),
-        mean_log_probability: mean(&mut checked.iter().map(|c| c.of_truth.max(1e-6).ln())),
+        mean_log_probability: mean(
+            &mut checked.iter().map(|c| elementary::ln(c.of_truth.max(1e-6))),
+        ),
         false_alarms: mean(&mut free.iter().map(|c| f64::from(u8::from(c.said != "none")))),
         gap_free: free.len(),
         calibration_error: calibration_error(&reliability, draws),
@@ -345,30 +353,35 @@ fn perfect(verdicts: &[(f64, bool)], seed: u64) -> f64 {
 
 /// For each effect the gap at which it is found with 90 % probability, by logistic regression on the
 /// logarithm of the gap, and the size of each parameter that makes such a gap.
-fn smallest(case: &Case, checked: &[Checked]) -> Vec<SmallestEffect> {
+fn smallest(case: &Case, checked: &[BlindDraw]) -> Vec<SmallestEffect> {
     let mut smallest = Vec::new();
     for candidate in &case.candidates {
         let name = &candidate.effect.name;
-        let own: Vec<&Checked> = checked
+        let own: Vec<&BlindDraw> = checked
             .iter()
             .filter(|c| c.withheld.is_none() && c.effects == [name.clone()] && c.gap > 0.0)
             .collect();
         let found: Vec<(f64, bool)> =
-            own.iter().map(|c| (c.gap.ln(), c.named.contains(name))).collect();
+            own.iter().map(|c| (elementary::ln(c.gap), c.named.contains(name))).collect();
         let ln_gap = at_ninety_percent(&found);
         for quantity in &candidate.effect.parameters {
             let parameter = format!("{name}/{}", quantity.name);
-            let value = |c: &Checked| {
+            let value = |c: &BlindDraw| {
                 c.parameters.iter().find(|(known, _)| *known == parameter).map(|(_, value)| *value)
             };
             let sizes: Vec<(f64, f64)> = own
                 .iter()
-                .filter_map(|c| Some((value(c)?.abs().max(f64::MIN_POSITIVE).ln(), c.gap.ln())))
+                .filter_map(|c| {
+                    Some((
+                        elementary::ln(value(c)?.abs().max(f64::MIN_POSITIVE)),
+                        elementary::ln(c.gap),
+                    ))
+                })
                 .collect();
             smallest.push(SmallestEffect {
                 unit: quantity.unit.text().to_owned(),
                 value_at_90_percent: ln_gap.and_then(|ln_gap| inverse(&sizes, ln_gap)),
-                gap_at_90_percent: ln_gap.map(f64::exp),
+                gap_at_90_percent: ln_gap.map(elementary::exp),
                 parameter,
             });
         }
@@ -388,7 +401,7 @@ fn at_ninety_percent(found: &[(f64, bool)]) -> Option<f64> {
         let (mut ga, mut gb) = (-a / 100.0, -(b - 1.0) / 9.0);
         let (mut haa, mut hab, mut hbb) = (0.01, 0.0, 1.0 / 9.0);
         for &(x, yes) in found {
-            let p = 1.0 / (1.0 + (-(a + b * x)).exp());
+            let p = 1.0 / (1.0 + elementary::exp(-(a + b * x)));
             let error = f64::from(u8::from(yes)) - p;
             let weight = p * (1.0 - p);
             ga += error;
@@ -405,7 +418,7 @@ fn at_ninety_percent(found: &[(f64, bool)]) -> Option<f64> {
             break;
         }
     }
-    let ln_gap = (9f64.ln() - a) / b;
+    let ln_gap = (elementary::ln(9f64) - a) / b;
     (b > 0.0 && ln_gap.is_finite()).then_some(ln_gap)
 }
 
@@ -428,6 +441,6 @@ fn inverse(sizes: &[(f64, f64)], ln_gap: f64) -> Option<f64> {
     if coefficient.is_nan() || coefficient.abs() <= 0.7 {
         return None;
     }
-    let value = (mx + (ln_gap - my) * xx / xy).exp();
+    let value = elementary::exp(mx + (ln_gap - my) * xx / xy);
     value.is_finite().then_some(value)
 }

@@ -2,11 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::Case;
-use crate::Effect;
 use crate::data::{Data, Spread};
 use crate::latent::Map;
 use crate::mixture::standard_normals;
+use crate::{Case, OverrideError};
 use crate::{correlated, setup};
 use gumption_engine::distribution::StreamKey;
 use gumption_engine::number::{COLUMN, Column};
@@ -15,7 +14,7 @@ use gumption_engine::number::{COLUMN, Column};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum TruthKind {
-    /// The sim alone.
+    /// The model alone.
     None,
     /// Effects of the catalogue.
     Catalogue,
@@ -74,10 +73,19 @@ impl Scores {
 
 /// Draws a truth of a case and the data that it makes; `noise` is the standard deviation of every
 /// measured value, output by output.
-pub fn truth(case: &Case, noise: &[Vec<f64>], seed: u64, number: u64) -> (Truth, Vec<Vec<f64>>) {
+///
+/// # Errors
+/// Effects that cannot act on the model.
+pub fn truth(
+    case: &Case,
+    noise: &[Vec<f64>],
+    seed: u64,
+    number: u64,
+) -> Result<(Truth, Vec<Vec<f64>>), OverrideError> {
+    case.check()?;
     let mut scores = Scores::new(seed, number);
     let (kind, effects) = choose(case, &mut scores);
-    make(case, noise, kind, &effects, scores)
+    Ok(make(case, noise, kind, &effects, scores))
 }
 
 /// Data that certain effects make.
@@ -102,7 +110,6 @@ fn make(
     let data = Data::new(case);
     let spread = Spread::new(case, &data);
     let chosen: Vec<_> = effects.iter().map(|&e| &case.candidates[e]).collect();
-    let acting: Vec<&Effect> = chosen.iter().map(|candidate| &candidate.effect).collect();
     let mut parameters = Vec::new();
     for candidate in &chosen {
         for (quantity, prior) in candidate.effect.parameters.iter().zip(&candidate.priors) {
@@ -111,7 +118,7 @@ fn make(
         }
     }
     let inputs = inputs(case, &data, &spread, &mut scores);
-    let with = case.sim.program(&acting).unwrap_or_default();
+    let with = case.program(effects);
     let without = &case.task.model.program;
     let mut values = vec![Vec::with_capacity(data.rows()); data.outputs.len()];
     let mut measured = values.clone();
@@ -175,8 +182,8 @@ fn inputs(case: &Case, data: &Data, spread: &Spread, scores: &mut Scores) -> Vec
         let maps = setup::maps(case, data, v);
         let own: Vec<f64> = match &spread.shared[v] {
             None => {
-                let place = shared.iter().position(|&known| known == v).unwrap_or(0);
-                vec![mixed(place); data.rows()]
+                let own = shared.iter().position(|&known| known == v);
+                vec![own.map_or(f64::NAN, mixed); data.rows()]
             }
             Some(groups) => {
                 let levels = groups.iter().max().map_or(0, |most| most + 1);

@@ -5,6 +5,7 @@ use nalgebra::DMatrix;
 use super::grammar::{Of, Term};
 use crate::Case;
 use crate::data::Data;
+use gumption_engine::number::elementary;
 
 /// Distinct coordinates beyond which the covariance is taken from nodes (Nystroem).
 const MOST_COORDINATES: usize = 160;
@@ -58,7 +59,7 @@ impl Axis {
             squares / gaps.len().max(1) as f64
         };
         let positive = values.first().is_some_and(|least| *least > 0.0);
-        let logarithms: Vec<f64> = values.iter().map(|value| value.ln()).collect();
+        let logarithms: Vec<f64> = values.iter().copied().map(elementary::ln).collect();
         let logarithmic = positive && values.len() > 2 && spread(&logarithms) < spread(&values);
         let (lower, upper) = if logarithmic {
             (logarithms.first(), logarithms.last())
@@ -72,19 +73,20 @@ impl Axis {
 
     /// From 0 to 1 within the range of the data.
     pub(crate) fn place(&self, value: f64) -> f64 {
-        let value = if self.logarithmic { value.max(f64::MIN_POSITIVE).ln() } else { value };
+        let value =
+            if self.logarithmic { elementary::ln(value.max(f64::MIN_POSITIVE)) } else { value };
         (value - self.lower) / self.range
     }
 }
 
-/// The axes of a case's conditions, and of what the sim says of each output.
+/// The axes of a case's conditions, and of what the model says of each output.
 #[derive(Clone, Debug)]
 pub(crate) struct Axes {
     conditions: Vec<Axis>,
     sims: Vec<Axis>,
 }
 
-/// One row of conditions with what the sim says there: of the data, or of new conditions.
+/// One row of conditions with what the model says there: of the data, or of new conditions.
 #[derive(Clone, Debug)]
 pub(crate) struct Site {
     pub(crate) conditions: Vec<f64>,
@@ -94,7 +96,7 @@ pub(crate) struct Site {
 
 impl Axes {
     pub(crate) fn new(case: &Case, data: &Data) -> Self {
-        let conditions = (0..case.sim.conditions.len() - case.simulated).map(|condition| {
+        let conditions = (0..case.model.conditions.len() - case.simulated).map(|condition| {
             let values = data.ids.iter().map(|&id| case.task.rows[id].conditions[condition]);
             Axis::spaced(values.collect())
         });
@@ -123,7 +125,7 @@ impl Coordinates {
         let mut distinct: Vec<Vec<f64>> = Vec::new();
         let mut known = std::collections::HashMap::new();
         let mut touched = Vec::new();
-        // a function of the sim's value that several outputs share has one scale for all of them
+        // a function of the model's value that several outputs share has one scale for all of them
         let widest = term.outputs.iter().map(|&o| axes.sims[o].range).fold(0.0, f64::max);
         for (row, site) in sites.iter().enumerate() {
             for (number, &output) in term.outputs.iter().enumerate() {
@@ -237,7 +239,7 @@ fn covariance(term: &Term, length: f64, a: &[f64], b: &[f64]) -> f64 {
         _ => {
             let squares: f64 = a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum();
             let x = (5.0 * squares).sqrt() / length;
-            (1.0 + x + x * x / 3.0) * (-x).exp()
+            (1.0 + x + x * x / 3.0) * elementary::exp(-x)
         }
     }
 }

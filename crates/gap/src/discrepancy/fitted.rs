@@ -1,8 +1,20 @@
 //! The evidence of a discrepancy where the noise is estimated from the data as well.
 //!
-//! At each amplitude the noise is integrated out about its most probable value (Laplace), which is
-//! accurate because a standard deviation from many residuals is nearly lognormal. Repeats go in as
-//! their mean and the sum of squares about it.
+//! With known noise a discrepancy that is a Gaussian process has its evidence in closed form. With
+//! unknown noise there is one more integral, over the logarithms of the standard deviations, for each
+//! of some hundred forms and each of fourteen amplitudes; sampling all of them would take most of the
+//! time of a diagnosis. But a standard deviation that is estimated from many residuals is nearly
+//! lognormal, so that Laplace's method is enough: the most probable noise by damped Fisher scoring,
+//! and there the determinant of the expected information (Tierney and Kadane 1986, Journal of the
+//! American Statistical Association 81, 82). The test compares it with a grid.
+//!
+//! Repeats that share conditions and variance enter as their mean and the sum of squares about it,
+//! which are sufficient; the matrices then have a row for each condition and not for each value. A
+//! discrepancy may imitate noise, so its size is counted in units of the noise: amplitude and noise
+//! move together, and the gradient has a part for that.
+//!
+//! A form whose evidence at a few amplitudes is far below the leading hypothesis is left at these: its
+//! weight would be lost in rounding.
 
 use std::sync::Arc;
 
@@ -10,10 +22,11 @@ use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
 use super::{AMPLITUDES, Discrepancy, Unexplained, Weighted, weigh};
-use crate::covariance::triangle;
 use crate::latent::{EDGE, Role, ln_prior};
-use crate::likelihood::{HALF_LN_TWO_PI, root_in_place};
+use crate::logarithm::HALF_LN_TWO_PI;
 use crate::setup::Setup;
+use gumption_engine::linalg::packed::{self, triangle};
+use gumption_engine::number::elementary;
 
 /// Points of the integral over the logarithm of the amplitude.
 const STEPS: usize = 14;
@@ -54,12 +67,12 @@ pub(crate) fn evidence(
         let mut scores = vec![0.0; noise.len()];
         let mut part = |step: &usize| {
             let share = (*step as f64 + 0.5) / STEPS as f64;
-            let amplitude = AMPLITUDES[0] * (AMPLITUDES[1] / AMPLITUDES[0]).powf(share);
+            let amplitude = AMPLITUDES[0] * elementary::pow(AMPLITUDES[1] / AMPLITUDES[0], share);
             let ln = problem.integrate(amplitude, &mut scores);
             let variances = problem.variances(&scores);
             let own = problem.means.iter().map(|mean| variances[mean.value]);
             let multiplier = amplitude * problem.scale(own);
-            let ln = ln + form.ln_weight - (STEPS as f64).ln();
+            let ln = ln + form.ln_weight - elementary::ln(STEPS as f64);
             let variances = Some(Arc::new(variances));
             (ln, Weighted { form: place, multiplier, weight: 0.0, base: None, variances })
         };
@@ -154,7 +167,7 @@ impl<'p> Problem<'p> {
         if !found {
             return known;
         }
-        let own = (2.0 * ln).exp();
+        let own = elementary::exp(2.0 * ln);
         slopes.iter_mut().for_each(|slope| *slope *= own / (own + known));
         own + known
     }
@@ -202,7 +215,8 @@ impl<'p> Problem<'p> {
             whitened.extend(row[self.features..].iter().map(|b| root * b));
             let row = &whitened[first..];
             let white = mean.residual * root;
-            ln -= 0.5 * (mean.count * variance.ln() + mean.squares / variance + white * white);
+            ln -= 0.5
+                * (mean.count * elementary::ln(variance) + mean.squares / variance + white * white);
             ln -= mean.count * HALF_LN_TWO_PI;
             for i in 0..order {
                 let factor = row[i];
@@ -215,10 +229,11 @@ impl<'p> Problem<'p> {
                 }
             }
         }
-        ln -= root_in_place(&mut inner, order);
-        forward(&inner, &mut products);
+        packed::cholesky_of_definite(&mut inner);
+        ln -= packed::ln_diagonal(&inner);
+        packed::solve(&inner, &mut products);
         ln += 0.5 * products.iter().map(|y| y * y).sum::<f64>();
-        backward(&inner, &mut products);
+        packed::solve_transposed(&inner, &mut products);
         let mut gradient = DVector::zeros(d);
         let mut information = DMatrix::zeros(d, d);
         let (mut leverages, mut weight) = (0.0, 0.0);
@@ -228,7 +243,7 @@ impl<'p> Problem<'p> {
             let row = &whitened[n * order..(n + 1) * order];
             let slopes = &all_slopes[n * d..(n + 1) * d];
             solved.copy_from_slice(row);
-            forward(&inner, &mut solved);
+            packed::solve(&inner, &mut solved);
             let leverage: f64 = solved.iter().map(|y| y * y).sum();
             leverages += leverage;
             let fitted: f64 = row.iter().zip(&products).map(|(w, b)| w * b).sum();
@@ -299,7 +314,7 @@ impl<'p> Problem<'p> {
             }
         }
         let determinant = here.information.determinant();
-        here.ln - 0.5 * if determinant > 0.0 { determinant.ln() } else { 0.0 }
+        here.ln - 0.5 * if determinant > 0.0 { elementary::ln(determinant) } else { 0.0 }
     }
 }
 
@@ -332,27 +347,6 @@ fn means(setup: &Setup<'_>, residuals: &[f64]) -> Vec<Mean> {
     means
 }
 
-/// Solves with a lower root in place.
-fn forward(root: &[f64], y: &mut [f64]) {
-    for i in 0..y.len() {
-        let (done, rest) = y.split_at_mut(i);
-        let row = &root[triangle(i)..triangle(i) + i];
-        let sum: f64 = row.iter().zip(done.iter()).map(|(a, b)| a * b).sum();
-        rest[0] = (rest[0] - sum) / root[triangle(i) + i];
-    }
-}
-
-/// Solves with the transpose of a lower root in place.
-fn backward(root: &[f64], y: &mut [f64]) {
-    for i in (0..y.len()).rev() {
-        y[i] /= root[triangle(i) + i];
-        let (done, rest) = y.split_at_mut(i);
-        for (out, factor) in done.iter_mut().zip(&root[triangle(i)..triangle(i) + i]) {
-            *out -= factor * rest[0];
-        }
-    }
-}
-
 /// How many of the shared inputs' directions the data decide: their number less the trace of their
 /// block of the inverse.
 fn shared(root: &[f64], first: usize, order: usize) -> f64 {
@@ -361,7 +355,7 @@ fn shared(root: &[f64], first: usize, order: usize) -> f64 {
     for j in first..order {
         column.fill(0.0);
         column[j] = 1.0;
-        forward(root, &mut column);
+        packed::solve(root, &mut column);
         trace += column[j..].iter().map(|y| y * y).sum::<f64>();
     }
     (order - first) as f64 - trace
@@ -370,7 +364,8 @@ fn shared(root: &[f64], first: usize, order: usize) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::Problem;
-    use crate::discrepancy::{Discrepancy, by_rows};
+    use crate::data::by_rows;
+    use crate::discrepancy::Discrepancy;
     use crate::latent::Role;
     use crate::setup::Setup;
     use crate::tests::line;

@@ -8,8 +8,9 @@ use rayon::prelude::*;
 use super::LENGTHS;
 use super::features::{Axes, Coordinates, Nodes, sites};
 use super::grammar::{Term, terms};
-use crate::covariance::dot;
 use crate::setup::Setup;
+use gumption_engine::linalg::{dot, packed};
+use gumption_engine::number::elementary;
 
 /// Data with more values than this have their features computed when they are needed and not kept.
 const MOST_KEPT: usize = 4000;
@@ -46,13 +47,13 @@ pub(crate) fn forms(
     wanted: &(dyn Fn(&Term, f64) -> bool + Sync),
 ) -> Vec<Form> {
     let terms = terms(setup.case, &setup.data);
-    let ln_term = -(terms.len() as f64).ln();
+    let ln_term = -elementary::ln(terms.len() as f64);
     let sites = sites(setup.case, &setup.data);
     let with_lengths: Vec<(&Term, f64, f64)> = terms
         .iter()
         .flat_map(|term| {
             let lengths = if term.is_smooth() { &LENGTHS[..] } else { &LENGTHS[..1] };
-            let ln_weight = ln_term - (lengths.len() as f64).ln();
+            let ln_weight = ln_term - elementary::ln(lengths.len() as f64);
             lengths.iter().map(move |&length| (term, length, ln_weight))
         })
         .filter(|(term, length, _)| wanted(term, *length))
@@ -120,8 +121,8 @@ impl Form {
             return (Vec::new(), DVector::zeros(0));
         };
         let eigen = gram.symmetric_eigen();
-        let products =
-            white.tr_mul(whitened) - cross.tr_mul(&setup.linear.project(whitened.as_slice()));
+        let projected = setup.linear.project(whitened.as_slice());
+        let products = white.tr_mul(whitened) - cross.tr_mul(&DVector::from_vec(projected));
         let eigenvalues = eigen.eigenvalues.iter().map(|value| value.max(0.0)).collect();
         (eigenvalues, eigen.eigenvectors.tr_mul(&products))
     }
@@ -143,7 +144,7 @@ fn gram(
     let products = DMatrix::from_fn(k, white.ncols(), |i, j| {
         dot(&covariance.basis[i], white.column(j).as_slice())
     });
-    let cross = covariance.inner.solve_lower_triangular(&products)?;
+    let cross = packed::to_matrix(&covariance.inner).solve_lower_triangular(&products)?;
     Some((white.tr_mul(&white) - cross.tr_mul(&cross), white, cross))
 }
 
@@ -152,7 +153,7 @@ fn factored(setup: &Setup<'_>, features: &DMatrix<f64>) -> Option<Factored> {
     let covariance = &setup.linear;
     let k = covariance.basis.len();
     let basis = DMatrix::from_fn(k, white.nrows(), |i, j| covariance.basis[i][j]);
-    let half = covariance.inner.solve_lower_triangular(&basis)?;
+    let half = packed::to_matrix(&covariance.inner).solve_lower_triangular(&basis)?;
     let projector = white.transpose() - cross.tr_mul(&half);
     let eigen = gram.symmetric_eigen();
     Some(Factored {

@@ -18,7 +18,7 @@ pub(crate) enum Of {
     Condition(usize),
     /// A condition, with a value of its own at each level.
     Level(usize),
-    /// What the sim says.
+    /// What the model says.
     Sim,
     /// All conditions together, smoothly.
     Together,
@@ -29,7 +29,7 @@ pub(crate) enum Of {
 pub(crate) struct Term {
     /// The observed outputs that it acts on.
     pub outputs: Vec<usize>,
-    /// Whether it is a share of the sim's value.
+    /// Whether it is a share of the model's value.
     pub(crate) relative: bool,
     /// Whether all outputs have the same function.
     pub(crate) common: bool,
@@ -46,7 +46,7 @@ impl Term {
 
 /// All terms for a case.
 pub(crate) fn terms(case: &Case, data: &Data) -> Vec<Term> {
-    let conditions: Vec<usize> = (0..case.sim.conditions.len() - case.simulated)
+    let conditions: Vec<usize> = (0..case.model.conditions.len() - case.simulated)
         .filter(|&condition| levels(case, data, condition) > 1)
         .collect();
     let mut of = vec![Of::Constant];
@@ -67,7 +67,7 @@ pub(crate) fn terms(case: &Case, data: &Data) -> Vec<Term> {
     let has_size = |output: usize| {
         data.points.iter().any(|point| point.nominal[output].abs() > f64::MIN_POSITIVE)
     };
-    let unit = |output: usize| &case.sim.outputs[data.outputs[output]].quantity.unit;
+    let unit = |output: usize| &case.model.outputs[data.outputs[output]].quantity.unit;
     let mut terms = Vec::new();
     for outputs in subsets(data.outputs.len()) {
         for relative in [false, true] {

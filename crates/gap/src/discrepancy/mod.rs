@@ -1,4 +1,4 @@
-//! The hypothesis "unexplained": the sim plus a random discrepancy that no candidate makes.
+//! The hypothesis "unexplained": the model plus a random discrepancy that no candidate makes.
 //!
 //! The discrepancy is one term of a small grammar ([`grammar`]), all of equal weight; its amplitude
 //! is log-uniform from 3 to 300 standard uncertainties. Each term is a Gaussian process, so that its
@@ -8,8 +8,9 @@ mod features;
 mod fitted;
 mod form;
 mod grammar;
+mod prediction;
 
-pub(crate) use features::{Axes, Coordinates, Site};
+pub(crate) use features::Axes;
 pub(crate) use form::{Form, forms};
 use grammar::Term;
 
@@ -18,11 +19,11 @@ use std::sync::Arc;
 use nalgebra::DVector;
 use rayon::prelude::*;
 
-use super::evidence::ln_add;
-use super::likelihood::HALF_LN_TWO_PI;
 use super::predict;
 use super::search::Mode;
 use super::setup::Setup;
+use crate::logarithm::{HALF_LN_TWO_PI, ln_add};
+use gumption_engine::number::elementary;
 use gumption_engine::task::Row;
 
 /// The lengths over which a smooth discrepancy varies, as shares of the range of what it is a
@@ -40,7 +41,7 @@ pub(crate) fn amplitudes() -> impl Iterator<Item = f64> {
     let [lower, upper] = AMPLITUDES;
     (0..AMPLITUDE_STEPS).map(move |step| {
         let share = (step as f64 + 0.5) / AMPLITUDE_STEPS as f64;
-        lower * (upper / lower).powf(share)
+        lower * elementary::pow(upper / lower, share)
     })
 }
 
@@ -125,11 +126,11 @@ impl Unexplained {
         let mut parts: Vec<(f64, Weighted)> = Vec::new();
         let mut add = |ln: f64, base: Option<&Arc<Base>>, kinds: Vec<Weighted>| {
             for kind in kinds {
-                let own = ln + kind.weight.max(f64::MIN_POSITIVE).ln();
+                let own = ln + elementary::ln(kind.weight.max(f64::MIN_POSITIVE));
                 parts.push((own, Weighted { base: base.cloned(), ..kind }));
             }
         };
-        add(rest.ln() + self.ln_evidence, None, self.kinds);
+        add(elementary::ln(rest) + self.ln_evidence, None, self.kinds);
         for (ln_share, base, other) in others {
             add(ln_share + other.ln_evidence, Some(&base), other.kinds);
         }
@@ -163,7 +164,7 @@ impl Discrepancy {
         let whitened = setup.linear.whiten_blocks(residuals);
         let base = ln_normal(setup, &whitened);
         let whitened = DVector::from_column_slice(&whitened);
-        let ln_amplitude = -(AMPLITUDE_STEPS as f64).ln();
+        let ln_amplitude = -elementary::ln(AMPLITUDE_STEPS as f64);
         let of_form = |(place, form): (usize, &Form)| {
             let (eigenvalues, scores) = form.scores(setup, &self.axes, &whitened);
             let mut parts: Vec<(f64, Weighted)> = Vec::with_capacity(AMPLITUDE_STEPS);
@@ -172,7 +173,7 @@ impl Discrepancy {
                 let mut ln = base + form.ln_weight + ln_amplitude;
                 for (eigenvalue, score) in eigenvalues.iter().zip(scores.iter()) {
                     let growth = 1.0 + a * eigenvalue;
-                    ln += 0.5 * (a * score * score / growth - growth.ln());
+                    ln += 0.5 * (a * score * score / growth - elementary::ln(growth));
                 }
                 let kind = Weighted {
                     form: place,
@@ -195,20 +196,15 @@ fn weigh(mut parts: Vec<(f64, Weighted)>) -> Unexplained {
     let ln_evidence = parts.iter().fold(f64::NEG_INFINITY, |sum, (ln, _)| ln_add(sum, *ln));
     parts.retain(|(ln, _)| *ln > ln_evidence - 7.0);
     parts.sort_by(|a, b| b.0.total_cmp(&a.0));
-    let weighted =
-        |(ln, kind): (f64, Weighted)| Weighted { weight: (ln - ln_evidence).exp(), ..kind };
+    let weighted = |(ln, kind): (f64, Weighted)| Weighted {
+        weight: elementary::exp(ln - ln_evidence),
+        ..kind
+    };
     Unexplained { ln_evidence, kinds: parts.into_iter().map(weighted).collect() }
-}
-
-/// Values of outputs as one list, row by row, outputs fastest.
-pub(crate) fn by_rows(values: &[Vec<f64>]) -> Vec<f64> {
-    let rows = values.first().map_or(0, Vec::len);
-    (0..rows).flat_map(|row| values.iter().map(move |output| output[row])).collect()
 }
 
 /// The logarithm of the density of residuals, whitened by the blocks, without any discrepancy.
 pub(crate) fn ln_normal(setup: &Setup<'_>, whitened: &[f64]) -> f64 {
-    let projected = setup.linear.project(whitened);
-    let square = super::covariance::dot(whitened, whitened) - projected.norm_squared();
+    let square = setup.linear.square(whitened);
     -0.5 * square - setup.linear.half_ln_det - whitened.len() as f64 * HALF_LN_TWO_PI
 }

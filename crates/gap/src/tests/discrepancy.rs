@@ -3,7 +3,8 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::{case, line, ln_normal, normal, observed};
-use crate::discrepancy::{Discrepancy, by_rows};
+use crate::data::by_rows;
+use crate::discrepancy::Discrepancy;
 use crate::setup::Setup;
 use gumption_engine::task::Sharing;
 
@@ -101,10 +102,10 @@ fn estimated_noise_is_integrated_out() {
                 let r = DVector::from_vec(residuals.clone());
                 let ln = -0.5 * r.dot(&root.solve(&r))
                     - root.l().diagonal().map(f64::ln).sum()
-                    - 10.0 * crate::likelihood::HALF_LN_TWO_PI
+                    - 10.0 * crate::logarithm::HALF_LN_TWO_PI
                     + form.ln_weight
                     - (steps as f64 * grid as f64).ln();
-                ln_total = crate::evidence::ln_add(ln_total, ln);
+                ln_total = crate::logarithm::ln_add(ln_total, ln);
             }
         }
     }

@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::{line_with, ln_normal, normal};
-use crate::discrepancy::by_rows;
+use crate::data::by_rows;
 use crate::setup::Setup;
 use gumption_engine::distribution::Rectangular;
 use gumption_engine::number::Column;

@@ -10,7 +10,7 @@ use std::sync::Arc;
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::{Candidate, Case, Effect, Maker, Observed, Prior, Sim};
+use crate::{Candidate, Case, Effect, ModelForm, ObservedOutput, OverridableModel, Prior};
 use gumption_engine::distribution::{Distribution, Normal};
 use gumption_engine::model::formula::{Formula, Scope, Typing};
 use gumption_engine::model::{InputQuantity, Output, Quantity};
@@ -48,15 +48,15 @@ fn case(
     a: Distribution,
     sharing: Sharing,
     equations: &[(&str, &str)],
-    observed: Vec<Observed>,
+    observed: Vec<ObservedOutput>,
     candidates: Vec<Candidate>,
 ) -> Case {
     let names = ["a", "x"].into_iter().chain(equations.iter().map(|(name, _)| *name));
-    let sim = Sim {
+    let sim = OverridableModel {
         inputs: vec![InputQuantity { quantity: quantity("a"), parts: 1 }],
         conditions: vec![quantity("x")],
         outputs: equations.iter().map(|(name, _)| Output::new(quantity(name))).collect(),
-        maker: Maker::Equations(formulas(equations)),
+        maker: ModelForm::Equations(formulas(equations)),
         scope: Scope::from_iter(names.map(|name| (name, Typing::in_unit(&Unit::one())))),
     };
     let distributions: Arc<[Arc<Distribution>]> = Arc::new([Arc::new(a)]);
@@ -64,14 +64,14 @@ fn case(
     let mut variable = Variable::new("a", Unit::one());
     variable.sharing = sharing;
     let rows = (0..observed[0].values.len()).map(row).collect();
-    let task = Task::new(sim.model(), vec![variable], rows);
+    let task = Task::new(sim.model().unwrap(), vec![variable], rows);
     let observed = observed.into_iter().map(Some).collect();
-    Case { task, sim, observed, simulated: 0, candidates, prior: Prior::DEFAULT }
+    Case { task, model: sim, observed, simulated: 0, candidates, prior: Prior::DEFAULT }
 }
 
 /// Measured values with their standard uncertainties, if these are known.
-fn observed(values: &[f64], uncertainties: Option<&[f64]>) -> Observed {
-    Observed {
+fn observed(values: &[f64], uncertainties: Option<&[f64]>) -> ObservedOutput {
+    ObservedOutput {
         values: values.to_vec(),
         standard_uncertainties: uncertainties.map(<[f64]>::to_vec),
         simulation_uncertainties: None,
@@ -107,5 +107,5 @@ fn ln_normal(residuals: &DVector<f64>, covariance: &DMatrix<f64>) -> f64 {
     let root = covariance.clone().cholesky().unwrap();
     let half_ln_det: f64 = root.l().diagonal().map(f64::ln).sum();
     let square = residuals.dot(&root.solve(residuals));
-    -0.5 * square - half_ln_det - residuals.len() as f64 * super::likelihood::HALF_LN_TWO_PI
+    -0.5 * square - half_ln_det - residuals.len() as f64 * crate::logarithm::HALF_LN_TWO_PI
 }

@@ -1,7 +1,7 @@
 //! One line for each variant of the evaluation, in full precision, for spreadsheets.
 
-use super::Report;
-use crate::csv::{number, text};
+use super::AuditReport;
+use crate::csv::{number, of_records, text};
 use gumption_analysis::assumptions::{VariantChange, VariantFigures};
 
 const COLUMNS: [&str; 10] = [
@@ -20,8 +20,7 @@ const COLUMNS: [&str; 10] = [
 /// The variants as comma-separated values: a header, for each output the baseline, then for each
 /// input its other shapes, its width halved and doubled. An empty cell stands for what is not
 /// defined.
-pub fn csv(report: &Report<'_>) -> String {
-    let mut writer = csv::Writer::from_writer(Vec::new());
+pub fn csv(report: &AuditReport<'_>) -> String {
     let task = report.task;
     let conditions = task.model.conditions.iter().filter(|_| task.swept);
     let names = conditions.map(|condition| text(&condition.name));
@@ -62,10 +61,5 @@ pub fn csv(report: &Report<'_>) -> String {
             }
         }
     }
-    for record in &records {
-        // writing to memory cannot fail, and all records have as many cells
-        let written = writer.write_record(record);
-        debug_assert!(written.is_ok(), "{written:?}");
-    }
-    String::from_utf8(writer.into_inner().unwrap_or_default()).unwrap_or_default()
+    of_records(|writer| records.iter().try_for_each(|record| writer.write_record(record)))
 }

@@ -2,13 +2,13 @@
 
 use maud::{Markup, html};
 
-use super::{Report, figure, sheets, words};
+use super::{AuditReport, figure, sheets, words};
 use crate::html::table;
 use crate::html::{figure as numbered, page};
 use crate::plain;
 
 /// The audit as one HTML file with figures that needs nothing else.
-pub fn html(report: &Report<'_>) -> String {
+pub fn html(report: &AuditReport<'_>) -> String {
     let mut number = 0;
     let title = words::title(report);
     let mut sections: Vec<Markup> = Vec::new();

@@ -1,19 +1,20 @@
 //! The answer for programs.
 
-use super::Report;
-use crate::tree::Tree;
+use super::AuditReport;
+use crate::answer::{list, object, pretty};
 use gumption_analysis::assumptions::{
     EvidenceTest, InputAudit, OutputAudit, RowAudit, Sobol, VariantChange, VariantFigures,
 };
+use serde_json::Value;
 
-type Entries = Vec<(&'static str, Tree)>;
+type Entries = Vec<(&'static str, Value)>;
 
 /// The audit as JSON, keys in a fixed order; `null` stands for what is infinite or not defined. It
 /// ends in a newline.
-pub fn json(report: &Report<'_>) -> String {
-    let Report { task, audit, .. } = report;
+pub fn json(report: &AuditReport<'_>) -> String {
+    let AuditReport { task, audit, .. } = report;
     let mut entries = vec![
-        ("gumption", Tree::from(env!("CARGO_PKG_VERSION"))),
+        ("gumption", Value::from(env!("CARGO_PKG_VERSION"))),
         ("title", task.title.as_str().into()),
         ("coverage_probability", audit.coverage_probability.into()),
         ("allowed", audit.question.allowed.into()),
@@ -21,61 +22,58 @@ pub fn json(report: &Report<'_>) -> String {
     if task.swept {
         let names = || task.model.conditions.iter().map(|condition| condition.name.as_str());
         let rows = audit.rows.iter().map(|row| {
-            let values = row.conditions.iter().map(|value| Tree::from(*value));
-            Tree::object([
-                ("conditions", Tree::object(names().zip(values))),
-                ("outputs", outputs(report, row)),
-            ])
+            let values = row.conditions.iter().map(|value| Value::from(*value));
+            object([("conditions", object(names().zip(values))), ("outputs", outputs(report, row))])
         });
-        entries.push(("rows", Tree::list(rows)));
+        entries.push(("rows", list(rows)));
     } else {
         entries.extend(audit.rows.iter().map(|row| ("outputs", outputs(report, row))));
     }
-    entries.push(("evidence", Tree::list(audit.evidence.iter().map(|of| agreement(report, of)))));
+    entries.push(("evidence", list(audit.evidence.iter().map(|of| agreement(report, of)))));
     let warnings = report.warnings.iter().map(|warning| {
-        Tree::object([
-            ("code", Tree::from(warning.code)),
+        object([
+            ("code", Value::from(warning.code)),
             ("where", warning.place.as_str().into()),
             ("text", warning.text.as_str().into()),
         ])
     });
-    entries.push(("warnings", Tree::list(warnings)));
+    entries.push(("warnings", list(warnings)));
     let files = report.provenance.files.iter();
-    let files = files.map(|(name, digest)| (name.as_str(), Tree::from(digest.as_str())));
-    let provenance = Tree::object([
-        ("model_sha256", Tree::from(report.provenance.model_sha256.as_str())),
+    let files = files.map(|(name, digest)| (name.as_str(), Value::from(digest.as_str())));
+    let provenance = object([
+        ("model_sha256", Value::from(report.provenance.model_sha256.as_str())),
         ("seed", task.settings.seed.into()),
         ("trials", audit.question.trials.into()),
-        ("files", Tree::object(files)),
+        ("files", object(files)),
     ]);
     entries.push(("provenance", provenance));
-    Tree::object(entries).json()
+    pretty(&object(entries))
 }
 
-fn outputs(report: &Report<'_>, row: &RowAudit) -> Tree {
+fn outputs(report: &AuditReport<'_>, row: &RowAudit) -> Value {
     let outputs = report.task.model.outputs.iter().zip(&row.outputs);
-    Tree::object(outputs.map(|(output, of)| {
+    object(outputs.map(|(output, of)| {
         let unit = output.quantity.unit.text();
         (output.quantity.name.as_str(), output_tree(report, unit, of))
     }))
 }
 
-fn output_tree(report: &Report<'_>, unit: &str, output: &OutputAudit) -> Tree {
+fn output_tree(report: &AuditReport<'_>, unit: &str, output: &OutputAudit) -> Value {
     let mut entries = vec![
-        ("unit", Tree::from(unit)),
-        ("baseline", Tree::object(figures(Some(&output.baseline)))),
-        ("inputs", Tree::list(output.inputs.iter().map(|input| input_tree(report, input)))),
+        ("unit", Value::from(unit)),
+        ("baseline", object(figures(Some(&output.baseline)))),
+        ("inputs", list(output.inputs.iter().map(|input| input_tree(report, input)))),
     ];
     if !output.sets.is_empty() {
         let sets = output.sets.iter().map(|(set, sobol)| {
             let names = set.iter().map(|&variable| report.name(variable));
-            let mut entries = vec![("inputs", Tree::list(names))];
+            let mut entries = vec![("inputs", list(names))];
             entries.extend(indices(sobol.as_ref()));
-            Tree::object(entries)
+            object(entries)
         });
-        entries.push(("drawn_together", Tree::list(sets)));
+        entries.push(("drawn_together", list(sets)));
     }
-    Tree::object(entries)
+    object(entries)
 }
 
 fn figures(of: Option<&VariantFigures>) -> Entries {
@@ -103,41 +101,41 @@ fn indices(sobol: Option<&Sobol>) -> Entries {
     ]
 }
 
-fn input_tree(report: &Report<'_>, input: &InputAudit) -> Tree {
+fn input_tree(report: &AuditReport<'_>, input: &InputAudit) -> Value {
     let variable = report.task.variables.get(input.variable);
     let alternatives = input.alternatives.iter().map(|other| {
         let mut entries = vec![
-            ("distribution", Tree::from(other.distribution.name())),
+            ("distribution", Value::from(other.distribution.name())),
             ("kept", other.kept.name().into()),
         ];
         entries.extend(moved(&other.moved));
-        Tree::object(entries)
+        object(entries)
     });
     let mut entries = vec![
-        ("input", Tree::from(report.name(input.variable))),
+        ("input", Value::from(report.name(input.variable))),
         ("distribution", input.distribution.name().into()),
         ("type", variable.map_or("B", |variable| variable.evaluation.letter()).into()),
         ("share", input.share.into()),
     ];
     entries.extend(indices(input.sobol.as_ref()));
-    entries.push(("alternatives", Tree::list(alternatives)));
+    entries.push(("alternatives", list(alternatives)));
     for (key, width) in [("halved", &input.halved), ("doubled", &input.doubled)] {
-        entries.push((key, width.as_ref().map_or(Tree::Null, |of| Tree::object(moved(of)))));
+        entries.push((key, width.as_ref().map_or(Value::Null, |of| object(moved(of)))));
     }
     entries.push(("allowed_change", input.allowed.into()));
-    Tree::object(entries)
+    object(entries)
 }
 
-fn agreement(report: &Report<'_>, of: &EvidenceTest) -> Tree {
+fn agreement(report: &AuditReport<'_>, of: &EvidenceTest) -> Value {
     let unit = report.task.variables.get(of.variable).map_or("", |v| v.unit.text());
-    let supported = Tree::object([
-        ("parameter", Tree::from(of.supported.parameter)),
+    let supported = object([
+        ("parameter", Value::from(of.supported.parameter)),
         ("stated", of.supported.stated.into()),
         ("estimate", of.supported.estimate.into()),
         ("interval", of.supported.interval.into()),
     ]);
-    Tree::object([
-        ("input", Tree::from(report.name(of.variable))),
+    object([
+        ("input", Value::from(report.name(of.variable))),
         ("unit", unit.into()),
         ("readings", (of.readings as u64).into()),
         ("outside", (of.outside as u64).into()),

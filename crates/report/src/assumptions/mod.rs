@@ -21,7 +21,7 @@ use gumption_engine::task::{Task, Warning};
 
 /// Everything that a report of an audit may show.
 #[derive(Clone, Copy, Debug)]
-pub struct Report<'a> {
+pub struct AuditReport<'a> {
     /// What was audited.
     pub task: &'a Task,
     /// The results.
@@ -32,7 +32,7 @@ pub struct Report<'a> {
     pub provenance: &'a Provenance,
 }
 
-impl Report<'_> {
+impl AuditReport<'_> {
     /// The name of a variable.
     fn name(&self, variable: usize) -> &str {
         self.task.variables.get(variable).map_or("", |variable| &variable.name)

@@ -1,7 +1,7 @@
 //! The tables of an audit.
 
-use super::Report;
-use crate::number::{MISSING, justified, place, rounded, significant, to};
+use super::AuditReport;
+use crate::number::{MISSING, justified, position, rounded, significant, to};
 use crate::plain;
 use crate::sheet::Sheet;
 use gumption_analysis::assumptions::{
@@ -18,7 +18,7 @@ const INDEX: i32 = -3;
 const SHAPES: [&str; 6] = ["normal", "rectangular", "triangular", "arcsine", "trapezoidal", "t"];
 
 /// What each assumption does to one output: shares, Sobol indices, widths.
-pub(super) fn widths(report: &Report<'_>, output: &OutputAudit) -> Sheet {
+pub(super) fn widths(report: &AuditReport<'_>, output: &OutputAudit) -> Sheet {
     let mut sheet = Sheet::default();
     let inputs = || output.inputs.iter();
     sheet.text("input", inputs().map(|input| plain(report.name(input.variable))));
@@ -33,7 +33,7 @@ pub(super) fn widths(report: &Report<'_>, output: &OutputAudit) -> Sheet {
 }
 
 /// What other shapes do to one output; `None` without any.
-pub(super) fn shapes(report: &Report<'_>, output: &OutputAudit) -> Option<Sheet> {
+pub(super) fn shapes(report: &AuditReport<'_>, output: &OutputAudit) -> Option<Sheet> {
     let rows: Vec<(&InputAudit, Kept)> = output
         .inputs
         .iter()
@@ -65,13 +65,13 @@ pub(super) fn shapes(report: &Report<'_>, output: &OutputAudit) -> Option<Sheet>
 }
 
 /// What the readings say; `None` without any.
-pub(super) fn evidence(report: &Report<'_>) -> Option<Sheet> {
+pub(super) fn evidence(report: &AuditReport<'_>) -> Option<Sheet> {
     let all = &report.audit.evidence;
     let mut sheet = Sheet::default();
     sheet.text("input", all.iter().map(|of| plain(report.name(of.variable))));
     sheet.numbers("readings", all.iter().map(|of| of.readings.to_string()));
     sheet.text("width", all.iter().map(|of| width_name(of).to_owned()));
-    let digits = |of: &EvidenceTest| place(of.supported.estimate, 3);
+    let digits = |of: &EvidenceTest| position(of.supported.estimate, 3);
     sheet.numbers("stated", all.iter().map(|of| to(of.supported.stated, digits(of))));
     sheet.numbers("supported", all.iter().map(|of| to(of.supported.estimate, digits(of))));
     let ends =

@@ -1,11 +1,11 @@
 //! The page for a terminal.
 
-use super::{Report, sheets, words};
+use super::{AuditReport, sheets, words};
 use crate::{Grid, WIDTH, wrapped};
 
 /// The audit as a page: for each output the figures as stated, what every assumption does, and what
 /// other shapes do; then what the readings say.
-pub fn table(report: &Report<'_>) -> String {
+pub fn table(report: &AuditReport<'_>) -> String {
     let mut heading = wrapped(&words::title(report)) + &wrapped(&words::settings(report));
     heading += &words::contradicted(report).map(|said| wrapped(&said)).unwrap_or_default();
     let mut page = vec![heading];

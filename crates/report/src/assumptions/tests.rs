@@ -1,6 +1,6 @@
 //! The page shows the figures of the audit.
 
-use super::{Report, json, table};
+use super::{AuditReport, json, table};
 use crate::Provenance;
 use gumption_analysis::assumptions::{Question, audit};
 use gumption_engine::propagate::Control;
@@ -18,7 +18,7 @@ fn a_page_and_its_figures() {
     let question = Question { trials: 50_000, allowed: 0.05 };
     let found = audit(&file.task, &file.evidence, question, &Control::default()).unwrap().unwrap();
     let provenance = Provenance::default();
-    let report = Report {
+    let report = AuditReport {
         task: &file.task,
         audit: &found,
         warnings: &found.warnings,

@@ -1,7 +1,7 @@
 //! The sentences of an audit.
 
-use super::Report;
-use crate::number::{coarser, place, rounded, to};
+use super::AuditReport;
+use crate::number::{coarser, position, rounded, to};
 use crate::{conditions_text, grouped, plain};
 use gumption_analysis::assumptions::{EvidenceVerdict, InputAudit, OutputAudit};
 
@@ -23,12 +23,12 @@ pub(super) const EVIDENCE: &str = "The p-value (Anderson-Darling) is that of the
     wide: the interval at 99 % below it. Wrong shape: a p-value below 0.01. Fewer than five readings \
     tell nothing.";
 
-pub(super) fn title(report: &Report<'_>) -> String {
+pub(super) fn title(report: &AuditReport<'_>) -> String {
     let title = plain(&report.task.title);
     if title.is_empty() { "Type B assumptions".to_owned() } else { title }
 }
 
-pub(super) fn settings(report: &Report<'_>) -> String {
+pub(super) fn settings(report: &AuditReport<'_>) -> String {
     let audit = report.audit;
     format!(
         "Type B assumptions; {} trials of each variant, seed {}, coverage probability {} %, limit \
@@ -46,7 +46,7 @@ pub(super) fn percent(share: f64) -> String {
 }
 
 /// The output with its row of conditions.
-pub(super) fn heading(report: &Report<'_>, row: usize, output: usize) -> String {
+pub(super) fn heading(report: &AuditReport<'_>, row: usize, output: usize) -> String {
     let name = report.task.model.outputs.get(output).map_or("", |o| o.quantity.name.as_str());
     let conditions = report.audit.rows.get(row).map_or(&[][..], |row| &row.conditions);
     if !report.task.swept {
@@ -56,22 +56,22 @@ pub(super) fn heading(report: &Report<'_>, row: usize, output: usize) -> String 
 }
 
 /// The figures with everything as stated.
-pub(super) fn baseline(report: &Report<'_>, output: usize, of: &OutputAudit) -> String {
+pub(super) fn baseline(report: &AuditReport<'_>, output: usize, of: &OutputAudit) -> String {
     let unit = report.task.model.outputs.get(output).map_or("", |o| o.quantity.unit.text());
     let unit = if matches!(unit.trim(), "" | "1") { String::new() } else { format!(" {unit}") };
     let [low, high] = of.baseline.symmetric_interval;
     let u = of.baseline.standard_uncertainty;
-    let digits = u.and_then(|u| place(u, 2)).or(coarser(place(high - low, 3), None));
+    let digits = u.and_then(|u| position(u, 2)).or(coarser(position(high - low, 3), None));
     let p = percent(report.audit.coverage_probability);
     let interval = format!("{p} % interval {} to {}{unit}", to(low, digits), to(high, digits));
     match u {
-        Some(u) => format!("As stated: u = {}{unit}, {interval}.", to(u, place(u, 2))),
+        Some(u) => format!("As stated: u = {}{unit}, {interval}.", to(u, position(u, 2))),
         None => format!("As stated: no standard uncertainty, {interval}."),
     }
 }
 
 /// Which shapes matter.
-pub(super) fn verdict(report: &Report<'_>, of: &OutputAudit) -> String {
+pub(super) fn verdict(report: &AuditReport<'_>, of: &OutputAudit) -> String {
     let limit = report.audit.question.allowed;
     let mut matter: Vec<(&InputAudit, f64)> = of
         .inputs
@@ -106,7 +106,7 @@ pub(super) fn verdict(report: &Report<'_>, of: &OutputAudit) -> String {
 }
 
 /// The readings that speak against an assumption.
-pub(super) fn contradicted(report: &Report<'_>) -> Option<String> {
+pub(super) fn contradicted(report: &AuditReport<'_>) -> Option<String> {
     let against =
         report.audit.evidence.iter().filter(|of| {
             !matches!(of.verdict, EvidenceVerdict::Consistent | EvidenceVerdict::TooFew)

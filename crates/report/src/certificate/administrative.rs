@@ -1,13 +1,13 @@
 //! What stands above the results: device, parties, dates.
 
-use super::Report;
+use super::CertificateReport;
 use super::words::{self, Words, beside};
 use crate::plain;
 use crate::sheet::Sheet;
 use gumption_analysis::certificate::contents::{Localized, Party, PerformanceLocation};
 
 /// The title in the languages of the certificate.
-pub(super) fn title(report: &Report<'_>) -> String {
+pub(super) fn title(report: &CertificateReport<'_>) -> String {
     let languages = &report.certificate.languages;
     match &report.certificate.administrative.title {
         Some(title) if !title.is_empty() => plain(&title.all(languages).join(" / ")),
@@ -16,7 +16,7 @@ pub(super) fn title(report: &Report<'_>) -> String {
 }
 
 /// Names with what is stated; what is not given is left out.
-pub(super) fn sheet(report: &Report<'_>) -> Sheet {
+pub(super) fn sheet(report: &CertificateReport<'_>) -> Sheet {
     let lines = lines(report);
     let mut sheet = Sheet::default();
     sheet.text("", lines.iter().map(|(name, _)| name.clone()));
@@ -25,7 +25,7 @@ pub(super) fn sheet(report: &Report<'_>) -> Sheet {
 }
 
 /// Names and texts, in order.
-pub(super) fn lines(report: &Report<'_>) -> Vec<(String, String)> {
+pub(super) fn lines(report: &CertificateReport<'_>) -> Vec<(String, String)> {
     let certificate = report.certificate;
     let languages = certificate.languages.as_slice();
     let of = &certificate.administrative;

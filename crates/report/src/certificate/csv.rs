@@ -1,8 +1,8 @@
 //! One line for each row of the table, as stated, for spreadsheets.
 
-use super::Report;
+use super::CertificateReport;
 use super::stated::{self, Stated};
-use crate::csv::{number, text};
+use crate::csv::{number, of_records, text};
 
 const COLUMNS: [&str; 15] = [
     "row",
@@ -25,18 +25,15 @@ const COLUMNS: [&str; 15] = [
 /// The rows as comma-separated values: value, expanded uncertainty, coverage factor and interval
 /// rounded as they are stated, the standard uncertainty in full. An empty cell stands for what is
 /// infinite or not defined.
-pub fn csv(report: &Report<'_>) -> String {
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    let mut written = writer.write_record(COLUMNS);
-    for row in stated::rows(report) {
-        written = written.and_then(|()| writer.write_record(record(report, &row)));
-    }
-    // writing to memory cannot fail, and all records have as many cells
-    debug_assert!(written.is_ok(), "{written:?}");
-    String::from_utf8(writer.into_inner().unwrap_or_default()).unwrap_or_default()
+pub fn csv(report: &CertificateReport<'_>) -> String {
+    of_records(|writer| {
+        writer.write_record(COLUMNS)?;
+        let rows = stated::rows(report);
+        rows.iter().try_for_each(|row| writer.write_record(record(report, row)))
+    })
 }
 
-fn record(report: &Report<'_>, row: &Stated<'_>) -> Vec<String> {
+fn record(report: &CertificateReport<'_>, row: &Stated<'_>) -> Vec<String> {
     let ends = row.interval(report).map(|ends| ends.map(|end| end.text));
     let [low, high] = ends.unwrap_or_default();
     vec![

@@ -2,7 +2,7 @@
 
 use super::stated;
 use super::words::{self, beside};
-use super::{Report, administrative, sentences, sheets};
+use super::{CertificateReport, administrative, sentences, sheets};
 use crate::document::{Block, Document};
 use crate::plain;
 use crate::sheet::Sheet;
@@ -10,7 +10,7 @@ use crate::table::comparison;
 use gumption_engine::task::Trials;
 
 /// The whole document.
-pub(super) fn of(report: &Report<'_>) -> Document {
+pub(super) fn of(report: &CertificateReport<'_>) -> Document {
     let certificate = report.certificate;
     let languages = certificate.languages.as_slice();
     let mut document = Document {
@@ -55,7 +55,7 @@ pub(super) fn of(report: &Report<'_>) -> Document {
 }
 
 /// What is decided about rows with a tolerance.
-fn conformity(document: &mut Document, report: &Report<'_>) {
+fn conformity(document: &mut Document, report: &CertificateReport<'_>) {
     let languages = &report.certificate.languages;
     let rows = stated::rows(report);
     let mut texts = Vec::new();
@@ -73,7 +73,7 @@ fn conformity(document: &mut Document, report: &Report<'_>) {
 }
 
 /// Program, settings and digests.
-fn provenance(report: &Report<'_>) -> Sheet {
+fn provenance(report: &CertificateReport<'_>) -> Sheet {
     let languages = report.certificate.languages.as_slice();
     let mut lines = vec![
         (beside(languages, |w| w.program), format!("gumption {}", env!("CARGO_PKG_VERSION"))),

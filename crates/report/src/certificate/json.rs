@@ -1,61 +1,59 @@
 //! The certificate for programs.
 
 use super::stated::{self, Stated};
-use super::{Report, administrative, sentences};
-use crate::tree::Tree;
+use super::{CertificateReport, administrative, sentences};
+use crate::answer::{list, object, pretty};
 use gumption_engine::propagate::gum::Dof;
 use gumption_engine::task::Trials;
+use serde_json::Value;
 
 /// The certificate as JSON, keys in a fixed order; `null` stands for what is infinite or not defined.
 /// `stated` has the texts that every format prints, the other figures have full precision. It ends in
 /// a newline.
-pub fn json(report: &Report<'_>) -> String {
-    let Report { certificate, issued, .. } = report;
+pub fn json(report: &CertificateReport<'_>) -> String {
+    let CertificateReport { certificate, issued, .. } = report;
     let languages = &certificate.languages;
     let title = administrative::title(report);
     let rows = stated::rows(report);
     let about = administrative::lines(report);
     let statements = languages.iter().map(|language| {
         let said = sentences::coverage(report, *language);
-        (language.code(), Tree::list(said.iter().map(|said| Tree::from(said.as_str()))))
+        (language.code(), list(said.iter().map(|said| Value::from(said.as_str()))))
     });
     let matrix = issued.correlations.iter();
-    let matrix = matrix.map(|row| Tree::list(row.iter().map(|r| Tree::from(*r))));
+    let matrix = matrix.map(|row| list(row.iter().map(|r| Value::from(*r))));
     let warnings = report.warnings.iter().map(|warning| {
-        Tree::object([
-            ("code", Tree::from(warning.code)),
+        object([
+            ("code", Value::from(warning.code)),
             ("where", warning.place.as_str().into()),
             ("text", warning.text.as_str().into()),
         ])
     });
-    Tree::object([
-        ("gumption", Tree::from(env!("CARGO_PKG_VERSION"))),
+    pretty(&object([
+        ("gumption", Value::from(env!("CARGO_PKG_VERSION"))),
         ("title", title.as_str().into()),
         (
-            "administrative",
-            Tree::object(
-                about.iter().map(|(name, text)| (name.as_str(), Tree::from(text.as_str()))),
-            ),
+            "particulars",
+            object(about.iter().map(|(name, text)| (name.as_str(), Value::from(text.as_str())))),
         ),
-        ("language", Tree::list(languages.iter().map(|language| language.code()))),
+        ("language", list(languages.iter().map(|language| language.code()))),
         ("rounding", certificate.rounding.name().into()),
         ("digits", u64::from(certificate.digits).into()),
-        ("rows", Tree::list(rows.iter().map(|row| one(report, row)))),
-        ("correlations", Tree::list(matrix)),
-        ("statements", Tree::object(statements)),
-        ("warnings", Tree::list(warnings)),
+        ("rows", list(rows.iter().map(|row| one(report, row)))),
+        ("correlations", list(matrix)),
+        ("statements", object(statements)),
+        ("warnings", list(warnings)),
         ("provenance", provenance(report)),
-    ])
-    .json()
+    ]))
 }
 
-fn one(report: &Report<'_>, row: &Stated<'_>) -> Tree {
+fn one(report: &CertificateReport<'_>, row: &Stated<'_>) -> Value {
     let languages = &report.certificate.languages;
     let Stated { statement, asked, quantity, .. } = row;
     let names = asked.task.model.conditions.iter().map(|condition| condition.name.as_str());
-    let conditions = names.zip(row.conditions.iter().map(|value| Tree::from(*value)));
-    let set = asked.set.iter().map(|(name, value)| (name.as_str(), Tree::from(value.as_str())));
-    let pair = |ends: Option<[f64; 2]>| ends.map_or(Tree::Null, Tree::list);
+    let conditions = names.zip(row.conditions.iter().map(|value| Value::from(*value)));
+    let set = asked.set.iter().map(|(name, value)| (name.as_str(), Value::from(value.as_str())));
+    let pair = |ends: Option<[f64; 2]>| ends.map_or(Value::Null, list);
     let (dof, status) = match statement.dof {
         Dof::Finite(dof) => (Some(dof), "finite"),
         Dof::Infinite => (None, "infinite"),
@@ -63,23 +61,23 @@ fn one(report: &Report<'_>, row: &Stated<'_>) -> Tree {
     };
     let stated_ends = row
         .interval(report)
-        .map_or(Tree::Null, |ends| Tree::list(ends.iter().map(|end| end.text.as_str())));
-    let limit = statement.limit.map_or(Tree::Null, |limit| {
-        Tree::object([
-            ("cmc", Tree::from(limit.cmc)),
+        .map_or(Value::Null, |ends| list(ends.iter().map(|end| end.text.as_str())));
+    let limit = statement.limit.map_or(Value::Null, |limit| {
+        object([
+            ("cmc", Value::from(limit.cmc)),
             ("below", limit.below.into()),
             ("raised", limit.raised.into()),
         ])
     });
     let [name, value] = [row.name(languages), row.value().text];
     let [expanded, factor] = [row.expanded().text, row.factor().text];
-    Tree::object([
-        ("row", Tree::from(row.number as u64)),
+    object([
+        ("row", Value::from(row.number as u64)),
         ("name", name.as_str().into()),
         ("model", asked.model.as_str().into()),
         ("output", quantity.name.as_str().into()),
-        ("conditions", Tree::object(conditions)),
-        ("set", Tree::object(set)),
+        ("conditions", object(conditions)),
+        ("set", object(set)),
         ("unit", quantity.unit.text().into()),
         ("nominal", row.line.nominal.into()),
         ("value", statement.value.into()),
@@ -94,8 +92,8 @@ fn one(report: &Report<'_>, row: &Stated<'_>) -> Tree {
         ("limit", limit),
         (
             "stated",
-            Tree::object([
-                ("value", Tree::from(value.as_str())),
+            object([
+                ("value", Value::from(value.as_str())),
                 ("expanded_uncertainty", expanded.as_str().into()),
                 ("coverage_factor", factor.as_str().into()),
                 ("interval", stated_ends),
@@ -104,27 +102,24 @@ fn one(report: &Report<'_>, row: &Stated<'_>) -> Tree {
     ])
 }
 
-fn provenance(report: &Report<'_>) -> Tree {
+fn provenance(report: &CertificateReport<'_>) -> Value {
     let evaluations = &report.certificate.evaluations;
     let models = report.models.iter().enumerate().map(|(number, model)| {
         let files = model.files.iter();
-        let files = files.map(|(name, digest)| (name.as_str(), Tree::from(digest.as_str())));
+        let files = files.map(|(name, digest)| (name.as_str(), Value::from(digest.as_str())));
         let settings = evaluations.iter().find(|asked| asked.file == number);
         let settings = settings.map(|asked| asked.task.settings);
-        let trials = settings.map_or(Tree::Null, |settings| match settings.trials {
+        let trials = settings.map_or(Value::Null, |settings| match settings.trials {
             Trials::Fixed(trials) => trials.into(),
             Trials::Adaptive => "adaptive".into(),
         });
-        Tree::object([
-            ("model", Tree::from(model.name)),
+        object([
+            ("model", Value::from(model.name)),
             ("model_sha256", model.digest.as_str().into()),
-            ("seed", settings.map_or(Tree::Null, |settings| settings.seed.into())),
+            ("seed", settings.map_or(Value::Null, |settings| settings.seed.into())),
             ("trials", trials),
-            ("files", Tree::object(files)),
+            ("files", object(files)),
         ])
     });
-    Tree::object([
-        ("certificate_sha256", Tree::from(report.digest)),
-        ("models", Tree::list(models)),
-    ])
+    object([("certificate_sha256", Value::from(report.digest)), ("models", list(models))])
 }

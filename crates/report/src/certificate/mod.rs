@@ -25,13 +25,13 @@ use gumption_engine::task::Warning;
 
 /// Everything that a certificate may show.
 #[derive(Clone, Copy, Debug)]
-pub struct Report<'a> {
+pub struct CertificateReport<'a> {
     /// What was asked for.
     pub certificate: &'a Certificate,
     /// The results.
     pub issued: &'a Issued,
     /// The model files, in the order of the certificate's.
-    pub models: &'a [Model<'a>],
+    pub models: &'a [CertifiedModel<'a>],
     /// The text of the certificate file.
     pub text: &'a str,
     /// Its SHA-256, in hexadecimal.
@@ -42,7 +42,7 @@ pub struct Report<'a> {
 
 /// A model file of a certificate.
 #[derive(Clone, Debug)]
-pub struct Model<'a> {
+pub struct CertifiedModel<'a> {
     /// The name, as the certificate file has it.
     pub name: &'a str,
     /// Its text.
@@ -56,21 +56,21 @@ pub struct Model<'a> {
 }
 
 /// The certificate as a page of at most 100 columns for a terminal.
-pub fn table(report: &Report<'_>) -> String {
+pub fn table(report: &CertificateReport<'_>) -> String {
     look::text(&document::of(report))
 }
 
 /// The certificate in GitHub Flavored Markdown.
-pub fn markdown(report: &Report<'_>) -> String {
+pub fn markdown(report: &CertificateReport<'_>) -> String {
     look::markdown(&document::of(report))
 }
 
 /// The certificate as a LaTeX file for `article` with `booktabs` and `siunitx`.
-pub fn latex(report: &Report<'_>) -> String {
+pub fn latex(report: &CertificateReport<'_>) -> String {
     look::latex(&document::of(report))
 }
 
 /// The certificate as one HTML file that needs nothing else.
-pub fn html(report: &Report<'_>) -> String {
+pub fn html(report: &CertificateReport<'_>) -> String {
     look::html(&document::of(report))
 }

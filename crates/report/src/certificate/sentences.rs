@@ -1,6 +1,6 @@
 //! The sentences that a certificate's uncertainties ask for.
 
-use super::Report;
+use super::CertificateReport;
 use super::stated::{self, Stated};
 use super::words::{self, Words};
 use crate::number::exact;
@@ -8,7 +8,7 @@ use gumption_analysis::certificate::Basis;
 use gumption_analysis::certificate::contents::{Language, Rounding};
 
 /// The statement of coverage in a language.
-pub(super) fn coverage(report: &Report<'_>, language: Language) -> Vec<String> {
+pub(super) fn coverage(report: &CertificateReport<'_>, language: Language) -> Vec<String> {
     let words = words::of(language);
     let rows = stated::rows(report);
     let mut said = Vec::new();
@@ -116,7 +116,7 @@ fn listed(rows: &[usize], words: &Words) -> String {
     }
 }
 
-fn rounding(report: &Report<'_>, words: &Words) -> String {
+fn rounding(report: &CertificateReport<'_>, words: &Words) -> String {
     let digits = match report.certificate.digits {
         1 => words.digits[0].to_owned(),
         digits => words.digits[1].replace("{digits}", &digits.to_string()),

@@ -1,12 +1,13 @@
 //! The tables of a certificate.
 
-use super::Report;
+use super::CertificateReport;
 use super::stated::{self, Stated};
 use super::words::{Words, stacked};
 use crate::number::{exact, rounded};
 use crate::plain;
 use crate::sheet::{Figure, Sheet};
 use gumption_engine::model::Quantity;
+use gumption_engine::number::elementary::log10;
 
 /// Rows up to which a page shows the matrix of their correlation coefficients.
 pub(super) const MOST_CORRELATED: usize = 12;
@@ -15,7 +16,7 @@ pub(super) const MOST_CORRELATED: usize = 12;
 const COEFFICIENT_PLACE: i32 = -3;
 
 /// The result table.
-pub(super) fn results(report: &Report<'_>) -> Sheet {
+pub(super) fn results(report: &CertificateReport<'_>) -> Sheet {
     let languages = &report.certificate.languages;
     let rows = stated::rows(report);
     let header = |word: fn(&Words) -> &'static str| stacked(languages, word);
@@ -52,7 +53,12 @@ const MOST_COLUMNS: usize = 3;
 
 /// A column for each condition, empty where a row does not have it, and one for what is replaced; if
 /// there are many conditions, a column of all in words.
-fn conditions(sheet: &mut Sheet, report: &Report<'_>, rows: &[Stated<'_>], header: &str) {
+fn conditions(
+    sheet: &mut Sheet,
+    report: &CertificateReport<'_>,
+    rows: &[Stated<'_>],
+    header: &str,
+) {
     let named = |quantity: &Quantity| match plain(quantity.unit.text()).as_str() {
         "" | "1" => plain(&quantity.name),
         unit => format!("{}\nin {unit}", plain(&quantity.name)),
@@ -89,7 +95,7 @@ fn conditions(sheet: &mut Sheet, report: &Report<'_>, rows: &[Stated<'_>], heade
 }
 
 /// The upper triangle of the correlation coefficients between the rows.
-pub(super) fn correlations(report: &Report<'_>) -> Sheet {
+pub(super) fn correlations(report: &CertificateReport<'_>) -> Sheet {
     let matrix = &report.issued.correlations;
     let count = matrix.len();
     let mut sheet = Sheet::default();
@@ -112,7 +118,7 @@ pub(super) fn correlations(report: &Report<'_>) -> Sheet {
 fn coefficient(r: f64) -> Figure {
     let apart = 1.0 - r.abs();
     let place = if apart > 1e-9 && apart < 0.01 {
-        apart.log10().floor() as i32 - 1
+        log10(apart).floor() as i32 - 1
     } else {
         COEFFICIENT_PLACE
     };
@@ -121,14 +127,14 @@ fn coefficient(r: f64) -> Figure {
 }
 
 /// Whether some rows vary together.
-pub(super) fn are_correlated(report: &Report<'_>) -> bool {
+pub(super) fn are_correlated(report: &CertificateReport<'_>) -> bool {
     let matrix = &report.issued.correlations;
     let seen = |r: &Option<f64>| r.is_some_and(|r| r.abs() >= 0.0005);
     matrix.iter().enumerate().any(|(i, row)| row.iter().take(i).any(seen))
 }
 
 /// The unrounded figures, for workbooks.
-pub(super) fn unrounded(report: &Report<'_>) -> Sheet {
+pub(super) fn unrounded(report: &CertificateReport<'_>) -> Sheet {
     let rows = stated::rows(report);
     let column = |value: fn(&Stated<'_>) -> Option<f64>| -> Vec<Figure> {
         rows.iter().map(|row| Figure::rounded(value(row), |value| value.to_string())).collect()

@@ -1,14 +1,21 @@
 //! The rows of a certificate as texts, rounded once for all formats.
 
-use super::Report;
+use super::CertificateReport;
 use crate::number::{exact, rounded};
 use crate::sheet::Figure;
 use crate::{conditions_text, plain};
 use gumption_analysis::certificate::Statement;
 use gumption_analysis::certificate::contents::{Asked, Language, Line};
+use gumption_engine::decimal::{Decimal, to_digits, to_position};
 use gumption_engine::model::Quantity;
 use gumption_engine::propagate::OutputEvaluation;
 use gumption_engine::propagate::gum::Dof;
+
+/// Position of the last digit of coverage factors.
+const FACTOR: i32 = -2;
+
+/// Significant digits of percentages; more would show binary rounding.
+const PERCENT_DIGITS: u32 = 12;
 
 /// Degrees of freedom that are printed as infinitely many.
 const MOST_DOF: f64 = 10_000.0;
@@ -30,8 +37,8 @@ pub(super) struct Stated<'a> {
 }
 
 /// All rows.
-pub(super) fn rows<'a>(report: &Report<'a>) -> Vec<Stated<'a>> {
-    let Report { certificate, issued, .. } = *report;
+pub(super) fn rows<'a>(report: &CertificateReport<'a>) -> Vec<Stated<'a>> {
+    let CertificateReport { certificate, issued, .. } = *report;
     let lines = certificate.lines.iter().zip(&issued.statements).enumerate();
     let rows = lines.filter_map(|(number, (line, statement))| {
         let asked = certificate.evaluations.get(line.evaluation)?;
@@ -58,36 +65,30 @@ impl Stated<'_> {
         }
     }
 
-    fn place(&self) -> Option<i32> {
-        self.statement.rounded.map(|to| to.place)
-    }
-
-    /// A figure in the unit of the row, rounded before, at the place of the expanded uncertainty.
-    fn at_place(&self, value: f64) -> Figure {
-        Figure::of(value, self.place().map_or_else(|| exact(value), |place| rounded(value, place)))
-    }
-
     pub(super) fn value(&self) -> Figure {
-        self.at_place(self.statement.rounded_value())
-    }
-
-    pub(super) fn expanded(&self) -> Figure {
-        match self.statement.rounded {
-            Some(to) => Figure::of(to.value, rounded(to.value, to.place)),
-            None => Figure::of(0.0, "0".to_owned()),
+        match self.statement.rounded_value() {
+            Some(value) => figure(value),
+            None => Figure::of(self.statement.value, exact(self.statement.value)),
         }
     }
 
+    pub(super) fn expanded(&self) -> Figure {
+        self.statement.rounded.map_or_else(|| Figure::of(0.0, "0".to_owned()), figure)
+    }
+
     /// The ends of the interval, where there is one.
-    pub(super) fn interval(&self, report: &Report<'_>) -> Option<[Figure; 2]> {
-        let ends = self.statement.rounded_interval(report.certificate.rounding)?;
-        Some(ends.map(|end| self.at_place(end)))
+    pub(super) fn interval(&self, report: &CertificateReport<'_>) -> Option<[Figure; 2]> {
+        let ends = self.statement.interval?;
+        let rounded = self.statement.rounded_interval(report.certificate.rounding);
+        Some(match rounded {
+            Some(ends) => ends.map(figure),
+            None => ends.map(|end| Figure::of(end, exact(end))),
+        })
     }
 
     pub(super) fn factor(&self) -> Figure {
         let factor = self.statement.coverage_factor;
-        let text = rounded(factor, -2);
-        Figure::of(text.parse().unwrap_or(factor), text)
+        Figure::of(to_position(factor, FACTOR), rounded(factor, FACTOR))
     }
 
     /// Effective degrees of freedom, their integer part (JCGM 100, G.4.1).
@@ -114,7 +115,7 @@ impl Stated<'_> {
     }
 
     /// The conditions that the table shows, with their values.
-    pub(super) fn shown(&self, report: &Report<'_>) -> Vec<(&Quantity, f64)> {
+    pub(super) fn shown(&self, report: &CertificateReport<'_>) -> Vec<(&Quantity, f64)> {
         let shown = &report.certificate.shown;
         let conditions = self.asked.task.model.conditions.iter().zip(self.conditions);
         conditions
@@ -125,7 +126,7 @@ impl Stated<'_> {
 
     /// Replacements and shown conditions in words, on one line; a row with a label of its own says
     /// nothing of replacements.
-    pub(super) fn circumstances(&self, report: &Report<'_>) -> Vec<String> {
+    pub(super) fn circumstances(&self, report: &CertificateReport<'_>) -> Vec<String> {
         let mut parts = if self.line.label.is_some() { Vec::new() } else { self.replaced() };
         let shown = self.shown(report);
         let (quantities, values): (Vec<Quantity>, Vec<f64>) =
@@ -151,5 +152,10 @@ impl Stated<'_> {
 
 /// A share in percent, without the digits that its binary form adds.
 pub(super) fn percent(share: f64) -> f64 {
-    (1e12 * share).round() / 1e10
+    to_digits(100.0 * share, PERCENT_DIGITS)
+}
+
+/// A rounded number with its text.
+fn figure(of: Decimal) -> Figure {
+    Figure::of(of.value(), of.to_string())
 }

@@ -2,7 +2,7 @@
 
 use std::io;
 
-use super::{Report, administrative, sentences, sheets};
+use super::{CertificateReport, administrative, sentences, sheets};
 use crate::workbook::{Book, failed};
 
 /// The certificate as a workbook: a sheet with the certificate, whose cells hold the stated figures,
@@ -10,7 +10,7 @@ use crate::workbook::{Book, failed};
 ///
 /// # Errors
 /// Those of the format, such as too many rows.
-pub fn xlsx(report: &Report<'_>) -> io::Result<Vec<u8>> {
+pub fn xlsx(report: &CertificateReport<'_>) -> io::Result<Vec<u8>> {
     let languages = &report.certificate.languages;
     let title = administrative::title(report);
     let mut book = Book::new(&title).map_err(failed)?;

@@ -1,7 +1,7 @@
 //! One line for each comparison, in full precision, for spreadsheets.
 
 use super::Compare;
-use crate::csv::{number, text};
+use crate::csv::{number, of_records, text};
 
 /// The rows as comma-separated values; of laboratories those of the degrees of equivalence.
 pub fn csv(compare: &Compare) -> String {
@@ -54,11 +54,5 @@ pub fn csv(compare: &Compare) -> String {
             }
         }
     }
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    for record in &records {
-        // writing to memory cannot fail, and all records have as many cells
-        let written = writer.write_record(record);
-        debug_assert!(written.is_ok(), "{written:?}");
-    }
-    String::from_utf8(writer.into_inner().unwrap_or_default()).unwrap_or_default()
+    of_records(|writer| records.iter().try_for_each(|record| writer.write_record(record)))
 }

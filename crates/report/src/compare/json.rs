@@ -1,29 +1,30 @@
 //! The answer for programs.
 
 use super::Compare;
-use crate::tree::Tree;
+use crate::answer::{list, object, pretty};
 use gumption_analysis::compare::laboratories::ReferenceValue;
 use gumption_analysis::compare::{ComparedPair, Comparison, DegreeOfEquivalence, FACTOR};
+use serde_json::Value;
 
 /// The comparison as JSON, ending in a newline.
 pub fn json(compare: &Compare) -> String {
-    let version = ("gumption", Tree::from(env!("CARGO_PKG_VERSION")));
+    let version = ("gumption", Value::from(env!("CARGO_PKG_VERSION")));
     match compare {
         Compare::Pairs { compared, rounding, .. } => {
             let rows = compared.iter().map(|row| pair(row, *rounding));
-            Tree::object([version, ("rows", Tree::list(rows))]).json()
+            pretty(&object([version, ("rows", list(rows))]))
         }
         Compare::Laboratories(comparison) => {
             let mut entries = vec![version];
             entries.extend(laboratories(comparison));
-            Tree::object(entries).json()
+            pretty(&object(entries))
         }
     }
 }
 
-fn pair(row: &ComparedPair, rounding: bool) -> Tree {
+fn pair(row: &ComparedPair, rounding: bool) -> Value {
     let mut entries = vec![
-        ("label", Tree::from(row.label.as_str())),
+        ("label", Value::from(row.label.as_str())),
         ("difference", row.difference.into()),
         ("U", row.expanded.into()),
         ("en", row.normalized_error.into()),
@@ -34,35 +35,35 @@ fn pair(row: &ComparedPair, rounding: bool) -> Tree {
     }
     entries.push(("probability", row.probability.into()));
     entries.push(("compatible", row.is_compatible().into()));
-    Tree::object(entries)
+    object(entries)
 }
 
-fn laboratories(comparison: &Comparison) -> Vec<(&'static str, Tree)> {
+fn laboratories(comparison: &Comparison) -> Vec<(&'static str, Value)> {
     let label = |&member: &usize| comparison.rows.get(member).map_or("", |row| row.label.as_str());
     let reference = |of: &ReferenceValue| {
-        Tree::object([
-            ("value", Tree::from(of.value)),
+        object([
+            ("value", Value::from(of.value)),
             ("standard_uncertainty", of.standard_uncertainty.into()),
             ("U", (FACTOR * of.standard_uncertainty).into()),
-            ("laboratories", Tree::list(of.members.iter().map(label))),
+            ("laboratories", list(of.members.iter().map(label))),
             ("chi_squared", of.chi_squared.into()),
             ("dof", (of.dof as u64).into()),
             ("p_value", of.p_value.into()),
             ("consistent", of.is_consistent().into()),
         ])
     };
-    let search = comparison.search.map_or(Tree::Null, |search| search.name().into());
+    let search = comparison.search.map_or(Value::Null, |search| search.name().into());
     vec![
         ("reference", reference(&comparison.reference)),
         ("weighted_mean", reference(&comparison.all)),
         ("largest_consistent_subset", search),
-        ("rows", Tree::list(comparison.rows.iter().map(row))),
+        ("rows", list(comparison.rows.iter().map(row))),
     ]
 }
 
-fn row(row: &DegreeOfEquivalence) -> Tree {
-    Tree::object([
-        ("label", Tree::from(row.label.as_str())),
+fn row(row: &DegreeOfEquivalence) -> Value {
+    object([
+        ("label", Value::from(row.label.as_str())),
         ("x", row.value.into()),
         ("difference", row.difference.into()),
         ("U", row.expanded.into()),

@@ -1,6 +1,6 @@
 //! The tables of a comparison.
 
-use crate::number::{MISSING, exact, place, rounded, significant, to, with_uncertainty};
+use crate::number::{MISSING, exact, position, rounded, significant, to, with_uncertainty};
 use crate::plain;
 use crate::sheet::Sheet;
 use gumption_analysis::compare::{
@@ -56,10 +56,10 @@ pub(super) fn laboratories(comparison: &Comparison) -> Sheet {
     sheet
 }
 
-/// A result as stated: to the place of its printed digits, or of its uncertainty.
+/// A result as stated: to the position of its printed digits, or of its uncertainty.
 fn stated(of: &StatedResult) -> String {
-    let [own, of_u] = of.rounding.map(|half| place(2.0 * half, 1));
-    let fine = place(of.expanded, DIGITS + 1);
+    let [own, of_u] = of.rounding.map(|half| position(2.0 * half, 1));
+    let fine = position(of.expanded, DIGITS + 1);
     let (x, u) = (to(of.value, own.or(fine)), to(of.expanded, of_u.or(fine)));
     let factor =
         if of.factor == 2.0 { String::new() } else { format!(", k = {}", factor(of.factor)) };

@@ -5,14 +5,14 @@ use crate::document::{Block, Document};
 use crate::sheet::Sheet;
 use crate::table;
 use crate::table::correlations;
-use crate::{Report, plain};
+use crate::{EvaluationReport, plain};
 use gumption_engine::propagate::RowEvaluation;
 use gumption_engine::task::Task;
 
 /// The document of an evaluation: for one row of conditions everything about each output, for a
 /// sweep a table and a figure for each.
-pub(super) fn of(report: &Report<'_>, shown: &Shown<'_>) -> Document {
-    let Report { task, evaluation, warnings, .. } = *report;
+pub(super) fn of(report: &EvaluationReport<'_>, shown: &Shown<'_>) -> Document {
+    let EvaluationReport { task, evaluation, warnings, .. } = *report;
     let title = plain(&task.title);
     let mut document = Document {
         title: if title.is_empty() { "Measurement uncertainty".to_owned() } else { title },

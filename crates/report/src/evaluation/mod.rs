@@ -12,14 +12,14 @@ pub use terminal::histograms;
 pub use workbook::{MOST_RESULTS, xlsx};
 
 use super::document as look;
-use super::{Column, Report};
+use super::{BudgetColumn, EvaluationReport};
 use gumption_engine::propagate::monte_carlo::Histogram;
 
 /// What a page shows beside the results.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Shown<'a> {
     /// Further columns of the budgets.
-    pub columns: &'a [Column],
+    pub columns: &'a [BudgetColumn],
     /// For each row of conditions the histograms of its outputs; none at all, or as many as rows.
     pub histograms: &'a [Vec<Option<Histogram>>],
     /// What the command line replaces in the model file, as it was typed.
@@ -35,17 +35,17 @@ impl Shown<'_> {
 }
 
 /// The evaluation in GitHub Flavored Markdown.
-pub fn markdown(report: &Report<'_>, shown: &Shown<'_>) -> String {
+pub fn markdown(report: &EvaluationReport<'_>, shown: &Shown<'_>) -> String {
     look::markdown(&document::of(report, &Shown { model: "", ..*shown }))
 }
 
 /// The evaluation as a LaTeX file for `article` with `booktabs` and `siunitx`.
-pub fn latex(report: &Report<'_>, shown: &Shown<'_>) -> String {
+pub fn latex(report: &EvaluationReport<'_>, shown: &Shown<'_>) -> String {
     look::latex(&document::of(report, &Shown { model: "", ..*shown }))
 }
 
 /// The evaluation as one HTML file with figures that needs nothing else: it loads nothing and runs
 /// nothing, reads in light and dark and prints on A4.
-pub fn html(report: &Report<'_>, shown: &Shown<'_>) -> String {
+pub fn html(report: &EvaluationReport<'_>, shown: &Shown<'_>) -> String {
     look::html(&document::of(report, shown))
 }

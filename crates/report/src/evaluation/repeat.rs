@@ -3,11 +3,11 @@
 use super::Shown;
 use crate::document::{Block, Document};
 use crate::sheet::Sheet;
-use crate::{Report, plain};
+use crate::{EvaluationReport, plain};
 use gumption_engine::task::Trials;
 
 /// Program, settings, digests, and the text of the model file where the page shows it.
-pub(super) fn section(document: &mut Document, report: &Report<'_>, shown: &Shown<'_>) {
+pub(super) fn section(document: &mut Document, report: &EvaluationReport<'_>, shown: &Shown<'_>) {
     document.section("To repeat this");
     let lines = lines(report, shown);
     let mut sheet = Sheet::default();
@@ -24,8 +24,8 @@ pub(super) fn section(document: &mut Document, report: &Report<'_>, shown: &Show
 }
 
 /// Names and values.
-pub(super) fn lines(report: &Report<'_>, shown: &Shown<'_>) -> Vec<(String, String)> {
-    let Report { evaluation, provenance, .. } = report;
+pub(super) fn lines(report: &EvaluationReport<'_>, shown: &Shown<'_>) -> Vec<(String, String)> {
+    let EvaluationReport { evaluation, provenance, .. } = report;
     let settings = &evaluation.settings;
     let trials = match settings.trials {
         Trials::Fixed(trials) => trials.to_string(),

@@ -1,9 +1,9 @@
 //! Everything about one output.
 
 use super::{Shown, figures};
-use crate::Report;
+use crate::EvaluationReport;
 use crate::document::{Block, Document, sentence};
-use crate::number::{justified, place, with_uncertainty};
+use crate::number::{justified, position, with_uncertainty};
 use crate::sheet::Sheet;
 use crate::table;
 use crate::table::budget;
@@ -16,11 +16,11 @@ use gumption_engine::task::{Coverage, Settings};
 /// The section of an output of the first row.
 pub(super) fn section(
     document: &mut Document,
-    report: &Report<'_>,
+    report: &EvaluationReport<'_>,
     shown: &Shown<'_>,
     output: usize,
 ) {
-    let Report { task, evaluation, .. } = *report;
+    let EvaluationReport { task, evaluation, .. } = *report;
     let Some(found) = evaluation.rows.first().and_then(|row| row.outputs.get(output)) else {
         return;
     };
@@ -97,7 +97,7 @@ fn result(settings: &Settings, output: &Quantity, found: &OutputEvaluation) -> S
     }
     if let Some(figures) = &found.monte_carlo {
         let u = figures.standard_uncertainty.or_else(|| gum.map(|gum| gum.standard_uncertainty));
-        let digits = u.and_then(|u| place(u, settings.digits));
+        let digits = u.and_then(|u| position(u, settings.digits));
         let [low, high] = [0, 1].map(|end| {
             let error = figures.errors.symmetric_interval[end];
             justified(figures.symmetric_interval[end], digits, error)

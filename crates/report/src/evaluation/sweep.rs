@@ -1,7 +1,7 @@
 //! A sweep over conditions: a table and a figure for each output.
 
 use super::figures;
-use crate::Report;
+use crate::EvaluationReport;
 use crate::document::Document;
 use crate::table;
 use crate::table::sweep;
@@ -10,8 +10,8 @@ use crate::table::sweep;
 const MOST_ROWS: usize = 2000;
 
 /// The sections of all outputs.
-pub(super) fn sections(document: &mut Document, report: &Report<'_>) {
-    let Report { task, evaluation, .. } = *report;
+pub(super) fn sections(document: &mut Document, report: &EvaluationReport<'_>) {
+    let EvaluationReport { task, evaluation, .. } = *report;
     let rows = evaluation.rows.get(..MOST_ROWS).unwrap_or(&evaluation.rows);
     for (output, declared) in task.model.outputs.iter().enumerate() {
         document.section(table::title_text(&declared.quantity));

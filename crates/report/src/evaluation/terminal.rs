@@ -1,27 +1,21 @@
 //! The distribution of an output in a terminal, without colours: it reads on dark and on light.
 
-use ratatui_core::buffer::Buffer;
-use ratatui_core::layout::Rect;
-use ratatui_core::style::Style;
-use ratatui_core::widgets::Widget;
-use ratatui_widgets::sparkline::Sparkline;
-
 use super::Shown;
-use crate::plot::Axis;
+use crate::plot::{Axis, CharacterGrid};
 use crate::table::{conditions_text, grouped, title_text};
-use crate::{Report, wrapped};
+use crate::{EvaluationReport, wrapped};
 use gumption_engine::model::Quantity;
 use gumption_engine::propagate::OutputEvaluation;
 use gumption_engine::propagate::gum::Gum;
 use gumption_engine::propagate::monte_carlo::Histogram;
 
 /// Columns left of the bars, and rows of the bars.
-const LEFT: u16 = 16;
-const HEIGHT: u16 = 10;
+const LEFT: usize = 16;
+const HEIGHT: usize = 10;
 
 /// The histograms of all rows, each below an empty line; nothing where none is shown.
-pub fn histograms(report: &Report<'_>, shown: &Shown<'_>) -> String {
-    let Report { task, evaluation, .. } = *report;
+pub fn histograms(report: &EvaluationReport<'_>, shown: &Shown<'_>) -> String {
+    let EvaluationReport { task, evaluation, .. } = *report;
     let mut page = String::new();
     for (row, (found, histograms)) in evaluation.rows.iter().zip(shown.histograms).enumerate() {
         if evaluation.rows.len() > 1 && !histograms.is_empty() {
@@ -43,7 +37,7 @@ pub fn histograms(report: &Report<'_>, shown: &Shown<'_>) -> String {
 fn histogram(output: &Quantity, found: &OutputEvaluation, counts: &Histogram) -> String {
     let about = Quantity { about: String::new(), ..output.clone() };
     let title = format!("{}: {} trials", title_text(&about), grouped(counts.trials()));
-    let width = u16::try_from(counts.counts.len()).unwrap_or(u16::MAX - LEFT);
+    let width = counts.counts.len();
     let gum = found.gum.as_ref().and_then(Gum::interval);
     let figures = found.monte_carlo.as_ref();
     let intervals: Vec<(&str, [f64; 2])> = [
@@ -54,58 +48,50 @@ fn histogram(output: &Quantity, found: &OutputEvaluation, counts: &Histogram) ->
     .into_iter()
     .filter_map(|(name, interval)| Some((name, interval?)))
     .collect();
-    let rows = HEIGHT + 2 + intervals.len() as u16;
-    let mut buffer = Buffer::empty(Rect::new(0, 0, LEFT + width, rows));
-    let bars = Sparkline::default().data(counts.counts.iter().copied());
-    bars.render(Rect::new(LEFT, 0, width, HEIGHT), &mut buffer);
-    marks(&mut buffer, counts, width);
-    for (row, (name, interval)) in intervals.iter().enumerate() {
-        let row = HEIGHT + 2 + row as u16;
-        let name_width = usize::from(LEFT) - 2;
-        buffer.set_string(0, row, format!("{name:>name_width$}"), Style::new());
+    let mut grid = CharacterGrid::new(LEFT + width, HEIGHT + 2 + intervals.len());
+    let most = counts.counts.iter().copied().max().unwrap_or(0).max(1);
+    for (bar, count) in counts.counts.iter().enumerate() {
+        // rounded down, in integers of more bits than counts have
+        let eighths = u128::from(*count) * (8 * HEIGHT as u128) / u128::from(most);
+        grid.bar(LEFT + bar, HEIGHT - 1, eighths as usize);
+    }
+    marks(&mut grid, counts, width);
+    for (row, (name, interval)) in (HEIGHT + 2..).zip(&intervals) {
+        let name_width = LEFT - 2;
+        grid.write(0, row, &format!("{name:>name_width$}"));
         let [from, to] = interval.map(|end| column(counts, width, end));
-        for place in from..=to {
-            let part = match place {
-                _ if place == from => "├",
-                _ if place == to => "┤",
-                _ => "─",
+        for position in from..=to {
+            let part = match position {
+                _ if position == from => '├',
+                _ if position == to => '┤',
+                _ => '─',
             };
-            buffer.set_string(place, row, part, Style::new());
+            grid.put(position, row, part);
         }
     }
-    wrapped(&title) + &lines(&buffer)
+    wrapped(&title) + &grid.lines()
 }
 
 /// The column in which a value stands; beyond the bars the nearest.
-fn column(counts: &Histogram, width: u16, value: f64) -> u16 {
+fn column(counts: &Histogram, width: usize, value: f64) -> usize {
     let share = (value - counts.low) / (counts.high() - counts.low);
-    let place = (share * f64::from(width)).floor().clamp(0.0, f64::from(width.saturating_sub(1)));
-    LEFT + place as u16
+    LEFT + (share * width as f64).floor().clamp(0.0, width.saturating_sub(1) as f64) as usize
 }
 
 /// The axis and its marks.
-fn marks(buffer: &mut Buffer, counts: &Histogram, width: u16) {
-    buffer.set_string(LEFT, HEIGHT, "─".repeat(usize::from(width)), Style::new());
+fn marks(grid: &mut CharacterGrid, counts: &Histogram, width: usize) {
+    grid.write(LEFT, HEIGHT, &"─".repeat(width));
     let axis = Axis::linear(counts.low, counts.high());
     let mut free = 0;
     for (value, text) in axis.marks(8) {
         let at = column(counts, width, value);
-        let length = text.chars().count() as u16;
+        let length = text.chars().count();
         let from = at.saturating_sub(length / 2);
         if from < free || from + length > LEFT + width {
             continue;
         }
         free = from + length + 2;
-        buffer.set_string(at, HEIGHT, "┬", Style::new());
-        buffer.set_string(from, HEIGHT + 1, &text, Style::new());
+        grid.put(at, HEIGHT, '┬');
+        grid.write(from, HEIGHT + 1, &text);
     }
-}
-
-fn lines(buffer: &Buffer) -> String {
-    let rows = buffer.content().chunks(usize::from(buffer.area.width).max(1));
-    rows.map(|cells| {
-        let line: String = cells.iter().map(ratatui_core::buffer::Cell::symbol).collect();
-        line.trim_end().to_owned() + "\n"
-    })
-    .collect()
 }

@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
-use gumption_gap::check::{Checked, Report, SmallestEffect};
+use crate::answer::pretty;
+use gumption_gap::check::{BlindCheckScores, BlindDraw, SmallestEffect};
 
 #[derive(Serialize)]
 struct Answer<'r> {
@@ -27,7 +28,7 @@ struct Answer<'r> {
     worse_than_none: f64,
     claim_bias: f64,
     smallest_effect: BTreeMap<&'r str, Smallest<'r>>,
-    cases: &'r [Checked],
+    cases: &'r [BlindDraw],
     version: &'static str,
 }
 
@@ -49,7 +50,7 @@ impl<'r> Smallest<'r> {
 }
 
 /// The scores as JSON, keys in a fixed order. It ends in a newline.
-pub fn check_json(title: &str, report: &Report) -> String {
+pub fn check_json(title: &str, report: &BlindCheckScores) -> String {
     let answer = Answer {
         title,
         draws: report.draws,
@@ -85,7 +86,5 @@ pub fn check_json(title: &str, report: &Report) -> String {
         cases: &report.checked,
         version: env!("CARGO_PKG_VERSION"),
     };
-    let mut text = serde_json::to_string_pretty(&answer).unwrap_or_default();
-    text.push('\n');
-    text
+    pretty(&answer)
 }

@@ -1,6 +1,6 @@
 //! One line for each hypothesis, in full precision, for programs and spreadsheets.
 
-use crate::csv::{number, text};
+use crate::csv::{number, of_records, text};
 use gumption_gap::{Diagnosis, Hypothesis};
 
 const COLUMNS: [&str; 7] =
@@ -10,14 +10,10 @@ const COLUMNS: [&str; 7] =
 /// (`none`, `explained` or `unexplained`), its effects with ` + ` between them, and the figures of
 /// the JSON answer. An empty cell stands for what is not defined.
 pub fn csv(diagnosis: &Diagnosis) -> String {
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    let mut written = writer.write_record(COLUMNS);
-    for hypothesis in &diagnosis.hypotheses {
-        written = written.and_then(|()| writer.write_record(record(hypothesis)));
-    }
-    // writing to memory cannot fail, and all records have as many cells
-    debug_assert!(written.is_ok(), "{written:?}");
-    writer.into_inner().ok().and_then(|bytes| String::from_utf8(bytes).ok()).unwrap_or_default()
+    of_records(|writer| {
+        writer.write_record(COLUMNS)?;
+        diagnosis.hypotheses.iter().try_for_each(|of| writer.write_record(record(of)))
+    })
 }
 
 fn record(hypothesis: &Hypothesis) -> [String; 7] {
@@ -32,7 +28,7 @@ fn record(hypothesis: &Hypothesis) -> [String; 7] {
         number(Some(hypothesis.prior)),
         number(Some(hypothesis.probability)),
         number(Some(hypothesis.log_evidence)),
-        number(Some(hypothesis.error)),
-        number(Some(hypothesis.effective)),
+        number(Some(hypothesis.standard_error)),
+        number(Some(hypothesis.effective_sample_size)),
     ]
 }

@@ -2,6 +2,7 @@
 
 use crate::number;
 use crate::number::{exact, rounded, significant};
+use gumption_engine::decimal::{to_digits, to_position};
 
 /// Digits of standard uncertainties.
 pub(super) const UNCERTAINTY: u32 = 2;
@@ -10,7 +11,7 @@ pub(super) const UNCERTAINTY: u32 = 2;
 const LEAST: f64 = 1e-300;
 
 /// Digits of the values of conditions; those of data seldom have more.
-const CONDITION_DIGITS: usize = 6;
+const CONDITION_DIGITS: u32 = 6;
 
 /// A probability of a hypothesis: three decimals, or the leading digit of a very small one.
 pub(super) fn probability(value: f64) -> String {
@@ -39,22 +40,20 @@ pub(super) fn tenths(value: f64) -> String {
 
 /// Root mean squares beside the noise floor that they are compared with: to its third digit.
 pub(super) fn beside(value: f64, floor: f64) -> String {
-    match number::place(floor, 3) {
-        Some(place) => rounded(value, place),
+    match number::position(floor, 3) {
+        Some(position) => rounded(value, position),
         None => significant(value, 3),
     }
 }
 
 /// The value of a condition.
 pub(super) fn condition(value: f64) -> String {
-    let digits = format!("{value:.*e}", CONDITION_DIGITS - 1);
-    exact(digits.parse().unwrap_or(value))
+    exact(to_digits(value, CONDITION_DIGITS))
 }
 
 /// A coverage probability in per cent.
 pub(super) fn percent(probability: f64) -> String {
-    let digits: f64 = format!("{:.4}", 100.0 * probability).parse().unwrap_or(f64::NAN);
-    format!("{} %", exact(digits))
+    format!("{} %", exact(to_position(100.0 * probability, -4)))
 }
 
 #[cfg(test)]

@@ -2,328 +2,180 @@
 
 use std::collections::BTreeMap;
 
-use serde::Serialize;
+use serde_json::{Value, json};
 
-use gumption_gap::{Diagnosis, Named, Shrunk};
-
-/// Numbers by name, in the order in which they are given.
-#[derive(Debug)]
-struct Ordered<V>(Vec<(String, V)>);
-
-impl<V: Serialize> Serialize for Ordered<V> {
-    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.collect_map(self.0.iter().map(|(name, value)| (name, value)))
-    }
-}
-
-#[derive(Serialize)]
-struct Answer {
-    title: String,
-    gap: Gap,
-    r#where: Vec<Region>,
-    verdict: Verdict,
-    hypotheses: Vec<Hypothesis>,
-    shrinks: Shrinks,
-    next_measurement: Option<Next>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    prediction: Option<Prediction>,
-    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
-    noise: BTreeMap<String, Noise>,
-    rows: Vec<Row>,
-    notes: Vec<Note>,
-    coverage_probability: f64,
-    seed: u64,
-    version: &'static str,
-}
-
-#[derive(Serialize)]
-struct Gap {
-    present: bool,
-    p_value: Option<f64>,
-    chi2: Option<f64>,
-    dof: f64,
-}
-
-#[derive(Serialize)]
-struct Region {
-    output: Option<String>,
-    conditions: Ordered<[f64; 2]>,
-    p_value: f64,
-    share_of_gap: f64,
-    mean_z: f64,
-}
-
-#[derive(Serialize)]
-struct Verdict {
-    kind: &'static str,
-    effects: Vec<String>,
-    probability: f64,
-    group: Vec<Vec<String>>,
-    group_probability: f64,
-}
-
-#[derive(Serialize)]
-struct Hypothesis {
-    effects: Option<Vec<String>>,
-    probability: f64,
-    prior: f64,
-    log_evidence: Option<f64>,
-    standard_error: f64,
-    ess: f64,
-    parameters: Ordered<Parameter>,
-}
-
-#[derive(Serialize)]
-struct Parameter {
-    unit: String,
-    estimate: f64,
-    standard_uncertainty: f64,
-    interval: [f64; 2],
-}
-
-#[derive(Serialize)]
-struct Shrinks {
-    rms_before: f64,
-    rms_after: f64,
-    rms_after_interval: [f64; 2],
-    noise_floor: f64,
-    removed_fraction: f64,
-    meaningful: bool,
-    claimed_fraction: f64,
-    chi2_per_dof_before: f64,
-    chi2_per_dof_after: f64,
-    within_before: f64,
-    within_after: f64,
-    log_density_gain: f64,
-    blocks: usize,
-    outputs: Ordered<OfOutput>,
-}
-
-#[derive(Serialize)]
-struct OfOutput {
-    unit: String,
-    rms_before: f64,
-    rms_after: f64,
-    noise_floor: f64,
-    removed_fraction: f64,
-}
-
-#[derive(Serialize)]
-struct Next {
-    separates: [Vec<String>; 2],
-    conditions: Ordered<f64>,
-    expected_log_odds: f64,
-}
-
-#[derive(Serialize)]
-struct Prediction {
-    rows: Vec<PredictedRow>,
-}
-
-#[derive(Serialize)]
-struct PredictedRow {
-    conditions: Ordered<f64>,
-    outputs: Ordered<Predicted>,
-}
-
-#[derive(Serialize)]
-struct Predicted {
-    value: f64,
-    standard_uncertainty: f64,
-}
-
-#[derive(Serialize)]
-struct Noise {
-    unit: String,
-    standard_uncertainty: f64,
-    power: f64,
-}
-
-#[derive(Serialize)]
-struct Row {
-    conditions: Ordered<f64>,
-    outputs: Ordered<Value>,
-}
-
-#[derive(Serialize)]
-struct Value {
-    measured: f64,
-    standard_uncertainty: f64,
-    before: f64,
-    u_before: f64,
-    after: f64,
-    u_after: f64,
-}
-
-#[derive(Serialize)]
-struct Note {
-    code: &'static str,
-    message: String,
-}
+use crate::answer::{list, object, pretty};
+use gumption_gap::{Diagnosis, EffectParameter, Hypothesis, NamedQuantity};
 
 /// The diagnosis as JSON, keys in a fixed order; `null` for what is not defined. It ends in a
 /// newline.
 pub fn json(diagnosis: &Diagnosis) -> String {
-    let mut text = serde_json::to_string_pretty(&answer(diagnosis)).unwrap_or_default();
-    text.push('\n');
-    text
+    let Diagnosis { gap, most_probable: verdict, .. } = diagnosis;
+    let mut entries = vec![
+        ("title", json!(diagnosis.title)),
+        (
+            "gap",
+            json!({
+                "present": gap.present,
+                "p_value": gap.p_value,
+                "chi2": gap.chi2,
+                "dof": gap.dof,
+            }),
+        ),
+        ("where", regions(diagnosis)),
+        (
+            "verdict",
+            json!({
+                "kind": verdict.kind.name(),
+                "effects": verdict.effects,
+                "probability": verdict.probability,
+                "group": verdict.indistinguishable,
+                "group_probability": verdict.indistinguishable_probability,
+            }),
+        ),
+        ("hypotheses", list(diagnosis.hypotheses.iter().map(hypothesis))),
+        ("shrinks", shrinks(diagnosis)),
+        ("next_measurement", next(diagnosis)),
+    ];
+    entries.extend(prediction(diagnosis).map(|prediction| ("prediction", prediction)));
+    entries.extend(noise(diagnosis).map(|noise| ("noise", noise)));
+    let notes = diagnosis.notes.iter();
+    entries.extend([
+        ("rows", rows(diagnosis)),
+        ("notes", list(notes.map(|note| json!({"code": note.code, "message": note.text})))),
+        ("coverage_probability", json!(diagnosis.probability)),
+        ("seed", json!(diagnosis.seed)),
+        ("version", json!(env!("CARGO_PKG_VERSION"))),
+    ]);
+    pretty(&object(entries))
 }
 
-fn finite(value: f64) -> Option<f64> {
-    value.is_finite().then_some(value)
+/// Values by name, in the order in which they are given.
+fn named<V: Into<Value>>(names: &[NamedQuantity], values: impl IntoIterator<Item = V>) -> Value {
+    object(names.iter().map(|named| named.name.as_str()).zip(values))
 }
 
-fn named<V>(names: &[Named], values: impl Iterator<Item = V>) -> Ordered<V> {
-    Ordered(names.iter().map(|named| named.name.clone()).zip(values).collect())
+fn regions(diagnosis: &Diagnosis) -> Value {
+    list(diagnosis.regions.iter().map(|region| {
+        let output = region.output.and_then(|output| diagnosis.outputs.get(output));
+        let range = region.range.and_then(|(condition, range)| {
+            Some((diagnosis.conditions.get(condition)?.name.as_str(), range))
+        });
+        json!({
+            "output": output.map(|named| &named.name),
+            "conditions": object(range),
+            "p_value": region.p_value,
+            "share_of_gap": region.share_of_gap,
+            "mean_z": region.mean_z,
+        })
+    }))
 }
 
-fn answer(diagnosis: &Diagnosis) -> Answer {
-    let Diagnosis { outputs, conditions, gap, verdict, shrinkage, .. } = diagnosis;
-    let of_output = |(named, shrunk): (&Named, &Shrunk)| OfOutput {
-        unit: named.unit.clone(),
-        rms_before: shrunk.rms_before,
-        rms_after: shrunk.rms_after,
-        noise_floor: shrunk.noise_floor,
-        removed_fraction: shrunk.removed_fraction,
+fn hypothesis(of: &Hypothesis) -> Value {
+    let parameter = |of: &EffectParameter| {
+        json!({
+            "unit": of.unit,
+            "estimate": of.estimate,
+            "standard_uncertainty": of.standard_uncertainty,
+            "interval": of.interval,
+        })
     };
-    Answer {
-        title: diagnosis.title.clone(),
-        gap: Gap {
-            present: gap.present,
-            p_value: gap.p_value,
-            chi2: finite(gap.chi2),
-            dof: gap.dof,
-        },
-        r#where: diagnosis
-            .regions
-            .iter()
-            .map(|region| Region {
-                output: region
-                    .output
-                    .and_then(|output| outputs.get(output))
-                    .map(|named| named.name.clone()),
-                conditions: Ordered(
-                    region
-                        .range
-                        .and_then(|(place, range)| {
-                            Some((conditions.get(place)?.name.clone(), range))
-                        })
-                        .into_iter()
-                        .collect(),
-                ),
-                p_value: region.p_value,
-                share_of_gap: region.share_of_gap,
-                mean_z: region.mean_z,
+    let parameters = of.parameters.iter();
+    json!({
+        "effects": of.effects,
+        "probability": of.probability,
+        "prior": of.prior,
+        "log_evidence": of.log_evidence,
+        // an error that is not known is larger than any
+        "standard_error": if of.standard_error.is_finite() { of.standard_error } else { f64::MAX },
+        "ess": of.effective_sample_size,
+        "parameters": object(parameters.map(|of| (of.name.as_str(), parameter(of)))),
+    })
+}
+
+fn shrinks(diagnosis: &Diagnosis) -> Value {
+    let shrinkage = &diagnosis.shrinkage;
+    let all = &shrinkage.all;
+    let outputs = diagnosis.outputs.iter().zip(&shrinkage.outputs).map(|(output, shrunk)| {
+        json!({
+            "unit": output.unit,
+            "rms_before": shrunk.rms_before,
+            "rms_after": shrunk.rms_after,
+            "noise_floor": shrunk.noise_floor,
+            "removed_fraction": shrunk.removed_fraction,
+        })
+    });
+    json!({
+        "rms_before": all.rms_before,
+        "rms_after": all.rms_after,
+        "rms_after_interval": shrinkage.rms_after_interval,
+        "noise_floor": all.noise_floor,
+        "removed_fraction": all.removed_fraction,
+        "meaningful": shrinkage.meaningful,
+        "claimed_fraction": shrinkage.claimed_fraction,
+        "chi2_per_dof_before": shrinkage.chi2_per_dof[0],
+        "chi2_per_dof_after": shrinkage.chi2_per_dof[1],
+        "within_before": shrinkage.within[0],
+        "within_after": shrinkage.within[1],
+        "log_density_gain": shrinkage.log_density_gain,
+        "blocks": shrinkage.blocks,
+        "outputs": named(&diagnosis.outputs, outputs),
+    })
+}
+
+fn next(diagnosis: &Diagnosis) -> Value {
+    diagnosis.next.as_ref().map_or(Value::Null, |next| {
+        json!({
+            "separates": next.separates,
+            "conditions": named(&diagnosis.conditions, next.conditions.iter().copied()),
+            "expected_log_odds": next.expected_log_odds,
+        })
+    })
+}
+
+fn prediction(diagnosis: &Diagnosis) -> Option<Value> {
+    let rows = diagnosis.prediction.as_ref()?.iter().map(|row| {
+        let outputs = row.outputs.iter().map(|(value, standard_uncertainty)| {
+            json!({"value": value, "standard_uncertainty": standard_uncertainty})
+        });
+        json!({
+            "conditions": named(&diagnosis.conditions, row.conditions.iter().copied()),
+            "outputs": named(&diagnosis.outputs, outputs),
+        })
+    });
+    Some(json!({"rows": list(rows)}))
+}
+
+/// By name, in the order of the alphabet; `None` where none was fitted.
+fn noise(diagnosis: &Diagnosis) -> Option<Value> {
+    let noise = diagnosis.noise.iter().filter_map(|noise| {
+        let output = diagnosis.outputs.get(noise.output)?;
+        let value = json!({
+            "unit": output.unit,
+            "standard_uncertainty": noise.standard_uncertainty,
+            "power": noise.power,
+        });
+        Some((output.name.as_str(), value))
+    });
+    let noise: BTreeMap<&str, Value> = noise.collect();
+    (!noise.is_empty()).then(|| object(noise))
+}
+
+fn rows(diagnosis: &Diagnosis) -> Value {
+    list(diagnosis.rows.iter().map(|row| {
+        let outputs = row.outputs.iter().map(|value| {
+            json!({
+                "measured": value.measured,
+                "standard_uncertainty": value.u,
+                "before": value.before,
+                "u_before": value.u_before,
+                "after": value.after,
+                "u_after": value.u_after,
             })
-            .collect(),
-        verdict: Verdict {
-            kind: verdict.kind.name(),
-            effects: verdict.effects.clone(),
-            probability: verdict.probability,
-            group: verdict.group.clone(),
-            group_probability: verdict.group_probability,
-        },
-        hypotheses: diagnosis
-            .hypotheses
-            .iter()
-            .map(|hypothesis| Hypothesis {
-                effects: hypothesis.effects.clone(),
-                probability: hypothesis.probability,
-                prior: hypothesis.prior,
-                log_evidence: finite(hypothesis.log_evidence),
-                standard_error: finite(hypothesis.error).unwrap_or(f64::MAX),
-                ess: hypothesis.effective,
-                parameters: Ordered(
-                    hypothesis
-                        .parameters
-                        .iter()
-                        .map(|parameter| {
-                            let value = Parameter {
-                                unit: parameter.unit.clone(),
-                                estimate: parameter.estimate,
-                                standard_uncertainty: parameter.standard_uncertainty,
-                                interval: parameter.interval,
-                            };
-                            (parameter.name.clone(), value)
-                        })
-                        .collect(),
-                ),
-            })
-            .collect(),
-        shrinks: Shrinks {
-            rms_before: shrinkage.all.rms_before,
-            rms_after: shrinkage.all.rms_after,
-            rms_after_interval: shrinkage.rms_after_interval,
-            noise_floor: shrinkage.all.noise_floor,
-            removed_fraction: shrinkage.all.removed_fraction,
-            meaningful: shrinkage.meaningful,
-            claimed_fraction: shrinkage.claimed_fraction,
-            chi2_per_dof_before: shrinkage.chi2_per_dof[0],
-            chi2_per_dof_after: shrinkage.chi2_per_dof[1],
-            within_before: shrinkage.within[0],
-            within_after: shrinkage.within[1],
-            log_density_gain: shrinkage.log_density_gain,
-            blocks: shrinkage.blocks,
-            outputs: named(outputs, outputs.iter().zip(&shrinkage.outputs).map(of_output)),
-        },
-        next_measurement: diagnosis.next.as_ref().map(|next| Next {
-            separates: next.separates.clone(),
-            conditions: named(conditions, next.conditions.iter().copied()),
-            expected_log_odds: next.expected_log_odds,
-        }),
-        prediction: diagnosis.prediction.as_ref().map(|rows| Prediction {
-            rows: rows
-                .iter()
-                .map(|row| PredictedRow {
-                    conditions: named(conditions, row.conditions.iter().copied()),
-                    outputs: named(
-                        outputs,
-                        row.outputs.iter().map(|&(value, standard_uncertainty)| Predicted {
-                            value,
-                            standard_uncertainty,
-                        }),
-                    ),
-                })
-                .collect(),
-        }),
-        noise: diagnosis
-            .noise
-            .iter()
-            .filter_map(|noise| {
-                let named = outputs.get(noise.output)?;
-                let value = Noise {
-                    unit: named.unit.clone(),
-                    standard_uncertainty: noise.standard_uncertainty,
-                    power: noise.power,
-                };
-                Some((named.name.clone(), value))
-            })
-            .collect(),
-        rows: diagnosis
-            .rows
-            .iter()
-            .map(|row| Row {
-                conditions: named(conditions, row.conditions.iter().copied()),
-                outputs: named(
-                    outputs,
-                    row.outputs.iter().map(|value| Value {
-                        measured: value.measured,
-                        standard_uncertainty: value.u,
-                        before: value.before,
-                        u_before: value.u_before,
-                        after: value.after,
-                        u_after: value.u_after,
-                    }),
-                ),
-            })
-            .collect(),
-        notes: diagnosis
-            .notes
-            .iter()
-            .map(|note| Note { code: note.code, message: note.text.clone() })
-            .collect(),
-        coverage_probability: diagnosis.probability,
-        seed: diagnosis.seed,
-        version: env!("CARGO_PKG_VERSION"),
-    }
+        });
+        json!({
+            "conditions": named(&diagnosis.conditions, row.conditions.iter().copied()),
+            "outputs": named(&diagnosis.outputs, outputs),
+        })
+    }))
 }

@@ -2,10 +2,12 @@
 
 use super::digits::{self, p_value, probability, share, tenths};
 use super::words;
-use crate::number::{MISSING, place, rounded, significant, to, with_uncertainty};
+use crate::number::{MISSING, position, rounded, significant, to, with_uncertainty};
 use crate::plain;
 use crate::sheet::Sheet;
-use gumption_gap::{Diagnosis, Hypothesis, Kind, Named, Parameter, Predicted, Shrunk};
+use gumption_gap::{
+    Diagnosis, EffectParameter, Hypothesis, HypothesisKind, NamedQuantity, Predicted, Shrunk,
+};
 
 /// So much of the probability is shown by name, in so many lines at most.
 const SHOWN_PROBABILITY: f64 = 0.999;
@@ -47,16 +49,17 @@ pub(super) fn shown(diagnosis: &Diagnosis) -> &[Hypothesis] {
 pub(super) fn hypotheses(diagnosis: &Diagnosis) -> Sheet {
     let shown = shown(diagnosis);
     let evidence = |hypothesis: &Hypothesis| {
-        let Hypothesis { log_evidence, error, effective, .. } = *hypothesis;
+        let Hypothesis { log_evidence, standard_error: error, effective_sample_size, .. } =
+            *hypothesis;
         if error > 0.0 && error.is_finite() {
             let (value, error) = with_uncertainty(log_evidence, error, digits::UNCERTAINTY);
-            [value, error, rounded(effective, 0)]
+            [value, error, rounded(effective_sample_size, 0)]
         } else {
             [rounded(log_evidence, -2), missing(), missing()]
         }
     };
     let evidence: Vec<[String; 3]> = shown.iter().map(evidence).collect();
-    let column = |place: usize| evidence.iter().map(move |cells| cells[place].clone());
+    let column = |position: usize| evidence.iter().map(move |cells| cells[position].clone());
     let mut sheet = Sheet::default();
     sheet.text("hypothesis", shown.iter().map(|h| words::hypothesis(h.effects.as_deref())));
     sheet.numbers("prior", shown.iter().map(|h| significant(h.prior, 2)));
@@ -80,17 +83,18 @@ pub(super) fn left_out(diagnosis: &Diagnosis) -> Option<String> {
 
 /// The hypothesis of the verdict.
 pub(super) fn winner(diagnosis: &Diagnosis) -> Option<&Hypothesis> {
-    let verdict = &diagnosis.verdict;
-    let explained = verdict.kind != Kind::Unexplained;
+    let verdict = &diagnosis.most_probable;
+    let explained = verdict.kind != HypothesisKind::Unexplained;
     let wanted = explained.then_some(&verdict.effects);
     diagnosis.hypotheses.iter().find(|hypothesis| hypothesis.effects.as_ref() == wanted)
 }
 
 /// A parameter as it is printed: estimate, standard uncertainty and the ends of the interval.
-pub(super) fn parameter(parameter: &Parameter) -> [String; 4] {
-    let Parameter { estimate, standard_uncertainty: u, interval: [low, high], .. } = *parameter;
-    let place = place(u, digits::UNCERTAINTY);
-    [to(estimate, place), to(u, place), to(low, place), to(high, place)]
+pub(super) fn parameter(parameter: &EffectParameter) -> [String; 4] {
+    let EffectParameter { estimate, standard_uncertainty: u, interval: [low, high], .. } =
+        *parameter;
+    let position = position(u, digits::UNCERTAINTY);
+    [to(estimate, position), to(u, position), to(low, position), to(high, position)]
 }
 
 /// The parameters of the verdict's effects; `None` where there are none.
@@ -100,10 +104,10 @@ pub(super) fn parameters(diagnosis: &Diagnosis) -> Option<Sheet> {
         return None;
     }
     let figures: Vec<[String; 4]> = parameters.iter().map(parameter).collect();
-    let column = |place: usize| figures.iter().map(move |cells| cells[place].clone());
+    let column = |position: usize| figures.iter().map(move |cells| cells[position].clone());
     let mut sheet = Sheet::default();
     sheet.text("parameter", parameters.iter().map(|parameter| plain(&parameter.name)));
-    let unit = |parameter: &Parameter| words::unit(&parameter.unit).unwrap_or_default();
+    let unit = |parameter: &EffectParameter| words::unit(&parameter.unit).unwrap_or_default();
     sheet.text("unit", parameters.iter().map(unit));
     sheet.numbers("estimate", column(0));
     sheet.numbers("standard\nuncertainty", column(1));
@@ -136,7 +140,7 @@ pub(super) fn shrinkage(diagnosis: &Diagnosis) -> Sheet {
     let hundredths = |value: f64| rounded(value, -2);
     lines.push(pair("chi-square per degree of freedom", shrinkage.chi2_per_dof, hundredths));
     lines.push(pair("share of values with |En| <= 1", shrinkage.within, share));
-    let column = |place: usize| lines.iter().map(move |line| line[place].clone());
+    let column = |position: usize| lines.iter().map(move |line| line[position].clone());
     let mut sheet = Sheet::default();
     sheet.text("", column(0));
     sheet.text("unit", column(1));
@@ -159,9 +163,9 @@ pub(super) fn prediction(
     if joined {
         sheet.text("conditions", rows.iter().map(|row| words::at(conditions, &row.conditions)));
     } else {
-        for (place, named) in conditions.iter().enumerate() {
+        for (position, named) in conditions.iter().enumerate() {
             let value = |row: &Predicted| {
-                row.conditions.get(place).map_or_else(missing, |&value| digits::condition(value))
+                row.conditions.get(position).map_or_else(missing, |&value| digits::condition(value))
             };
             sheet.numbers(&header(named), rows.iter().map(value));
         }
@@ -178,7 +182,7 @@ pub(super) fn prediction(
     sheet
 }
 
-fn header(named: &Named) -> String {
+fn header(named: &NamedQuantity) -> String {
     let name = plain(&named.name);
     words::unit(&named.unit).map_or(name.clone(), |unit| format!("{name}\nin {unit}"))
 }

@@ -1,9 +1,9 @@
 //! The answer in sentences.
 
 use super::digits::{condition, p_equals, percent, probability, share, tenths};
-use crate::number::{exact, place, rounded, significant};
+use crate::number::{exact, position, rounded, significant};
 use crate::plain;
-use gumption_gap::{Diagnosis, Kind, Named, Region};
+use gumption_gap::{Diagnosis, GapRegion, HypothesisKind, NamedQuantity};
 
 /// Odds below this power of e are none at all.
 const WORTH_SAYING: f64 = 0.01;
@@ -33,20 +33,22 @@ pub(super) fn title(diagnosis: &Diagnosis) -> String {
 
 /// The verdict in one plain sentence.
 pub(super) fn verdict(diagnosis: &Diagnosis) -> String {
-    let verdict = &diagnosis.verdict;
+    let verdict = &diagnosis.most_probable;
     let how_sure = format!("(probability {})", probability(verdict.probability));
     match verdict.kind {
-        Kind::None if diagnosis.notes.iter().any(|note| note.code == "scatter") => format!(
-            "There is no gap that an effect or a discrepancy explains {how_sure}, but the data \
+        HypothesisKind::None if diagnosis.notes.iter().any(|note| note.code == "scatter") => {
+            format!(
+                "There is no gap that an effect or a discrepancy explains {how_sure}, but the data \
              scatter by more than their uncertainties."
-        ),
-        Kind::None => {
+            )
+        }
+        HypothesisKind::None => {
             format!("There is no gap: the uncertainties explain the data {how_sure}.")
         }
-        Kind::Unexplained => {
+        HypothesisKind::Unexplained => {
             format!("There is a gap, and none of the candidate effects explains it {how_sure}.")
         }
-        Kind::Explained => {
+        HypothesisKind::Explained => {
             let names: Vec<String> = verdict.effects.iter().map(|name| plain(name)).collect();
             match names.as_slice() {
                 [name] => format!("There is a gap, and {name} explains it {how_sure}."),
@@ -61,15 +63,16 @@ pub(super) fn verdict(diagnosis: &Diagnosis) -> String {
 
 /// The hypotheses that the data cannot tell from the verdict, if there are any.
 pub(super) fn look_alikes(diagnosis: &Diagnosis) -> Option<String> {
-    let verdict = &diagnosis.verdict;
-    let others: Vec<String> = verdict.group.iter().skip(1).map(|effects| quoted(effects)).collect();
+    let verdict = &diagnosis.most_probable;
+    let others: Vec<String> =
+        verdict.indistinguishable.iter().skip(1).map(|effects| quoted(effects)).collect();
     if others.is_empty() {
         return None;
     }
     Some(format!(
         "These data cannot tell it from: {}. All of them together have the probability {}.",
         others.join("; "),
-        probability(verdict.group_probability)
+        probability(verdict.indistinguishable_probability)
     ))
 }
 
@@ -125,15 +128,16 @@ pub(super) fn letter(number: usize) -> String {
 }
 
 /// The output that a region is about.
-pub(super) fn output_of(diagnosis: &Diagnosis, region: &Region) -> String {
+pub(super) fn output_of(diagnosis: &Diagnosis, region: &GapRegion) -> String {
     let named = region.output.and_then(|output| diagnosis.outputs.get(output));
     named.map_or_else(|| "all outputs".to_owned(), |named| plain(&named.name))
 }
 
 /// The range of a region.
-pub(super) fn range_of(diagnosis: &Diagnosis, region: &Region) -> String {
-    let found =
-        region.range.and_then(|(place, range)| Some((diagnosis.conditions.get(place)?, range)));
+pub(super) fn range_of(diagnosis: &Diagnosis, region: &GapRegion) -> String {
+    let found = region
+        .range
+        .and_then(|(position, range)| Some((diagnosis.conditions.get(position)?, range)));
     let Some((named, [from, to])) = found else { return "everywhere".to_owned() };
     let name = plain(&named.name);
     if from == to {
@@ -143,7 +147,7 @@ pub(super) fn range_of(diagnosis: &Diagnosis, region: &Region) -> String {
 }
 
 /// A number with the unit of its quantity, if that has a name.
-pub(super) fn in_unit(number: &str, named: &Named) -> String {
+pub(super) fn in_unit(number: &str, named: &NamedQuantity) -> String {
     match unit(&named.unit) {
         Some(unit) => format!("{number} {unit}"),
         None => number.to_owned(),
@@ -157,7 +161,7 @@ pub(super) fn unit(text: &str) -> Option<String> {
 }
 
 /// `f in Hz`.
-pub(super) fn axis(named: &Named) -> String {
+pub(super) fn axis(named: &NamedQuantity) -> String {
     match unit(&named.unit) {
         Some(unit) => format!("{} in {unit}", plain(&named.name)),
         None => plain(&named.name),
@@ -165,7 +169,7 @@ pub(super) fn axis(named: &Named) -> String {
 }
 
 /// `f = 10 Hz, tilt = 35 deg`.
-pub(super) fn at(conditions: &[Named], values: &[f64]) -> String {
+pub(super) fn at(conditions: &[NamedQuantity], values: &[f64]) -> String {
     let parts = conditions.iter().zip(values).map(|(named, &value)| {
         format!("{} = {}", plain(&named.name), in_unit(&condition(value), named))
     });
@@ -176,9 +180,9 @@ pub(super) fn at(conditions: &[Named], values: &[f64]) -> String {
 pub(super) fn shrinkage(diagnosis: &Diagnosis) -> Vec<String> {
     let shrinkage = &diagnosis.shrinkage;
     let [low, high] = shrinkage.rms_after_interval;
-    let digits = place(0.5 * (high - low), 2).unwrap_or(-2);
+    let digits = position(0.5 * (high - low), 2).unwrap_or(-2);
     let mut said = Vec::new();
-    if diagnosis.verdict.kind == Kind::None {
+    if diagnosis.most_probable.kind == HypothesisKind::None {
         said.push(
             "There is nothing to correct; before and after differ by the inputs alone.".to_owned(),
         );
@@ -189,7 +193,7 @@ pub(super) fn shrinkage(diagnosis: &Diagnosis) -> Vec<String> {
                 .to_owned(),
         );
     }
-    if diagnosis.verdict.kind == Kind::Unexplained {
+    if diagnosis.most_probable.kind == HypothesisKind::Unexplained {
         said.push(
             "The correction is a discrepancy fitted to the data, since no effect explains the gap."
                 .to_owned(),
@@ -204,7 +208,7 @@ pub(super) fn shrinkage(diagnosis: &Diagnosis) -> Vec<String> {
         rounded(high, digits),
         percent(diagnosis.probability),
     ));
-    if diagnosis.verdict.kind != Kind::None {
+    if diagnosis.most_probable.kind != HypothesisKind::None {
         let claim = if shrinkage.meaningful {
             format!(
                 " At the case's own conditions the fraction removed is expected to be {}.",
@@ -224,12 +228,12 @@ pub(super) fn shrinkage(diagnosis: &Diagnosis) -> Vec<String> {
 /// What to measure next.
 pub(super) fn next(diagnosis: &Diagnosis) -> String {
     let Some(next) = &diagnosis.next else {
-        return match diagnosis.verdict.kind {
-            Kind::Unexplained => {
+        return match diagnosis.most_probable.kind {
+            HypothesisKind::Unexplained => {
                 "No candidate effect explains the gap, so there are none to tell apart. Look for \
                  another effect, which acts where the residuals are large."
             }
-            Kind::None | Kind::Explained => {
+            HypothesisKind::None | HypothesisKind::Explained => {
                 "No other hypothesis is probable enough to be worth a measurement against it."
             }
         }
@@ -262,7 +266,7 @@ pub(super) fn next(diagnosis: &Diagnosis) -> String {
 
 /// The estimated noise of outputs, a sentence each.
 pub(super) fn noise(diagnosis: &Diagnosis) -> Vec<String> {
-    let sentence = |noise: &gumption_gap::Noise| {
+    let sentence = |noise: &gumption_gap::NoiseEstimate| {
         let named = diagnosis.outputs.get(noise.output)?;
         let value = significant(noise.standard_uncertainty, 2);
         let size = in_unit(&value, named);

@@ -12,15 +12,15 @@ pub use table::table;
 use super::Provenance;
 use gumption_engine::task::Warning;
 use gumption_files::RecipeCondition;
-use gumption_signal::{ChannelObservation, Observation, Settings, Value};
+use gumption_signal::{BudgetedValue, ChannelObservation, Observation, RecipeSettings};
 
 /// Observations with what a report says about them.
 #[derive(Clone, Debug)]
-pub struct Observed<'a> {
+pub struct ObservationReport<'a> {
     /// The title, if the recipe has one.
     pub title: Option<&'a str>,
     /// What is the same for all rows.
-    pub settings: &'a Settings,
+    pub settings: &'a RecipeSettings,
     /// The conditions.
     pub conditions: &'a [RecipeCondition],
     /// The name of the column of frequencies.
@@ -42,7 +42,7 @@ pub(super) struct Figure {
     pub(super) values: Vec<(f64, f64)>,
 }
 
-impl Observed<'_> {
+impl ObservationReport<'_> {
     /// One line for each row and frequency: the conditions, the frequency and the channels.
     pub(super) fn lines(&self) -> impl Iterator<Item = (&[f64], &[ChannelObservation])> {
         self.rows.iter().flat_map(|(conditions, observation)| {
@@ -74,7 +74,8 @@ impl Observed<'_> {
                     figures.push(Figure { name, unit: unit.to_owned(), values });
                 }
             };
-            let pair = |value: &Value| (value.measured.value, value.measured.standard_uncertainty);
+            let pair =
+                |value: &BudgetedValue| (value.measured.value, value.measured.standard_uncertainty);
             for (number, multiple) in self.settings.components.iter().enumerate() {
                 let suffix = if *multiple == 1 { String::new() } else { format!("_{multiple}") };
                 let phase = self.settings.phase.name();

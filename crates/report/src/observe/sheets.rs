@@ -1,16 +1,19 @@
 //! The tables of observations.
 
-use super::Observed;
-use crate::number::{exact, significant, with_uncertainty};
+use super::ObservationReport;
+use crate::number::{exact, rounded, significant, with_uncertainty};
 use crate::sheet::{Figure, Sheet};
-use gumption_signal::{ChannelObservation, Component, Measured, Value};
+use gumption_signal::{BudgetedValue, ChannelObservation, Measured, ToneComponent};
 
 /// Significant digits of standard uncertainties.
 const DIGITS: u32 = 2;
 
 /// Components with their amplitude, phase and delay.
-pub(super) fn components(observed: &Observed<'_>, channels: &[ChannelObservation]) -> Sheet {
-    let rows: Vec<(&ChannelObservation, &Component)> =
+pub(super) fn components(
+    observed: &ObservationReport<'_>,
+    channels: &[ChannelObservation],
+) -> Sheet {
+    let rows: Vec<(&ChannelObservation, &ToneComponent)> =
         channels.iter().flat_map(|of| of.components.iter().map(move |c| (of, c))).collect();
     let channel = |of: &ChannelObservation| observed.settings.channels.get(of.channel);
     let mut sheet = Sheet::default();
@@ -34,7 +37,7 @@ pub(super) fn components(observed: &Observed<'_>, channels: &[ChannelObservation
 }
 
 /// What is said of a channel as a whole.
-pub(super) fn channels(observed: &Observed<'_>, channels: &[ChannelObservation]) -> Sheet {
+pub(super) fn channels(observed: &ObservationReport<'_>, channels: &[ChannelObservation]) -> Sheet {
     let mut sheet = Sheet::default();
     let name = |of: &ChannelObservation| {
         observed.settings.channels.get(of.channel).map_or(String::new(), |c| c.name.clone())
@@ -76,10 +79,10 @@ fn pair(sheet: &mut Sheet, headers: [&str; 2], of: impl Iterator<Item = Option<M
 }
 
 /// Of every channel what the standard uncertainty of its largest amplitude is made of.
-pub(super) fn made_of(observed: &Observed<'_>, channels: &[ChannelObservation]) -> String {
+pub(super) fn made_of(observed: &ObservationReport<'_>, channels: &[ChannelObservation]) -> String {
     let of_channel = |of: &ChannelObservation| {
         let name = &observed.settings.channels.get(of.channel)?.name;
-        let size = |c: &Component| c.amplitude.measured.value;
+        let size = |c: &ToneComponent| c.amplitude.measured.value;
         let largest = of.components.iter().max_by(|a, b| size(a).total_cmp(&size(b)))?;
         let sources = sources(&largest.amplitude);
         (!sources.is_empty()).then(|| format!("`{name}` {sources}"))
@@ -89,7 +92,7 @@ pub(super) fn made_of(observed: &Observed<'_>, channels: &[ChannelObservation]) 
 }
 
 /// The sources of an uncertainty with a share of a percent and more, the largest first.
-fn sources(of: &Value) -> String {
+fn sources(of: &BudgetedValue) -> String {
     let total: f64 = of.contributions.iter().map(|(_, u)| u * u).sum();
     let mut shares: Vec<(&str, f64)> = of
         .contributions
@@ -99,6 +102,6 @@ fn sources(of: &Value) -> String {
         .collect();
     shares.sort_by(|a, b| b.1.total_cmp(&a.1));
     let words: Vec<String> =
-        shares.iter().map(|(name, share)| format!("{name} {share:.0} %")).collect();
+        shares.iter().map(|(name, share)| format!("{name} {} %", rounded(*share, 0))).collect();
     words.join(", ")
 }

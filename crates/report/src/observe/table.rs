@@ -1,13 +1,13 @@
 //! The page for a terminal.
 
-use super::{Observed, sheets};
+use super::{ObservationReport, sheets};
 use crate::number::{exact, significant, with_uncertainty};
 use crate::{Grid, WIDTH, wrapped};
 use gumption_signal::Amplitude;
 
 /// The observations as a page of text: for each row and frequency the components of every channel, and
 /// what is said of the channels as a whole.
-pub fn table(observed: &Observed<'_>) -> String {
+pub fn table(observed: &ObservationReport<'_>) -> String {
     let settings = observed.settings;
     let mut page = String::new();
     if let Some(title) = observed.title {

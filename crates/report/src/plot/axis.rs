@@ -1,6 +1,8 @@
 //! An axis: where values lie on it, and at which it is marked.
 
 use crate::number::{exact, rounded};
+use gumption_engine::decimal::Decimal;
+use gumption_engine::number::elementary::{ln, log10, pow};
 
 /// Positive values that span more than this factor may be spaced geometrically.
 const WIDE: f64 = 8.0;
@@ -28,7 +30,7 @@ impl Axis {
         levels.sort_by(f64::total_cmp);
         levels.dedup();
         let log = is_geometric(&levels);
-        let position = |value: f64| if log { value.log10() } else { value };
+        let position = |value: f64| if log { log10(value) } else { value };
         let (Some(&first), Some(&last)) = (levels.first(), levels.last()) else {
             return Self { log: false, ends: [0.0, 1.0] };
         };
@@ -55,12 +57,12 @@ impl Axis {
 
     /// A logarithmic axis between two positive values.
     pub(crate) fn logarithmic(from: f64, to: f64) -> Self {
-        Self { log: true, ends: [from.log10(), to.log10()] }
+        Self { log: true, ends: [log10(from), log10(to)] }
     }
 
     /// Where a value lies.
     pub(crate) fn position(&self, value: f64) -> f64 {
-        if self.log { value.log10() } else { value }
+        if self.log { log10(value) } else { value }
     }
 
     /// The positions of both ends.
@@ -72,23 +74,23 @@ impl Axis {
     pub(crate) fn marks(&self, most: usize) -> Vec<(f64, String)> {
         let most = most.max(2);
         if self.log {
-            let [from, to] = self.ends.map(|end| 10_f64.powf(end));
-            for digits in [[1.0, 2.0, 5.0].as_slice(), &[1.0, 3.0], &[1.0]] {
+            let [from, to] = self.ends.map(|end| pow(10.0, end));
+            for digits in [[1, 2, 5].as_slice(), &[1, 3], &[1]] {
                 let marks = decades(self.ends, digits);
                 if (3..=most).contains(&marks.len()) {
-                    return marks.into_iter().map(|value| (value.log10(), exact(value))).collect();
+                    return marks.into_iter().map(|value| (log10(value), exact(value))).collect();
                 }
             }
-            let decades = decades(self.ends, &[1.0]);
+            let decades = decades(self.ends, &[1]);
             if decades.len() > most {
                 let step = decades.len().div_ceil(most);
                 let marks = decades.into_iter().step_by(step);
-                return marks.map(|value| (value.log10(), exact(value))).collect();
+                return marks.map(|value| (log10(value), exact(value))).collect();
             }
             return steps([from, to], most)
                 .into_iter()
                 .filter(|(value, _)| *value > 0.0)
-                .map(|(value, text)| (value.log10(), text))
+                .map(|(value, text)| (log10(value), text))
                 .collect();
         }
         steps(self.ends, most)
@@ -108,17 +110,15 @@ fn is_geometric(levels: &[f64]) -> bool {
         let square = steps.iter().map(|step| (step / mean - 1.0).powi(2)).sum::<f64>();
         square / steps.len() as f64
     };
-    unevenness(&f64::ln) < CLEARLY * unevenness(&|value| value)
+    unevenness(&ln) < CLEARLY * unevenness(&|value| value)
 }
 
 /// Multiples of powers of ten between two positions of a logarithmic axis.
-fn decades(ends: [f64; 2], digits: &[f64]) -> Vec<f64> {
+fn decades(ends: [f64; 2], digits: &[u64]) -> Vec<f64> {
     let powers = ends[0].floor() as i32..=ends[1].ceil() as i32;
-    let all = powers.flat_map(|power| {
-        // from its decimal form, which is the nearest number
-        digits.iter().filter_map(move |digit| format!("{digit}e{power}").parse::<f64>().ok())
-    });
-    all.filter(|value| (ends[0]..=ends[1]).contains(&value.log10())).collect()
+    let all = powers
+        .flat_map(|power| digits.iter().map(move |digit| Decimal::new(*digit, power).value()));
+    all.filter(|value| (ends[0]..=ends[1]).contains(&log10(*value))).collect()
 }
 
 /// Multiples of 1, 2 or 5 times a power of ten between two values.
@@ -128,7 +128,7 @@ fn steps(ends: [f64; 2], most: usize) -> Vec<(f64, String)> {
         return Vec::new();
     }
     let rough = span / most as f64;
-    let mut power = rough.log10().floor() as i32;
+    let mut power = log10(rough).floor() as i32;
     let digit = [1.0, 2.0, 5.0].into_iter().find(|digit| digit * 10_f64.powi(power) >= rough);
     let digit = digit.unwrap_or_else(|| {
         power += 1;

@@ -1,9 +1,9 @@
 //! The uncertainty budget of one output, and what follows from it.
 
-use super::columns::{self, Column};
+use super::columns::{self, BudgetColumn};
 use super::grid::Grid;
 use super::{WIDTH, coverage_text, has_name, in_unit, text};
-use crate::number::{exact, place, rounded, significant, with_uncertainty};
+use crate::number::{exact, position, rounded, significant, with_uncertainty};
 use crate::sheet::{Figure, Kind, Sheet};
 use crate::subtotals::Subtotals;
 use gumption_engine::model::Quantity;
@@ -72,7 +72,7 @@ pub(super) enum Layout {
 impl Budget<'_> {
     /// The budget with the combined standard uncertainty as its last line, subtotals, degrees of
     /// freedom, coverage factor and expanded uncertainty.
-    pub(super) fn table(&self, settings: &Settings, columns: &[Column]) -> String {
+    pub(super) fn table(&self, settings: &Settings, columns: &[BudgetColumn]) -> String {
         let Self { task, output, gum, digits } = *self;
         let mut page = self.grids(columns);
         page += &text::wrapped(&legend(output, columns));
@@ -82,7 +82,7 @@ impl Budget<'_> {
     }
 
     /// One table, or two where the further columns leave no room for it.
-    fn grids(&self, columns: &[Column]) -> String {
+    fn grids(&self, columns: &[BudgetColumn]) -> String {
         let usual = self.usual_fields();
         let further = columns::fields(self, columns);
         let fits = |grid: &Grid| grid.least_width() <= WIDTH;
@@ -97,7 +97,7 @@ impl Budget<'_> {
     }
 
     /// The same table without a look, with the further columns in their places.
-    pub(crate) fn sheet(&self, columns: &[Column]) -> Sheet {
+    pub(crate) fn sheet(&self, columns: &[BudgetColumn]) -> Sheet {
         let fields = arranged(&self.usual_fields(), &columns::fields(self, columns));
         let mut sheet = Sheet { footer: true, ..Sheet::default() };
         for Field { headers: [header, _], layout, cells } in fields {
@@ -114,25 +114,25 @@ impl Budget<'_> {
     fn usual_fields(&self) -> Vec<Field> {
         let Self { task, output, gum, digits } = *self;
         let lines = lines(task, output, gum, digits);
-        let field = |(place, headers): (usize, [&'static str; 2])| Field {
+        let field = |(position, headers): (usize, [&'static str; 2])| Field {
             headers,
-            layout: match place {
+            layout: match position {
                 0 => Layout::Text,
                 3 | 4 => Layout::TextFrom(WORD),
                 _ => Layout::Numbers,
             },
-            cells: lines.iter().map(|line| line[place].clone()).collect(),
+            cells: lines.iter().map(|line| line[position].clone()).collect(),
         };
         HEADERS.into_iter().enumerate().map(field).collect()
     }
 }
 
-/// The further fields among the usual ones, each behind the field of its place.
+/// The further fields among the usual ones, each behind the field of its position.
 fn arranged(usual: &[Field], further: &[(usize, Field)]) -> Vec<Field> {
     let mut fields = Vec::new();
-    for (place, field) in usual.iter().enumerate() {
+    for (position, field) in usual.iter().enumerate() {
         fields.push(field.clone());
-        let behind = further.iter().filter(|(behind, _)| *behind == place);
+        let behind = further.iter().filter(|(behind, _)| *behind == position);
         fields.extend(behind.map(|(_, field)| field.clone()));
     }
     fields
@@ -201,7 +201,7 @@ fn coefficients(task: &Task, gum: &Gum) -> Vec<Line> {
         return vec![cells];
     }
     let line = |line: CorrelationLine| {
-        let [a, b] = line.variables.map(|place| task.variables.get(place));
+        let [a, b] = line.variables.map(|position| task.variables.get(position));
         let mut cells = Line::default();
         cells[0] = format!("r({}, {})", text::plain(&a?.name), text::plain(&b?.name));
         cells[1] = exact(line.coefficient);
@@ -227,7 +227,7 @@ fn distribution(line: &BudgetLine) -> String {
 }
 
 /// What the columns mean.
-pub(crate) fn legend(output: &Quantity, columns: &[Column]) -> String {
+pub(crate) fn legend(output: &Quantity, columns: &[BudgetColumn]) -> String {
     let mut legend = if has_name(&output.unit) {
         let unit = output.unit.text();
         format!(
@@ -236,7 +236,7 @@ pub(crate) fn legend(output: &Quantity, columns: &[Column]) -> String {
     } else {
         "sensitivity coefficients per unit of the quantity".to_owned()
     };
-    if columns.contains(&Column::Relative) {
+    if columns.contains(&BudgetColumn::Relative) {
         let name = &output.name;
         legend += &format!(
             "; relative: standard uncertainty to the modulus of the estimate; of y: \
@@ -359,7 +359,7 @@ fn dof(value: f64) -> String {
     } else if value.is_nan() {
         "undefined".to_owned()
     } else if value < MANY && value.fract() != 0.0 {
-        rounded(value, place(value, 3).unwrap_or(0).min(-1))
+        rounded(value, position(value, 3).unwrap_or(0).min(-1))
     } else if value < MANY {
         exact(value)
     } else {

@@ -3,16 +3,17 @@
 use super::budget::{Budget, Field, Layout, coefficient_lines};
 use super::text;
 use crate::number::{MISSING, exact, significant};
+use gumption_engine::decimal::to_digits;
 use gumption_engine::propagate::gum::BudgetLine;
 use gumption_engine::task::Variable;
 use gumption_units::Unit;
 
 /// Significant digits of divisors: 1.732, 2.449.
-const DIVISOR_DIGITS: usize = 4;
+const DIVISOR_DIGITS: u32 = 4;
 
 /// Significant digits of stated widths, which come back from u(x_i) and its divisor. The one of
 /// readings is computed and has those of the page.
-const WIDTH_DIGITS: usize = 6;
+const WIDTH_DIGITS: u32 = 6;
 
 /// Sources of uncertainty up to this width stay in one line, groups up to the other.
 const ABOUT_WIDTH: usize = 16;
@@ -20,7 +21,7 @@ const GROUP_WIDTH: usize = 12;
 
 /// A column of the budget that is shown on request.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Column {
+pub enum BudgetColumn {
     /// The stated width: half-width of the limits, expanded or standard uncertainty.
     Width,
     /// What the stated width is divided by to give the standard uncertainty.
@@ -42,7 +43,7 @@ const DISTRIBUTION: usize = 4;
 const CONTRIBUTION: usize = 7;
 const SHARE: usize = 8;
 
-impl Column {
+impl BudgetColumn {
     /// All of them, in the order of the table.
     pub const ALL: [Self; 6] =
         [Self::Width, Self::Divisor, Self::Relative, Self::Type, Self::Group, Self::About];
@@ -66,17 +67,17 @@ impl Column {
 }
 
 /// The fields of the wanted columns, each with the place of the usual column that it stands behind.
-pub(super) fn fields(budget: &Budget<'_>, wanted: &[Column]) -> Vec<(usize, Field)> {
-    let wanted = Column::ALL.into_iter().filter(|column| wanted.contains(column));
+pub(super) fn fields(budget: &Budget<'_>, wanted: &[BudgetColumn]) -> Vec<(usize, Field)> {
+    let wanted = BudgetColumn::ALL.into_iter().filter(|column| wanted.contains(column));
     wanted.flat_map(|column| of(budget, column)).collect()
 }
 
-fn of(budget: &Budget<'_>, column: Column) -> Vec<(usize, Field)> {
+fn of(budget: &Budget<'_>, column: BudgetColumn) -> Vec<(usize, Field)> {
     let Budget { gum, digits, output, .. } = *budget;
     let numbers = |headers, cells| Field { headers, layout: Layout::Numbers, cells };
     let blank = String::new;
     match column {
-        Column::Width => {
+        BudgetColumn::Width => {
             let width = |line: &BudgetLine, _: &Variable| {
                 let width = line.divisor.map(|divisor| divisor * line.standard_uncertainty);
                 match width {
@@ -87,14 +88,14 @@ fn of(budget: &Budget<'_>, column: Column) -> Vec<(usize, Field)> {
             };
             vec![(ESTIMATE, numbers(["value ±"; 2], cells(budget, width, blank())))]
         }
-        Column::Divisor => {
+        BudgetColumn::Divisor => {
             let divisor = |line: &BudgetLine, _: &Variable| {
                 let divisor = line.divisor.map(|divisor| to_digits(divisor, DIVISOR_DIGITS));
                 divisor.map_or_else(missing, exact)
             };
             vec![(ESTIMATE, numbers(["divisor"; 2], cells(budget, divisor, blank())))]
         }
-        Column::Relative => {
+        BudgetColumn::Relative => {
             let of_estimate = ["relative\nin %", "rela-\ntive\nin %"];
             let of_y = ["of y\nin %"; 2];
             let own = |line: &BudgetLine, variable: &Variable| {
@@ -108,20 +109,20 @@ fn of(budget: &Budget<'_>, column: Column) -> Vec<(usize, Field)> {
                 (CONTRIBUTION, numbers(of_y, cells(budget, contribution, total))),
             ]
         }
-        Column::Type => {
+        BudgetColumn::Type => {
             let letter =
                 |_: &BudgetLine, variable: &Variable| variable.evaluation.letter().to_owned();
             let cells = cells(budget, letter, blank());
             vec![(DISTRIBUTION, Field { headers: ["type"; 2], layout: Layout::Text, cells })]
         }
-        Column::Group => {
+        BudgetColumn::Group => {
             let group = |_: &BudgetLine, variable: &Variable| {
                 text::plain(variable.group.as_deref().unwrap_or_default())
             };
             let (cells, layout) = (cells(budget, group, blank()), Layout::TextFrom(GROUP_WIDTH));
             vec![(SHARE, Field { headers: ["group"; 2], layout, cells })]
         }
-        Column::About => {
+        BudgetColumn::About => {
             let about = |_: &BudgetLine, variable: &Variable| text::plain(&variable.about);
             let (cells, layout) = (cells(budget, about, blank()), Layout::TextFrom(ABOUT_WIDTH));
             vec![(SHARE, Field { headers: ["source of\nuncertainty"; 2], layout, cells })]
@@ -149,11 +150,6 @@ fn cells(
 fn relative(value: f64, estimate: f64, unit: &Unit, digits: u32) -> String {
     let share = 100.0 * value / estimate.abs();
     if unit.is_celsius() || !share.is_finite() { missing() } else { significant(share, digits) }
-}
-
-/// A value rounded to significant digits.
-fn to_digits(value: f64, digits: usize) -> f64 {
-    format!("{value:.*e}", digits.saturating_sub(1)).parse().unwrap_or(value)
 }
 
 fn missing() -> String {

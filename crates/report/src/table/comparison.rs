@@ -2,7 +2,7 @@
 
 use super::grid::Grid;
 use super::{WIDTH, in_unit, text};
-use crate::number::{MISSING, coarser, exact, justified, place, rounded, significant, to};
+use crate::number::{MISSING, coarser, exact, justified, position, rounded, significant, to};
 use crate::sheet::Sheet;
 use gumption_engine::model::{Output, Quantity, Tolerance};
 use gumption_engine::propagate::gum::Gum;
@@ -15,7 +15,7 @@ use gumption_engine::task::StoppingRule;
 pub(crate) const NEARLY_SHORTEST: &str =
     "the shortest interval is that of the trials within 1e-5 u";
 
-/// Decimal place of skewness and kurtosis.
+/// Position of the last digit of skewness and kurtosis.
 const SHAPE_PLACE: i32 = -2;
 
 /// The figures of both methods with the numerical standard errors of the Monte Carlo ones, and the
@@ -82,9 +82,11 @@ fn conformity_text(output: &Quantity, found: &Conformity) -> String {
     )
 }
 
-/// Limits with the unit; to a decimal place if there is one.
-fn limits_text(output: &Quantity, limits: &Tolerance, place: Option<i32>) -> String {
-    let text = |limit: f64| place.map_or_else(|| limit.to_string(), |place| rounded(limit, place));
+/// Limits with the unit; to a position if there is one.
+fn limits_text(output: &Quantity, limits: &Tolerance, position: Option<i32>) -> String {
+    let text = |limit: f64| {
+        position.map_or_else(|| limit.to_string(), |position| rounded(limit, position))
+    };
     let limits = match (limits.lower.map(text), limits.upper.map(text)) {
         (Some(lower), Some(upper)) => format!("from {lower} to {upper}"),
         (Some(lower), None) => format!("from {lower} on"),
@@ -111,7 +113,7 @@ fn rule_text(output: &Quantity, found: &Conformity) -> String {
              a one. Decision: {decision}."
         );
     };
-    let digits = place(width, 3);
+    let digits = position(width, 3);
     format!(
         "Decision rule: guarded acceptance (JCGM 106, 8.3) for {wanted}: guard band {}, accepted {}. \
          Decision: {decision}.",
@@ -139,7 +141,7 @@ fn risks_text(found: &Conformity) -> String {
 
 /// A share in percent, as exactly as it was given.
 fn percentage(share: f64) -> String {
-    exact((1e12 * share).round() / 1e10)
+    exact(100.0 * share)
 }
 
 /// How the adaptive procedure ended, after how many trials, and why.
@@ -205,16 +207,16 @@ pub(crate) fn sheet(figures: &OutputEvaluation, digits: u32) -> Option<Sheet> {
 fn lines(gum: Option<&Gum>, figures: &MonteCarlo, digits: u32) -> Vec<Line> {
     let uncertainty = gum.map(|gum| gum.standard_uncertainty);
     let own = figures.standard_uncertainty.or(uncertainty);
-    let gum_place = uncertainty.and_then(|u| place(u, digits));
-    let own_place = own.and_then(|u| place(u, digits)).or(gum_place);
+    let gum_position = uncertainty.and_then(|u| position(u, digits));
+    let own_position = own.and_then(|u| position(u, digits)).or(gum_position);
     let errors = &figures.errors;
     let line =
         |names: [&'static str; 2], gum: Option<f64>, value: Option<f64>, error: Option<f64>| Line {
             names,
-            gum: gum.map_or_else(|| MISSING.to_owned(), |value| to(value, gum_place)),
+            gum: gum.map_or_else(|| MISSING.to_owned(), |value| to(value, gum_position)),
             monte_carlo: value.map_or_else(
                 || MISSING.to_owned(),
-                |value| justified(value, own_place, error.unwrap_or(f64::NAN)),
+                |value| justified(value, own_position, error.unwrap_or(f64::NAN)),
             ),
             error: error
                 .filter(|error| !error.is_nan())
@@ -254,8 +256,8 @@ fn shape(name: &'static str, value: Option<f64>, error: Option<f64>) -> Line {
 
 /// The GUM interval alone, where there are no trials.
 pub(crate) fn interval_text(output: &Quantity, gum: &Gum, digits: u32) -> Option<String> {
-    let place = place(gum.standard_uncertainty, digits);
-    let [low, high] = gum.interval()?.map(|end| to(end, place));
+    let position = position(gum.standard_uncertainty, digits);
+    let [low, high] = gum.interval()?.map(|end| to(end, position));
     let high = in_unit(&high, &output.unit);
     Some(format!("coverage interval from {low} to {high}, by GUM alone"))
 }
@@ -303,8 +305,8 @@ pub(crate) fn verdict(
 
 /// The difference of two ends, to the digits that its numerical standard error justifies.
 fn difference(value: f64, error: f64) -> String {
-    match coarser(place(value, 2), place(error, 1)) {
-        Some(place) => rounded(value, place),
+    match coarser(position(value, 2), position(error, 1)) {
+        Some(position) => rounded(value, position),
         None => "0".to_owned(),
     }
 }

@@ -8,7 +8,7 @@ mod grid;
 pub(super) mod sweep;
 mod text;
 
-pub use columns::Column;
+pub use columns::BudgetColumn;
 pub use grid::Grid;
 pub use text::wrapped;
 pub(crate) use text::{grouped, plain};
@@ -16,7 +16,10 @@ pub(crate) use text::{grouped, plain};
 use std::io::{self, Write};
 
 use self::budget::Budget;
-use super::Report;
+use super::EvaluationReport;
+use super::answer::in_memory;
+use super::number::exact;
+use gumption_engine::decimal::to_position;
 use gumption_engine::model::{InputQuantity, Output, Quantity};
 use gumption_engine::propagate::{Evaluation, OutputEvaluation, RowEvaluation};
 use gumption_engine::task::{Coverage, Settings, Task, Trials};
@@ -27,12 +30,12 @@ pub const WIDTH: usize = 100;
 
 /// How the page looks.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Style {
+pub struct TableStyle {
     /// Significant digits of standard uncertainties, those of the settings unless given; estimates
     /// are rounded to match.
     pub digits: Option<u32>,
     /// Columns of the budget beside the usual ones. Each has its own place, whatever the order here.
-    pub columns: Vec<Column>,
+    pub columns: Vec<BudgetColumn>,
 }
 
 /// The results as a page of at most 100 columns: for each output the budget, the two methods side
@@ -40,19 +43,20 @@ pub struct Style {
 /// output with a line for each row of conditions.
 ///
 /// Warnings are not part of the page; a run that was stopped is marked at its end.
-pub fn table(report: &Report<'_>, style: &Style) -> String {
-    let mut bytes = Vec::new();
-    let written = write_table(report, style, &mut bytes);
-    debug_assert!(written.is_ok(), "{written:?}");
-    String::from_utf8(bytes).unwrap_or_default()
+pub fn table(report: &EvaluationReport<'_>, style: &TableStyle) -> String {
+    in_memory(|bytes| write_table(report, style, bytes))
 }
 
 /// Writes what [`table`] gives, part by part.
 ///
 /// # Errors
 /// Those of the writer.
-pub fn write_table(report: &Report<'_>, style: &Style, mut out: impl Write) -> io::Result<()> {
-    let Report { task, evaluation, .. } = *report;
+pub fn write_table(
+    report: &EvaluationReport<'_>,
+    style: &TableStyle,
+    mut out: impl Write,
+) -> io::Result<()> {
+    let EvaluationReport { task, evaluation, .. } = *report;
     let digits = style.digits.unwrap_or(evaluation.settings.digits);
     out.write_all(heading(task, evaluation).as_bytes())?;
     let mut below = |part: String| {
@@ -143,7 +147,7 @@ fn section(
     output: &Output,
     figures: &OutputEvaluation,
     digits: u32,
-    columns: &[Column],
+    columns: &[BudgetColumn],
 ) -> String {
     let mut parts = vec![title(&output.quantity)];
     match &figures.gum {
@@ -201,9 +205,7 @@ pub(super) fn coverage_text(coverage: Coverage) -> String {
         Coverage::Factor { factor: 2.0, .. } => "approximately 95 %".to_owned(),
         _ => {
             // 99.73 % for K = 3, but 95 % for 0.95
-            let percent = 100.0 * coverage.probability();
-            let digits: f64 = format!("{percent:.4}").parse().unwrap_or(percent);
-            format!("{digits} %")
+            format!("{} %", exact(to_position(100.0 * coverage.probability(), -4)))
         }
     }
 }
@@ -214,7 +216,7 @@ pub(crate) fn conditions_text(conditions: &[Quantity], values: &[f64]) -> String
         .iter()
         .zip(values)
         .map(|(condition, &value)| {
-            let value = in_unit(&super::number::exact(value), &condition.unit);
+            let value = in_unit(&exact(value), &condition.unit);
             format!("{} = {value}", plain(&condition.name))
         })
         .collect();

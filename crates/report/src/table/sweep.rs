@@ -2,7 +2,7 @@
 
 use super::grid::{Grid, PAGE};
 use super::{WIDTH, conditions_text, has_name, text, title};
-use crate::number::{MISSING, align, exact, justified, place, rounded, significant, to};
+use crate::number::{MISSING, align, exact, justified, position, rounded, significant, to};
 use crate::sheet::{Figure, Sheet};
 use gumption_engine::model::{Output, Quantity};
 use gumption_engine::propagate::gum::Gum;
@@ -16,7 +16,8 @@ pub(super) fn tables<'a>(
     digits: u32,
 ) -> impl Iterator<Item = String> + 'a {
     let conditions = &task.model.conditions;
-    let varying: Vec<usize> = (0..conditions.len()).filter(|&place| varies(rows, place)).collect();
+    let varying: Vec<usize> =
+        (0..conditions.len()).filter(|&position| varies(rows, position)).collect();
     let sweep = Sweep { task, rows, digits, has_trials: rows.iter().any(has_trials) };
     let [wide, narrow] =
         [WIDE, NARROW].map(|uncertainty| Layout { labels: Labels::Conditions, uncertainty });
@@ -67,8 +68,8 @@ pub(crate) fn shares(task: &Task, rows: &[RowEvaluation], output: usize) -> Opti
         return None;
     }
     let mut sheet = Sheet::default();
-    for (place, condition) in task.model.conditions.iter().enumerate() {
-        let values = rows.iter().map(|row| row.conditions.get(place).copied());
+    for (position, condition) in task.model.conditions.iter().enumerate() {
+        let values = rows.iter().map(|row| row.conditions.get(position).copied());
         sheet.figures(&header(condition), values.map(|value| Figure::rounded(value, exact)));
     }
     for variable in chosen {
@@ -86,13 +87,13 @@ pub(crate) fn shares(task: &Task, rows: &[RowEvaluation], output: usize) -> Opti
 /// The table of an output over the first rows of a sweep, without a look.
 pub(crate) fn sheet(task: &Task, rows: &[RowEvaluation], output: usize, digits: u32) -> Sheet {
     let mut sheet = Sheet::default();
-    for (place, condition) in task.model.conditions.iter().enumerate() {
-        let values = rows.iter().map(|row| row.conditions.get(place).copied());
+    for (position, condition) in task.model.conditions.iter().enumerate() {
+        let values = rows.iter().map(|row| row.conditions.get(position).copied());
         sheet.figures(&header(condition), values.map(|value| Figure::rounded(value, exact)));
     }
     let lines: Vec<[String; 7]> =
         rows.iter().map(|row| line(row.outputs.get(output), digits)).collect();
-    let column = |place: usize| lines.iter().map(move |line| line[place].clone());
+    let column = |position: usize| lines.iter().map(move |line| line[position].clone());
     sheet.numbers("estimate", column(0));
     sheet.numbers("standard\nuncertainty", column(1));
     sheet.numbers("expanded\nuncertainty", column(2));
@@ -140,8 +141,8 @@ enum Labels {
     Numbers,
 }
 
-fn varies(rows: &[RowEvaluation], place: usize) -> bool {
-    let mut values = rows.iter().map(|row| row.conditions.get(place));
+fn varies(rows: &[RowEvaluation], position: usize) -> bool {
+    let mut values = rows.iter().map(|row| row.conditions.get(position));
     let first = values.next();
     values.any(|value| Some(value) != first)
 }
@@ -149,7 +150,7 @@ fn varies(rows: &[RowEvaluation], place: usize) -> bool {
 /// The conditions that are the same in all rows.
 fn fixed(conditions: &[Quantity], rows: &[RowEvaluation], varying: &[usize]) -> Option<String> {
     let row = rows.first()?;
-    let (quantities, values) = chosen(conditions, row, |place| !varying.contains(&place));
+    let (quantities, values) = chosen(conditions, row, |position| !varying.contains(&position));
     (!quantities.is_empty())
         .then(|| text::wrapped(&format!("at {}", conditions_text(&quantities, &values))))
 }
@@ -167,7 +168,7 @@ fn numbered<'a>(
             "conditions",
             rows.iter().map(|row| {
                 let (quantities, values) =
-                    chosen(conditions, row, |place| varying.contains(&place));
+                    chosen(conditions, row, |position| varying.contains(&position));
                 conditions_text(&quantities, &values)
             }),
         );
@@ -186,7 +187,7 @@ fn chosen(
     keep: impl Fn(usize) -> bool,
 ) -> (Vec<Quantity>, Vec<f64>) {
     let all = conditions.iter().cloned().zip(row.conditions.iter().copied()).enumerate();
-    all.filter(|(place, _)| keep(*place)).map(|(_, condition)| condition).unzip()
+    all.filter(|(position, _)| keep(*position)).map(|(_, condition)| condition).unzip()
 }
 
 impl Sweep<'_> {
@@ -207,23 +208,25 @@ impl Sweep<'_> {
         match layout.labels {
             Labels::Numbers => grid.numbers("row", numbers(first, rows.len())),
             Labels::Conditions => {
-                for &place in varying {
-                    let Some(condition) = self.task.model.conditions.get(place) else { continue };
-                    let values = rows.iter().map(|row| row.conditions.get(place).copied());
+                for &position in varying {
+                    let Some(condition) = self.task.model.conditions.get(position) else {
+                        continue;
+                    };
+                    let values = rows.iter().map(|row| row.conditions.get(position).copied());
                     grid.numbers(&header(condition), values.map(|v| v.map_or_else(missing, exact)));
                 }
             }
         }
         let lines: Vec<[String; 7]> =
             rows.iter().map(|row| line(row.outputs.get(output), self.digits)).collect();
-        let column = |place: usize| lines.iter().map(move |line| line[place].clone());
+        let column = |position: usize| lines.iter().map(move |line| line[position].clone());
         let uncertainty = layout.uncertainty;
         grid.numbers("estimate", column(0));
         grid.numbers(&format!("standard\n{uncertainty}"), column(1));
         grid.numbers(&format!("expanded\n{uncertainty}"), column(2));
         grid.numbers("k", column(3));
         if self.has_trials {
-            let ends = [4, 5].map(|place| align(&column(place).collect::<Vec<_>>()));
+            let ends = [4, 5].map(|position| align(&column(position).collect::<Vec<_>>()));
             let [low, high] = ends;
             let intervals = low.into_iter().zip(high).map(|(low, high)| format!("{low}  {high}"));
             grid.text("Monte Carlo interval\n(symmetric) from, to", intervals);
@@ -250,13 +253,13 @@ fn missing() -> String {
 fn line(output: Option<&OutputEvaluation>, digits: u32) -> [String; 7] {
     let gum = output.and_then(|output| output.gum.as_ref());
     let figures = output.and_then(|output| output.monte_carlo.as_ref());
-    let gum_place = gum.and_then(|gum| place(gum.standard_uncertainty, digits));
+    let gum_position = gum.and_then(|gum| position(gum.standard_uncertainty, digits));
     let own = figures.and_then(|figures| figures.standard_uncertainty);
-    let own_place = own.and_then(|u| place(u, digits)).or(gum_place);
+    let own_position = own.and_then(|u| position(u, digits)).or(gum_position);
     let end = |end: usize| {
         figures.map_or_else(missing, |figures| {
             let error = figures.errors.symmetric_interval[end];
-            justified(figures.symmetric_interval[end], own_place, error)
+            justified(figures.symmetric_interval[end], own_position, error)
         })
     };
     let validation = output.and_then(|output| output.validation);
@@ -267,8 +270,8 @@ fn line(output: Option<&OutputEvaluation>, digits: u32) -> [String; 7] {
         None => MISSING,
     };
     [
-        gum.map_or_else(missing, |gum| to(gum.estimate, gum_place)),
-        gum.map_or_else(missing, |gum| to(gum.standard_uncertainty, gum_place)),
+        gum.map_or_else(missing, |gum| to(gum.estimate, gum_position)),
+        gum.map_or_else(missing, |gum| to(gum.standard_uncertainty, gum_position)),
         gum.and_then(Gum::expanded_uncertainty)
             .map_or_else(missing, |expanded| significant(expanded, digits)),
         gum.and_then(|gum| gum.coverage_factor).map_or_else(missing, |k| rounded(k, -2)),

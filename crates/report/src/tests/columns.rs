@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::*;
-use crate::{Column, Style, table};
+use crate::{BudgetColumn, TableStyle, table};
 use gumption_files::read_text;
 
 /// One input of every kind of statement, in a file as laboratories write it.
@@ -26,10 +26,10 @@ const FILE: &str = r#"{
   "monte_carlo": {"trials": 0}
 }"#;
 
-fn page(text: &str, columns: &[Column]) -> String {
+fn page(text: &str, columns: &[BudgetColumn]) -> String {
     let file = read_text("file", text, Path::new(""), &[]);
     let case = Case::new(file.unwrap_or_else(|problems| panic!("{problems:?}")).task);
-    let style = Style { columns: columns.to_vec(), ..Style::default() };
+    let style = TableStyle { columns: columns.to_vec(), ..TableStyle::default() };
     let page = table(&case.report(), &style);
     let widest = page.lines().map(|line| line.chars().count()).max().unwrap_or(0);
     assert!(widest <= 100, "{widest} columns:\n{page}");
@@ -37,7 +37,7 @@ fn page(text: &str, columns: &[Column]) -> String {
 }
 
 /// The budget alone.
-fn budget(columns: &[Column]) -> String {
+fn budget(columns: &[BudgetColumn]) -> String {
     let page = page(FILE, columns);
     let start = page.find("quantity").unwrap();
     let end = page.find("subtotals").unwrap();
@@ -46,7 +46,7 @@ fn budget(columns: &[Column]) -> String {
 
 #[test]
 fn widths_and_divisors() {
-    insta::assert_snapshot!(budget(&[Column::Divisor, Column::Width]), @"
+    insta::assert_snapshot!(budget(&[BudgetColumn::Divisor, BudgetColumn::Width]), @"
     quantity     estimate  value ±  divisor  standard  unit  distri-      dof    sensi-  contri-  share
                                                uncer-        bution              tivity   bution   in %
                                                tainty
@@ -68,7 +68,7 @@ fn widths_and_divisors() {
 
 #[test]
 fn relative_figures() {
-    insta::assert_snapshot!(budget(&[Column::Relative]), @"
+    insta::assert_snapshot!(budget(&[BudgetColumn::Relative]), @"
     quantity     estimate  standard    rela-  unit  distri-      dof    sensi-  contri-     of y  share
                              uncer-     tive        bution              tivity   bution     in %   in %
                              tainty     in %
@@ -91,7 +91,7 @@ fn relative_figures() {
 
 #[test]
 fn type_and_source() {
-    insta::assert_snapshot!(budget(&[Column::Type, Column::About]), @"
+    insta::assert_snapshot!(budget(&[BudgetColumn::Type, BudgetColumn::About]), @"
     quantity     estimate     standard  unit  distribution  dof  sensitivity  contribution  share
                            uncertainty                           coefficient                 in %
     ─────────────────────────────────────────────────────────────────────────────────────────────
@@ -128,7 +128,7 @@ fn type_and_source() {
 /// What does not fit beside the budget stands below it.
 #[test]
 fn all_columns() {
-    insta::assert_snapshot!(budget(&Column::ALL), @"
+    insta::assert_snapshot!(budget(&BudgetColumn::ALL), @"
     quantity     estimate     standard  unit  distribution  dof  sensitivity  contribution  share
                            uncertainty                           coefficient                 in %
     ─────────────────────────────────────────────────────────────────────────────────────────────
@@ -167,13 +167,13 @@ fn all_columns() {
 
 #[test]
 fn a_column_stays_in_the_table() {
-    for column in Column::ALL {
+    for column in BudgetColumn::ALL {
         let page = budget(&[column]);
         assert_eq!(page.matches("quantity ").count(), 1, "{column:?}\n{page}");
     }
     let case = Case::new(plane_at(35.0, 0));
-    let columns = vec![Column::Divisor, Column::Relative];
-    let page = table(&case.report(), &Style { columns, ..Style::default() });
+    let columns = vec![BudgetColumn::Divisor, BudgetColumn::Relative];
+    let page = table(&case.report(), &TableStyle { columns, ..TableStyle::default() });
     let first = &page[..page.find("a_y in").unwrap()];
     assert_eq!(first.matches("quantity ").count(), 1, "{page}");
 }
@@ -181,7 +181,7 @@ fn a_column_stays_in_the_table() {
 #[test]
 fn a_correlation_has_no_cells_of_its_own() {
     let case = Case::new(correlated(0));
-    let style = Style { columns: Column::ALL.to_vec(), ..Style::default() };
+    let style = TableStyle { columns: BudgetColumn::ALL.to_vec(), ..TableStyle::default() };
     let page = table(&case.report(), &style);
     assert!(page.lines().any(|line| line.starts_with("r(a_ref, tilt)")), "{page}");
     assert!(page.lines().all(|line| line.chars().count() <= 100), "{page}");
@@ -189,8 +189,8 @@ fn a_correlation_has_no_cells_of_its_own() {
 
 #[test]
 fn names() {
-    for column in Column::ALL {
-        assert_eq!(Column::named(column.name()), Some(column));
+    for column in BudgetColumn::ALL {
+        assert_eq!(BudgetColumn::named(column.name()), Some(column));
     }
-    assert_eq!(Column::named("Divisor"), None);
+    assert_eq!(BudgetColumn::named("Divisor"), None);
 }

@@ -9,7 +9,7 @@ mod table;
 mod units;
 mod workbook;
 
-use super::{Provenance, Report};
+use super::{EvaluationReport, Provenance};
 use gumption_engine::distribution::{Correlation, Input};
 use gumption_engine::model::Quantity;
 use gumption_engine::propagate::{Control, Evaluation, evaluate};
@@ -35,9 +35,9 @@ impl Case {
         Self { task, evaluation, warnings: Vec::new(), provenance }
     }
 
-    fn report(&self) -> Report<'_> {
+    fn report(&self) -> EvaluationReport<'_> {
         let Self { task, evaluation, warnings, provenance } = self;
-        Report { task, evaluation, warnings, provenance }
+        EvaluationReport { task, evaluation, warnings, provenance }
     }
 
     fn json(&self) -> serde_json::Value {

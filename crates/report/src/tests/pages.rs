@@ -6,7 +6,7 @@ use roxmltree::Document;
 use serde_json::Value;
 
 use super::*;
-use crate::{Column, Shown, html, latex, markdown};
+use crate::{BudgetColumn, Shown, html, latex, markdown};
 use gumption_engine::propagate::histograms;
 use gumption_files::read_text;
 
@@ -14,7 +14,7 @@ use gumption_files::read_text;
 type Rows = Vec<Vec<String>>;
 
 /// The three pages of a case with their rows.
-fn pages(case: &Case, columns: &[Column]) -> [(&'static str, String, Rows); 3] {
+fn pages(case: &Case, columns: &[BudgetColumn]) -> [(&'static str, String, Rows); 3] {
     let report = case.report();
     let drawn = histograms(&case.task, &case.evaluation, 0, &Control::default()).unwrap();
     let histograms = [drawn.unwrap_or_default()];
@@ -226,7 +226,7 @@ fn html_has_its_figures() {
 #[test]
 fn columns_have_their_places() {
     let case = Case::new(grouped(0));
-    for (format, _, rows) in pages(&case, &Column::ALL) {
+    for (format, _, rows) in pages(&case, &BudgetColumn::ALL) {
         let header = rows.iter().find(|row| row[0].contains("quantity")).unwrap();
         assert_eq!(header.len(), 16, "{format}: {header:?}");
         let tilt = row(&rows, 0, "tilt");

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::{Provenance, Report, saved};
+use crate::{EvaluationReport, Provenance, saved};
 use gumption_engine::distribution::Scores;
 use gumption_engine::number::CodePath;
 use gumption_engine::propagate::gum::{Dof, Gum};
@@ -62,8 +62,12 @@ impl Run {
         let gums: Vec<_> = self.evaluation.rows[0].outputs.iter().map(linear).collect();
         let origins = origins(task, &task.rows[0], &gums, model);
         let provenance = Provenance { model_sha256: model.to_owned(), files: Vec::new() };
-        let report =
-            Report { task, evaluation: &self.evaluation, warnings: &[], provenance: &provenance };
+        let report = EvaluationReport {
+            task,
+            evaluation: &self.evaluation,
+            warnings: &[],
+            provenance: &provenance,
+        };
         let (quantiles, ranks) = (quantiles.unwrap().unwrap(), ranks.unwrap().unwrap());
         std::fs::write(path, saved(&report, &origins, &quantiles, &ranks)).unwrap();
     }

@@ -3,13 +3,13 @@
 use std::sync::Arc;
 
 use super::*;
-use crate::{Column, Style, table};
+use crate::{BudgetColumn, TableStyle, table};
 use gumption_engine::distribution::{Distribution, EvaluationType as Kind, Rectangular};
 use gumption_engine::propagate::gum::Dof;
 use gumption_engine::task::Coverage;
 
 fn page(case: &Case) -> String {
-    let page = table(&case.report(), &Style::default());
+    let page = table(&case.report(), &TableStyle::default());
     let widest = page.lines().map(|line| line.chars().count()).max().unwrap_or(0);
     assert!(widest <= 100, "{widest} columns:\n{page}");
     assert!(page.lines().all(|line| !line.ends_with(' ')), "{page}");
@@ -385,7 +385,7 @@ fn digits_are_those_of_the_settings_unless_given() {
     let mut case = only_z(Case::new(plane_at(35.0, 0)));
     case.evaluation.settings.digits = 3;
     assert!(page(&case).contains("standard uncertainty  0.0100 m/s^2"));
-    let page = table(&case.report(), &Style { digits: Some(1), ..Style::default() });
+    let page = table(&case.report(), &TableStyle { digits: Some(1), ..TableStyle::default() });
     assert!(page.contains("standard uncertainty  0.01 m/s^2"), "{page}");
 }
 
@@ -482,7 +482,7 @@ fn endless_texts_are_cut() {
         for output in &mut case.task.model.outputs {
             output.quantity.about.clone_from(&text);
         }
-        let style = Style { columns: Column::ALL.to_vec(), ..Style::default() };
+        let style = TableStyle { columns: BudgetColumn::ALL.to_vec(), ..TableStyle::default() };
         let page = table(&case.report(), &style);
         assert!(page.lines().all(|line| line.chars().count() <= 100), "{page}");
         let title: Vec<&str> = page.lines().take_while(|line| !line.contains("coverage")).collect();

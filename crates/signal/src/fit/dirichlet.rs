@@ -31,6 +31,12 @@ impl Kernel {
     }
 }
 
+/// The sum of cos(2 pi `cycles` tau) over `samples` instants tau one apart about zero, for `cycles`
+/// above -1 and below 1.
+pub(crate) fn sum_of_cosines(cycles: f64, samples: u64) -> f64 {
+    Turns::new(cycles.abs()).map_or(samples as f64, |turns| Kernel::new(turns, samples).cosines)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

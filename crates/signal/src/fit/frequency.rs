@@ -5,14 +5,12 @@
 //! the right frequency; Gauss-Newton steps, from which the constant and the amplitudes are projected
 //! out, end at the least-squares solution.
 
-use rustfft::FftPlannerScalar;
-use rustfft::num_complex::Complex;
-
-use crate::passes::{BLOCK, Passes};
+use crate::passes::{BLOCK, SampleSource};
 use crate::residuals;
 use crate::residuals::Residuals;
-use crate::sine_fit::{Coefficients, Design, NoFit, Tone};
+use crate::sine_fit::{NoFit, Tone, ToneCoefficients, ToneDesign};
 use crate::turns::{Turns, oscillation};
+use crate::{Phasor, fft};
 
 /// Parts whose phases the search follows.
 const PARTS: usize = 512;
@@ -45,7 +43,7 @@ pub(crate) struct Found {
 
 /// Estimates the cycles in a sample interval of one oscillation and its `multiples` on the first
 /// channel, from a first guess, or from nothing.
-pub(crate) fn estimate<P: Passes>(
+pub(crate) fn estimate<P: SampleSource>(
     passes: &mut P,
     guess: Option<f64>,
     multiples: &[u32],
@@ -76,18 +74,18 @@ pub(crate) fn estimate<P: Passes>(
     Err(NoFrequency::NotFound)
 }
 
-fn fitted<P: Passes>(
+fn fitted<P: SampleSource>(
     passes: &mut P,
     cycles: f64,
     multiples: &[u32],
     samples: u64,
-) -> Result<(Coefficients, Residuals), NoFrequency<P::Error>> {
+) -> Result<(ToneCoefficients, Residuals), NoFrequency<P::Error>> {
     let tone = |multiple: &u32| Tone {
         cycles: cycles * f64::from(*multiple),
         fundamental: 0,
         multiple: *multiple,
     };
-    let design = Design::new(multiples.iter().map(tone).collect(), samples);
+    let design = ToneDesign::new(multiples.iter().map(tone).collect(), samples);
     let design = design.map_err(NoFrequency::NoFit)?;
     let mut fits = design.fit(passes).map_err(NoFrequency::Unreadable)?;
     fits.truncate(1);
@@ -99,7 +97,7 @@ fn fitted<P: Passes>(
 }
 
 /// The cycles in a sample interval of the strongest oscillation of the first channel.
-fn strongest<P: Passes>(passes: &mut P) -> Result<Option<f64>, P::Error> {
+fn strongest<P: SampleSource>(passes: &mut P) -> Result<Option<f64>, P::Error> {
     let mut values: Vec<f64> = Vec::new();
     passes.pass(&mut |_, channels| {
         let room = LOOKED_AT.saturating_sub(values.len());
@@ -132,29 +130,27 @@ pub(crate) fn windowed(values: &[f64]) -> Vec<f64> {
             oscillation(step, (block * BLOCK) as u64, cos, sin);
         }
     }
-    let mut spectrum: Vec<Complex<f64>> = values
+    let mut spectrum: Vec<Phasor> = values
         .iter()
         .zip(&cos)
-        .map(|(value, cos)| Complex::new((value - mean) * 0.5 * (1.0 - cos), 0.0))
+        .map(|(value, cos)| Phasor::new((value - mean) * 0.5 * (1.0 - cos), 0.0))
         .collect();
-    if count > 0 {
-        FftPlannerScalar::new().plan_fft_forward(count).process(&mut spectrum);
-    }
-    spectrum.iter().take(count / 2 + 1).map(Complex::norm_sqr).collect()
+    fft::forward(&mut spectrum);
+    spectrum.iter().take(count / 2 + 1).map(Phasor::norm_sqr).collect()
 }
 
 /// The cycles at which the phases of the record's parts agree best, within half a period per part of
 /// the guess.
-fn searched<P: Passes>(passes: &mut P, guess: f64) -> Result<f64, P::Error> {
+fn searched<P: SampleSource>(passes: &mut P, guess: f64) -> Result<f64, P::Error> {
     let samples = passes.frames();
     let Some(step) = Turns::new(guess) else { return Ok(guess) };
     // parts of two periods at least: shorter ones see the mean and the negative frequency
     let periods = (guess * samples as f64 / 2.0) as usize;
     let parts = periods.clamp(1, PARTS);
     let length = samples.div_ceil(parts as u64).max(1);
-    let mut phasors = vec![Complex::new(0.0, 0.0); 8 * PARTS];
+    let mut phasors = vec![Phasor::new(0.0, 0.0); 8 * PARTS];
     let (mut cos, mut sin) = (Vec::new(), Vec::new());
-    let mut means = vec![(0.0, Complex::new(0.0, 0.0)); parts];
+    let mut means = vec![(0.0, Phasor::new(0.0, 0.0)); parts];
     passes.pass(&mut |first, channels| {
         let values = channels.first().copied().unwrap_or(&[]);
         cos.resize(values.len(), 0.0);
@@ -162,7 +158,7 @@ fn searched<P: Passes>(passes: &mut P, guess: f64) -> Result<f64, P::Error> {
         oscillation(step, first, &mut cos, &mut sin);
         for (i, value) in values.iter().enumerate() {
             let part = ((first + i as u64) / length) as usize;
-            let wave = Complex::new(cos[i], -sin[i]);
+            let wave = Phasor::new(cos[i], -sin[i]);
             if let (Some(phasor), Some(mean)) = (phasors.get_mut(part), means.get_mut(part)) {
                 *phasor += wave * *value;
                 mean.0 += *value;
@@ -175,7 +171,7 @@ fn searched<P: Passes>(passes: &mut P, guess: f64) -> Result<f64, P::Error> {
         *phasor -= wave * mean;
     }
     let bins = phasors.len();
-    FftPlannerScalar::new().plan_fft_forward(bins).process(&mut phasors);
+    fft::forward(&mut phasors);
     let best = (0..bins).max_by(|a, b| phasors[*a].norm_sqr().total_cmp(&phasors[*b].norm_sqr()));
     let best = best.unwrap_or(0);
     let signed = if best > bins / 2 { best as f64 - bins as f64 } else { best as f64 };

@@ -1,16 +1,14 @@
 //! The periodic part of a signal: an offset and harmonics of a known frequency by least squares.
 //!
-//! Instants are counted from the middle of the signal. There cosines, with the offset, and sines
-//! are orthogonal at any frequency and any length, so the normal equations fall into two small
-//! ones whose sums are known in closed form (Dirichlet's kernel); nothing leaks, whatever the
-//! number of periods. With one harmonic it is the three-parameter sine fit of IEEE Std 1057.
+//! It is the fit of [`ToneDesign`] with tones at multiples of one frequency, for signals in memory, with
+//! what steps need of it: the model's values, each harmonic multiplied by a gain, and what is left of
+//! the signal. Phases are those at the middle of the signal.
 
-use nalgebra::{DMatrix, DVector};
-
-use crate::noise::quantization_variance;
+use crate::dirichlet::sum_of_cosines;
 use crate::phasor;
 use crate::phasor::Phasor;
-use crate::quantization::amplitude_error;
+use crate::quantization::{amplitude_error, quantization_variance};
+use crate::sine_fit::{Tone, ToneDesign};
 use crate::unsuitable::within;
 use crate::{Measured, Signal, Unsuitable, measured};
 use gumption_engine::number::elementary;
@@ -26,7 +24,7 @@ pub struct Harmonics {
 
 /// One harmonic.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Part {
+pub struct Harmonic {
     /// Its frequency, in hertz.
     pub frequency: f64,
     /// Its complex amplitude (peak) at the middle of the signal, in the signal's unit.
@@ -40,7 +38,7 @@ pub struct Part {
     pub rounding: f64,
 }
 
-impl Part {
+impl Harmonic {
     /// The peak amplitude, in the signal's unit.
     pub fn amplitude(&self) -> Measured {
         let (value, [x, y]) = (phasor::modulus(self.phasor), self.standard_uncertainty);
@@ -74,7 +72,7 @@ pub struct Periodic {
     /// The mean, in the signal's unit, with white noise's standard uncertainty.
     pub offset: Measured,
     /// The harmonics, by rising frequency.
-    pub parts: Vec<Part>,
+    pub parts: Vec<Harmonic>,
     /// The instant of the middle of the signal, in seconds, at which the phases are.
     pub middle: f64,
     /// Standard deviation of what is left of the signal, in its unit.
@@ -105,19 +103,23 @@ impl Periodic {
         if samples < needed {
             return Err(Unsuitable::TooShort { samples, needed });
         }
-        let solved = solve(&signal.values, turns, count)
-            .ok_or(Unsuitable::TooShort { samples, needed: samples + needed })?;
+        let tone =
+            |multiple: u32| Tone { cycles: turns * f64::from(multiple), fundamental: 0, multiple };
+        let tones = (1..=count as u32).map(tone).collect();
+        let design = ToneDesign::new(tones, samples as u64)
+            .map_err(|_| Unsuitable::TooShort { samples, needed: samples + needed })?;
+        let fit = design.fit_values(&signal.values);
         let freedom = (samples - 2 * count - 1) as f64;
         let mut periodic = Self {
             offset: Measured {
-                value: solved.even[0],
+                value: fit.offset,
                 standard_uncertainty: 0.0,
                 degrees_of_freedom: freedom,
             },
             parts: (1..=count)
-                .map(|h| Part {
+                .map(|h| Harmonic {
                     frequency: harmonics.frequency * h as f64,
-                    phasor: Phasor::new(solved.even[h], -solved.odd[h - 1]),
+                    phasor: Phasor::new(fit.cosines[h - 1], -fit.sines[h - 1]),
                     standard_uncertainty: [0.0; 2],
                     degrees_of_freedom: freedom,
                     rounding: 0.0,
@@ -131,10 +133,9 @@ impl Periodic {
         let left: f64 = periodic.without(signal).iter().map(|e| e * e).sum();
         periodic.residual = (left / freedom).sqrt();
         let u = |variance: f64| periodic.residual * variance.max(0.0).sqrt();
-        periodic.offset.standard_uncertainty = u(solved.even_inverse[0]);
-        let us: Vec<_> = (1..=count)
-            .map(|h| [u(solved.even_inverse[h]), u(solved.odd_inverse[h - 1])])
-            .collect();
+        periodic.offset.standard_uncertainty = u(design.even[(0, 0)]);
+        let us: Vec<_> =
+            (1..=count).map(|h| [u(design.even[(h, h)]), u(design.odd[(h - 1, h - 1)])]).collect();
         for (part, u) in periodic.parts.iter_mut().zip(us) {
             part.standard_uncertainty = u;
         }
@@ -195,51 +196,6 @@ impl Periodic {
     }
 }
 
-struct Solved {
-    /// Offset and cosines, and the diagonal of their cofactor matrix.
-    even: Vec<f64>,
-    even_inverse: Vec<f64>,
-    /// Sines.
-    odd: Vec<f64>,
-    odd_inverse: Vec<f64>,
-}
-
-/// The normal equations; none where they are singular.
-fn solve(values: &[f64], turns: f64, count: usize) -> Option<Solved> {
-    let n = values.len();
-    // about the mean, so that a large offset costs no digits
-    let mean = values.iter().sum::<f64>() / n as f64;
-    let centred: Vec<f64> = values.iter().map(|x| x - mean).collect();
-    let kernel: Vec<f64> = (0..=2 * count).map(|h| dirichlet(n, turns * h as f64)).collect();
-    let sums: Vec<Phasor> = (0..=count).map(|h| rotated_sum(&centred, turns * h as f64)).collect();
-    let even = DMatrix::from_fn(count + 1, count + 1, |i, j| {
-        f64::midpoint(kernel[i.abs_diff(j)], kernel[i + j])
-    });
-    let odd =
-        DMatrix::from_fn(count, count, |i, j| (kernel[i.abs_diff(j)] - kernel[i + j + 2]) / 2.0);
-    let (even, odd) = (even.cholesky()?, odd.cholesky()?);
-    let mut first = even.solve(&DVector::from_fn(count + 1, |h, _| sums[h].re));
-    let second = odd.solve(&DVector::from_fn(count, |h, _| -sums[h + 1].im));
-    first[0] += mean;
-    Some(Solved {
-        even: first.as_slice().to_vec(),
-        even_inverse: even.inverse().diagonal().as_slice().to_vec(),
-        odd: second.as_slice().to_vec(),
-        odd_inverse: odd.inverse().diagonal().as_slice().to_vec(),
-    })
-}
-
-/// The sum of cos(2 pi `turns` k) over `n` instants k one apart and centred about zero.
-pub(crate) fn dirichlet(n: usize, turns: f64) -> f64 {
-    let half = phasor::at_turns(turns / 2.0).im;
-    if half.abs() < 1e-9 {
-        // cos is 1 - x^2/2 about whole turns, and (n turns)^2 is lost in a double
-        n as f64
-    } else {
-        phasor::at_turns(turns / 2.0 * n as f64).im / half
-    }
-}
-
 const BLOCK: usize = 64;
 
 /// exp(2 pi i `turns` j) for the places j of a block.
@@ -279,11 +235,12 @@ fn add_turning(values: &mut [f64], p: Phasor, turns: f64) {
 /// The sum of squares that an offset and a sine of `turns` a value take out of values, beyond what
 /// their mean does; zero where the fit is singular.
 pub(crate) fn explained(centred: &[f64], turns: f64) -> f64 {
-    let n = centred.len();
     let sum = rotated_sum(centred, turns);
-    let (once, twice) = (dirichlet(n, turns), dirichlet(n, 2.0 * turns));
-    let cosines = f64::midpoint(n as f64, twice) - once * once / n as f64;
-    let sines = (n as f64 - twice) / 2.0;
+    let n = centred.len() as u64;
+    let (once, twice) = (sum_of_cosines(turns, n), sum_of_cosines(2.0 * turns, n));
+    let n = n as f64;
+    let cosines = f64::midpoint(n, twice) - once * once / n;
+    let sines = (n - twice) / 2.0;
     if cosines > 0.0 && sines > 0.0 {
         sum.re * sum.re / cosines + sum.im * sum.im / sines
     } else {
@@ -305,6 +262,8 @@ pub(crate) fn by_turns(periodic: &Periodic) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use std::f64::consts::TAU;
+
+    use nalgebra::{DMatrix, DVector};
 
     use super::*;
     use crate::study::{COARSE, Noises, SETTINGS, Setting, study};

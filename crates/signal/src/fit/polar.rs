@@ -3,12 +3,12 @@
 use std::f64::consts::PI;
 
 use crate::Measured;
-use crate::analysis::{Analysed, Fundamental, local};
-use crate::observation::Source;
+use crate::analysed::{Analysed, Fundamental, local, shares, speed};
+use crate::budget::UncertaintySource;
 use crate::phasor::{angle, modulus};
 use crate::quantization::amplitude_error;
 use crate::recipe::Channel;
-use gumption_engine::number::elementary::{atan2, exp, hypot};
+use gumption_engine::number::elementary::{atan2, exp, hypot, sin};
 
 /// A tone of a channel as A cos(2 pi f t + phi).
 #[derive(Clone, Debug)]
@@ -21,13 +21,13 @@ pub(crate) struct Polar {
     pub(crate) phase: f64,
     /// Standard uncertainties of A and, in radians, of phi from the channel's own noise and the like:
     /// those that no other channel shares.
-    pub(crate) own: Vec<(Source, f64, f64)>,
+    pub(crate) own: Vec<(UncertaintySource, f64, f64)>,
     /// Contributions of the channel's steps: source, to A and, in radians, to phi.
-    pub(crate) steps: Vec<(Source, f64, f64)>,
+    pub(crate) steps: Vec<(UncertaintySource, f64, f64)>,
     /// The modulus of the gain that the factors of the fit are still to be divided by, as A is.
     pub(crate) gain: f64,
     /// The standard uncertainty of A from what it shares with others.
-    pub(crate) shared: Vec<(Source, f64)>,
+    pub(crate) shared: Vec<(UncertaintySource, f64)>,
     /// How phi moves with the cycles in a sample interval that the fit took, radians.
     pub(crate) slope: f64,
     /// Standard deviations of the factors of cosine and sine, divided by the gain, from noise of all
@@ -35,31 +35,6 @@ pub(crate) struct Polar {
     pub(crate) scatter: [f64; 2],
     /// The fundamental that the tone belongs to.
     pub(crate) of: Fundamental,
-}
-
-/// Shares of the residuals' variance that are known to be quantization and jitter.
-pub(crate) fn shares(analysed: &Analysed, resolution: f64) -> [f64; 2] {
-    if let Some(known) = &analysed.residuals.known {
-        return known.shares;
-    }
-    let variance = analysed.residuals.variance;
-    if variance <= 0.0 {
-        return [0.0, 0.0];
-    }
-    let quantization = (resolution * resolution / 12.0 / variance).min(1.0);
-    let jitter: f64 = (0..analysed.design.tones.len())
-        .map(|tone| {
-            let speed = speed(analysed, tone) * analysed.base.jitter;
-            let (a, b) = (analysed.fit.cosines[tone], analysed.fit.sines[tone]);
-            speed * speed * (a * a + b * b) / 2.0
-        })
-        .sum();
-    [quantization, (jitter / variance).min(1.0 - quantization)]
-}
-
-/// The angular frequency of a tone, in radians a second.
-fn speed(analysed: &Analysed, tone: usize) -> f64 {
-    2.0 * PI * analysed.design.tones[tone].cycles * analysed.base.rate.value
 }
 
 /// The tone `multiple` of a fundamental; none if it is not fitted.
@@ -106,35 +81,38 @@ pub(crate) fn polar(
     let (sa, sb) = (slope.cosines[tone], slope.sines[tone]);
     let phase_slope = (b * sa - a * sb) / (size * size);
     let cut = phase_slope * size * of.of_cut;
-    let mut own: Vec<(Source, f64, f64)> = Vec::new();
+    let mut own: Vec<(UncertaintySource, f64, f64)> = Vec::new();
     let mut add = |source, along: f64, across: f64| {
         own.push((source, along.sqrt(), across.sqrt() / size));
     };
-    add(Source::Noise, along * noise, across * noise);
+    add(UncertaintySource::Noise, along * noise, across * noise);
     // rounding moves the amplitude of a sine, not its phase
     let (fast, slow) = if multiple == 1 { (1.0, 0.0) } else { (1.0, 1.0) };
     let square = rounding * rounding;
     add(
-        Source::Quantization,
+        UncertaintySource::Quantization,
         along * quantization + fast * square,
         across * quantization + slow * square,
     );
-    add(Source::Jitter, along * jitter * fore, across * jitter * aside);
-    add(Source::Leakage, leakage * leakage, leakage * leakage + cut * cut);
+    add(UncertaintySource::Jitter, along * jitter * fore, across * jitter * aside);
+    add(UncertaintySource::Leakage, leakage * leakage, leakage * leakage + cut * cut);
 
     // a fit at the wrong frequency: to first order by its slope; to second order the amplitude falls
     // as sin(x)/x with x = pi n N dc, whose x^2/6 has the rms value sqrt(3)/6 u(x)^2
     let amplitude_slope = ca * sa + cb * sb;
     let mistuned = |u: f64| {
         let x = PI * times * samples * u;
-        (amplitude_slope * u).hypot(amplitude * 3f64.sqrt() / 6.0 * x * x)
+        hypot(amplitude_slope * u, amplitude * 3f64.sqrt() / 6.0 * x * x)
     };
     let to_middle = base.start * base.rate.value + (samples - 1.0) / 2.0;
     let shared = vec![
-        (Source::Frequency, mistuned(of.of_stated).hypot(mistuned(of.of_estimate))),
-        (Source::SamplingRate, mistuned(of.of_rate)),
-        (Source::Leakage, mistuned(of.of_cut)),
-        (Source::Scale, amplitude * channel.scale_uncertainty * analysed.effects.power_of_scale()),
+        (UncertaintySource::Frequency, hypot(mistuned(of.of_stated), mistuned(of.of_estimate))),
+        (UncertaintySource::SamplingRate, mistuned(of.of_rate)),
+        (UncertaintySource::Leakage, mistuned(of.of_cut)),
+        (
+            UncertaintySource::Scale,
+            amplitude * channel.scale_uncertainty * analysed.effects.power_of_scale(),
+        ),
     ];
     let blur = speed(analysed, tone) * base.jitter;
     let cycles = of.turning * times;
@@ -179,19 +157,12 @@ fn leakage(analysed: &Analysed, tone: usize) -> f64 {
     let cycles = analysed.design.tones[tone].cycles;
     let samples = analysed.design.samples as f64;
     let envelope = |apart: f64| {
-        let sin = gumption_engine::number::elementary::sin(PI * apart).abs() * samples;
-        if sin > 1.0 { 1.0 / sin } else { 1.0 }
+        let size = sin(PI * apart).abs() * samples;
+        if size > 1.0 { 1.0 / size } else { 1.0 }
     };
     let of = |spurious: &crate::spurious::Spurious| {
         let (near, far) = (envelope(spurious.cycles - cycles), envelope(spurious.cycles + cycles));
         spurious.amplitude * spurious.amplitude * (near * near + far * far) / 4.0
     };
     analysed.spurious.iter().map(of).sum::<f64>().sqrt()
-}
-
-/// An angle in radians brought above -pi to pi.
-pub(crate) fn wrapped(angle: f64) -> f64 {
-    let turns = angle / (2.0 * PI);
-    let rest = angle - 2.0 * PI * (turns - 0.5).ceil();
-    if rest <= -PI { rest + 2.0 * PI } else { rest }
 }

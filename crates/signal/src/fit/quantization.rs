@@ -26,6 +26,12 @@ pub fn amplitude_error(resolution: f64, amplitude: f64, noise: f64) -> f64 {
     resolution * if error < largest { error } else { largest }
 }
 
+/// The variance that rounding to whole steps adds: step^2 / 12 (JCGM 100, F.2.2.1), in the squared
+/// unit of the step. White only where the noise or the signal moves over many steps.
+pub fn quantization_variance(step: f64) -> f64 {
+    step * step / 12.0
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -1,8 +1,8 @@
 //! What a fit leaves: its size, whether it is white, and how strong it is near each tone.
 
 use crate::effects::KnownNoise;
-use crate::passes::Passes;
-use crate::sine_fit::{Coefficients, Design, Sums, Waves, dot};
+use crate::passes::SampleSource;
+use crate::sine_fit::{Sums, ToneCoefficients, ToneDesign, Waves, dot};
 
 /// Lags at which the autocorrelation of residuals is looked at.
 pub(crate) const LAGS: usize = 16;
@@ -57,10 +57,10 @@ impl Residuals {
 
 /// The residuals of every channel; the fits are refined by what the residuals still have of the
 /// tones.
-pub(crate) fn of<P: Passes>(
-    design: &Design,
+pub(crate) fn of<P: SampleSource>(
+    design: &ToneDesign,
     passes: &mut P,
-    fits: &mut [Coefficients],
+    fits: &mut [ToneCoefficients],
 ) -> Result<Vec<Residuals>, P::Error> {
     let fundamentals = design.tones.iter().map(|tone| tone.fundamental + 1).max().unwrap_or(0);
     let parts = parts(design);
@@ -71,12 +71,12 @@ pub(crate) fn of<P: Passes>(
             gathered.add(design, first, values, waves);
         }
     })?;
-    let of = |(gathered, fit): (Gathered, &mut Coefficients)| gathered.residuals(design, fit);
+    let of = |(gathered, fit): (Gathered, &mut ToneCoefficients)| gathered.residuals(design, fit);
     Ok(gathered.into_iter().zip(fits).map(of).collect())
 }
 
 /// Into how many parts a record is cut: each has a whole period of every fundamental at least.
-fn parts(design: &Design) -> Option<u64> {
+fn parts(design: &ToneDesign) -> Option<u64> {
     let slowest = design.tones.iter().map(|tone| tone.cycles).fold(f64::INFINITY, f64::min);
     let periods = (slowest * design.samples as f64).floor();
     let parts = (periods as u64).min(MOST_PARTS).min(design.samples / 16);
@@ -85,7 +85,7 @@ fn parts(design: &Design) -> Option<u64> {
 
 /// What is summed up on the way.
 struct Gathered {
-    at_first: Coefficients,
+    at_first: ToneCoefficients,
     /// Sums of the residuals with the tones.
     sums: Sums,
     squares: f64,
@@ -94,13 +94,13 @@ struct Gathered {
     last: Vec<f64>,
     /// Sums with the tones in the present part, and what the finished parts had: their count, sums
     /// and sums of squares for each tone.
-    part: Option<Part>,
+    part: Option<Harmonic>,
     /// For each fundamental: sums of residual times derivative, and of the derivative's square.
     derivatives: Vec<(f64, f64)>,
     first: Vec<f64>,
 }
 
-struct Part {
+struct Harmonic {
     length: u64,
     filled: u64,
     count: u64,
@@ -109,7 +109,12 @@ struct Part {
 }
 
 impl Gathered {
-    fn new(design: &Design, fit: &Coefficients, fundamentals: usize, parts: Option<u64>) -> Self {
+    fn new(
+        design: &ToneDesign,
+        fit: &ToneCoefficients,
+        fundamentals: usize,
+        parts: Option<u64>,
+    ) -> Self {
         let tones = design.tones.len();
         Self {
             at_first: design.at_first(fit),
@@ -117,7 +122,7 @@ impl Gathered {
             squares: 0.0,
             products: [0.0; LAGS],
             last: Vec::new(),
-            part: parts.map(|parts| Part {
+            part: parts.map(|parts| Harmonic {
                 length: design.samples / parts,
                 filled: 0,
                 count: 0,
@@ -129,7 +134,7 @@ impl Gathered {
         }
     }
 
-    fn add(&mut self, design: &Design, first: u64, values: &[f64], waves: &Waves) {
+    fn add(&mut self, design: &ToneDesign, first: u64, values: &[f64], waves: &Waves) {
         let mut residuals: Vec<f64> =
             values.iter().map(|value| value - self.at_first.offset).collect();
         let mut slopes = vec![vec![0.0; values.len()]; self.derivatives.len()];
@@ -179,7 +184,7 @@ impl Gathered {
         self.last = joined.split_off(keep);
     }
 
-    fn residuals(self, design: &Design, fit: &mut Coefficients) -> Residuals {
+    fn residuals(self, design: &ToneDesign, fit: &mut ToneCoefficients) -> Residuals {
         // one step of refinement: what the residuals still have of the constant and the tones
         let rest = design.solve(&self.sums);
         fit.offset += rest.offset;
@@ -216,7 +221,7 @@ impl Gathered {
     }
 }
 
-impl Part {
+impl Harmonic {
     fn add(&mut self, residuals: &[f64], waves: &Waves) {
         let mut from = 0;
         while from < residuals.len() {

@@ -10,7 +10,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use crate::dirichlet::Kernel;
-use crate::passes::{BLOCK, Passes};
+use crate::passes::{BLOCK, SampleSource};
 use crate::turns::{Turns, oscillation};
 
 /// The largest condition number of the normal equations: beyond it the tones cannot be told apart
@@ -42,7 +42,7 @@ pub enum NoFit {
 
 /// The design of a fit: its tones at the samples of a record, without the values.
 #[derive(Clone, Debug)]
-pub struct Design {
+pub struct ToneDesign {
     /// The tones.
     pub tones: Vec<Tone>,
     /// Samples of the record.
@@ -56,7 +56,7 @@ pub struct Design {
 
 /// A constant and tones a cos + b sin, with phases counted from the middle of the record.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Coefficients {
+pub struct ToneCoefficients {
     /// The constant.
     pub offset: f64,
     /// The factor of the cosine of each tone.
@@ -65,7 +65,7 @@ pub struct Coefficients {
     pub sines: Vec<f64>,
 }
 
-impl Design {
+impl ToneDesign {
     /// Tones at `samples` evenly spaced values.
     ///
     /// # Errors
@@ -104,7 +104,7 @@ impl Design {
     ///
     /// # Errors
     /// Where the recording cannot be read.
-    pub fn fit<P: Passes>(&self, passes: &mut P) -> Result<Vec<Coefficients>, P::Error> {
+    pub fn fit<P: SampleSource>(&self, passes: &mut P) -> Result<Vec<ToneCoefficients>, P::Error> {
         let mut sums: Vec<Sums> = Vec::new();
         self.each(passes, |_, channels, waves| {
             sums.resize_with(channels.len(), || Sums::new(self.tones.len()));
@@ -115,8 +115,19 @@ impl Design {
         Ok(sums.iter().map(|sums| self.solve(sums)).collect())
     }
 
+    /// Fits values in memory.
+    pub(crate) fn fit_values(&self, values: &[f64]) -> ToneCoefficients {
+        let mut sums = Sums::new(self.tones.len());
+        let mut waves = Waves::new(self.steps.len());
+        for (block, values) in values.chunks(BLOCK).enumerate() {
+            waves.fill(&self.steps, (block * BLOCK) as u64, values.len());
+            sums.add(values, &waves);
+        }
+        self.solve(&sums)
+    }
+
     /// Goes through a recording with the waves of the tones at each block.
-    pub(crate) fn each<P: Passes>(
+    pub(crate) fn each<P: SampleSource>(
         &self,
         passes: &mut P,
         mut each: impl FnMut(u64, &[&[f64]], &Waves),
@@ -130,7 +141,7 @@ impl Design {
     }
 
     /// The least-squares solution for sums of products.
-    pub(crate) fn solve(&self, sums: &Sums) -> Coefficients {
+    pub(crate) fn solve(&self, sums: &Sums) -> ToneCoefficients {
         // the sums count phases from the first sample; turned to the middle
         let mut even = DVector::zeros(self.steps.len() + 1);
         let mut odd = DVector::zeros(self.steps.len());
@@ -144,7 +155,7 @@ impl Design {
         let mut solution = &self.even * even;
         let sines = &self.odd * odd;
         solution[0] += sums.pilot.unwrap_or(0.0);
-        Coefficients {
+        ToneCoefficients {
             offset: solution[0],
             cosines: solution.iter().skip(1).copied().collect(),
             sines: sines.iter().copied().collect(),
@@ -157,7 +168,7 @@ impl Design {
     }
 
     /// The factors of the tones with phases counted from the first sample.
-    pub(crate) fn at_first(&self, fit: &Coefficients) -> Coefficients {
+    pub(crate) fn at_first(&self, fit: &ToneCoefficients) -> ToneCoefficients {
         let mut turned = fit.clone();
         for (k, step) in self.steps.iter().enumerate() {
             let (sin, cos) = self.middle(*step);
@@ -170,10 +181,10 @@ impl Design {
 
     /// How the fit of a channel moves with the cycles of a fundamental: the fit at `cycles` that are
     /// too large by e is off by e times this (the negative of the projected derivative).
-    pub(crate) fn slope(&self, fit: &Coefficients, fundamental: usize) -> Coefficients {
+    pub(crate) fn slope(&self, fit: &ToneCoefficients, fundamental: usize) -> ToneCoefficients {
         let (even, odd) = self.derivative_products(fit, fundamental);
         let (even, odd) = (-(&self.even * even), -(&self.odd * odd));
-        Coefficients {
+        ToneCoefficients {
             offset: even[0],
             cosines: even.iter().skip(1).copied().collect(),
             sines: odd.iter().copied().collect(),
@@ -184,7 +195,7 @@ impl Design {
     /// cycles of a fundamental.
     pub(crate) fn derivative_products(
         &self,
-        fit: &Coefficients,
+        fit: &ToneCoefficients,
         fundamental: usize,
     ) -> (DVector<f64>, DVector<f64>) {
         let moment = |turns: Turns| Kernel::new(turns, self.samples).moments;

@@ -4,7 +4,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::periodic::dirichlet;
+use crate::dirichlet::sum_of_cosines;
 use crate::spectral::{Ends, multiplied};
 use crate::unsuitable::within;
 use crate::{Changed, Measured, NoiseGain, Phasor, Signal, Unsuitable, measured};
@@ -77,7 +77,7 @@ impl Derivative {
             .map(|j| {
                 let f = j as f64 * rate / n;
                 let kernel = |away: f64| {
-                    let part = dirichlet(samples, away / rate) / n;
+                    let part = sum_of_cosines(away / rate, samples as u64) / n;
                     part * part
                 };
                 self.response(f).norm_sqr() * (kernel(f - frequency) + kernel(f + frequency))

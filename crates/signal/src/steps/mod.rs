@@ -1,6 +1,6 @@
 //! What is done with signals before oscillations are fitted, and what is found on the way: filters,
 //! derivatives, the accelerations of a rotating table, a sampling rate, delays, corrections, each
-//! with its uncertainty. The functions know nothing of recipes; [`Step`](super::Step) calls them.
+//! with its uncertainty. The functions know nothing of recipes; [`ChannelStep`](super::Step) calls them.
 
 pub(super) mod butterworth;
 pub(super) mod changed;

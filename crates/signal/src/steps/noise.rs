@@ -68,12 +68,6 @@ pub(crate) fn density(residuals: &[f64], turns: f64, count: usize) -> Density {
     Density { variance: sum / taken, degrees_of_freedom: 2.0 * taken }
 }
 
-/// The variance that rounding to whole steps adds: step^2 / 12 (JCGM 100, F.2.2.1), in the squared
-/// unit of the step. White only where the noise or the signal moves over many steps.
-pub fn quantization_variance(step: f64) -> f64 {
-    step * step / 12.0
-}
-
 /// The variance that sampling instants with a standard deviation of `jitter` seconds, independent
 /// of each other, add to a sine of peak amplitude `amplitude` and `frequency` hertz:
 /// (2 pi f A jitter)^2 / 2. To first order; the amplitude falls by
@@ -129,6 +123,7 @@ mod tests {
     use std::f64::consts::TAU;
 
     use super::*;
+    use crate::quantization_variance;
     use crate::study::Noises;
 
     /// White noise has its variance everywhere: 400 degrees of freedom are 7 %; four of them. An

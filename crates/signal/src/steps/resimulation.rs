@@ -73,7 +73,7 @@ impl Resimulation {
         residuals: &[f64],
         step: impl Fn(&Signal) -> Option<Vec<f64>> + Sync,
     ) -> Option<Scatter> {
-        let source = Source::of(residuals, self.colour, self.parameters);
+        let source = UncertaintySource::of(residuals, self.colour, self.parameters);
         let key = StreamKey::new(self.seed, "observe/resimulation");
         let results: Vec<Option<Vec<f64>>> = (0..self.trials as u64)
             .into_par_iter()
@@ -109,7 +109,7 @@ impl Resimulation {
 }
 
 /// Where noise comes from.
-enum Source {
+enum UncertaintySource {
     /// Normal: standard deviation of the innovations and coefficients of the values before; and how
     /// many values pass until the start is forgotten.
     Normal {
@@ -123,7 +123,7 @@ enum Source {
     },
 }
 
-impl Source {
+impl UncertaintySource {
     fn of(residuals: &[f64], colour: Colour, parameters: usize) -> Self {
         let n = residuals.len().max(1) as f64;
         let lost = (n / (n - parameters as f64).max(1.0)).sqrt();

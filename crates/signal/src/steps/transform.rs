@@ -1,13 +1,11 @@
 //! The discrete Fourier transform of real signals.
 
-use rustfft::FftPlannerScalar as Planner;
-
-use crate::Phasor;
+use crate::{Phasor, fft};
 
 /// The values' transform: sum of `x_k` exp(-2 pi i j k / n) for j = 0, ..., n - 1.
 pub(crate) fn forward(values: &[f64]) -> Vec<Phasor> {
     let mut spectrum: Vec<Phasor> = values.iter().map(|&x| Phasor::new(x, 0.0)).collect();
-    Planner::new().plan_fft_forward(values.len()).process(&mut spectrum);
+    fft::forward(&mut spectrum);
     spectrum
 }
 
@@ -20,6 +18,6 @@ pub(crate) fn inverse(mut spectrum: Vec<Phasor>) -> Vec<f64> {
     if n.is_multiple_of(2) && n > 0 {
         spectrum[n / 2].im = 0.0;
     }
-    Planner::new().plan_fft_inverse(n).process(&mut spectrum);
+    fft::inverse(&mut spectrum);
     spectrum.iter().map(|z| z.re / n as f64).collect()
 }

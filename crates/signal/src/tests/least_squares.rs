@@ -6,7 +6,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::simulated::Bench;
 use crate::frequency::estimate;
-use crate::{Design, Tone};
+use crate::{Tone, ToneDesign};
 
 /// The residuals' design matrix by the standard library's functions, solved by singular values.
 fn by_singular_values(values: &[f64], cycles: &[f64]) -> Vec<f64> {
@@ -35,7 +35,7 @@ fn fits_are_those_of_the_singular_value_decomposition() {
             fundamental: number,
             multiple: 1,
         };
-        let design = Design::new(cycles.iter().enumerate().map(tone).collect(), samples as u64);
+        let design = ToneDesign::new(cycles.iter().enumerate().map(tone).collect(), samples as u64);
         let fit = design.unwrap().fit(&mut held).unwrap().swap_remove(0);
         let expected = by_singular_values(&held.channels[0], &cycles);
         // 1e-10 of a signal of size 1, as the issue asks; of an offset of 3e4 its own rounding
@@ -64,7 +64,7 @@ fn fits_are_those_of_scipy() {
             let value = 0.7 + 1.25 * (angle + 0.4).cos() + 0.03 * (2.0 * angle - 1.0).cos();
             (1e5 * (value + 0.01 * noise)).round() / 1e5
         };
-        let mut held = crate::Held { channels: vec![(0..samples).map(value).collect()] };
+        let mut held = crate::InMemorySamples { channels: vec![(0..samples).map(value).collect()] };
         let found = estimate(&mut held, Some(cycles * 1.0001), &[1, 2]).unwrap();
         // double precision of phases over the record: 1e-10 of a period over all samples
         assert!((found.cycles - numbers[7]).abs() * (samples as f64) < 1e-10, "{line}");
@@ -75,7 +75,7 @@ fn fits_are_those_of_scipy() {
                 fundamental: 0,
                 multiple,
             };
-            let design = Design::new(vec![tone(1), tone(2)], samples).unwrap();
+            let design = ToneDesign::new(vec![tone(1), tone(2)], samples).unwrap();
             let fit = design.fit(&mut held).unwrap().swap_remove(0);
             let own = [fit.offset, fit.cosines[0], fit.sines[0], fit.cosines[1], fit.sines[1]];
             for (own, expected) in own.iter().zip(expected) {

@@ -3,8 +3,8 @@
 use std::f64::consts::PI;
 
 use crate::{
-    Amplitude, Channel, Frequency, Held, Measured, Method, Observation, PhaseUnit, Settings,
-    TimeBase, Track, observe,
+    Amplitude, Channel, ChannelRecording, Frequency, InMemorySamples, Measured, Method,
+    Observation, PhaseUnit, RecipeSettings, TimeBase, observe,
 };
 use gumption_engine::distribution::{BLOCK, StreamKey};
 use gumption_engine::special::normal;
@@ -68,7 +68,7 @@ impl Default for Bench {
 }
 
 impl Bench {
-    pub(super) fn settings(&self) -> Settings {
+    pub(super) fn settings(&self) -> RecipeSettings {
         let channel = |name: &str| Channel {
             name: name.into(),
             unit: Unit::one(),
@@ -76,7 +76,7 @@ impl Bench {
             resolution: self.resolution,
             steps: Vec::new(),
         };
-        Settings {
+        RecipeSettings {
             channels: (0..self.channels.len()).map(|n| channel(["a", "b", "c"][n])).collect(),
             reference: Some(0),
             components: vec![1, 2],
@@ -90,7 +90,7 @@ impl Bench {
     }
 
     /// The values of recording `seed`.
-    pub(super) fn values(&self, seed: u64) -> Held {
+    pub(super) fn values(&self, seed: u64) -> InMemorySamples {
         let errors = normals(seed, "errors", 2);
         let hertz = self.hertz + self.frequency_uncertainty * errors[0];
         let rate = self.rate + self.rate_uncertainty * errors[1];
@@ -115,10 +115,10 @@ impl Bench {
             };
             (0..self.samples).map(value).collect()
         });
-        Held { channels: channels.collect() }
+        InMemorySamples { channels: channels.collect() }
     }
 
-    pub(super) fn observe(&self, held: Held) -> Observation {
+    pub(super) fn observe(&self, held: InMemorySamples) -> Observation {
         let rate = Measured {
             value: self.rate,
             standard_uncertainty: self.rate_uncertainty,
@@ -131,7 +131,7 @@ impl Bench {
             standard_uncertainty: self.frequency_uncertainty,
             estimate: self.estimate,
         };
-        let mut tracks = [Track { passes: held, base, channels, search: None }];
+        let mut tracks = [ChannelRecording { passes: held, base, channels, search: None }];
         observe(&self.settings(), &[frequency], &mut tracks).unwrap()
     }
 }

@@ -1,39 +1,10 @@
-//! Errors of simulated recordings against the standard uncertainties that are stated for them.
-//!
-//! Of n recordings |error| < 3 u must hold in 99 %, and the standard deviation of the errors must be
-//! the mean u within a tolerance. For normal errors the first holds in 99.73 %; the standard deviation
-//! scatters by 1/sqrt(2 n): with n = 200 by 5 %, and 18 % are allowed (3.6 standard deviations, one
-//! false failure in 3000 figures); with n = 1000 by 2.2 %, and 10 % are allowed (4.5, one in 10^5).
-//! With n = 200 at most 5 may lie beyond 3 u (expected 0.54: one false failure in 10^4).
+//! What is said of whole simulated recordings against their truth.
 
 use std::f64::consts::PI;
 
 use super::simulated::Bench;
+use crate::study::Errors;
 use crate::{ChannelObservation, Measured, Method};
-
-/// Errors and stated uncertainties of one figure.
-#[derive(Default)]
-struct Errors {
-    name: String,
-    errors: Vec<f64>,
-    stated: Vec<f64>,
-}
-
-impl Errors {
-    fn check(&self, about: &str, allowed: f64) {
-        let count = self.errors.len() as f64;
-        let squares: f64 = self.errors.iter().map(|e| e * e).sum();
-        let spread = (squares / count).sqrt();
-        let mean = self.stated.iter().sum::<f64>() / count;
-        let pairs = self.errors.iter().zip(&self.stated);
-        let beyond = pairs.filter(|(e, u)| e.abs() > 3.0 * **u).count();
-        println!("{about}: {}: errors {spread:.3e}, u {mean:.3e}, beyond 3 u: {beyond}", self.name);
-        let most = if count < 500.0 { 5 } else { count as usize / 100 };
-        assert!(beyond <= most, "{about}: {}: {beyond} beyond 3 u", self.name);
-        let ratio = spread / mean;
-        assert!((ratio - 1.0).abs() < allowed, "{about}: {}: {spread} over {mean}", self.name);
-    }
-}
 
 /// The figures of channel b, and the frequency, with their true values.
 fn figures(
@@ -74,7 +45,7 @@ fn figures(
 
 /// Recordings of a bench, evaluated; `left_out` are figures that the bench says nothing about.
 fn study(about: &str, bench: &Bench, count: u64, left_out: &[&str]) {
-    let mut all: Vec<Errors> = Vec::new();
+    let mut all: Vec<(String, Errors)> = Vec::new();
     for seed in 0..count {
         // amplitudes and levels that change, as those of real recordings do
         let mut bench = bench.clone();
@@ -88,15 +59,13 @@ fn study(about: &str, bench: &Bench, count: u64, left_out: &[&str]) {
         let [root, of] = observation.frequencies[0].as_slice() else { panic!() };
         for (number, (name, found, truth)) in figures(&bench, of, root).into_iter().enumerate() {
             if all.len() <= number {
-                all.push(Errors { name, ..Errors::default() });
+                all.push((name, Errors::default()));
             }
-            all[number].errors.push(found.value - truth);
-            all[number].stated.push(found.standard_uncertainty);
+            all[number].1.add(found, truth);
         }
     }
-    let allowed = if count < 500 { 0.18 } else { 0.10 };
-    for errors in all.iter().filter(|errors| !left_out.contains(&errors.name.as_str())) {
-        errors.check(about, allowed);
+    for (name, errors) in all.iter().filter(|(name, _)| !left_out.contains(&name.as_str())) {
+        errors.is_right(&format!("{about}, {name}"), None);
     }
 }
 

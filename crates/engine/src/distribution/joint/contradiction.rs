@@ -25,7 +25,7 @@ pub(super) fn is_rounding(
         && declared.pairs().map(change).all(|change| change <= FARTHEST * unit(decimals))
 }
 
-/// What is said of coefficients that no quantities can have.
+/// The error for coefficients that no quantities can have.
 pub(super) fn contradiction(
     members: &[usize],
     declared: &CorrelationMatrix,

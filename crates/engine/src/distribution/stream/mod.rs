@@ -2,7 +2,7 @@
 //!
 //! The state of block `b` of the stream of a named quantity under seed `s` is a hash of (s, name,
 //! b), and the block's numbers follow from it. So any thread can compute any block, a block can be
-//! computed again, and adding or reordering inputs changes nobody's draws.
+//! computed again, and adding or reordering inputs does not change the draws of the others.
 //!
 //! The generator is xoshiro256++ (Blackman and Vigna, 2021) in eight lanes side by side; states are
 //! spread by the finalizer of splitmix64 (Steele, Lea, Flood, 2014). All of it is integer
@@ -38,6 +38,7 @@ const GOLDEN: u64 = 0x9e37_79b9_7f4a_7c15;
 pub struct StreamKey(u64);
 
 impl StreamKey {
+    /// The stream of a quantity of this name under a seed.
     pub fn new(seed: u64, name: &str) -> Self {
         Self(mix(seed.wrapping_add(GOLDEN) ^ mix(hash(name))))
     }

@@ -43,7 +43,8 @@ pub(super) fn evaluate<T: Number>(
             Kind::Call { function: Some(Function::Kelvin), arguments, .. }
                 if arguments.len() == 1 =>
             {
-                let argument = arguments[0];
+                // no node has the number that stands for a missing argument
+                let argument = arguments.first().copied().unwrap_or(usize::MAX);
                 let typing = typings.get(argument).copied().unwrap_or(Typing::ANY);
                 let value = at(&results, argument);
                 if typing.kelvin_shifts() { value + CELSIUS_ZERO } else { value }

@@ -24,7 +24,7 @@ pub(super) struct BucketPartition {
     values: Vec<f64>,
     /// Where each bucket begins, and the end.
     starts: Vec<usize>,
-    /// The least and the greatest value of each; of an empty one the wrong way round.
+    /// The least and the greatest value of each; of an empty one infinity and minus infinity.
     extremes: Vec<[f64; 2]>,
     sorted: Vec<bool>,
     /// Number of values in the low tail, about the median, in the high tail.

@@ -40,13 +40,13 @@ pub struct NumericalError {
     pub estimate: Option<f64>,
     /// Of the standard uncertainty; `None` if the distribution has no fourth moment.
     pub standard_uncertainty: Option<f64>,
-    /// Of the median; not a number of two trials.
+    /// Of the median; NaN with two trials.
     pub median: f64,
-    /// Of the ends of the symmetric interval; not a number where they are the least and the greatest
+    /// Of the ends of the symmetric interval; NaN where they are the least and the greatest
     /// trial, because there are too few.
     pub symmetric_interval: [f64; 2],
     /// Of the ends of the shortest interval, which settles only with the cube root of the trials;
-    /// not a number with too few trials to tell.
+    /// NaN with too few trials to tell.
     pub shortest_interval: [f64; 2],
     /// Of the skewness; `None` if there is none, or with too few trials to tell.
     pub skewness: Option<f64>,
@@ -84,7 +84,7 @@ impl MonteCarlo {
     /// The figures, without the moments that do not exist for t distributions of `drawn_dof`
     /// degrees of freedom. The intervals are the symmetric one, the shortest one and whether that
     /// is exact.
-    pub fn new(
+    pub(super) fn new(
         moments: &Moments,
         drawn_dof: f64,
         median: f64,
@@ -113,7 +113,7 @@ impl MonteCarlo {
 
 impl NumericalError {
     /// The errors, `quantiles` being those of the lower end, the upper end and the median.
-    pub fn new(
+    pub(super) fn new(
         moments: &Moments,
         drawn_dof: f64,
         quantiles: [f64; 3],

@@ -1,5 +1,5 @@
 //! How the trials of each output are spread, for pictures. The trials are generated again and only
-//! counted, so that a run without a picture pays nothing and the figures of a run with one are the
+//! counted, so that a run without a picture costs nothing and the figures of a run with one are the
 //! same bits.
 
 use rayon::prelude::*;

@@ -1,12 +1,14 @@
-//! A few trials that stand for all of them, as the ranks of their outputs: how the outputs of a
-//! result vary together.
+//! Joint ranks: a small sample of a run's trials that represents the dependence of its outputs.
 //!
-//! The trials are cut into cells of equally many, each cell across the direction that its trials are
-//! spread out along most, and one trial of each cell is kept. So the kept trials are spread out as
-//! all are, and a probability in them scatters by the cells on the boundary of its region only, not
-//! as one of as many trials drawn at random. The directions are combinations of the outputs' normal
-//! scores that are not correlated, each in its own standard deviations, so that cells are thin where
-//! outputs nearly cancel.
+//! A result file keeps the quantile function of every output and, for their dependence, the ranks of
+//! all outputs in some thousands of trials: an empirical copula. Correlation coefficients would not
+//! do, as they do not determine a joint distribution. A random sample of M trials would give the
+//! probability of a region with a standard deviation of sqrt(p (1 - p)/M). A stratified one scatters
+//! less: all trials are cut recursively into cells of equally many trials, each time across the
+//! direction in which the cell is spread out most (as a k-d tree is built), and one trial of each
+//! cell is kept. Only cells that a region's boundary crosses then contribute to the scatter. The
+//! directions are uncorrelated combinations of the outputs' normal scores, each in its own standard
+//! deviation, so that cells are thin where outputs nearly cancel.
 
 use rayon::prelude::*;
 
@@ -22,7 +24,7 @@ const MOST_VALUES: usize = 1 << 22;
 /// Trials that are looked at, at most.
 const MOST_TRIALS: usize = 1 << 20;
 
-/// A direction with less than this of an output's variance says nothing of its own.
+/// A direction with less than this share of an output's variance is left out.
 const NEGLIGIBLE: f64 = 1e-6;
 
 /// For each output its ranks, from 1, in at most `rows` of the first `count` trials: entry i of all
@@ -47,7 +49,7 @@ pub(crate) fn joint_ranks(
     whole.unwrap_or(false).then(|| ranks_of(&values, rows))
 }
 
-/// The ranks of at most `rows` trials that stand for all.
+/// The ranks of at most `rows` trials that represent all.
 fn ranks_of(values: &[Vec<f64>], rows: usize) -> Vec<Vec<u32>> {
     let varies = |values: &Vec<f64>| values.iter().any(|value| *value != values[0]);
     let varying: Vec<&Vec<f64>> = values.iter().filter(|values| varies(values)).collect();
@@ -211,7 +213,7 @@ mod tests {
         assert!(same_half.count() >= 482);
     }
 
-    /// The kept trials stand for all: of two nearly cancelling outputs, the share of kept trials
+    /// The kept trials represent all: of two nearly cancelling outputs, the share of kept trials
     /// whose difference lies below a quantile of all differs from it by less than half of what a
     /// random choice of 1024 would leave (the standard deviation of a share p is then sqrt(p (1 - p)
     /// /1024); over 19 quantiles its root mean square in the units of that is 1 to 0.2).

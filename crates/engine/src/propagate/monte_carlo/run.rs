@@ -27,7 +27,7 @@ const LARGEST_CHUNK: u64 = 64;
 
 /// Runs the trials of one row. Where every trial is undefined, or the run was stopped before the
 /// first one, there are no outputs.
-pub fn run(trials: &mut RowTrials, request: Request<'_>, control: &Control<'_>) -> Finished {
+pub(crate) fn run(trials: &mut RowTrials, request: Request<'_>, control: &Control<'_>) -> Finished {
     // what the pilot computes is not computed again
     trials.hold(control.path, pilot_blocks(request.trials), control.memory);
     run_held(trials, request, control)

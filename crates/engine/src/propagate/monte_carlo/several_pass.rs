@@ -121,7 +121,7 @@ impl Search {
     }
 
     /// Looks for the figures in what a pass kept; gives the leaves that are still needed. With
-    /// `last` it takes what there is.
+    /// `last` the best bounds known are taken.
     fn step(&mut self, leaves: &[Leaf], kept: &[f64], last: bool) -> Vec<bool> {
         let mut needed = vec![false; leaves.len()];
         let at = |rank: u64| {

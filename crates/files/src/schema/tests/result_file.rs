@@ -9,7 +9,7 @@ use crate as file;
 use crate::read_result;
 use gumption_engine::distribution::Scores;
 use gumption_engine::propagate::{Control, evaluate, joint_ranks, linear, origins, quantiles};
-use gumption_report::{Provenance, Report, saved};
+use gumption_report::{EvaluationReport, Provenance, saved};
 
 /// What is written for outputs of all kinds: with degrees of freedom, without sensitivities, known
 /// exactly, without a variance.
@@ -34,7 +34,8 @@ fn written() -> Value {
     let origins = origins(task, &task.rows[0], &gums, "m");
     let files = vec![("x.csv".to_owned(), "0".to_owned())];
     let provenance = Provenance { model_sha256: "m".to_owned(), files };
-    let report = Report { task, evaluation: &evaluation, warnings: &[], provenance: &provenance };
+    let report =
+        EvaluationReport { task, evaluation: &evaluation, warnings: &[], provenance: &provenance };
     serde_json::from_str(&saved(&report, &origins, &quantiles, &ranks)).unwrap()
 }
 

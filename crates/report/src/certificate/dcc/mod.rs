@@ -12,7 +12,7 @@ mod statements;
 pub(super) mod unit;
 mod xml;
 
-use super::{Report, administrative};
+use super::{CertificateReport, administrative};
 use gumption_analysis::certificate::contents::{Certificate, Language, Localized};
 use people::contact;
 use xml::Xml;
@@ -60,7 +60,7 @@ pub fn needed(certificate: &Certificate) -> Needed {
 
 /// The certificate as XML, valid against the schema of DCC 3.1.2 if nothing is
 /// [`needed`]. It ends in a newline.
-pub fn dcc(report: &Report<'_>) -> String {
+pub fn dcc(report: &CertificateReport<'_>) -> String {
     let languages = report.certificate.languages.as_slice();
     let mut xml = Xml::new();
     let root = [
@@ -77,7 +77,7 @@ pub fn dcc(report: &Report<'_>) -> String {
     xml.finish()
 }
 
-fn administrative(xml: &mut Xml, report: &Report<'_>, languages: &[Language]) {
+fn administrative(xml: &mut Xml, report: &CertificateReport<'_>, languages: &[Language]) {
     let of = &report.certificate.administrative;
     xml.element("dcc:dccSoftware", software);
     xml.element("dcc:coreData", |xml| {
@@ -127,7 +127,7 @@ fn software(xml: &mut Xml) {
 }
 
 /// The title in one language.
-fn title(report: &Report<'_>) -> Localized {
+fn title(report: &CertificateReport<'_>) -> Localized {
     report
         .certificate
         .administrative

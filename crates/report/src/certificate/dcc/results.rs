@@ -8,14 +8,14 @@ use super::unit::{is_of_the_si, unit};
 use super::xml::Xml;
 use crate::certificate::stated;
 use crate::certificate::stated::Stated;
-use crate::certificate::{Report, json, sentences, words};
+use crate::certificate::{CertificateReport, json, sentences, words};
 use crate::number::exact;
 use gumption_analysis::certificate::Basis;
 use gumption_analysis::certificate::contents::{Language, Localized};
 use gumption_engine::model::Quantity;
 use gumption_units::Unit;
 
-pub(super) fn write(xml: &mut Xml, report: &Report<'_>, languages: &[Language]) {
+pub(super) fn write(xml: &mut Xml, report: &CertificateReport<'_>, languages: &[Language]) {
     let of = &report.certificate.administrative;
     xml.element("dcc:measurementResult", |xml| {
         xml.text("dcc:name", &super::title(report), languages);
@@ -54,7 +54,7 @@ pub(super) fn write(xml: &mut Xml, report: &Report<'_>, languages: &[Language]) 
 }
 
 /// The rows of each output, in order of first appearance.
-fn groups<'a>(report: &Report<'a>) -> Vec<Vec<Stated<'a>>> {
+fn groups<'a>(report: &CertificateReport<'a>) -> Vec<Vec<Stated<'a>>> {
     let mut groups: Vec<Vec<Stated<'a>>> = Vec::new();
     for row in stated::rows(report) {
         let same = |group: &&mut Vec<Stated<'_>>| {
@@ -71,7 +71,12 @@ fn groups<'a>(report: &Report<'a>) -> Vec<Vec<Stated<'a>>> {
     groups
 }
 
-fn result(xml: &mut Xml, report: &Report<'_>, rows: &[Stated<'_>], languages: &[Language]) {
+fn result(
+    xml: &mut Xml,
+    report: &CertificateReport<'_>,
+    rows: &[Stated<'_>],
+    languages: &[Language],
+) {
     let Some(first) = rows.first() else { return };
     xml.text("dcc:name", &Localized::plain(first.quantity.name.clone()), languages);
     let described = |language: &Language| {
@@ -95,7 +100,7 @@ fn result(xml: &mut Xml, report: &Report<'_>, rows: &[Stated<'_>], languages: &[
 }
 
 /// `row 3: a_x, tilt = 35 deg`
-fn named(report: &Report<'_>, row: &Stated<'_>, language: Language) -> String {
+fn named(report: &CertificateReport<'_>, row: &Stated<'_>, language: Language) -> String {
     let mut parts = vec![row.name(&[language])];
     parts.extend(row.circumstances(report));
     format!("{} {}: {}", words::of(language).row, row.number, parts.join(", "))
@@ -127,7 +132,12 @@ fn explained(xml: &mut Xml, of: &Unit) {
 }
 
 /// The conditions that all rows show.
-fn conditions(xml: &mut Xml, report: &Report<'_>, rows: &[Stated<'_>], languages: &[Language]) {
+fn conditions(
+    xml: &mut Xml,
+    report: &CertificateReport<'_>,
+    rows: &[Stated<'_>],
+    languages: &[Language],
+) {
     let Some(first) = rows.first() else { return };
     for (condition, _) in first.shown(report) {
         let value = |row: &Stated<'_>| {
@@ -197,7 +207,12 @@ fn distribution(row: &Stated<'_>) -> String {
 }
 
 /// The coverage intervals of the rows that have one.
-fn intervals(xml: &mut Xml, report: &Report<'_>, rows: &[Stated<'_>], languages: &[Language]) {
+fn intervals(
+    xml: &mut Xml,
+    report: &CertificateReport<'_>,
+    rows: &[Stated<'_>],
+    languages: &[Language],
+) {
     let rows: Vec<(&Stated<'_>, [String; 2])> = rows
         .iter()
         .filter_map(|row| Some((row, row.interval(report)?.map(|end| end.text))))
@@ -233,7 +248,7 @@ fn intervals(xml: &mut Xml, report: &Report<'_>, rows: &[Stated<'_>], languages:
 }
 
 /// The files that the certificate was made of, and its answer for programs.
-fn attachments(xml: &mut Xml, report: &Report<'_>, languages: &[Language]) {
+fn attachments(xml: &mut Xml, report: &CertificateReport<'_>, languages: &[Language]) {
     let name = both(["Files of the evaluation", "Dateien der Auswertung"]);
     xml.text("dcc:name", &name, languages);
     xml.element("dcc:data", |xml| {

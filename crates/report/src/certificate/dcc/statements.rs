@@ -1,11 +1,11 @@
 //! The statements of a DCC: coverage, traceability, conformity, remarks.
 
 use super::xml::Xml;
-use crate::certificate::{Report, sentences, stated};
+use crate::certificate::{CertificateReport, sentences, stated};
 use crate::table::comparison;
 use gumption_analysis::certificate::contents::{Language, Localized};
 
-pub(super) fn write(xml: &mut Xml, report: &Report<'_>, languages: &[Language]) {
+pub(super) fn write(xml: &mut Xml, report: &CertificateReport<'_>, languages: &[Language]) {
     let of = &report.certificate.administrative;
     let coverage = languages
         .iter()

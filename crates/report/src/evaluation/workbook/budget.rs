@@ -5,10 +5,10 @@ use rust_xlsxwriter::XlsxError;
 
 use super::inputs::{Places, RowPlaces};
 use super::model::ModelPlaces;
-use crate::number::place;
+use crate::number::position;
 use crate::table::conditions_text;
 use crate::workbook::{Cached, Leaf, Look, here};
-use crate::{Report, plain, table};
+use crate::{EvaluationReport, plain, table};
 use gumption_engine::distribution::paired;
 use gumption_engine::propagate::RowEvaluation;
 use gumption_engine::propagate::gum::{BudgetLine, CorrelationLine, Dof, Gum};
@@ -51,7 +51,7 @@ const FIGURES: [&str; 7] = [
     "coverage interval, to",
 ];
 
-/// Decimal place of shares.
+/// Position of the last digit of shares.
 const SHARE_PLACE: i32 = -4;
 
 /// More degrees of freedom than this are taken for so many: the factor is the same.
@@ -82,17 +82,17 @@ struct Block<'a> {
     ensembles: Vec<Vec<usize>>,
     /// The first line.
     top: u32,
-    /// Decimal place of the output's figures.
-    place: Option<i32>,
+    /// Position of the last digit of the output's figures.
+    position: Option<i32>,
 }
 
 pub(super) fn write(
     leaf: &mut Leaf,
-    report: &Report<'_>,
+    report: &EvaluationReport<'_>,
     output: usize,
     live: &Live<'_>,
 ) -> Result<Totals, XlsxError> {
-    let Report { task, evaluation, .. } = *report;
+    let EvaluationReport { task, evaluation, .. } = *report;
     let Some(declared) = task.model.outputs.get(output) else { return Ok(Vec::new()) };
     leaf.title(0, &table::title_text(&declared.quantity))?;
     let mut at = 2;
@@ -122,7 +122,7 @@ pub(super) fn write(
                 .map(|ensemble| ensemble.members)
                 .collect(),
             top: at + 1,
-            place: place(gum.standard_uncertainty, evaluation.settings.digits),
+            position: position(gum.standard_uncertainty, evaluation.settings.digits),
         };
         leaf.headers(at, HEADERS)?;
         let model = live.model.get(number);
@@ -155,8 +155,8 @@ impl Block<'_> {
     }
 
     fn line_of(&self, variable: usize) -> Option<u32> {
-        let place = self.lines.iter().position(|line| line.variable == variable)?;
-        Some(self.top + place as u32)
+        let position = self.lines.iter().position(|line| line.variable == variable)?;
+        Some(self.top + position as u32)
     }
 
     /// The cells of a column from the first to the last line of the inputs.
@@ -173,7 +173,7 @@ impl Block<'_> {
     fn inputs(
         &self,
         leaf: &mut Leaf,
-        report: &Report<'_>,
+        report: &EvaluationReport<'_>,
         output: usize,
         model: Option<&ModelPlaces>,
     ) -> Result<(), XlsxError> {
@@ -181,7 +181,7 @@ impl Block<'_> {
         for (at, line) in (self.top..).zip(&self.lines) {
             let Some(variable) = report.task.variables.get(line.variable) else { continue };
             let Some(cells) = self.cells.variables.get(line.variable) else { continue };
-            let own = place(line.standard_uncertainty, self.settings.digits);
+            let own = position(line.standard_uncertainty, self.settings.digits);
             leaf.text(at, NAME, &plain(&variable.name))?;
             let now = Cached::Number(line.estimate);
             leaf.formula((at, ESTIMATE), &cells[0], &now, own, Look::Plain)?;
@@ -196,7 +196,7 @@ impl Block<'_> {
             leaf.formula((at, DOF), &cells[2], &now, None, Look::Plain)?;
             let known = model.and_then(|model| model.sensitivities.get(output));
             let cell = known.and_then(|cells| cells.get(line.variable)).cloned().flatten();
-            let slope = place(line.sensitivity, 4);
+            let slope = position(line.sensitivity, 4);
             match cell {
                 Some(cell) => {
                     let now = Cached::Number(line.sensitivity);
@@ -206,7 +206,7 @@ impl Block<'_> {
             }
             let contribution = format!("ABS({})*{}", here(at, SENSITIVITY), here(at, UNCERTAINTY));
             let now = Cached::Number(line.contribution);
-            let digits = place(line.contribution, self.settings.digits);
+            let digits = position(line.contribution, self.settings.digits);
             leaf.formula((at, CONTRIBUTION), &contribution, &now, digits, Look::Plain)?;
             let variance = format!("{}^2", here(at, CONTRIBUTION));
             let now = Cached::Number(line.contribution.powi(2));
@@ -250,7 +250,7 @@ impl Block<'_> {
         let pairs = self.links.iter().enumerate();
         let pairs = pairs.filter(|(_, link)| link.variables.iter().all(|&v| within(v)));
         let (places, shares): (Vec<u32>, Vec<f64>) = pairs
-            .map(|(place, link)| (self.top + (self.lines.len() + place) as u32, link.share))
+            .map(|(position, link)| (self.top + (self.lines.len() + position) as u32, link.share))
             .unzip();
         let members = set.iter().filter_map(|&member| self.line_of(member));
         let cells: Vec<String> = members.chain(places).map(|at| here(at, VARIANCE)).collect();
@@ -260,7 +260,11 @@ impl Block<'_> {
         (term, if line.dof.is_finite() { share.powi(2) / line.dof } else { 0.0 })
     }
 
-    fn coefficients(&self, leaf: &mut Leaf, report: &Report<'_>) -> Result<(), XlsxError> {
+    fn coefficients(
+        &self,
+        leaf: &mut Leaf,
+        report: &EvaluationReport<'_>,
+    ) -> Result<(), XlsxError> {
         let first = self.top + self.lines.len() as u32;
         let u = self.combined();
         for (number, (at, link)) in (first..).zip(&self.links).enumerate() {
@@ -307,7 +311,7 @@ impl Block<'_> {
         let look = Look::Stressed;
         // y
         let y = self.estimate(output, model);
-        leaf.formula((at(0), 1), &y, &Cached::Number(gum.estimate), self.place, look)?;
+        leaf.formula((at(0), 1), &y, &Cached::Number(gum.estimate), self.position, look)?;
         // u
         let links = (!self.links.is_empty()).then(|| {
             let from = self.top + self.lines.len() as u32;
@@ -317,7 +321,7 @@ impl Block<'_> {
         let squares = format!("SUMSQ({})", self.range(CONTRIBUTION));
         let u = format!("SQRT(MAX(0,{squares}{}))", links.unwrap_or_default());
         let now = Cached::Number(gum.standard_uncertainty);
-        leaf.formula((at(1), 1), &u, &now, self.place, look)?;
+        leaf.formula((at(1), 1), &u, &now, self.position, look)?;
         self.dof(leaf, at(2))?;
         self.factor(leaf, at(3), &here_is(2))?;
         // U
@@ -329,12 +333,12 @@ impl Block<'_> {
         };
         let expanded = guarded(format!("{factor}*{}", here_is(1)));
         let known = gum.expanded_uncertainty();
-        let digits = known.and_then(|known| place(known, self.settings.digits));
+        let digits = known.and_then(|known| position(known, self.settings.digits));
         leaf.formula((at(4), 1), &expanded, &number(known), digits, look)?;
         for (figure, sign, end) in [(5, '-', 0), (6, '+', 1)] {
             let formula = guarded(format!("{}{sign}{}", here_is(0), here_is(4)));
             let now = number(gum.interval().map(|interval| interval[end]));
-            leaf.formula((at(figure), 1), &formula, &now, self.place, look)?;
+            leaf.formula((at(figure), 1), &formula, &now, self.position, look)?;
         }
         Ok(std::array::from_fn(|figure| leaf.cell(at(figure), 1)))
     }

@@ -3,9 +3,9 @@
 
 use rust_xlsxwriter::XlsxError;
 
-use crate::number::place;
+use crate::number::position;
 use crate::workbook::{Cached, Leaf, Look, here};
-use crate::{Report, plain, table};
+use crate::{EvaluationReport, plain, table};
 use gumption_engine::propagate::gum::Gum;
 
 /// Columns of the worksheet.
@@ -54,8 +54,8 @@ pub(super) struct RowPlaces {
     pub(super) coefficients: Vec<String>,
 }
 
-pub(super) fn write(leaf: &mut Leaf, report: &Report<'_>) -> Result<Places, XlsxError> {
-    let Report { task, evaluation, .. } = *report;
+pub(super) fn write(leaf: &mut Leaf, report: &EvaluationReport<'_>) -> Result<Places, XlsxError> {
+    let EvaluationReport { task, evaluation, .. } = *report;
     leaf.title(0, "Inputs")?;
     leaf.line(1, "Shaded cells may be changed; budgets and results follow.")?;
     leaf.text(3, 0, "coverage probability")?;
@@ -76,7 +76,7 @@ pub(super) fn write(leaf: &mut Leaf, report: &Report<'_>) -> Result<Places, Xlsx
         at += 1;
         for (variable, distribution) in task.variables.iter().zip(row.distributions.iter()) {
             let u = distribution.standard_uncertainty();
-            let digits = place(u, evaluation.settings.digits);
+            let digits = position(u, evaluation.settings.digits);
             leaf.text(at, 0, &plain(&variable.name))?;
             leaf.number((at, ESTIMATE), distribution.mean(), None, Look::Input)?;
             leaf.number((at, UNCERTAINTY), u, None, Look::Input)?;

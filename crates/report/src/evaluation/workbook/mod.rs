@@ -16,7 +16,7 @@ use super::{Shown, repeat};
 use crate::table::correlations;
 use crate::table::correlations::Coefficients;
 use crate::workbook::{Book, failed};
-use crate::{Report, plain, table};
+use crate::{EvaluationReport, plain, table};
 use gumption_engine::propagate::RowEvaluation;
 
 /// Lines of all budgets together, at most; of longer ones only the results are written.
@@ -33,11 +33,11 @@ pub const MOST_RESULTS: usize = 100_000;
 ///
 /// # Errors
 /// More results than [`MOST_RESULTS`].
-pub fn xlsx(report: &Report<'_>, shown: &Shown<'_>) -> io::Result<Vec<u8>> {
+pub fn xlsx(report: &EvaluationReport<'_>, shown: &Shown<'_>) -> io::Result<Vec<u8>> {
     write(report, shown).map_err(failed)
 }
 
-fn write(report: &Report<'_>, shown: &Shown<'_>) -> Result<Vec<u8>, XlsxError> {
+fn write(report: &EvaluationReport<'_>, shown: &Shown<'_>) -> Result<Vec<u8>, XlsxError> {
     let task = report.task;
     let mut book = Book::new(&plain(&task.title))?;
     let mut results = book.leaf("Results")?;
@@ -81,7 +81,7 @@ fn write(report: &Report<'_>, shown: &Shown<'_>) -> Result<Vec<u8>, XlsxError> {
 }
 
 /// The lines of all budgets.
-fn lines(report: &Report<'_>) -> usize {
+fn lines(report: &EvaluationReport<'_>) -> usize {
     let of_row = |row: &RowEvaluation| -> usize {
         let gums = row.outputs.iter().filter_map(|output| output.gum.as_ref());
         gums.map(|gum| gum.budget().count() + gum.correlations().count() + 12).sum()
@@ -92,7 +92,7 @@ fn lines(report: &Report<'_>) -> usize {
 }
 
 /// The models of all rows; `None` where a spreadsheet could not follow them.
-fn tapes(report: &Report<'_>) -> Option<Vec<Tape>> {
+fn tapes(report: &EvaluationReport<'_>) -> Option<Vec<Tape>> {
     let program = &report.task.model.program;
     let each = program.nodes.len().saturating_mul(4 + program.outputs.len());
     if each.saturating_mul(report.task.rows.len()) > MOST_CELLS {
@@ -108,7 +108,11 @@ fn tapes(report: &Report<'_>) -> Option<Vec<Tape>> {
 }
 
 /// What is needed to get the same answer again.
-fn about(mut book: Book, report: &Report<'_>, shown: &Shown<'_>) -> Result<Vec<u8>, XlsxError> {
+fn about(
+    mut book: Book,
+    report: &EvaluationReport<'_>,
+    shown: &Shown<'_>,
+) -> Result<Vec<u8>, XlsxError> {
     let mut leaf = book.leaf("About")?;
     leaf.title(0, "To repeat this")?;
     let mut row = 2;

@@ -6,7 +6,7 @@ use rust_xlsxwriter::XlsxError;
 use super::inputs::Places;
 use super::tape::{Tape, slope, value, words};
 use crate::workbook::{Cached, Leaf, Look, here};
-use crate::{Report, plain};
+use crate::{EvaluationReport, plain};
 use gumption_engine::model::Node;
 
 const VALUE: u16 = 2;
@@ -25,7 +25,7 @@ pub(super) struct ModelPlaces {
 
 pub(super) fn write(
     leaf: &mut Leaf,
-    report: &Report<'_>,
+    report: &EvaluationReport<'_>,
     tapes: &[Tape],
     inputs: &Places,
 ) -> Result<Vec<ModelPlaces>, XlsxError> {

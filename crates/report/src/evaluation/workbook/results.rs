@@ -3,9 +3,9 @@
 use rust_xlsxwriter::XlsxError;
 
 use super::budget::Totals;
-use crate::number::place;
+use crate::number::position;
 use crate::workbook::{Cached, Leaf, Look};
-use crate::{Report, plain, table};
+use crate::{EvaluationReport, plain, table};
 use gumption_engine::propagate::OutputEvaluation;
 use gumption_engine::propagate::gum::Dof;
 
@@ -35,10 +35,10 @@ const HEADERS: [&str; 20] = [
 /// Writes the results; GUM figures as formulas where `totals` has their cells.
 pub(super) fn write(
     leaf: &mut Leaf,
-    report: &Report<'_>,
+    report: &EvaluationReport<'_>,
     totals: &[Totals],
 ) -> Result<(), XlsxError> {
-    let Report { task, evaluation, .. } = *report;
+    let EvaluationReport { task, evaluation, .. } = *report;
     leaf.title(0, &plain(&task.title))?;
     leaf.line(1, &table::settings_text(evaluation))?;
     let conditions: Vec<String> = task
@@ -88,7 +88,7 @@ fn figures(
     cells: Option<&[String; 7]>,
 ) -> Result<(), XlsxError> {
     if let Some(gum) = &found.gum {
-        let own = place(gum.standard_uncertainty, digits);
+        let own = position(gum.standard_uncertainty, digits);
         let expanded = gum.expanded_uncertainty();
         let interval = gum.interval();
         let dof = match gum.dof {
@@ -102,7 +102,7 @@ fn figures(
             (number(Some(gum.standard_uncertainty)), own),
             (dof, None),
             (number(gum.coverage_factor), Some(-2)),
-            (number(expanded), expanded.and_then(|expanded| place(expanded, digits))),
+            (number(expanded), expanded.and_then(|expanded| position(expanded, digits))),
             (number(interval.map(|ends| ends[0])), own),
             (number(interval.map(|ends| ends[1])), own),
         ];
@@ -120,7 +120,7 @@ fn figures(
         }
     }
     let Some(figures) = &found.monte_carlo else { return Ok(()) };
-    let own = figures.standard_uncertainty.and_then(|u| place(u, digits));
+    let own = figures.standard_uncertainty.and_then(|u| position(u, digits));
     let values = [
         (Some(figures.trials as f64), Some(0)),
         (Some(figures.estimate), own),
@@ -144,7 +144,7 @@ fn figures(
     if let Some(conformity) = found.conformity {
         leaf.number((at, first + 16), conformity.probability, Some(-6), Look::Plain)?;
         let error = conformity.numerical_standard_error;
-        leaf.number((at, first + 17), error, place(error, 1), Look::Plain)?;
+        leaf.number((at, first + 17), error, position(error, 1), Look::Plain)?;
     }
     Ok(())
 }

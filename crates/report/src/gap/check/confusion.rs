@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::label::Label;
-use gumption_gap::check::{Checked, Report};
+use gumption_gap::check::{BlindCheckScores, BlindDraw};
 
 /// With more labels than this, those of several effects are taken together.
 const MOST: usize = 20;
@@ -20,7 +20,7 @@ pub(super) struct Wrong {
 }
 
 /// The wrong verdicts, the most frequent kinds first.
-pub(super) fn wrong(report: &Report) -> Vec<Wrong> {
+pub(super) fn wrong(report: &BlindCheckScores) -> Vec<Wrong> {
     let (mut of, mut counts) = (BTreeMap::new(), BTreeMap::new());
     for one in &report.checked {
         *of.entry(Label::truth(one)).or_insert(0) += 1;
@@ -55,8 +55,8 @@ pub(super) struct Confused {
 }
 
 impl Confused {
-    pub(super) fn new(report: &Report) -> Self {
-        let pair = |one: &Checked| [Label::truth(one), Label::said(one)];
+    pub(super) fn new(report: &BlindCheckScores) -> Self {
+        let pair = |one: &BlindDraw| [Label::truth(one), Label::said(one)];
         let pairs: Vec<[Label; 2]> = report.checked.iter().map(pair).collect();
         let all: BTreeSet<&Label> = pairs.iter().flatten().collect();
         let together = all.len() > MOST;

@@ -1,11 +1,11 @@
 //! The design that a check was done at.
 
 use gumption_gap::Case;
-use gumption_gap::Named;
+use gumption_gap::NamedQuantity;
 
 /// What a page says of the case whose design was checked.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Design {
+pub struct CheckedDesign {
     /// The case's title.
     pub title: String,
     /// Number of rows of data.
@@ -13,27 +13,27 @@ pub struct Design {
     /// Names of the outputs that were measured.
     pub outputs: Vec<String>,
     /// The conditions, each with its least and greatest value.
-    pub conditions: Vec<(Named, [f64; 2])>,
+    pub conditions: Vec<(NamedQuantity, [f64; 2])>,
     /// Number of candidate effects.
     pub effects: usize,
 }
 
-impl Design {
+impl CheckedDesign {
     /// The design of a case.
     pub fn of(case: &Case) -> Self {
         let rows = &case.task.rows;
-        let measured = case.sim.outputs.iter().zip(&case.observed);
+        let measured = case.model.outputs.iter().zip(&case.observed);
         let measured = measured.filter(|(_, observed)| observed.is_some());
         // the last ones are not conditions but what somebody else's simulation says
-        let own = case.sim.conditions.len().saturating_sub(case.simulated);
-        let conditions = case.sim.conditions.iter().take(own).enumerate();
+        let own = case.model.conditions.len().saturating_sub(case.simulated);
+        let conditions = case.model.conditions.iter().take(own).enumerate();
         let conditions = conditions.map(|(place, condition)| {
             let values = rows.iter().filter_map(|row| row.conditions.get(place));
             let ends = values.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], value| {
                 [a.min(*value), b.max(*value)]
             });
             let unit = condition.unit.text().to_owned();
-            (Named { name: condition.name.clone(), unit }, ends)
+            (NamedQuantity { name: condition.name.clone(), unit }, ends)
         });
         Self {
             title: case.task.title.clone(),

@@ -3,15 +3,15 @@
 use maud::html;
 
 use super::super::html::repeat;
-use super::design::Design;
+use super::design::CheckedDesign;
 use super::{confusion, matrix, reliability, sheets, words};
 use crate::Provenance;
 use crate::html::{Drawing, figure, page, table};
-use gumption_gap::check::Report;
+use gumption_gap::check::BlindCheckScores;
 
 /// The scores of a blind check as one HTML file with figures that needs nothing else: it loads
 /// nothing and runs nothing, reads in light and dark and prints on A4.
-pub fn html(design: &Design, report: &Report, provenance: &Provenance) -> String {
+pub fn html(design: &CheckedDesign, report: &BlindCheckScores, provenance: &Provenance) -> String {
     let mut number = 0;
     let mut drawn = |drawing: Drawing| {
         number += 1;

@@ -1,7 +1,7 @@
 //! What was true or said, as pages order and name it.
 
 use super::super::words::hypothesis;
-use gumption_gap::check::Checked;
+use gumption_gap::check::BlindDraw;
 
 /// A truth or a verdict; no gap comes first, what is unexplained last.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -20,7 +20,7 @@ pub(super) enum Label {
 
 impl Label {
     /// The truth of a draw.
-    pub(super) fn truth(checked: &Checked) -> Self {
+    pub(super) fn truth(checked: &BlindDraw) -> Self {
         if checked.withheld.is_some() {
             return Self::Unexplained;
         }
@@ -28,7 +28,7 @@ impl Label {
     }
 
     /// The verdict on a draw.
-    pub(super) fn said(checked: &Checked) -> Self {
+    pub(super) fn said(checked: &BlindDraw) -> Self {
         if checked.named.is_empty() && checked.said == "unexplained" {
             return Self::Unexplained;
         }

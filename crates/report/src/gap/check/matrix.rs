@@ -8,7 +8,7 @@ use super::confusion::Confused;
 use crate::plot::{
     Anchor, Area, Drawn, FONT, INK, SHADES, Write, centred, px, shortened, stroke, svg, write,
 };
-use gumption_gap::check::Report;
+use gumption_gap::check::BlindCheckScores;
 
 /// Space for the names on the left, the sums on the right and the numbers above, in pixels.
 const LEFT: f64 = 230.0;
@@ -24,7 +24,7 @@ const COLUMN: f64 = 48.0;
 const STEPS: [f64; 4] = [f64::MIN_POSITIVE, 0.1, 0.4, 0.8];
 
 /// Truths in rows, verdicts in columns; `None` without draws.
-pub(super) fn draw(report: &Report) -> Option<Drawing> {
+pub(super) fn draw(report: &BlindCheckScores) -> Option<Drawing> {
     let confused = Confused::new(report);
     let size = confused.labels.len();
     if size == 0 {

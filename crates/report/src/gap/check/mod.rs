@@ -10,6 +10,6 @@ mod sheets;
 mod table;
 mod words;
 
-pub use design::Design;
+pub use design::CheckedDesign;
 pub use html::html;
 pub use table::table;

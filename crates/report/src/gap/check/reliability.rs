@@ -7,7 +7,7 @@ use super::super::html::{Drawing, WIDTH};
 use crate::plot::{
     AFTER, Anchor, Axis, FONT, INK, Panel, Write, centred, faded, px, stroke, svg, write,
 };
-use gumption_gap::check::Report;
+use gumption_gap::check::BlindCheckScores;
 
 const HEIGHT: f64 = 400.0;
 
@@ -19,7 +19,7 @@ const END: f64 = 0.008;
 
 /// Shares of right verdicts against their probabilities, with the intervals of the binomial
 /// distribution and the diagonal.
-pub(super) fn draw(report: &Report) -> Drawing {
+pub(super) fn draw(report: &BlindCheckScores) -> Drawing {
     let axis = Axis::linear(-0.04, 1.04);
     let drawn = svg(WIDTH, HEIGHT, |area| {
         let square = area.margin(0, 0, px(SIDE), px(SIDE));

@@ -6,7 +6,7 @@ use super::confusion::Wrong;
 use crate::number::{MISSING, significant};
 use crate::plain;
 use crate::sheet::Sheet;
-use gumption_gap::check::{Report, SmallestEffect};
+use gumption_gap::check::{BlindCheckScores, SmallestEffect};
 
 /// So many kinds of wrong verdicts are listed at most.
 pub(super) const SHOWN: usize = 15;
@@ -28,7 +28,7 @@ struct Score {
 }
 
 /// All scores.
-pub(super) fn scores(report: &Report) -> Sheet {
+pub(super) fn scores(report: &BlindCheckScores) -> Sheet {
     let score = |name, value, count| Score { name, value, interval: None, count: Some(count) };
     let fractions = report.checked.iter().filter(|one| one.fractions.is_some()).count();
     let with_gap = report.draws - report.gap_free;
@@ -72,7 +72,7 @@ pub(super) fn scores(report: &Report) -> Sheet {
 }
 
 /// The reliability of probabilities.
-pub(super) fn reliability(report: &Report) -> Sheet {
+pub(super) fn reliability(report: &BlindCheckScores) -> Sheet {
     let bins = &report.reliability;
     let mut sheet = Sheet::default();
     sheet.numbers("mean\nprobability", bins.iter().map(|bin| share(bin.probability)));
@@ -98,7 +98,7 @@ pub(super) fn wrong(wrong: &[Wrong]) -> Option<Sheet> {
 }
 
 /// The smallest effects that are found; `None` where no effect has a parameter.
-pub(super) fn smallest(report: &Report) -> Option<Sheet> {
+pub(super) fn smallest(report: &BlindCheckScores) -> Option<Sheet> {
     let smallest = &report.smallest;
     if smallest.is_empty() {
         return None;

@@ -1,15 +1,15 @@
 //! The page of a blind check for a terminal.
 
 use super::super::table::section;
-use super::design::Design;
+use super::design::CheckedDesign;
 use super::{confusion, sheets, words};
 use crate::{Grid, WIDTH, wrapped};
-use gumption_gap::check::Report;
+use gumption_gap::check::BlindCheckScores;
 
 /// The scores of a blind check as a page of at most 100 columns: what was done, the scores, whether
 /// probabilities mean what they say, the most frequent wrong verdicts, and the smallest effects that
 /// are found.
-pub fn table(design: &Design, report: &Report) -> String {
+pub fn table(design: &CheckedDesign, report: &BlindCheckScores) -> String {
     let mut page = vec![heading(design, report)];
     page.push(section("What was done") + &wrapped(&words::done(design, report)));
     let scores = Grid::of(&sheets::scores(report)).render(WIDTH);
@@ -29,12 +29,12 @@ pub fn table(design: &Design, report: &Report) -> String {
 }
 
 /// Title, settings and how often the verdict was right.
-fn heading(design: &Design, report: &Report) -> String {
+fn heading(design: &CheckedDesign, report: &BlindCheckScores) -> String {
     let heading = wrapped(&words::title(design)) + &wrapped(&words::settings(report));
     heading + "\n" + &wrapped(&words::verdict(report))
 }
 
-fn wrong(report: &Report) -> String {
+fn wrong(report: &BlindCheckScores) -> String {
     let wrong = confusion::wrong(report);
     match sheets::wrong(&wrong) {
         Some(sheet) => {

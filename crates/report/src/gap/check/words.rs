@@ -3,14 +3,14 @@
 use super::super::digits::{condition, share};
 use super::super::words::in_unit;
 use super::confusion::Wrong;
-use super::design::Design;
+use super::design::CheckedDesign;
 use super::label::Label;
 use super::sheets;
 use crate::plain;
-use gumption_gap::check::Report;
+use gumption_gap::check::BlindCheckScores;
 
 /// The title of the page.
-pub(super) fn title(design: &Design) -> String {
+pub(super) fn title(design: &CheckedDesign) -> String {
     let title = plain(&design.title);
     if title.is_empty() {
         "Blind check of the diagnosis".to_owned()
@@ -20,12 +20,12 @@ pub(super) fn title(design: &Design) -> String {
 }
 
 /// The settings.
-pub(super) fn settings(report: &Report) -> String {
+pub(super) fn settings(report: &BlindCheckScores) -> String {
     format!("{} draws; intervals at 95 %; seed {}", report.draws, report.seed)
 }
 
 /// How often the verdict was right, and how often there was a false alarm.
-pub(super) fn verdict(report: &Report) -> String {
+pub(super) fn verdict(report: &BlindCheckScores) -> String {
     let right = report.checked.iter().filter(|one| one.right).count();
     let [low, high] = report.top1_interval.map(share);
     let mut said = format!(
@@ -49,7 +49,7 @@ pub(super) fn verdict(report: &Report) -> String {
 }
 
 /// What was done.
-pub(super) fn done(design: &Design, report: &Report) -> String {
+pub(super) fn done(design: &CheckedDesign, report: &BlindCheckScores) -> String {
     let mut drawn = [0usize; 4];
     for one in &report.checked {
         let place = match Label::truth(one) {
@@ -77,7 +77,7 @@ pub(super) fn done(design: &Design, report: &Report) -> String {
 }
 
 /// Over which conditions, if there are any.
-fn over(design: &Design) -> String {
+fn over(design: &CheckedDesign) -> String {
     let ranges = design.conditions.iter().map(|(named, [low, high])| {
         let name = plain(&named.name);
         if low == high {
@@ -103,7 +103,7 @@ pub(super) const SCORES: &str = "Brier score: sum of the squared errors of all h
      above zero promise too much.";
 
 /// Whether probabilities mean what they say.
-pub(super) fn reliability(report: &Report) -> String {
+pub(super) fn reliability(report: &BlindCheckScores) -> String {
     format!(
         "Of verdicts with the probability p a share p should be right. Their mean distance is {}; that \
          of a perfect diagnosis with as many draws and the same probabilities is {} (median), by \

@@ -20,10 +20,11 @@ const RIGHT: f64 = 60.0;
 /// A bar for each hypothesis that is shown by name, with its prior.
 pub(super) fn draw(diagnosis: &Diagnosis) -> Drawing {
     let shown = sheets::shown(diagnosis);
-    let verdict = &diagnosis.verdict;
+    let verdict = &diagnosis.most_probable;
     let colour = |hypothesis: &Hypothesis| {
         let first = sheets::winner(diagnosis).is_some_and(|w| w.effects == hypothesis.effects);
-        let alike = hypothesis.effects.as_ref().is_some_and(|own| verdict.group.contains(own));
+        let alike =
+            hypothesis.effects.as_ref().is_some_and(|own| verdict.indistinguishable.contains(own));
         match (first, alike) {
             (true, _) => AFTER.filled(),
             (false, true) => EVEN.filled(),
@@ -53,7 +54,7 @@ pub(super) fn draw(diagnosis: &Diagnosis) -> Drawing {
         "Posterior probability of each hypothesis (bar) and its prior (upright line). \
                        Strong blue: the verdict"
             .to_owned();
-    if verdict.group.len() > 1 {
+    if verdict.indistinguishable.len() > 1 {
         caption.push_str("; faint blue: what these data cannot tell from it");
     }
     caption.push_str("; grey: the others.");

@@ -8,7 +8,7 @@ use super::{Drawing, WIDTH};
 use crate::plot::{
     AFTER, Anchor, Axis, FONT, INK, STRIP_AXIS, Strip, WEAK, Write, centred, px, svg, write,
 };
-use gumption_gap::{Diagnosis, Named, Parameter};
+use gumption_gap::{Diagnosis, EffectParameter, NamedQuantity};
 
 /// Height of a row and of a parameter's name in pixels.
 const ROW: f64 = 24.0;
@@ -25,15 +25,15 @@ const COMPARED: usize = 6;
 
 /// A parameter of the verdict with what each hypothesis of the group says of it.
 struct Compared<'a> {
-    own: &'a Parameter,
-    lines: Vec<(String, &'a Parameter)>,
+    own: &'a EffectParameter,
+    lines: Vec<(String, &'a EffectParameter)>,
 }
 
 /// The interval and the estimate of every parameter; `None` where the verdict has none.
 pub(super) fn draw(diagnosis: &Diagnosis) -> Option<Drawing> {
     let winner = sheets::winner(diagnosis)?;
     let in_group = |effects: &Option<Vec<String>>| {
-        effects.as_ref().is_some_and(|own| diagnosis.verdict.group.contains(own))
+        effects.as_ref().is_some_and(|own| diagnosis.most_probable.indistinguishable.contains(own))
     };
     let others = diagnosis
         .hypotheses
@@ -60,7 +60,7 @@ pub(super) fn draw(diagnosis: &Diagnosis) -> Option<Drawing> {
                 one.lines.iter().flat_map(|(_, p)| [p.interval[0], p.interval[1], p.estimate]);
             let axis = spread(values);
             let strip = Strip { axis: &axis, from: LEFT, to: WIDTH - RIGHT };
-            let named = Named { name: one.own.name.clone(), unit: one.own.unit.clone() };
+            let named = NamedQuantity { name: one.own.name.clone(), unit: one.own.unit.clone() };
             let title = words::axis(&named);
             let how =
                 Write { anchor: Anchor::Start, bold: true, ..centred((4.0, top + 10.0), FONT) };

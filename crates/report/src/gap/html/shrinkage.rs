@@ -7,7 +7,7 @@ use super::super::{digits, words};
 use super::{Drawing, WIDTH};
 use crate::plain;
 use crate::plot::{AFTER, Axis, BEFORE, INK, STRIP_AXIS, Strip, line, px, stroke, svg};
-use gumption_gap::{Diagnosis, Named, Shrunk};
+use gumption_gap::{Diagnosis, NamedQuantity, Shrunk};
 
 const ROW: f64 = 30.0;
 const LEFT: f64 = 150.0;
@@ -26,7 +26,7 @@ pub(super) fn draw(diagnosis: &Diagnosis) -> Option<Drawing> {
         Some(shrinkage.rms_after_interval),
     );
     let each = diagnosis.outputs.iter().zip(&shrinkage.outputs).map(
-        |(named, shrunk): (&Named, &Shrunk)| {
+        |(named, shrunk): (&NamedQuantity, &Shrunk)| {
             (plain(&named.name), words::unit(&named.unit).unwrap_or_default(), *shrunk, None)
         },
     );

@@ -12,7 +12,7 @@ use crate::plain;
 use crate::plot::{
     Anchor, Area, Drawn, FONT, INK, SHADES, Write, centred, line, px, shortened, stroke, svg, write,
 };
-use gumption_gap::{Diagnosis, Region};
+use gumption_gap::{Diagnosis, GapRegion};
 
 /// Heights in pixels: of a region's bracket, of an output, of what stands below a panel.
 const BRACKET: f64 = 24.0;
@@ -35,7 +35,7 @@ struct Panel<'a> {
     /// Places of the first level of each cell, and the number of levels.
     edges: Vec<usize>,
     /// Regions in this condition, with their letters.
-    regions: Vec<(String, &'a Region)>,
+    regions: Vec<(String, &'a GapRegion)>,
     condition: usize,
 }
 
@@ -45,13 +45,13 @@ impl<'a> Panel<'a> {
         let size = levels.len().div_ceil(MOST).max(1);
         let mut edges: Vec<usize> = (0..levels.len()).step_by(size).collect();
         edges.push(levels.len());
-        let own = |region: &Region| match region.range {
+        let own = |region: &GapRegion| match region.range {
             Some((place, _)) => place == condition,
             // what is about no condition stands in the first panel
             None => first,
         };
         let regions = diagnosis.regions.iter().enumerate();
-        let regions: Vec<(String, &Region)> = regions
+        let regions: Vec<(String, &GapRegion)> = regions
             .filter(|(_, region)| own(region))
             .map(|(place, region)| (words::letter(place), region))
             .collect();
@@ -79,7 +79,7 @@ impl<'a> Panel<'a> {
     }
 
     /// Where a region begins and ends.
-    fn span(&self, region: &Region) -> [f64; 2] {
+    fn span(&self, region: &GapRegion) -> [f64; 2] {
         places(&self.levels, region).map(|place| self.x(place))
     }
 
@@ -97,7 +97,7 @@ impl<'a> Panel<'a> {
 }
 
 /// The places of a region's first level and of the level after its last.
-fn places(levels: &[f64], region: &Region) -> [usize; 2] {
+fn places(levels: &[f64], region: &GapRegion) -> [usize; 2] {
     let [low, high] = region.range.map_or([f64::NEG_INFINITY, f64::INFINITY], |(_, r)| r);
     let first = levels.partition_point(|level| *level < low);
     [first, levels.partition_point(|level| *level <= high).max(first + 1)]

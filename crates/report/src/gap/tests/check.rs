@@ -3,14 +3,14 @@
 use roxmltree::Node;
 use serde_json::Value;
 
-use super::super::check::{Design, html, table};
+use super::super::check::{CheckedDesign, html, table};
 use super::super::check_json;
 use super::html::{SVG, assert_inside, parsed, text, with_body};
 use super::{assert_rounded, named, provenance, strings};
-use gumption_gap::check::{Checked, Confusion, Reliability, Report, SmallestEffect};
+use gumption_gap::check::{BlindCheckScores, BlindDraw, Confusion, Reliability, SmallestEffect};
 
-fn design() -> Design {
-    Design {
+fn design() -> CheckedDesign {
+    CheckedDesign {
         title: "A rotating table".to_owned(),
         rows: 40,
         outputs: strings(&["a_t", "a_r"]),
@@ -24,14 +24,14 @@ fn design() -> Design {
 }
 
 /// A draw; an effect `*` was withheld, and the verdict `?` is "unexplained".
-fn draw(effects: &[&str], named: &[&str], probability: f64, right: bool) -> Checked {
+fn draw(effects: &[&str], named: &[&str], probability: f64, right: bool) -> BlindDraw {
     let label = |names: &[&str]| match names {
         [] => "none".to_owned(),
         ["?" | "*"] => "unexplained".to_owned(),
         names => names.join("+"),
     };
     let withheld = effects == ["*"];
-    Checked {
+    BlindDraw {
         truth: label(effects),
         withheld: withheld.then(|| "radius-offset".to_owned()),
         said: label(named),
@@ -50,13 +50,13 @@ fn draw(effects: &[&str], named: &[&str], probability: f64, right: bool) -> Chec
 }
 
 /// Scores of draws, with other figures that are made up.
-fn scores(checked: Vec<Checked>) -> Report {
+fn scores(checked: Vec<BlindDraw>) -> BlindCheckScores {
     let mut confusion: Vec<Confusion> = Vec::new();
     for one in &checked {
         match confusion.iter_mut().find(|c| c.truth == one.truth && c.said == one.said) {
             Some(known) => known.count += 1,
             None => {
-                let Checked { truth, said, .. } = one.clone();
+                let BlindDraw { truth, said, .. } = one.clone();
                 confusion.push(Confusion { truth, said, count: 1 });
             }
         }
@@ -70,7 +70,7 @@ fn scores(checked: Vec<Checked>) -> Report {
         gap_at_90_percent: gap,
     };
     let right = checked.iter().filter(|one| one.right).count();
-    Report {
+    BlindCheckScores {
         draws: checked.len(),
         seed: 77,
         top1: right as f64 / checked.len() as f64,
@@ -101,9 +101,9 @@ fn scores(checked: Vec<Checked>) -> Report {
 }
 
 /// Right and wrong verdicts of all kinds.
-fn report() -> Report {
+fn report() -> BlindCheckScores {
     let mut checked = Vec::new();
-    let mut add = |count: usize, one: Checked| (0..count).for_each(|_| checked.push(one.clone()));
+    let mut add = |count: usize, one: BlindDraw| (0..count).for_each(|_| checked.push(one.clone()));
     add(5, draw(&[], &[], 0.95, true));
     add(1, draw(&[], &["gain"], 0.55, false));
     add(7, draw(&["gain"], &["gain"], 0.99, true));
@@ -117,7 +117,7 @@ fn report() -> Report {
 }
 
 /// More labels than a figure has room for.
-fn crowded() -> Report {
+fn crowded() -> BlindCheckScores {
     let pair = |number: usize, other: usize| {
         [format!("effect-{number:02}"), format!("effect-{:02}", number + other)]
     };
@@ -132,7 +132,7 @@ fn crowded() -> Report {
 }
 
 /// Names that are long and hostile.
-fn hostile() -> (Design, Report) {
+fn hostile() -> (CheckedDesign, BlindCheckScores) {
     let name = |text: &str| {
         format!(
             "{text}<script>alert('&amp;')</script>\"\u{1b}[31m\u{202e}{}",
@@ -156,8 +156,8 @@ fn hostile() -> (Design, Report) {
 }
 
 /// One draw that tells nothing.
-fn bare() -> (Design, Report) {
-    let design = Design {
+fn bare() -> (CheckedDesign, BlindCheckScores) {
+    let design = CheckedDesign {
         title: String::new(),
         rows: 1,
         outputs: strings(&["y"]),
@@ -171,7 +171,7 @@ fn bare() -> (Design, Report) {
     (design, report)
 }
 
-fn page(design: &Design, report: &Report) -> String {
+fn page(design: &CheckedDesign, report: &BlindCheckScores) -> String {
     let page = table(design, report);
     let widest = page.lines().map(|line| line.chars().count()).max().unwrap_or(0);
     assert!(widest <= 100, "{widest} columns:\n{page}");
@@ -181,13 +181,13 @@ fn page(design: &Design, report: &Report) -> String {
     page
 }
 
-fn json(report: &Report) -> Value {
+fn json(report: &BlindCheckScores) -> Value {
     serde_json::from_str(&check_json("", report)).unwrap()
 }
 
 /// Compares the cells of the tables with the JSON; `cells` gives the numbers of the line that begins
 /// with a text, without what is missing.
-fn assert_agreement(report: &Report, cells: &dyn Fn(&str) -> Vec<String>) {
+fn assert_agreement(report: &BlindCheckScores, cells: &dyn Fn(&str) -> Vec<String>) {
     let answer = json(report);
     let check = |line: &str, exact: &[&Value]| {
         let cells = cells(line);
@@ -234,7 +234,7 @@ fn assert_agreement(report: &Report, cells: &dyn Fn(&str) -> Vec<String>) {
 }
 
 /// Compares the wrong verdicts, in the order of their frequency, with the JSON's.
-fn assert_wrong(report: &Report, lines: &[Vec<String>]) {
+fn assert_wrong(report: &BlindCheckScores, lines: &[Vec<String>]) {
     let answer = json(report);
     let printed: Vec<Vec<&str>> =
         lines.iter().map(|line| line.iter().map(String::as_str).collect()).collect();

@@ -9,20 +9,21 @@ use serde_json::Value;
 
 use crate::Provenance;
 use gumption_gap::{
-    Diagnosis, Gap, Hypothesis, Kind, Named, NextMeasurement, Noise, Note, Parameter, Predicted,
-    Region, RowGap, Shrinkage, Shrunk, ValueGap, Verdict,
+    Diagnosis, DiagnosisNote, EffectParameter, GapRegion, GapTest, Hypothesis, HypothesisKind,
+    MostProbable, NamedQuantity, NextMeasurement, NoiseEstimate, Predicted, RowGap, Shrinkage,
+    Shrunk, ValueGap,
 };
 
-fn named(name: &str, unit: &str) -> Named {
-    Named { name: name.to_owned(), unit: unit.to_owned() }
+fn named(name: &str, unit: &str) -> NamedQuantity {
+    NamedQuantity { name: name.to_owned(), unit: unit.to_owned() }
 }
 
 fn strings(names: &[&str]) -> Vec<String> {
     names.iter().map(|name| (*name).to_owned()).collect()
 }
 
-fn parameter(name: &str, unit: &str, [estimate, u, low, high]: [f64; 4]) -> Parameter {
-    Parameter {
+fn parameter(name: &str, unit: &str, [estimate, u, low, high]: [f64; 4]) -> EffectParameter {
+    EffectParameter {
         name: name.to_owned(),
         unit: unit.to_owned(),
         estimate,
@@ -34,17 +35,17 @@ fn parameter(name: &str, unit: &str, [estimate, u, low, high]: [f64; 4]) -> Para
 fn hypothesis(
     effects: Option<&[&str]>,
     figures: [f64; 5],
-    parameters: Vec<Parameter>,
+    parameters: Vec<EffectParameter>,
 ) -> Hypothesis {
-    let [prior, probability, log_evidence, error, effective] = figures;
+    let [prior, probability, log_evidence, standard_error, effective_sample_size] = figures;
     let effects = effects.map(strings);
     Hypothesis {
         effects,
         prior,
         probability,
         log_evidence,
-        error,
-        effective,
+        standard_error,
+        effective_sample_size,
         best_log_likelihood: 0.0,
         fitted: parameters.len(),
         parameters,
@@ -86,16 +87,16 @@ fn diagnosis() -> Diagnosis {
         title: "Two outputs of a bench".to_owned(),
         outputs: vec![named("a_x", "m/s^2"), named("ratio", "")],
         conditions: vec![named("f", "Hz"), named("tilt", "deg")],
-        gap: Gap { present: true, p_value: Some(8.836_58e-47), chi2: 346.237_98, dof: 40.0 },
+        gap: GapTest { present: true, p_value: Some(8.836_58e-47), chi2: 346.237_98, dof: 40.0 },
         regions: vec![
-            Region {
+            GapRegion {
                 output: Some(0),
                 range: Some((0, [64.0, 256.0])),
                 p_value: 5.413_141e-49,
                 share_of_gap: 0.984_827,
                 mean_z: 4.022_039,
             },
-            Region {
+            GapRegion {
                 output: None,
                 range: None,
                 p_value: 0.0123,
@@ -103,12 +104,12 @@ fn diagnosis() -> Diagnosis {
                 mean_z: -0.567,
             },
         ],
-        verdict: Verdict {
-            kind: Kind::Explained,
+        most_probable: MostProbable {
+            kind: HypothesisKind::Explained,
             effects: strings(&["low-pass"]),
             probability: 0.877_777_86,
-            group: vec![strings(&["low-pass"]), strings(&["low-pass", "delay"])],
-            group_probability: 0.987_777_86,
+            indistinguishable: vec![strings(&["low-pass"]), strings(&["low-pass", "delay"])],
+            indistinguishable_probability: 0.987_777_86,
         },
         hypotheses: vec![
             hypothesis(
@@ -152,8 +153,11 @@ fn diagnosis() -> Diagnosis {
             Predicted { conditions: vec![400.0, 35.0], outputs: vec![(1561.2, 13.4), (1.1, 0.12)] },
         ]),
         rows: rows(20),
-        noise: vec![Noise { output: 1, standard_uncertainty: 0.051_234, power: 0.25 }],
-        notes: vec![Note { code: "few-conditions", text: "There are only few conditions.".into() }],
+        noise: vec![NoiseEstimate { output: 1, standard_uncertainty: 0.051_234, power: 0.25 }],
+        notes: vec![DiagnosisNote {
+            code: "few-conditions",
+            text: "There are only few conditions.".into(),
+        }],
         probability: 0.95,
         seed: 1,
     }
@@ -170,7 +174,7 @@ fn hostile() -> Diagnosis {
     };
     hostile.title = name("title");
     for named in hostile.outputs.iter_mut().chain(&mut hostile.conditions) {
-        *named = Named { name: name(&named.name).replace(' ', "_"), unit: name("unit") };
+        *named = NamedQuantity { name: name(&named.name).replace(' ', "_"), unit: name("unit") };
     }
     for hypothesis in &mut hostile.hypotheses {
         for effect in hypothesis.effects.iter_mut().flatten() {
@@ -181,8 +185,8 @@ fn hostile() -> Diagnosis {
             parameter.unit = name("unit");
         }
     }
-    let groups = hostile.verdict.group.iter_mut().flatten();
-    for effect in groups.chain(&mut hostile.verdict.effects) {
+    let groups = hostile.most_probable.indistinguishable.iter_mut().flatten();
+    for effect in groups.chain(&mut hostile.most_probable.effects) {
         *effect = name(effect);
     }
     if let Some(next) = &mut hostile.next {
@@ -198,13 +202,13 @@ fn bare() -> Diagnosis {
     bare.title = String::new();
     bare.conditions.clear();
     bare.regions.clear();
-    bare.gap = Gap { present: false, p_value: None, chi2: f64::NAN, dof: 0.0 };
-    bare.verdict = Verdict {
-        kind: Kind::None,
+    bare.gap = GapTest { present: false, p_value: None, chi2: f64::NAN, dof: 0.0 };
+    bare.most_probable = MostProbable {
+        kind: HypothesisKind::None,
         effects: Vec::new(),
         probability: 1.0,
-        group: vec![Vec::new()],
-        group_probability: 1.0,
+        indistinguishable: vec![Vec::new()],
+        indistinguishable_probability: 1.0,
     };
     bare.hypotheses =
         vec![hypothesis(Some(&[]), [1.0, 1.0, f64::NEG_INFINITY, f64::INFINITY, 0.0], vec![])];
@@ -230,12 +234,12 @@ fn bare() -> Diagnosis {
 /// The verdict "unexplained".
 fn unexplained() -> Diagnosis {
     let mut unexplained = diagnosis();
-    unexplained.verdict = Verdict {
-        kind: Kind::Unexplained,
+    unexplained.most_probable = MostProbable {
+        kind: HypothesisKind::Unexplained,
         effects: Vec::new(),
         probability: 0.99,
-        group: Vec::new(),
-        group_probability: 0.99,
+        indistinguishable: Vec::new(),
+        indistinguishable_probability: 0.99,
     };
     unexplained.next = None;
     unexplained

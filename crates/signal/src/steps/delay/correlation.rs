@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use crate::noise::density;
-use crate::periodic::{Harmonics, Part, Periodic};
+use crate::periodic::{Harmonic, Harmonics, Periodic};
 use crate::rms::together;
 use crate::unsuitable::within;
 use crate::{Measured, Phasor, Signal, Unsuitable, phasor, transform};
@@ -118,7 +118,7 @@ fn periodic(
     let x = Periodic::fit(reference, harmonics)?;
     let y = Periodic::fit(channel, harmonics)?;
     let turned =
-        |part: &Part| (part.frequency, part.phasor * phasor::at_turns(-part.frequency * late));
+        |part: &Harmonic| (part.frequency, part.phasor * phasor::at_turns(-part.frequency * late));
     let terms: Vec<(f64, Phasor)> = x
         .parts
         .iter()
@@ -143,7 +143,7 @@ fn periodic(
         .iter()
         .zip(&y.parts)
         .map(|(x, y)| {
-            let of = |part: &Part, other: &Part| {
+            let of = |part: &Harmonic, other: &Harmonic| {
                 let u = part.phase().standard_uncertainty;
                 let pull = TAU
                     * part.frequency

@@ -11,6 +11,6 @@ mod cross_spectrum;
 #[cfg(test)]
 mod tests;
 
-pub use agreement::{Agreement, agreement};
+pub use agreement::{DelayAgreement, agreement};
 pub use correlation::{CrossCorrelation, Delay};
 pub use cross_spectrum::{CrossPhase, CrossSpectrum};

@@ -3,7 +3,7 @@
 use serde_json::Value;
 
 /// What stands at a path of the answer: `gum.interval[0]` is the lower end of the GUM interval.
-pub(super) fn of(path: &str, answer: &Value) -> String {
+pub fn words(path: &str, answer: &Value) -> String {
     if let Some(pair) = correlated(path, answer) {
         return format!("correlation of {} and {}", pair[0], pair[1]);
     }
@@ -39,7 +39,7 @@ mod tests {
     #[test]
     fn figures() {
         let answer = serde_json::json!({"output_correlations": [["r", "x", 0.5]]});
-        let words = |path| of(path, &answer);
+        let words = |path| words(path, &answer);
         assert_eq!(words("gum.interval[0]"), "GUM interval, from");
         assert_eq!(words("gum.dof"), "GUM degrees of freedom");
         assert_eq!(

@@ -1,6 +1,6 @@
-//! Ridges of a posterior: where a parameter is hardly known, the others follow it along a curve that
-//! a mixture about the mode leaves. The curve is found by holding the parameter at values over all of
-//! its prior and maximizing over everything else.
+//! Profile paths of a posterior: where a parameter is hardly known, the others follow it along a curve
+//! that a mixture about the mode leaves. The curve is found by holding the parameter at values over all
+//! of its prior and maximizing over everything else, as for a profile likelihood.
 
 use nalgebra::DMatrix;
 
@@ -8,6 +8,7 @@ use super::latent::EDGE;
 use super::likelihood::Likelihood;
 use super::mixture::Mixture;
 use super::search::{self, Mode};
+use gumption_engine::number::elementary;
 
 /// Values of a parameter over its prior.
 const VALUES: usize = 16;
@@ -156,6 +157,6 @@ fn component(
     let flat: f64 =
         best.scores.iter().zip(bounded).filter(|(_, b)| **b).map(|(s, _)| 0.5 * s * s).sum();
     let half_ln_det: f64 =
-        scale.clone().cholesky()?.l().diagonal().iter().map(|root| root.ln()).sum();
+        scale.clone().cholesky()?.l().diagonal().iter().copied().map(elementary::ln).sum();
     Some((-0.7 * (best.cost - flat) + half_ln_det, best.scores.clone(), scale))
 }

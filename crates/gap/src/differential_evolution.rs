@@ -1,23 +1,28 @@
-//! Walkers that roam a posterior: they find the ends of its ridges, where a mixture about its modes
-//! would hardly ever draw.
+//! Differential-evolution Markov chains (DE-MC; ter Braak 2006, Statistics and Computing 16, 239).
 //!
-//! Differential evolution Markov chains (ter Braak 2006, Statistics and Computing 16, 239): a walker
-//! moves by the difference of two others, so that steps follow whatever shape the walkers have.
+//! A posterior with a long narrow ridge is found by a mixture about its mode only where the mixture
+//! draws. Chains that run side by side reach the ends of it: each moves by the difference of two
+//! others, so that steps follow whatever shape the population has, without tuning. What they visit is
+//! not used as a sample but to fit another component of the proposal.
 
 use super::latent::ln_prior;
 use super::likelihood::Likelihood;
 use super::mixture::standard_normals;
 use gumption_engine::distribution::StreamKey;
-use gumption_engine::number::{COLUMN, Column};
+use gumption_engine::number::{COLUMN, Column, elementary};
 
 /// Every so many generations steps are whole differences, which leap from mode to mode.
 const LEAP: usize = 8;
 
+/// The chains' first block of a hypothesis' random numbers: the draws of its integral begin with
+/// block 0, and those of the prior end with the last.
+const FIRST_BLOCK: u64 = 1 << 32;
+
 /// Generations between those that are handed back.
 const THIN: usize = 4;
 
-/// Walks a column of walkers for some generations; gives their places in the second half.
-pub(crate) fn roam(
+/// Walks a column of chains for some generations; gives their places in the second half.
+pub(crate) fn sample(
     likelihood: &Likelihood<'_>,
     start: Vec<Column>,
     generations: usize,
@@ -40,7 +45,7 @@ pub(crate) fn roam(
     let usual = 2.38 / (2.0 * unknowns.max(1) as f64).sqrt();
     let mut jitter = Column::ZERO;
     for generation in 0..generations {
-        let mut stream = key.block(generation as u64);
+        let mut stream = key.block(FIRST_BLOCK + generation as u64);
         let mut choices = [0.0; 4 * COLUMN];
         stream.uniform(&mut choices);
         let mut there = here.clone();
@@ -50,14 +55,15 @@ pub(crate) fn roam(
             for lane in 0..COLUMN {
                 let place = |share: f64| ((share * COLUMN as f64) as usize).min(COLUMN - 1);
                 let (a, b) = (place(choices[lane]), place(choices[COLUMN + lane]));
-                // the length varies, so that no step is of the walkers' own spacing only
+                // the length varies, so that no step is of the chains' own spacing only
                 let length = if leap { 1.0 } else { usual * (0.4 + choices[2 * COLUMN + lane]) };
                 out.0[lane] += length * (column.0[a] - column.0[b]) + 1e-4 * jitter.0[lane];
             }
         }
         let ln_there = density(&there);
         for lane in 0..COLUMN {
-            let accepted = choices[3 * COLUMN + lane].ln() < ln_there[lane] - ln_here[lane];
+            let accepted =
+                elementary::ln(choices[3 * COLUMN + lane]) < ln_there[lane] - ln_here[lane];
             if accepted {
                 ln_here[lane] = ln_there[lane];
                 for (here, there) in here.iter_mut().zip(&there) {

@@ -1,19 +1,20 @@
-//! A model whose named quantities effects can override: the sim of the gap diagnosis.
+//! A model whose named quantities effects can override: the model of the gap diagnosis.
 
 use std::cell::RefCell;
 use std::collections::HashMap;
+use std::error::Error;
+use std::fmt;
 
-use gumption_engine::model::formula::{Formula, Scope, Typing};
+use gumption_engine::model::formula::{Formula, FormulaError, Scope, Typing};
 use gumption_engine::model::typed::Typed;
 use gumption_engine::model::{
     InputQuantity, Model, Output, Program, Quantity, Recorder, Traced, in_si, in_unit,
     recorded_values, variables,
 };
-use gumption_engine::number::Number;
 
-/// What computes the outputs of a sim.
+/// What computes the outputs of a model.
 #[derive(Clone, Debug)]
-pub enum Maker {
+pub enum ModelForm {
     /// A typed model.
     Typed(Typed),
     /// Formulas in their order, each with the name of its quantity.
@@ -22,7 +23,7 @@ pub enum Maker {
 
 /// A model that can be recorded anew with some of its quantities overridden.
 #[derive(Clone, Debug)]
-pub struct Sim {
+pub struct OverridableModel {
     /// The input quantities.
     pub inputs: Vec<InputQuantity>,
     /// The conditions of the measurement.
@@ -30,17 +31,17 @@ pub struct Sim {
     /// The output quantities.
     pub outputs: Vec<Output>,
     /// What computes them.
-    pub maker: Maker,
+    pub maker: ModelForm,
     /// What is known of every name.
     pub scope: Scope,
 }
 
-/// An effect that the sim leaves out: quantities of the sim that it changes, and its parameters.
+/// An effect that the model leaves out: quantities of the model that it changes, and its parameters.
 #[derive(Clone, Debug)]
 pub struct Effect {
     /// Its name.
     pub name: String,
-    /// Its parameters; each hides a quantity of the sim of the same name.
+    /// Its parameters; each hides a quantity of the model of the same name.
     pub parameters: Vec<Quantity>,
     /// Names of quantities and what they become. In a formula its own quantity's name means the
     /// value without this override; every other name is the quantity with all overrides, but in the
@@ -48,23 +49,52 @@ pub struct Effect {
     pub overrides: Vec<(String, Formula)>,
 }
 
-/// Overrides that need each other's results.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Circular {
-    /// The quantities, in the order in which they need each other; the last needs the first.
-    pub names: Vec<String>,
+/// Why a model cannot be recorded with the overrides of effects.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum OverrideError {
+    /// Quantities that need each other's results, in the order in which they do; the last needs the
+    /// first.
+    Circular {
+        /// The quantities.
+        names: Vec<String>,
+    },
+    /// Nothing computes a quantity that is used.
+    Undefined {
+        /// The quantity.
+        name: String,
+    },
+    /// A formula has a mistake, which checking it tells as well.
+    Formula(FormulaError),
 }
 
-impl Sim {
+impl fmt::Display for OverrideError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Circular { names } => {
+                let circle = names.iter().chain(names.first()).map(|name| format!("`{name}`"));
+                f.write_str(&circle.collect::<Vec<_>>().join(" needs "))
+            }
+            Self::Undefined { name } => write!(f, "nothing computes `{name}`"),
+            Self::Formula(error) => error.fmt(f),
+        }
+    }
+}
+
+impl Error for OverrideError {}
+
+impl OverridableModel {
     /// The model without any effect.
-    pub fn model(&self) -> Model {
-        let program = self.program(&[]).unwrap_or_default();
-        Model {
+    ///
+    /// # Errors
+    /// As [`OverridableModel::program`].
+    pub fn model(&self) -> Result<Model, OverrideError> {
+        Ok(Model {
+            program: self.program(&[])?,
             inputs: self.inputs.clone(),
             conditions: self.conditions.clone(),
             outputs: self.outputs.clone(),
-            program,
-        }
+        })
     }
 
     /// Whether a name is that of an output.
@@ -76,7 +106,7 @@ impl Sim {
     pub fn overridable(&self) -> Vec<&str> {
         let mut names: Vec<&str> =
             self.inputs.iter().map(|input| input.quantity.name.as_str()).collect();
-        if let Maker::Equations(equations) = &self.maker {
+        if let ModelForm::Equations(equations) = &self.maker {
             names.extend(equations.iter().map(|(name, _)| name.as_str()));
         }
         for output in &self.outputs {
@@ -92,8 +122,8 @@ impl Sim {
     /// its results are the outputs in their own units.
     ///
     /// # Errors
-    /// Overrides that need each other's results.
-    pub fn program(&self, effects: &[&Effect]) -> Result<Program, Circular> {
+    /// Overrides that need each other's results, names that nothing computes, wrong formulas.
+    pub fn program(&self, effects: &[&Effect]) -> Result<Program, OverrideError> {
         let recorder = Recorder::default();
         let first = variables(&self.inputs, &self.conditions);
         let mut next = first;
@@ -130,7 +160,7 @@ impl Sim {
 
 /// One recording: quantities are computed when they are asked for.
 struct Making<'s, 'r> {
-    sim: &'s Sim,
+    sim: &'s OverridableModel,
     effects: &'s [&'s Effect],
     parameters: Vec<HashMap<&'s str, Traced<'r>>>,
     given: HashMap<String, Traced<'r>>,
@@ -141,7 +171,7 @@ struct Making<'s, 'r> {
 
 impl<'r> Making<'_, 'r> {
     /// The outputs with all effects, in SI units.
-    fn outputs(&self) -> Result<Vec<Traced<'r>>, Circular> {
+    fn outputs(&self) -> Result<Vec<Traced<'r>>, OverrideError> {
         let mut current: HashMap<&str, Traced<'r>> = HashMap::new();
         for output in &self.sim.outputs {
             let name = output.quantity.name.as_str();
@@ -160,23 +190,23 @@ impl<'r> Making<'_, 'r> {
                 current.insert(name, value);
             }
         }
-        let undefined = || Traced::constant(f64::NAN);
-        let values = self.sim.outputs.iter().map(|output| {
-            current.get(output.quantity.name.as_str()).copied().unwrap_or_else(undefined)
-        });
-        Ok(values.collect())
+        let named = |output: &Output| {
+            let name = output.quantity.name.as_str();
+            current.get(name).copied().ok_or_else(|| undefined(name))
+        };
+        self.sim.outputs.iter().map(named).collect()
     }
 
-    /// A quantity as the formulas after it see it: with all overrides, but an output as the sim
+    /// A quantity as the formulas after it see it: with all overrides, but an output as the model
     /// computes it, since overrides of outputs act last.
-    fn quantity(&self, name: &str) -> Result<Traced<'r>, Circular> {
+    fn quantity(&self, name: &str) -> Result<Traced<'r>, OverrideError> {
         if let Some(&value) = self.made.borrow().get(name) {
             return Ok(value);
         }
         let begun = self.open.borrow().iter().position(|open| open == name);
         if let Some(begun) = begun {
             let names = self.open.borrow().iter().skip(begun).cloned().collect();
-            return Err(Circular { names });
+            return Err(OverrideError::Circular { names });
         }
         self.open.borrow_mut().push(name.to_owned());
         let mut value = self.computed(name)?;
@@ -202,18 +232,18 @@ impl<'r> Making<'_, 'r> {
     }
 
     /// A quantity from what it is computed of, before its own overrides.
-    fn computed(&self, name: &str) -> Result<Traced<'r>, Circular> {
+    fn computed(&self, name: &str) -> Result<Traced<'r>, OverrideError> {
         if let Some(&value) = self.given.get(name) {
             return Ok(value);
         }
         match &self.sim.maker {
-            Maker::Equations(equations) => {
+            ModelForm::Equations(equations) => {
                 let Some((_, formula)) = equations.iter().find(|(of, _)| of == name) else {
-                    return Ok(Traced::constant(f64::NAN));
+                    return Err(undefined(name));
                 };
                 self.record(formula, &self.sim.scope, |used| self.quantity(used))
             }
-            Maker::Typed(typed) => {
+            ModelForm::Typed(typed) => {
                 let place = typed.output(name).map(|(place, _)| place);
                 if self.typed.borrow().is_none() {
                     let mut values = HashMap::new();
@@ -227,7 +257,7 @@ impl<'r> Making<'_, 'r> {
                 }
                 let outputs = self.typed.borrow();
                 let output = place.and_then(|place| outputs.as_ref()?.get(place).copied());
-                Ok(output.unwrap_or_else(|| Traced::constant(f64::NAN)))
+                output.ok_or_else(|| undefined(name))
             }
         }
     }
@@ -237,8 +267,8 @@ impl<'r> Making<'_, 'r> {
         &self,
         formula: &Formula,
         effect: &Effect,
-        value: impl Fn(&str) -> Result<Traced<'r>, Circular>,
-    ) -> Result<Traced<'r>, Circular> {
+        value: impl Fn(&str) -> Result<Traced<'r>, OverrideError>,
+    ) -> Result<Traced<'r>, OverrideError> {
         self.record(formula, &effect.scope(&self.sim.scope), value)
     }
 
@@ -246,22 +276,24 @@ impl<'r> Making<'_, 'r> {
         &self,
         formula: &Formula,
         scope: &Scope,
-        value: impl Fn(&str) -> Result<Traced<'r>, Circular>,
-    ) -> Result<Traced<'r>, Circular> {
+        value: impl Fn(&str) -> Result<Traced<'r>, OverrideError>,
+    ) -> Result<Traced<'r>, OverrideError> {
         let mut values = HashMap::new();
         for (used, _) in formula.names() {
             if !values.contains_key(used) {
                 values.insert(used.to_owned(), value(used)?);
             }
         }
-        // a formula that was checked records without an error
-        let recorded = formula.record(scope, &values);
-        Ok(recorded.unwrap_or_else(|_| Traced::constant(f64::NAN)))
+        formula.record(scope, &values).map_err(OverrideError::Formula)
     }
 }
 
+fn undefined(name: &str) -> OverrideError {
+    OverrideError::Undefined { name: name.to_owned() }
+}
+
 impl Effect {
-    /// What its formulas know: the sim's names, its parameters in place of those of the same name.
+    /// What its formulas know: the model's names, its parameters in place of those of the same name.
     pub fn scope(&self, sim: &Scope) -> Scope {
         let mut scope = sim.clone();
         for parameter in &self.parameters {

@@ -1,13 +1,13 @@
 //! Two compared files in the formats of the answer.
 
 use serde::Serialize;
-use serde::ser::{SerializeMap, Serializer};
 
+use crate::answer::{in_order, pretty};
+use crate::number::{MISSING, exact, position, rounded, significant, to, with_uncertainty};
+use crate::{Grid, WIDTH, wrapped};
 use gumption_analysis::diff::{
     ChangeCause, ChangePart, Difference, InputState, OutputDifference, RowDifference,
 };
-use gumption_report::number::{MISSING, exact, place, rounded, significant, to, with_uncertainty};
-use gumption_report::{Grid, WIDTH, wrapped};
 
 /// Significant digits of uncertainties.
 const DIGITS: u32 = 2;
@@ -22,17 +22,26 @@ struct Answer<'a> {
     results: Results<'a>,
 }
 
+type Outputs<'a> = Vec<(&'a str, Output<'a>)>;
+
 #[derive(Serialize)]
 #[serde(untagged)]
 enum Results<'a> {
-    Single { outputs: Map<&'a str, Output<'a>> },
-    Swept { rows: Vec<Row<'a>> },
+    Single {
+        #[serde(serialize_with = "in_order")]
+        outputs: Outputs<'a>,
+    },
+    Swept {
+        rows: Vec<Row<'a>>,
+    },
 }
 
 #[derive(Serialize)]
 struct Row<'a> {
-    conditions: Map<&'a str, f64>,
-    outputs: Map<&'a str, Output<'a>>,
+    #[serde(serialize_with = "in_order")]
+    conditions: Vec<(&'a str, f64)>,
+    #[serde(serialize_with = "in_order")]
+    outputs: Outputs<'a>,
 }
 
 #[derive(Serialize)]
@@ -99,48 +108,34 @@ impl<'a> Line<'a> {
     }
 }
 
-fn outputs(row: &RowDifference) -> Map<&str, Output<'_>> {
+fn outputs(row: &RowDifference) -> Outputs<'_> {
     let outputs = row.outputs.iter().map(|output| {
         let inputs = output.parts.iter().map(Line::of).collect();
         let (unit, expanded) = (output.unit.as_str(), output.expanded);
         (output.name.as_str(), Output { unit, expanded, inputs })
     });
-    Map(outputs.collect())
+    outputs.collect()
 }
 
 /// The answer for programs.
-pub(super) fn json([a, b]: [&str; 2], difference: &Difference) -> String {
+pub fn json([a, b]: [&str; 2], difference: &Difference) -> String {
     let results = match difference.rows.as_slice() {
         [row] if !difference.swept => Results::Single { outputs: outputs(row) },
         rows => {
             let rows = rows.iter().map(|row| {
                 let conditions = row.conditions.iter().map(|(n, value, _)| (n.as_str(), *value));
-                Row { conditions: Map(conditions.collect()), outputs: outputs(row) }
+                Row { conditions: conditions.collect(), outputs: outputs(row) }
             });
             Results::Swept { rows: rows.collect() }
         }
     };
     let gumption = env!("CARGO_PKG_VERSION");
     let answer = Answer { gumption, a, b, changes: &difference.changes, results };
-    // only a map with keys that are not text could fail
-    serde_json::to_string_pretty(&answer).unwrap_or_default() + "\n"
-}
-
-/// Pairs that become an object in their own order.
-struct Map<K, V>(Vec<(K, V)>);
-
-impl<K: Serialize, V: Serialize> Serialize for Map<K, V> {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let mut map = serializer.serialize_map(Some(self.0.len()))?;
-        for (key, value) in &self.0 {
-            map.serialize_entry(key, value)?;
-        }
-        map.end()
-    }
+    pretty(&answer)
 }
 
 /// The page for a terminal. Inputs that did not change are left out.
-pub(super) fn table([a, b]: [&str; 2], difference: &Difference) -> String {
+pub fn table([a, b]: [&str; 2], difference: &Difference) -> String {
     let mut page = vec![wrapped(&format!("from {a} to {b}"))];
     if !difference.changes.is_empty() {
         page.push(difference.changes.iter().map(|change| wrapped(change)).collect());
@@ -166,9 +161,9 @@ fn section(output: &OutputDifference, at: &str) -> String {
     if changed().next().is_none() {
         return text + &wrapped("No input changed.");
     }
-    // all to the place that the largest change deserves
+    // all to the position that the largest change deserves
     let largest = changed().filter_map(|part| part.change).map(f64::abs).fold(0.0, f64::max);
-    let last = place(largest, DIGITS + 1);
+    let last = position(largest, DIGITS + 1);
     let change = |part: &ChangePart| part.change.map_or_else(missing, |change| to(change, last));
     let share =
         |part: &ChangePart| part.share.map_or_else(missing, |share| rounded(100.0 * share, -1));
@@ -209,7 +204,9 @@ fn heading(output: &OutputDifference, at: &str) -> String {
     let [from, to] = expanded;
     let relative = match output.expanded {
         [Some(from), Some(to)] if from > 0.0 => {
-            format!(" ({:+.1} %)", 100.0 * (to / from - 1.0))
+            let percent = 100.0 * (to / from - 1.0);
+            let sign = if percent < 0.0 { "" } else { "+" };
+            format!(" ({sign}{} %)", rounded(percent, -1))
         }
         _ => String::new(),
     };

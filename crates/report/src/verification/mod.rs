@@ -1,12 +1,18 @@
-//! The verdicts in the formats of the answer.
+//! Published values recomputed, in the formats of the answer.
+
+mod words;
 
 use std::fmt::Write;
 
 use serde::Serialize;
 
-use super::recompute::{Recomputed, Row, Verdict};
+pub use words::words;
+
+use crate::answer::pretty;
+use crate::csv::of_records;
+use crate::number::{MISSING, align, exact, position, rounded, significant};
+use gumption_analysis::verification::{PublishedVerdict, RecomputedExample, RecomputedValue};
 use gumption_engine::task::Trials;
-use gumption_report::number::{MISSING, align, exact, place, rounded, significant};
 
 const VERSION: &str = env!("CARGO_PKG_VERSION");
 
@@ -16,7 +22,6 @@ const WIDTH: usize = 100;
 /// Significant digits of a tolerance; recomputed values are rounded to match.
 const TOLERANCE_DIGITS: u32 = 2;
 
-/// The answer for programs.
 #[derive(Serialize)]
 struct Answer<'a> {
     gumption: &'static str,
@@ -37,7 +42,7 @@ struct Line<'a> {
 }
 
 impl<'a> Line<'a> {
-    fn of(example: &'a str, row: &'a Row) -> Self {
+    fn of(example: &'a str, row: &'a RecomputedValue) -> Self {
         Self {
             example,
             output: row.published.output.as_deref(),
@@ -50,45 +55,42 @@ impl<'a> Line<'a> {
     }
 }
 
-fn lines(found: &[Recomputed]) -> impl Iterator<Item = Line<'_>> {
+fn lines(found: &[RecomputedExample]) -> impl Iterator<Item = Line<'_>> {
     found.iter().flat_map(|e| e.rows.iter().map(|row| Line::of(&e.name, row)))
 }
 
 /// How many values agree, and how many do not.
-fn counts(found: &[Recomputed]) -> (usize, usize) {
+fn counts(found: &[RecomputedExample]) -> (usize, usize) {
     let verdicts = || found.iter().flat_map(|e| &e.rows).map(|row| row.verdict);
-    let pass = verdicts().filter(|v| *v == Verdict::Pass).count();
+    let pass = verdicts().filter(|v| *v == PublishedVerdict::Pass).count();
     (pass, verdicts().count() - pass)
 }
 
-pub(super) fn json(found: &[Recomputed]) -> String {
+/// The answer for programs: indented JSON that ends in a newline.
+pub fn json(found: &[RecomputedExample]) -> String {
     let (pass, diff) = counts(found);
     let answer = Answer { gumption: VERSION, rows: lines(found).collect(), pass, diff };
-    // only a map with keys that are not text could fail
-    serde_json::to_string_pretty(&answer).unwrap_or_default() + "\n"
+    pretty(&answer)
 }
 
-pub(super) fn csv(found: &[Recomputed]) -> String {
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    let written = lines(found).try_for_each(|line| writer.serialize(line));
-    // writing to memory cannot fail, and all lines have as many cells
-    debug_assert!(written.is_ok(), "{written:?}");
-    writer.into_inner().ok().and_then(|bytes| String::from_utf8(bytes).ok()).unwrap_or_default()
+/// The values as comma-separated values, one line for each.
+pub fn csv(found: &[RecomputedExample]) -> String {
+    of_records(|writer| lines(found).try_for_each(|line| writer.serialize(line)))
 }
 
 /// Published value, tolerance and recomputed value as text.
-fn figures(row: &Row) -> [String; 3] {
-    let Row { published, got, .. } = row;
-    let got = match (got, place(published.tolerance, TOLERANCE_DIGITS)) {
+fn figures(row: &RecomputedValue) -> [String; 3] {
+    let RecomputedValue { published, got, .. } = row;
+    let got = match (got, position(published.tolerance, TOLERANCE_DIGITS)) {
         (None, _) => MISSING.to_owned(),
-        (Some(got), Some(place)) => rounded(*got, place),
+        (Some(got), Some(position)) => rounded(*got, position),
         (Some(got), None) => exact(*got),
     };
     [exact(published.value), significant(published.tolerance, TOLERANCE_DIGITS), got]
 }
 
 /// The page for a terminal: a block for each example, columns under each other throughout.
-pub(super) fn table(found: &[Recomputed]) -> String {
+pub fn table(found: &[RecomputedExample]) -> String {
     let header = ["output", "quantity", "published", "tolerance", "recomputed", ""];
     let blocks: Vec<Vec<[String; 6]>> = found.iter().map(cells).collect();
     let mut widths = header.map(str::len);
@@ -99,9 +101,9 @@ pub(super) fn table(found: &[Recomputed]) -> String {
     }
     let line = |cells: [&str; 6]| {
         let mut line = String::from(" ");
-        for (place, (cell, width)) in cells.iter().zip(widths).enumerate() {
+        for (position, (cell, width)) in cells.iter().zip(widths).enumerate() {
             // numbers stand at the right of their column
-            let _ = match place {
+            let _ = match position {
                 2..=4 => write!(line, " {cell:>width$} "),
                 _ => write!(line, " {cell:width$} "),
             };
@@ -125,12 +127,13 @@ pub(super) fn table(found: &[Recomputed]) -> String {
 }
 
 /// The lines of an example, decimal points under each other.
-fn cells(example: &Recomputed) -> Vec<[String; 6]> {
+fn cells(example: &RecomputedExample) -> Vec<[String; 6]> {
     let figures: Vec<[String; 3]> = example.rows.iter().map(figures).collect();
-    let column = |place: usize| align(&figures.iter().map(|row| &row[place]).collect::<Vec<_>>());
+    let column =
+        |position: usize| align(&figures.iter().map(|row| &row[position]).collect::<Vec<_>>());
     let numbers = [column(0), column(1), column(2)];
-    let rows = example.rows.iter().enumerate().map(|(place, row)| {
-        let [published, tolerance, got] = numbers.each_ref().map(|column| column[place].clone());
+    let rows = example.rows.iter().enumerate().map(|(position, row)| {
+        let [published, tolerance, got] = numbers.each_ref().map(|column| column[position].clone());
         let output = row.published.output.clone().unwrap_or_default();
         let verdict = row.verdict.text().to_owned();
         [output, row.words.clone(), published, tolerance, got, verdict]
@@ -156,7 +159,7 @@ fn wrapped(text: &str, indent: &str) -> String {
     page + &line + "\n"
 }
 
-fn summary(found: &[Recomputed]) -> String {
+fn summary(found: &[RecomputedExample]) -> String {
     let (pass, diff) = counts(found);
     let examples = found.len();
     let verdict = match diff {
@@ -169,7 +172,7 @@ fn summary(found: &[Recomputed]) -> String {
 }
 
 /// A page to file.
-pub(super) fn markdown(found: &[Recomputed]) -> String {
+pub fn markdown(found: &[RecomputedExample]) -> String {
     let mut page = format!(
         "# Published examples, recomputed\n\n\
          {}\n\n\
@@ -205,7 +208,7 @@ pub(super) fn markdown(found: &[Recomputed]) -> String {
     page
 }
 
-fn trials(example: &Recomputed) -> Option<String> {
+fn trials(example: &RecomputedExample) -> Option<String> {
     let (trials, seed) = example.trials?;
     Some(match trials {
         Trials::Fixed(count) => format!("{count} Monte Carlo trials, seed {seed}."),

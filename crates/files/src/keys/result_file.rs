@@ -2,11 +2,12 @@
 //!
 //! Its objects may have further keys, as a later version may write more.
 
-use super::node::{Node, object, reference, texts};
+use super::node::{With, object, reference, texts};
 use super::values::whole;
 use super::{described, named, referenced, text_of};
+use serde_json::Value;
 
-pub(super) fn definitions() -> Vec<(String, Node)> {
+pub(super) fn definitions() -> Vec<(String, Value)> {
     let definitions = [
         ("result", root()),
         ("result-output", output()),
@@ -18,60 +19,60 @@ pub(super) fn definitions() -> Vec<(String, Node)> {
 }
 
 /// An object that has at least these properties.
-fn open(about: &str, properties: Vec<(&str, Node)>, required: &[&str]) -> Node {
+fn open(about: &str, properties: Vec<(&str, Value)>, required: &[&str]) -> Value {
     described("object", about)
         .with("properties", object(properties))
         .with("required", texts(required.iter().copied()))
 }
 
 /// A number, or null.
-fn or_null(about: &str, above: Option<f64>) -> Node {
+fn or_null(about: &str, above: Option<u64>) -> Value {
     let kinds = texts(["number", "null"]);
-    let node = object([("description", Node::from(about)), ("type", kinds)]);
+    let node = object([("description", Value::from(about)), ("type", kinds)]);
     match above {
         Some(limit) => node.with("exclusiveMinimum", limit),
         None => node,
     }
 }
 
-fn numbers() -> Node {
-    object([("type", Node::from("number"))])
+fn numbers() -> Value {
+    object([("type", Value::from("number"))])
 }
 
 /// Two ends, or null where `nullable`.
-fn interval(about: &str, nullable: bool) -> Node {
-    let kind = if nullable { texts(["array", "null"]) } else { Node::from("array") };
-    object([("description", Node::from(about)), ("type", kind)])
+fn interval(about: &str, nullable: bool) -> Value {
+    let kind = if nullable { texts(["array", "null"]) } else { Value::from("array") };
+    object([("description", Value::from(about)), ("type", kind)])
         .with("items", numbers())
-        .with("minItems", 2u64)
-        .with("maxItems", 2u64)
+        .with("minItems", 2)
+        .with("maxItems", 2)
 }
 
 /// Entries of two of a kind and a coefficient.
-fn coefficients(about: &str, of: &Node, coefficient: Node) -> Node {
+fn coefficients(about: &str, of: &Value, coefficient: Value) -> Value {
     let entry = described("array", "Two of them and their coefficient.")
         .with("prefixItems", vec![of.clone(), of.clone(), coefficient])
         .with("items", false)
-        .with("minItems", 3u64);
+        .with("minItems", 3);
     described("array", about).with("items", entry)
 }
 
-fn root() -> Node {
+fn root() -> Value {
     let format = object([
-        ("description", Node::from("Version of the file's form.")),
-        ("const", Node::from(1u64)),
+        ("description", Value::from("Version of the file's form.")),
+        ("const", Value::from(1)),
     ]);
     let result = object([
-        ("description", Node::from("What tells a result file: true.")),
-        ("const", Node::from(true)),
+        ("description", Value::from("What tells a result file: true.")),
+        ("const", Value::from(true)),
     ]);
-    let coefficient = |kind: Node| {
-        object([("description", Node::from("The coefficient.")), ("type", kind)])
-            .with("minimum", -1.0)
-            .with("maximum", 1.0)
+    let coefficient = |kind: Value| {
+        object([("description", Value::from("The coefficient.")), ("type", kind)])
+            .with("minimum", -1)
+            .with("maximum", 1)
     };
     let name = text_of("Name of an output.");
-    let place = described("integer", "Place in `inputs`, counted from 0.").with("minimum", 0u64);
+    let place = described("integer", "Place in `inputs`, counted from 0.").with("minimum", 0);
     let properties = vec![
         ("format", format),
         ("result", result),
@@ -104,7 +105,7 @@ fn root() -> Node {
             coefficients(
                 "Correlation coefficients between `inputs` that are not 0.",
                 &place,
-                coefficient(Node::from("number")),
+                coefficient(Value::from("number")),
             ),
         ),
         ("provenance", reference("result-provenance")),
@@ -113,20 +114,20 @@ fn root() -> Node {
     open("A result file, as `gumption run --save` writes it.", properties, &required)
 }
 
-fn output() -> Node {
+fn output() -> Value {
     let zero_or_more = described(
         "number",
         "Standard uncertainty by the law of propagation, or that of the trials where there is none.",
     )
-    .with("minimum", 0.0);
+    .with("minimum", 0);
     let status = object([
-        ("description", Node::from("What `dof` null means.")),
+        ("description", Value::from("What `dof` null means.")),
         ("enum", texts(["finite", "infinite", "undefined"])),
     ]);
     let sensitivities = object([
         (
             "description",
-            Node::from(
+            Value::from(
                 "Sensitivity coefficients to `inputs`, in order, in output unit per input unit; \
                  null where they do not say how the output varies.",
             ),
@@ -140,24 +141,24 @@ fn output() -> Node {
          step) of `scores`.",
     )
     .with("items", numbers())
-    .with("minItems", 2u64);
+    .with("minItems", 2);
     let ranks = described(
         "array",
         "Ranks of the output, from 1, in a few of the trials that stand for all; entry i of all \
          outputs is of the same trial. So outputs of one file are drawn together. Not where there \
          is one output alone, nor of one that does not vary.",
     )
-    .with("items", described("integer", "A rank.").with("minimum", 1u64))
-    .with("minItems", 2u64)
-    .with("maxItems", 1_000_000u64)
+    .with("items", described("integer", "A rank.").with("minimum", 1))
+    .with("minItems", 2)
+    .with("maxItems", 1_000_000)
     .with("uniqueItems", true);
     let properties = vec![
         ("unit", reference("unit")),
         ("estimate", described("number", "The estimate.")),
         ("standard_uncertainty", zero_or_more),
-        ("dof", or_null("Effective degrees of freedom; null: see `dof_status`.", Some(0.0))),
+        ("dof", or_null("Effective degrees of freedom; null: see `dof_status`.", Some(0))),
         ("dof_status", status),
-        ("coverage_factor", or_null("Coverage factor k.", Some(0.0))),
+        ("coverage_factor", or_null("Coverage factor k.", Some(0))),
         ("expanded_uncertainty", or_null("Expanded uncertainty U = k u.", None)),
         ("interval", interval("Coverage interval of the law of propagation.", true)),
         (
@@ -169,7 +170,7 @@ fn output() -> Node {
             or_null(
                 "The fewest degrees of freedom of a t distribution that the trials depend on; null \
                  for none.",
-                Some(0.0),
+                Some(0),
             ),
         ),
         ("symmetric_interval", interval("Symmetric coverage interval of the trials.", false)),
@@ -182,7 +183,7 @@ fn output() -> Node {
     open("What was found for an output, in its unit.", properties, &required)
 }
 
-fn scores() -> Node {
+fn scores() -> Value {
     let properties = vec![
         ("from", described("number", "The first score.")),
         ("step", referenced("positive", "The distance of two scores.")),
@@ -191,7 +192,7 @@ fn scores() -> Node {
     open("The standard normal scores of the quantiles.", properties, &["from", "step", "count"])
 }
 
-fn input() -> Node {
+fn input() -> Value {
     let properties = vec![
         ("model_sha256", text_of("SHA-256 of the model file that names it, in hexadecimal.")),
         ("name", text_of("Its name there: `input` or `input/component`.")),
@@ -201,15 +202,15 @@ fn input() -> Node {
         ("standard_uncertainty", referenced("positive", "Its standard uncertainty.")),
         (
             "standard_deviation",
-            or_null("Standard deviation of the drawn values; null where there is none.", Some(0.0)),
+            or_null("Standard deviation of the drawn values; null where there is none.", Some(0)),
         ),
-        ("dof", or_null("Degrees of freedom; null for infinite.", Some(0.0))),
+        ("dof", or_null("Degrees of freedom; null for infinite.", Some(0))),
     ];
     let required = ["model_sha256", "name", "estimate", "standard_uncertainty"];
     open("An input of a model file, as it was when the result was saved.", properties, &required)
 }
 
-fn provenance() -> Node {
+fn provenance() -> Value {
     let properties = vec![
         ("model_sha256", text_of("SHA-256 of the model file that was evaluated, in hexadecimal.")),
         ("seed", whole("Seed of the random streams.", 0, u64::MAX)),
@@ -217,7 +218,7 @@ fn provenance() -> Node {
         (
             "files",
             described("object", "SHA-256 of every other file that was read, by its name.")
-                .with("additionalProperties", object([("type", Node::from("string"))])),
+                .with("additionalProperties", object([("type", Value::from("string"))])),
         ),
     ];
     open("Where the result comes from.", properties, &["model_sha256"])

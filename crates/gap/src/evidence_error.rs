@@ -1,7 +1,13 @@
-//! Probabilities that know how well their integrals are known.
+//! Posterior probabilities averaged over the Monte Carlo errors of the evidences.
+//!
+//! Each evidence is an estimate, and a probability is a ratio of them. An integral that rests on few
+//! effective draws has an uncertain logarithm; taken as exact, it would make a hypothesis look as good
+//! as certain, or impossible, by chance. The errors of the logarithms are therefore drawn, as t
+//! distributions with the degrees of freedom of their effective sample sizes, the probabilities
+//! computed for each draw, and averaged: poorly known evidences then give less extreme probabilities.
 
 use gumption_engine::distribution::StreamKey;
-use gumption_engine::number::COLUMN;
+use gumption_engine::number::{COLUMN, elementary};
 use gumption_engine::special;
 
 /// An error of a logarithm below this changes no probability by more than about 0.0003.
@@ -15,31 +21,31 @@ const DRAWS: usize = 16 * COLUMN;
 
 /// The logarithm of prior times evidence of a hypothesis, and how well it is known.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Known {
+pub(super) struct LnWeight {
     /// Prior times evidence, as a logarithm.
     pub(super) ln: f64,
     /// Standard error of that logarithm.
-    pub(super) error: f64,
+    pub(super) standard_error: f64,
     /// Effective number of draws that the standard error rests on.
-    pub(super) effective: f64,
+    pub(super) effective_sample_size: f64,
 }
 
 /// The posterior probabilities, averaged over the errors of the evidences. An error estimated from
 /// n effective draws is distributed like t with n - 1 degrees of freedom, so that a probability
 /// that rests on few draws comes out less sure.
-pub(super) fn averaged(hypotheses: &[Known], seed: u64) -> Vec<f64> {
+pub(super) fn averaged(hypotheses: &[LnWeight], seed: u64) -> Vec<f64> {
     let plain = shares(&hypotheses.iter().map(|known| known.ln).collect::<Vec<_>>());
-    let in_doubt: Vec<usize> = (0..hypotheses.len())
-        .filter(|&h| plain[h] > LEAST && hypotheses[h].error > NEGLIGIBLE)
+    let uncertain: Vec<usize> = (0..hypotheses.len())
+        .filter(|&h| plain[h] > LEAST && hypotheses[h].standard_error > NEGLIGIBLE)
         .collect();
-    if in_doubt.is_empty() {
+    if uncertain.is_empty() {
         return plain;
     }
-    let errors: Vec<Vec<f64>> = in_doubt.iter().map(|&h| errors(hypotheses[h], seed, h)).collect();
+    let errors: Vec<Vec<f64>> = uncertain.iter().map(|&h| errors(hypotheses[h], seed, h)).collect();
     let mut sums = vec![0.0; hypotheses.len()];
     let mut ln: Vec<f64> = hypotheses.iter().map(|known| known.ln).collect();
     for draw in 0..DRAWS {
-        for (&h, errors) in in_doubt.iter().zip(&errors) {
+        for (&h, errors) in uncertain.iter().zip(&errors) {
             ln[h] = hypotheses[h].ln + errors[draw];
         }
         for (sum, share) in sums.iter_mut().zip(shares(&ln)) {
@@ -49,15 +55,15 @@ pub(super) fn averaged(hypotheses: &[Known], seed: u64) -> Vec<f64> {
     sums
 }
 
-fn errors(known: Known, seed: u64, hypothesis: usize) -> Vec<f64> {
-    let dof = (known.effective - 1.0).max(1.0);
+fn errors(known: LnWeight, seed: u64, hypothesis: usize) -> Vec<f64> {
+    let dof = (known.effective_sample_size - 1.0).max(1.0);
     let key = StreamKey::new(seed, "gap/doubt");
     let mut stream = key.block(hypothesis as u64);
     let mut errors = Vec::with_capacity(DRAWS);
     while errors.len() < DRAWS {
         let mut uniform = [0.0; COLUMN];
         stream.uniform(&mut uniform);
-        errors.extend(uniform.map(|p| known.error * special::student::quantile(p, dof)));
+        errors.extend(uniform.map(|p| known.standard_error * special::student::quantile(p, dof)));
     }
     errors
 }
@@ -68,17 +74,17 @@ fn shares(ln: &[f64]) -> Vec<f64> {
     if !most.is_finite() {
         return vec![0.0; ln.len()];
     }
-    let own: Vec<f64> = ln.iter().map(|ln| (ln - most).exp()).collect();
+    let own: Vec<f64> = ln.iter().map(|ln| elementary::exp(ln - most)).collect();
     let total: f64 = own.iter().sum();
     own.into_iter().map(|own| own / total).collect()
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Known, averaged};
+    use super::{LnWeight, averaged};
 
-    fn known(ln: f64, error: f64, effective: f64) -> Known {
-        Known { ln, error, effective }
+    fn known(ln: f64, standard_error: f64, effective_sample_size: f64) -> LnWeight {
+        LnWeight { ln, standard_error, effective_sample_size }
     }
 
     #[test]

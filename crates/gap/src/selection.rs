@@ -1,17 +1,18 @@
 //! The verdict alone: what a blind check asks of many data sets.
 
-use super::diagnose::{Weighed, hypotheses, prediction};
-use super::diagnosis::{Hypothesis, Predicted, Verdict};
+use super::diagnose::{hypotheses, prediction};
+use super::diagnosis::{Hypothesis, MostProbable, Predicted};
 use super::posterior::Effort;
 use super::shrink;
-use crate::Case;
+use super::weighed::Weighed;
+use crate::{Case, OverrideError};
 use gumption_engine::task::Row;
 
 /// A diagnosis without regions, cross-validation and advice.
 #[derive(Clone, Debug)]
-pub struct Answer {
+pub struct ModelSelection {
     /// The hypothesis of highest posterior probability.
-    pub verdict: Verdict,
+    pub most_probable: MostProbable,
     /// All hypotheses, most probable first.
     pub hypotheses: Vec<Hypothesis>,
     /// Corrected predictions at the case's own rows.
@@ -22,10 +23,14 @@ pub struct Answer {
 
 /// The standard deviation of the noise of every measured value, output by output: as stated, or as
 /// the case's own data tell.
-pub fn noise(case: &Case, seed: u64) -> Vec<Vec<f64>> {
+///
+/// # Errors
+/// Effects that cannot act on the model.
+pub fn noise(case: &Case, seed: u64) -> Result<Vec<Vec<f64>>, OverrideError> {
+    case.check()?;
     let data = super::data::Data::new(case);
     let stated: Option<Vec<Vec<f64>>> = data.uncertainties.into_iter().collect();
-    stated.unwrap_or_else(|| {
+    Ok(stated.unwrap_or_else(|| {
         let weighed = Weighed::new(case, seed, Effort::QUICK, &|_| {});
         let outputs = weighed.setup.data.outputs.len();
         (0..outputs)
@@ -34,10 +39,10 @@ pub fn noise(case: &Case, seed: u64) -> Vec<Vec<f64>> {
                 own.map(|variance| variance.sqrt()).collect()
             })
             .collect()
-    })
+    }))
 }
 
-/// What the sim says of every observed output in every row at the inputs' estimates.
+/// What the model says of every observed output in every row at the inputs' estimates.
 pub fn nominal(case: &Case) -> Vec<Vec<f64>> {
     let data = super::data::Data::new(case);
     (0..data.outputs.len())
@@ -46,12 +51,16 @@ pub fn nominal(case: &Case) -> Vec<Vec<f64>> {
 }
 
 /// Weighs the hypotheses of a case.
-pub fn answer(case: &Case, seed: u64) -> Answer {
+///
+/// # Errors
+/// Effects that cannot act on the model.
+pub fn select_model(case: &Case, seed: u64) -> Result<ModelSelection, OverrideError> {
+    case.check()?;
     let weighed = Weighed::new(case, seed, Effort::QUICK, &|_| {});
     let rows: Vec<Row> = case.task.rows.clone();
-    let group = weighed.group();
-    Answer {
-        verdict: weighed.verdict(&group),
+    let group = weighed.indistinguishable();
+    Ok(ModelSelection {
+        most_probable: weighed.most_probable(&group),
         hypotheses: hypotheses(&weighed.setup, &weighed.posterior, super::diagnose::coverage(case)),
         predicted: prediction(&weighed.setup, &weighed.discrepancy, &weighed.posterior, &rows),
         claimed_fraction: shrink::claim(
@@ -61,5 +70,5 @@ pub fn answer(case: &Case, seed: u64) -> Answer {
             &weighed.correction,
             &weighed.variances,
         ),
-    }
+    })
 }

@@ -1,7 +1,5 @@
 //! `gumption diff`
 
-mod page;
-
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
@@ -10,6 +8,7 @@ use super::options::{self, Answer};
 use super::{Exit, Failure, Program};
 use gumption_files as file;
 use gumption_files::{Diagnostics, ModelOrResult};
+use gumption_report as report;
 
 /// Compare two model files, two saved results, or one with the other.
 #[derive(Debug, Args)]
@@ -50,8 +49,8 @@ impl Diff {
         let difference = file::difference(&first, &second)?;
         let names = [&first, &second].map(ModelOrResult::name);
         let answer = match self.answer.format {
-            Format::Table => page::table(names, &difference),
-            Format::Json => page::json(names, &difference),
+            Format::Table => report::diff::table(names, &difference),
+            Format::Json => report::diff::json(names, &difference),
         };
         self.answer.write(&answer)?;
         Ok(Exit::Done)

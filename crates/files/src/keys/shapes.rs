@@ -1,20 +1,23 @@
 //! The distributions, with the keys that each of them has.
 
-use super::node::{Node, object, reference, texts};
-use super::{closed, described, referenced, text_of};
+use super::node::{With, object, reference, texts};
+use super::{closed_of, described, referenced, text_of};
+use serde_json::Value;
 
 /// A distribution as files name it.
-pub(super) struct Shape {
-    pub(super) name: &'static str,
-    pub(super) aliases: &'static [&'static str],
+#[derive(Debug)]
+pub(crate) struct Shape {
+    pub(crate) name: &'static str,
+    /// Its other names.
+    pub(crate) aliases: &'static [&'static str],
     about: &'static str,
     /// Its own keys.
-    pub(super) fields: &'static [&'static str],
+    pub(crate) fields: &'static [&'static str],
     rule: Rule,
 }
 
 /// Which of its keys a distribution needs.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 enum Rule {
     /// An estimate at this key, which a component may leave out, and the others.
     Estimate(&'static str, &'static [&'static str]),
@@ -29,7 +32,7 @@ enum Rule {
 }
 
 /// The distributions in the order of JCGM 101, Table 1, then the others.
-pub(super) const SHAPES: [Shape; 17] = [
+pub(crate) const SHAPES: [Shape; 17] = [
     Shape {
         name: "constant",
         aliases: &[],
@@ -93,7 +96,7 @@ pub(super) const SHAPES: [Shape; 17] = [
         aliases: &[],
         about: "Repeated readings (Type A): mean, s/sqrt(n), n - 1 degrees of freedom; drawn as \
                 the scaled and shifted t of JCGM 101, 6.4.9.2.",
-        fields: &["values"],
+        fields: &["values", "paired"],
         rule: Rule::All(&["values"]),
     },
     Shape {
@@ -113,7 +116,7 @@ pub(super) const SHAPES: [Shape; 17] = [
     Shape {
         name: "lognormal",
         aliases: &[],
-        about: "Collector-normal; `mean` and `std` are those of the quantity itself.",
+        about: "Log-normal; `mean` and `std` are those of the quantity itself.",
         fields: &["mean", "std"],
         rule: Rule::All(&["mean", "std"]),
     },
@@ -155,7 +158,7 @@ pub(super) const SHAPES: [Shape; 17] = [
 ];
 
 /// What stands at a distribution's own key.
-fn field(shape: &str, key: &str) -> Node {
+fn field(shape: &str, key: &str) -> Value {
     let referenced = |name, about| referenced(name, about);
     match (shape, key) {
         ("exponential" | "lognormal", "mean") => {
@@ -177,14 +180,17 @@ fn field(shape: &str, key: &str) -> Node {
         }
         (_, "scale") => referenced("width", "Scale of the t."),
         ("trapezoidal", "beta") => described("number", "Ratio of the top's width to the base's.")
-            .with("minimum", 0.0)
-            .with("maximum", 1.0),
+            .with("minimum", 0)
+            .with("maximum", 1),
         (_, "shape") => referenced("positive", "Shape."),
         (_, "rate") => referenced("positive", "Rate, in 1/unit."),
         (_, "alpha") => referenced("positive", "First shape parameter."),
         (_, "beta") => referenced("positive", "Second shape parameter."),
-        (_, "count") => described("integer", "The count.").with("minimum", 0u64),
+        (_, "count") => described("integer", "The count.").with("minimum", 0),
         (_, "values") => reference("numbers"),
+        (_, "paired") => {
+            described("boolean", "Readings that were taken together with those of other inputs.")
+        }
         ("samples", "file") => referenced("file", "A file with one number in each line."),
         ("result", "file") => referenced("file", "A result that `gumption run --save` wrote."),
         (_, "output") => text_of("Name of the output in the saved result."),
@@ -193,17 +199,17 @@ fn field(shape: &str, key: &str) -> Node {
 }
 
 /// Keys that every input without components has beside those of its distribution.
-pub(super) const INPUT: [&str; 7] =
+pub(crate) const INPUT: [&str; 7] =
     ["unit", "distribution", "about", "type", "group", "per", "evidence"];
 
 /// Keys that every component has beside those of its distribution.
-pub(super) const COMPONENT: [&str; 5] = ["name", "distribution", "about", "type", "group"];
+pub(crate) const COMPONENT: [&str; 5] = ["name", "distribution", "about", "type", "group"];
 
 /// Keys of an input with components.
-pub(super) const COMPOSED: [&str; 7] =
+pub(crate) const COMPOSED: [&str; 7] =
     ["unit", "mean", "components", "about", "type", "group", "per"];
 
-fn common(key: &str) -> Node {
+fn common(key: &str) -> Value {
     match key {
         "unit" => reference("unit"),
         "distribution" => reference("distribution"),
@@ -221,13 +227,13 @@ fn common(key: &str) -> Node {
             "Readings that the stated distribution is tested against (`gumption assumptions`).",
         ),
         "name" => text_of("Name of the component, unique in its quantity.")
-            .with("minLength", 1u64)
+            .with("minLength", 1)
             .with("pattern", "^[^/]*$"),
         "mean" => referenced("estimate", "The estimate; that of `readings` unless given."),
         "components" => described("array", "Contributions that add up.")
             .with("items", reference("component"))
-            .with("minItems", 1u64),
-        _ => described("boolean", "Readings that were taken together with those of other inputs."),
+            .with("minItems", 1),
+        _ => text_of(key),
     }
 }
 
@@ -254,7 +260,7 @@ impl Holder {
     }
 }
 
-pub(super) fn definitions() -> Vec<(String, Node)> {
+pub(super) fn definitions() -> Vec<(String, Value)> {
     let names = SHAPES.iter().flat_map(|shape| std::iter::once(&shape.name).chain(shape.aliases));
     let distribution = described(
         "string",
@@ -262,8 +268,8 @@ pub(super) fn definitions() -> Vec<(String, Node)> {
          `u-shaped` `arcsine`, `student-t` `t`.",
     )
     .with("enum", texts(names.copied()));
-    let composed = COMPOSED.iter().map(|&key| (key, common(key))).collect();
-    let composed = closed(
+    let composed = COMPOSED.iter().map(|&key| (key, common(key)));
+    let composed = closed_of(
         "An input that is the sum of an estimate and of several contributions.",
         composed,
         &["components"],
@@ -284,7 +290,7 @@ pub(super) fn definitions() -> Vec<(String, Node)> {
 }
 
 /// The definition by the distribution that is named.
-fn choice(holder: Holder) -> Node {
+fn choice(holder: Holder) -> Value {
     let chosen = SHAPES.iter().map(|shape| {
         let names = std::iter::once(shape.name).chain(shape.aliases.iter().copied());
         let distribution = object([("enum", texts(names))]);
@@ -295,7 +301,7 @@ fn choice(holder: Holder) -> Node {
         let then = reference(&format!("{}-{}", holder.name(), shape.name));
         object([("if", condition), ("then", then)])
     });
-    let chosen: Vec<Node> = chosen.collect();
+    let chosen: Vec<Value> = chosen.collect();
     let needed = object([("required", texts(["distribution"]))])
         .with("properties", object([("distribution", reference("distribution"))]));
     let about = match holder {
@@ -316,31 +322,26 @@ fn choice(holder: Holder) -> Node {
     .with("examples", examples(holder))
 }
 
-fn examples(holder: Holder) -> Node {
-    let mut normal = object([
-        ("distribution", Node::from("normal")),
-        ("mean", Node::from(10.0)),
-        ("std", Node::from(0.01)),
-    ]);
-    if holder == Holder::Component {
-        normal = object([
-            ("name", Node::from("resolution")),
-            ("distribution", Node::from("rectangular")),
-            ("half_width", Node::from(0.05)),
-        ]);
-    } else if let Node::Object(members) = &mut normal {
-        members.insert(0, ("unit".to_owned(), Node::from("m/s^2")));
-    }
-    Node::List(vec![normal])
+fn examples(holder: Holder) -> Value {
+    Value::from(vec![match holder {
+        Holder::Input => object([
+            ("unit", Value::from("m/s^2")),
+            ("distribution", Value::from("normal")),
+            ("mean", Value::from(10)),
+            ("std", Value::from(0.01)),
+        ]),
+        Holder::Component => object([
+            ("name", Value::from("resolution")),
+            ("distribution", Value::from("rectangular")),
+            ("half_width", Value::from(0.05)),
+        ]),
+    }])
 }
 
-fn definition(holder: Holder, shape: &Shape) -> Node {
+fn definition(holder: Holder, shape: &Shape) -> Value {
     let keys = holder.keys().iter().map(|&key| (key, common(key)));
     let own = shape.fields.iter().map(|&key| (key, field(shape.name, key)));
-    let mut properties: Vec<(&str, Node)> = keys.chain(own).collect();
-    if shape.name == "readings" {
-        properties.push(("paired", common("paired")));
-    }
+    let properties = keys.chain(own);
     let mut required: Vec<&str> = match holder {
         Holder::Input => vec!["distribution"],
         Holder::Component => vec!["name", "distribution"],
@@ -357,12 +358,12 @@ fn definition(holder: Holder, shape: &Shape) -> Node {
         Rule::Uncertainty => required.extend(estimate("mean")),
         Rule::Limits(others) => required.extend(others),
     }
-    let definition = closed(shape.about, properties, &required);
+    let definition = closed_of(shape.about, properties, &required);
     let needs = |keys: &[&str]| object([("required", texts(keys.iter().copied()))]);
     match shape.rule {
         Rule::Estimate(..) | Rule::All(_) => definition,
         Rule::One(keys) => {
-            let alternatives: Vec<Node> = keys.iter().map(|&key| needs(&[key])).collect();
+            let alternatives: Vec<Value> = keys.iter().map(|&key| needs(&[key])).collect();
             definition.with("oneOf", alternatives)
         }
         Rule::Uncertainty => {
@@ -378,7 +379,7 @@ fn definition(holder: Holder, shape: &Shape) -> Node {
                 needs(&estimate("mean").into_iter().chain([key]).collect::<Vec<_>>())
             };
             let absent = ["mean", "half_width", "semi_range"];
-            let absent = object(absent.map(|key| (key, Node::from(false))));
+            let absent = object(absent.map(|key| (key, Value::from(false))));
             let limits = needs(&["lower", "upper"]).with("properties", absent);
             let mut definition =
                 definition.with("oneOf", vec![width("half_width"), width("semi_range"), limits]);

@@ -1,10 +1,11 @@
 //! Values that many keys have: numbers of a range, widths, estimates, units, names.
 
-use super::node::{Node, object, texts};
-use super::{closed, described, text_of};
+use super::node::{With, object, texts};
+use super::{Key, closed, described, keys, text_of};
+use serde_json::Value;
 
 /// A number with an open lower limit, an open upper one, or both.
-fn number(about: &str, above: Option<f64>, below: Option<f64>) -> Node {
+fn number(about: &str, above: Option<u64>, below: Option<u64>) -> Value {
     let mut number = described("number", about);
     if let Some(limit) = above {
         number = number.with("exclusiveMinimum", limit);
@@ -16,20 +17,29 @@ fn number(about: &str, above: Option<f64>, below: Option<f64>) -> Node {
 }
 
 /// A number, or a text of the given kind.
-fn number_or_text(about: &str, number: Node, text: Node) -> Node {
-    object([("description", Node::from(about)), ("anyOf", Node::List(vec![number, text]))])
+fn number_or_text(about: &str, number: Value, text: Value) -> Value {
+    object([("description", Value::from(about)), ("anyOf", Value::from(vec![number, text]))])
 }
 
 /// A whole number from `least` to `most`.
-pub(super) fn whole(about: &str, least: u64, most: u64) -> Node {
+pub(super) fn whole(about: &str, least: u64, most: u64) -> Value {
     described("integer", about).with("minimum", least).with("maximum", most)
 }
 
-pub(super) fn definitions() -> Vec<(String, Node)> {
-    let numbers = object([("type", Node::from("number"))]);
-    let list = |about: &str| {
-        described("array", about).with("items", numbers.clone()).with("minItems", 1u64)
-    };
+/// At least one number.
+fn list(about: &str) -> Value {
+    let number = object([("type", Value::from("number"))]);
+    described("array", about).with("items", number).with("minItems", 1)
+}
+
+/// Keys of readings that a distribution is tested against.
+pub(crate) const READINGS: &[Key] = keys![
+    "values" => list("The readings."),
+    "file" => text_of("A file with one reading in each line."),
+];
+
+pub(super) fn definitions() -> Vec<(String, Value)> {
+    let numbers = object([("type", Value::from("number"))]);
     let formula = text_of("A formula of conditions and constants, evaluated in SI units.");
     let specification = text_of(
         "A specification: terms of `x %` or `x ppm` (of the reading), `x % of VALUE UNIT` (of the \
@@ -38,8 +48,8 @@ pub(super) fn definitions() -> Vec<(String, Node)> {
     );
     let definitions = [
         ("number", described("number", "A number in the quantity's unit.")),
-        ("positive", number("A number above 0.", Some(0.0), None)),
-        ("probability", number("A probability between 0 and 1.", Some(0.0), Some(1.0))),
+        ("positive", number("A number above 0.", Some(0), None)),
+        ("probability", number("A probability between 0 and 1.", Some(0), Some(1))),
         ("numbers", list("Numbers in the quantity's unit.")),
         (
             "estimate",
@@ -48,13 +58,13 @@ pub(super) fn definitions() -> Vec<(String, Node)> {
                 numbers.clone(),
                 formula,
             )
-            .with("examples", Node::List(vec![Node::from(9.81), Node::from("2*f_nominal")])),
+            .with("examples", Value::from(vec![Value::from(9.81), Value::from("2*f_nominal")])),
         ),
         (
             "positive-estimate",
             number_or_text(
                 "The estimate, above 0, in the quantity's unit, or a formula of the conditions.",
-                number("The estimate.", Some(0.0), None),
+                number("The estimate.", Some(0), None),
                 text_of("A formula of conditions and constants, evaluated in SI units."),
             ),
         ),
@@ -63,12 +73,15 @@ pub(super) fn definitions() -> Vec<(String, Node)> {
             number_or_text(
                 "A width above 0 in the quantity's unit, or a specification as data sheets have \
                  it.",
-                number("A width in the quantity's unit.", Some(0.0), None),
+                number("A width in the quantity's unit.", Some(0), None),
                 specification,
             )
             .with(
                 "examples",
-                Node::List(vec![Node::from(0.01), Node::from("0.02 % + 0.005 % of 10 V + 2 uV")]),
+                Value::from(vec![
+                    Value::from(0.01),
+                    Value::from("0.02 % + 0.005 % of 10 V + 2 uV"),
+                ]),
             ),
         ),
         (
@@ -89,15 +102,7 @@ pub(super) fn definitions() -> Vec<(String, Node)> {
         ("file", text_of("A path, relative to the folder of this file.")),
         (
             "values-or-file",
-            closed(
-                "Readings of the same quantity.",
-                vec![
-                    ("values", list("The readings.")),
-                    ("file", text_of("A file with one reading in each line.")),
-                ],
-                &[],
-            )
-            .with("minProperties", 1u64),
+            closed("Readings of the same quantity.", READINGS, &[]).with("minProperties", 1),
         ),
     ];
     definitions.into_iter().map(|(name, node)| (name.to_owned(), node)).collect()

@@ -1,0 +1,167 @@
+//! The keys of a case of the gap diagnosis: observations, effects, catalogue, prior.
+
+use std::collections::BTreeSet;
+
+use super::node::{With, object, reference, texts};
+use super::{Key, closed, described, keys, named, referenced, text_of};
+use serde_json::Value;
+
+/// `names` are those of the catalogue's effects.
+pub(super) fn definitions(names: &BTreeSet<String>) -> Vec<(String, Value)> {
+    let definitions = [
+        ("observations", observations()),
+        ("observed-output", observed()),
+        ("effects", effects()),
+        ("effect", effect()),
+        ("catalogue", catalogue(names)),
+        ("prior", prior()),
+    ];
+    definitions.into_iter().map(|(name, node)| (name.to_owned(), node)).collect()
+}
+
+fn observed_columns() -> Value {
+    named("The observed outputs, each with its columns of the table.", reference("observed-output"))
+        .with("minProperties", 1)
+}
+
+/// Keys of `observations`.
+pub(crate) const OBSERVATIONS: &[Key] = keys![
+    "file" => referenced(
+                "file",
+                "A CSV file with a header of names and a row for each measurement: conditions and \
+                 outputs in their units.",
+            ),
+    "columns" => observed_columns(),
+];
+
+fn observations() -> Value {
+    let example = object([
+        ("file", Value::from("data.csv")),
+        (
+            "columns",
+            object([(
+                "a_x",
+                object([
+                    ("value", Value::from("a_x")),
+                    ("standard_uncertainty", Value::from("u_a_x")),
+                ]),
+            )]),
+        ),
+    ]);
+    closed("Measured data of a gap case.", OBSERVATIONS, &["file", "columns"])
+        .with("examples", vec![example])
+}
+
+/// Keys of an observed output.
+pub(crate) const OBSERVED: &[Key] = keys![
+    "value" => text_of("The column of the measured values."),
+    "standard_uncertainty" => text_of(
+                "The column of their standard uncertainties; without it the noise is estimated from \
+                 the data.",
+            ),
+    "sim" => text_of(
+                "The column of somebody else's simulation of the output, in place of an equation; \
+                 effects can then override outputs only.",
+            ),
+    "sim_standard_uncertainty" => text_of("The column of the simulation's standard uncertainties."),
+    "sim_covariance" => referenced(
+                "file",
+                "The covariance matrix of the simulation's values: a CSV file with a header, and a \
+                 row and a column for each row of the data.",
+            ),
+];
+
+fn observed() -> Value {
+    let of_the_simulation = ["sim_standard_uncertainty", "sim_covariance"];
+    closed("What was measured of an output.", OBSERVED, &["value"])
+        .with("dependentRequired", object(of_the_simulation.map(|key| (key, texts(["sim"])))))
+        .with("not", object([("required", texts(of_the_simulation))]))
+}
+
+fn effects() -> Value {
+    object([
+        (
+            "description",
+            Value::from(
+                "Candidate effects that the model leaves out, by name; several at once compose in \
+                 this order.",
+            ),
+        ),
+        ("type", Value::from("object")),
+        ("propertyNames", object([("pattern", Value::from("^[^/+]+$"))])),
+        ("additionalProperties", reference("effect")),
+        ("maxProperties", Value::from(200)),
+    ])
+}
+
+fn parameters() -> Value {
+    named(
+        "The effect's unknown quantities with their prior distributions. A parameter hides a \
+         quantity of the same name.",
+        reference("input"),
+    )
+    .with("minProperties", 1)
+}
+
+fn overrides() -> Value {
+    object([
+        (
+            "description",
+            Value::from(
+                "Inputs, quantities and outputs of the model, and what they become. In a formula a \
+                 quantity's own name means its value without this override.",
+            ),
+        ),
+        ("type", Value::from("object")),
+        ("additionalProperties", text_of("A formula in coherent SI units.")),
+        ("minProperties", Value::from(1)),
+    ])
+}
+
+/// Keys of an effect.
+pub(crate) const EFFECT: &[Key] = keys![
+    "parameters" => parameters(),
+    "overrides" => overrides(),
+    "about" => text_of("What it is, in words."),
+    "source" => text_of("Where it comes from."),
+];
+
+fn effect() -> Value {
+    let offset = object([
+        ("unit", Value::from("deg")),
+        ("distribution", Value::from("normal")),
+        ("mean", Value::from(0)),
+        ("std", Value::from(0.6)),
+    ]);
+    let example = object([
+        ("parameters", object([("d", offset)])),
+        ("overrides", object([("alpha", Value::from("alpha + d"))])),
+    ]);
+    closed("An effect that the model leaves out.", EFFECT, &["parameters", "overrides"])
+        .with("examples", vec![example])
+}
+
+fn catalogue(effects: &BTreeSet<String>) -> Value {
+    let name = object([("enum", texts(effects.iter().map(String::as_str)))]);
+    described("array", "Ready-made effects, added after the own: `gumption models --effects`.")
+        .with("items", name)
+        .with("uniqueItems", true)
+        .with("examples", vec![texts(["lateral-mode"])])
+}
+
+fn share(about: &str) -> Value {
+    described("number", about).with("minimum", 0).with("maximum", 1)
+}
+
+/// Keys of `prior`.
+pub(crate) const PRIOR: &[Key] = keys![
+    "none" => share("No gap; 0.15."),
+    "one" => share("One effect, shared equally among them; 0.55."),
+    "two" => share("Two effects, shared equally among the pairs; 0.15."),
+    "three" => share("Three effects, shared equally among the triples; 0."),
+    "unexplained" => share("A gap that none of them makes; 0.15."),
+];
+
+fn prior() -> Value {
+    closed("Prior probabilities, which sum to 1.", PRIOR, &[])
+}

@@ -1,0 +1,140 @@
+//! The keys of the files: each stands once, with its name and with what the JSON Schema says of its
+//! value. Readers refuse what is not among them, and the schema is made of them.
+
+mod case;
+mod certificate;
+mod model_file;
+mod node;
+mod recipe;
+mod result_file;
+mod shapes;
+mod values;
+
+use std::collections::BTreeSet;
+
+use serde_json::Value;
+
+pub(crate) use case::{EFFECT, OBSERVATIONS, OBSERVED, PRIOR};
+pub(crate) use certificate::{CERTIFICATE, CERTIFICATE_KEYS, CERTIFICATE_ROW, DEVICE, PARTY};
+pub(crate) use model_file::{
+    CONDITION, CORRELATION_MATRIX, MODEL, MONTE_CARLO, OUTPUT, TABLE_OF_CONDITIONS, TOLERANCE,
+};
+use node::{With, object, reference};
+pub(crate) use recipe::{
+    CHANNEL, FREQUENCY, POINT, QUANTITY, RECIPE, RECIPE_CONDITION, RECIPE_KEY, RECIPE_ROW,
+    RECORDING, SEARCH, SEARCHED, STEPS,
+};
+pub(crate) use shapes::{COMPONENT, COMPOSED, INPUT, SHAPES, Shape};
+pub(crate) use values::READINGS;
+
+/// A key that an object of a file may have.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Key {
+    pub(crate) name: &'static str,
+    /// What the schema says of its value.
+    schema: fn() -> Value,
+}
+
+/// A table of keys; what the schema says of each is made when it is wanted.
+macro_rules! keys {
+    ($($name:literal => $schema:expr),* $(,)?) => {
+        &[$(Key { name: $name, schema: || $schema }),*]
+    };
+}
+use keys;
+
+/// The schema; `effects` are the names of the catalogue of effects.
+pub(crate) fn schema(effects: &BTreeSet<String>) -> Value {
+    let mut definitions = model_file::definitions();
+    definitions.extend(case::definitions(effects));
+    definitions.extend(certificate::definitions());
+    definitions.extend(recipe::definitions());
+    definitions.extend(result_file::definitions());
+    definitions.extend(shapes::definitions());
+    definitions.extend(values::definitions());
+    object([
+        ("$schema", Value::from("https://json-schema.org/draft/2020-12/schema")),
+        ("title", Value::from("Files of gumption")),
+        (
+            "description",
+            Value::from(
+                "Files of gumption, format 1. Model files: a measurement with what is known about \
+                 its inputs, to be evaluated by the GUM and by Monte Carlo; with observations a case \
+                 of the gap diagnosis. Certificate files: which results of which models are stated. \
+                 Recipes: what is taken from which recordings. Result files: what an evaluation found, to be the input of another one.",
+            ),
+        ),
+        ("if", with_key("result")),
+        ("then", reference("result")),
+        (
+            "else",
+            object([
+                ("if", recipe::meant()),
+                ("then", reference("recipe")),
+                (
+                    "else",
+                    object([
+                        ("if", certificate::meant()),
+                        ("then", reference("certificate")),
+                        ("else", reference("model")),
+                    ]),
+                ),
+            ]),
+        ),
+        ("$defs", object(definitions)),
+    ])
+}
+
+/// An object with a key of this name.
+fn with_key(key: &str) -> Value {
+    object([("type", Value::from("object")), ("required", node::texts([key]))])
+}
+
+/// An object that has these keys and no others.
+fn closed(about: &str, keys: &[Key], required: &[&str]) -> Value {
+    closed_of(about, keys.iter().map(|key| (key.name, (key.schema)())), required)
+}
+
+/// An object that has these properties and no others; keys that begin with `$` belong to editors.
+fn closed_of<'k>(
+    about: &str,
+    properties: impl IntoIterator<Item = (&'k str, Value)>,
+    required: &[&str],
+) -> Value {
+    let closed = object([
+        ("description", Value::from(about)),
+        ("type", Value::from("object")),
+        ("properties", object(properties)),
+        ("patternProperties", object([("^\\$", Value::from(true))])),
+        ("additionalProperties", Value::from(false)),
+    ]);
+    if required.is_empty() {
+        closed
+    } else {
+        closed.with("required", node::texts(required.iter().copied()))
+    }
+}
+
+/// An object whose keys are names of quantities.
+fn named(about: &str, value: Value) -> Value {
+    object([
+        ("description", Value::from(about)),
+        ("type", Value::from("object")),
+        ("propertyNames", reference("name")),
+        ("additionalProperties", value),
+    ])
+}
+
+/// A text with a description.
+fn text_of(about: &str) -> Value {
+    described("string", about)
+}
+
+fn described(kind: &str, about: &str) -> Value {
+    object([("description", Value::from(about)), ("type", Value::from(kind))])
+}
+
+/// A reference with a description of its own.
+fn referenced(name: &str, about: &str) -> Value {
+    object([("description", Value::from(about)), ("$ref", Value::from(format!("#/$defs/{name}")))])
+}

@@ -1,0 +1,272 @@
+//! The model file: its root, outputs, conditions, correlations and settings.
+
+use super::node::{With, object, reference, texts};
+use super::values::whole;
+use super::{Key, closed, described, keys, named, referenced, text_of};
+use serde_json::Value;
+
+pub(super) fn definitions() -> Vec<(String, Value)> {
+    let definitions = [
+        ("model", root()),
+        ("output", output()),
+        ("tolerance", tolerance()),
+        ("conditions", conditions()),
+        ("condition", condition()),
+        ("table-of-conditions", table_of_conditions()),
+        ("correlation", correlation()),
+        ("correlation-matrix", correlation_matrix()),
+        ("monte-carlo", monte_carlo()),
+    ];
+    definitions.into_iter().map(|(name, node)| (name.to_owned(), node)).collect()
+}
+
+/// Keys of a model file and of a case.
+pub(crate) const MODEL: &[Key] = keys![
+    "format" => object([
+                ("description", Value::from("Version of the file's form.")),
+                ("const", Value::from(1)),
+            ]),
+    "title" => text_of("What is measured, in a line."),
+    "source" => text_of("The document that the measurement follows."),
+    "about" => text_of("Remarks."),
+    "inputs" => named(
+                "What is known about the input quantities; their order is that of every table.",
+                reference("input"),
+            ),
+    "correlations" => described("array", "Correlation coefficients of inputs or components.")
+                .with("items", reference("correlation")),
+    "correlation_matrix" => reference("correlation-matrix"),
+    "conditions" => reference("conditions"),
+    "equations" => named(
+                "Formulas, in order; each may use inputs, conditions and the quantities above it.",
+                text_of("A formula in coherent SI units."),
+            )
+            .with("minProperties", 1),
+    "model" => text_of("Name of a typed model, in place of `equations`: `gumption models`."),
+    "outputs" => named("The quantities to report.", reference("output")).with("minProperties", 1),
+    "coverage_probability" => referenced("probability", "Coverage probability; 0.95."),
+    "coverage_factor" => described("number", "Coverage factor for infinite degrees of freedom; sets the \
+                                 coverage probability.")
+                .with("exclusiveMinimum", 0)
+                .with("maximum", 8),
+    "coverage_factor_fixed" => described("boolean", "Keep the coverage factor whatever the degrees of freedom."),
+    "monte_carlo" => reference("monte-carlo"),
+    "check_units" => described("boolean", "Whether dimensions are checked through the formulas; true."),
+    "allow_undefined" => described("number", "Share of trials that may have no finite result; 0.")
+                .with("minimum", 0)
+                .with("maximum", 1),
+    "observations" => reference("observations"),
+    "effects" => reference("effects"),
+    "catalogue" => reference("catalogue"),
+    "prior" => reference("prior"),
+];
+
+fn root() -> Value {
+    // an output may also come from a column of the observations
+    let makers = ["equations", "model", "observations"];
+    let either = makers.map(|key| object([("required", texts([key]))])).to_vec();
+    let both = [["coverage_probability", "coverage_factor"], ["equations", "model"]];
+    let both = both.map(|keys| object([("required", texts(keys))])).to_vec();
+    let without_inputs = vec![
+        object([("required", texts(["inputs"]))]),
+        object([("required", texts(["observations"]))]),
+    ];
+    closed("A model file.", MODEL, &["outputs"])
+        .with("anyOf", either)
+        .with("allOf", vec![object([("anyOf", Value::from(without_inputs))])])
+        .with("not", object([("anyOf", Value::from(both))]))
+        .with("dependentRequired", object([("coverage_factor_fixed", texts(["coverage_factor"]))]))
+        .with("examples", vec![example()])
+}
+
+/// A whole file.
+fn example() -> Value {
+    let voltage = object([
+        ("unit", Value::from("V")),
+        ("distribution", Value::from("normal")),
+        ("mean", Value::from(5.01)),
+        ("expanded", Value::from(0.02)),
+        ("k", Value::from(2)),
+        ("about", Value::from("voltmeter's certificate")),
+    ]);
+    let resistance = object([
+        ("unit", Value::from("ohm")),
+        ("distribution", Value::from("readings")),
+        ("values", Value::from(vec![Value::from(99.8), 100.1.into(), 100.into(), 99.9.into()])),
+    ]);
+    object([
+        ("format", Value::from(1)),
+        ("title", Value::from("Power in a resistor")),
+        ("inputs", object([("voltage", voltage), ("resistance", resistance)])),
+        ("equations", object([("power", Value::from("voltage^2/resistance"))])),
+        ("outputs", object([("power", object([("unit", Value::from("mW"))]))])),
+    ])
+}
+
+/// Keys of an output.
+pub(crate) const OUTPUT: &[Key] = keys![
+    "unit" => reference("unit"),
+    "about" => text_of("What it is, in words."),
+    "periodic" => referenced("positive", "The length of a turn in the output's unit, for phases."),
+    "tolerance" => reference("tolerance"),
+    "cmc" => referenced("width", "The laboratory's capability: its smallest expanded uncertainty."),
+    "cmc_floor" => described("boolean", "Raise a smaller expanded uncertainty to `cmc`."),
+];
+
+fn output() -> Value {
+    closed("A quantity to report.", OUTPUT, &[])
+        .with("dependentRequired", object([("cmc_floor", texts(["cmc"]))]))
+}
+
+fn prior_of_tolerance() -> Value {
+    described("object", "What was known before measuring, for global risks.")
+        .with("properties", object([("distribution", reference("distribution"))]))
+        .with("required", texts(["distribution"]))
+}
+
+/// Keys of `tolerance`.
+pub(crate) const TOLERANCE: &[Key] = keys![
+    "lower" => referenced("number", "Lower tolerance limit."),
+    "upper" => referenced("number", "Upper tolerance limit."),
+    "prior" => prior_of_tolerance(),
+    "risk" => described("number", "The wanted risk of false acceptance, for guard bands.")
+                .with("exclusiveMinimum", 0)
+                .with("exclusiveMaximum", 0.5),
+];
+
+fn tolerance() -> Value {
+    let limits = ["lower", "upper"].map(|key| object([("required", texts([key]))])).to_vec();
+    closed("Limits that the output should conform to.", TOLERANCE, &[]).with("anyOf", limits)
+}
+
+fn conditions() -> Value {
+    let text = object([("file", object([("type", Value::from("string"))]))]);
+    object([
+        (
+            "description",
+            Value::from("Conditions to sweep over: a grid of values, or the rows of a table."),
+        ),
+        ("type", Value::from("object")),
+        ("if", object([("properties", text), ("required", texts(["file"]))])),
+        ("then", reference("table-of-conditions")),
+        (
+            "else",
+            named("A grid; the last condition is the fastest.", reference("condition"))
+                .with("minProperties", 1),
+        ),
+    ])
+}
+
+/// Keys of a condition of a grid.
+pub(crate) const CONDITION: &[Key] = keys![
+    "unit" => reference("unit"),
+    "values" => referenced("numbers", "The values; without them, a column of the observations."),
+    "about" => text_of("What it is, in words."),
+];
+
+fn condition() -> Value {
+    closed("A quantity that is set and known.", CONDITION, &[])
+}
+
+fn units_of_columns() -> Value {
+    named("Units of the columns, 1 unless given.", reference("unit"))
+}
+
+fn columns() -> Value {
+    described("array", "The columns that are conditions, all unless given.")
+        .with("items", reference("name"))
+        .with("minItems", 1)
+}
+
+/// Keys of a table of conditions.
+pub(crate) const TABLE_OF_CONDITIONS: &[Key] = keys![
+    "file" => referenced("file", "A CSV file with a header of names."),
+    "units" => units_of_columns(),
+    "columns" => columns(),
+];
+
+fn table_of_conditions() -> Value {
+    closed("The rows of a table.", TABLE_OF_CONDITIONS, &["file"])
+}
+
+fn correlation() -> Value {
+    let name = || text_of("Name of an input, or `input/component`.");
+    let coefficient = described("number", "The correlation coefficient of the two quantities.")
+        .with("minimum", -1)
+        .with("maximum", 1);
+    described("array", "Two names and their coefficient.")
+        .with("prefixItems", vec![name(), name(), coefficient])
+        .with("items", false)
+        .with("minItems", 3)
+        .with(
+            "examples",
+            vec![Value::from(vec![Value::from("a_ref"), Value::from("tilt"), Value::from(0.2)])],
+        )
+}
+
+fn row_of_matrix() -> Value {
+    object([("type", Value::from("array")), ("items", object([("type", Value::from("number"))]))])
+}
+
+fn names_of_matrix() -> Value {
+    described("array", "The inputs, in the order of rows and columns.")
+        .with("items", object([("type", Value::from("string"))]))
+}
+
+/// Keys of `correlation_matrix`.
+pub(crate) const CORRELATION_MATRIX: &[Key] = keys![
+    "names" => names_of_matrix(),
+    "values" => described("array", "The rows of the matrix.").with("items", row_of_matrix()),
+    "file" => referenced("file", "A CSV file: a header of names, then the rows."),
+];
+
+fn correlation_matrix() -> Value {
+    let alternatives = vec![
+        object([("required", texts(["names", "values"]))]),
+        object([("required", texts(["file"]))]),
+    ];
+    closed("A matrix of correlation coefficients.", CORRELATION_MATRIX, &[])
+        .with("oneOf", alternatives)
+}
+
+fn trials() -> Value {
+    object([
+        (
+            "description",
+            Value::from(
+                "Number of trials, 1 000 000 unless given; 0 for the GUM alone, `adaptive` for as \
+                 many as the digits need.",
+            ),
+        ),
+        (
+            "anyOf",
+            Value::from(vec![
+                object([("const", Value::from("adaptive"))]),
+                object([("const", Value::from(0))]),
+                whole("A number of trials.", 2, 1_000_000_000_000),
+            ]),
+        ),
+    ])
+}
+
+/// Keys of `monte_carlo`.
+pub(crate) const MONTE_CARLO: &[Key] = keys![
+    "trials" => trials(),
+    "rule" => object([
+                (
+                    "description",
+                    Value::from(
+                        "When an adaptive run stops: `7.9` (JCGM 101), which is the default, or \
+                         `stein`, the two-stage rule, which meets the tolerance more often.",
+                    ),
+                ),
+                ("enum", texts(["7.9", "stein"])),
+            ]),
+    "seed" => whole("Seed of the random streams; 1.", 0, u64::MAX),
+    "digits" => whole("Digits of the standard uncertainty that are held meaningful; 2.", 1, 15),
+    "max_trials" => whole("Largest number of an adaptive run; 1e9.", 20_000, 1_000_000_000_000),
+];
+
+fn monte_carlo() -> Value {
+    closed("Settings of the Monte Carlo method.", MONTE_CARLO, &[])
+}

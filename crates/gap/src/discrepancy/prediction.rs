@@ -1,0 +1,127 @@
+//! What "unexplained" says at any conditions: a Gaussian process conditioned on the data.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::features::{Coordinates, Site};
+use super::{Discrepancy, Weighted};
+use crate::data::by_rows;
+use crate::predict::{self, Normals};
+use crate::setup::Setup;
+use gumption_engine::task::Row;
+
+impl Discrepancy {
+    /// What "unexplained" says in these rows: the model at the inputs' estimates, corrected by what the
+    /// data say of shared inputs and of the discrepancy (a Gaussian process conditioned on the data).
+    pub(crate) fn predict(&self, setup: &Setup<'_>, kinds: &[Weighted], rows: &[Row]) -> Normals {
+        let outputs = setup.data.outputs.len();
+        let plain = by_rows(&setup.data.nominal_residuals());
+        let nominals: Vec<(Vec<f64>, Vec<Vec<f64>>)> =
+            rows.iter().map(|row| nominal(setup, row)).collect();
+        let sites: Vec<Site> = rows
+            .iter()
+            .zip(&nominals)
+            .map(|(row, (nominal, _))| Site {
+                conditions: row.conditions.clone(),
+                nominal: nominal.clone(),
+            })
+            .collect();
+        let shared: Vec<usize> = (0..setup.case.task.variables.len())
+            .filter(|&v| setup.spread.shared[v].is_none())
+            .collect();
+        let total: f64 = kinds.iter().map(|kind| kind.weight).sum();
+        let mut sums = vec![vec![(0.0, 0.0); outputs]; rows.len()];
+        for kind in kinds {
+            let form = &self.forms[kind.form];
+            let share = kind.weight / total;
+            // the model, or the effects that act beside the discrepancy
+            let (residuals, sims) = match &kind.base {
+                None => (plain.clone(), nominals.iter().flat_map(|(sim, _)| sim.clone()).collect()),
+                Some(base) => {
+                    let residuals = base.residuals(setup);
+                    let there_too = predict::values(
+                        setup,
+                        &base.effects,
+                        std::slice::from_ref(&base.scores),
+                        rows,
+                    );
+                    let first = |draws: Vec<f64>| draws.first().copied();
+                    let sims: Vec<f64> =
+                        there_too.into_iter().flatten().filter_map(first).collect();
+                    (residuals, sims)
+                }
+            };
+            let variances = kind.variances.as_deref().unwrap_or(&setup.linear.variances);
+            let coordinates = Coordinates::new(&form.term, &self.axes, &sites, outputs);
+            let roots = coordinates.roots(&form.term, form.length, &form.nodes);
+            let there = coordinates.features(&roots, rows.len() * outputs) * form.scale;
+            // coefficients: one for each shared input, then those of the discrepancy
+            let features = form.features(setup, &self.axes);
+            let m = features.ncols();
+            let order = shared.len() + m;
+            let effect = |gradients: &[Vec<f64>], row: &Row, output: usize, v: usize| {
+                let deviation = row.distributions[v].standard_deviation();
+                gradients[output][v] * if deviation.is_finite() { deviation } else { 0.0 }
+            };
+            let mut design = DMatrix::zeros(plain.len(), order);
+            for (row, &id) in setup.data.ids.iter().enumerate() {
+                let point = &setup.data.points[setup.data.point_of[row]];
+                for output in 0..outputs {
+                    let value = row * outputs + output;
+                    let weight = variances[value].sqrt().recip();
+                    for (j, &v) in shared.iter().enumerate() {
+                        let own = effect(&point.gradients, &setup.case.task.rows[id], output, v);
+                        design[(value, j)] = own * weight;
+                    }
+                    for j in 0..m {
+                        design[(value, shared.len() + j)] =
+                            kind.multiplier * features[(value, j)] * weight;
+                    }
+                }
+            }
+            let white = DVector::from_iterator(
+                residuals.len(),
+                residuals.iter().zip(variances.iter()).map(|(r, v)| r / v.sqrt()),
+            );
+            let precision = design.tr_mul(&design) + DMatrix::identity(order, order);
+            let Some(root) = precision.cholesky() else { continue };
+            let coefficients = root.solve(&design.tr_mul(&white));
+            let lower = root.l();
+            for (row, (_, gradients)) in nominals.iter().enumerate() {
+                for output in 0..outputs {
+                    let value = row * outputs + output;
+                    let mut features = DVector::zeros(order);
+                    for (j, &v) in shared.iter().enumerate() {
+                        features[j] = effect(gradients, &rows[row], output, v);
+                    }
+                    for j in 0..m {
+                        features[shared.len() + j] = kind.multiplier * there[(value, j)];
+                    }
+                    let mean = sims[value] + features.dot(&coefficients);
+                    let half = lower.solve_lower_triangular(&features);
+                    // what the nodes do not determine of the function is left at its prior variance
+                    let variance = half.map_or(0.0, |half| half.norm_squared());
+                    sums[row][output].0 += share * mean;
+                    sums[row][output].1 += share * (variance + mean * mean);
+                }
+            }
+        }
+        for of_row in &mut sums {
+            for (mean, square) in of_row {
+                *square = (*square - *mean * *mean).max(0.0);
+            }
+        }
+        sums
+    }
+}
+
+/// What the model says in a row at the inputs' estimates, with its derivatives.
+fn nominal(setup: &Setup<'_>, row: &Row) -> (Vec<f64>, Vec<Vec<f64>>) {
+    let mut variables: Vec<f64> = row.distributions.iter().map(|d| d.mean()).collect();
+    variables.extend(&row.conditions);
+    let (values, gradients) = setup.case.task.model.program.gradients(&variables);
+    let outputs = &setup.data.outputs;
+    (
+        outputs.iter().map(|&output| values[output]).collect(),
+        outputs.iter().map(|&output| gradients[output].clone()).collect(),
+    )
+}

@@ -1,0 +1,100 @@
+//! What to bear in mind when a diagnosis is read.
+
+use super::diagnosis::{DiagnosisNote, GapTest, HypothesisKind, MostProbable, Shrinkage};
+use super::goodness_of_fit::misfit;
+use super::posterior::Posterior;
+use super::setup::Setup;
+
+pub(crate) fn notes(
+    setup: &Setup<'_>,
+    posterior: &Posterior,
+    verdict: &MostProbable,
+    shrinkage: &Shrinkage,
+    gap: &GapTest,
+    best: usize,
+) -> Vec<DiagnosisNote> {
+    let mut notes = Vec::new();
+    let mut note = |code: &'static str, text: String| notes.push(DiagnosisNote { code, text });
+    if setup.covariance.fitted {
+        let repeats = setup.data.points.iter().any(|point| point.rows.len() > 1);
+        note(
+            "estimated-noise",
+            if repeats {
+                "The noise of outputs without stated uncertainties is estimated from repeated rows \
+                 and residuals together."
+                    .to_owned()
+            } else {
+                "Neither stated uncertainties nor repeated rows are there, so the noise is estimated \
+                 from the residuals themselves: a departure that looks like noise cannot be told from \
+                 it, and the chi-square test says nothing."
+                    .to_owned()
+            },
+        );
+    }
+    let winner = &posterior.hypotheses[best];
+    if verdict.kind != HypothesisKind::Unexplained && winner.evidence.effective_sample_size < 50.0 {
+        note(
+            "poor-integral",
+            format!(
+                "The evidence of the verdict rests on {:.0} effective draws only (standard error of its \
+                 logarithm {:.2}); the probabilities are averages over that error, and less sure for \
+                 it.",
+                winner.evidence.effective_sample_size, winner.evidence.standard_error
+            ),
+        );
+    }
+    if verdict.indistinguishable.len() > 1 {
+        note(
+            "look-alikes",
+            "These data cannot tell the hypotheses of the verdict's group apart: their predictions \
+             coincide within the uncertainties, and only the prior decides between them."
+                .to_owned(),
+        );
+    }
+    if gap.present && !shrinkage.meaningful {
+        note(
+            "small-gap",
+            "The gap is below 3 standard uncertainties of the data, so the removed fraction is a ratio \
+             of two noises and is not stated."
+                .to_owned(),
+        );
+    }
+    if verdict.kind == HypothesisKind::Explained
+        && shrinkage.chi2_per_dof[1] > misfit(setup.data.len())
+    {
+        note(
+            "poor-fit",
+            format!(
+                "The verdict is the best of the hypotheses but leaves a chi-square of {:.2} per value \
+                 on conditions that were left out: something is still missing.",
+                shrinkage.chi2_per_dof[1]
+            ),
+        );
+    }
+    if let (HypothesisKind::None, Some(p)) = (verdict.kind, gap.p_value)
+        && p < OVERDISPERSED
+    {
+        note(
+            "scatter",
+            format!(
+                "The residuals are {:.2} times as large as their uncertainties allow, but without a \
+                 pattern that an effect or a smooth discrepancy would make: the stated noise is \
+                 probably too small, or values are wrong one by one.",
+                (gap.chi2 / gap.dof).sqrt()
+            ),
+        );
+    }
+    if setup.data.points.len() < 8 {
+        note(
+            "few-conditions",
+            format!(
+                "There are only {} different conditions; effects that differ elsewhere look alike here.",
+                setup.data.points.len()
+            ),
+        );
+    }
+    notes
+}
+
+/// The chi-square test speaks against the verdict "no gap" below this probability.
+const OVERDISPERSED: f64 = 1e-3;

@@ -1,0 +1,252 @@
+//! The hypotheses of a case weighed against its data: the most probable one, and those that the data
+//! cannot tell from it.
+
+use super::diagnosis::{HypothesisKind, MostProbable};
+use super::discrepancy::Discrepancy;
+use super::latent::Role;
+use super::posterior::{self, Effort, Posterior};
+use super::predict;
+use super::setup::Setup;
+use super::shrink::Correction;
+use crate::Case;
+use gumption_engine::number::elementary;
+use gumption_engine::task::Row;
+
+/// Two hypotheses look alike if their best predictions differ by less than this, in standard
+/// uncertainties of the data and over all of them: the expected logarithm of the odds is half its
+/// square.
+const ALIKE: f64 = 2.0;
+
+/// A look-alike with less than this share of the verdict's probability is not worth a name.
+const WORTH_A_NAME: f64 = 0.01;
+
+/// A rival with less than this probability needs no measurement to be refuted.
+const RIVAL: f64 = 1e-4;
+
+/// The hypotheses of a case weighed against its data.
+pub(crate) struct Weighed<'c> {
+    pub(crate) setup: Setup<'c>,
+    pub(crate) discrepancy: Discrepancy,
+    pub(crate) posterior: Posterior,
+    /// Place of the most probable hypothesis that is not "unexplained".
+    pub(crate) best: usize,
+    /// Whether it is more probable than "unexplained".
+    pub(crate) explained: bool,
+    /// What the verdict adds to the model.
+    pub(crate) correction: Correction,
+    /// Variances of the noise by value.
+    pub(crate) variances: Vec<f64>,
+}
+
+impl<'c> Weighed<'c> {
+    pub(crate) fn new(
+        case: &'c Case,
+        seed: u64,
+        effort: Effort,
+        progress: &(dyn Fn(f64) + Sync),
+    ) -> Self {
+        let setup = Setup::new(case);
+        let discrepancy = Discrepancy::new(&setup);
+        let posterior = posterior::posterior(&setup, &discrepancy, seed, effort, progress);
+        let best = (0..posterior.hypotheses.len())
+            .max_by(|&a, &b| {
+                posterior.hypotheses[a].probability.total_cmp(&posterior.hypotheses[b].probability)
+            })
+            .unwrap_or(0);
+        let explained = posterior.hypotheses[best].probability >= posterior.probability;
+        let correction = if explained {
+            Correction::Effects(posterior.hypotheses[best].effects.clone())
+        } else {
+            Correction::Unexplained
+        };
+        let variances = noise_variances(&setup, &posterior, best, explained);
+        Self { setup, discrepancy, posterior, best, explained, correction, variances }
+    }
+
+    /// The verdict and what these data cannot tell from it, as places of hypotheses.
+    pub(crate) fn indistinguishable(&self) -> Vec<usize> {
+        let modes = best_predictions(&self.setup, &self.posterior);
+        indistinguishable(
+            &self.setup,
+            &self.posterior,
+            self.best,
+            self.explained,
+            &modes,
+            &self.variances,
+        )
+    }
+
+    pub(crate) fn most_probable(&self, group: &[usize]) -> MostProbable {
+        most_probable(&self.setup, &self.posterior, self.best, self.explained, group)
+    }
+}
+
+/// Variance of the noise by value: stated, or estimated with the best hypothesis.
+fn noise_variances(
+    setup: &Setup<'_>,
+    posterior: &Posterior,
+    best: usize,
+    explained: bool,
+) -> Vec<f64> {
+    let data = &setup.data;
+    let outputs = data.outputs.len();
+    let stated =
+        |value: usize| data.uncertainties[value % outputs].as_ref().map(|u| u[value / outputs]);
+    if !setup.covariance.fitted {
+        return (0..data.len()).map(|value| stated(value).map_or(1.0, |u| u * u)).collect();
+    }
+    if !explained
+        && let Some(kind) = posterior.unexplained.kinds.first()
+        && let Some(variances) = &kind.variances
+    {
+        return variances.to_vec();
+    }
+    let evidence = &posterior.hypotheses[best].evidence;
+    let draws = evidence.resampled(128);
+    let mut sums = vec![0.0; data.len()];
+    for draw in &draws {
+        let (mut ln, mut power) = (vec![0.0; outputs], vec![0.0; outputs]);
+        for (role, &score) in setup.roles.iter().zip(draw) {
+            match role {
+                Role::Noise { output, map } => ln[*output] = map.value(score),
+                Role::Power { output, map } => power[*output] = map.value(score),
+                Role::Variable { .. } => {}
+            }
+        }
+        for (value, sum) in sums.iter_mut().enumerate() {
+            let output = value % outputs;
+            *sum += match stated(value) {
+                Some(u) => u * u,
+                None => elementary::exp(2.0 * (ln[output] + power[output] * setup.ln_sizes[value])),
+            };
+        }
+    }
+    sums.iter().map(|sum| sum / draws.len().max(1) as f64).collect()
+}
+
+/// What every hypothesis says at its most probable point, by value.
+fn best_predictions(setup: &Setup<'_>, posterior: &Posterior) -> Vec<Option<Vec<f64>>> {
+    let rows: Vec<Row> = setup
+        .data
+        .points
+        .iter()
+        .filter_map(|point| point.rows.first())
+        .map(|&row| setup.case.task.rows[setup.data.ids[row]].clone())
+        .collect();
+    let most = posterior.hypotheses.iter().map(|h| h.probability).fold(0.0, f64::max);
+    posterior
+        .hypotheses
+        .iter()
+        .map(|hypothesis| {
+            if hypothesis.probability < 1e-3 * WORTH_A_NAME * most {
+                return None;
+            }
+            let mode = hypothesis.evidence.modes.first()?.scores.clone();
+            let values = predict::values(setup, &hypothesis.effects, &[mode], &rows);
+            Some(values.into_iter().flatten().filter_map(|draws| draws.first().copied()).collect())
+        })
+        .collect()
+}
+
+/// The places of the hypotheses that these data cannot tell from the best one, itself first.
+fn indistinguishable(
+    setup: &Setup<'_>,
+    posterior: &Posterior,
+    best: usize,
+    explained: bool,
+    predictions: &[Option<Vec<f64>>],
+    variances: &[f64],
+) -> Vec<usize> {
+    if !explained {
+        return Vec::new();
+    }
+    let Some(Some(own)) = predictions.get(best) else { return vec![best] };
+    let outputs = setup.data.outputs.len();
+    let distance = |other: &Vec<f64>| {
+        let mut squares = 0.0;
+        for (number, point) in setup.data.points.iter().enumerate() {
+            for &row in &point.rows {
+                for output in 0..outputs {
+                    let place = number * outputs + output;
+                    let difference = other[place] - own[place];
+                    squares += difference * difference / variances[row * outputs + output];
+                }
+            }
+        }
+        squares.sqrt()
+    };
+    let least = WORTH_A_NAME * posterior.hypotheses[best].probability;
+    let mut alike: Vec<usize> = (0..predictions.len())
+        .filter(|&place| place != best && posterior.hypotheses[place].probability >= least)
+        .filter(|&place| predictions[place].as_ref().is_some_and(|other| distance(other) < ALIKE))
+        .collect();
+    alike.sort_by(|&a, &b| {
+        posterior.hypotheses[b].probability.total_cmp(&posterior.hypotheses[a].probability)
+    });
+    let mut group = vec![best];
+    group.extend(alike);
+    group
+}
+
+/// The hypothesis to tell the best one from: the most probable one that is not the best with more
+/// effects added, since an addition that the data leave open makes no difference to be measured; a
+/// look-alike first.
+pub(crate) fn rival(posterior: &Posterior, best: usize, group: &[usize]) -> Option<usize> {
+    let own = &posterior.hypotheses.get(best)?.effects;
+    let adds = |place: usize| {
+        let effects = &posterior.hypotheses[place].effects;
+        own.iter().all(|effect| effects.contains(effect))
+    };
+    let probability = |place: usize| posterior.hypotheses[place].probability;
+    let others = || {
+        (0..posterior.hypotheses.len())
+            .filter(|&place| place != best && probability(place) > RIVAL)
+            .map(|place| (place, group.contains(&place), adds(place)))
+    };
+    let most = |among: &mut dyn Iterator<Item = usize>| {
+        among.max_by(|&a, &b| probability(a).total_cmp(&probability(b)))
+    };
+    most(&mut others().filter(|(_, alike, adds)| *alike && !adds).map(|(place, ..)| place))
+        .or_else(|| most(&mut others().filter(|(.., adds)| !adds).map(|(place, ..)| place)))
+        .or_else(|| most(&mut others().map(|(place, ..)| place)))
+}
+
+pub(crate) fn names(setup: &Setup<'_>, effects: &[usize]) -> Vec<String> {
+    effects.iter().map(|&e| setup.case.candidates[e].effect.name.clone()).collect()
+}
+
+fn most_probable(
+    setup: &Setup<'_>,
+    posterior: &Posterior,
+    best: usize,
+    explained: bool,
+    group: &[usize],
+) -> MostProbable {
+    if !explained {
+        return MostProbable {
+            kind: HypothesisKind::Unexplained,
+            effects: Vec::new(),
+            probability: posterior.probability,
+            indistinguishable: Vec::new(),
+            indistinguishable_probability: posterior.probability,
+        };
+    }
+    let winner = &posterior.hypotheses[best];
+    MostProbable {
+        kind: if winner.effects.is_empty() {
+            HypothesisKind::None
+        } else {
+            HypothesisKind::Explained
+        },
+        effects: names(setup, &winner.effects),
+        probability: winner.probability,
+        indistinguishable: group
+            .iter()
+            .map(|&h| names(setup, &posterior.hypotheses[h].effects))
+            .collect(),
+        indistinguishable_probability: group
+            .iter()
+            .map(|&h| posterior.hypotheses[h].probability)
+            .sum(),
+    }
+}

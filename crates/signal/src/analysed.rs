@@ -1,0 +1,96 @@
+//! The fit of a channel with what surrounds it.
+
+use std::f64::consts::PI;
+use std::rc::Rc;
+
+use super::Measured;
+use super::effects::{Effects, KnownNoise};
+use super::quantization::quantization_variance;
+use super::recipe::TimeBase;
+use super::residuals::Residuals;
+use super::sine_fit::{ToneCoefficients, ToneDesign};
+use super::spurious::Spurious;
+use gumption_engine::number::elementary::hypot;
+
+/// A frequency in a recording.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Fundamental {
+    /// Cycles in a sample interval that are fitted.
+    pub(super) cycles: f64,
+    /// Cycles in a sample interval by which phases go on from the middle of the record: the same, but
+    /// for a cut at whole samples.
+    pub(super) turning: f64,
+    /// In hertz.
+    pub(super) hertz: Measured,
+    /// The standard uncertainty of the cycles from a stated frequency.
+    pub(super) of_stated: f64,
+    /// The same from noise, where the frequency was estimated.
+    pub(super) of_estimate: f64,
+    /// The same from the sampling rate, for a stated frequency.
+    pub(super) of_rate: f64,
+    /// The same from cutting at whole samples.
+    pub(super) of_cut: f64,
+}
+
+/// A channel's fit with what surrounds it.
+#[derive(Clone, Debug)]
+pub(super) struct Analysed {
+    pub(super) channel: usize,
+    /// Which analysis it comes from: channels of one share their estimated frequency.
+    pub(super) track: usize,
+    /// Which clock: channels of one share the error of the sampling rate.
+    pub(super) clock: usize,
+    pub(super) base: TimeBase,
+    pub(super) design: Rc<ToneDesign>,
+    pub(super) fit: ToneCoefficients,
+    pub(super) residuals: Residuals,
+    pub(super) fundamentals: Vec<Fundamental>,
+    pub(super) spurious: Vec<Spurious>,
+    /// What the channel's steps did.
+    pub(super) effects: Rc<Effects>,
+}
+
+impl Analysed {
+    /// The peak amplitude of the strongest tone.
+    pub(super) fn strongest(&self) -> f64 {
+        let tones = self.fit.cosines.iter().zip(&self.fit.sines);
+        tones.map(|(a, b)| hypot(*a, *b)).fold(0.0, f64::max)
+    }
+}
+
+/// Shares of the residuals' variance that are known to be quantization and jitter.
+pub(super) fn shares(analysed: &Analysed, resolution: f64) -> [f64; 2] {
+    if let Some(known) = &analysed.residuals.known {
+        return known.shares;
+    }
+    let variance = analysed.residuals.variance;
+    if variance <= 0.0 {
+        return [0.0, 0.0];
+    }
+    let quantization = (quantization_variance(resolution) / variance).min(1.0);
+    let jitter: f64 = (0..analysed.design.tones.len())
+        .map(|tone| {
+            let speed = speed(analysed, tone) * analysed.base.jitter;
+            let (a, b) = (analysed.fit.cosines[tone], analysed.fit.sines[tone]);
+            speed * speed * (a * a + b * b) / 2.0
+        })
+        .sum();
+    [quantization, (jitter / variance).min(1.0 - quantization)]
+}
+
+/// The angular frequency of a tone, in radians a second.
+pub(super) fn speed(analysed: &Analysed, tone: usize) -> f64 {
+    2.0 * PI * analysed.design.tones[tone].cycles * analysed.base.rate.value
+}
+
+/// The noise power near a tone over that of white noise of the same variance, where the residuals
+/// are not white and the record is long enough to tell; else 1.
+pub(super) fn local(residuals: &Residuals, tone: usize) -> f64 {
+    if let Some(KnownNoise { factors: Some(factors), .. }) = &residuals.known {
+        return factors.get(tone).copied().unwrap_or(1.0);
+    }
+    match &residuals.local {
+        Some(local) if residuals.correlated => local.get(tone).copied().unwrap_or(1.0),
+        _ => 1.0,
+    }
+}
