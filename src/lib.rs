@@ -52,7 +52,7 @@
 //! let last = evaluation.rows[2].outputs[0].gum.as_ref().unwrap();
 //! // 10 cos(60 deg); u^2 = (0.01 / 2)^2 + (10 sin(60 deg) 0.1 deg / sqrt(3))^2; a few roundings
 //! assert!((last.estimate - 5.0).abs() < 1e-14);
-//! assert!((last.standard_uncertainty - 0.010_053_804_0).abs() < 1e-10);
+//! assert!((last.standard_uncertainty - 0.010057552135).abs() < 1e-12);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
@@ -186,10 +186,10 @@
 //! The normalized error E_n of two results (ISO/IEC 17043):
 //!
 //! ```
-//! use gumption::compare::{Pair, Stated};
+//! use gumption::compare::{ResultPair, StatedResult};
 //!
-//! let result = |value, expanded| Stated { value, expanded, factor: 2.0, rounding: [0.0; 2] };
-//! let pair = Pair {
+//! let result = |value, expanded| StatedResult { value, expanded, factor: 2.0, rounding: [0.0; 2] };
+//! let pair = ResultPair {
 //!     label: "S_x".to_owned(),
 //!     results: [result(10.3, 0.4), result(10.0, 0.3)],
 //!     correlation: 0.0,
