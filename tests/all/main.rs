@@ -7,6 +7,7 @@
 #![allow(clippy::duplicate_mod)]
 
 mod adaptive;
+mod answers;
 mod assumptions;
 mod benches;
 mod cases;

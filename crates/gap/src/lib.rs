@@ -1,4 +1,4 @@
-//! The model-to-real gap: whether measured data depart from a model by more than its uncertainties
+//! The gap between a model and measured data: whether the data depart by more than the uncertainties
 //! explain, where, which effect is missing, and how far the gap shrinks once it is added.
 // the expected values of tests may be as inexact as the platform
 #![cfg_attr(test, allow(clippy::disallowed_methods))]

@@ -1,0 +1,82 @@
+//! Answers of `gap` and `observe` to the last bit, on any processor.
+//!
+//! `tests/data/answers.csv` holds a hash over every answer, so that a change of any digit is seen.
+//! `GUMPTION_GOLDEN=write cargo test answers` writes it anew; such a change belongs into the
+//! changelog.
+
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+use sha2::{Digest, Sha256};
+
+use crate::support::{command, root};
+
+/// Turns the C library's kernels with fused products off, as on a processor without them.
+const WITHOUT_FUSED_PRODUCTS: &str = "glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4,-AVX512F,-AVX512VL";
+
+/// Every ready case and recipe, with the command that answers it.
+fn questions() -> Vec<(&'static str, String)> {
+    let of = |command, folder: &'static str, file: &'static str| {
+        let entries = fs::read_dir(root().join(folder)).expect("a folder of ready files");
+        let mut paths: Vec<String> = entries
+            .map(|entry| entry.expect("an entry").file_name().to_string_lossy().into_owned())
+            .filter(|name| root().join(folder).join(name).join(file).is_file())
+            .map(|name| format!("{folder}/{name}/{file}"))
+            .collect();
+        paths.sort();
+        paths.into_iter().map(move |path| (command, path))
+    };
+    let mut questions: Vec<_> = of("gap", "models/gap", "case.json").collect();
+    questions.extend(of("observe", "models/recordings", "recipe.json"));
+    assert!(questions.len() >= 12, "only {} ready files", questions.len());
+    questions
+}
+
+/// One line for each answer.
+fn lines(environment: &dyn Fn(&mut Command)) -> Vec<String> {
+    let line = |(verb, path): (&str, String)| {
+        let mut run = command();
+        run.current_dir(root()).args([verb, &path, "--format", "json", "--quiet"]);
+        environment(&mut run);
+        let run = run.output().expect("the program runs");
+        assert!(run.status.success(), "{verb} {path}: {}", String::from_utf8_lossy(&run.stderr));
+        let hash: String =
+            Sha256::digest(&run.stdout).iter().map(|byte| format!("{byte:02x}")).collect();
+        format!("{verb},{path},{hash}")
+    };
+    questions().into_iter().map(line).collect()
+}
+
+fn golden() -> std::path::PathBuf {
+    Path::new(root()).join("tests/data/answers.csv")
+}
+
+fn assert_golden(lines: &[String]) {
+    let golden = fs::read_to_string(golden()).expect("tests/data/answers.csv");
+    let golden: Vec<&str> = golden.lines().skip(1).collect();
+    for (now, golden) in lines.iter().zip(&golden) {
+        assert_eq!(now, golden, "the answer has changed");
+    }
+    assert_eq!(lines.len(), golden.len(), "answers without a hash");
+}
+
+#[test]
+fn answers_are_the_golden_ones() {
+    let lines = lines(&|_| {});
+    if std::env::var_os("GUMPTION_GOLDEN").is_some_and(|value| value == "write") {
+        let text = format!("command,file,sha256\n{}\n", lines.join("\n"));
+        fs::write(golden(), text).expect("the list is written");
+    }
+    assert_golden(&lines);
+}
+
+/// The C library chooses among kernels of its functions by what the processor can. An answer that
+/// took one of them would differ here.
+#[test]
+#[cfg(all(target_arch = "x86_64", target_os = "linux", target_env = "gnu"))]
+fn answers_do_not_depend_on_the_c_library_s_kernels() {
+    assert_golden(&lines(&|run| {
+        run.env("GLIBC_TUNABLES", WITHOUT_FUSED_PRODUCTS);
+    }));
+}
