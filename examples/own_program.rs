@@ -48,5 +48,5 @@ const TEMPLATE: &str = r#"{
 "#;
 
 fn main() -> ExitCode {
-    gumption::Program::new().measurement::<FreeFall<()>>(TEMPLATE).main()
+    gumption::Application::new().measurement::<FreeFall<()>>(TEMPLATE).main()
 }

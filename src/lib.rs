@@ -219,8 +219,8 @@
 //! let issued = issue(&asked, &[], &Control::default())?;
 //! // (422 +- 13) D/(m/s^2), as Chiominto et al. (2024) print it in table 1
 //! let sensitivity = &issued.statements[27];
-//! assert_eq!(sensitivity.rounded_value(), 422.0);
-//! assert_eq!(sensitivity.rounded.ok_or("no uncertainty")?.value, 13.0);
+//! assert_eq!(sensitivity.rounded_value().ok_or("no uncertainty")?.value(), 422.0);
+//! assert_eq!(sensitivity.rounded.ok_or("no uncertainty")?.value(), 13.0);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
@@ -233,7 +233,7 @@
 #![doc = include_str!("../examples/own_measurement.rs")]
 //! ```
 //!
-//! With one line it is as good as a built-in one on the command line and in files: `Program`.
+//! With one line it is as good as a built-in one on the command line and in files: `Application`.
 //! Distributions of `rand_distr` and `statrs` stand on inputs as
 //! [`External`](distribution::External).
 //!
@@ -246,7 +246,7 @@
 //!
 //! # Crate features
 //!
-//! - `cli` (default): the command line (`Program`), with what it needs to read arguments and show
+//! - `cli` (default): the command line (`Application`), with what it needs to read arguments and show
 //!   progress.
 //! - `statrs`: means, standard deviations and quantiles of `statrs` for
 //!   [`External`](distribution::External) distributions.
@@ -254,13 +254,13 @@
 #![deny(unsafe_code)]
 
 #[cfg(feature = "cli")]
-mod program;
+mod application;
 #[cfg(feature = "cli")]
 mod published;
 mod templates;
 
 #[cfg(feature = "cli")]
-pub use program::Program;
+pub use application::Application;
 pub use templates::catalogue;
 
 pub use gumption_analysis::{assumptions, certificate, compare, diff};

@@ -3,5 +3,5 @@
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    gumption::Program::new().main()
+    gumption::Application::new().main()
 }

@@ -162,7 +162,7 @@ fn assert_workbooks(folder: &Path, u: f64, text: &str) {
         .expect("a budget");
     let cells = book.worksheet_range(&name).expect("a sheet");
     let (first, _) = cells.start().expect("cells");
-    let row = cells.rows().position(|row| row[0] == *"expanded uncertainty").expect("a row");
+    let row = cells.rows().position(|row| row[0] == *"expanded uncertainty U").expect("a row");
     let cell = format!("B{}", first as usize + row + 1);
     let (value, format) = shown(&bytes, &format!("xl/worksheets/sheet{}.xml", index + 1), &cell);
     assert_eq!(value, u);

@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use clap::{Args, ValueEnum};
 
 use super::options::{Answer, Model, Seed, Threads};
-use super::{Exit, Failure, Program, options, progress, run};
+use super::{CommandLine, Exit, Failure, options, progress, run};
 use gumption_analysis::assumptions::{Audit, Question, audit, trials_to_make};
 use gumption_engine::task::{Coverage, Task, Trials, Warning};
 use gumption_files::ModelFile;
@@ -70,7 +70,7 @@ fn trials(text: &str) -> Result<u64, String> {
 }
 
 impl Assumptions {
-    pub(super) fn execute(&self, program: &Program) -> Result<Exit, Failure> {
+    pub(super) fn execute(&self, program: &CommandLine) -> Result<Exit, Failure> {
         let file = self.model.read(program)?;
         let mut task = file.task.clone();
         task.settings.seed = self.seed.or(task.settings.seed);

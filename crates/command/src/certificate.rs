@@ -7,13 +7,13 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use clap::{Args, ValueEnum};
 
 use super::options::{self, Answer, Seed, Threads};
-use super::{Exit, Failure, Program, output, progress, run};
+use super::{CommandLine, Exit, Failure, output, progress, run};
 use gumption_analysis::certificate::contents::Certificate as Asked;
 use gumption_analysis::certificate::{Failed, Issued, issue};
 use gumption_engine::propagate::{EvaluationError, warnings};
 use gumption_engine::task::{Trials, Warning};
 use gumption_files::{CertificateFile, Diagnostic, DiagnosticKind, Diagnostics};
-use gumption_report::certificate::{self as report, CertificateReport, CertifiedModel};
+use gumption_report::certificate::{self as report, CertificateReport, ModelSource};
 
 /// Make a calibration certificate.
 #[derive(Debug, Args)]
@@ -53,7 +53,7 @@ enum Format {
 }
 
 impl Certificate {
-    pub(super) fn execute(&self, program: &Program) -> Result<Exit, Failure> {
+    pub(super) fn execute(&self, program: &CommandLine) -> Result<Exit, Failure> {
         let mut file = self.read(program)?;
         self.check_format(&file)?;
         for asked in &mut file.certificate.evaluations {
@@ -62,14 +62,14 @@ impl Certificate {
             settings.trials = self.trials.unwrap_or(settings.trials);
         }
         let provenance = run::provenance(&file.source.text, &[]);
-        let models: Vec<CertifiedModel<'_>> = file
+        let models: Vec<ModelSource<'_>> = file
             .models
             .iter()
             .map(|model| {
                 let of = run::provenance(&model.source.text, &model.files);
                 (model, of)
             })
-            .map(|(model, of)| CertifiedModel {
+            .map(|(model, of)| ModelSource {
                 name: &model.name,
                 text: &model.source.text,
                 digest: of.model_sha256,
@@ -112,7 +112,7 @@ impl Certificate {
         Ok(Exit::Done)
     }
 
-    fn read(&self, program: &Program) -> Result<CertificateFile, Failure> {
+    fn read(&self, program: &CommandLine) -> Result<CertificateFile, Failure> {
         let files = program.files();
         let text = |text: &str| files.certificate_text("<stdin>", text, Path::new(""));
         Ok(options::given(&self.file, text, |path| files.certificate(path))??)
@@ -136,7 +136,7 @@ impl Certificate {
     fn issue(
         &self,
         file: &CertificateFile,
-        models: &[CertifiedModel<'_>],
+        models: &[ModelSource<'_>],
         stop: &AtomicBool,
     ) -> Result<Issued, Failure> {
         let bar = progress::bar(trials_to_make(&file.certificate), self.answer.quiet);

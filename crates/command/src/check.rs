@@ -6,7 +6,7 @@ use clap::Args;
 use serde::Serialize;
 
 use super::options::{self, Answer, Format};
-use super::{Exit, Failure, Program, diagnostics};
+use super::{CommandLine, Exit, Failure, diagnostics};
 use gumption_files::{Diagnostic, Diagnostics};
 
 /// Check a file.
@@ -50,7 +50,7 @@ impl From<&Diagnostic> for Mistake {
 }
 
 impl Check {
-    pub(super) fn execute(&self, program: &Program) -> Result<Exit, Failure> {
+    pub(super) fn execute(&self, program: &CommandLine) -> Result<Exit, Failure> {
         let files = program.files();
         let text = |text: &str| files.check_text("<stdin>", text, Path::new(""));
         let result = options::given(&self.file, text, |path| files.check(path))?;

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::{Args, ValueEnum};
 
 use super::options::{self, Answer};
-use super::{Exit, Failure, Program};
+use super::{CommandLine, Exit, Failure};
 use gumption_files as file;
 use gumption_files::{Diagnostics, ModelOrResult};
 use gumption_report as report;
@@ -31,7 +31,7 @@ enum Format {
 }
 
 impl Diff {
-    pub(super) fn execute(&self, program: &Program) -> Result<Exit, Failure> {
+    pub(super) fn execute(&self, program: &CommandLine) -> Result<Exit, Failure> {
         let standard = |path: &Path| path == Path::new("-");
         if standard(&self.a) && standard(&self.b) {
             return Err(Failure::Argument("only one of the files can be standard input".into()));
@@ -57,7 +57,7 @@ impl Diff {
     }
 }
 
-fn read(program: &Program, path: &Path) -> Result<Result<ModelOrResult, Diagnostics>, Failure> {
+fn read(program: &CommandLine, path: &Path) -> Result<Result<ModelOrResult, Diagnostics>, Failure> {
     let files = program.files();
     let text = |text: &str| files.either_text("<stdin>", text, Path::new(""));
     options::given(path, text, |path| files.either(path))

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 
 use super::options::{Answer, Seed, Threads};
-use super::{Exit, Failure, Program, output, progress, run};
+use super::{CommandLine, Exit, Failure, output, progress, run};
 use gumption_engine::task::Row;
 use gumption_files::CaseFile;
 use gumption_gap as gap;
@@ -43,7 +43,7 @@ enum Format {
 }
 
 impl Gap {
-    pub(super) fn execute(&self, program: &Program) -> Result<Exit, Failure> {
+    pub(super) fn execute(&self, program: &CommandLine) -> Result<Exit, Failure> {
         let whole = progress::whole_on_interrupt();
         let file = program.files().case(&self.case)?;
         let at = match &self.predict {

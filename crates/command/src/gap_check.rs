@@ -10,7 +10,7 @@ use clap::{Args, ValueEnum};
 use rayon::prelude::*;
 
 use super::options::{Answer, Seed, Threads};
-use super::{Exit, Failure, Program, progress, run};
+use super::{CommandLine, Exit, Failure, progress, run};
 use gumption_files::CaseFile;
 use gumption_gap as gap;
 use gumption_gap::check::{BlindCheckScores, BlindDraw, Truth, score, truth};
@@ -54,7 +54,7 @@ fn draws(text: &str) -> Result<u64, String> {
 }
 
 impl GapCheck {
-    pub(super) fn execute(&self, program: &Program) -> Result<Exit, Failure> {
+    pub(super) fn execute(&self, program: &CommandLine) -> Result<Exit, Failure> {
         let file = program.files().case(&self.case)?;
         self.answer.say(&file.warnings);
         let seed = self.seed.or(file.case.task.settings.seed);
@@ -90,7 +90,7 @@ impl GapCheck {
     /// interrupted.
     fn scores(
         &self,
-        program: &Program,
+        program: &CommandLine,
         file: &CaseFile,
         folder: &Path,
         seed: u64,
@@ -152,7 +152,7 @@ impl GapCheck {
     /// Diagnoses every case from its own folder; `None` if it was interrupted.
     fn diagnose(
         &self,
-        program: &Program,
+        program: &CommandLine,
         folder: &Path,
         seed: u64,
         stop: &AtomicBool,

@@ -68,12 +68,12 @@ enum Command {
 
 /// The command line with what it knows: typed measurements and published examples.
 #[derive(Clone, Debug, Default)]
-pub struct Program {
+pub struct CommandLine {
     catalogue: Catalogue,
     published: PublishedExamples,
 }
 
-impl Program {
+impl CommandLine {
     /// The command line with these typed measurements and published examples.
     pub fn new(catalogue: Catalogue, published: PublishedExamples) -> Self {
         Self { catalogue, published }

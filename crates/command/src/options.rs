@@ -7,7 +7,7 @@ use std::sync::atomic::AtomicBool;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
 
-use super::{Failure, Program, output};
+use super::{CommandLine, Failure, output};
 use gumption_engine::propagate::Control;
 use gumption_engine::task::{StoppingRule, Trials, Warning};
 use gumption_files::{ModelFile, Override, bytes};
@@ -143,7 +143,7 @@ pub(super) struct Model {
 
 impl Model {
     /// The model file with the replacements.
-    pub(super) fn read(&self, program: &Program) -> Result<ModelFile, Failure> {
+    pub(super) fn read(&self, program: &CommandLine) -> Result<ModelFile, Failure> {
         let (files, replaced) = (program.files(), &self.replacements);
         let text = |text: &str| files.model_text("<stdin>", text, Path::new(""), replaced);
         Ok(given(&self.model, text, |path| files.model(path, replaced))??)
@@ -227,7 +227,7 @@ fn replacement(text: &str) -> Result<Override, String> {
 
 /// The text of standard input.
 fn standard_input() -> Result<String, Failure> {
-    let bytes = bytes::of(std::io::stdin(), bytes::MOST)
+    let bytes = bytes::of(io::stdin(), bytes::MOST)
         .map_err(|message| Failure::Argument(format!("cannot read standard input: {message}")))?;
     String::from_utf8(bytes)
         .map_err(|_| Failure::Argument("standard input is not UTF-8 text".to_owned()))

@@ -8,7 +8,7 @@ use clap::{Args, ValueEnum};
 use sha2::{Digest, Sha256};
 
 use super::options::{self, Answer, Model, Page, Seed, Threads};
-use super::{Exit, Failure, Program, output, progress, save};
+use super::{CommandLine, Exit, Failure, output, progress, save};
 use gumption_engine::propagate::monte_carlo::Histogram;
 use gumption_engine::propagate::{
     Control, Evaluation, EvaluationError, evaluate, histograms, warnings,
@@ -81,7 +81,7 @@ enum DofRule {
 }
 
 impl Run {
-    pub(super) fn execute(&self, program: &Program) -> Result<Exit, Failure> {
+    pub(super) fn execute(&self, program: &CommandLine) -> Result<Exit, Failure> {
         let file = self.model.read(program)?;
         let text = &file.source.text;
         let mut task = file.task.clone();

@@ -259,8 +259,8 @@ impl<'a> ModelReader<'a> {
                         fill_from_declaration(output, declared);
                     }
                 }
-                check_typed(log, &entry, place, of);
-                let scope = typed_scope(&entry, &of.inputs, &of.conditions);
+                check_typed(log, entry, place, of);
+                let scope = typed_scope(entry, &of.inputs, &of.conditions);
                 (scope, ModelForm::Typed(entry.typed))
             }
             ModelBody::Equations(equations) => {

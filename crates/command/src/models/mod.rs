@@ -8,7 +8,7 @@ use clap::Args;
 use comfy_table::{ContentArrangement, Table, presets};
 
 use super::options::Format;
-use super::{Exit, Failure, Program, output};
+use super::{CommandLine, Exit, Failure, output};
 use gumption_engine::model::typed::{Catalogue, CatalogueEntry};
 use gumption_units::nearest;
 
@@ -29,7 +29,7 @@ pub(super) struct Models {
 }
 
 impl Models {
-    pub(super) fn execute(&self, program: &Program) -> Result<Exit, Failure> {
+    pub(super) fn execute(&self, program: &CommandLine) -> Result<Exit, Failure> {
         let text = match &self.name {
             name if self.effects => {
                 let listing = effects::named(name.as_deref())?;

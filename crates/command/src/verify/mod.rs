@@ -10,7 +10,7 @@ use std::sync::atomic::Ordering;
 use clap::{Args, ValueEnum};
 
 use super::options::{Answer, Threads};
-use super::{Exit, Failure, Program, output, progress};
+use super::{CommandLine, Exit, Failure, output, progress};
 pub use examples::PublishedExamples;
 use gumption_analysis::verification::{PublishedVerdict, RecomputedExample};
 use gumption_report::verification;
@@ -48,7 +48,7 @@ enum Format {
 }
 
 impl Verify {
-    pub(super) fn execute(&self, program: &Program) -> Result<Exit, Failure> {
+    pub(super) fn execute(&self, program: &CommandLine) -> Result<Exit, Failure> {
         let threads = self.threads.count();
         if self.paths {
             return self.compared.execute(program, threads, self.fail);

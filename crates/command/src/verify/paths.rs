@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use crate::{Exit, Failure, Program, options, output};
+use crate::{CommandLine, Exit, Failure, options, output};
 use gumption_engine::number::CodePath;
 use gumption_engine::propagate::{Control, trial_hash};
 use gumption_engine::task::Trials;
@@ -31,7 +31,7 @@ impl Paths {
     /// Compares the paths on a number of threads; prints to standard output.
     pub(super) fn execute(
         &self,
-        program: &Program,
+        program: &CommandLine,
         threads: usize,
         fail: bool,
     ) -> Result<Exit, Failure> {

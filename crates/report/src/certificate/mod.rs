@@ -31,7 +31,7 @@ pub struct CertificateReport<'a> {
     /// The results.
     pub issued: &'a Issued,
     /// The model files, in the order of the certificate's.
-    pub models: &'a [CertifiedModel<'a>],
+    pub models: &'a [ModelSource<'a>],
     /// The text of the certificate file.
     pub text: &'a str,
     /// Its SHA-256, in hexadecimal.
@@ -42,7 +42,7 @@ pub struct CertificateReport<'a> {
 
 /// A model file of a certificate.
 #[derive(Clone, Debug)]
-pub struct CertifiedModel<'a> {
+pub struct ModelSource<'a> {
     /// The name, as the certificate file has it.
     pub name: &'a str,
     /// Its text.

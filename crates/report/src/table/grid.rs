@@ -59,7 +59,7 @@ impl Grid {
     }
 
     /// The table of a sheet.
-    pub fn of(sheet: &Sheet) -> Self {
+    pub(crate) fn of(sheet: &Sheet) -> Self {
         let mut grid = Self { columns: Vec::new(), footer: sheet.footer };
         for column in &sheet.columns {
             let cells = column.cells.iter().cloned();

@@ -38,6 +38,7 @@
 mod catalogue;
 mod complex;
 #[cfg(test)]
+#[allow(unreachable_pub, reason = "the macro writes public structs")]
 pub(crate) mod example;
 mod measurement;
 

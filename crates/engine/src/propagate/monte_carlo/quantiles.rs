@@ -144,6 +144,7 @@ fn order_statistic(leaves: &[Leaf], kept: &[f64], k: u64) -> f64 {
 }
 
 #[cfg(test)]
+#[allow(unreachable_pub, reason = "the macro writes public structs")]
 mod tests {
     use super::*;
     use crate::distribution::Input;

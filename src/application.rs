@@ -13,19 +13,19 @@ use crate::{published, templates};
 #[doc = include_str!("../examples/own_program.rs")]
 /// ```
 #[derive(Clone, Debug)]
-pub struct Program(gumption_command::Program);
+pub struct Application(gumption_command::CommandLine);
 
-impl Default for Program {
+impl Default for Application {
     fn default() -> Self {
         Self::new()
     }
 }
 
-impl Program {
+impl Application {
     /// The command line with the built-in measurements.
     pub fn new() -> Self {
         let catalogue = templates::catalogue().clone();
-        Self(gumption_command::Program::new(catalogue, published::EXAMPLES))
+        Self(gumption_command::CommandLine::new(catalogue, published::EXAMPLES))
     }
 
     /// The same with one more measurement; `template` is a model file of it, which `models NAME
