@@ -21,7 +21,8 @@ fn the_expectation_is_the_relative_entropy_of_normal_predictions() {
     let own: Vec<f64> = scores.clone().map(|z| 1.0 + 0.5 * z).collect();
     let other: Vec<f64> = scores.map(|z| 0.8 * z).collect();
     let noise = 0.3;
-    let of_seed = |seed| expected(std::slice::from_ref(&own), std::slice::from_ref(&other), &[noise], seed);
+    let of_seed =
+        |seed| expected(std::slice::from_ref(&own), std::slice::from_ref(&other), &[noise], seed);
     let found = (1..=16).map(of_seed).sum::<f64>() / 16.0;
     let (va, vb): (f64, f64) = (0.25 + noise, 0.64 + noise);
     let exact = 0.5 * ((va + 1.0) / vb - 1.0 + (vb / va).ln());
