@@ -3,6 +3,7 @@
 
     benches/build.py --before REV            writes reports/build.md
     benches/build.py --before REV --tests    also `cargo test` of both, from nothing (long)
+    benches/build.py --before REV --dist     also the published profile (long)
     benches/build.py --render                the page again from reports/build.json
 
 Registry downloads are made before the clock starts. Times are of the whole process tree: wall
@@ -151,11 +152,21 @@ def page(result):
             name = "`cargo test` from nothing, " + ("wall" if what == "wall" else "CPU")
             rows.append((name, *(seconds(r["tests"][what]) if "tests" in r else "not measured" for r in [before, after])))
         rows.append(("tests that passed", *(str(r.get("passed", "not measured")) for r in [before, after])))
-    rows.append(("`dist` build, wall", "", seconds(after["dist"]["wall"])))
-    rows.append(("`dist` binary, stripped", "", mega(after["dist_binary"])))
+    if "dist" in after:
+        rows.append(("`dist` build, wall", "", seconds(after["dist"]["wall"])))
+        rows.append(("`dist` binary, stripped", "", mega(after["dist_binary"])))
     rows.append(("lines of code without tests", f"{before['lines']:,}", f"{after['lines']:,}"))
     table = "\n".join(f"| {name} | {a} | {b} |" for name, a, b in rows)
-    speeds = "\n".join(f"| {name} | {ratio:.3f} |" for name, ratio in after["speed"].items())
+    speeds = ""
+    if "speed" in after:
+        lines = "\n".join(f"| {name} | {ratio:.3f} |" for name, ratio in after["speed"].items())
+        speeds = f"""
+CPU time of the `release` profile over that of the `dist` profile (link-time optimization, one unit), one thread, median of {ROUNDS} ratios measured in turn:
+
+| workload | release / dist |
+|---|---:|
+{lines}
+"""
     return f"""# What a newcomer waits for
 
 Written by `benches/build.py` on {result["processor"]}, {result["cores"]} cores, {result["rustc"]}. Both columns were measured one after the other, each in a fresh clone, registry downloads aside; CPU time is user and system of the whole process tree. The first command is `cargo run --release -- {" ".join(FIRST)}`.
@@ -163,13 +174,7 @@ Written by `benches/build.py` on {result["processor"]}, {result["cores"]} cores,
 | | before ({before["revision"][:10]}) | after ({after["revision"][:10]}) |
 |---|---:|---:|
 {table}
-
-CPU time of the `release` profile over that of the `dist` profile (link-time optimization, one unit), one thread, median of {ROUNDS} ratios measured in turn:
-
-| workload | release / dist |
-|---|---:|
-{speeds}
-"""
+{speeds}"""
 
 
 def main():
@@ -177,6 +182,7 @@ def main():
     parser.add_argument("--before", help="the revision to compare with")
     parser.add_argument("--tests", action="store_true", help="also the tests of both revisions")
     parser.add_argument("--tests-after", action="store_true", help="also the tests of this revision only")
+    parser.add_argument("--dist", action="store_true", help="also the `dist` profile: size, and speed beside `release`")
     parser.add_argument("--edit", action="store_true", help="also the build after an edit of a page")
     parser.add_argument("--render", action="store_true", help="the page again from reports/build.json")
     arguments = parser.parse_args()
@@ -193,7 +199,7 @@ def main():
         with tempfile.TemporaryDirectory() as scratch:
             scratch = Path(scratch)
             result["before"] = measured(revisions[0], scratch, arguments.tests, arguments.edit, False)
-            result["after"] = measured(revisions[1], scratch, arguments.tests or arguments.tests_after, arguments.edit, True)
+            result["after"] = measured(revisions[1], scratch, arguments.tests or arguments.tests_after, arguments.edit, arguments.dist)
         kept.write_text(json.dumps(result, indent=2) + "\n", encoding="utf-8")
     (ROOT / "reports/build.md").write_text(page(result), encoding="utf-8")
 

@@ -165,7 +165,7 @@ pub(crate) fn sin_cos(x: f64) -> (f64, f64) {
 /// 2 ulp of itself in [−π/4, π/4]; NaN for ±∞ and NaN.
 ///
 /// A loop over this function does not vectorize because of the rare path
-/// for large arguments; [`sin_column`] does.
+/// for large arguments; `sin_column` does.
 #[inline(always)]
 pub fn sin(x: f64) -> f64 {
     if x.abs() <= TRIG_FAST_LIMIT { sin_cos_fast(x).0 } else { sin_slow(x) }
@@ -175,7 +175,7 @@ pub fn sin(x: f64) -> f64 {
 /// ±∞ and NaN.
 ///
 /// A loop over this function does not vectorize because of the rare path for large arguments;
-/// [`cos_column`] does.
+/// `cos_column` does.
 #[inline(always)]
 pub fn cos(x: f64) -> f64 {
     if x.abs() <= TRIG_FAST_LIMIT { sin_cos_fast(x).1 } else { cos_slow(x) }

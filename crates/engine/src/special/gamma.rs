@@ -32,7 +32,7 @@ pub fn cdf(x: f64, shape: f64) -> f64 {
 
 /// Q(a, x): the probability of a gamma quantity of shape a and unit scale above `x`.
 ///
-/// Shapes 1e-3 to 1e7; accuracy as of [`cdf`]. 1 for x <= 0.
+/// Shapes 1e-3 to 1e7; accuracy as of `cdf`. 1 for x <= 0.
 pub fn sf(x: f64, shape: f64) -> f64 {
     if !is_shape(shape) || x.is_nan() {
         f64::NAN

@@ -13,10 +13,10 @@
 //! Incomplete gamma and beta functions share one design. The distribution function is the weight
 //! x^a e^(-x) / Γ(a), or x^a (1 - x)^b / B(a, b), times the integral of a ratio that is 1 at its
 //! start. The weight is in the saddle-point form of Loader 2000, which does not cancel for large
-//! shapes ([`weight`]). The integral is a series of positive terms for small shapes and a Gauss
-//! quadrature in a logarithmic variable for large ones ([`quadrature`]). The tail on the near side
+//! shapes (`weight`). The integral is a series of positive terms for small shapes and a Gauss
+//! quadrature in a logarithmic variable for large ones (`quadrature`). The tail on the near side
 //! of the mean is the one computed, so a small probability keeps its relative accuracy. Quantiles
-//! are roots in log-log coordinates, bracketed ([`root`]).
+//! are roots in log-log coordinates, bracketed (`root`).
 
 pub mod beta;
 pub mod gamma;
