@@ -171,7 +171,7 @@ CPU time of the `release` profile over that of the `dist` profile (link-time opt
 
 Written by `benches/build.py` on {result["processor"]}, {result["cores"]} cores, {result["rustc"]}. Both columns were measured one after the other, each in a fresh clone, registry downloads aside; CPU time is user and system of the whole process tree. The first command is `cargo run --release -- {" ".join(FIRST)}`.
 
-| | before ({before["revision"][:10]}) | after ({after["revision"][:10]}) |
+| | before ({before["revision"][:10]}) | after |
 |---|---:|---:|
 {table}
 {speeds}"""
