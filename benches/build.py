@@ -169,7 +169,7 @@ CPU time of the `release` profile over that of the `dist` profile (link-time opt
 """
     return f"""# What a newcomer waits for
 
-Written by `benches/build.py` on {result["processor"]}, {result["cores"]} cores, {result["rustc"]}. Both columns were measured on one machine, each in a fresh clone, registry downloads aside; CPU time is user and system of the whole process tree. The first command is `cargo run --release -- {" ".join(FIRST)}`.
+Written by `benches/build.py` on {result["processor"]}, {result["cores"]} cores, {result["rustc"]}. Both columns were measured on one machine, each in a fresh clone, registry downloads aside; CPU time is user and system of the whole process tree. The first command is `cargo run --release -- {" ".join(FIRST)}`.{result.get("how", "")}
 
 | | before ({before["revision"][:10]}) | after |
 |---|---:|---:|
