@@ -246,7 +246,8 @@ mod tests {
     /// two samples, by rounding at 600 of each, coherent and not.
     #[test]
     fn variances_are_those_over_levels() {
-        for (cycles, samples, size) in [(0.008, 1000, 30.0), (0.0073, 3150, 7.5), (0.0731, 977, 3.2)]
+        for (cycles, samples, size) in
+            [(0.008, 1000, 30.0), (0.0073, 3150, 7.5), (0.0731, 977, 3.2)]
         {
             let tone = |multiple: u32| Tone {
                 cycles: cycles * f64::from(multiple),
