@@ -114,20 +114,40 @@ fn errors(situation: &Situation, count: u64) -> Vec<(String, Errors)> {
     all
 }
 
-/// Prints the root mean square of error over standard uncertainty of each figure.
-#[test]
-#[ignore = "two minutes"]
-fn standard_scores_of_300_recordings() {
+/// Scores of `count` recordings of situations, printed; those outside of limits.
+fn outside(situations: &[Situation], count: u64, limits: [f64; 2]) -> Vec<String> {
     let mut wrong = Vec::new();
-    for situation in situations() {
-        for (name, errors) in errors(&situation, 300) {
+    for situation in situations {
+        for (name, errors) in errors(situation, count) {
             let score = errors.score();
-            let verdict = if (0.85..=1.15).contains(&score) { "" } else { "  <<<" };
-            println!("{:32} {name:14} {score:7.3}{verdict}", situation.about);
-            if !verdict.is_empty() {
+            let inside = limits[0] <= score && score <= limits[1];
+            let mark = if inside { "" } else { "  <<<" };
+            println!("{:32} {name:14} {score:7.3}{mark}", situation.about);
+            if !inside {
                 wrong.push(format!("{} {name} {score:.3}", situation.about));
             }
         }
     }
+    wrong
+}
+
+/// The root mean square of error over standard uncertainty of each figure. Of normal errors it has a
+/// standard deviation of 4 %, so that limits of 15 % are passed by one right figure in 5000.
+#[test]
+#[ignore = "three minutes"]
+fn standard_scores_of_300_recordings() {
+    let wrong = outside(&situations(), 300, [0.85, 1.15]);
+    assert!(wrong.is_empty(), "{wrong:#?}");
+}
+
+/// The quick form: 40 recordings of each situation that takes little time. The standard deviation of a
+/// score is 11 %; fixed seeds, so that a test that passes once passes always.
+#[test]
+fn standard_scores_of_40_recordings() {
+    let quick: Vec<Situation> = situations()
+        .into_iter()
+        .filter(|of| !of.about.starts_with("steps"))
+        .collect();
+    let wrong = outside(&quick, 40, [0.6, 1.45]);
     assert!(wrong.is_empty(), "{wrong:#?}");
 }
