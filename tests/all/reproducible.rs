@@ -1,8 +1,8 @@
 //! The same bits on any number of threads, on every code path, with any memory.
 //!
 //! `tests/data/golden.csv` holds a hash over all trials of every model file, so that a change of
-//! any bit is seen. `GUMPTION_GOLDEN=write cargo test golden` writes it anew; such a change belongs
-//! into the changelog.
+//! any bit is seen. `GUMPTION_GOLDEN=write cargo test --test all golden` writes it and the hashes of
+//! answers anew; such a change belongs into the changelog.
 
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -3,8 +3,8 @@
 use std::rc::Rc;
 
 use super::analysed::{Analysed, local};
-use super::common_noise::correlation;
 use super::analysis::{Group, MOST_HELD, Refused, Through, unreadable};
+use super::common_noise::correlation;
 use super::effects::{Effects, StepEffect};
 use super::observation::{ChannelObservation, Observation};
 use super::passes::{InMemorySamples, SampleSource, gathered};
@@ -284,9 +284,11 @@ fn notes(settings: &RecipeSettings, analysed: &[Analysed]) -> Vec<Note> {
                     "the noise near each frequency is taken from {} parts of the record",
                     residuals.parts
                 ),
-                (Some(coloured), _) if coloured.fits => "the noise near each frequency is that of a \
+                (Some(coloured), _) if coloured.fits => {
+                    "the noise near each frequency is that of a \
                      process of first order, which the residuals have"
-                    .to_owned(),
+                        .to_owned()
+                }
                 _ => "the record is too short to tell the noise near each frequency, so standard \
                      uncertainties may be too small"
                     .to_owned(),
@@ -306,10 +308,13 @@ fn notes(settings: &RecipeSettings, analysed: &[Analysed]) -> Vec<Note> {
         let stated = settings.channels[of.channel].resolution;
         if of.resolution > stated {
             let unit = unit_text(settings, of);
-            let known = if stated > 0.0 { "a finer resolution is stated" } else { "no resolution is stated" };
+            let known = if stated > 0.0 { "a finer" } else { "no" };
+            // as many digits as single precision has
+            let step = format!("{:.5e}", of.resolution).parse().unwrap_or(of.resolution);
             let text = format!(
-                "`{name}`: {known}, but the values are multiples of {:.4e}{unit}, which is taken for it",
-                of.resolution
+                "`{name}`: {known} resolution is stated, but the values are multiples of {}{unit}, \
+                 which is taken for it",
+                gumption_engine::number::Shortest(step)
             );
             notes.push(("looks-quantized", of.channel, text));
         }
@@ -327,9 +332,8 @@ fn notes(settings: &RecipeSettings, analysed: &[Analysed]) -> Vec<Note> {
         let reference = settings.reference.and_then(|channel| {
             analysed.iter().find(|other| other.channel == channel && channel != of.channel)
         });
-        let common = reference.and_then(|reference| {
-            correlation(of, reference, of.fundamentals.first()?.cycles)
-        });
+        let common = reference
+            .and_then(|reference| correlation(of, reference, of.fundamentals.first()?.cycles));
         if let Some(common) = common.filter(|common| common.abs() > 0.1) {
             let text = format!(
                 "`{name}`: its noise and that of the reference have something in common (the errors \

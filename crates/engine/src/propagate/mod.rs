@@ -3,6 +3,7 @@
 //! ([`monte_carlo`], JCGM 101) at the same time, and the comparison of the two ([`validate`],
 //! JCGM 101, clause 8).
 
+mod branch;
 mod budget;
 mod conformity;
 mod control;

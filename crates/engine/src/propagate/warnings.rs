@@ -2,6 +2,7 @@
 
 use std::collections::HashMap;
 
+use super::branch;
 use super::evaluation::{Evaluation, OutputEvaluation, RowEvaluation};
 use super::gum::{BudgetLine, Dof, Gum};
 use super::monte_carlo::{Adaptive, MonteCarlo};
@@ -51,7 +52,12 @@ pub fn warnings(task: &Task, evaluation: &Evaluation) -> Vec<Warning> {
             let text = format!("{count} of {all} trials are not finite and were left out");
             push(&mut found, Warning::new("undefined-trials", "", text));
         }
-        for (output, evaluated) in task.model.outputs.iter().zip(&row.outputs) {
+        for (number, (output, evaluated)) in task.model.outputs.iter().zip(&row.outputs).enumerate()
+        {
+            if let (Some(gum), Some(trials)) = (&evaluated.gum, &evaluated.monte_carlo) {
+                let note = branch::note(&task.model.program, (number, output), gum, trials);
+                note.into_iter().for_each(|note| push(&mut found, note));
+            }
             of_output(task, &output.quantity.name, row, evaluated, &mut found);
             of_capability(output, evaluated, &mut found);
         }
