@@ -1,8 +1,6 @@
-//! Progress on the terminal, and Ctrl-C.
+//! Progress on the terminal.
 
 use std::io::IsTerminal;
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, Mutex};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
@@ -49,30 +47,4 @@ pub(super) fn share(quiet: bool) -> ProgressBar {
 pub(super) fn tell(bar: &ProgressBar, share: f64) {
     let position = (share.clamp(0.0, 1.0) * PARTS as f64) as u64;
     bar.set_position(position.max(bar.position()));
-}
-
-/// Lets Ctrl-C end the process at once with 130, but not while the lock is held: a file that is being
-/// written becomes whole first.
-pub(super) fn whole_on_interrupt() -> Arc<Mutex<()>> {
-    let lock = Arc::new(Mutex::new(()));
-    let held = lock.clone();
-    // without a handler Ctrl-C ends the process, which is all right as well
-    let _ = ctrlc::set_handler(move || {
-        let _whole = held.lock();
-        std::process::exit(130);
-    });
-    lock
-}
-
-/// A flag that the first Ctrl-C sets; a second one ends the process at once.
-pub(super) fn stop_flag() -> Arc<AtomicBool> {
-    let stop = Arc::new(AtomicBool::new(false));
-    let flag = stop.clone();
-    // without a handler Ctrl-C ends the process, which is all right as well
-    let _ = ctrlc::set_handler(move || {
-        if flag.swap(true, Ordering::Relaxed) {
-            std::process::exit(130);
-        }
-    });
-    stop
 }
