@@ -1,8 +1,10 @@
 //! Progress on the terminal.
 
+use std::fmt::Write;
 use std::io::IsTerminal;
 
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use gumption_report::grouped;
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 
 /// A bar that counts examples, diagnoses or other things that take their time one by one.
 pub(super) fn counted(count: u64, things: &str, quiet: bool) -> ProgressBar {
@@ -18,10 +20,8 @@ pub(super) fn bar(trials: Option<u64>, quiet: bool) -> ProgressBar {
         if hidden { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr_with_hz(10) };
     let bar = ProgressBar::with_draw_target(trials, target);
     let look = match trials {
-        Some(_) => {
-            "{bar:30} {percent:>3} %  {human_pos} of {human_len} trials, {per_sec}, {eta} left"
-        }
-        None => "{spinner} {human_pos} trials, {per_sec}",
+        Some(_) => "{bar:30} {percent:>3} %  {made} of {all} trials, {rate}/s, {eta} left",
+        None => "{spinner} {made} trials, {rate}/s",
     };
     styled(bar, look)
 }
@@ -29,6 +29,17 @@ pub(super) fn bar(trials: Option<u64>, quiet: bool) -> ProgressBar {
 fn styled(bar: ProgressBar, template: &str) -> ProgressBar {
     // a template that cannot be read leaves the usual bar
     if let Ok(style) = ProgressStyle::with_template(template) {
+        // digits in groups, as on every page
+        let style = style
+            .with_key("made", |state: &ProgressState, out: &mut dyn Write| {
+                let _ = out.write_str(&grouped(state.pos()));
+            })
+            .with_key("all", |state: &ProgressState, out: &mut dyn Write| {
+                let _ = out.write_str(&grouped(state.len().unwrap_or(0)));
+            })
+            .with_key("rate", |state: &ProgressState, out: &mut dyn Write| {
+                let _ = out.write_str(&grouped(state.per_sec() as u64));
+            });
         bar.set_style(style);
     }
     bar

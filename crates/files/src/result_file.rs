@@ -152,6 +152,14 @@ impl<'a> Reader<'a> {
 
     /// Notes on the digest, and whether the file is as it was written.
     fn integrity(&self) -> (Vec<Warning>, bool) {
+        if let Some(parts) = self.root.get(integrity::PARTS)
+            && let Some(parts) =
+                Object::new(self.log, "`sha256_of_parts`", &parts.value, &parts.key_span)
+        {
+            for member in parts.members() {
+                parts.text(&member.key);
+            }
+        }
         let file = &self.log.source.name;
         let note = |code, text| (vec![Warning::new(code, file, text)], false);
         let Some(stated) = self.root.get(integrity::DIGEST) else {

@@ -32,9 +32,9 @@ pub use samples::TrialsForm;
 pub use saved::saved;
 pub use table::Grid;
 pub use table::WIDTH;
+pub(crate) use table::conditions_text;
 pub use table::{BudgetColumn, TableStyle, table, write_table};
-pub(crate) use table::{conditions_text, grouped};
-pub use table::{plain, wrapped};
+pub use table::{grouped, plain, wrapped};
 
 use gumption_engine::propagate::Evaluation;
 use gumption_engine::task::{Task, Warning};

@@ -10,8 +10,8 @@ mod text;
 
 pub use columns::BudgetColumn;
 pub use grid::Grid;
-pub(crate) use text::{grouped, is_obeyed, one_line};
-pub use text::{plain, wrapped};
+pub use text::{grouped, plain, wrapped};
+pub(crate) use text::{is_obeyed, one_line};
 
 use std::io::{self, Write};
 

@@ -55,7 +55,7 @@ pub(super) fn definitions(entries: &[(&str, &str)]) -> String {
 }
 
 /// A count with its digits in groups of three: 1 000 000.
-pub(crate) fn grouped(count: u64) -> String {
+pub fn grouped(count: u64) -> String {
     let digits = count.to_string();
     let mut text = String::with_capacity(digits.len() + digits.len() / 3);
     for (place, digit) in digits.chars().enumerate() {
