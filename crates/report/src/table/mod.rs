@@ -11,7 +11,7 @@ mod text;
 pub use columns::BudgetColumn;
 pub use grid::Grid;
 pub use text::{grouped, plain, wrapped};
-pub(crate) use text::{is_obeyed, one_line};
+pub(crate) use text::{is_obeyed, one_line, printable};
 
 use std::io::{self, Write};
 

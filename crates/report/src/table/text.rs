@@ -28,6 +28,11 @@ pub fn plain(text: &str) -> String {
     }
 }
 
+/// A text of several lines without characters that a terminal would obey.
+pub(crate) fn printable(text: &str) -> String {
+    text.chars().filter(|c| matches!(c, '\n' | '\t') || !is_obeyed(*c)).collect()
+}
+
 /// Characters that a terminal would obey, marks that change the direction of the text around them,
 /// and characters without a width.
 pub(crate) fn is_obeyed(c: char) -> bool {
