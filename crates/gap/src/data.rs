@@ -2,6 +2,7 @@
 
 use std::collections::HashMap;
 
+use super::noise_model::NoiseModel;
 use crate::Case;
 use gumption_engine::number::elementary;
 use gumption_engine::task::Sharing;
@@ -24,6 +25,11 @@ pub(crate) struct Data {
     pub(crate) point_of: Vec<usize>,
     /// The row of the case that each row is.
     pub(crate) ids: Vec<usize>,
+    /// What the noise is taken to be.
+    pub(crate) noise: NoiseModel,
+    /// For each value (row by row, outputs fastest) the logarithm of what an estimated standard
+    /// deviation is multiplied by: of the stated uncertainty where a factor of it is estimated.
+    pub(crate) ln_scales: Vec<f64>,
 }
 
 /// Conditions at which there are one or more rows.
@@ -40,11 +46,11 @@ pub(crate) struct Point {
 impl Data {
     /// All rows of a case.
     pub(crate) fn new(case: &Case) -> Self {
-        Self::of(case, (0..case.task.rows.len()).collect())
+        Self::of(case, (0..case.task.rows.len()).collect(), NoiseModel::default())
     }
 
-    /// Some rows of a case.
-    pub(crate) fn of(case: &Case, ids: Vec<usize>) -> Self {
+    /// Some rows of a case, with a noise.
+    pub(crate) fn of(case: &Case, ids: Vec<usize>, noise: NoiseModel) -> Self {
         let outputs: Vec<usize> =
             (0..case.observed.len()).filter(|&output| case.observed[output].is_some()).collect();
         let observed: Vec<_> = case.observed.iter().flatten().collect();
@@ -78,17 +84,35 @@ impl Data {
                 |&id: &usize| other.map_or(own[id], |other| elementary::hypot(own[id], other[id]));
             Some(ids.iter().map(both).collect())
         };
+        let mut uncertainties: Vec<Option<Vec<f64>>> = observed.iter().map(in_quadrature).collect();
+        let mut ln_scales = vec![0.0; ids.len() * outputs.len()];
+        for (output, stated) in uncertainties.iter_mut().enumerate() {
+            for (row, &id) in ids.iter().enumerate() {
+                let stretch = noise.stretch(id, output);
+                let ln_scale = &mut ln_scales[row * outputs.len() + output];
+                match stated {
+                    Some(u) if noise.factor => *ln_scale = elementary::ln(u[row] * stretch),
+                    Some(u) => u[row] *= stretch,
+                    None => *ln_scale = elementary::ln(stretch),
+                }
+            }
+            if noise.factor {
+                *stated = None;
+            }
+        }
         Self {
             turns: outputs.iter().map(|&output| case.model.outputs[output].period).collect(),
             values: observed
                 .iter()
                 .map(|observed| ids.iter().map(|&id| observed.values[id]).collect())
                 .collect(),
-            uncertainties: observed.iter().map(in_quadrature).collect(),
+            uncertainties,
             outputs,
             points,
             point_of,
             ids,
+            noise,
+            ln_scales,
         }
     }
 

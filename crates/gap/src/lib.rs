@@ -23,6 +23,7 @@ mod logarithm;
 mod mixture;
 mod model;
 mod next;
+mod noise_model;
 mod notes;
 mod parameters;
 mod posterior;
@@ -35,13 +36,14 @@ mod selection;
 mod setup;
 mod shrink;
 mod weighed;
+mod weighed_noise;
 
 pub use case::{Candidate, Case, ObservedOutput, Prior};
 pub use diagnose::{DiagnosisOptions, diagnose};
 pub use diagnosis::{
-    Diagnosis, DiagnosisNote, EffectParameter, GapRegion, GapTest, Hypothesis, HypothesisKind,
-    MostProbable, NamedQuantity, NextMeasurement, NoiseEstimate, Predicted, RowGap, Shrinkage,
-    Shrunk, ValueGap,
+    Diagnosis, DiagnosisNote, EffectParameter, EstimatedNoise, GapRegion, GapTest, Hypothesis,
+    HypothesisKind, MostProbable, NamedQuantity, NextMeasurement, NoiseEstimate, Predicted,
+    PresentEffect, RowGap, Shrinkage, Shrunk, SuspectValue, UncertaintyFactor, ValueGap,
 };
 pub use model::{Effect, ModelForm, OverridableModel, OverrideError};
 pub use selection::{ModelSelection, noise, nominal, select_model};

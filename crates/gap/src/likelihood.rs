@@ -321,7 +321,8 @@ impl<V: Visitor> Kernel for Walk<'_, '_, V> {
                         } else {
                             for lane in 0..lanes {
                                 let ln = ln_noise[output].0[lane]
-                                    + power[output].0[lane] * ln_sizes[place];
+                                    + power[output].0[lane] * ln_sizes[place]
+                                    + data.ln_scales[place];
                                 ln_variances[output].0[lane] = if known > 0.0 {
                                     elementary::ln(elementary::exp(2.0 * ln) + known)
                                 } else {

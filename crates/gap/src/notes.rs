@@ -1,6 +1,8 @@
 //! What to bear in mind when a diagnosis is read.
 
-use super::diagnosis::{DiagnosisNote, GapTest, HypothesisKind, MostProbable, Shrinkage};
+use super::diagnosis::{
+    DiagnosisNote, GapTest, HypothesisKind, MostProbable, NoiseEstimate, Shrinkage,
+};
 use super::evidence::DISAGREE;
 use super::goodness_of_fit::misfit;
 use super::posterior::Posterior;
@@ -12,6 +14,7 @@ pub(crate) fn notes(
     verdict: &MostProbable,
     shrinkage: &Shrinkage,
     gap: &GapTest,
+    noise: &[NoiseEstimate],
     best: usize,
 ) -> Vec<DiagnosisNote> {
     let mut notes = Vec::new();
@@ -84,8 +87,13 @@ pub(crate) fn notes(
             ),
         );
     }
+    let of_noise = noise.iter().any(|of| {
+        of.factor.is_some_and(|factor| factor.probability > LIKELY)
+            || of.suspects.iter().any(|suspect| suspect.probability > LIKELY)
+    });
     if let (HypothesisKind::None, Some(p)) = (verdict.kind, gap.p_value)
         && p < OVERDISPERSED
+        && !of_noise
     {
         note(
             "scatter",
@@ -112,6 +120,9 @@ pub(crate) fn notes(
 /// The integral of a hypothesis with less than this probability changes the others by less than they
 /// are known.
 const WORTH_A_NOTE: f64 = 0.01;
+
+/// A departure of the noise from what is stated is said in the verdict from this probability on.
+const LIKELY: f64 = 0.5;
 
 /// The chi-square test speaks against the verdict "no gap" below this probability.
 const OVERDISPERSED: f64 = 1e-3;

@@ -37,6 +37,8 @@ pub(crate) struct Posterior {
     pub(crate) prior: f64,
     /// Posterior probability of "unexplained".
     pub(crate) probability: f64,
+    /// Logarithm of the evidence of all hypotheses together.
+    pub(crate) ln_evidence: f64,
 }
 
 /// How much is computed.
@@ -120,8 +122,13 @@ pub(crate) fn posterior(
         exploration.reconcile(&mut hypotheses);
     }
     progress(0.6);
-    let mut posterior =
-        Posterior { hypotheses, unexplained, prior: prior.unexplained, probability: 0.0 };
+    let mut posterior = Posterior {
+        hypotheses,
+        unexplained,
+        prior: prior.unexplained,
+        probability: 0.0,
+        ln_evidence: f64::NEG_INFINITY,
+    };
     posterior.weigh();
     // the leading hypotheses are looked at from end to end
     let leads = |h: &&mut WeighedHypothesis| h.probability > LEADING && !h.effects.is_empty();
@@ -277,6 +284,7 @@ impl Posterior {
             hypothesis.probability = elementary::exp(own - total);
         }
         self.probability = elementary::exp(unexplained - total);
+        self.ln_evidence = total;
     }
 
     /// Averages the probabilities over the errors of the integrals.

@@ -4,10 +4,12 @@
 use super::diagnosis::{HypothesisKind, MostProbable};
 use super::discrepancy::Discrepancy;
 use super::latent::Role;
-use super::posterior::{self, Effort, Posterior};
+use super::noise_model;
+use super::posterior::{Effort, Posterior};
 use super::predict;
 use super::setup::Setup;
 use super::shrink::Correction;
+use super::weighed_noise::WeighedNoise;
 use crate::Case;
 use gumption_engine::number::elementary;
 use gumption_engine::task::Row;
@@ -25,6 +27,9 @@ const RIVAL: f64 = 1e-4;
 
 /// The hypotheses of a case weighed against its data.
 pub(crate) struct Weighed<'c> {
+    /// What the noise may be.
+    pub(crate) noise: WeighedNoise,
+    /// With the noise that is most probable.
     pub(crate) setup: Setup<'c>,
     pub(crate) discrepancy: Discrepancy,
     pub(crate) posterior: Posterior,
@@ -45,9 +50,9 @@ impl<'c> Weighed<'c> {
         effort: Effort,
         progress: &(dyn Fn(f64) + Sync),
     ) -> Self {
-        let setup = Setup::new(case);
-        let discrepancy = Discrepancy::new(&setup);
-        let posterior = posterior::posterior(&setup, &discrepancy, seed, effort, progress);
+        let weighings = noise_model::weighings(case, seed, effort, progress);
+        let noise = WeighedNoise::of(&weighings);
+        let (setup, discrepancy, posterior) = noise_model::summed(weighings);
         let best = (0..posterior.hypotheses.len())
             .max_by(|&a, &b| {
                 posterior.hypotheses[a].probability.total_cmp(&posterior.hypotheses[b].probability)
@@ -60,7 +65,7 @@ impl<'c> Weighed<'c> {
             Correction::Unexplained
         };
         let variances = noise_variances(&setup, &posterior, best, explained);
-        Self { setup, discrepancy, posterior, best, explained, correction, variances }
+        Self { noise, setup, discrepancy, posterior, best, explained, correction, variances }
     }
 
     /// The verdict and what these data cannot tell from it, as places of hypotheses.
@@ -117,7 +122,10 @@ fn noise_variances(
             let output = value % outputs;
             *sum += match stated(value) {
                 Some(u) => u * u,
-                None => elementary::exp(2.0 * (ln[output] + power[output] * setup.ln_sizes[value])),
+                None => {
+                    let ln = ln[output] + power[output] * setup.ln_sizes[value];
+                    elementary::exp(2.0 * (ln + data.ln_scales[value]))
+                }
             };
         }
     }

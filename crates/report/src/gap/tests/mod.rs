@@ -9,9 +9,9 @@ use serde_json::Value;
 
 use crate::Provenance;
 use gumption_gap::{
-    Diagnosis, DiagnosisNote, EffectParameter, GapRegion, GapTest, Hypothesis, HypothesisKind,
-    MostProbable, NamedQuantity, NextMeasurement, NoiseEstimate, Predicted, RowGap, Shrinkage,
-    Shrunk, ValueGap,
+    Diagnosis, DiagnosisNote, EffectParameter, EstimatedNoise, GapRegion, GapTest, Hypothesis,
+    HypothesisKind, MostProbable, NamedQuantity, NextMeasurement, NoiseEstimate, Predicted,
+    PresentEffect, RowGap, Shrinkage, Shrunk, SuspectValue, UncertaintyFactor, ValueGap,
 };
 
 fn named(name: &str, unit: &str) -> NamedQuantity {
@@ -70,6 +70,18 @@ fn rows(count: usize) -> Vec<RowGap> {
         RowGap { conditions: vec![f, tilt], outputs: vec![value(0.004 * f), value(0.0)] }
     };
     (0..count).map(row).collect()
+}
+
+/// Stated uncertainties that are too small, with a value that is off, and estimated ones.
+fn noise() -> Vec<NoiseEstimate> {
+    let mut stated = NoiseEstimate::new(0);
+    let probability = 0.912_345;
+    stated.factor =
+        Some(UncertaintyFactor { estimate: 1.9234, interval: [1.6123, 2.3456], probability });
+    stated.suspects = vec![SuspectValue { row: 6, probability: 0.991_234, size: -8.1234 }];
+    let mut estimated = NoiseEstimate::new(1);
+    estimated.estimated = Some(EstimatedNoise { standard_uncertainty: 0.051_234, power: 0.25 });
+    vec![stated, estimated]
 }
 
 /// A diagnosis with everything in it.
@@ -153,7 +165,12 @@ fn diagnosis() -> Diagnosis {
             Predicted { conditions: vec![400.0, 35.0], outputs: vec![(1561.2, 13.4), (1.1, 0.12)] },
         ]),
         rows: rows(20),
-        noise: vec![NoiseEstimate { output: 1, standard_uncertainty: 0.051_234, power: 0.25 }],
+        noise: noise(),
+        present: vec![PresentEffect {
+            effect: "low-pass".into(),
+            probability: 0.987_777_86,
+            parameters: vec![low_pass()],
+        }],
         notes: vec![DiagnosisNote {
             code: "few-conditions",
             text: "There are only few conditions.".into(),
@@ -227,6 +244,7 @@ fn bare() -> Diagnosis {
     bare.next = None;
     bare.prediction = Some(Vec::new());
     bare.noise.clear();
+    bare.present.clear();
     bare.notes.clear();
     bare
 }
