@@ -1,8 +1,8 @@
 //! The whole diagnosis, step by step.
 
 use super::diagnosis::{
-    Diagnosis, EstimatedNoise, Hypothesis, NamedQuantity, NoiseEstimate, Predicted, RowGap,
-    SuspectValue, UncertaintyFactor,
+    Diagnosis, DiagnosisNote, EstimatedNoise, Hypothesis, NamedQuantity, NoiseEstimate, Predicted,
+    RowGap, SuspectValue, UncertaintyFactor,
 };
 use super::discrepancy::Discrepancy;
 use super::goodness_of_fit::{gap, plus_rows};
@@ -14,7 +14,7 @@ use super::posterior::{Effort, Posterior};
 use super::setup::Setup;
 use super::weighed::{Weighed, names, rival};
 use super::weighed_noise::WeighedNoise;
-use super::{next, predict, scan, shrink};
+use super::{next, predict, prior_conflict, scan, shrink};
 use crate::{Case, OverrideError};
 use gumption_engine::number::elementary;
 use gumption_engine::task::{Coverage, Row};
@@ -58,10 +58,12 @@ pub fn diagnose(
 ) -> Result<Diagnosis, OverrideError> {
     case.check()?;
     let seed = options.seed;
-    let weighed = Weighed::new(case, seed, Effort::FULL, &|share| progress(0.6 * share));
+    let wide = case.with_wide_priors();
+    let weighed = Weighed::new(case, &wide, seed, Effort::FULL, &|share| progress(0.6 * share));
     let group = weighed.indistinguishable();
     let verdict = weighed.most_probable(&group);
     let Weighed {
+        prior_conflicts,
         noise: weighed_noise,
         setup,
         discrepancy,
@@ -70,6 +72,7 @@ pub fn diagnose(
         explained,
         correction,
         variances,
+        ..
     } = weighed;
     let with_rows = plus_rows(&setup, &variances);
     let regions = scan::regions(&setup, &with_rows, seed);
@@ -100,7 +103,11 @@ pub fn diagnose(
     } else {
         gap(&Setup::new(case), verdict.kind)
     };
-    let notes = notes(&setup, &posterior, &verdict, &shrinkage, &gap, &noise, best);
+    let mut notes = notes(&setup, &posterior, &verdict, &shrinkage, &gap, &noise, best);
+    notes.extend(prior_conflicts.iter().map(|conflict| DiagnosisNote {
+        code: "prior-conflict",
+        text: prior_conflict::note(conflict),
+    }));
     let present = present(&setup, &posterior, probability);
     progress(1.0);
     let named = |name: &str, unit: &gumption_units::Unit| NamedQuantity {
@@ -127,6 +134,7 @@ pub fn diagnose(
         rows,
         noise,
         present,
+        prior_conflicts,
         notes,
         probability,
         seed,
@@ -193,7 +201,9 @@ pub(crate) fn prediction(
             }
         }
     };
-    for hypothesis in posterior.hypotheses.iter().filter(|h| h.probability > 1e-3) {
+    for hypothesis in
+        posterior.hypotheses.iter().filter(|h| h.probability > 1e-3 && h.evidence.has_draws())
+    {
         let draws = hypothesis.evidence.resampled(shrink::draws_for(rows.len()));
         let values = predict::values(setup, &hypothesis.effects, &draws, rows);
         add(hypothesis.probability, &shrink::moments(&values));

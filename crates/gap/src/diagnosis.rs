@@ -29,6 +29,8 @@ pub struct Diagnosis {
     pub noise: Vec<NoiseEstimate>,
     /// For each candidate effect the probability that it is part of the truth, most probable first.
     pub present: Vec<PresentEffect>,
+    /// Effects whose priors the data contradict, most probable first.
+    pub prior_conflicts: Vec<PriorConflict>,
     /// What to bear in mind.
     pub notes: Vec<DiagnosisNote>,
     /// Coverage probability of all intervals.
@@ -104,6 +106,8 @@ pub struct MostProbable {
     pub kind: HypothesisKind,
     /// The effects named.
     pub effects: Vec<String>,
+    /// Whether the named effect has a size that contradicts its prior.
+    pub prior_conflict: bool,
     /// Posterior probability of exactly these.
     pub probability: f64,
     /// The verdict and its look-alikes, each a list of effects.
@@ -283,6 +287,22 @@ pub struct SuspectValue {
     pub probability: f64,
     /// How far it is from what the others let expect, in its standard uncertainties.
     pub size: f64,
+}
+
+/// An effect of the list that explains the data with a size that its prior all but excludes.
+#[derive(Clone, Debug)]
+pub struct PriorConflict {
+    /// Name of the effect.
+    pub effect: String,
+    /// The parameter, with what the data say of it.
+    pub parameter: EffectParameter,
+    /// How far the estimate is from the prior: in its standard deviations, or for a bounded prior the
+    /// distance beyond the bound in widths of the prior (of its logarithm, if log-uniform).
+    pub prior_distance: f64,
+    /// Whether the distance is beyond the bound of a bounded prior.
+    pub bounded: bool,
+    /// Probability that this effect alone, with a wider prior, is the truth.
+    pub probability: f64,
 }
 
 /// Whether an effect is part of the truth, whatever else is.

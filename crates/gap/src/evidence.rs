@@ -198,6 +198,24 @@ impl EvidenceEstimate {
         draws
     }
 
+    /// The evidence alone, where what was drawn is of no use.
+    pub(crate) fn without_draws(self) -> Self {
+        let nothing = Vec::new;
+        Self {
+            modes: Vec::new(),
+            columns: Vec::new(),
+            weights: nothing(),
+            ln_targets: nothing(),
+            ln_proposals: nothing(),
+            ..self
+        }
+    }
+
+    /// Whether there are draws of the posterior.
+    pub(crate) fn has_draws(&self) -> bool {
+        self.weights.iter().any(|weight| *weight > 0.0)
+    }
+
     /// Number of unknown quantities.
     pub(crate) fn unknowns(&self) -> usize {
         self.unknowns

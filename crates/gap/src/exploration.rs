@@ -67,6 +67,16 @@ impl<'s, 'c> Exploration<'s, 'c> {
         WeighedHypothesis { effects, prior, evidence, probability: 0.0 }
     }
 
+    /// No gap and every effect alone.
+    pub(super) fn singles(&self) -> Vec<WeighedHypothesis> {
+        let none = self.begin(Vec::new(), &[]);
+        let known = std::slice::from_ref(&none);
+        let count = self.setup.case.candidates.len();
+        let singles: Vec<WeighedHypothesis> =
+            (0..count).into_par_iter().map(|effect| self.begin(vec![effect], known)).collect();
+        std::iter::once(none).chain(singles).collect()
+    }
+
     fn integral(
         &self,
         effects: &[usize],

@@ -28,6 +28,7 @@ mod notes;
 mod parameters;
 mod posterior;
 mod predict;
+mod prior_conflict;
 mod profile_path;
 mod response_scan;
 mod scan;
@@ -43,7 +44,8 @@ pub use diagnose::{DiagnosisOptions, diagnose};
 pub use diagnosis::{
     Diagnosis, DiagnosisNote, EffectParameter, EstimatedNoise, GapRegion, GapTest, Hypothesis,
     HypothesisKind, MostProbable, NamedQuantity, NextMeasurement, NoiseEstimate, Predicted,
-    PresentEffect, RowGap, Shrinkage, Shrunk, SuspectValue, UncertaintyFactor, ValueGap,
+    PresentEffect, PriorConflict, RowGap, Shrinkage, Shrunk, SuspectValue, UncertaintyFactor,
+    ValueGap,
 };
 pub use model::{Effect, ModelForm, OverridableModel, OverrideError};
 pub use selection::{ModelSelection, noise, nominal, select_model};

@@ -33,6 +33,9 @@ const PRIOR_SUSPECT: f64 = 0.1;
 /// Prior probability that there is one more, once there is one.
 const PRIOR_ANOTHER: f64 = 0.3;
 
+/// Prior probability that the priors of the effects' parameters are too narrow.
+const PRIOR_CONFLICT: f64 = 0.05;
+
 /// The size of what is wrong with a value that is off, in standard uncertainties.
 const SUSPECT_SIZE: f64 = 10.0;
 
@@ -86,7 +89,7 @@ impl NoiseModel {
             return PRIOR_FACTOR;
         }
         let mut prior = match self.suspects.len() {
-            0 => return 1.0 - PRIOR_FACTOR - PRIOR_SUSPECT,
+            0 => return 1.0 - PRIOR_FACTOR - PRIOR_SUSPECT - PRIOR_CONFLICT,
             _ => PRIOR_SUSPECT,
         };
         for more in 0..self.suspects.len() {
@@ -100,6 +103,8 @@ impl NoiseModel {
 
 /// The hypotheses weighed with one noise model.
 pub(crate) struct Weighing<'c> {
+    /// Whether the priors of the effects' parameters are wider than stated.
+    pub(crate) wide: bool,
     pub(crate) setup: Setup<'c>,
     pub(crate) discrepancy: Discrepancy,
     pub(crate) posterior: Posterior,
@@ -110,57 +115,112 @@ pub(crate) struct Weighing<'c> {
 }
 
 /// The hypotheses weighed with every noise model that the data do not rule out, the one as stated
-/// first.
+/// first; and with wider priors, which `wide` has, where the stated ones contradict the data.
 pub(crate) fn weighings<'c>(
     case: &'c Case,
+    wide: &'c Case,
     seed: u64,
     effort: Effort,
     progress: &(dyn Fn(f64) + Sync),
 ) -> Vec<Weighing<'c>> {
-    let weighing = |setup: Setup<'c>, from: f64, to: f64| {
+    let weighing = |setup: Setup<'c>, prior: f64, known: &[Weighing<'c>], [from, to]: [f64; 2]| {
         let discrepancy = Discrepancy::new(&setup);
-        let prior = setup.data.noise.prior(setup.data.len());
-        let posterior = posterior::posterior(&setup, &discrepancy, seed, effort, &|share| {
-            progress(from + (to - from) * share);
-        });
-        Weighing { setup, discrepancy, posterior, prior, probability: 0.0 }
+        let rivals = ln_total(known) - elementary::ln(prior);
+        let posterior =
+            posterior::posterior(&setup, &discrepancy, seed, effort, rivals, &|share| {
+                progress(from + (to - from) * share);
+            });
+        Weighing { wide: false, setup, discrepancy, posterior, prior, probability: 0.0 }
     };
-    let mut weighings = vec![weighing(Setup::new(case), 0.0, 0.35)];
+    let values = case.task.rows.len() * case.observed.iter().flatten().count();
+    let stated = NoiseModel::default().prior(values);
+    let mut weighings = vec![weighing(Setup::new(case), stated, &[], [0.0, 0.35])];
     let stated = &weighings[0].setup.data.uncertainties;
     // of much data each model costs a pass for every draw
     let few = weighings[0].setup.data.len() <= MANY_VALUES;
     if stated.iter().any(Option::is_some) && few {
         let model = NoiseModel { factor: true, suspects: Vec::new() };
+        let prior = model.prior(values);
         let setup = weighings[0].setup.with_noise(model);
-        weighings.push(weighing(setup, 0.35, 0.8));
+        weighings.push(weighing(setup, prior, &weighings, [0.35, 0.7]));
     }
-    weigh(&mut weighings);
+    if few && prior_conflict(wide, &weighings, seed, effort) {
+        let mut of_wide = weighing(Setup::new(wide), PRIOR_CONFLICT, &weighings, [0.7, 0.8]);
+        of_wide.wide = true;
+        weighings.push(of_wide);
+    }
     for _ in 0..if few { MOST_SUSPECTS } else { 0 } {
         let Some(suspects) = more_suspects(&weighings) else { break };
-        let setup = weighings[0].setup.with_noise(NoiseModel { factor: false, suspects });
-        weighings.push(weighing(setup, 0.8, 1.0));
-        weigh(&mut weighings);
+        let model = NoiseModel { factor: false, suspects };
+        let prior = model.prior(values);
+        let setup = weighings[0].setup.with_noise(model);
+        weighings.push(weighing(setup, prior, &weighings, [0.8, 1.0]));
     }
+    weigh(&mut weighings);
     progress(1.0);
     weighings
 }
 
+/// The logarithm of prior probabilities times evidences, summed.
+fn ln_total(weighings: &[Weighing<'_>]) -> f64 {
+    weighings.iter().map(Weighing::ln_weight).fold(f64::NEG_INFINITY, ln_add)
+}
+
+impl Weighing<'_> {
+    fn ln_weight(&self) -> f64 {
+        elementary::ln(self.prior) + self.posterior.ln_evidence
+    }
+}
+
+/// Whether a single effect with a wider prior explains the data so much better than anything else
+/// that the conflict may be probable.
+fn prior_conflict(wide: &Case, weighings: &[Weighing<'_>], seed: u64, effort: Effort) -> bool {
+    let setup = Setup::new(wide);
+    let singles = posterior::singles(&setup, seed, effort);
+    let ln = |h: &WeighedHypothesis| {
+        elementary::ln(h.prior.max(f64::MIN_POSITIVE)) + h.evidence.ln_evidence
+    };
+    let total = singles.iter().filter(|h| !h.effects.is_empty()).map(ln);
+    let total = total.fold(f64::NEG_INFINITY, ln_add) + elementary::ln(PRIOR_CONFLICT);
+    total - ln_total(weighings) > elementary::ln(WORTH_TRYING)
+}
+
 /// Posterior probabilities of the noise models.
 fn weigh(weighings: &mut [Weighing<'_>]) {
-    let ln = |w: &Weighing<'_>| elementary::ln(w.prior) + w.posterior.ln_evidence;
-    let total = weighings.iter().map(ln).fold(f64::NEG_INFINITY, ln_add);
+    let total = ln_total(weighings);
     for weighing in weighings.iter_mut() {
-        weighing.probability = elementary::exp(ln(weighing) - total);
+        weighing.probability = elementary::exp(weighing.ln_weight() - total);
     }
+}
+
+/// The place of the most probable weighing.
+fn most_probable(weighings: &[Weighing<'_>]) -> usize {
+    (0..weighings.len())
+        .max_by(|&a, &b| weighings[a].probability.total_cmp(&weighings[b].probability))
+        .unwrap_or(0)
+}
+
+/// Whether wider priors than stated are most probable.
+pub(crate) fn is_prior_conflict(weighings: &[Weighing<'_>]) -> bool {
+    weighings[most_probable(weighings)].wide
 }
 
 /// The weighing with the most probable noise, in which the probabilities of hypotheses are summed
 /// over what the noise may be.
 pub(crate) fn summed(mut weighings: Vec<Weighing<'_>>) -> (Setup<'_>, Discrepancy, Posterior) {
-    let most = (0..weighings.len())
-        .max_by(|&a, &b| weighings[a].probability.total_cmp(&weighings[b].probability))
-        .unwrap_or(0);
+    let most = most_probable(&weighings);
     let mut first = weighings.swap_remove(most);
+    if let (true, Some(stated)) = (first.wide, weighings.first_mut()) {
+        // pairs are not among the hypotheses with wider priors; their draws are of other priors
+        let several = |h: &WeighedHypothesis| h.effects.len() > 1;
+        let at = stated.posterior.hypotheses.iter().position(several);
+        let pairs = at.map(|at| stated.posterior.hypotheses.split_off(at)).unwrap_or_default();
+        first.posterior.hypotheses.extend(pairs.into_iter().map(|pair| WeighedHypothesis {
+            probability: pair.probability * stated.probability / first.probability,
+            evidence: pair.evidence.without_draws(),
+            ..pair
+        }));
+    }
     let Posterior { hypotheses, probability, .. } = &mut first.posterior;
     for hypothesis in hypotheses.iter_mut() {
         hypothesis.probability *= first.probability;
@@ -179,13 +239,10 @@ pub(crate) fn summed(mut weighings: Vec<Weighing<'_>>) -> (Setup<'_>, Discrepanc
 /// A set of values that are off which may be worth an evidence of its own: the last one that was
 /// tried and one more. `None` where no further value is suspicious.
 fn more_suspects(weighings: &[Weighing<'_>]) -> Option<Vec<Suspect>> {
-    let last = weighings.iter().rfind(|w| !w.setup.data.noise.factor)?;
+    let last = weighings.iter().rfind(|w| !w.setup.data.noise.factor && !w.wide)?;
     let values = last.setup.data.len();
     let known = &last.setup.data.noise.suspects;
-    let total = weighings
-        .iter()
-        .map(|w| elementary::ln(w.prior) + w.posterior.ln_evidence)
-        .fold(f64::NEG_INFINITY, ln_add);
+    let total = ln_total(weighings);
     let with = |suspect: Suspect| {
         let mut suspects = known.clone();
         suspects.push(suspect);

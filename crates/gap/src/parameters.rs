@@ -78,6 +78,9 @@ pub(crate) fn parameters(
     hypothesis: &WeighedHypothesis,
     probability: f64,
 ) -> Vec<EffectParameter> {
+    if !hypothesis.evidence.has_draws() {
+        return Vec::new();
+    }
     let likelihood = setup.likelihood(&hypothesis.effects);
     let central = central_draw(setup, hypothesis);
     let mut parameters = Vec::new();

@@ -39,6 +39,8 @@ pub(crate) struct Posterior {
     pub(crate) probability: f64,
     /// Logarithm of the evidence of all hypotheses together.
     pub(crate) ln_evidence: f64,
+    /// Logarithm of the evidence of what else may be true, over this setup's prior probability.
+    rivals: f64,
 }
 
 /// How much is computed.
@@ -88,26 +90,28 @@ const LEADING: f64 = 0.01;
 /// With more values than this, modes are searched in a part of the data first.
 pub(super) const MANY_VALUES: usize = 20_000;
 
-/// Weighs all hypotheses against the data of a setup.
+/// No gap and every effect alone, with first estimates of their evidences.
+pub(crate) fn singles(setup: &Setup<'_>, seed: u64, effort: Effort) -> Vec<WeighedHypothesis> {
+    let effort = effort.for_values(setup.data.len());
+    Exploration::new(setup, seed, effort.starts).singles()
+}
+
+/// Weighs all hypotheses against the data of a setup. `rivals` is the logarithm of the evidence of
+/// everything else that may be true, over the prior probability of this setup: what is improbable
+/// beside it need not be known well.
 pub(crate) fn posterior(
     setup: &Setup<'_>,
     discrepancy: &Discrepancy,
     seed: u64,
     effort: Effort,
+    rivals: f64,
     progress: &(dyn Fn(f64) + Sync),
 ) -> Posterior {
     let count = setup.case.candidates.len();
     let effort = effort.for_values(setup.data.len());
     let prior = setup.case.prior;
     let exploration = Exploration::new(setup, seed, effort.starts);
-    let none = exploration.begin(Vec::new(), &[]);
-    let singles: Vec<Vec<usize>> = (0..count).map(|effect| vec![effect]).collect();
-    let singles: Vec<WeighedHypothesis> = singles
-        .into_par_iter()
-        .map(|effects| exploration.begin(effects, std::slice::from_ref(&none)))
-        .collect();
-    let mut hypotheses = vec![none];
-    hypotheses.extend(singles);
+    let mut hypotheses = exploration.singles();
     progress(0.2);
     let residuals = by_rows(&setup.data.nominal_residuals());
     let unexplained =
@@ -128,10 +132,13 @@ pub(crate) fn posterior(
         prior: prior.unexplained,
         probability: 0.0,
         ln_evidence: f64::NEG_INFINITY,
+        rivals,
     };
     posterior.weigh();
     // the leading hypotheses are looked at from end to end
-    let leads = |h: &&mut WeighedHypothesis| h.probability > LEADING && !h.effects.is_empty();
+    let share = posterior.share();
+    let leads =
+        |h: &&mut WeighedHypothesis| h.probability * share > LEADING && !h.effects.is_empty();
     posterior.hypotheses.par_iter_mut().filter(leads).for_each(|hypothesis| {
         let likelihood = setup.likelihood(&hypothesis.effects);
         if effort.generations > 0 {
@@ -141,10 +148,11 @@ pub(crate) fn posterior(
     });
     posterior.weigh();
     for round in 0..effort.rounds {
+        let share = posterior.share();
         let open: Vec<bool> = posterior
             .hypotheses
             .iter()
-            .map(|hypothesis| hypothesis.is_open(effort.error))
+            .map(|hypothesis| hypothesis.is_open(effort.error, share))
             .collect();
         if !open.iter().any(|open| *open) {
             break;
@@ -159,7 +167,9 @@ pub(crate) fn posterior(
         posterior.weigh();
         progress(0.6 + 0.4 * (round + 1) as f64 / effort.rounds as f64);
     }
-    let leads = |h: &&mut WeighedHypothesis| h.probability > LEADING && !h.effects.is_empty();
+    let share = posterior.share();
+    let leads =
+        |h: &&mut WeighedHypothesis| h.probability * share > LEADING && !h.effects.is_empty();
     let (none, others) = posterior.hypotheses.split_at_mut(1);
     let none = &*none;
     others.par_iter_mut().filter(leads).for_each(|hypothesis| {
@@ -169,8 +179,9 @@ pub(crate) fn posterior(
     posterior.guard(setup, discrepancy);
     // what is reported in detail deserves smooth intervals
     for _ in 0..effort.rounds {
+        let share = posterior.share();
         let worth = |h: &WeighedHypothesis| {
-            h.probability > 0.05
+            h.probability * share > 0.05
                 && !h.effects.is_empty()
                 && h.evidence.effective_sample_size < effort.effective_sample_size
         };
@@ -189,9 +200,10 @@ pub(crate) fn posterior(
 }
 
 impl WeighedHypothesis {
-    /// Whether its probability is not yet known well enough.
-    fn is_open(&self, error: f64) -> bool {
-        let p = self.probability;
+    /// Whether its probability, beside everything else of which this setup has a share, is not yet
+    /// known well enough.
+    fn is_open(&self, error: f64, share: f64) -> bool {
+        let p = self.probability * share;
         if self.evidence.standard_error == 0.0 || self.prior == 0.0 {
             return false;
         }
@@ -271,6 +283,11 @@ impl Posterior {
         );
         self.unexplained = alone.joined(others, 1.0 - BESIDE_AN_EFFECT);
         self.weigh();
+    }
+
+    /// The probability of all hypotheses together beside what else may be true.
+    fn share(&self) -> f64 {
+        elementary::exp(self.ln_evidence - ln_add(self.ln_evidence, self.rivals))
     }
 
     /// Probabilities from priors and evidences.

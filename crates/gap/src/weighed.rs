@@ -1,12 +1,13 @@
 //! The hypotheses of a case weighed against its data: the most probable one, and those that the data
 //! cannot tell from it.
 
-use super::diagnosis::{HypothesisKind, MostProbable};
+use super::diagnosis::{HypothesisKind, MostProbable, PriorConflict};
 use super::discrepancy::Discrepancy;
 use super::latent::Role;
 use super::noise_model;
 use super::posterior::{Effort, Posterior};
 use super::predict;
+use super::prior_conflict;
 use super::setup::Setup;
 use super::shrink::Correction;
 use super::weighed_noise::WeighedNoise;
@@ -27,6 +28,10 @@ const RIVAL: f64 = 1e-4;
 
 /// The hypotheses of a case weighed against its data.
 pub(crate) struct Weighed<'c> {
+    /// Whether wider priors than stated are most probable.
+    pub(crate) prior_conflict: bool,
+    /// Effects whose priors the data contradict.
+    pub(crate) prior_conflicts: Vec<PriorConflict>,
     /// What the noise may be.
     pub(crate) noise: WeighedNoise,
     /// With the noise that is most probable.
@@ -44,13 +49,18 @@ pub(crate) struct Weighed<'c> {
 }
 
 impl<'c> Weighed<'c> {
+    /// `wide` is the case with wider priors.
     pub(crate) fn new(
         case: &'c Case,
+        wide: &'c Case,
         seed: u64,
         effort: Effort,
         progress: &(dyn Fn(f64) + Sync),
     ) -> Self {
-        let weighings = noise_model::weighings(case, seed, effort, progress);
+        let weighings = noise_model::weighings(case, wide, seed, effort, progress);
+        let prior_conflict = noise_model::is_prior_conflict(&weighings);
+        let prior_conflicts =
+            prior_conflict::conflicts(case, &weighings, super::diagnose::coverage(case));
         let noise = WeighedNoise::of(&weighings);
         let (setup, discrepancy, posterior) = noise_model::summed(weighings);
         let best = (0..posterior.hypotheses.len())
@@ -65,7 +75,18 @@ impl<'c> Weighed<'c> {
             Correction::Unexplained
         };
         let variances = noise_variances(&setup, &posterior, best, explained);
-        Self { noise, setup, discrepancy, posterior, best, explained, correction, variances }
+        Self {
+            prior_conflict,
+            prior_conflicts,
+            noise,
+            setup,
+            discrepancy,
+            posterior,
+            best,
+            explained,
+            correction,
+            variances,
+        }
     }
 
     /// The verdict and what these data cannot tell from it, as places of hypotheses.
@@ -82,7 +103,11 @@ impl<'c> Weighed<'c> {
     }
 
     pub(crate) fn most_probable(&self, group: &[usize]) -> MostProbable {
-        most_probable(&self.setup, &self.posterior, self.best, self.explained, group)
+        let mut verdict =
+            most_probable(&self.setup, &self.posterior, self.best, self.explained, group);
+        verdict.prior_conflict = self.prior_conflict
+            && self.prior_conflicts.iter().any(|of| verdict.effects == [of.effect.as_str()]);
+        verdict
     }
 }
 
@@ -234,6 +259,7 @@ fn most_probable(
         return MostProbable {
             kind: HypothesisKind::Unexplained,
             effects: Vec::new(),
+            prior_conflict: false,
             probability: posterior.probability,
             indistinguishable: Vec::new(),
             indistinguishable_probability: posterior.probability,
@@ -247,6 +273,7 @@ fn most_probable(
             HypothesisKind::Explained
         },
         effects: names(setup, &winner.effects),
+        prior_conflict: false,
         probability: winner.probability,
         indistinguishable: group
             .iter()

@@ -3,7 +3,9 @@
 use serde_json::{Value, json};
 
 use crate::answer::{list, object, pretty};
-use gumption_gap::{Diagnosis, EffectParameter, Hypothesis, NamedQuantity, PresentEffect};
+use gumption_gap::{
+    Diagnosis, EffectParameter, Hypothesis, NamedQuantity, PresentEffect, PriorConflict,
+};
 
 /// The diagnosis as JSON, keys in a fixed order; `null` for what is not defined. It ends in a
 /// newline.
@@ -26,12 +28,14 @@ pub fn json(diagnosis: &Diagnosis) -> String {
             json!({
                 "kind": verdict.kind.name(),
                 "effects": verdict.effects,
+                "prior_conflict": verdict.prior_conflict,
                 "probability": verdict.probability,
                 "group": verdict.indistinguishable,
                 "group_probability": verdict.indistinguishable_probability,
             }),
         ),
         ("present", present(diagnosis)),
+        ("prior_conflicts", list(diagnosis.prior_conflicts.iter().map(prior_conflict))),
         ("hypotheses", list(diagnosis.hypotheses.iter().map(hypothesis))),
         ("shrinks", shrinks(diagnosis)),
         ("next_measurement", next(diagnosis)),
@@ -92,6 +96,20 @@ fn present(diagnosis: &Diagnosis) -> Value {
         })
     };
     object(diagnosis.present.iter().map(|present| (present.effect.as_str(), of(present))))
+}
+
+fn prior_conflict(of: &PriorConflict) -> Value {
+    json!({
+        "effect": of.effect,
+        "parameter": of.parameter.name,
+        "unit": of.parameter.unit,
+        "estimate": of.parameter.estimate,
+        "standard_uncertainty": of.parameter.standard_uncertainty,
+        "interval": of.parameter.interval,
+        "prior_distance": of.prior_distance,
+        "beyond_bound": of.bounded,
+        "probability": of.probability,
+    })
 }
 
 fn hypothesis(of: &Hypothesis) -> Value {

@@ -43,6 +43,7 @@ fn heading(diagnosis: &Diagnosis) -> String {
     let mut heading = wrapped(&words::title(diagnosis)) + &wrapped(&words::settings(diagnosis));
     heading.push('\n');
     heading += &wrapped(&words::verdict(diagnosis));
+    heading += &paragraphs(words::conflicts(diagnosis));
     heading += &paragraphs(words::noise_verdict(diagnosis));
     heading += &words::present(diagnosis).map(|said| wrapped(&said)).unwrap_or_default();
     heading += &words::look_alikes(diagnosis).map(|said| wrapped(&said)).unwrap_or_default();

@@ -1,9 +1,9 @@
 //! The answer in sentences.
 
-use super::digits::{condition, p_equals, percent, probability, share, tenths};
-use crate::number::{exact, position, rounded, significant};
+use super::digits::{self, condition, p_equals, percent, probability, share, tenths};
+use crate::number::{exact, position, rounded, significant, with_uncertainty};
 use crate::plain;
-use gumption_gap::{Diagnosis, GapRegion, HypothesisKind, NamedQuantity};
+use gumption_gap::{Diagnosis, GapRegion, HypothesisKind, NamedQuantity, PriorConflict};
 
 /// Odds below this power of e are none at all.
 const WORTH_SAYING: f64 = 0.01;
@@ -83,6 +83,39 @@ pub(super) fn present(diagnosis: &Diagnosis) -> Option<String> {
     (!named.is_empty()).then(|| {
         format!("Probability that an effect is there, alone or with others: {}.", named.join(", "))
     })
+}
+
+/// What the named effect contradicts of its prior.
+pub(super) fn conflicts(diagnosis: &Diagnosis) -> Vec<String> {
+    let verdict = &diagnosis.most_probable;
+    if !verdict.prior_conflict {
+        return Vec::new();
+    }
+    let sentence = |conflict: &PriorConflict| {
+        let parameter = &conflict.parameter;
+        let (estimate, u) = with_uncertainty(
+            parameter.estimate,
+            parameter.standard_uncertainty,
+            digits::UNCERTAINTY,
+        );
+        let unit = unit(&parameter.unit).map(|unit| format!(" {unit}")).unwrap_or_default();
+        let distance = significant(conflict.prior_distance, 2);
+        let far = if conflict.bounded {
+            format!("{distance} widths of your prior beyond its bound")
+        } else {
+            format!("{distance} standard deviations of your prior from its mean")
+        };
+        format!(
+            "That contradicts its prior: {} = {estimate}{unit} with standard uncertainty {u} is {far}.",
+            plain(&parameter.name)
+        )
+    };
+    diagnosis
+        .prior_conflicts
+        .iter()
+        .filter(|conflict| verdict.effects.contains(&conflict.effect))
+        .map(sentence)
+        .collect()
 }
 
 /// How the noise departs from what is stated, a sentence for each output and value where it is

@@ -35,6 +35,7 @@ pub fn html(diagnosis: &Diagnosis, provenance: &Provenance) -> String {
         p.settings { (words::settings(diagnosis)) }
         div.verdict {
             p { strong { (words::verdict(diagnosis)) } }
+            @for said in words::conflicts(diagnosis) { p { (said) } }
             @for said in words::noise_verdict(diagnosis) { p { (said) } }
             @if let Some(said) = words::present(diagnosis) { p { (said) } }
             @if let Some(said) = words::look_alikes(diagnosis) { p { (said) } }

@@ -11,7 +11,8 @@ use crate::Provenance;
 use gumption_gap::{
     Diagnosis, DiagnosisNote, EffectParameter, EstimatedNoise, GapRegion, GapTest, Hypothesis,
     HypothesisKind, MostProbable, NamedQuantity, NextMeasurement, NoiseEstimate, Predicted,
-    PresentEffect, RowGap, Shrinkage, Shrunk, SuspectValue, UncertaintyFactor, ValueGap,
+    PresentEffect, PriorConflict, RowGap, Shrinkage, Shrunk, SuspectValue, UncertaintyFactor,
+    ValueGap,
 };
 
 fn named(name: &str, unit: &str) -> NamedQuantity {
@@ -119,6 +120,7 @@ fn diagnosis() -> Diagnosis {
         most_probable: MostProbable {
             kind: HypothesisKind::Explained,
             effects: strings(&["low-pass"]),
+            prior_conflict: true,
             probability: 0.877_777_86,
             indistinguishable: vec![strings(&["low-pass"]), strings(&["low-pass", "delay"])],
             indistinguishable_probability: 0.987_777_86,
@@ -170,6 +172,13 @@ fn diagnosis() -> Diagnosis {
             effect: "low-pass".into(),
             probability: 0.987_777_86,
             parameters: vec![low_pass()],
+        }],
+        prior_conflicts: vec![PriorConflict {
+            effect: "low-pass".into(),
+            parameter: low_pass(),
+            prior_distance: 6.1234,
+            bounded: false,
+            probability: 0.81,
         }],
         notes: vec![DiagnosisNote {
             code: "few-conditions",
@@ -245,6 +254,7 @@ fn bare() -> Diagnosis {
     bare.prediction = Some(Vec::new());
     bare.noise.clear();
     bare.present.clear();
+    bare.prior_conflicts.clear();
     bare.notes.clear();
     bare
 }
