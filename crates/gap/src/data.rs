@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use super::noise_model::NoiseModel;
+use super::noise_model::{NoiseModel, lag};
 use crate::Case;
 use gumption_engine::number::elementary;
 use gumption_engine::task::Sharing;
@@ -25,6 +25,9 @@ pub(crate) struct Data {
     pub(crate) point_of: Vec<usize>,
     /// The row of the case that each row is.
     pub(crate) ids: Vec<usize>,
+    /// With noise that neighbouring rows share for each row its correlation with the one before; else
+    /// none.
+    pub(crate) lags: Vec<f64>,
     /// What the noise is taken to be.
     pub(crate) noise: NoiseModel,
     /// For each value (row by row, outputs fastest) the logarithm of what an estimated standard
@@ -59,7 +62,9 @@ impl Data {
         let mut point_of = Vec::with_capacity(ids.len());
         for (number, &id) in ids.iter().enumerate() {
             let row = &case.task.rows[id];
-            let key = row.conditions.iter().map(|value| value.to_bits()).collect();
+            let mut key: Vec<u64> = row.conditions.iter().map(|value| value.to_bits()).collect();
+            // neighbours are told apart by their order, so that repeats are not taken together
+            key.extend(noise.serial.map(|_| number as u64));
             let place = *known.entry(key).or_insert_with(|| {
                 let mut variables: Vec<f64> =
                     row.distributions.iter().map(|distribution| distribution.mean()).collect();
@@ -100,7 +105,15 @@ impl Data {
                 *stated = None;
             }
         }
+        let lags = match noise.serial {
+            None => Vec::new(),
+            Some(coefficient) => {
+                let of = |pair: &[usize]| lag(coefficient, pair[0], pair[1]);
+                std::iter::once(0.0).chain(ids.windows(2).map(of)).collect()
+            }
+        };
         Self {
+            lags,
             turns: outputs.iter().map(|&output| case.model.outputs[output].period).collect(),
             values: observed
                 .iter()

@@ -2,14 +2,14 @@
 
 use super::diagnosis::{
     Diagnosis, DiagnosisNote, EstimatedNoise, Hypothesis, NamedQuantity, NoiseEstimate, Predicted,
-    RowGap, SuspectValue, UncertaintyFactor,
+    RowGap, SerialCorrelation, SuspectValue, UncertaintyFactor,
 };
 use super::discrepancy::Discrepancy;
 use super::goodness_of_fit::{gap, plus_rows};
 use super::latent::Role;
 use super::noise_model::NoiseModel;
 use super::notes::notes;
-use super::parameters::{parameters, present};
+use super::parameters::{equal_tails, parameters, present};
 use super::posterior::{Effort, Posterior};
 use super::setup::Setup;
 use super::weighed::{Weighed, names, rival};
@@ -261,7 +261,12 @@ fn noise(
                 })
                 .collect();
             suspects.sort_by(|a, b| b.probability.total_cmp(&a.probability));
-            NoiseEstimate { output, estimated, factor, suspects }
+            let serial = weighed.serial.as_ref().map(|(probability, draws)| SerialCorrelation {
+                estimate: draws.iter().map(|(r, weight)| r * weight).sum(),
+                interval: equal_tails(draws, coverage),
+                probability: *probability,
+            });
+            NoiseEstimate { output, estimated, factor, suspects, serial }
         })
         .collect()
 }

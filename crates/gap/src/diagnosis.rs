@@ -248,12 +248,14 @@ pub struct NoiseEstimate {
     pub factor: Option<UncertaintyFactor>,
     /// Values that may be off, most probable first.
     pub suspects: Vec<SuspectValue>,
+    /// Noise that neighbouring rows share.
+    pub serial: Option<SerialCorrelation>,
 }
 
 impl NoiseEstimate {
     /// Of the output with this index, with nothing known of it.
     pub fn new(output: usize) -> Self {
-        Self { output, estimated: None, factor: None, suspects: Vec::new() }
+        Self { output, estimated: None, factor: None, suspects: Vec::new(), serial: None }
     }
 }
 
@@ -275,6 +277,17 @@ pub struct UncertaintyFactor {
     /// Coverage interval with equal tails, given that they are off.
     pub interval: [f64; 2],
     /// Probability that they are off, by any factor.
+    pub probability: f64,
+}
+
+/// The coefficient of correlation of the noise of neighbouring rows, in the order of the data.
+#[derive(Clone, Copy, Debug)]
+pub struct SerialCorrelation {
+    /// Posterior expectation, given that there is one.
+    pub estimate: f64,
+    /// Coverage interval with equal tails, given that there is one.
+    pub interval: [f64; 2],
+    /// Probability that there is one.
     pub probability: f64,
 }
 

@@ -44,8 +44,8 @@ pub use diagnose::{DiagnosisOptions, diagnose};
 pub use diagnosis::{
     Diagnosis, DiagnosisNote, EffectParameter, EstimatedNoise, GapRegion, GapTest, Hypothesis,
     HypothesisKind, MostProbable, NamedQuantity, NextMeasurement, NoiseEstimate, Predicted,
-    PresentEffect, PriorConflict, RowGap, Shrinkage, Shrunk, SuspectValue, UncertaintyFactor,
-    ValueGap,
+    PresentEffect, PriorConflict, RowGap, SerialCorrelation, Shrinkage, Shrunk, SuspectValue,
+    UncertaintyFactor, ValueGap,
 };
 pub use model::{Effect, ModelForm, OverridableModel, OverrideError};
 pub use selection::{ModelSelection, noise, nominal, select_model};

@@ -36,6 +36,16 @@ const PRIOR_ANOTHER: f64 = 0.3;
 /// Prior probability that the priors of the effects' parameters are too narrow.
 const PRIOR_CONFLICT: f64 = 0.05;
 
+/// Prior probability that neighbouring rows share noise.
+const PRIOR_SERIAL: f64 = 0.1;
+
+/// Coefficients of correlation that are tried for it, equally probable beforehand.
+const SERIAL: [f64; 4] = [0.3, 0.6, 0.8, 0.92];
+
+/// A serial correlation is tried although its evidence at the modes without it is lower by this
+/// factor's logarithm: modes move with it.
+const MOVED: f64 = 2.0;
+
 /// The size of what is wrong with a value that is off, in standard uncertainties.
 const SUSPECT_SIZE: f64 = 10.0;
 
@@ -62,9 +72,26 @@ pub(crate) struct NoiseModel {
     pub(crate) factor: bool,
     /// The values that are off.
     pub(crate) suspects: Vec<Suspect>,
+    /// The coefficient of correlation of the noise of neighbouring rows.
+    pub(crate) serial: Option<f64>,
 }
 
 impl NoiseModel {
+    /// Stated uncertainties with an unknown factor.
+    fn with_factor() -> Self {
+        Self { factor: true, ..Self::default() }
+    }
+
+    /// With these values off.
+    fn with_suspects(suspects: Vec<Suspect>) -> Self {
+        Self { suspects, ..Self::default() }
+    }
+
+    /// With noise that neighbouring rows share in part.
+    fn with_serial(coefficient: f64) -> Self {
+        Self { serial: Some(coefficient), ..Self::default() }
+    }
+
     /// What a value's standard uncertainty is multiplied by: a suspect is off by a normal quantity of
     /// its own.
     pub(crate) fn stretch(&self, id: usize, output: usize) -> f64 {
@@ -88,8 +115,11 @@ impl NoiseModel {
         if self.factor {
             return PRIOR_FACTOR;
         }
+        if self.serial.is_some() {
+            return PRIOR_SERIAL / SERIAL.len() as f64;
+        }
         let mut prior = match self.suspects.len() {
-            0 => return 1.0 - PRIOR_FACTOR - PRIOR_SUSPECT - PRIOR_CONFLICT,
+            0 => return 1.0 - PRIOR_FACTOR - PRIOR_SUSPECT - PRIOR_SERIAL - PRIOR_CONFLICT,
             _ => PRIOR_SUSPECT,
         };
         for more in 0..self.suspects.len() {
@@ -139,10 +169,18 @@ pub(crate) fn weighings<'c>(
     // of much data each model costs a pass for every draw
     let few = weighings[0].setup.data.len() <= MANY_VALUES;
     if stated.iter().any(Option::is_some) && few {
-        let model = NoiseModel { factor: true, suspects: Vec::new() };
+        let model = NoiseModel::with_factor();
         let prior = model.prior(values);
         let setup = weighings[0].setup.with_noise(model);
         weighings.push(weighing(setup, prior, &weighings, [0.35, 0.7]));
+    }
+    if few {
+        for coefficient in serial_correlations(&weighings) {
+            let model = NoiseModel::with_serial(coefficient);
+            let prior = model.prior(values);
+            let setup = weighings[0].setup.with_noise(model);
+            weighings.push(weighing(setup, prior, &weighings, [0.7, 0.7]));
+        }
     }
     if few && prior_conflict(wide, &weighings, seed, effort) {
         let mut of_wide = weighing(Setup::new(wide), PRIOR_CONFLICT, &weighings, [0.7, 0.8]);
@@ -151,7 +189,7 @@ pub(crate) fn weighings<'c>(
     }
     for _ in 0..if few { MOST_SUSPECTS } else { 0 } {
         let Some(suspects) = more_suspects(&weighings) else { break };
-        let model = NoiseModel { factor: false, suspects };
+        let model = NoiseModel::with_suspects(suspects);
         let prior = model.prior(values);
         let setup = weighings[0].setup.with_noise(model);
         weighings.push(weighing(setup, prior, &weighings, [0.8, 1.0]));
@@ -170,6 +208,77 @@ impl Weighing<'_> {
     fn ln_weight(&self) -> f64 {
         elementary::ln(self.prior) + self.posterior.ln_evidence
     }
+}
+
+/// The serial correlations that may be worth an evidence of their own: the densities of the
+/// residuals that the hypotheses leave at their modes, with the correlation and without.
+fn serial_correlations(weighings: &[Weighing<'_>]) -> Vec<f64> {
+    let Some(Weighing { setup, posterior, .. }) = weighings.first() else { return Vec::new() };
+    if setup.linear.fitted || setup.data.rows() < LEAST_ROWS {
+        return Vec::new();
+    }
+    let total = ln_total(weighings);
+    let found: Vec<Vec<f64>> = posterior
+        .hypotheses
+        .par_iter()
+        .map(|hypothesis| {
+            let residuals = residuals_at_mode(setup, hypothesis);
+            let ln = elementary::ln(hypothesis.prior.max(f64::MIN_POSITIVE))
+                + hypothesis.evidence.ln_evidence;
+            SERIAL.iter().map(|&of| ln + serial_gain(setup, &residuals, of)).collect()
+        })
+        .collect();
+    let ln_prior = elementary::ln(NoiseModel::with_serial(0.0).prior(setup.data.len()));
+    let worth = |n: &usize| {
+        let sum = found
+            .iter()
+            .filter_map(|of| of.get(*n))
+            .fold(f64::NEG_INFINITY, |sum, ln| ln_add(sum, *ln));
+        sum + ln_prior + MOVED - total > elementary::ln(WORTH_TRYING)
+    };
+    (0..SERIAL.len()).filter(worth).map(|n| SERIAL[n]).collect()
+}
+
+/// Fewer rows say nothing of a serial correlation.
+const LEAST_ROWS: usize = 8;
+
+/// Residuals at the best mode of a hypothesis, whitened by the blocks, without a serial correlation.
+pub(crate) fn residuals_at_mode(setup: &Setup<'_>, hypothesis: &WeighedHypothesis) -> Vec<f64> {
+    let Some(mode) = hypothesis.evidence.modes.first() else { return Vec::new() };
+    let likelihood = setup.likelihood(&hypothesis.effects);
+    let mut scores = vec![Column::ZERO; likelihood.unknowns()];
+    for (column, score) in scores.iter_mut().zip(&mode.scores) {
+        column.0.fill(*score);
+    }
+    let mut kept = Kept::new(1, setup.data.len());
+    likelihood.visit(&scores, 1, &mut kept);
+    kept.lanes.into_iter().map(|(residuals, _)| residuals).next().unwrap_or_default()
+}
+
+/// By how much the logarithm of the density of residuals rises if neighbouring rows are correlated.
+pub(crate) fn serial_gain(setup: &Setup<'_>, residuals: &[f64], coefficient: f64) -> f64 {
+    let outputs = setup.data.outputs.len();
+    let mut gain = 0.0;
+    for (row, ids) in setup.data.ids.windows(2).enumerate() {
+        let lag = lag(coefficient, ids[0], ids[1]);
+        for output in 0..outputs {
+            let (before, here) = (
+                residuals.get(row * outputs + output),
+                residuals.get((row + 1) * outputs + output),
+            );
+            let (Some(before), Some(here)) = (before, here) else { return f64::NEG_INFINITY };
+            let rest = here - lag * before;
+            gain -= 0.5 * (rest * rest / (1.0 - lag * lag) - here * here);
+            gain -= 0.5 * elementary::ln(1.0 - lag * lag);
+        }
+    }
+    gain
+}
+
+/// The coefficient of correlation of two rows, the later one second.
+pub(crate) fn lag(coefficient: f64, before: usize, here: usize) -> f64 {
+    let gap = here.saturating_sub(before).max(1);
+    (1..gap).fold(coefficient, |lag, _| lag * coefficient)
 }
 
 /// Whether a single effect with a wider prior explains the data so much better than anything else
@@ -239,7 +348,11 @@ pub(crate) fn summed(mut weighings: Vec<Weighing<'_>>) -> (Setup<'_>, Discrepanc
 /// A set of values that are off which may be worth an evidence of its own: the last one that was
 /// tried and one more. `None` where no further value is suspicious.
 fn more_suspects(weighings: &[Weighing<'_>]) -> Option<Vec<Suspect>> {
-    let last = weighings.iter().rfind(|w| !w.setup.data.noise.factor && !w.wide)?;
+    let is_known = |w: &&Weighing<'_>| {
+        let noise = &w.setup.data.noise;
+        !noise.factor && noise.serial.is_none() && !w.wide
+    };
+    let last = weighings.iter().rfind(is_known)?;
     let values = last.setup.data.len();
     let known = &last.setup.data.noise.suspects;
     let total = ln_total(weighings);
@@ -272,7 +385,7 @@ fn more_suspects(weighings: &[Weighing<'_>]) -> Option<Vec<Suspect>> {
         .filter(|(_, suspect)| !known.contains(suspect))
         .max_by(|a, b| a.0.total_cmp(&b.0))?;
     let suspects = with(best.1);
-    let model = NoiseModel { factor: false, suspects };
+    let model = NoiseModel::with_suspects(suspects);
     let ln = best.0 + elementary::ln(model.prior(values));
     (ln - total > elementary::ln(WORTH_TRYING)).then_some(model.suspects)
 }
@@ -305,7 +418,7 @@ fn gains(setup: &Setup<'_>, hypothesis: &WeighedHypothesis) -> Vec<f64> {
                 *out = points[lane.min(points.len() - 1)][i];
             }
         }
-        let mut kept = Kept { lanes: vec![Default::default(); points.len()] };
+        let mut kept = Kept::new(points.len(), setup.data.len());
         likelihood.visit(&scores, points.len(), &mut kept);
         lanes.extend(kept.lanes);
     }
@@ -374,18 +487,25 @@ fn gains(setup: &Setup<'_>, hypothesis: &WeighedHypothesis) -> Vec<f64> {
 }
 
 /// Keeps the whitened residuals of every lane, and the logarithms of the variances where these are
-/// estimated.
+/// estimated, row by row.
 struct Kept {
     lanes: Vec<(Vec<f64>, Vec<f64>)>,
 }
 
+impl Kept {
+    fn new(lanes: usize, values: usize) -> Self {
+        Self { lanes: vec![(vec![0.0; values], vec![0.0; values]); lanes] }
+    }
+}
+
 impl Visitor for Kept {
     #[inline(always)]
-    fn row(&mut self, _: usize, residuals: &[Column], ln_variances: &[Column]) {
-        for (residual, ln) in residuals.iter().zip(ln_variances) {
+    fn row(&mut self, row: usize, residuals: &[Column], ln_variances: &[Column]) {
+        let first = row * residuals.len();
+        for (output, (residual, ln)) in residuals.iter().zip(ln_variances).enumerate() {
             for (n, (kept, kept_ln)) in self.lanes.iter_mut().enumerate() {
-                kept.push(residual.0[n]);
-                kept_ln.push(ln.0[n]);
+                kept[first + output] = residual.0[n];
+                kept_ln[first + output] = ln.0[n];
             }
         }
     }

@@ -144,7 +144,8 @@ impl Scan<'_, '_> {
                     *out = points[lane.min(points.len() - 1)][i];
                 }
             }
-            let mut kept = Kept { lanes: vec![Vec::new(); points.len()] };
+            let values = self.likelihood.data.len();
+            let mut kept = Kept { lanes: vec![vec![0.0; values]; points.len()] };
             self.likelihood.visit(&scores, points.len(), &mut kept);
             all.extend(kept.lanes.into_iter().map(|values| {
                 // with estimated noise the scan leaves out what is integrated linearly: it only has
@@ -437,17 +438,18 @@ fn peaks(grid: Vec<Scanned>) -> Vec<Vec<f64>> {
     peaks.into_iter().filter_map(|n| grid[n].take()).collect()
 }
 
-/// Keeps the whitened residuals of every lane.
+/// Keeps the whitened residuals of every lane, row by row.
 struct Kept {
     lanes: Vec<Vec<f64>>,
 }
 
 impl Visitor for Kept {
     #[inline(always)]
-    fn row(&mut self, _: usize, residuals: &[Column], _: &[Column]) {
-        for residual in residuals {
+    fn row(&mut self, row: usize, residuals: &[Column], _: &[Column]) {
+        let first = row * residuals.len();
+        for (output, residual) in residuals.iter().enumerate() {
             for (kept, value) in self.lanes.iter_mut().zip(&residual.0) {
-                kept.push(*value);
+                kept[first + output] = *value;
             }
         }
     }

@@ -1,7 +1,7 @@
 //! What the data say of their noise, over all hypotheses.
 
 use super::latent::Role;
-use super::noise_model::{Suspect, Weighing};
+use super::noise_model::{Suspect, Weighing, residuals_at_mode, serial_gain};
 use super::parameters::equal_tails;
 use gumption_engine::number::{COLUMN, elementary};
 
@@ -18,6 +18,9 @@ pub(crate) struct WeighedNoise {
     pub(crate) factors: Vec<(usize, Vec<(f64, f64)>)>,
     /// Values that may be off, with their probabilities.
     pub(crate) suspects: Vec<(Suspect, f64)>,
+    /// Probability that neighbouring rows share noise, and draws of their coefficient of correlation,
+    /// if they do, with weights that sum to one.
+    pub(crate) serial: Option<(f64, Vec<(f64, f64)>)>,
 }
 
 impl WeighedNoise {
@@ -27,6 +30,7 @@ impl WeighedNoise {
             of.factor_probability += weighing.probability;
             of.factors = factors(weighing);
         }
+        of.serial = serial(weighings);
         for weighing in weighings {
             for &suspect in &weighing.setup.data.noise.suspects {
                 match of.suspects.iter_mut().find(|(known, ..)| *known == suspect) {
@@ -46,6 +50,31 @@ impl WeighedNoise {
         Some((elementary::exp(ln), equal_tails(draws, coverage)))
     }
 }
+
+/// The probability that neighbouring rows share noise, and the density of their coefficient of
+/// correlation on a grid: that of the residuals of the leading hypothesis with it, at its best mode.
+fn serial(weighings: &[Weighing<'_>]) -> Option<(f64, Vec<(f64, f64)>)> {
+    let stated = weighings.first()?;
+    if stated.setup.linear.fitted {
+        return None;
+    }
+    let correlated = weighings.iter().filter(|w| w.setup.data.noise.serial.is_some());
+    let probability = correlated.clone().map(|w| w.probability).sum();
+    let leading = correlated.max_by(|a, b| a.probability.total_cmp(&b.probability))?;
+    let hypotheses = leading.posterior.hypotheses.iter();
+    let best = hypotheses.max_by(|a, b| a.probability.total_cmp(&b.probability))?;
+    let residuals = residuals_at_mode(&stated.setup, best);
+    let grid: Vec<f64> = (0..GRID).map(|n| (n as f64 + 0.5) / GRID as f64).collect();
+    let ln: Vec<f64> = grid.iter().map(|&r| serial_gain(&stated.setup, &residuals, r)).collect();
+    let most = ln.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let density: Vec<f64> = ln.iter().map(|ln| elementary::exp(ln - most)).collect();
+    let total: f64 = density.iter().sum();
+    let draws = grid.into_iter().zip(density).map(|(r, density)| (r, density / total));
+    Some((probability, draws.collect()))
+}
+
+/// Coefficients of correlation between 0 and 1.
+const GRID: usize = 200;
 
 /// Draws of the factors, over all hypotheses.
 fn factors(weighing: &Weighing<'_>) -> Vec<(usize, Vec<(f64, f64)>)> {

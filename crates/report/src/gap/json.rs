@@ -202,7 +202,15 @@ fn noise(diagnosis: &Diagnosis) -> Value {
                 "size": suspect.size,
             })
         });
+        let serial = noise.serial.map(|serial| {
+            json!({
+                "estimate": serial.estimate,
+                "interval": serial.interval,
+                "probability": serial.probability,
+            })
+        });
         entries.push(("factor", json!(factor)));
+        entries.push(("serial_correlation", json!(serial)));
         entries.push(("suspect_rows", list(suspects)));
         Some((output.name.as_str(), object(entries)))
     }))

@@ -141,6 +141,15 @@ pub(super) fn noise_verdict(diagnosis: &Diagnosis) -> Vec<String> {
                 probability(factor.probability)
             ));
         }
+        if let Some(serial) = noise.serial.filter(|serial| serial.probability > LIKELY) {
+            let [low, high] = serial.interval.map(|end| rounded(end, -2));
+            said.push(format!(
+                "Neighbouring rows of {name} share noise: their coefficient of correlation is {} ({low} \
+                 to {high}); that there is one has the probability {}.",
+                rounded(serial.estimate, -2),
+                probability(serial.probability)
+            ));
+        }
         for suspect in noise.suspects.iter().filter(|suspect| suspect.probability > LIKELY) {
             said.push(format!(
                 "Row {} of {name} is off by {} standard uncertainties with probability {}.",

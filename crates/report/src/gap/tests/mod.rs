@@ -11,8 +11,8 @@ use crate::Provenance;
 use gumption_gap::{
     Diagnosis, DiagnosisNote, EffectParameter, EstimatedNoise, GapRegion, GapTest, Hypothesis,
     HypothesisKind, MostProbable, NamedQuantity, NextMeasurement, NoiseEstimate, Predicted,
-    PresentEffect, PriorConflict, RowGap, Shrinkage, Shrunk, SuspectValue, UncertaintyFactor,
-    ValueGap,
+    PresentEffect, PriorConflict, RowGap, SerialCorrelation, Shrinkage, Shrunk, SuspectValue,
+    UncertaintyFactor, ValueGap,
 };
 
 fn named(name: &str, unit: &str) -> NamedQuantity {
@@ -80,6 +80,8 @@ fn noise() -> Vec<NoiseEstimate> {
     stated.factor =
         Some(UncertaintyFactor { estimate: 1.9234, interval: [1.6123, 2.3456], probability });
     stated.suspects = vec![SuspectValue { row: 6, probability: 0.991_234, size: -8.1234 }];
+    stated.serial =
+        Some(SerialCorrelation { estimate: 0.8765, interval: [0.71, 0.95], probability: 0.61 });
     let mut estimated = NoiseEstimate::new(1);
     estimated.estimated = Some(EstimatedNoise { standard_uncertainty: 0.051_234, power: 0.25 });
     vec![stated, estimated]
