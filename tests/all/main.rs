@@ -35,6 +35,7 @@ mod reproducible;
 mod results;
 mod schema;
 mod sizes;
+mod stack;
 mod support;
 mod units;
 mod verify;

@@ -56,6 +56,7 @@ mod table;
 mod text_table;
 mod variant;
 mod width;
+mod workbook;
 
 pub use case::CaseFile;
 pub use catalogue::{EffectListing, ListedEffect, ListedParameter, catalogue};
