@@ -37,6 +37,7 @@ mod schema;
 mod sizes;
 mod stack;
 mod support;
+mod temperatures;
 mod units;
 mod verify;
 mod workspace;

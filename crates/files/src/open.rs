@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::diagnostics::{Collector, Diagnostics};
-use super::json::{self, Json, Node};
+use super::json::{self, Json, Member, Node};
 use super::object::Object;
 use super::source::SourceText;
 use super::{DiagnosticKind, bytes};
@@ -80,9 +80,10 @@ pub(super) fn read_changed_root<T>(
 }
 
 /// Refuses a version of the file format that this program does not know; whether it is known.
-pub(super) fn check_format(root: &Object<'_>) -> bool {
-    let Some(member) = root.get("format").filter(|member| member.value.number() != Some(1.0))
-    else {
+pub(super) fn check_format(root: &Object<'_>, newest: f64) -> bool {
+    let is_known = |number: f64| number.fract() == 0.0 && (1.0..=newest).contains(&number);
+    let known = |member: &&Member| member.value.number().is_some_and(is_known);
+    let Some(member) = root.get("format").filter(|member| !known(member)) else {
         return true;
     };
     let found = match &member.value.value {

@@ -124,7 +124,7 @@ impl Asking {
 
 fn certificate(files: FileReader<'_>, root: Object<'_>, folder: &Path) -> Option<CertificateFile> {
     root.check_keys(keys::CERTIFICATE);
-    check_format(&root);
+    check_format(&root, 1.0);
     let administrative = administrative::read(&root);
     let languages = languages(&root);
     let rounding = named(&root, "rounding", Rounding::named, &Rounding::ALL.map(Rounding::name));
