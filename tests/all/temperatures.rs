@@ -13,9 +13,7 @@ use crate::support::{command, output};
 
 /// Inputs of the formulas below; `std` is 0.1 in the unit unless said otherwise.
 fn inputs() -> Value {
-    let of = |unit: &str, mean: f64, std: f64| {
-        json!({"unit": unit, "distribution": "normal", "mean": mean, "std": std})
-    };
+    let of = |unit: &str, mean: f64, std: f64| json!({"unit": unit, "distribution": "normal", "mean": mean, "std": std});
     json!({
         "t": of("degC", 20.0, 0.1),
         "t1": of("degC", 10.0, 0.1),

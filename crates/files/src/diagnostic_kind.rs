@@ -67,6 +67,13 @@ pub enum DiagnosticKind {
         /// What stands there.
         found: String,
     },
+    /// A file of another kind than the command reads.
+    WrongFile {
+        /// What it is, in words.
+        what: &'static str,
+        /// The command that reads it.
+        command: &'static str,
+    },
     /// Neither a typed model nor equations.
     NoModel,
     /// Both a typed model and equations.
@@ -460,6 +467,7 @@ impl DiagnosticKind {
             Self::Unit { .. } => "bad-unit",
             Self::WrongDimension { .. } => "wrong-dimension",
             Self::WrongScale { .. } => "wrong-scale",
+            Self::WrongFile { .. } => "wrong-file",
             Self::Value { .. } => "bad-value",
             Self::UnknownDistribution { .. } => "unknown-distribution",
             Self::Distribution { .. } => "bad-distribution",
@@ -578,6 +586,9 @@ impl fmt::Display for DiagnosticKind {
             Self::MissingKey { key, what } => write!(f, "{what} needs the key `{key}`"),
             Self::UnknownFormat { found } => {
                 write!(f, "file format {found} is not known; this version reads `\"format\": 1`")
+            }
+            Self::WrongFile { what, command } => {
+                write!(f, "this is {what}, which `{command}` reads")
             }
             Self::NoModel => f.write_str(
                 "a model file needs `equations` (formulas) or `model` (the name of a typed model)",

@@ -34,7 +34,7 @@ use super::model_checks::{
 use super::model_file::ModelFile;
 use super::object::Object;
 use super::observations::{self, Observations};
-use super::open::{check_format, read_changed_root};
+use super::open::{FileKind, check_format, read_changed_root, refuse_other_kind};
 use super::outputs;
 use super::overrides::{self, Override};
 use super::reader::FileReader;
@@ -129,6 +129,9 @@ impl<'a> ModelReader<'a> {
     /// All that the file holds, unless it has mistakes.
     pub(super) fn found(&self) -> Option<Found> {
         let root = &self.root;
+        if refuse_other_kind(root, FileKind::Model) {
+            return None;
+        }
         root.check_keys(keys::MODEL);
         check_format(root, 2.0);
         let title = root.text("title").unwrap_or("").to_owned();
@@ -270,6 +273,11 @@ impl<'a> ModelReader<'a> {
                     warnings.extend(celsius_as_kelvin(&scope, &of.outputs.outputs));
                 } else {
                     warnings.push(units_not_checked(&self.root, of));
+                }
+                for (name, _, formula) in &equations {
+                    let notes = formula.iter().flat_map(Formula::notes);
+                    warnings
+                        .extend(notes.map(|(text, _)| Warning::new("angle-of-turns", name, text)));
                 }
                 let formulas =
                     equations.into_iter().filter_map(|(name, _, formula)| Some((name, formula?)));

@@ -93,3 +93,38 @@ pub(super) fn check_format(root: &Object<'_>, newest: f64) -> bool {
     root.log.report(&member.value.span, DiagnosticKind::UnknownFormat { found });
     false
 }
+
+/// A kind of file that commands read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum FileKind {
+    /// A model file or a case of the gap diagnosis.
+    Model,
+    /// A certificate.
+    Certificate,
+}
+
+impl FileKind {
+    /// The kind that the keys of a root show beyond doubt.
+    fn of(root: &Object<'_>) -> Option<Self> {
+        let has = |key: &str| root.get(key).is_some();
+        if has("outputs") && (has("equations") || has("model")) && !has("rows") {
+            Some(Self::Model)
+        } else if has("rows") && !has("inputs") && !has("outputs") && !has("recordings") {
+            Some(Self::Certificate)
+        } else {
+            None
+        }
+    }
+}
+
+/// Reports a file that another command reads, instead of all of its keys; whether it is one.
+pub(super) fn refuse_other_kind(root: &Object<'_>, expected: FileKind) -> bool {
+    let (what, command) = match FileKind::of(root) {
+        Some(kind) if kind == expected => return false,
+        Some(FileKind::Model) => ("a model file", "gumption run"),
+        Some(FileKind::Certificate) => ("the file of a certificate", "gumption certificate"),
+        None => return false,
+    };
+    root.report(DiagnosticKind::WrongFile { what, command });
+    true
+}

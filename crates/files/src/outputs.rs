@@ -161,7 +161,13 @@ fn tolerance(object: &Object<'_>, unit: &Unit) -> Option<Tolerance> {
     let (lower, upper) = (limit("lower"), limit("upper"));
     match (lower, upper) {
         (None, None) => {
-            object.report(DiagnosticKind::NoValues { name: "tolerance".into() });
+            let is_there = |key: &&str| {
+                object.get(key).is_some_and(|member| !matches!(member.value.value, Json::Null))
+            };
+            // what could not be read has been reported
+            if !["lower", "upper"].iter().any(is_there) {
+                object.report(DiagnosticKind::NoValues { name: "tolerance".into() });
+            }
             None
         }
         (Some(lower), Some(upper)) if lower >= upper => {

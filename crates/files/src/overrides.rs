@@ -20,6 +20,9 @@ pub struct Override {
     pub value: String,
 }
 
+/// At most so many names are listed in a message.
+const MOST_NAMES: usize = 12;
+
 /// Replacements in the order of the command line.
 pub type Overrides = Vec<Override>;
 
@@ -79,7 +82,12 @@ pub(super) fn apply(log: &Collector, root: &mut Node, overrides: &[Override]) {
             let nearest = nearest(&replaced.input, names.iter().map(String::as_str));
             let reason = match nearest {
                 Some(name) => format!("there is no input of that name; did you mean `{name}`?"),
-                None => "there is no input of that name".to_owned(),
+                None => {
+                    let most = names.iter().take(MOST_NAMES).map(|name| format!("`{name}`"));
+                    let more = if names.len() > MOST_NAMES { ", ..." } else { "" };
+                    let list = most.collect::<Vec<_>>().join(", ");
+                    format!("there is no input of that name; the inputs are {list}{more}")
+                }
             };
             log.report(&whole, DiagnosticKind::Override { text: replaced.text.clone(), reason });
             continue;

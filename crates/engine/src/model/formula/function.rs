@@ -94,6 +94,11 @@ impl Function {
         }
     }
 
+    /// Whether its argument is an angle.
+    pub(super) fn takes_angle(self) -> bool {
+        matches!(self, Self::One(Unary::Sin | Unary::Cos | Unary::Tan))
+    }
+
     /// How many arguments it takes.
     pub(super) fn arity(self) -> Arity {
         match self {

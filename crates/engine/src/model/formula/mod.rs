@@ -130,6 +130,30 @@ impl Formula {
         self.checked(scope, false)
     }
 
+    /// What is right by the rules and seldom meant: `sin(30)`, which is of 30 rad. Each with its
+    /// place.
+    pub fn notes(&self) -> Vec<(String, Range<usize>)> {
+        let constants = evaluate::constants(&self.tree);
+        let of_call = |node: &syntax::Node| {
+            let Kind::Call { function: Some(function), arguments, .. } = &node.kind else {
+                return None;
+            };
+            let [argument] = arguments.as_slice() else { return None };
+            let angle = constants.get(*argument).copied().flatten()?;
+            if !function.takes_angle() || angle.abs() <= std::f64::consts::TAU {
+                return None;
+            }
+            let text = self.text.get(self.tree.span(*argument)).unwrap_or_default();
+            let note = format!(
+                "`{}` takes radians, and {text} rad are more than a turn; an angle in degrees is \
+                 written `{text} [deg]`",
+                function.name()
+            );
+            (!text.contains("pi") && !text.contains('π')).then(|| (note, node.span.clone()))
+        };
+        self.tree.nodes.iter().filter_map(of_call).collect()
+    }
+
     fn checked(&self, scope: &Scope, units: bool) -> Result<Typing, Vec<FormulaError>> {
         let dimension::Checked { typings, mut errors } =
             dimension::check(&self.text, &self.tree, scope, units);

@@ -327,6 +327,11 @@ impl Parser<'_> {
             TokenKind::Number(_) if self.last_is_number() => {
                 (Some("two numbers need an operator between them"), None)
             }
+            TokenKind::Name if self.last_is_number() && Unit::parse(self.slice(span)).is_ok() => {
+                let number = self.last.as_ref().map_or("", |last| self.slice(&last.span));
+                let suggestion = format!("{number} [{}]", self.slice(span));
+                (Some("the unit of a number stands in brackets"), Some(suggestion))
+            }
             TokenKind::Number(_) | TokenKind::Pi | TokenKind::Name | TokenKind::Open => {
                 let before = self.last.as_ref().map_or("", |last| self.slice(&last.span));
                 let here = self.slice(span);
