@@ -4,6 +4,7 @@ mod discrepancy;
 mod evidence;
 mod likelihood;
 mod next;
+mod noise;
 mod regions;
 
 use std::sync::Arc;
