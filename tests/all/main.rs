@@ -41,6 +41,7 @@ mod sizes;
 mod stack;
 mod strangers;
 mod support;
+mod temperatures;
 mod units;
 mod verify;
 mod workspace;

@@ -56,6 +56,7 @@ mod soundness;
 mod source;
 mod table;
 mod text_table;
+mod value_text;
 mod variant;
 mod width;
 mod workbook;
