@@ -369,7 +369,7 @@ fn an_interrupt_writes_what_there_is_where_it_was_asked_for() {
             .into_iter()
             .map(|wait| {
                 let ended = interrupted(&arguments, wait);
-                let answer = std::fs::read_to_string(&file).unwrap_or_default();
+                let answer = fs::read_to_string(&file).unwrap_or_default();
                 (ended, answer)
             })
             .find(|(_, answer)| {

@@ -74,7 +74,7 @@ fn every_change_is_noticed() {
     ] {
         let mut changed = whole.clone();
         *changed.pointer_mut(&format!("/{part}")).expect(part) = value;
-        let mut write = |file: &Value| {
+        let write = |file: &Value| {
             fs::write(folder.join("r.json"), serde_json::to_string_pretty(file).unwrap()).unwrap();
         };
         write(&changed);
