@@ -2,14 +2,15 @@
 
 use std::collections::HashMap;
 use std::ops::Range;
-use std::path::Path;
 
 use super::DiagnosticKind;
 use super::diagnostics::Collector;
+use super::folder::Folder;
 use super::json::{Json, Member};
 use super::keys;
 use super::object::Object;
 use super::table::{self, Table};
+use super::value_text::ValueOf;
 use gumption_engine::model::Quantity;
 use gumption_engine::model::formula::{Formula, FormulaError, Scope};
 use gumption_units::{Unit, nearest};
@@ -75,7 +76,7 @@ impl Conditions {
 pub(super) fn read(
     log: &Collector,
     member: &Member,
-    folder: &Path,
+    folder: Folder<'_>,
     data: Option<&Table>,
 ) -> Option<Conditions> {
     let object = Object::new(log, "`conditions`", &member.value, &member.key_span)?;
@@ -164,8 +165,10 @@ fn grid(object: &Object<'_>) -> Option<Conditions> {
             continue;
         };
         condition.check_keys(keys::CONDITION);
+        conditions.add(member, &condition);
+        let unit = conditions.quantities.last().map_or_else(Unit::one, |of| of.unit.clone());
         let values = if condition.get("values").is_some() {
-            condition.numbers("values")
+            condition.values("values", &unit, ValueOf::Quantity)
         } else {
             condition.report(DiagnosticKind::NoTable { name: member.key.clone() });
             None
@@ -173,7 +176,6 @@ fn grid(object: &Object<'_>) -> Option<Conditions> {
         if values.as_ref().is_some_and(Vec::is_empty) {
             condition.report(DiagnosticKind::NoValues { name: member.key.clone() });
         }
-        conditions.add(member, &condition);
         // one value in the place of none, so that the inputs are checked all the same
         axes.push(values.filter(|values| !values.is_empty()).unwrap_or_else(|| vec![1.0]));
     }
@@ -210,7 +212,7 @@ fn grid(object: &Object<'_>) -> Option<Conditions> {
     Some(conditions)
 }
 
-fn from_table(object: &Object<'_>, file: &Member, folder: &Path) -> Option<Conditions> {
+fn from_table(object: &Object<'_>, file: &Member, folder: Folder<'_>) -> Option<Conditions> {
     object.check_keys(keys::TABLE_OF_CONDITIONS);
     let log = object.log;
     let name = object.text("file")?;
@@ -315,15 +317,16 @@ impl super::condition_values::ConditionValues for NoConditions {
         1
     }
 
-    fn check(&self, formula: &Formula, _: &Unit) -> Result<(), Vec<DiagnosticKind>> {
+    fn check(&self, formula: &Formula, _: &Unit, _: ValueOf) -> Result<(), Vec<DiagnosticKind>> {
         let kinds = |errors: Vec<FormulaError>| {
             errors.into_iter().map(|error| DiagnosticKind::Formula { error }).collect::<Vec<_>>()
         };
         formula.check_names(&Scope::new()).map(|_| ()).map_err(kinds)
     }
 
-    fn value(&self, formula: &Formula, _: usize) -> f64 {
-        formula.evaluate(&Scope::new(), &HashMap::<String, f64>::new()).unwrap_or(f64::NAN)
+    fn value(&self, formula: &Formula, _: usize, unit: &Unit, _: ValueOf) -> f64 {
+        let value = formula.evaluate(&Scope::new(), &HashMap::<String, f64>::new());
+        unit.from_si(value.unwrap_or(f64::NAN))
     }
 
     fn place(&self, _: &str) -> Option<usize> {

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::keys::SHAPES;
 use gumption_engine::distribution::Invalid;
-use gumption_engine::model::formula::FormulaError;
+use gumption_engine::model::formula::{FormulaError, ScaleMisfit};
 use gumption_engine::number::Shortest;
 use gumption_units::UnitError;
 use gumption_units::nearest;
@@ -18,6 +18,12 @@ pub enum DiagnosticKind {
     Unreadable {
         /// What the system or the parser says.
         message: String,
+    },
+    /// A file that may not be read, because it lies outside of the folder of the file that names
+    /// it.
+    Outside {
+        /// Its name, as it is written.
+        name: String,
     },
     /// The file has no content.
     Empty,
@@ -66,6 +72,13 @@ pub enum DiagnosticKind {
     UnknownFormat {
         /// What stands there.
         found: String,
+    },
+    /// A file of another kind than the command reads.
+    WrongFile {
+        /// What it is, in words.
+        what: &'static str,
+        /// The command that reads it.
+        command: &'static str,
     },
     /// Neither a typed model nor equations.
     NoModel,
@@ -145,6 +158,24 @@ pub enum DiagnosticKind {
         expected_as: String,
         /// What must stand there.
         expected: String,
+    },
+    /// A unit of the right dimension that the scale of a quantity does not fit.
+    WrongScale {
+        /// The name that is concerned.
+        name: String,
+        /// The unit.
+        unit: String,
+        /// Why it does not fit.
+        misfit: ScaleMisfit,
+    },
+    /// A value with a unit that cannot be read or converted.
+    Value {
+        /// The key.
+        key: String,
+        /// What stands there.
+        found: String,
+        /// Why, as a part of the sentence.
+        reason: String,
     },
     /// No distribution of that name.
     UnknownDistribution {
@@ -309,6 +340,11 @@ pub enum DiagnosticKind {
         /// The most that is allowed.
         most: usize,
     },
+    /// A saved result that was changed since it was written.
+    SavedChanged {
+        /// What was changed, by the keys that lead to it; `None` where that cannot be told.
+        part: Option<String>,
+    },
     /// A file that `--save` did not write.
     NotResult {
         /// The file.
@@ -421,6 +457,7 @@ impl DiagnosticKind {
     pub fn code(&self) -> &'static str {
         match self {
             Self::Unreadable { .. } => "unreadable",
+            Self::Outside { .. } => "outside",
             Self::Empty => "empty",
             Self::NotJson { .. } => "not-json",
             Self::NotFiniteInJson => "not-finite",
@@ -441,6 +478,9 @@ impl DiagnosticKind {
             Self::NoSuchInput { .. } => "no-such-input",
             Self::Unit { .. } => "bad-unit",
             Self::WrongDimension { .. } => "wrong-dimension",
+            Self::WrongScale { .. } => "wrong-scale",
+            Self::WrongFile { .. } => "wrong-file",
+            Self::Value { .. } => "bad-value",
             Self::UnknownDistribution { .. } => "unknown-distribution",
             Self::Distribution { .. } => "bad-distribution",
             Self::Exclusive { .. } => "exclusive-keys",
@@ -465,6 +505,7 @@ impl DiagnosticKind {
             Self::Correlation { .. } => "bad-correlation",
             Self::TooMany { .. } => "too-many",
             Self::MoreMistakes { .. } => "more-mistakes",
+            Self::SavedChanged { .. } => "changed-result",
             Self::NotResult { .. } => "not-a-result",
             Self::NoSuchResult { .. } => "no-such-result",
             Self::SavedEntry { .. } => "bad-result",
@@ -537,6 +578,11 @@ impl fmt::Display for DiagnosticKind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Unreadable { message } => write!(f, "cannot read the file: {message}"),
+            Self::Outside { name } => write!(
+                f,
+                "`{name}` lies outside of the folder of this file, below which the files that it names \
+                 are read"
+            ),
             Self::Empty => f.write_str(
                 "the file is empty; a model file is a JSON object with `inputs`, `outputs` and \
                  `equations` or `model`",
@@ -558,6 +604,9 @@ impl fmt::Display for DiagnosticKind {
             Self::MissingKey { key, what } => write!(f, "{what} needs the key `{key}`"),
             Self::UnknownFormat { found } => {
                 write!(f, "file format {found} is not known; this version reads `\"format\": 1`")
+            }
+            Self::WrongFile { what, command } => {
+                write!(f, "this is {what}, which `{command}` reads")
             }
             Self::NoModel => f.write_str(
                 "a model file needs `equations` (formulas) or `model` (the name of a typed model)",
@@ -601,6 +650,12 @@ impl fmt::Display for DiagnosticKind {
                 "`{name}` has the unit `{found}`, {found_as}, but must be {expected_as}, such as \
                  `{expected}`"
             ),
+            Self::WrongScale { name, unit, misfit } => {
+                write!(f, "`{name}` cannot be given in `{unit}`: it {misfit}")
+            }
+            Self::Value { key, found, reason } => {
+                write!(f, "the value `{found}` of `{key}` cannot be taken: {reason}")
+            }
             Self::UnknownDistribution { name, nearest } => {
                 let known: Vec<&str> = SHAPES.iter().map(|kind| kind.name).collect();
                 write!(
@@ -679,9 +734,19 @@ impl fmt::Display for DiagnosticKind {
             }
             Self::Effect { name, reason } => write!(f, "the effect `{name}` {reason}"),
             Self::Correlation { reason } => f.write_str(reason),
+            // more than can be counted, or than was looked at
+            Self::TooMany { what, found: usize::MAX, most } => {
+                write!(f, "there are more than {most} {what}, which this version takes at most")
+            }
             Self::TooMany { what, found, most } => {
                 write!(f, "there are {found} {what}; this version takes {most} at most")
             }
+            Self::SavedChanged { part: Some(part) } => {
+                write!(f, "`{part}` was changed since the result was saved; save it again")
+            }
+            Self::SavedChanged { part: None } => f.write_str(
+                "this result was changed since it was saved, and does not say where; save it again",
+            ),
             Self::NotResult { file } => {
                 write!(f, "`{file}` is not a saved result (`\"result\": true` is missing)")
             }

@@ -25,21 +25,22 @@ use std::sync::Arc;
 
 use super::conditions::{self, Conditions};
 use super::diagnostics::{Collector, Diagnostics};
+use super::folder::Folder;
 use super::input_set::InputSet;
 use super::json::{Json, Member, Node};
 use super::model_checks::{
     Quantities, celsius_as_kelvin, check_equations, check_formula_outputs, check_names,
-    check_typed, unknown_output,
+    check_typed, units_not_checked, unknown_output,
 };
 use super::model_file::ModelFile;
 use super::object::Object;
 use super::observations::{self, Observations};
-use super::open::{check_format, read_changed_root};
+use super::open::{FileKind, check_format, read_changed_root, refuse_other_kind};
 use super::outputs;
 use super::overrides::{self, Override};
 use super::reader::FileReader;
 use super::results::Results;
-use super::scopes::{ConditionSet, report_formula, typed_scope};
+use super::scopes::{ConditionSet, number_form, report_formula, typed_scope};
 use super::simulated::{names_simulation, simulated};
 use super::size::Size;
 use super::table::{self, Table};
@@ -88,8 +89,8 @@ pub(super) struct Found {
 #[derive(Debug)]
 pub(super) struct ModelReader<'a> {
     pub(super) root: Object<'a>,
-    pub(super) folder: &'a Path,
-    options: ModelOptions<'a>,
+    pub(super) folder: Folder<'a>,
+    pub(super) options: ModelOptions<'a>,
 }
 
 /// An equation: the quantity, where it stands unless it is a column of the data, and its formula if
@@ -121,6 +122,7 @@ pub(super) fn read_with<T>(
 ) -> Result<T, Diagnostics> {
     let change = |log: &Collector, root: &mut Node| overrides::apply(log, root, options.overrides);
     read_changed_root(name, text, "a model file", change, |root| {
+        let folder = options.files.folder(folder);
         read(&ModelReader { root, folder, options })
     })
 }
@@ -129,8 +131,11 @@ impl<'a> ModelReader<'a> {
     /// All that the file holds, unless it has mistakes.
     pub(super) fn found(&self) -> Option<Found> {
         let root = &self.root;
+        if refuse_other_kind(root, FileKind::Model) {
+            return None;
+        }
         root.check_keys(keys::MODEL);
-        check_format(root);
+        check_format(root, 2.0);
         let title = root.text("title").unwrap_or("").to_owned();
         root.text("source");
         let check_units = root.truth("check_units").unwrap_or(true);
@@ -138,7 +143,7 @@ impl<'a> ModelReader<'a> {
 
         let Data { mut observations, conditions, simulated } = self.data()?;
         let body = self.body(&simulated);
-        let results = Results::new(self.folder);
+        let results = Results::new(self.folder, self.options.files);
         let mut of = self.quantities(conditions, check_units, &body, &results)?;
 
         let mut files = std::mem::take(&mut of.conditions.files);
@@ -151,6 +156,7 @@ impl<'a> ModelReader<'a> {
         let (correlations, notes) = self.correlations(&of, &mut files, &fits);
         let mut warnings = of.inputs.warnings.clone();
         warnings.extend(notes);
+        warnings.extend(results.warnings.take());
         let sim = self.sim(body?, &mut of, &mut warnings)?;
         let observed = self.observed(observations.as_ref(), &sim)?;
 
@@ -177,7 +183,7 @@ impl<'a> ModelReader<'a> {
         let at = match self.options.at {
             Some(path) => {
                 let name = path.display().to_string();
-                Some(table::read(log, Path::new(""), &name, &(0..0))?.0)
+                Some(table::read(log, Folder::of_the_user(), &name, &(0..0))?.0)
             }
             None => None,
         };
@@ -266,7 +272,16 @@ impl<'a> ModelReader<'a> {
             ModelBody::Equations(equations) => {
                 let scope = check_equations(log, &equations, of);
                 check_formula_outputs(log, &scope, of);
-                warnings.extend(celsius_as_kelvin(&scope, &of.outputs.outputs));
+                if of.check_units {
+                    warnings.extend(celsius_as_kelvin(&scope, &of.outputs.outputs));
+                } else {
+                    warnings.push(units_not_checked(&self.root, of));
+                }
+                for (name, _, formula) in &equations {
+                    let notes = formula.iter().flat_map(Formula::notes);
+                    warnings
+                        .extend(notes.map(|(text, _)| Warning::new("angle-of-turns", name, text)));
+                }
                 let formulas =
                     equations.into_iter().filter_map(|(name, _, formula)| Some((name, formula?)));
                 (scope, ModelForm::Equations(formulas.collect()))
@@ -278,6 +293,7 @@ impl<'a> ModelReader<'a> {
             conditions: of.conditions.quantities.clone(),
             outputs: std::mem::take(&mut of.outputs.outputs),
             maker,
+            numbers: number_form(of.check_units),
         })
     }
 

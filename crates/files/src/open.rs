@@ -1,9 +1,10 @@
 //! Files that are opened by their path, and texts whose root is a JSON object.
 
+use std::borrow::Cow;
 use std::path::Path;
 
 use super::diagnostics::{Collector, Diagnostics};
-use super::json::{self, Json, Node};
+use super::json::{self, Json, Member, Node};
 use super::object::Object;
 use super::source::SourceText;
 use super::{DiagnosticKind, bytes};
@@ -16,7 +17,7 @@ pub(super) fn open<T>(
     path: &Path,
     read: impl FnOnce(&str, &str, &Path) -> Result<T, Diagnostics>,
 ) -> Result<T, Diagnostics> {
-    open_as(path, utf8, read)
+    open_as(path, text, read)
 }
 
 /// As [`open`], with what makes a text of the file's bytes.
@@ -37,8 +38,16 @@ pub(super) fn open_as<T>(
 }
 
 /// The bytes as text, or why they are none.
-pub(super) fn utf8(bytes: Vec<u8>) -> Result<String, String> {
-    String::from_utf8(bytes).map_err(|_| "it is not UTF-8 text".to_owned())
+pub(super) fn text(bytes: Vec<u8>) -> Result<String, String> {
+    bytes::text(&bytes).map(Cow::into_owned)
+}
+
+/// Why a text that is named as a JSON file is none at all; a mistake within one is told where it is.
+/// Nothing of such a text is quoted, since it may be anything.
+pub(super) fn is_no_object(text: &str) -> Option<String> {
+    let start = text.trim_start_matches('\u{feff}').trim_start();
+    let is_object = start.is_empty() || start.starts_with('{');
+    (!is_object).then(|| "it is no JSON object: it does not begin with `{`".to_owned())
 }
 
 /// Reads a text whose root is an object, which is called `what` in messages.
@@ -80,9 +89,10 @@ pub(super) fn read_changed_root<T>(
 }
 
 /// Refuses a version of the file format that this program does not know; whether it is known.
-pub(super) fn check_format(root: &Object<'_>) -> bool {
-    let Some(member) = root.get("format").filter(|member| member.value.number() != Some(1.0))
-    else {
+pub(super) fn check_format(root: &Object<'_>, newest: f64) -> bool {
+    let is_known = |number: f64| number.fract() == 0.0 && (1.0..=newest).contains(&number);
+    let known = |member: &&Member| member.value.number().is_some_and(is_known);
+    let Some(member) = root.get("format").filter(|member| !known(member)) else {
         return true;
     };
     let found = match &member.value.value {
@@ -91,4 +101,39 @@ pub(super) fn check_format(root: &Object<'_>) -> bool {
     };
     root.log.report(&member.value.span, DiagnosticKind::UnknownFormat { found });
     false
+}
+
+/// A kind of file that commands read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum FileKind {
+    /// A model file or a case of the gap diagnosis.
+    Model,
+    /// A certificate.
+    Certificate,
+}
+
+impl FileKind {
+    /// The kind that the keys of a root show beyond doubt.
+    fn of(root: &Object<'_>) -> Option<Self> {
+        let has = |key: &str| root.get(key).is_some();
+        if has("outputs") && (has("equations") || has("model")) && !has("rows") {
+            Some(Self::Model)
+        } else if has("rows") && !has("inputs") && !has("outputs") && !has("recordings") {
+            Some(Self::Certificate)
+        } else {
+            None
+        }
+    }
+}
+
+/// Reports a file that another command reads, instead of all of its keys; whether it is one.
+pub(super) fn refuse_other_kind(root: &Object<'_>, expected: FileKind) -> bool {
+    let (what, command) = match FileKind::of(root) {
+        Some(kind) if kind == expected => return false,
+        Some(FileKind::Model) => ("a model file", "gumption run"),
+        Some(FileKind::Certificate) => ("the file of a certificate", "gumption certificate"),
+        None => return false,
+    };
+    root.report(DiagnosticKind::WrongFile { what, command });
+    true
 }

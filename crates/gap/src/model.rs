@@ -7,8 +7,8 @@ use std::fmt;
 use gumption_engine::model::formula::{Formula, FormulaError, Scope, Typing};
 use gumption_engine::model::typed::Typed;
 use gumption_engine::model::{
-    InputQuantity, Model, Output, Program, Quantity, Recorder, Traced, in_si, in_unit,
-    recorded_values, variables,
+    InputQuantity, Model, NumberForm, Output, Program, Quantity, Recorder, Traced, recorded_values,
+    variables,
 };
 
 /// What computes the outputs of a model.
@@ -33,6 +33,8 @@ pub struct OverridableModel {
     pub maker: ModelForm,
     /// What is known of every name.
     pub scope: Scope,
+    /// What formulas compute with.
+    pub numbers: NumberForm,
 }
 
 /// An effect that the model leaves out: quantities of the model that it changes, and its parameters.
@@ -131,18 +133,23 @@ impl OverridableModel {
             .map(|effect| {
                 let named = effect.parameters.iter().map(|parameter| {
                     next += 1;
-                    (parameter.name.as_str(), in_si(recorder.variable(next - 1), &parameter.unit))
+                    let value = recorder.variable(next - 1);
+                    (parameter.name.as_str(), self.numbers.taken(value, &parameter.unit))
                 });
                 named.collect()
             })
             .collect();
-        let given = recorded_values(&recorder, &self.inputs, &self.conditions).into_iter();
+        let given = recorded_values(&recorder, &self.inputs, &self.conditions, self.numbers);
+        let given = given.into_iter();
         let outputs = Making::new(self, effects, parameters, given.collect()).results()?;
         let results: Vec<Traced<'_>> = self
             .outputs
             .iter()
             .zip(outputs)
-            .map(|(output, value)| in_unit(value, &output.quantity.unit))
+            .map(|(output, value)| {
+                let Quantity { name, unit, .. } = &output.quantity;
+                self.numbers.given(value, unit, self.scope.get(name).unwrap_or(Typing::ANY))
+            })
             .collect();
         Ok(recorder.program(next, &results))
     }
