@@ -419,7 +419,7 @@ impl<'a> InputLine<'a> {
             estimate: line.estimate,
             standard_uncertainty: line.standard_uncertainty,
             distribution: line.distribution,
-            drawn_as: line.drawn_as_t.then_some("t"),
+            drawn_as: line.drawn_as,
             r#type: variable.evaluation.letter(),
             group: variable.group.as_deref(),
             dof: line.dof.is_finite().then_some(line.dof),
