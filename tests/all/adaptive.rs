@@ -56,7 +56,7 @@ fn run(task: &Task, rule: StoppingRule, seed: u64, digits: u32) -> MonteCarlo {
 fn errors(figures: &MonteCarlo) -> [f64; 4] {
     let [low, high] = figures.symmetric_interval;
     let u = figures.standard_uncertainty.unwrap();
-    [figures.estimate, u - U, low + END, high - END].map(f64::abs)
+    [figures.location(), u - U, low + END, high - END].map(f64::abs)
 }
 
 /// The first values of a task's output, from a run of as many trials.

@@ -80,7 +80,10 @@ struct Row<'a> {
 #[derive(Serialize)]
 struct Figures<'a> {
     outputs: Outputs<'a>,
-    output_correlations: Pairs<'a>,
+    output_correlations: Pairs<'a, f64>,
+    /// Those of the coefficients; not there without trials.
+    #[serde(skip_serializing_if = "Pairs::is_empty")]
+    output_correlations_standard_error: Pairs<'a, Option<f64>>,
 }
 
 /// The outputs of a row, made one by one.
@@ -108,17 +111,23 @@ impl Serialize for Outputs<'_> {
     }
 }
 
-/// The correlation coefficients of the outputs i < j.
-struct Pairs<'a> {
+/// A figure of each pair of outputs i < j: the correlation coefficients, or their errors.
+struct Pairs<'a, T> {
     task: &'a Task,
-    row: &'a RowEvaluation,
+    figures: &'a [T],
 }
 
-impl Serialize for Pairs<'_> {
+impl<T> Pairs<'_, T> {
+    fn is_empty(&self) -> bool {
+        self.figures.is_empty()
+    }
+}
+
+impl<T: Copy + Serialize> Serialize for Pairs<'_, T> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let names = || self.task.model.outputs.iter().map(|output| &output.quantity.name);
         let pairs = names().enumerate().flat_map(|(i, a)| names().skip(i + 1).map(move |b| (a, b)));
-        serializer.collect_seq(pairs.zip(&self.row.correlations).map(|((a, b), r)| (a, b, r)))
+        serializer.collect_seq(pairs.zip(self.figures).map(|((a, b), figure)| (a, b, *figure)))
     }
 }
 
@@ -211,12 +220,13 @@ struct MonteCarloSide {
     stopped: bool,
     #[serde(skip_serializing_if = "Option::is_none")]
     undefined_share: Option<f64>,
-    estimate: f64,
+    estimate: Option<f64>,
     standard_uncertainty: Option<f64>,
     median: f64,
     symmetric_interval: [f64; 2],
     shortest_interval: [f64; 2],
     shortest_exact: bool,
+    shortest_unique: bool,
     skewness: Option<f64>,
     excess_kurtosis: Option<f64>,
     numerical_standard_error: ErrorSide,
@@ -383,7 +393,11 @@ impl<'a> Answer<'a> {
 impl<'a> Figures<'a> {
     fn of(task: &'a Task, row: &'a RowEvaluation, stopped: bool) -> Self {
         let outputs = Outputs { task, row, stopped };
-        Self { outputs, output_correlations: Pairs { task, row } }
+        Self {
+            outputs,
+            output_correlations: Pairs { task, figures: &row.correlations },
+            output_correlations_standard_error: Pairs { task, figures: &row.correlation_errors },
+        }
     }
 }
 
@@ -464,6 +478,7 @@ impl MonteCarloSide {
             symmetric_interval: figures.symmetric_interval,
             shortest_interval: figures.shortest_interval,
             shortest_exact: figures.shortest_exact,
+            shortest_unique: figures.shortest_unique,
             skewness: figures.skewness,
             excess_kurtosis: figures.excess_kurtosis,
             numerical_standard_error: ErrorSide::from(figures.errors),

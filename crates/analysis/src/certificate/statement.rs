@@ -4,7 +4,6 @@ use super::rounding;
 use crate::certificate::contents::Rounding;
 use gumption_engine::decimal::{Decimal, Direction, to_position};
 use gumption_engine::model::Capability;
-use gumption_engine::number::elementary;
 use gumption_engine::propagate::OutputEvaluation;
 use gumption_engine::propagate::gum::{Dof, Gum};
 use gumption_engine::propagate::monte_carlo::MonteCarlo;
@@ -188,24 +187,9 @@ fn is_normal(factor: f64, coverage: Coverage) -> bool {
     to_position(factor, -2) == to_position(normal, -2)
 }
 
-/// How many numerical standard errors longer than the shortest interval another one may be and
-/// still count as the shortest: it is the least of many that scatter by about one.
-const AS_SHORT: f64 = 4.0;
-
-/// The shortest coverage interval. Of a symmetric distribution many intervals are as short, and the
-/// scatter of the trials would choose among them; the probabilistically symmetric one is taken if it
-/// is as short within its numerical error.
-fn interval(figures: &MonteCarlo) -> [f64; 2] {
-    let length = |[low, high]: [f64; 2]| high - low;
-    let (symmetric, shortest) = (figures.symmetric_interval, figures.shortest_interval);
-    let [low, high] = figures.errors.symmetric_interval;
-    let allowed = AS_SHORT * elementary::hypot(low, high);
-    if length(symmetric) - length(shortest) <= allowed { symmetric } else { shortest }
-}
-
 fn by_trials(figures: &MonteCarlo, gum: Option<&Gum>) -> Option<Found> {
-    let [low, high] = interval(figures);
-    let value = figures.estimate;
+    let [low, high] = figures.stated_interval().ends;
+    let value = figures.location();
     // few readings have no variance in the trials
     let u = figures.standard_uncertainty.or_else(|| gum.map(|gum| gum.standard_uncertainty))?;
     let expanded_uncertainty = (high - value).max(value - low);

@@ -16,7 +16,8 @@ use crate::special;
 pub struct Conformity {
     /// The limits.
     pub tolerance: Tolerance,
-    /// The estimate that is decided about: the mean of the trials.
+    /// The estimate that is decided about: the mean of the trials, or their median where there is
+    /// no mean.
     pub estimate: f64,
     /// The conformance probability (JCGM 106, 7): the share of trials within the limits.
     pub probability: f64,
@@ -64,13 +65,13 @@ impl Conformity {
         let global = inspection.zip(acceptance_ends).map(|(of, ends)| of.risks(ends));
         Some(Self {
             tolerance,
-            estimate: figures.estimate,
+            estimate: figures.location(),
             probability: p,
             numerical_standard_error: (p * (1.0 - p) / figures.trials as f64).sqrt(),
             wanted_risk: output.risk,
             acceptance,
             guard_band,
-            conforms: acceptance.is_some_and(|acceptance| acceptance.holds(figures.estimate)),
+            conforms: acceptance.is_some_and(|acceptance| acceptance.holds(figures.location())),
             global,
         })
     }

@@ -48,6 +48,9 @@ pub struct RowEvaluation {
     /// Correlation coefficients between the outputs i < j: from the trials, or by the law of
     /// propagation if there are none.
     pub correlations: Vec<f64>,
+    /// Numerical standard errors of those from the trials; `None` where an output's trials do not
+    /// tell them. Empty by the law of propagation, which has none.
+    pub correlation_errors: Vec<Option<f64>>,
     /// Trials that were left out because an output was not finite.
     pub undefined: Option<Undefined>,
     /// The variables that are outputs of saved results, drawn as they varied together there.
@@ -106,7 +109,7 @@ impl OutputEvaluation {
         let of_trials = || {
             let figures = self.monte_carlo.as_ref()?;
             let [low, high] = figures.symmetric_interval;
-            Some((figures.estimate, 0.5 * high - 0.5 * low))
+            Some((figures.location(), 0.5 * high - 0.5 * low))
         };
         let (estimate, expanded) = of_gum().or_else(of_trials)?;
         let cmc = capability.at(estimate);
@@ -315,6 +318,7 @@ fn evaluate_row(
         conditions: row.conditions.clone(),
         outputs: Vec::with_capacity(gums.len()),
         correlations: Vec::new(),
+        correlation_errors: Vec::new(),
         undefined: None,
         jointly_drawn: joint
             .rank_samples()
@@ -338,6 +342,7 @@ fn evaluate_row(
         if finished.trials > 0 {
             figures = finished.outputs.into_iter().map(Some).collect();
             result.correlations = finished.correlations;
+            result.correlation_errors = finished.correlation_errors;
         }
     }
     if figures.iter().all(Option::is_none) {
@@ -399,7 +404,9 @@ fn run(
     let mut finished = monte_carlo::run(trials, request, &control);
     finished.stopped |= stopped;
     for (figures, end) in finished.outputs.iter_mut().zip(ends) {
-        figures.adaptive = Some(end);
+        // figures that do not exist agree between blocks by chance at most
+        let converged = end.converged && !figures.heavy_tailed;
+        figures.adaptive = Some(monte_carlo::Adaptive { converged, ..end });
     }
     finished
 }

@@ -5,6 +5,7 @@ use std::collections::HashMap;
 use super::evaluation::{Evaluation, OutputEvaluation, RowEvaluation};
 use super::gum::{BudgetLine, Dof, Gum};
 use super::monte_carlo::{Adaptive, MonteCarlo};
+use crate::decimal;
 use crate::model::Output;
 use crate::number::Shortest;
 use crate::task::{Task, Trials, Warning};
@@ -179,9 +180,22 @@ fn of_output(
         return;
     };
     of_extremes(name, &at, monte_carlo, found);
+    if monte_carlo.heavy_tailed {
+        let text = format!(
+            "`{name}`{at}: a few of the {} trials carry their standard uncertainty (excess kurtosis \
+             {}), so that its distribution may have no expectation and no standard deviation (JCGM \
+             101, 3.6, note 1): estimate and standard uncertainty of the trials are of these trials \
+             alone and have no numerical standard error; median and coverage intervals stand",
+            monte_carlo.trials,
+            decimal::significant(monte_carlo.excess_kurtosis.unwrap_or(f64::NAN), 1)
+        );
+        push(found, Warning::new("heavy-tails", name, text));
+    }
     let spread = monte_carlo.standard_uncertainty.unwrap_or(gum.standard_uncertainty);
     of_results(name, &at, row, (gum, spread), found);
-    if let Some(Adaptive { converged: false, tolerance, .. }) = monte_carlo.adaptive {
+    if let Some(Adaptive { converged: false, tolerance, .. }) = monte_carlo.adaptive
+        && !monte_carlo.heavy_tailed
+    {
         let text = format!(
             "`{name}`{at}: after {} trials the figures are not yet stable to the tolerance \
              {tolerance}; the numerical standard errors say how far they are",

@@ -65,6 +65,7 @@ fn only_z(mut case: Case) -> Case {
     for row in &mut case.evaluation.rows {
         row.outputs.drain(..2);
         row.correlations.clear();
+        row.correlation_errors.clear();
     }
     case
 }
