@@ -10,7 +10,8 @@ use super::subtotals::Subtotals;
 use gumption_engine::propagate::gum::{BudgetLine, CorrelationLine, Dof, Gum};
 use gumption_engine::propagate::monte_carlo::{MonteCarlo, NumericalError};
 use gumption_engine::propagate::{
-    CapabilityStatement, Conformity, Evaluation, OutputEvaluation, RowEvaluation, validate,
+    CapabilityStatement, Conformity, Evaluation, OutputEvaluation, RowEvaluation, SecondOrder,
+    validate,
 };
 use gumption_engine::task::{Task, Trials, Warning};
 
@@ -100,7 +101,7 @@ impl Serialize for Outputs<'_> {
         serializer.collect_map(outputs.map(|(output, evaluation)| {
             let side = Output {
                 unit: output.quantity.unit.text(),
-                gum: evaluation.gum.as_ref().map(|gum| GumSide::of(task, gum)),
+                gum: evaluation.gum.as_ref().map(|gum| GumSide::of(task, gum, evaluation)),
                 monte_carlo: MonteCarloSide::of(task, row, evaluation, stopped),
                 validation: evaluation.validation.map(Validation::from),
                 conformity: evaluation.conformity.map(|conformity| ConformitySide::of(&conformity)),
@@ -152,8 +153,26 @@ struct GumSide<'a> {
     coverage_factor: Option<f64>,
     expanded_uncertainty: Option<f64>,
     interval: Option<[f64; 2]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    second_order: Option<SecondOrderSide<'a>>,
     budget: Lines<'a>,
     subtotals: Vec<Subtotal<'a>>,
+}
+
+/// The law of propagation with its terms of second order, where they tell something.
+#[derive(Serialize)]
+struct SecondOrderSide<'a> {
+    standard_uncertainty: f64,
+    /// Products that matter, with their contributions.
+    products: Vec<(&'a str, &'a str, f64)>,
+}
+
+impl<'a> SecondOrderSide<'a> {
+    fn of(task: &'a Task, second: &SecondOrder) -> Self {
+        let name = |v: usize| task.variables.get(v).map_or("", |variable| &variable.name);
+        let products = second.products.iter().map(|&(i, j, c)| (name(i), name(j), c));
+        Self { standard_uncertainty: second.standard_uncertainty, products: products.collect() }
+    }
 }
 
 /// The lines of a budget, made one by one.
@@ -239,6 +258,8 @@ struct ConformitySide {
     lower: Option<f64>,
     upper: Option<f64>,
     probability: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    probability_without_prior: Option<f64>,
     numerical_standard_error: f64,
     conforms: bool,
     specific_risk: Risks,
@@ -273,6 +294,7 @@ impl ConformitySide {
             lower: conformity.tolerance.lower,
             upper: conformity.tolerance.upper,
             probability: conformity.probability,
+            probability_without_prior: conformity.without_prior,
             numerical_standard_error: conformity.numerical_standard_error,
             conforms: accepted,
             specific_risk: Risks {
@@ -402,7 +424,7 @@ impl<'a> Figures<'a> {
 }
 
 impl<'a> GumSide<'a> {
-    fn of(task: &'a Task, gum: &'a Gum) -> Self {
+    fn of(task: &'a Task, gum: &'a Gum, evaluation: &OutputEvaluation) -> Self {
         let (dof, dof_status) = match gum.dof {
             Dof::Finite(dof) => (Some(dof), "finite"),
             Dof::Infinite => (None, "infinite"),
@@ -419,6 +441,7 @@ impl<'a> GumSide<'a> {
             coverage_factor: gum.coverage_factor,
             expanded_uncertainty: gum.expanded_uncertainty(),
             interval: gum.interval(),
+            second_order: evaluation.second_order.as_ref().map(|of| SecondOrderSide::of(task, of)),
             budget: Lines { task, gum },
             subtotals: groups.chain(types).collect(),
         }

@@ -113,6 +113,19 @@ struct Found {
     interval: Option<[f64; 2]>,
 }
 
+impl Found {
+    /// Whether another's interval is the same to the digits of the certificate.
+    fn states_as(&self, other: &Self, wanted: Wanted<'_>) -> bool {
+        let Wanted { digits, rounding, .. } = wanted;
+        let Some(to) = rounding::expanded(self.expanded_uncertainty, digits, rounding) else {
+            return false;
+        };
+        let own = [self.value - self.expanded_uncertainty, self.value + self.expanded_uncertainty];
+        let ends = |ends: [f64; 2]| ends.map(|end| to_position(end, to.position()));
+        other.interval.is_some_and(|interval| ends(interval) == ends(own))
+    }
+}
+
 /// The statement of an output; `None` where there is no expanded uncertainty to be stated.
 pub(super) fn of(
     output: &OutputEvaluation,
@@ -123,6 +136,9 @@ pub(super) fn of(
     let refuted = output.validation.is_some_and(|v| v.gum_valid == Some(false));
     let linear = || by_propagation(output.gum.as_ref()?, settings);
     let trials = || by_trials(output.monte_carlo.as_ref()?, output.gum.as_ref());
+    // a clause 8 that fails is no matter where what is stated would be the same
+    let refuted = refuted
+        && !linear().zip(trials()).is_some_and(|(linear, trials)| linear.states_as(&trials, wanted));
     let found = if refuted { trials().or_else(linear) } else { linear().or_else(trials) }?;
     let evaluated = found.expanded_uncertainty;
     let limit = capability.map(|capability| {
@@ -156,11 +172,7 @@ pub(super) fn of(
 }
 
 fn by_propagation(gum: &Gum, settings: &Settings) -> Option<Found> {
-    let coverage_factor = match (settings.coverage, gum.dof) {
-        // K itself, and not the factor at its probability of 0.9545, which is 2.000 02
-        (Coverage::Factor { factor, .. }, Dof::Infinite) => factor,
-        _ => gum.coverage_factor?,
-    };
+    let coverage_factor = gum.coverage_factor?;
     let basis = match (settings.coverage, gum.dof) {
         (Coverage::Factor { fixed: true, .. }, Dof::Finite(_)) | (_, Dof::Undefined) => {
             Basis::Fixed

@@ -19,8 +19,11 @@ pub struct Conformity {
     /// The estimate that is decided about: the mean of the trials, or their median where there is
     /// no mean.
     pub estimate: f64,
-    /// The conformance probability (JCGM 106, 7): the share of trials within the limits.
+    /// The conformance probability (JCGM 106, 7): with a prior that of the posterior distribution
+    /// (6.3 and 7.1), otherwise the share of trials within the limits.
     pub probability: f64,
+    /// The share of trials within the limits, where the probability takes a prior into account.
+    pub without_prior: Option<f64>,
     /// Numerical standard error of the probability.
     pub numerical_standard_error: f64,
     /// The risk of false acceptance that is wanted.
@@ -49,7 +52,7 @@ impl Conformity {
     /// `u` as standard uncertainty.
     pub fn of(output: &Output, figures: &MonteCarlo, u: Option<f64>) -> Option<Self> {
         let tolerance = output.tolerance?;
-        let p = figures.inside;
+        let share = figures.inside;
         let u = figures.standard_uncertainty.or(u).filter(|u| u.is_finite() && *u > 0.0);
         let limits = tolerance.ends();
         let inspection = output.prior.as_deref().zip(u);
@@ -62,12 +65,22 @@ impl Conformity {
         };
         let acceptance = guard_band.map(|width| tolerance.narrowed(width));
         let acceptance_ends = acceptance.map(|acceptance| acceptance.ends());
-        let global = inspection.zip(acceptance_ends).map(|(of, ends)| of.risks(ends));
+        let estimate = figures.location();
+        let global = inspection.as_ref().zip(acceptance_ends).map(|(of, ends)| of.risks(ends));
+        let posterior = inspection.map(|of| {
+            // the trials know the measured value to its numerical standard error
+            let error = figures.errors.estimate.unwrap_or(figures.errors.median);
+            let [below, above] = [-error, error].map(|off| of.conformance(estimate + off));
+            (of.conformance(estimate), 0.5 * (above - below).abs())
+        });
+        let error = (share * (1.0 - share) / figures.trials as f64).sqrt();
+        let (probability, numerical_standard_error) = posterior.unwrap_or((share, error));
         Some(Self {
             tolerance,
-            estimate: figures.location(),
-            probability: p,
-            numerical_standard_error: (p * (1.0 - p) / figures.trials as f64).sqrt(),
+            estimate,
+            probability,
+            without_prior: posterior.map(|_| share),
+            numerical_standard_error,
             wanted_risk: output.risk,
             acceptance,
             guard_band,

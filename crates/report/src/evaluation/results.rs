@@ -28,7 +28,9 @@ pub(super) fn section(
     let quantity = &output_of.quantity;
     let digits = evaluation.settings.digits;
     document.section(table::title_text(quantity));
-    document.blocks.push(Block::Verdict(verdict(&evaluation.settings, output_of, found)));
+    let mut said = verdict(&evaluation.settings, output_of, found);
+    said.extend(comparison::differences(report, output_of, found));
+    document.blocks.push(Block::Verdict(said));
     match &found.gum {
         Some(gum) => {
             let budget = Budget { task, output: quantity, gum, digits };

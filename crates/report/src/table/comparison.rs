@@ -1,17 +1,19 @@
 //! The two methods side by side, and the verdict of JCGM 101, clause 8.
 
 use super::grid::Grid;
-use super::{WIDTH, in_unit, text};
+use super::{WIDTH, coverage_text, in_unit, text};
+use crate::EvaluationReport;
+use crate::document::sentence;
 use crate::number::{
     MISSING, coarser, exact, justified, place_of_ends, position, rounded, significant, to,
 };
 use crate::sheet::Sheet;
 use gumption_engine::model::{Output, Quantity, Tolerance};
-use gumption_engine::propagate::gum::Gum;
+use gumption_engine::propagate::gum::{Dof, Gum};
 use gumption_engine::propagate::monte_carlo::{Adaptive, FIRST_STAGE, MonteCarlo};
 use gumption_engine::propagate::validate::Validation;
 use gumption_engine::propagate::{Conformity, OutputEvaluation};
-use gumption_engine::task::StoppingRule;
+use gumption_engine::task::{Coverage, StoppingRule};
 
 /// What is said of a shortest interval that is not exact.
 pub(crate) const NEARLY_SHORTEST: &str =
@@ -56,6 +58,35 @@ pub(super) fn table(output: &Quantity, figures: &OutputEvaluation, digits: u32) 
     Some(page)
 }
 
+/// Notes that say why the two methods differ, or what one of them leaves out.
+const DIFFERENCES: [&str; 5] =
+    ["few-dof", "non-linear", "no-variance", "heavy-tails", "gum-dof-undefined"];
+
+/// Why the two methods differ, where they do: the notes about it, and a factor that is fixed.
+pub(crate) fn differences(
+    report: &EvaluationReport<'_>,
+    output: &Output,
+    figures: &OutputEvaluation,
+) -> Vec<String> {
+    let name = &output.quantity.name;
+    let own = report.warnings.iter().filter(|warning| warning.place == *name);
+    let own = own.filter(|warning| DIFFERENCES.contains(&warning.code));
+    let mut said: Vec<String> = own.map(|warning| sentence(&warning.text)).collect();
+    let settings = &report.evaluation.settings;
+    let gum = figures.gum.as_ref();
+    if let (Coverage::Factor { factor, fixed: true }, Some(Dof::Finite(_)), Some(_)) =
+        (settings.coverage, gum.map(|gum| gum.dof), &figures.monte_carlo)
+    {
+        said.push(format!(
+            "The coverage factor {} is fixed whatever the degrees of freedom; the Monte Carlo \
+             intervals have the coverage probability {}.",
+            exact(factor),
+            coverage_text(settings.coverage)
+        ));
+    }
+    said
+}
+
 /// What may be stated beside the laboratory's capability.
 pub(crate) fn capability(output: &Output, figures: &OutputEvaluation) -> Option<String> {
     let stated = figures.stated(output)?;
@@ -85,10 +116,19 @@ fn conformity_text(output: &Quantity, found: &Conformity) -> String {
     let side = if found.tolerance.holds(found.estimate) { "within" } else { "outside" };
     format!(
         "Tolerance {}: the estimate lies {side}, and the value conforms with a probability of {probability} % \
-         (numerical standard error {} %).",
+         (numerical standard error {} %{}).",
         limits_text(output, &found.tolerance, None),
-        significant(error, 1)
+        significant(error, 1),
+        prior_text(found)
     )
+}
+
+/// That a probability takes a prior into account, and what it would be without.
+fn prior_text(found: &Conformity) -> String {
+    found.without_prior.map_or_else(String::new, |share| {
+        let share = rounded(100.0 * share, -2);
+        format!("; with the prior, by JCGM 106, 6.3 and 7.1; without it {share} %")
+    })
 }
 
 /// Limits with the unit; to a position if there is one.

@@ -46,7 +46,8 @@ impl Case {
 }
 
 fn settings(trials: u64) -> Settings {
-    Settings::default().with_trials(Trials::Fixed(trials))
+    let coverage = Coverage::Probability(0.95);
+    Settings::default().with_trials(Trials::Fixed(trials)).with_coverage(coverage)
 }
 
 /// The inclined plane of the literature at a tilt.
