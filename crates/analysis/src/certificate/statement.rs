@@ -138,7 +138,9 @@ pub(super) fn of(
     let trials = || by_trials(output.monte_carlo.as_ref()?, output.gum.as_ref());
     // a clause 8 that fails is no matter where what is stated would be the same
     let refuted = refuted
-        && !linear().zip(trials()).is_some_and(|(linear, trials)| linear.states_as(&trials, wanted));
+        && !linear()
+            .zip(trials())
+            .is_some_and(|(linear, trials)| linear.states_as(&trials, wanted));
     let found = if refuted { trials().or_else(linear) } else { linear().or_else(trials) }?;
     let evaluated = found.expanded_uncertainty;
     let limit = capability.map(|capability| {

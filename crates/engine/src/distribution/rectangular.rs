@@ -83,7 +83,8 @@ impl Shape for Rectangular {
     }
 
     fn standard_deviation(&self) -> f64 {
-        self.inexact().map_or_else(|| self.standard_uncertainty(), |drawn| drawn.standard_deviation())
+        self.inexact()
+            .map_or_else(|| self.standard_uncertainty(), |drawn| drawn.standard_deviation())
     }
 
     fn quantile(&self, p: f64) -> f64 {

@@ -23,7 +23,12 @@ impl Triangular {
     /// Parameters that are not finite, a half-width that is not above zero.
     pub fn new(mean: f64, half_width: f64) -> Result<Self, Invalid> {
         let (mean, half_width) = (finite("mean", mean)?, positive("half_width", half_width)?);
-        Ok(Self { lower: mean - half_width, rise: half_width, fall: half_width, inexact: InexactWidth::EXACT })
+        Ok(Self {
+            lower: mean - half_width,
+            rise: half_width,
+            fall: half_width,
+            inexact: InexactWidth::EXACT,
+        })
     }
 
     /// A triangle between two limits, its peak at `mode` or in the middle.

@@ -9,6 +9,7 @@ use global::Inspection;
 
 use super::monte_carlo::MonteCarlo;
 use crate::model::{Output, Tolerance};
+use crate::number::elementary;
 use crate::special;
 
 /// How probable it is that an output lies within its tolerance limits, and what is decided.
@@ -47,10 +48,16 @@ impl Conformity {
         if self.conforms { 1.0 - self.probability } else { self.probability }
     }
 
-    /// The decision about an output from its trials; `None` without a tolerance. Guard bands and
-    /// global risks take the measured value to be normally distributed about the true one, with
-    /// `u` as standard uncertainty.
-    pub fn of(output: &Output, figures: &MonteCarlo, u: Option<f64>) -> Option<Self> {
+    /// The decision about an output from its trials; `None` without a tolerance. The posterior
+    /// probability, guard bands and global risks take the measured value to be normally distributed
+    /// about the true one, with `u` as standard uncertainty. `linear` are estimate and standard
+    /// uncertainty by the law of propagation, where that may be trusted.
+    pub fn of(
+        output: &Output,
+        figures: &MonteCarlo,
+        u: Option<f64>,
+        linear: Option<(f64, f64)>,
+    ) -> Option<Self> {
         let tolerance = output.tolerance?;
         let share = figures.inside;
         let u = figures.standard_uncertainty.or(u).filter(|u| u.is_finite() && *u > 0.0);
@@ -67,11 +74,19 @@ impl Conformity {
         let acceptance_ends = acceptance.map(|acceptance| acceptance.ends());
         let estimate = figures.location();
         let global = inspection.as_ref().zip(acceptance_ends).map(|(of, ends)| of.risks(ends));
-        let posterior = inspection.map(|of| {
-            // the trials know the measured value to its numerical standard error
-            let error = figures.errors.estimate.unwrap_or(figures.errors.median);
-            let [below, above] = [-error, error].map(|off| of.conformance(estimate + off));
-            (of.conformance(estimate), 0.5 * (above - below).abs())
+        let posterior = output.prior.as_deref().zip(u).map(|(prior, spread)| {
+            let at = |y: f64, u: f64| Inspection::new(prior, u, limits).conformance(y);
+            if let Some((y, u)) = linear.filter(|(_, u)| *u > 0.0) {
+                return (at(y, u), 0.0);
+            }
+            // the trials know both to their numerical standard errors
+            let of_y = figures.errors.estimate.unwrap_or(figures.errors.median);
+            let of_u = figures.errors.standard_uncertainty.unwrap_or(0.0).min(0.5 * spread);
+            let change = |y: f64, u: f64| {
+                0.5 * (at(estimate + y, spread + u) - at(estimate - y, spread - u))
+            };
+            let error = elementary::hypot(change(of_y, 0.0), change(0.0, of_u));
+            (at(estimate, spread), error)
         });
         let error = (share * (1.0 - share) / figures.trials as f64).sqrt();
         let (probability, numerical_standard_error) = posterior.unwrap_or((share, error));

@@ -392,14 +392,17 @@ fn evaluate_row(
                 told && (second.standard_uncertainty - u).abs() > NOTEWORTHY * u
             })
         });
-        let conformity = monte_carlo.as_ref().and_then(|figures| {
-            let u = gum.as_ref().map(|gum| gum.standard_uncertainty);
-            Conformity::of(output, figures, u)
-        });
         let validation = match (&gum, &monte_carlo) {
             (Some(gum), Some(figures)) => validate(gum, figures, task.settings.digits),
             _ => None,
         };
+        let conformity = monte_carlo.as_ref().and_then(|figures| {
+            let u = gum.as_ref().map(|gum| gum.standard_uncertainty);
+            let trusted = validation.is_some_and(|v| v.gum_valid != Some(false));
+            let linear = gum.as_ref().filter(|_| trusted);
+            let linear = linear.map(|gum| (gum.estimate, gum.standard_uncertainty));
+            Conformity::of(output, figures, u, linear)
+        });
         result.outputs.push(OutputEvaluation {
             gum,
             monte_carlo,
@@ -427,7 +430,9 @@ pub(super) fn differs_from_linear(gum: &Gum, figures: &MonteCarlo) -> bool {
     let noteworthy = NOTEWORTHY * gum.standard_uncertainty;
     match figures.errors.standard_uncertainty {
         Some(error) => (u - drawn).abs() > f64::max(3.0 * error, noteworthy),
-        // of few degrees of freedom it settles slowly, and from below
+        // of few degrees of freedom it settles slowly, and of up to 3, which have no skewness, so
+        // slowly that it may still be anywhere below
+        None if figures.skewness.is_some() => (u - drawn).abs() > 0.03 * drawn,
         None => u > 1.03 * drawn || u < gum.standard_uncertainty - noteworthy,
     }
 }
@@ -449,9 +454,9 @@ fn decided(
     let most = settings.decide_up_to / task.rows.len().max(1) as u64;
     let is_open = |finished: &monte_carlo::Finished| {
         let pairs = gums.iter().zip(&finished.outputs);
-        pairs.filter_map(|(gum, figures)| validate(gum.as_ref()?, figures, settings.digits)).any(
-            |validation| validation.gum_valid.is_none(),
-        )
+        pairs
+            .filter_map(|(gum, figures)| validate(gum.as_ref()?, figures, settings.digits))
+            .any(|validation| validation.gum_valid.is_none())
     };
     while count.saturating_mul(FURTHER) <= most && is_open(&finished) && !control.is_stopped() {
         count *= FURTHER;

@@ -68,7 +68,8 @@ impl Gum {
             known.filter(|(_, c)| **c != 0.0).map_or(0.0, |(d, c)| c * d.standard_deviation())
         };
         let own: f64 = (0..self.inputs.len()).map(|v| signed(v).powi(2)).sum();
-        let joint = self.links.iter().map(|c| 2.0 * c.coefficient * signed(c.first) * signed(c.second));
+        let joint =
+            self.links.iter().map(|c| 2.0 * c.coefficient * signed(c.first) * signed(c.second));
         (own + joint.sum::<f64>()).max(0.0).sqrt()
     }
 

@@ -48,7 +48,9 @@ pub(super) fn second_order(task: &Task, row: &Row, first: &GumRow) -> Vec<Option
         (a - b).abs() <= SMOOTH * a.max(b)
     };
     let pairs = coarse.into_iter().zip(fine);
-    pairs.map(|(coarse, fine)| coarse.zip(fine).filter(|(a, b)| same(a, b)).map(|(a, _)| a)).collect()
+    pairs
+        .map(|(coarse, fine)| coarse.zip(fine).filter(|(a, b)| same(a, b)).map(|(a, _)| a))
+        .collect()
 }
 
 fn at_step(

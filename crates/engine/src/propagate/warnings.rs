@@ -255,10 +255,15 @@ fn of_difference(
             let text = format!(
                 "`{name}`{at}: the Monte Carlo standard uncertainty {difference} because standard \
                  uncertainties of inputs have few degrees of freedom{}: what is drawn for them has \
-                 a larger standard deviation, which alone makes {}. Neither is wrong; the GUM allows \
-                 for it in the coverage factor",
+                 a larger standard deviation, which alone makes {}. {}",
                 fewest(output),
-                percent(drawn)
+                percent(drawn),
+                if output.drawn_dof.is_finite() {
+                    "Neither is wrong; the GUM allows for it in the coverage factor"
+                } else {
+                    "The GUM allows for it in its coverage factor, that of a t distribution, whose \
+                     long tails these inputs do not have"
+                }
             );
             push(found, Warning::new("few-dof", name, text));
         }
@@ -310,10 +315,14 @@ pub fn second_order_text(task: &Task, gum: &Gum, second: &SecondOrder) -> String
         .products
         .iter()
         .map(|&(i, j, c)| {
-            let product =
-                if i == j { format!("`{}` squared", name(i)) } else { format!("`{}` times `{}`", name(i), name(j)) };
+            let product = if i == j {
+                format!("`{}` squared", name(i))
+            } else {
+                format!("`{}` times `{}`", name(i), name(j))
+            };
             let hidden = contribution(i).max(contribution(j)) < 0.1 * c;
-            let seen = if hidden { ", though their sensitivity coefficients vanish here" } else { "" };
+            let seen =
+                if hidden { ", though their sensitivity coefficients vanish here" } else { "" };
             format!("{product} contributes {}{seen}", number(c))
         })
         .collect();

@@ -141,11 +141,11 @@ fn certificate(files: FileReader<'_>, root: Object<'_>, folder: &Path) -> Option
     let digits = root.whole("digits", 1, MOST_DIGITS).unwrap_or(2);
     let coverage = settings::coverage(&root);
     let trials = root.get("monte_carlo").map(|_| settings::read(&root));
-    let mut rows = Rows::new(root.log, (files, folder), Asking {
-        coverage,
-        digits: u32::try_from(digits).unwrap_or(2),
-        trials,
-    });
+    let mut rows = Rows::new(
+        root.log,
+        (files, folder),
+        Asking { coverage, digits: u32::try_from(digits).unwrap_or(2), trials },
+    );
     match root.required("rows").and_then(|_| root.list("rows")) {
         Some([]) => {
             let place = root.get("rows").map_or(root.place(), |member| &member.key_span);

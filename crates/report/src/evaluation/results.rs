@@ -104,8 +104,7 @@ fn result(settings: &Settings, output: &Quantity, found: &OutputEvaluation) -> S
         let u = figures.standard_uncertainty.or_else(|| gum.map(|gum| gum.standard_uncertainty));
         let ends = place_of_ends(figures, u, settings.digits);
         let stated = figures.stated_interval();
-        let [low, high] =
-            [0, 1].map(|end| justified(stated.ends[end], ends, stated.errors[end]));
+        let [low, high] = [0, 1].map(|end| justified(stated.ends[end], ends, stated.errors[end]));
         let estimate = match figures.estimate {
             Some(estimate) => {
                 let digits = u.and_then(|u| position(u, settings.digits));

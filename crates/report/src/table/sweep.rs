@@ -2,7 +2,9 @@
 
 use super::grid::{Grid, PAGE};
 use super::{WIDTH, conditions_text, has_name, text, title};
-use crate::number::{MISSING, align, exact, justified, place_of_ends, position, rounded, significant, to};
+use crate::number::{
+    MISSING, align, exact, justified, place_of_ends, position, rounded, significant, to,
+};
 use crate::sheet::{Figure, Sheet};
 use gumption_engine::model::{Output, Quantity};
 use gumption_engine::propagate::gum::Gum;

@@ -13,7 +13,7 @@ use super::{EvaluationReport, Provenance};
 use gumption_engine::distribution::{Correlation, Input};
 use gumption_engine::model::Quantity;
 use gumption_engine::propagate::{Control, Evaluation, evaluate};
-use gumption_engine::task::{Settings, Task, Trials, Warning};
+use gumption_engine::task::{Coverage, Settings, Task, Trials, Warning};
 use gumption_measurements::InclinedPlane;
 use gumption_units::Unit;
 

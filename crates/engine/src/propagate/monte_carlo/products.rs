@@ -72,7 +72,8 @@ impl Products {
             (0..outputs).map(|output| vec![0.0; outputs - output - 1]).collect();
         let pairs = outputs * outputs.saturating_sub(1) / 2;
         let chunks_in_group = chunks_in_group(chunks as usize);
-        let groups = if pairs > MOST_GROUPED { 0 } else { (chunks as usize).div_ceil(chunks_in_group) };
+        let groups =
+            if pairs > MOST_GROUPED { 0 } else { (chunks as usize).div_ceil(chunks_in_group) };
         Self { all, groups: vec![vec![0.0; pairs]; groups], chunks_in_group, taken: 0 }
     }
 
@@ -154,7 +155,8 @@ mod tests {
             add(&values, 100, &plans, sums.iter_mut());
             products.take(sums.iter_mut());
         }
-        let parts: Vec<Parts> = sums.iter().map(|sums| Parts::of([(200, sums)].into_iter())).collect();
+        let parts: Vec<Parts> =
+            sums.iter().map(|sums| Parts::of([(200, sums)].into_iter())).collect();
         let found = correlations(200, &parts, &products);
         let pairs = (0..outputs).flat_map(|i| (i + 1..outputs).map(move |j| (i, j)));
         assert_eq!(found.len(), outputs * (outputs - 1) / 2);

@@ -280,8 +280,8 @@ fn shortest_scatter(
 ) -> ShortestScatter {
     let total = chunks.iter().map(|chunk| chunk.trials).sum();
     let batches = chunks.par_chunks(1).take(BATCHES);
-    let intervals = batches.filter(|batch| batch.iter().all(|chunk| chunk.trials > 0)).filter_map(
-        |batch| BatchInterval::of(&mut order_of(path, batch, windows), probability),
-    );
+    let intervals = batches
+        .filter(|batch| batch.iter().all(|chunk| chunk.trials > 0))
+        .filter_map(|batch| BatchInterval::of(&mut order_of(path, batch, windows), probability));
     ShortestScatter::of(intervals.collect(), total)
 }

@@ -265,13 +265,8 @@ fn finish(
             let dof = request.drawn_dof.get(output).copied().unwrap_or(f64::INFINITY);
             let scatter = scatters.get(output).copied();
             let shortest_error = scatter.map_or([f64::NAN; 2], |scatter| scatter.errors);
-            let errors = NumericalError::new(
-                moments,
-                dof,
-                found.errors,
-                shortest_error,
-                found.extremes,
-            );
+            let errors =
+                NumericalError::new(moments, dof, found.errors, shortest_error, found.extremes);
             let [low, high, median] = found.at;
             let intervals = Intervals {
                 symmetric: [low, high],

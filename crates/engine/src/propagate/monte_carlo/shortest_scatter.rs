@@ -101,7 +101,8 @@ impl ShortestScatter {
             nearly_all(&|batch| batch.most - batch.rank < LOWEST && batch.most > MANY_PLACES),
         ];
         let errors = [0, 1].map(|end| {
-            let scatter = variance(&batches.iter().map(|batch| batch.ends[end]).collect::<Vec<_>>());
+            let scatter =
+                variance(&batches.iter().map(|batch| batch.ends[end]).collect::<Vec<_>>());
             let squares = batches.iter().map(|batch| batch.errors[end].powi(2));
             let known: Vec<f64> = squares.filter(|square| square.is_finite()).collect();
             let quantile = known.iter().sum::<f64>() / known.len().max(1) as f64;
