@@ -60,9 +60,9 @@ fn ends_of_the_shortest_interval_scatter_as_stated() {
         ("normal", NORMAL, "x", [0.7..1.4, 0.7..1.4]),
         ("triangular", triangular, "x", [0.7..1.4, 0.7..1.4]),
         ("gamma", gamma, "x", [0.7..1.4, 0.7..1.4]),
-        ("exponential", exponential, "x", [0.1..1.6, 0.7..1.4]),
-        ("half-normal", NORMAL, "abs(x)", [0.1..1.6, 0.7..1.4]),
-        ("lognormal", lognormal, "x", [0.1..1.6, 0.7..1.4]),
+        ("exponential", exponential, "x", [0.01..1.6, 0.7..1.4]),
+        ("half-normal", NORMAL, "abs(x)", [0.01..1.6, 0.7..1.4]),
+        ("lognormal", lognormal, "x", [0.01..1.6, 0.7..1.4]),
     ];
     for (name, inputs, formula, limits) in cases {
         let mut task = task(inputs, formula);

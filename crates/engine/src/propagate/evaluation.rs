@@ -450,7 +450,10 @@ fn decided(
 ) -> monte_carlo::Finished {
     let settings = &task.settings;
     let mut finished = run(task, trials, gums, drawn_dof, control);
-    let Trials::Fixed(mut count) = settings.trials else { return finished };
+    let mut count = Settings::USUAL_TRIALS;
+    if settings.trials != Trials::Fixed(count) {
+        return finished;
+    }
     let most = settings.decide_up_to / task.rows.len().max(1) as u64;
     let is_open = |finished: &monte_carlo::Finished| {
         let pairs = gums.iter().zip(&finished.outputs);

@@ -64,8 +64,9 @@ pub struct Settings {
     pub trials: Trials,
     /// When an adaptive run stops.
     pub rule: StoppingRule,
-    /// Up to so many trials of all rows together a run of a fixed number of trials goes on, fourfold
-    /// each time, where clause 8 is undecided; 0 for no more than asked for.
+    /// Up to so many trials of all rows together a run of the usual number of trials
+    /// ([`Settings::USUAL_TRIALS`]) goes on, fourfold each time, where clause 8 is undecided; 0 for no
+    /// more than asked for.
     pub decide_up_to: u64,
     /// The largest number of trials of an adaptive run.
     pub max_trials: u64,
@@ -89,7 +90,7 @@ impl Default for Settings {
     fn default() -> Self {
         Self {
             coverage: Coverage::default(),
-            trials: Trials::Fixed(1_000_000),
+            trials: Trials::Fixed(Self::USUAL_TRIALS),
             rule: StoppingRule::default(),
             decide_up_to: 0,
             max_trials: 1_000_000_000,
@@ -104,6 +105,9 @@ impl Default for Settings {
 }
 
 impl Settings {
+    /// How many trials are made where nobody says how many.
+    pub const USUAL_TRIALS: u64 = 1_000_000;
+
     /// With this coverage probability or factor.
     #[must_use]
     pub fn with_coverage(self, coverage: Coverage) -> Self {

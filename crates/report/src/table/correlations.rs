@@ -10,8 +10,8 @@ use gumption_engine::task::Task;
 /// Decimal place of the coefficients (JCGM 100, 7.2.6).
 const PLACE: i32 = -3;
 
-/// The same where an output's trials have no numerical standard error of their standard uncertainty,
-/// so that coefficients scatter nobody knows how far.
+/// The same of an output whose trials have no standard uncertainty, or one that few of them carry, so
+/// that coefficients scatter nobody knows how far.
 const UNKNOWN_PLACE: i32 = -1;
 
 /// Pairs of outputs on a page, at most: those of 45 outputs.
@@ -58,7 +58,7 @@ pub(crate) fn found(task: &Task, row: &RowEvaluation) -> Option<Coefficients> {
     let trials = row.outputs.first()?.monte_carlo.as_ref().map(|figures| figures.trials);
     let scatters = |i: usize| {
         let figures = row.outputs.get(i).and_then(|output| output.monte_carlo.as_ref());
-        figures.is_none_or(|figures| figures.errors.standard_uncertainty.is_some())
+        figures.is_none_or(|of| of.standard_uncertainty.is_some() && !of.heavy_tailed)
     };
     let places = (0..names.len()).flat_map(|i| (i + 1..names.len()).map(move |j| (i, j)));
     let errors = row.correlation_errors.iter().copied().chain(std::iter::repeat(None));

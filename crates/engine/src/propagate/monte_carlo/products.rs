@@ -82,17 +82,18 @@ impl Products {
         let mut nothing = Vec::new();
         let group = self.groups.get_mut(self.taken / self.chunks_in_group).unwrap_or(&mut nothing);
         self.taken += 1;
-        let mut group = group.iter_mut();
+        let mut rest = group.as_mut_slice();
         for (totals, sums) in self.all.iter_mut().zip(sums) {
             // a chunk without trials has no products
-            let length = totals.len();
             let products = std::mem::take(&mut sums.products);
             for (total, product) in totals.iter_mut().zip(&products) {
                 *total += product;
             }
-            for (total, product) in group.by_ref().take(length).zip(&products) {
+            let (own, others) = rest.split_at_mut(totals.len().min(rest.len()));
+            for (total, product) in own.iter_mut().zip(&products) {
                 *total += product;
             }
+            rest = others;
         }
     }
 

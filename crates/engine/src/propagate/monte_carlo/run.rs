@@ -89,7 +89,7 @@ fn scatters(
             let (trials, below_median) = (made.trials, output.below_median);
             let batch = Batch { trials, below_median, kept: output.kept };
             let mut order = order_of(control.path, &[batch], &plan.windows);
-            BatchInterval::of(&mut order, request.probability).filter(|_| trials > 0)
+            BatchInterval::of(&mut order, request.probability, number).filter(|_| trials > 0)
         });
         (made.trials, intervals.collect::<Vec<_>>())
     };
@@ -279,9 +279,10 @@ fn shortest_scatter(
     windows: &Windows,
 ) -> ShortestScatter {
     let total = chunks.iter().map(|chunk| chunk.trials).sum();
-    let batches = chunks.par_chunks(1).take(BATCHES);
-    let intervals = batches
-        .filter(|batch| batch.iter().all(|chunk| chunk.trials > 0))
-        .filter_map(|batch| BatchInterval::of(&mut order_of(path, batch, windows), probability));
+    let batches = chunks.par_chunks(1).take(BATCHES).enumerate();
+    let batches = batches.filter(|(_, batch)| batch.iter().all(|chunk| chunk.trials > 0));
+    let intervals = batches.filter_map(|(number, batch)| {
+        BatchInterval::of(&mut order_of(path, batch, windows), probability, number as u64)
+    });
     ShortestScatter::of(intervals.collect(), total)
 }

@@ -19,6 +19,9 @@ pub(super) const BATCHES: usize = 32;
 /// Blocks in a batch, at most. Of longer runs the first batches stand for all.
 const LARGEST_BATCH: u64 = 64;
 
+/// One of so many batches is asked for the numerical standard errors of its order statistics.
+const ASKED: u64 = 4;
+
 /// So many batches are needed to say that they do not agree on where the interval lies.
 const ENOUGH: usize = 16;
 
@@ -44,7 +47,8 @@ pub(super) fn batch_blocks(trials: u64) -> u64 {
 pub(super) struct BatchInterval {
     trials: u64,
     ends: [f64; 2],
-    /// The numerical standard errors of the order statistics of these ranks.
+    /// The numerical standard errors of the order statistics of these ranks; not a number where they
+    /// were not asked for.
     errors: [f64; 2],
     /// The rank of the lower end, from 1, and the largest that it can have.
     rank: u64,
@@ -52,14 +56,16 @@ pub(super) struct BatchInterval {
 }
 
 impl BatchInterval {
-    /// Of the trials of a batch; `None` if an order statistic was not kept.
-    pub(super) fn of(order: &mut Order, probability: f64) -> Option<Self> {
+    /// Of the trials of the batch of this number; `None` if an order statistic was not kept.
+    pub(super) fn of(order: &mut Order, probability: f64, number: u64) -> Option<Self> {
         let trials = order.trials;
         let Ranks { q, .. } = Ranks::new(trials, probability);
         let (ends, rank) = shortest(order, probability)?;
         let upper = (rank + q).min(trials);
+        // their mean over some batches will do
+        let is_asked = number.is_multiple_of(ASKED);
         let mut error = |rank| quantile_error(order, rank).unwrap_or(f64::NAN);
-        let errors = [error(rank), error(upper)];
+        let errors = if is_asked { [error(rank), error(upper)] } else { [f64::NAN; 2] };
         Some(Self { trials, ends, errors, rank, most: trials.saturating_sub(q).max(1) })
     }
 
@@ -106,16 +112,20 @@ impl ShortestScatter {
             let squares = batches.iter().map(|batch| batch.errors[end].powi(2));
             let known: Vec<f64> = squares.filter(|square| square.is_finite()).collect();
             let quantile = known.iter().sum::<f64>() / known.len().max(1) as f64;
-            if at_limit[end] {
-                // the least of the trials would come as near to the limit as there are trials, but a
-                // peak may lie too near to the limit for a batch to tell, so this may be too large
-                return (ratio * scatter).sqrt();
-            }
             let by_quantile = ratio * quantile;
             if at_limit[1 - end] {
                 return by_quantile.sqrt();
             }
             let third = elementary::cbrt(ratio);
+            if at_limit[end] {
+                // the least of the trials would come as near to the limit as there are trials, but a
+                // peak may lie too near to the limit for a batch to tell, so this may be too large
+                return third * scatter.sqrt();
+            }
+            if scatter > 2.0 * quantile {
+                return third * scatter.sqrt();
+            }
+            // an end that scatters little more than a quantile
             (by_quantile + third * third * f64::max(scatter - quantile, 0.0)).sqrt()
         });
         Self { errors, unique: true }
