@@ -38,7 +38,9 @@ const T: f64 = 2.262_157_162_740_991_6;
 const RUNS: u64 = 1000;
 
 fn task(text: &str) -> Task {
-    file::read_text("sum", text, Path::new(""), &[]).unwrap().task
+    let mut task = file::read_text("sum", text, Path::new(""), &[]).unwrap().task;
+    task.settings.coverage = Coverage::Probability(0.95);
+    task
 }
 
 fn run(task: &Task, rule: StoppingRule, seed: u64, digits: u32) -> MonteCarlo {

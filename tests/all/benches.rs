@@ -15,6 +15,7 @@ fn task(file: &str, trials: u64) -> Task {
     let path = root().join(Path::new("benches/models")).join(file);
     let mut task = read(&path, &[]).unwrap_or_else(|e| panic!("{file}: {e}")).task;
     task.settings.trials = Trials::Fixed(trials);
+    task.settings.coverage = 0.95.into();
     task
 }
 
