@@ -12,7 +12,8 @@ use serde_json::Value;
 use crate::support::{command, file_name, root};
 
 /// Mistakes that `check` does not see, with the command that does.
-const COMMANDS: [(&str, &[&str]); 14] = [
+const COMMANDS: [(&str, &[&str]); 15] = [
+    ("wrong_kind_of_file", &["certificate", "wrong_kind_of_file.json"]),
     ("several_rows", &["diff", "good.result", "several_rows.json"]),
     ("run_undefined", &["run", "--trials", "1000", "run_undefined.json"]),
     ("certificate_undefined", &["certificate", "--trials", "1000", "certificate_undefined.json"]),
@@ -74,7 +75,7 @@ fn every_mistake_is_explained() {
 /// The codes that `check --format json` gives, and that of each special command by its message.
 fn shown_codes() -> BTreeSet<String> {
     let mut codes: BTreeSet<String> =
-        ["evaluation", "bad-override", "several-rows"].map(str::to_owned).into();
+        ["evaluation", "bad-override", "several-rows", "wrong-file"].map(str::to_owned).into();
     for name in names() {
         if COMMANDS.iter().any(|(special, _)| *special == name) {
             continue;

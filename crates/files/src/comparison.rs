@@ -6,7 +6,7 @@ use super::diagnostics::{Collector, Diagnostics};
 use super::open::{open_as, utf8};
 use super::source::{Place, SourceText};
 use super::text_table::TextTable;
-use super::{DiagnosticKind, answer, bytes, table};
+use super::{DiagnosticKind, answer, bytes, table, workbook};
 use gumption_analysis::compare::{Laboratory, ResultPair, StatedResult};
 
 /// A table that was read and found right.
@@ -79,37 +79,9 @@ fn text_of(path: &Path, bytes: Vec<u8>) -> Result<String, String> {
     let is_workbook =
         path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("xlsx"));
     if is_workbook {
-        return sheet(bytes);
+        return workbook::first_sheet(bytes);
     }
     utf8(bytes)
-}
-
-fn sheet(bytes: Vec<u8>) -> Result<String, String> {
-    use calamine::{Data, Reader as _, Xlsx};
-    let failed = |error: calamine::XlsxError| format!("it is no workbook: {error}");
-    let mut workbook: Xlsx<_> = Xlsx::new(std::io::Cursor::new(bytes)).map_err(failed)?;
-    let range = match workbook.worksheet_range_at(0) {
-        Some(range) => range.map_err(failed)?,
-        None => return Err("the workbook has no sheet".to_owned()),
-    };
-    // lines are rows of the sheet
-    let above = range.start().map_or(0, |(row, _)| row);
-    let mut text = "\n".repeat(above as usize);
-    for row in range.rows() {
-        let cells: Vec<String> = row
-            .iter()
-            .map(|cell| match cell {
-                Data::String(text) if text.contains([',', '"', '\n']) => {
-                    format!("\"{}\"", text.replace('"', "\"\"").replace('\n', " "))
-                }
-                other => other.to_string(),
-            })
-            .collect();
-        let empty = cells.iter().all(String::is_empty);
-        text += &if empty { String::new() } else { cells.join(",") };
-        text.push('\n');
-    }
-    Ok(text)
 }
 
 struct Reader<'a> {

@@ -6,14 +6,17 @@ use super::DiagnosticKind;
 use gumption_engine::model::formula::Formula;
 use gumption_units::Unit;
 
-/// The conditions' values in one row, by name, in SI units; and how formulas of them are checked.
+use super::value_text::ValueOf;
+
+/// The conditions' values in one row, by name; and how formulas of them are checked.
 pub(super) trait ConditionValues: Debug {
     /// The number of rows.
     fn rows(&self) -> usize;
     /// Checks a formula of conditions for an estimate or width in `unit`.
-    fn check(&self, formula: &Formula, unit: &Unit) -> Result<(), Vec<DiagnosticKind>>;
-    /// The formula's value in SI in a row.
-    fn value(&self, formula: &Formula, row: usize) -> f64;
+    fn check(&self, formula: &Formula, unit: &Unit, of: ValueOf)
+    -> Result<(), Vec<DiagnosticKind>>;
+    /// The formula's value in `unit` in a row.
+    fn value(&self, formula: &Formula, row: usize, unit: &Unit, of: ValueOf) -> f64;
     /// The place of a condition of that name.
     fn place(&self, name: &str) -> Option<usize>;
     /// The names.

@@ -10,6 +10,7 @@ use super::json::{Json, Member};
 use super::keys;
 use super::object::Object;
 use super::table::{self, Table};
+use super::value_text::ValueOf;
 use gumption_engine::model::Quantity;
 use gumption_engine::model::formula::{Formula, FormulaError, Scope};
 use gumption_units::{Unit, nearest};
@@ -164,8 +165,10 @@ fn grid(object: &Object<'_>) -> Option<Conditions> {
             continue;
         };
         condition.check_keys(keys::CONDITION);
+        conditions.add(member, &condition);
+        let unit = conditions.quantities.last().map_or_else(Unit::one, |of| of.unit.clone());
         let values = if condition.get("values").is_some() {
-            condition.numbers("values")
+            condition.values("values", &unit, ValueOf::Quantity)
         } else {
             condition.report(DiagnosticKind::NoTable { name: member.key.clone() });
             None
@@ -173,7 +176,6 @@ fn grid(object: &Object<'_>) -> Option<Conditions> {
         if values.as_ref().is_some_and(Vec::is_empty) {
             condition.report(DiagnosticKind::NoValues { name: member.key.clone() });
         }
-        conditions.add(member, &condition);
         // one value in the place of none, so that the inputs are checked all the same
         axes.push(values.filter(|values| !values.is_empty()).unwrap_or_else(|| vec![1.0]));
     }
@@ -315,15 +317,16 @@ impl super::condition_values::ConditionValues for NoConditions {
         1
     }
 
-    fn check(&self, formula: &Formula, _: &Unit) -> Result<(), Vec<DiagnosticKind>> {
+    fn check(&self, formula: &Formula, _: &Unit, _: ValueOf) -> Result<(), Vec<DiagnosticKind>> {
         let kinds = |errors: Vec<FormulaError>| {
             errors.into_iter().map(|error| DiagnosticKind::Formula { error }).collect::<Vec<_>>()
         };
         formula.check_names(&Scope::new()).map(|_| ()).map_err(kinds)
     }
 
-    fn value(&self, formula: &Formula, _: usize) -> f64 {
-        formula.evaluate(&Scope::new(), &HashMap::<String, f64>::new()).unwrap_or(f64::NAN)
+    fn value(&self, formula: &Formula, _: usize, unit: &Unit, _: ValueOf) -> f64 {
+        let value = formula.evaluate(&Scope::new(), &HashMap::<String, f64>::new());
+        unit.from_si(value.unwrap_or(f64::NAN))
     }
 
     fn place(&self, _: &str) -> Option<usize> {

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::keys::SHAPES;
 use gumption_engine::distribution::Invalid;
-use gumption_engine::model::formula::FormulaError;
+use gumption_engine::model::formula::{FormulaError, ScaleMisfit};
 use gumption_engine::number::Shortest;
 use gumption_units::UnitError;
 use gumption_units::nearest;
@@ -66,6 +66,13 @@ pub enum DiagnosticKind {
     UnknownFormat {
         /// What stands there.
         found: String,
+    },
+    /// A file of another kind than the command reads.
+    WrongFile {
+        /// What it is, in words.
+        what: &'static str,
+        /// The command that reads it.
+        command: &'static str,
     },
     /// Neither a typed model nor equations.
     NoModel,
@@ -145,6 +152,24 @@ pub enum DiagnosticKind {
         expected_as: String,
         /// What must stand there.
         expected: String,
+    },
+    /// A unit of the right dimension that the scale of a quantity does not fit.
+    WrongScale {
+        /// The name that is concerned.
+        name: String,
+        /// The unit.
+        unit: String,
+        /// Why it does not fit.
+        misfit: ScaleMisfit,
+    },
+    /// A value with a unit that cannot be read or converted.
+    Value {
+        /// The key.
+        key: String,
+        /// What stands there.
+        found: String,
+        /// Why, as a part of the sentence.
+        reason: String,
     },
     /// No distribution of that name.
     UnknownDistribution {
@@ -441,6 +466,9 @@ impl DiagnosticKind {
             Self::NoSuchInput { .. } => "no-such-input",
             Self::Unit { .. } => "bad-unit",
             Self::WrongDimension { .. } => "wrong-dimension",
+            Self::WrongScale { .. } => "wrong-scale",
+            Self::WrongFile { .. } => "wrong-file",
+            Self::Value { .. } => "bad-value",
             Self::UnknownDistribution { .. } => "unknown-distribution",
             Self::Distribution { .. } => "bad-distribution",
             Self::Exclusive { .. } => "exclusive-keys",
@@ -559,6 +587,9 @@ impl fmt::Display for DiagnosticKind {
             Self::UnknownFormat { found } => {
                 write!(f, "file format {found} is not known; this version reads `\"format\": 1`")
             }
+            Self::WrongFile { what, command } => {
+                write!(f, "this is {what}, which `{command}` reads")
+            }
             Self::NoModel => f.write_str(
                 "a model file needs `equations` (formulas) or `model` (the name of a typed model)",
             ),
@@ -601,6 +632,12 @@ impl fmt::Display for DiagnosticKind {
                 "`{name}` has the unit `{found}`, {found_as}, but must be {expected_as}, such as \
                  `{expected}`"
             ),
+            Self::WrongScale { name, unit, misfit } => {
+                write!(f, "`{name}` cannot be given in `{unit}`: it {misfit}")
+            }
+            Self::Value { key, found, reason } => {
+                write!(f, "the value `{found}` of `{key}` cannot be taken: {reason}")
+            }
             Self::UnknownDistribution { name, nearest } => {
                 let known: Vec<&str> = SHAPES.iter().map(|kind| kind.name).collect();
                 write!(

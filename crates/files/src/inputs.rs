@@ -16,6 +16,7 @@ use super::paired;
 use super::results::Results;
 use super::samples;
 use super::shapes::{self, Estimate, Fields};
+use super::value_text::{ValueOf, with_unit};
 use gumption_engine::distribution::{Constant, Distribution, EvaluationType, Samples};
 use gumption_engine::model::formula::Formula;
 use gumption_engine::model::{InputQuantity, Quantity};
@@ -126,11 +127,15 @@ impl<'a> Reader<'a, '_> {
             return Some(EstimateSource::Own);
         };
         let log = self.object.log;
+        if with_unit(text).is_some() {
+            let value = self.object.value(key, unit, ValueOf::Quantity);
+            return value.map(EstimateSource::Fixed);
+        }
         let formula = log.value(
             &member.value.span,
             Formula::parse(text).map_err(|error| DiagnosticKind::Formula { error }),
         )?;
-        if let Err(kinds) = self.conditions.check(&formula, unit) {
+        if let Err(kinds) = self.conditions.check(&formula, unit, ValueOf::Quantity) {
             for diagnostic in kinds {
                 log.report(&member.value.span, diagnostic);
             }
@@ -144,7 +149,9 @@ impl<'a> Reader<'a, '_> {
         let value = match source {
             EstimateSource::Own => return Some(Estimate::Own),
             EstimateSource::Fixed(value) => *value,
-            EstimateSource::Formula(formula) => unit.from_si(self.conditions.value(formula, row)),
+            EstimateSource::Formula(formula) => {
+                self.conditions.value(formula, row, unit, ValueOf::Quantity)
+            }
         };
         if value.is_finite() {
             return Some(Estimate::Given(value));
@@ -186,8 +193,8 @@ impl<'a> Reader<'a, '_> {
         };
         let mut zero_width = Vec::new();
         let mut drawn: Vec<Distribution> = Vec::new();
-        let differs =
-            matches!(source, EstimateSource::Formula(_)) || shapes::has_width_of_row(&object, kind);
+        let differs = matches!(source, EstimateSource::Formula(_))
+            || shapes::has_width_of_row(&object, kind, unit);
         for row in 0..if differs { self.conditions.rows() } else { 1 } {
             let estimate = self.estimate(&source, unit, row);
             let Some(distribution) = estimate.and_then(|e| fields(e, row).distribution(kind))
@@ -352,7 +359,7 @@ impl<'a> Reader<'a, '_> {
                 None => 0.0,
             };
         let differs = matches!(source, EstimateSource::Formula(_))
-            || parts.iter().any(|part| shapes::has_width_of_row(&part.object, part.kind));
+            || parts.iter().any(|part| shapes::has_width_of_row(&part.object, part.kind, unit));
         let mut drawn: Vec<Vec<Distribution>> = vec![Vec::new(); 1 + parts.len()];
         for row in 0..if differs { self.conditions.rows() } else { 1 } {
             let total = match self.estimate(&source, unit, row) {

@@ -167,7 +167,8 @@ fn syntax(source: &SourceText, error: &serde_json::Error) -> (Range<usize>, Diag
     } else if message.contains("number out of range") {
         (whole, DiagnosticKind::NumberTooLarge)
     } else {
-        let message = in_plain_words(&message, first);
+        let before = source.text.get(..at).unwrap_or("");
+        let message = in_plain_words(&message, first, before);
         (at..at + first.map_or(0, char::len_utf8), DiagnosticKind::NotJson { message })
     }
 }
@@ -182,9 +183,25 @@ fn word(text: &str, at: usize) -> Range<usize> {
     start..at + length
 }
 
+/// Whether a character is a quotation mark that JSON does not have.
+fn is_other_quote(c: char) -> bool {
+    matches!(c, '\'' | '`' | '´' | '‘' | '’' | '‚' | '“' | '”' | '„' | '«' | '»')
+}
+
 /// What would be right, for the parser's messages that do not say it.
-fn in_plain_words(message: &str, found: Option<char>) -> String {
+fn in_plain_words(message: &str, found: Option<char>, before: &str) -> String {
+    let digit = |c: Option<char>| c.is_some_and(|c| c.is_ascii_digit());
+    let is_key = message == "key must be a string";
     let words = match message {
+        "expected value" | "key must be a string" if found.is_some_and(is_other_quote) => {
+            "texts and keys stand in straight double quotes, `\"`"
+        }
+        _ if is_key
+            && digit(found)
+            && before.strip_suffix(',').is_some_and(|b| digit(b.chars().next_back())) =>
+        {
+            "a decimal fraction is written with a point, such as 5.01, not with a comma"
+        }
         "expected value" => {
             "a value should stand here: a number, a text in double quotes, true, false, null, a \
              list or an object"

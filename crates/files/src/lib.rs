@@ -54,8 +54,10 @@ mod soundness;
 mod source;
 mod table;
 mod text_table;
+mod value_text;
 mod variant;
 mod width;
+mod workbook;
 
 pub use case::CaseFile;
 pub use catalogue::{EffectListing, ListedEffect, ListedParameter, catalogue};

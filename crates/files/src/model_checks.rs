@@ -21,6 +21,9 @@ use gumption_engine::task::Warning;
 use gumption_units::Unit;
 use gumption_units::nearest;
 
+/// At most so many quantities are named in a note.
+const MOST_SHOWN: usize = 8;
+
 /// The quantities of a file.
 #[derive(Debug)]
 pub(super) struct Quantities {
@@ -147,7 +150,12 @@ pub(super) fn unknown_output(
 }
 
 fn check_unit(log: &Collector, name: &str, found: &Unit, expected: &Unit, place: &Range<usize>) {
-    if !expected.is_compatible(found) {
+    if expected.is_compatible(found) {
+        if let Err(misfit) = Typing::in_unit(expected).reported_in(found) {
+            let (name, unit) = (name.to_owned(), found.to_string());
+            log.report(place, DiagnosticKind::WrongScale { name, unit, misfit });
+        }
+    } else {
         let shown = if expected.text().is_empty() { "1" } else { expected.text() };
         let diagnostic = DiagnosticKind::WrongDimension {
             name: name.to_owned(),
@@ -220,26 +228,71 @@ pub(super) fn check_formula_outputs(log: &Collector, scope: &Scope, of: &Quantit
                 expected_as: dimension.describe(),
             };
             log.report(unit_place, diagnostic);
+        } else if let Err(misfit) = typing.reported_in(unit)
+            && checked
+        {
+            let (name, unit) = (name.clone(), unit.to_string());
+            log.report(unit_place, DiagnosticKind::WrongScale { name, unit, misfit });
         }
     }
 }
 
-/// Outputs in K of what is a number of degrees Celsius.
+/// Outputs in K of what a coefficient's unit makes a number of degrees: a temperature or a
+/// difference.
 pub(super) fn celsius_as_kelvin(scope: &Scope, outputs: &[Output]) -> Vec<Warning> {
     outputs
         .iter()
         .map(|output| &output.quantity)
         .filter(|output| {
-            let celsius = scope.get(&output.name).is_some_and(Typing::is_celsius);
-            celsius && !output.unit.is_celsius()
+            let counts_degrees = scope.get(&output.name).is_some_and(Typing::counts_degrees);
+            counts_degrees && !output.unit.is_celsius()
         })
         .map(|output| {
             let text = format!(
-                "`{}` comes from temperatures in degC, which formulas never shift, and is reported \
-                 in {}; write kelvin(...) for a thermodynamic temperature, or report it in degC",
+                "`{}` is a number of degrees Celsius by the unit of a coefficient, and is reported \
+                 in {} as a difference; write kelvin(...) for a thermodynamic temperature, or \
+                 report it in degC",
                 output.name, output.unit
             );
             Warning::new("celsius-as-kelvin", &output.name, text)
         })
         .collect()
+}
+
+/// What is to be said where units are not checked: that formulas compute with the numbers as they
+/// are declared, which earlier versions converted to coherent SI.
+pub(super) fn units_not_checked(root: &Object<'_>, of: &Quantities) -> Warning {
+    let Quantities { inputs, conditions, outputs, .. } = of;
+    let inputs = inputs.quantities.iter().map(|input| &input.quantity);
+    let outputs = outputs.outputs.iter().map(|output| &output.quantity);
+    let quantities: Vec<&Quantity> = inputs.chain(&conditions.quantities).chain(outputs).collect();
+    let converted = |quantity: &&&Quantity| quantity.unit.factor() != 1.0;
+    let shown: Vec<String> = quantities
+        .iter()
+        .filter(|quantity| !quantity.unit.factors().is_empty())
+        .take(MOST_SHOWN)
+        .map(|quantity| format!("`{}` in {}", quantity.name, quantity.unit))
+        .collect();
+    let numbers = match shown.as_slice() {
+        [] => "units are not checked: every quantity is a plain number".to_owned(),
+        shown => format!(
+            "units are not checked: formulas compute with the numbers in the declared units ({}{})",
+            shown.join(", "),
+            if quantities.len() > shown.len() { ", ..." } else { "" }
+        ),
+    };
+    let is_new = root.get("format").is_some_and(|member| member.value.number() == Some(2.0));
+    match quantities.iter().find(converted) {
+        Some(quantity) if !is_new => {
+            let text = format!(
+                "CHECK THIS RESULT: {numbers}. Earlier versions converted them to SI units first, \
+                 such as `{}` from {}, and gave other results for this file. If its formulas are \
+                 written for the declared units, they are right now: say so with \"format\": 2. If \
+                 they are written for SI units, declare the quantities in SI units",
+                quantity.name, quantity.unit
+            );
+            Warning::new("units-not-checked-changed", "check_units", text)
+        }
+        _ => Warning::new("units-not-checked", "check_units", numbers),
+    }
 }

@@ -29,17 +29,17 @@ use super::input_set::InputSet;
 use super::json::{Json, Member, Node};
 use super::model_checks::{
     Quantities, celsius_as_kelvin, check_equations, check_formula_outputs, check_names,
-    check_typed, unknown_output,
+    check_typed, units_not_checked, unknown_output,
 };
 use super::model_file::ModelFile;
 use super::object::Object;
 use super::observations::{self, Observations};
-use super::open::{check_format, read_changed_root};
+use super::open::{FileKind, check_format, read_changed_root, refuse_other_kind};
 use super::outputs;
 use super::overrides::{self, Override};
 use super::reader::FileReader;
 use super::results::Results;
-use super::scopes::{ConditionSet, report_formula, typed_scope};
+use super::scopes::{ConditionSet, number_form, report_formula, typed_scope};
 use super::simulated::{names_simulation, simulated};
 use super::size::Size;
 use super::table::{self, Table};
@@ -129,8 +129,11 @@ impl<'a> ModelReader<'a> {
     /// All that the file holds, unless it has mistakes.
     pub(super) fn found(&self) -> Option<Found> {
         let root = &self.root;
+        if refuse_other_kind(root, FileKind::Model) {
+            return None;
+        }
         root.check_keys(keys::MODEL);
-        check_format(root);
+        check_format(root, 2.0);
         let title = root.text("title").unwrap_or("").to_owned();
         root.text("source");
         let check_units = root.truth("check_units").unwrap_or(true);
@@ -266,7 +269,16 @@ impl<'a> ModelReader<'a> {
             ModelBody::Equations(equations) => {
                 let scope = check_equations(log, &equations, of);
                 check_formula_outputs(log, &scope, of);
-                warnings.extend(celsius_as_kelvin(&scope, &of.outputs.outputs));
+                if of.check_units {
+                    warnings.extend(celsius_as_kelvin(&scope, &of.outputs.outputs));
+                } else {
+                    warnings.push(units_not_checked(&self.root, of));
+                }
+                for (name, _, formula) in &equations {
+                    let notes = formula.iter().flat_map(Formula::notes);
+                    warnings
+                        .extend(notes.map(|(text, _)| Warning::new("angle-of-turns", name, text)));
+                }
                 let formulas =
                     equations.into_iter().filter_map(|(name, _, formula)| Some((name, formula?)));
                 (scope, ModelForm::Equations(formulas.collect()))
@@ -278,6 +290,7 @@ impl<'a> ModelReader<'a> {
             conditions: of.conditions.quantities.clone(),
             outputs: std::mem::take(&mut of.outputs.outputs),
             maker,
+            numbers: number_form(of.check_units),
         })
     }
 

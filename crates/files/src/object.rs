@@ -7,7 +7,8 @@ use super::DiagnosticKind;
 use super::diagnostics::Collector;
 use super::json::{Json, Member, Node};
 use super::keys::Key;
-use gumption_units::nearest;
+use super::value_text::{ValueOf, converted, with_unit};
+use gumption_units::{Unit, nearest};
 
 /// An object that is being read.
 #[derive(Clone, Copy, Debug)]
@@ -130,6 +131,47 @@ impl<'a> Object<'a> {
         number
     }
 
+    /// A value in a unit, if the key is there: a number in that unit, or a text with a number and a
+    /// unit of its own.
+    pub(crate) fn value(&self, key: &str, unit: &Unit, of: ValueOf) -> Option<f64> {
+        let member = self.get(key)?;
+        match self.value_of(key, &member.value, unit, of) {
+            Some(value) => value,
+            None => self.number(key),
+        }
+    }
+
+    /// A list of values, as [`value`](Self::value).
+    pub(crate) fn values(&self, key: &str, unit: &Unit, of: ValueOf) -> Option<Vec<f64>> {
+        let list = self.list(key)?;
+        let is_text =
+            |node: &Node| matches!(&node.value, Json::Text(text) if with_unit(text).is_some());
+        if !list.iter().any(is_text) {
+            return self.numbers(key);
+        }
+        let mut values = Vec::new();
+        for node in list {
+            let value = match self.value_of(key, node, unit, of) {
+                Some(value) => value,
+                None => self.element(key, node),
+            };
+            values.extend(value);
+        }
+        (values.len() == list.len()).then_some(values)
+    }
+
+    /// The value of a text with a unit; outside `None` if it is none, inside after a mistake.
+    #[allow(clippy::option_option)]
+    fn value_of(&self, key: &str, node: &Node, unit: &Unit, of: ValueOf) -> Option<Option<f64>> {
+        let Json::Text(text) = &node.value else { return None };
+        let read = converted(with_unit(text)?, unit, of).map_err(|reason| DiagnosticKind::Value {
+            key: key.to_owned(),
+            found: text.clone(),
+            reason,
+        });
+        Some(self.log.value(&node.span, read))
+    }
+
     /// A text, if the key is there.
     pub(crate) fn text(&self, key: &str) -> Option<&'a str> {
         let member = self.get(key)?;
@@ -169,24 +211,19 @@ impl<'a> Object<'a> {
     /// A list of numbers, if the key is there; every element that is none is reported.
     pub(crate) fn numbers(&self, key: &str) -> Option<Vec<f64>> {
         let list = self.list(key)?;
-        let numbers: Vec<f64> = list
-            .iter()
-            .filter_map(|node| {
-                let number = node.number();
-                if number.is_none() {
-                    self.log.report(
-                        &node.span,
-                        DiagnosticKind::WrongType {
-                            what: format!("an element of `{key}`"),
-                            found: node.value.kind(),
-                            expected: "a number",
-                        },
-                    );
-                }
-                number
-            })
-            .collect();
+        let numbers: Vec<f64> = list.iter().filter_map(|node| self.element(key, node)).collect();
         (numbers.len() == list.len()).then_some(numbers)
+    }
+
+    /// A number that is an element of a list.
+    fn element(&self, key: &str, node: &Node) -> Option<f64> {
+        let number = node.number();
+        if number.is_none() {
+            let (what, found) = (format!("an element of `{key}`"), node.value.kind());
+            let expected = "a number";
+            self.log.report(&node.span, DiagnosticKind::WrongType { what, found, expected });
+        }
+        number
     }
 
     /// A whole number from `least` to `most`, if the key is there; 1e6 counts as one.

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::diagnostics::{Collector, Diagnostics};
-use super::json::{self, Json, Node};
+use super::json::{self, Json, Member, Node};
 use super::object::Object;
 use super::source::SourceText;
 use super::{DiagnosticKind, bytes};
@@ -80,9 +80,10 @@ pub(super) fn read_changed_root<T>(
 }
 
 /// Refuses a version of the file format that this program does not know; whether it is known.
-pub(super) fn check_format(root: &Object<'_>) -> bool {
-    let Some(member) = root.get("format").filter(|member| member.value.number() != Some(1.0))
-    else {
+pub(super) fn check_format(root: &Object<'_>, newest: f64) -> bool {
+    let is_known = |number: f64| number.fract() == 0.0 && (1.0..=newest).contains(&number);
+    let known = |member: &&Member| member.value.number().is_some_and(is_known);
+    let Some(member) = root.get("format").filter(|member| !known(member)) else {
         return true;
     };
     let found = match &member.value.value {
@@ -91,4 +92,39 @@ pub(super) fn check_format(root: &Object<'_>) -> bool {
     };
     root.log.report(&member.value.span, DiagnosticKind::UnknownFormat { found });
     false
+}
+
+/// A kind of file that commands read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum FileKind {
+    /// A model file or a case of the gap diagnosis.
+    Model,
+    /// A certificate.
+    Certificate,
+}
+
+impl FileKind {
+    /// The kind that the keys of a root show beyond doubt.
+    fn of(root: &Object<'_>) -> Option<Self> {
+        let has = |key: &str| root.get(key).is_some();
+        if has("outputs") && (has("equations") || has("model")) && !has("rows") {
+            Some(Self::Model)
+        } else if has("rows") && !has("inputs") && !has("outputs") && !has("recordings") {
+            Some(Self::Certificate)
+        } else {
+            None
+        }
+    }
+}
+
+/// Reports a file that another command reads, instead of all of its keys; whether it is one.
+pub(super) fn refuse_other_kind(root: &Object<'_>, expected: FileKind) -> bool {
+    let (what, command) = match FileKind::of(root) {
+        Some(kind) if kind == expected => return false,
+        Some(FileKind::Model) => ("a model file", "gumption run"),
+        Some(FileKind::Certificate) => ("the file of a certificate", "gumption certificate"),
+        None => return false,
+    };
+    root.report(DiagnosticKind::WrongFile { what, command });
+    true
 }

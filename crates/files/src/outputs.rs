@@ -11,6 +11,7 @@ use super::keys;
 use super::object::Object;
 use super::results::Results;
 use super::shapes::{self, Estimate, Fields};
+use super::value_text::ValueOf;
 use super::width::Width;
 use gumption_engine::distribution::{Distribution, Invalid};
 use gumption_engine::model::{Capability, Output, Quantity, Tolerance};
@@ -122,7 +123,7 @@ impl Decision {
             object.log.report(&member.value.span, diagnostic);
         }
         let prior = prior(&object, unit, results).map(Arc::new);
-        Self { tolerance: tolerance(&object), prior, risk }
+        Self { tolerance: tolerance(&object, unit), prior, risk }
     }
 }
 
@@ -151,16 +152,22 @@ fn prior(tolerance: &Object<'_>, unit: &Unit, results: &Results<'_>) -> Option<D
 }
 
 /// The tolerance limits of an output.
-fn tolerance(object: &Object<'_>) -> Option<Tolerance> {
+fn tolerance(object: &Object<'_>, unit: &Unit) -> Option<Tolerance> {
     // null stands for a limit that is not there
     let limit = |key: &str| match object.get(key).map(|m| &m.value.value) {
         None | Some(Json::Null) => None,
-        Some(_) => object.number(key),
+        Some(_) => object.value(key, unit, ValueOf::Either),
     };
     let (lower, upper) = (limit("lower"), limit("upper"));
     match (lower, upper) {
         (None, None) => {
-            object.report(DiagnosticKind::NoValues { name: "tolerance".into() });
+            let is_there = |key: &&str| {
+                object.get(key).is_some_and(|member| !matches!(member.value.value, Json::Null))
+            };
+            // what could not be read has been reported
+            if !["lower", "upper"].iter().any(is_there) {
+                object.report(DiagnosticKind::NoValues { name: "tolerance".into() });
+            }
             None
         }
         (Some(lower), Some(upper)) if lower >= upper => {

@@ -3,6 +3,7 @@
 use super::DiagnosticKind;
 use super::diagnostics::Collector;
 use super::json::{Json, Member, Node};
+use super::value_text::{ValueOf, converted, with_unit};
 use gumption_units::Unit;
 use gumption_units::nearest;
 
@@ -18,6 +19,9 @@ pub struct Override {
     /// What to put there.
     pub value: String,
 }
+
+/// At most so many names are listed in a message.
+const MOST_NAMES: usize = 12;
 
 /// Replacements in the order of the command line.
 pub type Overrides = Vec<Override>;
@@ -39,7 +43,8 @@ impl Override {
         })
     }
 
-    /// The value in `unit`: a number in it, or a number with a unit of its own.
+    /// The value in `unit`: a number in it, or a number with a unit of its own, converted with the
+    /// zeros of their scales.
     pub(super) fn value_in(&self, unit: &Unit) -> Result<f64, DiagnosticKind> {
         let diagnostic =
             |reason: String| DiagnosticKind::Override { text: self.text.clone(), reason };
@@ -49,18 +54,10 @@ impl Override {
             }
             return Err(diagnostic("the value must be a finite number".to_owned()));
         }
-        let (number, text) = self.value.split_once(char::is_whitespace).ok_or_else(|| {
+        let value = with_unit(&self.value).ok_or_else(|| {
             diagnostic("a number is needed, or one with a unit: \"35 deg\"".to_owned())
         })?;
-        let number: f64 = number
-            .parse()
-            .ok()
-            .filter(|n: &f64| n.is_finite())
-            .ok_or_else(|| diagnostic(format!("`{number}` is not a finite number")))?;
-        let given = Unit::parse(text.trim()).map_err(|error| diagnostic(error.to_string()))?;
-        let factor = Unit::conversion_factor(&given, unit)
-            .map_err(|_| diagnostic(format!("`{given}` cannot be converted to `{unit}`")))?;
-        Ok(number * factor)
+        converted(value, unit, ValueOf::Quantity).map_err(diagnostic)
     }
 }
 
@@ -85,7 +82,12 @@ pub(super) fn apply(log: &Collector, root: &mut Node, overrides: &[Override]) {
             let nearest = nearest(&replaced.input, names.iter().map(String::as_str));
             let reason = match nearest {
                 Some(name) => format!("there is no input of that name; did you mean `{name}`?"),
-                None => "there is no input of that name".to_owned(),
+                None => {
+                    let most = names.iter().take(MOST_NAMES).map(|name| format!("`{name}`"));
+                    let more = if names.len() > MOST_NAMES { ", ..." } else { "" };
+                    let list = most.collect::<Vec<_>>().join(", ");
+                    format!("there is no input of that name; the inputs are {list}{more}")
+                }
             };
             log.report(&whole, DiagnosticKind::Override { text: replaced.text.clone(), reason });
             continue;

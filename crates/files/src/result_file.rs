@@ -103,7 +103,7 @@ impl<'a> Reader<'a> {
             return None;
         }
         root.needed("format")?;
-        if !check_format(root) {
+        if !check_format(root, 1.0) {
             return None;
         }
         let member = root.needed("outputs")?;

@@ -8,8 +8,10 @@ use super::conditions::Conditions;
 use super::diagnostics::Collector;
 use super::input_set::InputSet;
 use super::json::Member;
+use super::value_text::ValueOf;
+use gumption_engine::model::NumberForm;
 use gumption_engine::model::Quantity;
-use gumption_engine::model::formula::{Formula, FormulaError, Scope, Typing};
+use gumption_engine::model::formula::{Formula, FormulaError, ScaleMisfit, Scope, Typing};
 use gumption_engine::model::typed::CatalogueEntry;
 use gumption_units::{Dimension, Unit};
 
@@ -31,7 +33,7 @@ pub(super) fn report_formula(log: &Collector, member: &Member, error: FormulaErr
 
 /// A coherent unit of a dimension, as text.
 pub(super) fn coherent(dimension: Dimension) -> String {
-    Unit::coherent(dimension).to_string()
+    dimension.usual_unit()
 }
 
 /// What is known of the names of a typed model.
@@ -63,6 +65,17 @@ pub(super) fn condition_scope(conditions: &Conditions) -> Scope {
     scope
 }
 
+/// What formulas compute with, where units are checked and where they are not.
+pub(super) fn number_form(check_units: bool) -> NumberForm {
+    if check_units { NumberForm::Coherent } else { NumberForm::Declared }
+}
+
+/// What is added to a formula's number where it becomes a value in a unit.
+fn shift(typing: Typing, unit: &Unit, of: ValueOf) -> Result<f64, ScaleMisfit> {
+    let is_difference = of == ValueOf::Difference && typing.level == unit.level_exponent();
+    if is_difference { Ok(0.0) } else { typing.shift_to(unit) }
+}
+
 /// The conditions as estimates' formulas see them.
 #[derive(Debug)]
 pub(super) struct ConditionSet<'c> {
@@ -75,7 +88,12 @@ impl ConditionValues for ConditionSet<'_> {
         self.conditions.rows.len()
     }
 
-    fn check(&self, formula: &Formula, unit: &Unit) -> Result<(), Vec<DiagnosticKind>> {
+    fn check(
+        &self,
+        formula: &Formula,
+        unit: &Unit,
+        of: ValueOf,
+    ) -> Result<(), Vec<DiagnosticKind>> {
         if self.conditions.unreadable {
             return Ok(());
         }
@@ -88,32 +106,48 @@ impl ConditionValues for ConditionSet<'_> {
         let typing = result.map_err(kinds)?;
         match typing.dimension.filter(|_| self.check_units) {
             Some(dimension) if dimension != unit.dimension() => {
-                Err(vec![DiagnosticKind::WrongDimension {
+                return Err(vec![DiagnosticKind::WrongDimension {
                     name: "mean".to_owned(),
                     found: coherent(dimension),
                     found_as: dimension.describe(),
                     expected: unit.to_string(),
                     expected_as: unit.dimension().describe(),
-                }])
+                }]);
+            }
+            _ => {}
+        }
+        match shift(typing, unit, of) {
+            Err(misfit) if self.check_units => {
+                let (name, unit) = ("mean".to_owned(), unit.to_string());
+                Err(vec![DiagnosticKind::WrongScale { name, unit, misfit }])
             }
             _ => Ok(()),
         }
     }
 
-    fn value(&self, formula: &Formula, row: usize) -> f64 {
+    fn value(&self, formula: &Formula, row: usize, unit: &Unit, of: ValueOf) -> f64 {
         if self.conditions.unreadable {
             return 1.0;
         }
+        let form = number_form(self.check_units);
         let row = self.conditions.rows.get(row).map_or(&[][..], Vec::as_slice);
         let values: HashMap<String, f64> = self
             .conditions
             .quantities
             .iter()
             .zip(row)
-            .map(|(quantity, &value)| (quantity.name.clone(), quantity.unit.to_si(value)))
+            .map(|(quantity, &value)| (quantity.name.clone(), form.number(value, &quantity.unit)))
             .collect();
         let scope = condition_scope(self.conditions);
-        formula.evaluate(&scope, &values).unwrap_or(f64::NAN)
+        let value = formula.evaluate(&scope, &values).unwrap_or(f64::NAN);
+        match (form, of) {
+            (NumberForm::Declared, _) => value,
+            (_, ValueOf::Difference) => unit.from_si(value),
+            _ => {
+                let typing = formula.check_names(&scope).unwrap_or(Typing::ANY);
+                unit.value_from_si(value + shift(typing, unit, of).unwrap_or(f64::NAN))
+            }
+        }
     }
 
     fn place(&self, name: &str) -> Option<usize> {

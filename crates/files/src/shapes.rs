@@ -8,6 +8,7 @@ use super::json::Json;
 use super::keys::{SHAPES, Shape};
 use super::object::Object;
 use super::results::Results;
+use super::value_text::ValueOf;
 use super::width::Width;
 use gumption_engine::distribution::{
     Arcsine, Beta, Constant, CurvilinearTrapezoid, Distribution, Exponential, Gamma, Invalid,
@@ -97,21 +98,23 @@ pub(super) struct Fields<'a> {
 const WIDTHS: [&str; 5] = ["std", "expanded", "scale", "half_width", "semi_range"];
 
 /// The formula of conditions that a width is: a text that begins with a name, as no specification
-/// does.
-fn formula_of_width(object: &Object<'_>, key: &str) -> Option<String> {
-    match &object.get(key)?.value.value {
-        Json::Text(text)
-            if text.trim_start().starts_with(|c: char| c.is_alphabetic() || c == '_') =>
-        {
-            Some(text.clone())
-        }
-        _ => None,
-    }
+/// does, or one with names that can be read as a formula and not as a specification.
+fn formula_of_width(object: &Object<'_>, key: &str, unit: &Unit) -> Option<String> {
+    let member = object.get(key)?;
+    let Json::Text(text) = &member.value.value else { return None };
+    let begins_with_name = text.trim_start().starts_with(|c: char| c.is_alphabetic() || c == '_');
+    let is_formula = || {
+        let formula = Formula::parse(text).ok();
+        formula.is_some_and(|formula| formula.names().next().is_some())
+            && Width::read(&member.value, "", key, unit).is_err()
+    };
+    (begins_with_name || is_formula()).then(|| text.clone())
 }
 
 /// Whether a width of the object is a formula of conditions, so that it differs from row to row.
-pub(super) fn has_width_of_row(object: &Object<'_>, kind: &Shape) -> bool {
-    WIDTHS.iter().any(|key| kind.fields.contains(key) && formula_of_width(object, key).is_some())
+pub(super) fn has_width_of_row(object: &Object<'_>, kind: &Shape, unit: &Unit) -> bool {
+    let mut widths = WIDTHS.iter().filter(|key| kind.fields.contains(key));
+    widths.any(|key| formula_of_width(object, key, unit).is_some())
 }
 
 impl<'a> Fields<'a> {
@@ -155,8 +158,9 @@ impl<'a> Fields<'a> {
                 (mean, None, _) => self.made(Constant::new(mean)),
             },
             "curvilinear-trapezoid" => {
-                let (lower, upper) = (self.number("lower"), self.number("upper"));
-                let inexactness = self.number("inexactness");
+                let (lower, upper) = (self.limit("lower"), self.limit("upper"));
+                self.object.required("inexactness")?;
+                let inexactness = self.object.value("inexactness", self.unit, ValueOf::Difference);
                 self.moved(CurvilinearTrapezoid::new(lower?, upper?, inexactness?))
             }
             "t" => {
@@ -185,11 +189,11 @@ impl<'a> Fields<'a> {
             }
             "beta" => {
                 let (alpha, beta) = (self.number("alpha"), self.number("beta"));
-                let (lower, upper) = (self.number_or("lower", 0.0), self.number_or("upper", 1.0));
+                let (lower, upper) = (self.limit_or("lower", 0.0), self.limit_or("upper", 1.0));
                 self.moved(Beta::between(alpha?, beta?, lower?, upper?))
             }
             "log-uniform" => {
-                let (lower, upper) = (self.number("lower"), self.number("upper"));
+                let (lower, upper) = (self.limit("lower"), self.limit("upper"));
                 self.moved(LogUniform::new(lower?, upper?))
             }
             "poisson-count" => {
@@ -205,7 +209,7 @@ impl<'a> Fields<'a> {
             }
             _ => {
                 self.object.required("values")?;
-                let values = self.object.numbers("values")?;
+                let values = self.object.values("values", self.unit, self.of())?;
                 self.moved(Readings::new(values))
             }
         }
@@ -226,9 +230,20 @@ impl<'a> Fields<'a> {
         self.object.number(key)
     }
 
-    /// A number that may be left out.
-    fn number_or(&self, key: &str, default: f64) -> Option<f64> {
-        if self.object.get(key).is_some() { self.object.number(key) } else { Some(default) }
+    /// What values of the object are about: a component is a difference.
+    fn of(&self) -> ValueOf {
+        if self.share_of.is_some() { ValueOf::Difference } else { ValueOf::Quantity }
+    }
+
+    /// A value that must be there.
+    fn limit(&self, key: &'static str) -> Option<f64> {
+        self.object.required(key)?;
+        self.object.value(key, self.unit, self.of())
+    }
+
+    /// A value that may be left out.
+    fn limit_or(&self, key: &'static str, default: f64) -> Option<f64> {
+        if self.object.get(key).is_some() { self.limit(key) } else { Some(default) }
     }
 
     fn normal(&self) -> Option<Distribution> {
@@ -321,7 +336,7 @@ impl<'a> Fields<'a> {
             }
             return self.made(Triangular::new(mean, half_width).and_then(inexact));
         };
-        let mode = self.object.number("mode");
+        let mode = self.object.value("mode", self.unit, self.of());
         self.moved(Triangular::between(lower, upper, mode).and_then(inexact))
     }
 
@@ -346,8 +361,7 @@ impl<'a> Fields<'a> {
                 return None;
             }
         }
-        let lower = object.required("lower").and_then(|_| object.number("lower"));
-        let upper = object.required("upper").and_then(|_| object.number("upper"));
+        let (lower, upper) = (self.limit("lower"), self.limit("upper"));
         let (lower, upper) = (lower?, upper?);
         if lower >= upper {
             return self.made(Rectangular::between(lower, upper)).and(None);
@@ -363,10 +377,7 @@ impl<'a> Fields<'a> {
     fn estimate(&self, key: &'static str) -> Option<f64> {
         match self.estimate {
             Estimate::Given(estimate) => Some(estimate),
-            Estimate::Own => {
-                self.object.required(key)?;
-                self.object.number(key)
-            }
+            Estimate::Own => self.limit(key),
         }
     }
 
@@ -375,7 +386,7 @@ impl<'a> Fields<'a> {
     fn width(&self, key: &'static str, estimate: f64) -> Option<Option<f64>> {
         let member = self.object.required(key)?;
         let at = self.at.filter(|(conditions, _)| !conditions.names().is_empty());
-        if let (Some(text), Some(at)) = (formula_of_width(&self.object, key), at) {
+        if let (Some(text), Some(at)) = (formula_of_width(&self.object, key, self.unit), at) {
             return self.width_of_row(key, &text, at);
         }
         let read = Width::read(&member.value, self.name, key, self.unit);
@@ -396,7 +407,7 @@ impl<'a> Fields<'a> {
         let formula = Formula::parse(text).map_err(|error| DiagnosticKind::Formula { error });
         let formula = log.value(&place, formula)?;
         if row == 0
-            && let Err(kinds) = conditions.check(&formula, self.unit)
+            && let Err(kinds) = conditions.check(&formula, self.unit, ValueOf::Difference)
         {
             for mut diagnostic in kinds {
                 if let DiagnosticKind::WrongDimension { name, .. } = &mut diagnostic {
@@ -406,7 +417,7 @@ impl<'a> Fields<'a> {
             }
             return None;
         }
-        let width = self.unit.from_si(conditions.value(&formula, row));
+        let width = conditions.value(&formula, row, self.unit, ValueOf::Difference);
         if width == 0.0 {
             return Some(None);
         }

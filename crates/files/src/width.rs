@@ -103,7 +103,7 @@ fn terms(text: &str) -> Vec<&str> {
 }
 
 /// The number at the start of a term, and what follows it.
-fn number(term: &str) -> Result<(f64, &str), String> {
+pub(super) fn number(term: &str) -> Result<(f64, &str), String> {
     let longest = term
         .char_indices()
         .map(|(at, c)| at + c.len_utf8())

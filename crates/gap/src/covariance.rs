@@ -9,6 +9,7 @@ use super::data::{Data, Spread};
 use crate::Case;
 use gumption_engine::linalg::dot;
 use gumption_engine::linalg::packed::{self, triangle};
+use gumption_engine::number::elementary;
 
 /// Covariance V = B + L L', with B in blocks of the outputs of a row.
 #[derive(Clone, Debug)]
@@ -29,6 +30,9 @@ pub(crate) struct Covariance {
     pub(crate) half_ln_det: f64,
     /// Whether the noise of some output is to be estimated.
     pub(crate) fitted: bool,
+    /// For each row the correlation of its whitened noise with that of the row before; empty where
+    /// rows are independent.
+    pub(crate) lags: Vec<f64>,
 }
 
 impl Covariance {
@@ -107,6 +111,7 @@ impl Covariance {
             inner: Vec::new(),
             half_ln_det: 0.0,
             fitted,
+            lags: if fitted { Vec::new() } else { data.lags.clone() },
         };
         if !fitted {
             covariance.factor(blocks);
@@ -133,6 +138,8 @@ impl Covariance {
             inner[triangle(i) + i] += 1.0;
         }
         packed::cholesky_of_definite(&mut inner);
+        let of_lag = |lag: &f64| 0.5 * outputs as f64 * elementary::ln(1.0 - lag * lag);
+        half_ln_det += self.lags.iter().map(of_lag).sum::<f64>();
         self.half_ln_det = half_ln_det + packed::ln_diagonal(&inner);
         self.inner = inner;
     }
@@ -149,6 +156,13 @@ impl Covariance {
         {
             for (y, row) in y.iter_mut().zip(packed::rows(root)) {
                 *y = dot(row, x);
+            }
+        }
+        for (row, lag) in self.lags.iter().enumerate().skip(1).rev() {
+            let (before, here) = whitened.split_at_mut(row * outputs);
+            let before = &before[(row - 1) * outputs..];
+            for (here, before) in here.iter_mut().zip(before) {
+                *here = (*here - lag * before) / (1.0 - lag * lag).sqrt();
             }
         }
         whitened

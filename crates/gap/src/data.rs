@@ -2,6 +2,7 @@
 
 use std::collections::HashMap;
 
+use super::noise_model::{NoiseModel, lag};
 use crate::Case;
 use gumption_engine::number::elementary;
 use gumption_engine::task::Sharing;
@@ -24,6 +25,14 @@ pub(crate) struct Data {
     pub(crate) point_of: Vec<usize>,
     /// The row of the case that each row is.
     pub(crate) ids: Vec<usize>,
+    /// With noise that neighbouring rows share for each row its correlation with the one before; else
+    /// none.
+    pub(crate) lags: Vec<f64>,
+    /// What the noise is taken to be.
+    pub(crate) noise: NoiseModel,
+    /// For each value (row by row, outputs fastest) the logarithm of what an estimated standard
+    /// deviation is multiplied by: of the stated uncertainty where a factor of it is estimated.
+    pub(crate) ln_scales: Vec<f64>,
 }
 
 /// Conditions at which there are one or more rows.
@@ -40,11 +49,11 @@ pub(crate) struct Point {
 impl Data {
     /// All rows of a case.
     pub(crate) fn new(case: &Case) -> Self {
-        Self::of(case, (0..case.task.rows.len()).collect())
+        Self::of(case, (0..case.task.rows.len()).collect(), NoiseModel::default())
     }
 
-    /// Some rows of a case.
-    pub(crate) fn of(case: &Case, ids: Vec<usize>) -> Self {
+    /// Some rows of a case, with a noise.
+    pub(crate) fn of(case: &Case, ids: Vec<usize>, noise: NoiseModel) -> Self {
         let outputs: Vec<usize> =
             (0..case.observed.len()).filter(|&output| case.observed[output].is_some()).collect();
         let observed: Vec<_> = case.observed.iter().flatten().collect();
@@ -53,7 +62,9 @@ impl Data {
         let mut point_of = Vec::with_capacity(ids.len());
         for (number, &id) in ids.iter().enumerate() {
             let row = &case.task.rows[id];
-            let key = row.conditions.iter().map(|value| value.to_bits()).collect();
+            let mut key: Vec<u64> = row.conditions.iter().map(|value| value.to_bits()).collect();
+            // neighbours are told apart by their order, so that repeats are not taken together
+            key.extend(noise.serial.map(|_| number as u64));
             let place = *known.entry(key).or_insert_with(|| {
                 let mut variables: Vec<f64> =
                     row.distributions.iter().map(|distribution| distribution.mean()).collect();
@@ -78,17 +89,43 @@ impl Data {
                 |&id: &usize| other.map_or(own[id], |other| elementary::hypot(own[id], other[id]));
             Some(ids.iter().map(both).collect())
         };
+        let mut uncertainties: Vec<Option<Vec<f64>>> = observed.iter().map(in_quadrature).collect();
+        let mut ln_scales = vec![0.0; ids.len() * outputs.len()];
+        for (output, stated) in uncertainties.iter_mut().enumerate() {
+            for (row, &id) in ids.iter().enumerate() {
+                let stretch = noise.stretch(id, output);
+                let ln_scale = &mut ln_scales[row * outputs.len() + output];
+                match stated {
+                    Some(u) if noise.factor => *ln_scale = elementary::ln(u[row] * stretch),
+                    Some(u) => u[row] *= stretch,
+                    None => *ln_scale = elementary::ln(stretch),
+                }
+            }
+            if noise.factor {
+                *stated = None;
+            }
+        }
+        let lags = match noise.serial {
+            None => Vec::new(),
+            Some(coefficient) => {
+                let of = |pair: &[usize]| lag(coefficient, pair[0], pair[1]);
+                std::iter::once(0.0).chain(ids.windows(2).map(of)).collect()
+            }
+        };
         Self {
+            lags,
             turns: outputs.iter().map(|&output| case.model.outputs[output].period).collect(),
             values: observed
                 .iter()
                 .map(|observed| ids.iter().map(|&id| observed.values[id]).collect())
                 .collect(),
-            uncertainties: observed.iter().map(in_quadrature).collect(),
+            uncertainties,
             outputs,
             points,
             point_of,
             ids,
+            noise,
+            ln_scales,
         }
     }
 

@@ -1,15 +1,20 @@
 //! The whole diagnosis, step by step.
 
-use super::diagnosis::{Diagnosis, Hypothesis, NamedQuantity, NoiseEstimate, Predicted};
+use super::diagnosis::{
+    Diagnosis, DiagnosisNote, EstimatedNoise, Hypothesis, NamedQuantity, NoiseEstimate, Predicted,
+    RowGap, SerialCorrelation, SuspectValue, UncertaintyFactor,
+};
 use super::discrepancy::Discrepancy;
 use super::goodness_of_fit::{gap, plus_rows};
 use super::latent::Role;
+use super::noise_model::NoiseModel;
 use super::notes::notes;
-use super::parameters::parameters;
+use super::parameters::{equal_tails, parameters, present};
 use super::posterior::{Effort, Posterior};
 use super::setup::Setup;
 use super::weighed::{Weighed, names, rival};
-use super::{next, predict, scan, shrink};
+use super::weighed_noise::WeighedNoise;
+use super::{next, predict, prior_conflict, scan, shrink};
 use crate::{Case, OverrideError};
 use gumption_engine::number::elementary;
 use gumption_engine::task::{Coverage, Row};
@@ -53,10 +58,22 @@ pub fn diagnose(
 ) -> Result<Diagnosis, OverrideError> {
     case.check()?;
     let seed = options.seed;
-    let weighed = Weighed::new(case, seed, Effort::FULL, &|share| progress(0.6 * share));
+    let wide = case.with_wide_priors();
+    let weighed = Weighed::new(case, &wide, seed, Effort::FULL, &|share| progress(0.6 * share));
     let group = weighed.indistinguishable();
     let verdict = weighed.most_probable(&group);
-    let Weighed { setup, discrepancy, posterior, best, explained, correction, variances } = weighed;
+    let Weighed {
+        prior_conflicts,
+        noise: weighed_noise,
+        setup,
+        discrepancy,
+        posterior,
+        best,
+        explained,
+        correction,
+        variances,
+        ..
+    } = weighed;
     let with_rows = plus_rows(&setup, &variances);
     let regions = scan::regions(&setup, &with_rows, seed);
     progress(0.7);
@@ -75,13 +92,23 @@ pub fn diagnose(
         .filter(|_| explained)
         .and_then(|rival| next::best(&setup, &posterior, best, rival, &variances, seed));
     progress(0.95);
+    let noise = noise(&setup, &variances, &posterior, best, (&weighed_noise, probability), &rows);
     let step = rows.len().div_ceil(MOST_ROWS).max(1);
     let rows = rows.into_iter().step_by(step).collect();
     let hypotheses = hypotheses(&setup, &posterior, probability);
     let prediction = at.map(|at| prediction(&setup, &discrepancy, &posterior, at));
-    let gap = gap(&setup, verdict.kind);
-    let noise = noise(&setup, &variances, &posterior, best);
-    let notes = notes(&setup, &posterior, &verdict, &shrinkage, &gap, best);
+    // the test is of the uncertainties as they are stated
+    let gap = if setup.data.noise == NoiseModel::default() {
+        gap(&setup, verdict.kind)
+    } else {
+        gap(&Setup::new(case), verdict.kind)
+    };
+    let mut notes = notes(&setup, &posterior, &verdict, &shrinkage, &gap, &noise, best);
+    notes.extend(prior_conflicts.iter().map(|conflict| DiagnosisNote {
+        code: "prior-conflict",
+        text: prior_conflict::note(conflict),
+    }));
+    let present = present(&setup, &posterior, probability);
     progress(1.0);
     let named = |name: &str, unit: &gumption_units::Unit| NamedQuantity {
         name: name.to_owned(),
@@ -106,6 +133,8 @@ pub fn diagnose(
         prediction,
         rows,
         noise,
+        present,
+        prior_conflicts,
         notes,
         probability,
         seed,
@@ -172,7 +201,9 @@ pub(crate) fn prediction(
             }
         }
     };
-    for hypothesis in posterior.hypotheses.iter().filter(|h| h.probability > 1e-3) {
+    for hypothesis in
+        posterior.hypotheses.iter().filter(|h| h.probability > 1e-3 && h.evidence.has_draws())
+    {
         let draws = hypothesis.evidence.resampled(shrink::draws_for(rows.len()));
         let values = predict::values(setup, &hypothesis.effects, &draws, rows);
         add(hypothesis.probability, &shrink::moments(&values));
@@ -195,31 +226,72 @@ pub(crate) fn prediction(
         .collect()
 }
 
+/// What the data say of the noise of every output; `of` are the noise over all hypotheses and the
+/// coverage probability, `rows` all rows of the data.
 fn noise(
     setup: &Setup<'_>,
     variances: &[f64],
     posterior: &Posterior,
     best: usize,
+    of: (&WeighedNoise, f64),
+    rows: &[RowGap],
 ) -> Vec<NoiseEstimate> {
-    let outputs = setup.data.outputs.len();
-    let mode = posterior.hypotheses.get(best).and_then(|h| h.evidence.modes.first());
+    let (weighed, coverage) = of;
+    let data = &setup.data;
+    let outputs = data.outputs.len();
+    let stated = |output: usize| {
+        let observed = setup.case.observed[data.outputs[output]].as_ref();
+        observed.is_some_and(|observed| observed.standard_uncertainties.is_some())
+    };
     (0..outputs)
-        .filter(|&output| setup.data.uncertainties[output].is_none())
         .map(|output| {
-            let own: Vec<f64> = variances.iter().skip(output).step_by(outputs).copied().collect();
-            let ln: f64 =
-                own.iter().map(|v| 0.5 * elementary::ln(*v)).sum::<f64>() / own.len().max(1) as f64;
-            let power = setup.roles.iter().enumerate().find_map(|(place, role)| match role {
-                Role::Power { output: of, map } if *of == output => {
-                    mode.and_then(|mode| mode.scores.get(place)).map(|score| map.value(*score))
-                }
-                _ => None,
+            let estimated = (!stated(output))
+                .then(|| estimated_noise(setup, variances, posterior, best, output));
+            let factor = weighed.factor(output, coverage).map(|(estimate, interval)| {
+                let probability = weighed.factor_probability;
+                UncertaintyFactor { estimate, interval, probability }
             });
-            NoiseEstimate {
-                output,
-                standard_uncertainty: elementary::exp(ln),
-                power: power.unwrap_or(0.0),
-            }
+            let own = weighed.suspects.iter().filter(|(suspect, _)| suspect.output == output);
+            let mut suspects: Vec<SuspectValue> = own
+                .filter_map(|&(suspect, probability)| {
+                    let row = data.ids.iter().position(|&id| id == suspect.id)?;
+                    let value = rows.get(row)?.outputs.get(output)?;
+                    let u = value.u / data.noise.stretch(suspect.id, output);
+                    Some(SuspectValue { row: suspect.id, probability, size: value.after / u })
+                })
+                .collect();
+            suspects.sort_by(|a, b| b.probability.total_cmp(&a.probability));
+            let serial = weighed.serial.as_ref().map(|(probability, draws)| SerialCorrelation {
+                estimate: draws.iter().map(|(r, weight)| r * weight).sum(),
+                interval: equal_tails(draws, coverage),
+                probability: *probability,
+            });
+            NoiseEstimate { output, estimated, factor, suspects, serial }
         })
         .collect()
+}
+
+fn estimated_noise(
+    setup: &Setup<'_>,
+    variances: &[f64],
+    posterior: &Posterior,
+    best: usize,
+    output: usize,
+) -> EstimatedNoise {
+    let outputs = setup.data.outputs.len();
+    let mode = posterior.hypotheses.get(best).and_then(|h| h.evidence.modes.first());
+    let own: Vec<f64> = (output..variances.len())
+        .step_by(outputs)
+        .filter(|&value| setup.data.noise.stretch(setup.data.ids[value / outputs], output) == 1.0)
+        .map(|value| variances[value])
+        .collect();
+    let ln: f64 =
+        own.iter().map(|v| 0.5 * elementary::ln(*v)).sum::<f64>() / own.len().max(1) as f64;
+    let power = setup.roles.iter().enumerate().find_map(|(place, role)| match role {
+        Role::Power { output: of, map } if *of == output => {
+            mode.and_then(|mode| mode.scores.get(place)).map(|score| map.value(*score))
+        }
+        _ => None,
+    });
+    EstimatedNoise { standard_uncertainty: elementary::exp(ln), power: power.unwrap_or(0.0) }
 }

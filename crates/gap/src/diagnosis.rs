@@ -25,8 +25,12 @@ pub struct Diagnosis {
     pub prediction: Option<Vec<Predicted>>,
     /// The data row by row, before and after.
     pub rows: Vec<RowGap>,
-    /// Estimated noise of outputs without stated uncertainties.
+    /// What the data say of the noise of each observed output.
     pub noise: Vec<NoiseEstimate>,
+    /// For each candidate effect the probability that it is part of the truth, most probable first.
+    pub present: Vec<PresentEffect>,
+    /// Effects whose priors the data contradict, most probable first.
+    pub prior_conflicts: Vec<PriorConflict>,
     /// What to bear in mind.
     pub notes: Vec<DiagnosisNote>,
     /// Coverage probability of all intervals.
@@ -102,6 +106,8 @@ pub struct MostProbable {
     pub kind: HypothesisKind,
     /// The effects named.
     pub effects: Vec<String>,
+    /// Whether the named effect has a size that contradicts its prior.
+    pub prior_conflict: bool,
     /// Posterior probability of exactly these.
     pub probability: f64,
     /// The verdict and its look-alikes, each a list of effects.
@@ -230,15 +236,97 @@ pub struct ValueGap {
     pub u_after: f64,
 }
 
-/// Estimated noise of an output.
+/// What the data say of the noise of an output.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct NoiseEstimate {
-    /// Place of the output.
+    /// Index of the output.
     pub output: usize,
+    /// The noise where no uncertainties are stated.
+    pub estimated: Option<EstimatedNoise>,
+    /// What stated uncertainties are to be multiplied by.
+    pub factor: Option<UncertaintyFactor>,
+    /// Values that may be off, most probable first.
+    pub suspects: Vec<SuspectValue>,
+    /// Noise that neighbouring rows share.
+    pub serial: Option<SerialCorrelation>,
+}
+
+impl NoiseEstimate {
+    /// Of the output with this index, with nothing known of it.
+    pub fn new(output: usize) -> Self {
+        Self { output, estimated: None, factor: None, suspects: Vec::new(), serial: None }
+    }
+}
+
+/// Noise that is estimated from the data.
+#[derive(Clone, Copy, Debug)]
+pub struct EstimatedNoise {
     /// Standard deviation at the model's typical size, in the output's unit.
     pub standard_uncertainty: f64,
     /// Power of the model's size that it grows with: 0 constant, 1 proportional.
     pub power: f64,
+}
+
+/// A factor on the stated uncertainties of an output (the Birge ratio, where nothing else is
+/// unknown).
+#[derive(Clone, Copy, Debug)]
+pub struct UncertaintyFactor {
+    /// Posterior geometric mean, given that they are off.
+    pub estimate: f64,
+    /// Coverage interval with equal tails, given that they are off.
+    pub interval: [f64; 2],
+    /// Probability that they are off, by any factor.
+    pub probability: f64,
+}
+
+/// The coefficient of correlation of the noise of neighbouring rows, in the order of the data.
+#[derive(Clone, Copy, Debug)]
+pub struct SerialCorrelation {
+    /// Posterior expectation, given that there is one.
+    pub estimate: f64,
+    /// Coverage interval with equal tails, given that there is one.
+    pub interval: [f64; 2],
+    /// Probability that there is one.
+    pub probability: f64,
+}
+
+/// A measured value that may be off.
+#[derive(Clone, Copy, Debug)]
+pub struct SuspectValue {
+    /// Row of the data, from 0.
+    pub row: usize,
+    /// Probability that it is off.
+    pub probability: f64,
+    /// How far it is from what the others let expect, in its standard uncertainties.
+    pub size: f64,
+}
+
+/// An effect of the list that explains the data with a size that its prior all but excludes.
+#[derive(Clone, Debug)]
+pub struct PriorConflict {
+    /// Name of the effect.
+    pub effect: String,
+    /// The parameter, with what the data say of it.
+    pub parameter: EffectParameter,
+    /// How far the estimate is from the prior: in its standard deviations, or for a bounded prior the
+    /// distance beyond the bound in widths of the prior (of its logarithm, if log-uniform).
+    pub prior_distance: f64,
+    /// Whether the distance is beyond the bound of a bounded prior.
+    pub bounded: bool,
+    /// Probability that this effect alone, with a wider prior, is the truth.
+    pub probability: f64,
+}
+
+/// Whether an effect is part of the truth, whatever else is.
+#[derive(Clone, Debug)]
+pub struct PresentEffect {
+    /// Name of the effect.
+    pub effect: String,
+    /// The sum of the probabilities of the hypotheses that it is part of.
+    pub probability: f64,
+    /// Its parameters over all of these.
+    pub parameters: Vec<EffectParameter>,
 }
 
 /// Something to bear in mind when the answer is read.

@@ -15,6 +15,12 @@ use gumption_engine::number::{COLUMN, Column, elementary};
 /// Draws of the prior from which the search starts.
 const SCREENED: usize = 4;
 
+/// Logarithms of two integrals of the same that differ by more than this cannot both be right.
+pub(crate) const DISAGREE: f64 = 0.5;
+
+/// Modes that are kept, at most.
+const MOST_MODES: usize = 10;
+
 /// An integral that is being refined.
 #[derive(Clone, Debug)]
 pub(crate) struct EvidenceEstimate {
@@ -37,6 +43,8 @@ pub(crate) struct EvidenceEstimate {
     pub(crate) standard_error: f64,
     /// Effective number of draws.
     pub(crate) effective_sample_size: f64,
+    /// How far the logarithm of an independent integral of the same is off; 0 where none was made.
+    pub(crate) disagreement: f64,
 }
 
 impl EvidenceEstimate {
@@ -61,14 +69,36 @@ impl EvidenceEstimate {
             ln_evidence: f64::NEG_INFINITY,
             standard_error: f64::INFINITY,
             effective_sample_size: 0.0,
+            disagreement: 0.0,
         };
         let mut points = vec![vec![0.0; unknowns]];
         points.extend_from_slice(seeds);
         points.extend(evidence.screened(likelihood, starts));
-        evidence.modes = search::modes(likelihood, &points, 10);
+        evidence.modes = search::modes(likelihood, &points, MOST_MODES);
         let mixture = Mixture::at_modes(&likelihood.bounded(), &evidence.modes);
         evidence.draw(likelihood, mixture, 2);
         evidence
+    }
+
+    /// Searches for modes from more points; where there is one that was not known, the neighbourhoods
+    /// of all modes are drawn from again. Whether there was.
+    pub(crate) fn explore(&mut self, likelihood: &Likelihood<'_>, seeds: &[Vec<f64>]) -> bool {
+        let found = search::modes(likelihood, seeds, MOST_MODES);
+        let new = search::join(&mut self.modes, found, MOST_MODES);
+        if new {
+            let mixture = Mixture::at_modes(&likelihood.bounded(), &self.modes);
+            self.draw(likelihood, mixture, 2);
+        }
+        new
+    }
+
+    /// Takes notice of how far an independent integral of the same is off: beyond [`DISAGREE`] that
+    /// is the standard error.
+    pub(crate) fn disagrees_by(&mut self, difference: f64) {
+        self.disagreement = difference;
+        if difference > DISAGREE {
+            self.standard_error = self.standard_error.max(difference);
+        }
     }
 
     /// The most likely of draws of the prior, far from each other.
@@ -168,6 +198,24 @@ impl EvidenceEstimate {
         draws
     }
 
+    /// The evidence alone, where what was drawn is of no use.
+    pub(crate) fn without_draws(self) -> Self {
+        let nothing = Vec::new;
+        Self {
+            modes: Vec::new(),
+            columns: Vec::new(),
+            weights: nothing(),
+            ln_targets: nothing(),
+            ln_proposals: nothing(),
+            ..self
+        }
+    }
+
+    /// Whether there are draws of the posterior.
+    pub(crate) fn has_draws(&self) -> bool {
+        self.weights.iter().any(|weight| *weight > 0.0)
+    }
+
     /// Number of unknown quantities.
     pub(crate) fn unknowns(&self) -> usize {
         self.unknowns
@@ -225,6 +273,7 @@ impl EvidenceEstimate {
         self.ln_evidence = most + elementary::ln(sum / count);
         self.effective_sample_size = sum * sum / squares;
         self.standard_error = (1.0 / self.effective_sample_size - 1.0 / count).max(0.0).sqrt();
+        self.disagrees_by(self.disagreement);
         for weight in &mut self.weights {
             *weight /= sum;
         }

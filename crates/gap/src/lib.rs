@@ -15,6 +15,7 @@ mod differential_evolution;
 mod discrepancy;
 mod evidence;
 mod evidence_error;
+mod exploration;
 mod goodness_of_fit;
 mod latent;
 mod likelihood;
@@ -22,24 +23,29 @@ mod logarithm;
 mod mixture;
 mod model;
 mod next;
+mod noise_model;
 mod notes;
 mod parameters;
 mod posterior;
 mod predict;
+mod prior_conflict;
 mod profile_path;
+mod response_scan;
 mod scan;
 mod search;
 mod selection;
 mod setup;
 mod shrink;
 mod weighed;
+mod weighed_noise;
 
 pub use case::{Candidate, Case, ObservedOutput, Prior};
 pub use diagnose::{DiagnosisOptions, diagnose};
 pub use diagnosis::{
-    Diagnosis, DiagnosisNote, EffectParameter, GapRegion, GapTest, Hypothesis, HypothesisKind,
-    MostProbable, NamedQuantity, NextMeasurement, NoiseEstimate, Predicted, RowGap, Shrinkage,
-    Shrunk, ValueGap,
+    Diagnosis, DiagnosisNote, EffectParameter, EstimatedNoise, GapRegion, GapTest, Hypothesis,
+    HypothesisKind, MostProbable, NamedQuantity, NextMeasurement, NoiseEstimate, Predicted,
+    PresentEffect, PriorConflict, RowGap, SerialCorrelation, Shrinkage, Shrunk, SuspectValue,
+    UncertaintyFactor, ValueGap,
 };
 pub use model::{Effect, ModelForm, OverridableModel, OverrideError};
 pub use selection::{ModelSelection, noise, nominal, select_model};

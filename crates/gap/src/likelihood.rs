@@ -290,6 +290,7 @@ impl<V: Visitor> Kernel for Walk<'_, '_, V> {
         let mut sims = vec![Column::ZERO; count];
         let mut raw = vec![Column::ZERO; count];
         let mut residuals = vec![Column::ZERO; count];
+        let mut before = vec![Column::ZERO; count];
         let mut ln_variances = vec![Column::ZERO; count];
         for (number, point) in data.points.iter().enumerate() {
             for (n, place, maps) in &varying {
@@ -321,7 +322,8 @@ impl<V: Visitor> Kernel for Walk<'_, '_, V> {
                         } else {
                             for lane in 0..lanes {
                                 let ln = ln_noise[output].0[lane]
-                                    + power[output].0[lane] * ln_sizes[place];
+                                    + power[output].0[lane] * ln_sizes[place]
+                                    + data.ln_scales[place];
                                 ln_variances[output].0[lane] = if known > 0.0 {
                                     elementary::ln(elementary::exp(2.0 * ln) + known)
                                 } else {
@@ -345,6 +347,16 @@ impl<V: Visitor> Kernel for Walk<'_, '_, V> {
                             let factor = root[triangle(i) + j];
                             for lane in 0..COLUMN {
                                 residuals[i].0[lane] += factor * raw[j].0[lane];
+                            }
+                        }
+                    }
+                    if let Some(&lag) = covariance.lags.get(row) {
+                        let scale = (1.0 - lag * lag).sqrt().recip();
+                        for (here, before) in residuals.iter_mut().zip(&mut before) {
+                            for lane in 0..COLUMN {
+                                let own = here.0[lane];
+                                here.0[lane] = (own - lag * before.0[lane]) * scale;
+                                before.0[lane] = own;
                             }
                         }
                     }

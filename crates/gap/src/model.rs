@@ -1,15 +1,14 @@
 //! A model whose named quantities effects can override: the model of the gap diagnosis.
 
-use std::cell::RefCell;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet, VecDeque};
 use std::error::Error;
 use std::fmt;
 
 use gumption_engine::model::formula::{Formula, FormulaError, Scope, Typing};
 use gumption_engine::model::typed::Typed;
 use gumption_engine::model::{
-    InputQuantity, Model, Output, Program, Quantity, Recorder, Traced, in_si, in_unit,
-    recorded_values, variables,
+    InputQuantity, Model, NumberForm, Output, Program, Quantity, Recorder, Traced, recorded_values,
+    variables,
 };
 
 /// What computes the outputs of a model.
@@ -34,6 +33,8 @@ pub struct OverridableModel {
     pub maker: ModelForm,
     /// What is known of every name.
     pub scope: Scope,
+    /// What formulas compute with.
+    pub numbers: NumberForm,
 }
 
 /// An effect that the model leaves out: quantities of the model that it changes, and its parameters.
@@ -132,62 +133,107 @@ impl OverridableModel {
             .map(|effect| {
                 let named = effect.parameters.iter().map(|parameter| {
                     next += 1;
-                    (parameter.name.as_str(), in_si(recorder.variable(next - 1), &parameter.unit))
+                    let value = recorder.variable(next - 1);
+                    (parameter.name.as_str(), self.numbers.taken(value, &parameter.unit))
                 });
                 named.collect()
             })
             .collect();
-        let given = recorded_values(&recorder, &self.inputs, &self.conditions).into_iter();
-        let making = Making {
-            sim: self,
-            effects,
-            parameters,
-            given: given.collect(),
-            typed: RefCell::default(),
-            made: RefCell::default(),
-            open: RefCell::default(),
-        };
-        let outputs = making.outputs()?;
+        let given = recorded_values(&recorder, &self.inputs, &self.conditions, self.numbers);
+        let given = given.into_iter();
+        let outputs = Making::new(self, effects, parameters, given.collect()).results()?;
         let results: Vec<Traced<'_>> = self
             .outputs
             .iter()
             .zip(outputs)
-            .map(|(output, value)| in_unit(value, &output.quantity.unit))
+            .map(|(output, value)| {
+                let Quantity { name, unit, .. } = &output.quantity;
+                self.numbers.given(value, unit, self.scope.get(name).unwrap_or(Typing::ANY))
+            })
             .collect();
         Ok(recorder.program(next, &results))
     }
 }
 
 /// One recording: quantities are computed when they are asked for.
+///
+/// Which quantity needs which is followed with a list, not by recursion: a file may chain as many
+/// equations as it likes, and the depth of a stack is not ours to choose.
 struct Making<'s, 'r> {
     sim: &'s OverridableModel,
     effects: &'s [&'s Effect],
     parameters: Vec<HashMap<&'s str, Traced<'r>>>,
+    /// What the formulas of each effect know.
+    scopes: Vec<Scope>,
+    equations: HashMap<&'s str, &'s Formula>,
+    outputs: HashSet<&'s str>,
     given: HashMap<String, Traced<'r>>,
-    typed: RefCell<Option<Vec<Traced<'r>>>>,
-    made: RefCell<HashMap<String, Traced<'r>>>,
-    open: RefCell<Vec<String>>,
+    typed: Option<Vec<Traced<'r>>>,
+    made: HashMap<&'s str, Traced<'r>>,
 }
 
-impl<'r> Making<'_, 'r> {
+/// What a quantity becomes, one after the other.
+enum Step<'s> {
+    /// The value of an equation.
+    Equation(&'s Formula),
+    /// The typed model's output of this number.
+    Typed(usize),
+    /// The override of the effect of this number.
+    Override(usize, &'s Formula),
+}
+
+/// A quantity that was begun.
+struct Begun<'s, 'r> {
+    name: &'s str,
+    value: Option<Traced<'r>>,
+    steps: VecDeque<Step<'s>>,
+    /// What the first of the steps still needs.
+    needs: VecDeque<&'s str>,
+}
+
+impl<'s, 'r> Making<'s, 'r> {
+    fn new(
+        sim: &'s OverridableModel,
+        effects: &'s [&'s Effect],
+        parameters: Vec<HashMap<&'s str, Traced<'r>>>,
+        given: HashMap<String, Traced<'r>>,
+    ) -> Self {
+        let mut equations = HashMap::new();
+        if let ModelForm::Equations(all) = &sim.maker {
+            for (name, formula) in all {
+                // a name that stands twice is a mistake that readers report
+                equations.entry(name.as_str()).or_insert(formula);
+            }
+        }
+        let outputs = sim.outputs.iter().map(|output| output.quantity.name.as_str()).collect();
+        let scopes = effects.iter().map(|effect| effect.scope(&sim.scope)).collect();
+        let (typed, made) = (None, HashMap::new());
+        Self { sim, effects, parameters, scopes, equations, outputs, given, typed, made }
+    }
+
     /// The outputs with all effects, in SI units.
-    fn outputs(&self) -> Result<Vec<Traced<'r>>, OverrideError> {
+    fn results(&mut self) -> Result<Vec<Traced<'r>>, OverrideError> {
         let mut current: HashMap<&str, Traced<'r>> = HashMap::new();
         for output in &self.sim.outputs {
             let name = output.quantity.name.as_str();
             current.insert(name, self.quantity(name)?);
         }
-        for (effect, parameters) in self.effects.iter().zip(&self.parameters) {
+        for (number, effect) in self.effects.iter().enumerate() {
             let before = current.clone();
             for (name, formula) in &effect.overrides {
-                if !self.sim.is_output(name) {
+                if !self.outputs.contains(name.as_str()) {
                     continue;
                 }
-                let value = self.formula(formula, effect, |used| {
-                    let known = parameters.get(used).or_else(|| before.get(used)).copied();
-                    known.map_or_else(|| self.quantity(used), Ok)
-                })?;
-                current.insert(name, value);
+                let mut values = HashMap::new();
+                for (used, _) in formula.names() {
+                    let parameter = self.parameters.get(number).and_then(|of| of.get(used));
+                    let value = match parameter.or_else(|| before.get(used)) {
+                        Some(&value) => value,
+                        None => self.quantity(used)?,
+                    };
+                    values.insert(used.to_owned(), value);
+                }
+                current.insert(name, self.record(formula, Some(number), &values)?);
             }
         }
         let named = |output: &Output| {
@@ -199,92 +245,133 @@ impl<'r> Making<'_, 'r> {
 
     /// A quantity as the formulas after it see it: with all overrides, but an output as the model
     /// computes it, since overrides of outputs act last.
-    fn quantity(&self, name: &str) -> Result<Traced<'r>, OverrideError> {
-        if let Some(&value) = self.made.borrow().get(name) {
+    fn quantity(&mut self, name: &'s str) -> Result<Traced<'r>, OverrideError> {
+        if let Some(&value) = self.made.get(name) {
             return Ok(value);
         }
-        let begun = self.open.borrow().iter().position(|open| open == name);
-        if let Some(begun) = begun {
-            let names = self.open.borrow().iter().skip(begun).cloned().collect();
-            return Err(OverrideError::Circular { names });
-        }
-        self.open.borrow_mut().push(name.to_owned());
-        let mut value = self.computed(name)?;
-        if !self.sim.is_output(name) {
-            for (effect, parameters) in self.effects.iter().zip(&self.parameters) {
-                for (_, formula) in effect.overrides.iter().filter(|(of, _)| of == name) {
-                    let before = value;
-                    value = self.formula(formula, effect, |used| {
-                        if let Some(&parameter) = parameters.get(used) {
-                            Ok(parameter)
-                        } else if used == name {
-                            Ok(before)
-                        } else {
-                            self.quantity(used)
-                        }
-                    })?;
+        let mut begun = vec![self.begin(name)?];
+        let mut names = HashSet::from([name]);
+        while let Some(last) = begun.last_mut() {
+            if let Some(need) = last.needs.pop_front() {
+                if self.made.contains_key(need) {
+                    continue;
                 }
-            }
-        }
-        self.open.borrow_mut().pop();
-        self.made.borrow_mut().insert(name.to_owned(), value);
-        Ok(value)
-    }
-
-    /// A quantity from what it is computed of, before its own overrides.
-    fn computed(&self, name: &str) -> Result<Traced<'r>, OverrideError> {
-        if let Some(&value) = self.given.get(name) {
-            return Ok(value);
-        }
-        match &self.sim.maker {
-            ModelForm::Equations(equations) => {
-                let Some((_, formula)) = equations.iter().find(|(of, _)| of == name) else {
-                    return Err(undefined(name));
-                };
-                self.record(formula, &self.sim.scope, |used| self.quantity(used))
-            }
-            ModelForm::Typed(typed) => {
-                let place = typed.output(name).map(|(place, _)| place);
-                if self.typed.borrow().is_none() {
-                    let mut values = HashMap::new();
-                    for declared in typed.declaration.inputs {
-                        if self.given.contains_key(declared.name) {
-                            values.insert(declared.name, self.quantity(declared.name)?);
-                        }
-                    }
-                    let outputs = typed.record_with(|name| values.get(name).copied());
-                    *self.typed.borrow_mut() = Some(outputs);
+                if !names.insert(need) {
+                    let circle = begun.iter().map(|quantity| quantity.name);
+                    let names = circle.skip_while(|name| *name != need).map(str::to_owned);
+                    return Err(OverrideError::Circular { names: names.collect() });
                 }
-                let outputs = self.typed.borrow();
-                let output = place.and_then(|place| outputs.as_ref()?.get(place).copied());
-                output.ok_or_else(|| undefined(name))
+                let next = self.begin(need)?;
+                begun.push(next);
+            } else if let Some(step) = last.steps.pop_front() {
+                let value = self.step(last, &step)?;
+                last.value = Some(value);
+                last.needs = self.needs(last.name, last.steps.front());
+            } else if let Some(Begun { name, value, .. }) = begun.pop() {
+                names.remove(name);
+                self.made.insert(name, value.ok_or_else(|| undefined(name))?);
+            }
+        }
+        self.made.get(name).copied().ok_or_else(|| undefined(name))
+    }
+
+    /// What a quantity is made of: a value or what computes it, then its overrides.
+    fn begin(&self, name: &'s str) -> Result<Begun<'s, 'r>, OverrideError> {
+        let value = self.given.get(name).copied();
+        let mut steps = VecDeque::new();
+        if value.is_none() {
+            steps.push_back(match &self.sim.maker {
+                ModelForm::Equations(_) => {
+                    Step::Equation(self.equations.get(name).ok_or_else(|| undefined(name))?)
+                }
+                ModelForm::Typed(typed) => {
+                    Step::Typed(typed.output(name).ok_or_else(|| undefined(name))?.0)
+                }
+            });
+        }
+        if !self.outputs.contains(name) {
+            for (number, effect) in self.effects.iter().enumerate() {
+                let own = effect.overrides.iter().filter(|(of, _)| of == name);
+                steps.extend(own.map(|(_, formula)| Step::Override(number, formula)));
+            }
+        }
+        let needs = self.needs(name, steps.front());
+        Ok(Begun { name, value, steps, needs })
+    }
+
+    /// The quantities that a step of a quantity needs.
+    fn needs(&self, name: &'s str, step: Option<&Step<'s>>) -> VecDeque<&'s str> {
+        match step {
+            None => VecDeque::new(),
+            Some(Step::Equation(formula)) => formula.names().map(|(used, _)| used).collect(),
+            Some(Step::Override(number, formula)) => {
+                let parameters = self.parameters.get(*number);
+                let own =
+                    |used: &str| used == name || parameters.is_some_and(|of| of.contains_key(used));
+                formula.names().map(|(used, _)| used).filter(|used| !own(used)).collect()
+            }
+            Some(Step::Typed(_)) if self.typed.is_some() => VecDeque::new(),
+            Some(Step::Typed(_)) => self.typed_inputs().collect(),
+        }
+    }
+
+    /// The inputs of the typed model that the file gives.
+    fn typed_inputs(&self) -> impl Iterator<Item = &'static str> {
+        let declared = match &self.sim.maker {
+            ModelForm::Typed(typed) => typed.declaration.inputs,
+            ModelForm::Equations(_) => &[],
+        };
+        declared.iter().map(|input| input.name).filter(|name| self.given.contains_key(*name))
+    }
+
+    /// A quantity's value after a step, all that the step needs being made.
+    fn step(&mut self, of: &Begun<'s, 'r>, step: &Step<'s>) -> Result<Traced<'r>, OverrideError> {
+        let made = |making: &Self, used: &str| {
+            making.made.get(used).copied().ok_or_else(|| undefined(used))
+        };
+        match *step {
+            Step::Equation(formula) => {
+                let mut values = HashMap::new();
+                for (used, _) in formula.names() {
+                    values.insert(used.to_owned(), made(self, used)?);
+                }
+                self.record(formula, None, &values)
+            }
+            Step::Override(number, formula) => {
+                let mut values = HashMap::new();
+                for (used, _) in formula.names() {
+                    let parameter = self.parameters.get(number).and_then(|of| of.get(used));
+                    let value = match parameter {
+                        Some(&parameter) => parameter,
+                        None if used == of.name => of.value.ok_or_else(|| undefined(used))?,
+                        None => made(self, used)?,
+                    };
+                    values.insert(used.to_owned(), value);
+                }
+                self.record(formula, Some(number), &values)
+            }
+            Step::Typed(place) => {
+                if let (None, ModelForm::Typed(typed)) = (&self.typed, &self.sim.maker) {
+                    let inputs: HashSet<&str> = self.typed_inputs().collect();
+                    let value =
+                        |name: &str| inputs.get(name).and_then(|name| self.made.get(name)).copied();
+                    self.typed = Some(typed.record_with(value));
+                }
+                let output = self.typed.as_ref().and_then(|outputs| outputs.get(place));
+                output.copied().ok_or_else(|| undefined(of.name))
             }
         }
     }
 
-    /// An override's value.
-    fn formula(
-        &self,
-        formula: &Formula,
-        effect: &Effect,
-        value: impl Fn(&str) -> Result<Traced<'r>, OverrideError>,
-    ) -> Result<Traced<'r>, OverrideError> {
-        self.record(formula, &effect.scope(&self.sim.scope), value)
-    }
-
+    /// A formula's value, as the model knows names or as an effect does.
     fn record(
         &self,
         formula: &Formula,
-        scope: &Scope,
-        value: impl Fn(&str) -> Result<Traced<'r>, OverrideError>,
+        effect: Option<usize>,
+        values: &HashMap<String, Traced<'r>>,
     ) -> Result<Traced<'r>, OverrideError> {
-        let mut values = HashMap::new();
-        for (used, _) in formula.names() {
-            if !values.contains_key(used) {
-                values.insert(used.to_owned(), value(used)?);
-            }
-        }
-        formula.record(scope, &values).map_err(OverrideError::Formula)
+        let scope = effect.and_then(|number| self.scopes.get(number)).unwrap_or(&self.sim.scope);
+        formula.record(scope, values).map_err(OverrideError::Formula)
     }
 }
 

@@ -1,6 +1,9 @@
 //! What to bear in mind when a diagnosis is read.
 
-use super::diagnosis::{DiagnosisNote, GapTest, HypothesisKind, MostProbable, Shrinkage};
+use super::diagnosis::{
+    DiagnosisNote, GapTest, HypothesisKind, MostProbable, NoiseEstimate, Shrinkage,
+};
+use super::evidence::DISAGREE;
 use super::goodness_of_fit::misfit;
 use super::posterior::Posterior;
 use super::setup::Setup;
@@ -11,6 +14,7 @@ pub(crate) fn notes(
     verdict: &MostProbable,
     shrinkage: &Shrinkage,
     gap: &GapTest,
+    noise: &[NoiseEstimate],
     best: usize,
 ) -> Vec<DiagnosisNote> {
     let mut notes = Vec::new();
@@ -32,7 +36,19 @@ pub(crate) fn notes(
         );
     }
     let winner = &posterior.hypotheses[best];
-    if verdict.kind != HypothesisKind::Unexplained && winner.evidence.effective_sample_size < 50.0 {
+    let worth = posterior.hypotheses.iter().filter(|h| h.probability > WORTH_A_NOTE);
+    let apart = worth.map(|h| h.evidence.disagreement).fold(0.0, f64::max);
+    if apart > DISAGREE {
+        note(
+            "poor-integral",
+            format!(
+                "Two independent integrals of the same hypothesis differ by {apart:.1} in the logarithm \
+                 of the evidence; the probabilities are averages over that error, and less sure for it."
+            ),
+        );
+    } else if verdict.kind != HypothesisKind::Unexplained
+        && winner.evidence.effective_sample_size < 50.0
+    {
         note(
             "poor-integral",
             format!(
@@ -71,8 +87,14 @@ pub(crate) fn notes(
             ),
         );
     }
+    let of_noise = noise.iter().any(|of| {
+        of.factor.is_some_and(|factor| factor.probability > LIKELY)
+            || of.serial.is_some_and(|serial| serial.probability > LIKELY)
+            || of.suspects.iter().any(|suspect| suspect.probability > LIKELY)
+    });
     if let (HypothesisKind::None, Some(p)) = (verdict.kind, gap.p_value)
         && p < OVERDISPERSED
+        && !of_noise
     {
         note(
             "scatter",
@@ -95,6 +117,13 @@ pub(crate) fn notes(
     }
     notes
 }
+
+/// The integral of a hypothesis with less than this probability changes the others by less than they
+/// are known.
+const WORTH_A_NOTE: f64 = 0.01;
+
+/// A departure of the noise from what is stated is said in the verdict from this probability on.
+const LIKELY: f64 = 0.5;
 
 /// The chi-square test speaks against the verdict "no gap" below this probability.
 const OVERDISPERSED: f64 = 1e-3;

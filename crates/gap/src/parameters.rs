@@ -1,22 +1,87 @@
 //! The parameters of effects after the data: estimates, standard uncertainties, intervals.
 
-use super::diagnosis::EffectParameter;
-use super::latent::Role;
-use super::posterior;
+use super::diagnosis::{EffectParameter, PresentEffect};
+use super::latent::{Map, Role};
+use super::posterior::{Posterior, WeighedHypothesis};
 use super::predict;
 use super::setup::Setup;
 use super::shrink;
 use gumption_engine::number::COLUMN;
 use gumption_engine::task::Row;
 
+/// The candidate effects with the probability that each is part of the truth, most probable first,
+/// and their parameters over all hypotheses that hold them.
+pub(crate) fn present(
+    setup: &Setup<'_>,
+    posterior: &Posterior,
+    coverage: f64,
+) -> Vec<PresentEffect> {
+    let mut present: Vec<PresentEffect> = (0..setup.case.candidates.len())
+        .map(|effect| {
+            let holding: Vec<&WeighedHypothesis> =
+                posterior.hypotheses.iter().filter(|h| h.effects.contains(&effect)).collect();
+            let probability = holding.iter().map(|h| h.probability).sum();
+            let candidate = &setup.case.candidates[effect];
+            let parameters = candidate.effect.parameters.iter().zip(&candidate.priors).enumerate();
+            let parameters = parameters.filter_map(|(n, (quantity, prior))| {
+                let map = Map::of(prior);
+                let mut draws: Vec<(f64, f64)> = Vec::new();
+                for hypothesis in &holding {
+                    let place = setup.parameters(&hypothesis.effects, effect).start + n;
+                    let own = weighted(hypothesis, place, &map);
+                    draws.extend(own.map(|(x, weight)| (x, weight * hypothesis.probability)));
+                }
+                let total: f64 = draws.iter().map(|(_, weight)| weight).sum();
+                if total.is_nan() || total <= 0.0 {
+                    return None;
+                }
+                draws.iter_mut().for_each(|(_, weight)| *weight /= total);
+                draws.sort_by(|a, b| a.0.total_cmp(&b.0));
+                let mean: f64 = draws.iter().map(|(x, w)| x * w).sum();
+                let variance: f64 = draws.iter().map(|(x, w)| w * (x - mean).powi(2)).sum();
+                let [lower, upper] = equal_tails(&draws, coverage);
+                Some(EffectParameter {
+                    name: format!("{}/{}", candidate.effect.name, quantity.name),
+                    unit: quantity.unit.text().to_owned(),
+                    estimate: mean,
+                    standard_uncertainty: variance.max(0.0).sqrt(),
+                    interval: [lower.min(mean), upper.max(mean)],
+                })
+            });
+            PresentEffect {
+                effect: candidate.effect.name.clone(),
+                probability,
+                parameters: parameters.collect(),
+            }
+        })
+        .collect();
+    present.sort_by(|a, b| b.probability.total_cmp(&a.probability));
+    present
+}
+
+/// Values of an unknown quantity with their weights.
+fn weighted<'h>(
+    hypothesis: &'h WeighedHypothesis,
+    place: usize,
+    map: &'h Map,
+) -> impl Iterator<Item = (f64, f64)> + 'h {
+    let evidence = &hypothesis.evidence;
+    let weights = evidence.weights.iter().enumerate().filter(|(_, weight)| **weight > 0.0);
+    weights.map(move |(n, &weight)| {
+        (map.value(evidence.columns[n / COLUMN][place].0[n % COLUMN]), weight)
+    })
+}
+
 /// The parameters of a hypothesis' effects.
 pub(crate) fn parameters(
     setup: &Setup<'_>,
-    hypothesis: &posterior::WeighedHypothesis,
+    hypothesis: &WeighedHypothesis,
     probability: f64,
 ) -> Vec<EffectParameter> {
+    if !hypothesis.evidence.has_draws() {
+        return Vec::new();
+    }
     let likelihood = setup.likelihood(&hypothesis.effects);
-    let evidence = &hypothesis.evidence;
     let central = central_draw(setup, hypothesis);
     let mut parameters = Vec::new();
     for &effect in &hypothesis.effects {
@@ -25,15 +90,7 @@ pub(crate) fn parameters(
         for (place, quantity) in places.zip(&candidate.parameters) {
             let Some(Role::Variable { maps, .. }) = likelihood.roles.get(place) else { continue };
             let Some(map) = maps.first() else { continue };
-            let mut weighted: Vec<(f64, f64)> = evidence
-                .weights
-                .iter()
-                .enumerate()
-                .filter(|(_, weight)| **weight > 0.0)
-                .map(|(n, &weight)| {
-                    (map.value(evidence.columns[n / COLUMN][place].0[n % COLUMN]), weight)
-                })
-                .collect();
+            let mut weighted: Vec<(f64, f64)> = weighted(hypothesis, place, map).collect();
             let mean: f64 = weighted.iter().map(|(x, w)| x * w).sum();
             let variance: f64 = weighted.iter().map(|(x, w)| w * (x - mean).powi(2)).sum();
             let estimate = central.get(place).map_or(mean, |score| map.value(*score));
@@ -53,7 +110,7 @@ pub(crate) fn parameters(
 
 /// The draw whose prediction of the data is nearest to the mean prediction; the most probable point
 /// where the hypothesis is not worth that.
-fn central_draw(setup: &Setup<'_>, hypothesis: &posterior::WeighedHypothesis) -> Vec<f64> {
+fn central_draw(setup: &Setup<'_>, hypothesis: &WeighedHypothesis) -> Vec<f64> {
     let mode =
         hypothesis.evidence.modes.first().map(|mode| mode.scores.clone()).unwrap_or_default();
     if hypothesis.effects.is_empty() || hypothesis.probability < 1e-3 {
@@ -88,7 +145,7 @@ fn central_draw(setup: &Setup<'_>, hypothesis: &posterior::WeighedHypothesis) ->
 
 /// The interval with equal tails; values are in order, with weights that sum to one. Half of each
 /// value's weight lies on either side of it.
-fn equal_tails(weighted: &[(f64, f64)], share: f64) -> [f64; 2] {
+pub(crate) fn equal_tails(weighted: &[(f64, f64)], share: f64) -> [f64; 2] {
     let tail = 0.5 * (1.0 - share);
     [quantile(weighted, tail), quantile(weighted, 1.0 - tail)]
 }

@@ -8,10 +8,10 @@ use super::data::by_rows;
 use super::discrepancy::{Base, Discrepancy, Unexplained};
 use super::evidence::EvidenceEstimate;
 use super::evidence_error;
+use super::exploration::Exploration;
 use super::likelihood::Likelihood;
 use super::logarithm::ln_add;
 use super::setup::Setup;
-use gumption_engine::distribution::StreamKey;
 use gumption_engine::number::elementary;
 use gumption_engine::special;
 
@@ -37,6 +37,10 @@ pub(crate) struct Posterior {
     pub(crate) prior: f64,
     /// Posterior probability of "unexplained".
     pub(crate) probability: f64,
+    /// Logarithm of the evidence of all hypotheses together.
+    pub(crate) ln_evidence: f64,
+    /// Logarithm of the evidence of what else may be true, over this setup's prior probability.
+    rivals: f64,
 }
 
 /// How much is computed.
@@ -84,80 +88,30 @@ impl Effort {
 const LEADING: f64 = 0.01;
 
 /// With more values than this, modes are searched in a part of the data first.
-const MANY_VALUES: usize = 20_000;
+pub(super) const MANY_VALUES: usize = 20_000;
 
-/// Values of that part.
-const PART: usize = 2000;
-
-/// Seeds for a pair: the modes of its parts beside each other.
-fn seeds(setup: &Setup<'_>, effects: &[usize], singles: &[WeighedHypothesis]) -> Vec<Vec<f64>> {
-    let shared = setup.roles.len();
-    let unknowns =
-        shared + effects.iter().map(|&e| setup.case.candidates[e].priors.len()).sum::<usize>();
-    let of = |effect: usize| {
-        singles
-            .iter()
-            .find(|single| single.effects == [effect])
-            .map(|single| &single.evidence.modes)
-    };
-    let mut seeds = Vec::new();
-    for &one in effects {
-        for mode in of(one).into_iter().flatten().take(2) {
-            let mut seed = vec![0.0; unknowns];
-            seed[..shared].copy_from_slice(&mode.scores[..shared]);
-            let own = setup.parameters(effects, one);
-            seed[own].copy_from_slice(&mode.scores[shared..]);
-            for &other in effects.iter().filter(|other| **other != one) {
-                let places = setup.parameters(effects, other);
-                for mode in of(other).into_iter().flatten().take(2) {
-                    let mut both = seed.clone();
-                    both[places.clone()].copy_from_slice(&mode.scores[shared..]);
-                    seeds.push(both);
-                }
-            }
-            seeds.push(seed);
-        }
-    }
-    seeds
+/// No gap and every effect alone, with first estimates of their evidences.
+pub(crate) fn singles(setup: &Setup<'_>, seed: u64, effort: Effort) -> Vec<WeighedHypothesis> {
+    let effort = effort.for_values(setup.data.len());
+    Exploration::new(setup, seed, effort.starts).singles()
 }
 
-/// Weighs all hypotheses against the data of a setup.
+/// Weighs all hypotheses against the data of a setup. `rivals` is the logarithm of the evidence of
+/// everything else that may be true, over the prior probability of this setup: what is improbable
+/// beside it need not be known well.
 pub(crate) fn posterior(
     setup: &Setup<'_>,
     discrepancy: &Discrepancy,
     seed: u64,
     effort: Effort,
+    rivals: f64,
     progress: &(dyn Fn(f64) + Sync),
 ) -> Posterior {
     let count = setup.case.candidates.len();
     let effort = effort.for_values(setup.data.len());
-    let part = (setup.data.len() > MANY_VALUES).then(|| setup.thinned(PART));
     let prior = setup.case.prior;
-    let mut wanted: Vec<Vec<usize>> = vec![Vec::new()];
-    wanted.extend((0..count).map(|effect| vec![effect]));
-    let begin = |effects: Vec<usize>, singles: &[WeighedHypothesis]| {
-        let likelihood = setup.likelihood(&effects);
-        let name: Vec<&str> =
-            effects.iter().map(|&e| setup.case.candidates[e].effect.name.as_str()).collect();
-        let key = StreamKey::new(seed, &format!("gap/{}", name.join("+")));
-        let mut seeds = seeds(setup, &effects, singles);
-        if let Some(part) = &part {
-            let found = EvidenceEstimate::begin(&part.likelihood(&effects), key, &seeds, 16);
-            seeds = found.modes.into_iter().take(3).map(|mode| mode.scores).collect();
-        }
-        let starts = effort.starts;
-        let evidence = EvidenceEstimate::begin(&likelihood, key, &seeds, starts);
-        let share = |of: f64, count: usize| if count == 0 { 0.0 } else { of / count as f64 };
-        let prior = match effects.len() {
-            0 => prior.none,
-            1 => share(prior.one, count),
-            2 => share(prior.two, count * count.saturating_sub(1) / 2),
-            _ => share(prior.three, count * count.saturating_sub(1) * count.saturating_sub(2) / 6),
-        };
-        WeighedHypothesis { effects, prior, evidence, probability: 0.0 }
-    };
-    let mut hypotheses: Vec<WeighedHypothesis> =
-        wanted.into_par_iter().map(|effects| begin(effects, &[])).collect();
+    let exploration = Exploration::new(setup, seed, effort.starts);
+    let mut hypotheses = exploration.singles();
     progress(0.2);
     let residuals = by_rows(&setup.data.nominal_residuals());
     let unexplained =
@@ -167,15 +121,24 @@ pub(crate) fn posterior(
         let pairs: Vec<Vec<usize>> =
             (0..count).flat_map(|a| (a + 1..count).map(move |b| vec![a, b])).collect();
         let of_pairs: Vec<WeighedHypothesis> =
-            pairs.into_par_iter().map(|effects| begin(effects, &hypotheses)).collect();
+            pairs.into_par_iter().map(|effects| exploration.begin(effects, &hypotheses)).collect();
         hypotheses.extend(of_pairs);
+        exploration.reconcile(&mut hypotheses);
     }
     progress(0.6);
-    let mut posterior =
-        Posterior { hypotheses, unexplained, prior: prior.unexplained, probability: 0.0 };
+    let mut posterior = Posterior {
+        hypotheses,
+        unexplained,
+        prior: prior.unexplained,
+        probability: 0.0,
+        ln_evidence: f64::NEG_INFINITY,
+        rivals,
+    };
     posterior.weigh();
     // the leading hypotheses are looked at from end to end
-    let leads = |h: &&mut WeighedHypothesis| h.probability > LEADING && !h.effects.is_empty();
+    let share = posterior.share();
+    let leads =
+        |h: &&mut WeighedHypothesis| h.probability * share > LEADING && !h.effects.is_empty();
     posterior.hypotheses.par_iter_mut().filter(leads).for_each(|hypothesis| {
         let likelihood = setup.likelihood(&hypothesis.effects);
         if effort.generations > 0 {
@@ -185,10 +148,11 @@ pub(crate) fn posterior(
     });
     posterior.weigh();
     for round in 0..effort.rounds {
+        let share = posterior.share();
         let open: Vec<bool> = posterior
             .hypotheses
             .iter()
-            .map(|hypothesis| hypothesis.is_open(effort.error))
+            .map(|hypothesis| hypothesis.is_open(effort.error, share))
             .collect();
         if !open.iter().any(|open| *open) {
             break;
@@ -203,11 +167,21 @@ pub(crate) fn posterior(
         posterior.weigh();
         progress(0.6 + 0.4 * (round + 1) as f64 / effort.rounds as f64);
     }
+    let share = posterior.share();
+    let leads =
+        |h: &&mut WeighedHypothesis| h.probability * share > LEADING && !h.effects.is_empty();
+    let (none, others) = posterior.hypotheses.split_at_mut(1);
+    let none = &*none;
+    others.par_iter_mut().filter(leads).for_each(|hypothesis| {
+        exploration.replicate(hypothesis, none);
+    });
+    posterior.weigh();
     posterior.guard(setup, discrepancy);
     // what is reported in detail deserves smooth intervals
     for _ in 0..effort.rounds {
+        let share = posterior.share();
         let worth = |h: &WeighedHypothesis| {
-            h.probability > 0.05
+            h.probability * share > 0.05
                 && !h.effects.is_empty()
                 && h.evidence.effective_sample_size < effort.effective_sample_size
         };
@@ -226,9 +200,10 @@ pub(crate) fn posterior(
 }
 
 impl WeighedHypothesis {
-    /// Whether its probability is not yet known well enough.
-    fn is_open(&self, error: f64) -> bool {
-        let p = self.probability;
+    /// Whether its probability, beside everything else of which this setup has a share, is not yet
+    /// known well enough.
+    fn is_open(&self, error: f64, share: f64) -> bool {
+        let p = self.probability * share;
         if self.evidence.standard_error == 0.0 || self.prior == 0.0 {
             return false;
         }
@@ -310,6 +285,11 @@ impl Posterior {
         self.weigh();
     }
 
+    /// The probability of all hypotheses together beside what else may be true.
+    fn share(&self) -> f64 {
+        elementary::exp(self.ln_evidence - ln_add(self.ln_evidence, self.rivals))
+    }
+
     /// Probabilities from priors and evidences.
     fn weigh(&mut self) {
         let unexplained = ln_weight(self.prior, self.unexplained.ln_evidence);
@@ -321,6 +301,7 @@ impl Posterior {
             hypothesis.probability = elementary::exp(own - total);
         }
         self.probability = elementary::exp(unexplained - total);
+        self.ln_evidence = total;
     }
 
     /// Averages the probabilities over the errors of the integrals.

@@ -33,7 +33,15 @@ pub(crate) struct Mode {
     pub(crate) information: DMatrix<f64>,
 }
 
+/// A mode that is found again counts as better from this gain on.
+const GAIN: f64 = 1e-3;
+
 impl Mode {
+    /// Whether another point is within the neighbourhood of this mode.
+    fn is_near(&self, other: &Self) -> bool {
+        near(&self.information, &self.scores, &other.scores)
+    }
+
     /// The logarithm of the likelihood there.
     pub(crate) fn ln_likelihood(&self) -> f64 {
         -self.cost + 0.5 * self.scores.iter().map(|score| score * score).sum::<f64>()
@@ -95,6 +103,29 @@ pub(crate) fn modes(likelihood: &Likelihood<'_>, starts: &[Vec<f64>], most: usiz
     walkers.into_iter().map(Walker::mode).collect()
 }
 
+/// Adds modes to those that are known, best first and at most `most` of them; whether there was any
+/// among them that is not where a known one is.
+pub(crate) fn join(known: &mut Vec<Mode>, found: Vec<Mode>, most: usize) -> bool {
+    let before = known.len();
+    for mode in found {
+        // a mode that is known better takes the other's position
+        match known.iter_mut().find(|other| other.is_near(&mode) || mode.is_near(other)) {
+            Some(other) if mode.cost < other.cost - GAIN => *other = mode,
+            Some(_) => {}
+            None => known.push(mode),
+        }
+    }
+    let mut new: Vec<bool> = (0..known.len()).map(|n| n >= before).collect();
+    let best = known.iter().map(|mode| mode.cost).fold(f64::INFINITY, f64::min);
+    let mut order: Vec<usize> = (0..known.len()).collect();
+    order.sort_by(|&a, &b| known[a].cost.total_cmp(&known[b].cost));
+    order.retain(|&n| known[n].cost < best + DEPTH);
+    order.truncate(most);
+    let any = order.iter().any(|&n| std::mem::take(&mut new[n]));
+    *known = order.iter().map(|&n| known[n].clone()).collect();
+    any
+}
+
 /// The best points with one score held at its value in the start; the held score with each.
 pub(crate) fn profile(
     likelihood: &Likelihood<'_>,
@@ -143,19 +174,19 @@ fn merge(walkers: &mut Vec<Walker>) {
     walkers.sort_by(|a, b| a.local.cost.total_cmp(&b.local.cost));
     let mut kept: Vec<Walker> = Vec::new();
     for walker in walkers.drain(..) {
-        let same = kept.iter().any(|other| {
-            let difference = DVector::from_iterator(
-                walker.scores.len(),
-                walker.scores.iter().zip(&other.scores).map(|(a, b)| a - b),
-            );
-            let distance = (&other.local.information * &difference).dot(&difference);
-            distance < 0.5 * walker.scores.len() as f64
-        });
+        let same =
+            kept.iter().any(|other| near(&other.local.information, &other.scores, &walker.scores));
         if !same {
             kept.push(walker);
         }
     }
     *walkers = kept;
+}
+
+/// Whether two points are within less than a standard deviation of each other.
+fn near(information: &DMatrix<f64>, here: &[f64], there: &[f64]) -> bool {
+    let difference = DVector::from_iterator(here.len(), here.iter().zip(there).map(|(a, b)| a - b));
+    (information * &difference).dot(&difference) < 0.5 * here.len() as f64
 }
 
 impl Walker {

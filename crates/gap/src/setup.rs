@@ -5,6 +5,7 @@ use super::covariance::Covariance;
 use super::data::{Data, Spread};
 use super::latent::{Map, Role};
 use super::likelihood::Likelihood;
+use super::noise_model::NoiseModel;
 use crate::Case;
 use gumption_engine::distribution::Distribution;
 use gumption_engine::number::elementary;
@@ -50,6 +51,18 @@ impl<'c> Setup<'c> {
         Self::with_data_and_inputs(case, data, unknown_inputs, noise)
     }
 
+    /// The same with another noise.
+    pub(crate) fn with_noise(&self, noise: NoiseModel) -> Self {
+        let mut roles = self.noise_roles();
+        if noise.factor {
+            let stated = &self.data.uncertainties;
+            let outputs = (0..stated.len()).filter(|&output| stated[output].is_some());
+            roles.extend(outputs.map(NoiseModel::role));
+        }
+        let data = Data::of(self.case, self.data.ids.clone(), noise);
+        Self::with_data_and_inputs(self.case, data, self.unknown_inputs.clone(), roles)
+    }
+
     /// With other data of the case, and the unknown quantities of all of them.
     pub(crate) fn with_data_and_inputs(
         case: &'c Case,
@@ -79,6 +92,13 @@ impl<'c> Setup<'c> {
                 (0..root.nrows()).map(row).collect()
             });
         Self { case, data, spread, covariance, linear, unknown_inputs, roles, mixing, ln_sizes }
+    }
+
+    /// Whether an output states uncertainties of which a factor is estimated.
+    pub(crate) fn has_factor(&self, output: usize) -> bool {
+        let observed =
+            self.data.outputs.get(output).and_then(|&of| self.case.observed[of].as_ref());
+        self.data.noise.factor && observed.is_some_and(|of| of.standard_uncertainties.is_some())
     }
 
     /// The likelihood with these effects acting.
@@ -119,7 +139,7 @@ impl<'c> Setup<'c> {
     pub(crate) fn thinned(&self, values: usize) -> Self {
         let step = (self.data.len() / values.max(1)).max(1);
         let ids = self.data.ids.iter().step_by(step).copied().collect();
-        let data = Data::of(self.case, ids);
+        let data = Data::of(self.case, ids, self.data.noise.clone());
         Self::with_data_and_inputs(self.case, data, self.unknown_inputs.clone(), self.noise_roles())
     }
 

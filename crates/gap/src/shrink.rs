@@ -330,7 +330,7 @@ fn fold(
         block.iter().map(|&row| setup.case.task.rows[setup.data.ids[row]].clone()).collect();
     let part = Setup::with_data_and_inputs(
         setup.case,
-        Data::of(setup.case, others),
+        Data::of(setup.case, others, setup.data.noise.clone()),
         setup.unknown_inputs.clone(),
         setup.noise_roles(),
     );

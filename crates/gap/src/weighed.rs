@@ -1,13 +1,16 @@
 //! The hypotheses of a case weighed against its data: the most probable one, and those that the data
 //! cannot tell from it.
 
-use super::diagnosis::{HypothesisKind, MostProbable};
+use super::diagnosis::{HypothesisKind, MostProbable, PriorConflict};
 use super::discrepancy::Discrepancy;
 use super::latent::Role;
-use super::posterior::{self, Effort, Posterior};
+use super::noise_model;
+use super::posterior::{Effort, Posterior};
 use super::predict;
+use super::prior_conflict;
 use super::setup::Setup;
 use super::shrink::Correction;
+use super::weighed_noise::WeighedNoise;
 use crate::Case;
 use gumption_engine::number::elementary;
 use gumption_engine::task::Row;
@@ -25,6 +28,13 @@ const RIVAL: f64 = 1e-4;
 
 /// The hypotheses of a case weighed against its data.
 pub(crate) struct Weighed<'c> {
+    /// Whether wider priors than stated are most probable.
+    pub(crate) prior_conflict: bool,
+    /// Effects whose priors the data contradict.
+    pub(crate) prior_conflicts: Vec<PriorConflict>,
+    /// What the noise may be.
+    pub(crate) noise: WeighedNoise,
+    /// With the noise that is most probable.
     pub(crate) setup: Setup<'c>,
     pub(crate) discrepancy: Discrepancy,
     pub(crate) posterior: Posterior,
@@ -39,15 +49,20 @@ pub(crate) struct Weighed<'c> {
 }
 
 impl<'c> Weighed<'c> {
+    /// `wide` is the case with wider priors.
     pub(crate) fn new(
         case: &'c Case,
+        wide: &'c Case,
         seed: u64,
         effort: Effort,
         progress: &(dyn Fn(f64) + Sync),
     ) -> Self {
-        let setup = Setup::new(case);
-        let discrepancy = Discrepancy::new(&setup);
-        let posterior = posterior::posterior(&setup, &discrepancy, seed, effort, progress);
+        let weighings = noise_model::weighings(case, wide, seed, effort, progress);
+        let prior_conflict = noise_model::is_prior_conflict(&weighings);
+        let prior_conflicts =
+            prior_conflict::conflicts(case, &weighings, super::diagnose::coverage(case));
+        let noise = WeighedNoise::of(&weighings);
+        let (setup, discrepancy, posterior) = noise_model::summed(weighings);
         let best = (0..posterior.hypotheses.len())
             .max_by(|&a, &b| {
                 posterior.hypotheses[a].probability.total_cmp(&posterior.hypotheses[b].probability)
@@ -60,7 +75,18 @@ impl<'c> Weighed<'c> {
             Correction::Unexplained
         };
         let variances = noise_variances(&setup, &posterior, best, explained);
-        Self { setup, discrepancy, posterior, best, explained, correction, variances }
+        Self {
+            prior_conflict,
+            prior_conflicts,
+            noise,
+            setup,
+            discrepancy,
+            posterior,
+            best,
+            explained,
+            correction,
+            variances,
+        }
     }
 
     /// The verdict and what these data cannot tell from it, as places of hypotheses.
@@ -77,7 +103,11 @@ impl<'c> Weighed<'c> {
     }
 
     pub(crate) fn most_probable(&self, group: &[usize]) -> MostProbable {
-        most_probable(&self.setup, &self.posterior, self.best, self.explained, group)
+        let mut verdict =
+            most_probable(&self.setup, &self.posterior, self.best, self.explained, group);
+        verdict.prior_conflict = self.prior_conflict
+            && self.prior_conflicts.iter().any(|of| verdict.effects == [of.effect.as_str()]);
+        verdict
     }
 }
 
@@ -117,7 +147,10 @@ fn noise_variances(
             let output = value % outputs;
             *sum += match stated(value) {
                 Some(u) => u * u,
-                None => elementary::exp(2.0 * (ln[output] + power[output] * setup.ln_sizes[value])),
+                None => {
+                    let ln = ln[output] + power[output] * setup.ln_sizes[value];
+                    elementary::exp(2.0 * (ln + data.ln_scales[value]))
+                }
             };
         }
     }
@@ -226,6 +259,7 @@ fn most_probable(
         return MostProbable {
             kind: HypothesisKind::Unexplained,
             effects: Vec::new(),
+            prior_conflict: false,
             probability: posterior.probability,
             indistinguishable: Vec::new(),
             indistinguishable_probability: posterior.probability,
@@ -239,6 +273,7 @@ fn most_probable(
             HypothesisKind::Explained
         },
         effects: names(setup, &winner.effects),
+        prior_conflict: false,
         probability: winner.probability,
         indistinguishable: group
             .iter()

@@ -8,9 +8,10 @@ use super::effects::{Effects, KnownNoise};
 use super::quantization::quantization_variance;
 use super::recipe::TimeBase;
 use super::residuals::Residuals;
+use super::rounding::{Rounding, noise_before};
 use super::sine_fit::{ToneCoefficients, ToneDesign};
 use super::spurious::Spurious;
-use gumption_engine::number::elementary::hypot;
+use gumption_engine::number::elementary::{exp, hypot, sinh};
 
 /// A frequency in a recording.
 #[derive(Clone, Copy, Debug)]
@@ -22,14 +23,30 @@ pub(super) struct Fundamental {
     pub(super) turning: f64,
     /// In hertz.
     pub(super) hertz: Measured,
+    /// Whether the frequency is stated, and not found in the recording.
+    pub(super) is_stated: bool,
     /// The standard uncertainty of the cycles from a stated frequency.
     pub(super) of_stated: f64,
-    /// The same from noise, where the frequency was estimated.
+    /// The same from noise, where the cycles are the recording's own.
     pub(super) of_estimate: f64,
     /// The same from the sampling rate, for a stated frequency.
     pub(super) of_rate: f64,
     /// The same from cutting at whole samples.
     pub(super) of_cut: f64,
+}
+
+impl Fundamental {
+    /// Takes the cycles that the recording itself tells, with their variance for residuals of variance
+    /// 1. Bins stay where they are.
+    pub(super) fn move_to(&mut self, cycles: f64, variance: f64) {
+        self.turning = cycles;
+        if self.of_cut > 0.0 {
+            self.of_cut = (cycles - self.cycles).abs();
+        } else {
+            self.cycles = cycles;
+        }
+        (self.of_stated, self.of_rate, self.of_estimate) = (0.0, 0.0, variance.sqrt());
+    }
 }
 
 /// A channel's fit with what surrounds it.
@@ -46,11 +63,31 @@ pub(super) struct Analysed {
     pub(super) residuals: Residuals,
     pub(super) fundamentals: Vec<Fundamental>,
     pub(super) spurious: Vec<Spurious>,
+    /// The resolution of the values, stated or seen; 0 where it is not known.
+    pub(super) resolution: f64,
+    /// What rounding to it does, where noise does not blur it.
+    pub(super) rounding: Option<Rounding>,
     /// What the channel's steps did.
     pub(super) effects: Rc<Effects>,
 }
 
 impl Analysed {
+    /// Takes what rounding does into account.
+    pub(super) fn rounded(mut self) -> Self {
+        if self.resolution > 0.0 && self.residuals.known.is_none() {
+            let before = self.noise_before_rounding();
+            self.rounding = Rounding::of(&self.design, &self.fit, self.resolution, before);
+        }
+        self
+    }
+
+    /// The standard deviation of the noise before rounding.
+    pub(super) fn noise_before_rounding(&self) -> f64 {
+        let residuals = &self.residuals;
+        let left = (residuals.variance, residuals.first.as_slice());
+        noise_before(&self.design, &self.fit, self.resolution, left)
+    }
+
     /// The peak amplitude of the strongest tone.
     pub(super) fn strongest(&self) -> f64 {
         let tones = self.fit.cosines.iter().zip(&self.fit.sines);
@@ -59,7 +96,7 @@ impl Analysed {
 }
 
 /// Shares of the residuals' variance that are known to be quantization and jitter.
-pub(super) fn shares(analysed: &Analysed, resolution: f64) -> [f64; 2] {
+pub(super) fn shares(analysed: &Analysed) -> [f64; 2] {
     if let Some(known) = &analysed.residuals.known {
         return known.shares;
     }
@@ -67,12 +104,14 @@ pub(super) fn shares(analysed: &Analysed, resolution: f64) -> [f64; 2] {
     if variance <= 0.0 {
         return [0.0, 0.0];
     }
-    let quantization = (quantization_variance(resolution) / variance).min(1.0);
+    let quantization = (quantization_variance(analysed.resolution) / variance).min(1.0);
     let jitter: f64 = (0..analysed.design.tones.len())
         .map(|tone| {
             let speed = speed(analysed, tone) * analysed.base.jitter;
             let (a, b) = (analysed.fit.cosines[tone], analysed.fit.sines[tone]);
-            speed * speed * (a * a + b * b) / 2.0
+            // half the square of the amplitude before the jitter blurred it, times what it lost
+            let half = speed * speed / 2.0;
+            exp(half) * sinh(half) * (a * a + b * b)
         })
         .sum();
     [quantization, (jitter / variance).min(1.0 - quantization)]
@@ -83,14 +122,14 @@ pub(super) fn speed(analysed: &Analysed, tone: usize) -> f64 {
     2.0 * PI * analysed.design.tones[tone].cycles * analysed.base.rate.value
 }
 
-/// The noise power near a tone over that of white noise of the same variance, where the residuals
-/// are not white and the record is long enough to tell; else 1.
-pub(super) fn local(residuals: &Residuals, tone: usize) -> f64 {
+/// The variances of the cosine's and the sine's factor of a tone over those that white noise of the
+/// same variance gives, where the residuals are not white and the record tells; else 1.
+pub(super) fn local(residuals: &Residuals, tone: usize) -> [f64; 2] {
     if let Some(KnownNoise { factors: Some(factors), .. }) = &residuals.known {
-        return factors.get(tone).copied().unwrap_or(1.0);
+        return [factors.get(tone).copied().unwrap_or(1.0); 2];
     }
     match &residuals.local {
-        Some(local) if residuals.correlated => local.get(tone).copied().unwrap_or(1.0),
-        _ => 1.0,
+        Some(local) if residuals.correlated => local.get(tone).copied().unwrap_or([1.0; 2]),
+        _ => [1.0; 2],
     }
 }

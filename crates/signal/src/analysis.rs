@@ -10,7 +10,7 @@ use super::passes::{InMemorySamples, SampleSource, Selected, gathered};
 use super::quantization::amplitude_error;
 use super::recipe::{Frequency, Method, RecipeSettings, TimeBase};
 use super::residuals::{self, Residuals};
-use super::sine_fit::{NoFit, Tone, ToneDesign};
+use super::sine_fit::{NoFit, Tone, ToneCoefficients, ToneDesign};
 use super::spurious;
 use super::whole_periods::whole_periods;
 use gumption_engine::number::elementary;
@@ -18,6 +18,13 @@ use gumption_engine::number::elementary;
 /// Values of one channel that are held in memory at most (1 GiB): what a channel with steps, or of
 /// a recipe with `"method": "fft"`, may have.
 pub const MOST_HELD: u64 = 1 << 27;
+
+/// Steps by which a stated frequency is brought to the recording's own at most; the error falls as
+/// its square, so that two or three do.
+const MOST_MOVES: u32 = 8;
+
+/// Turns over the record to which it is brought.
+const SETTLED: f64 = 1e-6;
 
 /// Why a row has no observation.
 #[derive(Clone, Debug, PartialEq)]
@@ -201,6 +208,7 @@ impl Group<'_> {
             turning: cycles,
             hertz,
             of_stated: if beside.is_some() { 0.0 } else { hertz.standard_uncertainty / rate.value },
+            is_stated: known,
             of_estimate: 0.0,
             of_rate: if known { cycles * relative } else { 0.0 },
             of_cut: 0.0,
@@ -233,13 +241,15 @@ impl Group<'_> {
         &self,
         fundamentals: &[Fundamental],
         samples: u64,
+        cycles: impl Fn(&Fundamental) -> f64,
     ) -> Result<Vec<Tone>, Refused<E>> {
         let mut tones: Vec<Tone> = Vec::new();
         for asked in [true, false] {
             for (fundamental, of) in fundamentals.iter().enumerate() {
-                for multiple in self.multiples(of.cycles)? {
+                let cycles = cycles(of);
+                for multiple in self.multiples(cycles)? {
                     let is_asked = multiple == 1 || self.settings.components.contains(&multiple);
-                    let cycles = of.cycles * f64::from(multiple);
+                    let cycles = cycles * f64::from(multiple);
                     let near = |tone: &Tone| (tone.cycles - cycles).abs() * (samples as f64) < 0.5;
                     if is_asked == asked && (asked || !tones.iter().any(near)) {
                         tones.push(Tone { cycles, fundamental, multiple });
@@ -256,35 +266,40 @@ impl Group<'_> {
         base: TimeBase,
         mut fundamentals: Vec<Fundamental>,
     ) -> Result<Vec<Analysed>, Refused<P::Error>> {
-        let samples = passes.frames();
-        let tones = self.tones(&fundamentals, samples)?;
-        let design = ToneDesign::new(tones, samples).map_err(|no| self.refusal(no, samples))?;
-        let mut fits = design.fit(passes).map_err(Refused::Unreadable)?;
-        let mut left = residuals::of(&design, passes, &mut fits).map_err(Refused::Unreadable)?;
+        let lead = self.lead().1;
+        let (mut design, mut fits, mut left) =
+            self.at_own_frequencies(passes, &mut fundamentals)?;
+        if fundamentals.iter().any(|of| of.of_cut > 0.0) {
+            // what a fit at the bins' frequencies leaves of the sine is no noise
+            design = self.design(&fundamentals, passes.frames(), |of| of.cycles)?;
+            fits = design.fit(passes).map_err(Refused::Unreadable)?;
+        }
         if let Some(through) = self.through {
-            for (residuals, (channel, _)) in left.iter_mut().zip(self.channels) {
-                let resolution =
-                    self.settings.channels.get(*channel).map_or(0.0, |of| of.resolution);
-                let known = through.noise(&design, residuals, base.rate.value, resolution);
+            for residuals in &mut left {
+                let known = through.noise(&design, residuals, base.rate.value);
                 residuals.known = Some(known);
             }
         }
-        let lead = self.lead().1;
         for (number, of) in fundamentals.iter_mut().enumerate() {
-            let tone = |t: &Tone| t.fundamental == number && t.multiple == 1;
-            let tone = design.tones.iter().position(tone).unwrap_or(0);
             if let Some(residuals) = left.get(lead).filter(|_| of.of_estimate > 0.0) {
-                of.of_estimate *= (residuals.variance * local(residuals, tone)).sqrt();
-                let rate = base.rate;
-                let of_rate = of.hertz.value * rate.standard_uncertainty / rate.value;
-                of.hertz.standard_uncertainty =
-                    elementary::hypot(of.of_estimate * rate.value, of_rate);
+                of.of_estimate *= noise_near(&design, residuals, number);
+                if !of.is_stated {
+                    let rate = base.rate;
+                    let of_rate = of.hertz.value * rate.standard_uncertainty / rate.value;
+                    of.hertz.standard_uncertainty =
+                        elementary::hypot(of.of_estimate * rate.value, of_rate);
+                }
             }
         }
         let design = Rc::new(design);
         let analysed = self.channels.iter().zip(fits).zip(left).map(|((at, fit), residuals)| {
             let spurious = spurious::found(&residuals.first);
+            let stated = self.settings.channels.get(at.0).map_or(0.0, |of| of.resolution);
+            // a step that is seen counts where it is coarser than the stated one
+            let seen = residuals.lattice.filter(|step| *step > 1.5 * stated);
             Analysed {
+                resolution: seen.unwrap_or(stated),
+                rounding: None,
                 channel: at.0,
                 track: self.track,
                 clock: self.clock,
@@ -296,8 +311,74 @@ impl Group<'_> {
                 spurious,
                 effects: self.through.map_or_else(Rc::default, |of| of.effects.clone()),
             }
+            .rounded()
         });
         Ok(analysed.collect())
+    }
+
+    fn design<E>(
+        &self,
+        fundamentals: &[Fundamental],
+        samples: u64,
+        cycles: impl Fn(&Fundamental) -> f64,
+    ) -> Result<ToneDesign, Refused<E>> {
+        let tones = self.tones(fundamentals, samples, cycles)?;
+        ToneDesign::new(tones, samples).map_err(|no| self.refusal(no, samples))
+    }
+
+    /// The fits and what they leave at the frequencies that the recording has. A stated frequency is
+    /// the recording's within its uncertainty (and the rate's): where the recording tells the cycles
+    /// of a sample interval better than these do, they are moved to its own. What a fit beside them
+    /// leaves of the sine would pass for noise.
+    fn at_own_frequencies<P: SampleSource>(
+        &self,
+        passes: &mut P,
+        fundamentals: &mut [Fundamental],
+    ) -> Result<(ToneDesign, Vec<ToneCoefficients>, Vec<Residuals>), Refused<P::Error>> {
+        let samples = passes.frames();
+        let lead = self.lead().1;
+        let as_stated = fundamentals.to_vec();
+        let within = |of: &Fundamental| elementary::hypot(of.of_stated, of.of_rate);
+        let mut may_move: Vec<bool> = as_stated.iter().map(|of| within(of) > 0.0).collect();
+        let mut moves = 0;
+        loop {
+            let design = self.design(fundamentals, samples, |of| of.turning)?;
+            let mut fits = design.fit(passes).map_err(Refused::Unreadable)?;
+            let left = residuals::of(&design, passes, &mut fits).map_err(Refused::Unreadable)?;
+            let Some(residuals) = left.get(lead) else { return Ok((design, fits, left)) };
+            let mut again = false;
+            for (number, of) in fundamentals.iter_mut().enumerate() {
+                if !may_move[number] {
+                    continue;
+                }
+                let Some((step, variance)) = residuals.cycles.get(number).copied() else {
+                    continue;
+                };
+                let stated = as_stated[number];
+                let within = within(&stated);
+                let white = (variance * residuals.variance).sqrt();
+                let off = of.turning + step - stated.turning;
+                let told = 3.0 * white < within && off.abs() < 5.0 * within;
+                if told && moves < MOST_MOVES && step.abs() * samples as f64 > SETTLED {
+                    of.move_to(of.turning + step, variance);
+                    again = true;
+                    continue;
+                }
+                // noise near the oscillation is known when nothing of it is left there
+                let own = variance.sqrt() * noise_near(&design, residuals, number);
+                if told && 3.0 * own < within {
+                    of.move_to(of.turning, variance);
+                } else {
+                    may_move[number] = false;
+                    again |= of.turning != stated.turning;
+                    *of = stated;
+                }
+            }
+            moves += 1;
+            if !again {
+                return Ok((design, fits, left));
+            }
+        }
     }
 
     /// The bins of the discrete Fourier transform of a whole number of periods: over such a part a
@@ -330,13 +411,7 @@ impl Group<'_> {
 impl Through {
     /// The noise after the steps. Where it was white before them it is theirs; where it was not, it
     /// is measured after them, or before them, or taken as even over what the steps let pass.
-    fn noise(
-        &self,
-        design: &ToneDesign,
-        after: &Residuals,
-        rate: f64,
-        resolution: f64,
-    ) -> KnownNoise {
+    fn noise(&self, design: &ToneDesign, after: &Residuals, rate: f64) -> KnownNoise {
         let before = &self.before.residuals;
         let frequencies: Vec<f64> =
             [0.0].into_iter().chain(design.tones.iter().map(|tone| tone.cycles * rate)).collect();
@@ -349,17 +424,23 @@ impl Through {
         let (level, tones) = coloured.densities.split_first().unwrap_or((&1.0, &[]));
         let white = over(before.variance);
         let even = 1.0 / coloured.power.max(f64::MIN_POSITIVE);
-        let (factors, freedom, scale) = match (&before.local, &after.local) {
+        let (factors, freedom, scale) = match (before.is_measured(), after.is_measured()) {
             _ if !before.correlated => (Some(white), before.degrees_of_freedom, white),
-            (Some(_), Some(_)) => (None, 0.0, white),
+            (true, true) => (None, 0.0, white),
             _ => (Some(even), (coloured.freedom - 3.0).max(1.0), even),
         };
-        let shares = shares(&self.before, resolution);
-        let noise = (before.variance * (1.0 - shares[0] - shares[1]).max(0.0)).sqrt();
+        let shares = shares(&self.before);
+        let resolution = self.before.resolution;
+        let strongest = self.before.strongest().max(resolution);
         let rounding = if resolution > 0.0 {
-            amplitude_error(resolution, self.before.strongest().max(resolution), noise)
+            amplitude_error(resolution, strongest, self.before.noise_before_rounding())
         } else {
             0.0
+        };
+        // the record's own instants, where they fall on few phases
+        let own = |tone: usize| {
+            let of = self.before.rounding.as_ref().and_then(|of| of.tones.get(tone));
+            of.map_or(0.0, |[a, _, b]| f64::midpoint(*a, *b).sqrt())
         };
         KnownNoise {
             factors: factors.map(|factor| tones.iter().map(|d| factor * d).collect()),
@@ -367,9 +448,21 @@ impl Through {
             level: scale * level,
             of_residuals: (coloured.freedom - 1.0 - 2.0 * tones.len() as f64).max(1.0),
             shares,
-            rounding: tones.iter().map(|d| rounding * d.sqrt()).collect(),
+            rounding: tones
+                .iter()
+                .enumerate()
+                .map(|(k, d)| rounding.max(own(k)) * d.sqrt())
+                .collect(),
         }
     }
+}
+
+/// The standard deviation of white noise as strong as a channel's is near a fundamental.
+fn noise_near(design: &ToneDesign, residuals: &Residuals, fundamental: usize) -> f64 {
+    let tone = |t: &Tone| t.fundamental == fundamental && t.multiple == 1;
+    let tone = design.tones.iter().position(tone).unwrap_or(0);
+    let [of_cosine, of_sine] = local(residuals, tone);
+    (residuals.variance * f64::midpoint(of_cosine, of_sine)).sqrt()
 }
 
 /// A refusal of something in memory, which cannot be unreadable.

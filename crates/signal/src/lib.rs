@@ -48,8 +48,8 @@ mod unsuitable;
 mod values;
 
 use fit::{
-    dirichlet, frequency, periodic, polar, quantization, residuals, sine_fit, spurious, turns,
-    whole_periods,
+    coloured, common_noise, dirichlet, frequency, lattice, periodic, polar, quantization,
+    residuals, rounding, sine_fit, spurious, turns, whole_periods,
 };
 use steps::{
     butterworth, changed, correction, delay, derivative, noise, resimulation, rms, rotation,

@@ -299,7 +299,7 @@ fn notes(settings: &RecipeSettings, analysed: &[Analysed]) -> Vec<Note> {
                 elementary::hypot(fundamental.of_stated, fundamental.of_rate),
                 fundamental.of_cut,
             );
-            let noise = (variance * residuals.variance * local(residuals, 0).max(1.0)).sqrt();
+            let noise = (variance * residuals.variance * local(residuals, 0)[0].max(1.0)).sqrt();
             if fundamental.of_estimate == 0.0 && step.abs() > 5.0 * elementary::hypot(stated, noise)
             {
                 let hertz = |cycles: f64| cycles * of.base.rate.value;

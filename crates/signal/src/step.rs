@@ -4,7 +4,7 @@ use super::effects::StepEffect;
 use super::found;
 use super::surroundings::{Finding, Surroundings};
 use super::whole_periods::whole_periods;
-use super::{Butterworth, Correction, Derivative, Measured, Response, Rotation, Signal};
+use super::{Butterworth, Correction, Derivative, Measured, Periodic, Response, Rotation, Signal};
 
 /// What may be left of a filter's start, of the signal's greatest distance from its mean.
 const TRANSIENT: f64 = 1e-6;
@@ -131,8 +131,8 @@ impl ChannelStep {
     pub fn apply(&self, signal: Signal, surroundings: Surroundings<'_>) -> Result<Stepped, String> {
         let only = |signal| Ok(Stepped { signal, findings: Vec::new(), effect: None });
         match self {
-            Self::RemoveMean => only(without_line(signal, false)),
-            Self::RemoveTrend => only(without_line(signal, true)),
+            Self::RemoveMean => only(without_mean(signal)),
+            Self::RemoveTrend => only(without_trend(signal, surroundings)),
             Self::WholePeriods => {
                 let cycles = surroundings.frequency / signal.rate;
                 let part = whole_periods(&signal.values, cycles).ok_or_else(|| {
@@ -243,19 +243,35 @@ impl Signal {
     }
 }
 
-/// The signal less its mean, or less its straight line of least squares.
-fn without_line(mut signal: Signal, trend: bool) -> Signal {
-    let count = signal.values.len().max(1) as f64;
-    let mean = signal.values.iter().sum::<f64>() / count;
-    let middle = (count - 1.0) / 2.0;
-    let moment: f64 =
-        signal.values.iter().enumerate().map(|(i, v)| (i as f64 - middle) * (v - mean)).sum();
-    let squares = count * (count * count - 1.0) / 12.0;
-    let slope = if trend && squares > 0.0 { moment / squares } else { 0.0 };
-    for (i, value) in signal.values.iter_mut().enumerate() {
-        *value -= mean + slope * (i as f64 - middle);
-    }
+/// The signal less its mean.
+fn without_mean(mut signal: Signal) -> Signal {
+    let mean = signal.values.iter().sum::<f64>() / signal.values.len().max(1) as f64;
+    signal.values.iter_mut().for_each(|value| *value -= mean);
     signal
+}
+
+/// The signal less its straight line of least squares, fitted together with the oscillation and its
+/// multiples where they are one: part of a period has a slope of its own, and a line that took it
+/// would leave of the oscillation what looks like noise.
+fn without_trend(mut signal: Signal, surroundings: Surroundings<'_>) -> Signal {
+    let middle = (signal.values.len() as f64 - 1.0) / 2.0;
+    let line = Signal {
+        values: (0..signal.values.len()).map(|i| i as f64 - middle).collect(),
+        ..signal.clone()
+    };
+    let rest = |signal: &Signal| match Periodic::fit(signal, surroundings.harmonics(signal)) {
+        Ok(periodic) if surroundings.frequencies == 1 => periodic.without(signal),
+        // no period to tell from a line, or several frequencies
+        _ => without_mean(signal.clone()).values,
+    };
+    let (of_line, of_signal) = (rest(&line), rest(&signal));
+    let squares: f64 = of_line.iter().map(|t| t * t).sum();
+    let moment: f64 = of_line.iter().zip(&of_signal).map(|(t, y)| t * y).sum();
+    let slope = if squares > 0.0 { moment / squares } else { 0.0 };
+    for (value, t) in signal.values.iter_mut().zip(&line.values) {
+        *value -= slope * t;
+    }
+    without_mean(signal)
 }
 
 #[cfg(test)]

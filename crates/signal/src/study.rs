@@ -138,6 +138,15 @@ impl Errors {
         self.stated.push(found.standard_uncertainty);
     }
 
+    /// The root mean square of the errors over their standard uncertainties.
+    pub(super) fn score(&self) -> f64 {
+        let squares = self.errors.iter().zip(&self.stated).map(|(error, u)| {
+            let score = error / u;
+            score * score
+        });
+        (squares.sum::<f64>() / self.errors.len() as f64).sqrt()
+    }
+
     /// Passes, or says what it found; prints it for a whole study. With little noise in a
     /// converter's step, u may be too large: the distortion that rounding leaves is in the residuals,
     /// but hardly pulls a phase or a rate.

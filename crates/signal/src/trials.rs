@@ -1,6 +1,6 @@
-//! The check by Monte Carlo: amplitudes, phases and distortion of fits whose factors are drawn with
-//! the recording's own noise (the factors of a linear fit are normal whatever the record's length, so
-//! drawing them is drawing recordings).
+//! The check by Monte Carlo: amplitudes, phases and distortion of fits whose phasors are drawn with
+//! the recording's own noise, along and across each with its own contributions (the factors of a
+//! linear fit are normal whatever the record's length, so drawing them is drawing recordings).
 
 use std::f64::consts::PI;
 
@@ -61,13 +61,16 @@ pub(super) fn scatter(
                 let multiple = f64::from(analysed.design.tones[polar.tone].multiple);
                 let x = PI * multiple * samples * detuned;
                 let fall = if x.abs() > 1e-6 { sin(x) / x } else { 1.0 };
-                let [sa, sb] = polar.scatter;
-                (a * fall + sa * normals.next(), b * fall + sb * normals.next())
+                let size = hypot(a, b);
+                let (ca, cb) = if size > 0.0 { (a / size, b / size) } else { (1.0, 0.0) };
+                let [along, across] = polar.scatter;
+                let (fore, aside) = (along * normals.next(), across * normals.next());
+                (a * fall + ca * fore - cb * aside, b * fall + cb * fore + ca * aside)
             })
             .collect();
         for (number, (polar, factors)) in tones.iter().zip(&drawn).enumerate() {
             let (a, b) = plain(polar);
-            let amplitude = hypot(factors.0, factors.1) - hypot(a, b);
+            let amplitude = (hypot(factors.0, factors.1) - hypot(a, b)) / polar.blur;
             let phase = wrapped(atan2(-factors.1, factors.0) - atan2(-b, a));
             scatter.amplitudes[number] += amplitude * amplitude;
             scatter.phases[number] += phase * phase;

@@ -3,8 +3,9 @@
 use std::f64::consts::{LN_10, PI};
 
 use super::Measured;
-use super::analysed::Analysed;
+use super::analysed::{Analysed, shares};
 use super::budget::{BudgetedValue, UncertaintySource};
+use super::common_noise::correlation;
 use super::observation::{ChannelObservation, ToneComponent};
 use super::phasor::wrapped;
 use super::polar::{Polar, polar};
@@ -176,10 +177,28 @@ fn phase(
         polar.slope * of.of_stated,
         (polar.slope * of.of_rate, 0.0),
     );
+    // the part of this channel's own noise that is no noise of the difference
+    let mut common = 0.0;
     if let Some((reference, root)) = root {
         value -= times * root.phase;
         for (source, _, across) in &root.own {
             join(&mut parts, *source, times * across);
+        }
+        let of = |polar: &Polar| {
+            let noise = polar.own.iter().find(|(source, ..)| *source == UncertaintySource::Noise);
+            noise.map_or(0.0, |(_, _, across)| *across)
+        };
+        let cycles = analysed.design.tones.get(polar.tone).map_or(0.0, |tone| tone.cycles);
+        let (own, other) = (of(polar), of(root));
+        let both = own * own + other * other;
+        let correlation =
+            (times == 1.0).then(|| correlation(analysed, reference, cycles)).flatten();
+        if let Some(correlation) = correlation.filter(|_| both > 0.0) {
+            let shared = 2.0 * correlation * own * other;
+            common = shared * own * own / both;
+            for (_, u) in parts.iter_mut().filter(|(of, _)| *of == UncertaintySource::Noise) {
+                *u = (*u * *u - shared).max(0.0).sqrt();
+            }
         }
         for (source, _, across) in &root.steps {
             join(&mut parts, *source, times * across);
@@ -203,13 +222,11 @@ fn phase(
     let total = BudgetedValue::new(wrapped(value), parts, noise_dof);
     match trials {
         Some((_, drawn)) => {
-            // the trials draw this channel's own noise; everything else is as it is
+            // the trials draw this channel's own noise, of which the part counts that the reference
+            // does not have as well; everything else is as it is
             let u = total.measured.standard_uncertainty;
-            let rest = (u * u - own).max(0.0);
-            let jitter =
-                polar.own.iter().filter(|(source, ..)| *source == UncertaintySource::Jitter);
-            let extra: f64 = jitter.map(|(_, _, u)| u * u / 3.0).sum();
-            total.checked((drawn * drawn + extra + rest).sqrt())
+            let more = if own > 0.0 { drawn * drawn / own - 1.0 } else { 0.0 };
+            total.checked((u * u + (own - common) * more).max(0.0).sqrt())
         }
         None => total,
     }
@@ -225,18 +242,32 @@ fn delay(phase: &BudgetedValue, frequency: Measured) -> BudgetedValue {
 fn offset(settings: &RecipeSettings, analysed: &Analysed, noise_dof: f64) -> BudgetedValue {
     let residuals = &analysed.residuals;
     let scale = settings.channels.get(analysed.channel).map_or(0.0, |c| c.scale_uncertainty);
-    // the noise at zero frequency over that of white noise, from the autocorrelation
-    let slow = 1.0 + 2.0 * residuals.autocorrelation.iter().sum::<f64>();
-    let slow = match &residuals.known {
-        Some(known) => known.level,
-        None if residuals.correlated => slow.max(0.1),
-        None => 1.0,
+    // at zero frequency noise is as strong as a model of it says, or as steps make it of white noise
+    let white = residuals.variance * analysed.design.even[(0, 0)];
+    let (noise, noise_dof) = match (&residuals.known, &residuals.coloured) {
+        (Some(known), _) => (white * known.level, noise_dof),
+        (None, Some(coloured)) => (coloured.level, coloured.freedom),
+        (None, None) => (white, residuals.degrees_of_freedom),
     };
-    let noise = (residuals.variance * slow * analysed.design.even[(0, 0)]).sqrt();
     let value = analysed.fit.offset;
     let scale = scale * analysed.effects.power_of_scale();
-    let parts =
-        vec![(UncertaintySource::Noise, noise), (UncertaintySource::Scale, value.abs() * scale)];
+    let [quantization, _] = shares(analysed);
+    let (repeated, rounded) =
+        analysed.rounding.as_ref().map_or((0.0, 0.0), |of| (of.repeated, of.offset));
+    let quantized = noise * quantization * (1.0 - repeated) + rounded;
+    let mut parts = vec![
+        (UncertaintySource::Noise, (noise * (1.0 - quantization)).sqrt()),
+        (UncertaintySource::Quantization, quantized.sqrt()),
+        (UncertaintySource::Scale, value.abs() * scale),
+    ];
+    // a fit at another frequency than the oscillation's takes some of it for a constant
+    for (number, of) in analysed.fundamentals.iter().enumerate() {
+        let slope = analysed.design.slope(&analysed.fit, number).offset.abs();
+        let tuned = hypot(of.of_stated, of.of_estimate);
+        join(&mut parts, UncertaintySource::Frequency, slope * tuned);
+        join(&mut parts, UncertaintySource::SamplingRate, slope * of.of_rate);
+        join(&mut parts, UncertaintySource::Leakage, slope * of.of_cut);
+    }
     BudgetedValue::new(value, parts, noise_dof)
 }
 
@@ -311,12 +342,15 @@ fn ratio(analysed: &Analysed, tones: &[Polar], with_multiples: bool) -> Budgeted
         None => residuals.degrees_of_freedom / spread,
     };
     let of_noise = (2.0 / freedom).sqrt() * noise / disturbance;
+    // the variance of an amplitude, but for the scale, which all have in common
+    let along = |polar: &Polar| {
+        let own = polar.own.iter().map(|(_, u, _)| u * u).sum::<f64>();
+        let shared = polar.shared.iter().filter(|(source, _)| *source != UncertaintySource::Scale);
+        own + shared.map(|(_, u)| u * u).sum::<f64>()
+    };
     let of_multiples: f64 =
-        above.map(|polar| 2.0 * power(&polar) * scatter(polar)).sum::<f64>().sqrt() / disturbance;
-    let first = tones.first().map_or(0.0, |polar| {
-        let along: f64 = polar.own.iter().map(|(_, u, _)| u * u).sum();
-        2.0 * along.sqrt() / amplitude
-    });
+        above.map(|polar| 2.0 * power(&polar) * along(polar)).sum::<f64>().sqrt() / disturbance;
+    let first = tones.first().map_or(0.0, |polar| 2.0 * along(polar).sqrt() / amplitude);
     let u = decibel * hypot(hypot(of_noise, of_multiples), first);
     BudgetedValue::new(value, vec![(UncertaintySource::Noise, u)], residuals.degrees_of_freedom)
 }

@@ -62,6 +62,17 @@ impl Dimension {
         *self == Self::NONE
     }
 
+    /// Whether this is the dimension of a plain number or of a power of time.
+    pub fn is_of_time(&self) -> bool {
+        self.exponents.iter().enumerate().all(|(base, exponent)| base == 2 || exponent.is_zero())
+    }
+
+    /// The exponent of the thermodynamic temperature.
+    pub fn of_temperature(&self) -> Exponent {
+        let [.., of_temperature, _, _] = self.exponents;
+        of_temperature
+    }
+
     /// The dimension of a product of two quantities; `None` if an exponent leaves the range of
     /// [`Exponent`].
     pub fn checked_mul(self, other: Self) -> Option<Self> {
@@ -103,6 +114,14 @@ impl Dimension {
     /// kinds of quantity the commonest are named: `an energy or a torque`.
     pub fn quantity(&self) -> Option<&'static str> {
         QUANTITIES.iter().find(|(d, _)| d == self).map(|(_, words)| *words)
+    }
+
+    /// The coherent unit that a quantity of this dimension is usually given in: `W` and not
+    /// `kg m^2 s^-3`; the base units where there is no one name. Of a frequency or a rate it is `Hz`,
+    /// of an energy or a torque `J`.
+    pub fn usual_unit(&self) -> String {
+        let usual = USUAL_UNITS.iter().find(|(dimension, _)| dimension == self);
+        usual.map_or_else(|| self.to_string(), |(_, unit)| (*unit).to_owned())
     }
 
     /// Words for an error message: `an acceleration (m s^-2)`, `a plain number`, or
@@ -157,6 +176,37 @@ impl fmt::Debug for Dimension {
         write!(f, "Dimension({self})")
     }
 }
+
+/// Coherent units with usual names (SI Brochure, 9th ed., tables 4 and 5).
+const USUAL_UNITS: &[(Dimension, &str)] = &[
+    row([0, 0, -1, 0, 0, 0, 0], "Hz"),
+    row([0, 1, -1, 0, 0, 0, 0], "m/s"),
+    row([0, 1, -2, 0, 0, 0, 0], "m/s^2"),
+    row([0, 3, -1, 0, 0, 0, 0], "m^3/s"),
+    row([1, -3, 0, 0, 0, 0, 0], "kg/m^3"),
+    row([1, 1, -2, 0, 0, 0, 0], "N"),
+    row([1, -1, -2, 0, 0, 0, 0], "Pa"),
+    row([1, 0, -2, 0, 0, 0, 0], "N/m"),
+    row([1, -1, -1, 0, 0, 0, 0], "Pa*s"),
+    row([1, 2, -2, 0, 0, 0, 0], "J"),
+    row([1, 2, -3, 0, 0, 0, 0], "W"),
+    row([1, 0, -3, 0, 0, 0, 0], "W/m^2"),
+    row([0, 0, 1, 1, 0, 0, 0], "C"),
+    row([1, 2, -3, -1, 0, 0, 0], "V"),
+    row([1, 1, -3, -1, 0, 0, 0], "V/m"),
+    row([1, 2, -3, -2, 0, 0, 0], "ohm"),
+    row([1, 3, -3, -2, 0, 0, 0], "ohm*m"),
+    row([-1, -2, 3, 2, 0, 0, 0], "S"),
+    row([-1, -2, 4, 2, 0, 0, 0], "F"),
+    row([1, 2, -2, -2, 0, 0, 0], "H"),
+    row([1, 2, -2, -1, 0, 0, 0], "Wb"),
+    row([1, 0, -2, -1, 0, 0, 0], "T"),
+    row([1, 2, -3, -1, -1, 0, 0], "V/K"),
+    row([1, 2, -2, 0, -1, 0, 0], "J/K"),
+    row([0, 2, -2, 0, -1, 0, 0], "J/(kg*K)"),
+    row([1, 1, -3, 0, -1, 0, 0], "W/(m*K)"),
+    row([0, 0, -1, 0, 0, 1, 0], "kat"),
+];
 
 /// One row of [`QUANTITIES`].
 const fn row(exponents: [i8; 7], words: &'static str) -> (Dimension, &'static str) {

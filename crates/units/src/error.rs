@@ -255,10 +255,14 @@ pub struct IncompatibleUnits {
     pub from: String,
     /// Its dimension.
     pub from_dimension: Dimension,
+    /// What it measures, in words.
+    pub from_is: String,
     /// The text of the unit to convert to.
     pub to: String,
     /// Its dimension.
     pub to_dimension: Dimension,
+    /// What that measures, in words.
+    pub to_is: String,
 }
 
 impl Error for IncompatibleUnits {}
@@ -268,10 +272,7 @@ impl fmt::Display for IncompatibleUnits {
         write!(
             f,
             "`{}` measures {} and `{}` {}; one cannot be converted to the other",
-            self.from,
-            self.from_dimension.describe(),
-            self.to,
-            self.to_dimension.describe()
+            self.from, self.from_is, self.to, self.to_is
         )
     }
 }

@@ -9,9 +9,10 @@
 //!
 //! Three things to know:
 //!
-//! * `degC` has the dimension of temperature and the factor 1. Nothing here ever adds 273.15: a
-//!   difference of 1 degC is 1 K, and a model that needs thermodynamic temperatures must say so;
-//!   [`Unit::is_celsius`] tells.
+//! * `degC` has the dimension of temperature and the factor 1, because a difference of 1 degC is
+//!   1 K. What is a value and not a difference counts from a zero of its own, [`Unit::zero`]:
+//!   [`Unit::convert`] adds 273.15, factors never do. So do `degF` and levels such as `dBm`.
+//! * Levels in `dB` and `Np` are numbers without being ratios; they convert into each other only.
 //! * Angles are dimensionless, so `deg`, `rad`, `%` and `1` convert into each other.
 //! * `g` is the gram and `mg` the milligram; the standard acceleration of free fall is `g_n`.
 
@@ -29,6 +30,7 @@ mod scale;
 mod suggest;
 #[cfg(test)]
 mod tests;
+mod zero;
 
 use std::fmt;
 use std::str::FromStr;
@@ -39,6 +41,7 @@ pub use exponent::Exponent;
 pub use factor::{Factor, FactorBase};
 pub use names::{Prefix, Symbol};
 pub use nearest::{all_nearest, nearest};
+pub use zero::{Turn, Zero};
 
 use names::{Flavour, Meaning};
 use scale::Scale;
@@ -149,9 +152,66 @@ impl Unit {
         self.factor
     }
 
-    /// Whether the unit is the degree Celsius on its own. `W/degC` is not.
+    /// Whether the unit is the degree Celsius or Fahrenheit on its own. `W/degC` is not.
     pub fn is_celsius(&self) -> bool {
         self.flavour == Flavour::Celsius
+    }
+
+    /// The zero that values in the unit count from: that of the Celsius scale for `degC` and `degF`,
+    /// the reference for `dBm`. `None` for every other unit.
+    pub fn zero(&self) -> Option<Zero> {
+        match self.flavour {
+            Flavour::Celsius => Some(Zero::Celsius),
+            Flavour::Level(zero) => zero,
+            Flavour::Plain | Flavour::Relative => None,
+        }
+    }
+
+    /// The exponent of the decibels (or nepers) in the unit: 1 for `dB` and `dB/m`, 0 without any.
+    pub fn level_exponent(&self) -> Exponent {
+        self.exponent_of(|flavour| matches!(flavour, Flavour::Level(_)))
+    }
+
+    /// The exponent of the degrees Celsius (or Fahrenheit) in the unit: -1 for `ppm/degC`.
+    pub fn celsius_exponent(&self) -> Exponent {
+        self.exponent_of(|flavour| flavour == Flavour::Celsius)
+    }
+
+    /// The exponent that the symbols of a kind have together; 0 if that is out of range.
+    fn exponent_of(&self, is_of_kind: impl Fn(Flavour) -> bool) -> Exponent {
+        let of_kind = self.factors.iter().filter(|factor| match factor.base {
+            FactorBase::Named { symbol, .. } => is_of_kind(symbol.flavour),
+            FactorBase::Number(_) => false,
+        });
+        let sum = of_kind
+            .map(|factor| factor.exponent)
+            .try_fold(Exponent::ZERO, |sum, exponent| sum.checked_add(exponent));
+        sum.unwrap_or(Exponent::ZERO)
+    }
+
+    /// What numbers in the unit count, for plain numbers and for powers of time: angle in `rad`,
+    /// `deg/s`, `rpm`, periods in `Hz`; `None` for `1/s`, `Bq`, and for other dimensions.
+    pub fn turn(&self) -> Option<Turn> {
+        let of = |wanted: fn(&str) -> bool| {
+            let exponents = self.factors.iter().filter_map(|factor| match factor.base {
+                FactorBase::Named { symbol, .. } if wanted(symbol.name()) => Some(factor.exponent),
+                _ => None,
+            });
+            exponents.into_iter().try_fold(Exponent::ZERO, Exponent::checked_add)
+        };
+        match (of(is_angle)?, of(|name| name == "Hz")?) {
+            _ if !self.dimension.is_of_time() => None,
+            (Exponent::ONE, Exponent::ZERO) => Some(Turn::Angle),
+            (Exponent::ZERO, Exponent::ONE) => Some(Turn::Periods),
+            _ => None,
+        }
+    }
+
+    /// What is added to a value in the unit, times its size, for the number that formulas compute
+    /// with: -160/9 for `degF`, and 0 for every other unit.
+    pub fn offset(&self) -> f64 {
+        let is_fahrenheit = self.flavour == Flavour::Celsius && self.factor != 1.0;
+        if is_fahrenheit { FAHRENHEIT_OFFSET } else { 0.0 }
     }
 
     /// Whether the unit is `%`, `‰`, `ppm` or `ppb` on its own. `ppm/K` is not.
@@ -186,9 +246,77 @@ impl Unit {
         }
     }
 
-    /// Whether the other unit has the same dimension.
+    /// A value in this unit as the number that formulas compute with: as [`Unit::to_si`], and for
+    /// degrees Fahrenheit the number of degrees Celsius.
+    pub fn value_to_si(&self, value: f64) -> f64 {
+        match self.offset() {
+            0.0 => self.to_si(value),
+            _ => self.to_si(value - FAHRENHEIT_ZERO),
+        }
+    }
+
+    /// The number that formulas compute with as a value in this unit: as [`Unit::from_si`], and for
+    /// degrees Fahrenheit from the number of degrees Celsius.
+    pub fn value_from_si(&self, value: f64) -> f64 {
+        match self.offset() {
+            0.0 => self.from_si(value),
+            _ => self.from_si(value) + FAHRENHEIT_ZERO,
+        }
+    }
+
+    /// A value in the unit `from`, converted to the unit `to` with the zeros of their scales:
+    /// 20 degC is 293.15 K, and 68 degF.
+    ///
+    /// For widths and differences use [`Unit::conversion_factor`].
+    ///
+    /// # Errors
+    ///
+    /// [`IncompatibleUnits`] if the dimensions differ, if the levels have references that are not
+    /// levels of one kind of quantity, or if one is a frequency in `Hz` and the other counts angle.
+    pub fn convert(value: f64, from: &Self, to: &Self) -> Result<f64, IncompatibleUnits> {
+        let incompatible = || Self::incompatible(from, to);
+        let counts_alike = match (from.turn(), to.turn()) {
+            (Some(from), Some(to)) => from == to,
+            _ => true,
+        };
+        if !from.is_compatible(to) || !counts_alike {
+            return Err(incompatible());
+        }
+        let shift = Zero::shift(from.zero(), to.zero()).ok_or_else(incompatible)?;
+        if shift == 0.0 && from.offset() == 0.0 && to.offset() == 0.0 {
+            return Ok(value * Self::conversion_factor(from, to)?);
+        }
+        Ok(to.value_from_si(from.value_to_si(value) + shift))
+    }
+
+    /// Words for an error message: what the unit measures.
+    pub fn describe(&self) -> String {
+        match (self.flavour, self.turn()) {
+            (Flavour::Level(_), _) => format!("a level ({})", self.text.trim()),
+            _ if self.dimension.is_none() && !self.level_exponent().is_zero() => {
+                "a level".to_owned()
+            }
+            (_, Some(Turn::Periods)) => "a frequency, which counts periods".to_owned(),
+            (_, Some(Turn::Angle)) if self.dimension.is_none() => "an angle".to_owned(),
+            (_, Some(Turn::Angle)) => "an angular velocity, which counts angle".to_owned(),
+            _ => self.dimension.describe(),
+        }
+    }
+
+    fn incompatible(from: &Self, to: &Self) -> IncompatibleUnits {
+        IncompatibleUnits {
+            from: from.text.clone(),
+            from_dimension: from.dimension,
+            from_is: from.describe(),
+            to: to.text.clone(),
+            to_dimension: to.dimension,
+            to_is: to.describe(),
+        }
+    }
+
+    /// Whether the other unit has the same dimension, and is one of levels if this one is.
     pub fn is_compatible(&self, other: &Self) -> bool {
-        self.dimension == other.dimension
+        self.dimension == other.dimension && self.level_exponent() == other.level_exponent()
     }
 
     /// What a value in the unit `from` is to be multiplied by to get it in the unit `to`: 1000 from
@@ -197,19 +325,25 @@ impl Unit {
     ///
     /// # Errors
     ///
-    /// [`IncompatibleUnits`] if the dimensions differ.
+    /// [`IncompatibleUnits`] if the dimensions differ, or if one only is a level.
     pub fn conversion_factor(from: &Self, to: &Self) -> Result<f64, IncompatibleUnits> {
         if !from.is_compatible(to) {
-            return Err(IncompatibleUnits {
-                from: from.text.clone(),
-                from_dimension: from.dimension,
-                to: to.text.clone(),
-                to_dimension: to.dimension,
-            });
+            return Err(Self::incompatible(from, to));
         }
         let exact = to.scale.inverse().and_then(|inverse| from.scale.times(inverse));
         Ok(exact.map_or(from.factor / to.factor, Scale::value))
     }
+}
+
+/// 0 degC in degF.
+const FAHRENHEIT_ZERO: f64 = 32.0;
+
+/// 0 degF in degC.
+const FAHRENHEIT_OFFSET: f64 = -160.0 / 9.0;
+
+/// Whether a symbol is a unit of plane angle, or a rate of one.
+fn is_angle(name: &str) -> bool {
+    matches!(name, "rad" | "deg" | "arcmin" | "arcsec" | "gon" | "rev" | "turn" | "rpm")
 }
 
 impl Default for Unit {

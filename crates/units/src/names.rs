@@ -2,16 +2,19 @@
 
 use super::dimension::Dimension;
 use super::scale::Scale;
+use super::zero::Zero;
 
 /// What a unit is besides its size.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Flavour {
     /// Nothing special.
     Plain,
-    /// Degrees Celsius.
+    /// Degrees Celsius or Fahrenheit.
     Celsius,
     /// A fraction of something: %, ppm, ...
     Relative,
+    /// A level in decibels or nepers, above a reference or as a difference.
+    Level(Option<Zero>),
 }
 
 /// A unit with a symbol of its own, in every spelling that is read, and its names elsewhere.
@@ -140,6 +143,21 @@ const fn relative(name: &'static str, decimal: i32) -> Symbol {
     Symbol { flavour: Flavour::Relative, ..bare(name, NUMBER, (1, 1), decimal) }
 }
 
+/// A level, `digits * 10^decimal` decibels.
+const fn level(name: &'static str, zero: Option<Zero>, digits: u64, decimal: i32) -> Symbol {
+    Symbol { flavour: Flavour::Level(zero), ..bare(name, NUMBER, (digits, 1), decimal) }
+}
+
+/// A level in decibels above a reference.
+const fn above(name: &'static str, reference: Zero) -> Symbol {
+    level(name, Some(reference), 1, 0)
+}
+
+/// The degree Fahrenheit.
+const fn fahrenheit(name: &'static str) -> Symbol {
+    Symbol { flavour: Flavour::Celsius, ..bare(name, TEMPERATURE, (5, 9), 0) }
+}
+
 /// The degree Celsius.
 const fn celsius(name: &'static str) -> Symbol {
     Symbol {
@@ -163,6 +181,8 @@ const ACCELERATION: [i8; 7] = [0, 1, -2, 0, 0, 0, 0];
 const FORCE: [i8; 7] = [1, 1, -2, 0, 0, 0, 0];
 const PRESSURE: [i8; 7] = [1, -1, -2, 0, 0, 0, 0];
 const ENERGY: [i8; 7] = [1, 2, -2, 0, 0, 0, 0];
+const POWER: [i8; 7] = [1, 2, -3, 0, 0, 0, 0];
+const CHARGE: [i8; 7] = [0, 0, 1, 1, 0, 0, 0];
 const RESISTANCE: [i8; 7] = [1, 2, -3, -2, 0, 0, 0];
 const DOSE: [i8; 7] = [0, 2, -2, 0, 0, 0, 0];
 
@@ -171,7 +191,9 @@ const DOSE: [i8; 7] = [0, 2, -2, 0, 0, 0, 0];
 /// Base and named derived units: SI Brochure, 9th ed., tables 2 and 4. Non-SI units accepted for
 /// use with the SI: table 8. The standard acceleration of free fall, 9.80665 m/s^2, is that of the
 /// 3rd CGPM (1901). The conventional millimetre of mercury, the inch, foot, pound, pound-force and
-/// psi follow NIST SP 811, appendix B; the atmosphere is 101 325 Pa and the torr 1/760 of it.
+/// psi follow NIST SP 811, appendix B; the atmosphere is 101 325 Pa and the torr 1/760 of it. The
+/// conventional inch of mercury is 25.4 mmHg; columns of water are of 1000 kg/m^3 under g_n. The
+/// year is the Julian one of 365.25 days, the month a twelfth of it. The neper is 20/ln(10) dB.
 #[rustfmt::skip]
 pub(super) static SYMBOLS: &[Symbol] = &[
     // SI base units; the kilogram is `g` with a prefix.
@@ -189,8 +211,8 @@ pub(super) static SYMBOLS: &[Symbol] = &[
     si("N", FORCE, 0).named("newton"),
     si("Pa", PRESSURE, 0).named("pascal"),
     si("J", ENERGY, 0).named("joule"),
-    si("W", [1, 2, -3, 0, 0, 0, 0], 0).named("watt"),
-    si("C", [0, 0, 1, 1, 0, 0, 0], 0).named("coulomb"),
+    si("W", POWER, 0).named("watt"),
+    si("C", CHARGE, 0).named("coulomb"),
     si("V", [1, 2, -3, -1, 0, 0, 0], 0).named("volt"),
     si("F", [-1, -2, 4, 2, 0, 0, 0], 0).named("farad"),
     si("ohm", RESISTANCE, 0).named("ohm").also(&["Ω", "\u{2126}"]),
@@ -205,6 +227,13 @@ pub(super) static SYMBOLS: &[Symbol] = &[
     si("Sv", DOSE, 0).named("sievert"),
     si("kat", [0, 0, -1, 0, 0, 1, 0], 0).named("katal"),
     celsius("degC").also(&["°C", "℃"]),
+    fahrenheit("degF").also(&["°F", "℉"]),
+    // Products with a symbol of their own in use.
+    si("Nm", ENERGY, 0),
+    si("VA", POWER, 0),
+    si("var", POWER, 0),
+    measured("Wh", ENERGY, 3_600, 0),
+    measured("Ah", CHARGE, 3_600, 0),
     // Non-SI units with prefixes.
     si("L", VOLUME, -3).named("litre").also(&["l"]),
     si("t", MASS, 3).named("tonne"),
@@ -216,8 +245,11 @@ pub(super) static SYMBOLS: &[Symbol] = &[
     // Non-SI units without prefixes.
     bare("u", MASS, (166_053_906_660, 1), -38),
     bare("min", TIME, (60, 1), 0).named("minute"),
-    bare("h", TIME, (3_600, 1), 0).named("hour"),
-    bare("d", TIME, (86_400, 1), 0).named("day"),
+    bare("h", TIME, (3_600, 1), 0).named("hour").also(&["hour"]),
+    bare("d", TIME, (86_400, 1), 0).named("day").also(&["day"]),
+    bare("week", TIME, (604_800, 1), 0),
+    bare("month", TIME, (2_629_800, 1), 0),
+    bare("year", TIME, (31_557_600, 1), 0),
     bare("au", LENGTH, (149_597_870_700, 1), 0),
     bare("ha", AREA, (1, 1), 4).named("hectare"),
     bare("in", LENGTH, (254, 1), -4),
@@ -227,6 +259,9 @@ pub(super) static SYMBOLS: &[Symbol] = &[
     bare("kgf", FORCE, (980_665, 1), -5),
     bare("psi", PRESSURE, (44_482_216_152_605, 64_516), -5),
     bare("mmHg", PRESSURE, (133_322_387_415, 1), -9),
+    bare("inHg", PRESSURE, (3_386_388_640_341, 1), -9),
+    bare("mmH2O", PRESSURE, (980_665, 1), -5),
+    bare("inH2O", PRESSURE, (24_908_891, 1), -5),
     bare("Torr", PRESSURE, (101_325, 760), 0),
     bare("atm", PRESSURE, (101_325, 1), 0),
     bare("rpm", RATE, (1, 30), 0).times_pi(),
@@ -234,15 +269,28 @@ pub(super) static SYMBOLS: &[Symbol] = &[
     angle("deg", (1, 180)).named("degree").also(&["°"]),
     angle("arcmin", (1, 10_800)).named("arcminute").also(&["'", "′"]),
     angle("arcsec", (1, 648_000)).named("arcsecond").also(&["''", "″", "′′"]),
+    Symbol { prefixes: true, ..angle("gon", (1, 200)) },
     angle("rev", (2, 1)),
     angle("turn", (2, 1)),
     // Numbers.
     relative("%", -2).named("percent"),
+    relative("%RH", -2),
     relative("‰", -3),
     relative("ppm", -6).dsi("ppm"),
     relative("ppb", -9),
-    number("dB"),
+    level("dB", None, 1, 0),
+    // 20/ln(10) decibels
+    level("Np", None, 8_685_889_638_065_036_553, -18),
+    above("dBm", Zero::Milliwatt),
+    above("dBW", Zero::Watt),
+    above("dBV", Zero::Volt),
+    above("dBmV", Zero::Millivolt),
+    above("dBuV", Zero::Microvolt).also(&["dB\u{b5}V", "dB\u{3bc}V"]),
+    above("dBFS", Zero::FullScale),
+    above("dBc", Zero::Carrier),
+    above("dBi", Zero::Isotropic),
     number("D"),
+    number("digit"),
     number("LSB"),
     number("count"),
 ];

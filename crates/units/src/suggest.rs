@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use super::error::UnitError;
 use super::names::{
-    Flavour, PREFIXES, SYMBOLS, Symbol, is_unit, prefix_spellings, prefixed, symbol,
+    Flavour, PREFIXES, Prefixed, SYMBOLS, Symbol, is_unit, prefix_spellings, prefixed, symbol,
 };
 use super::nearest;
 
@@ -21,8 +21,8 @@ const SPELLED: &[(&str, &[&str])] = &[
     ("meter", &["m"]), ("metre", &["m"]), ("mtr", &["m"]),
     ("gram", &["g"]), ("gramme", &["g"]), ("gr", &["g"]), ("gm", &["g"]), ("kilo", &["kg"]),
     ("second", &["s"]), ("sec", &["s"]), ("minute", &["min"]), ("mins", &["min"]),
-    ("hour", &["h"]), ("hr", &["h"]), ("day", &["d"]),
-    ("week", &["7*d"]), ("year", &["365.25*d"]), ("yr", &["365.25*d"]),
+    ("hr", &["h"]),
+    ("yr", &["year"]), ("wk", &["week"]), ("annum", &["year"]), ("yrs", &["year"]),
     ("ampere", &["A"]), ("amp", &["A"]), ("kelvin", &["K"]), ("mole", &["mol"]),
     ("candela", &["cd"]), ("radian", &["rad"]), ("steradian", &["sr"]),
     ("hertz", &["Hz"]), ("cps", &["Hz"]), ("newton", &["N"]), ("pascal", &["Pa"]),
@@ -31,18 +31,18 @@ const SPELLED: &[(&str, &[&str])] = &[
     ("weber", &["Wb"]), ("tesla", &["T"]), ("gauss", &["1e-4*T"]), ("henry", &["H"]),
     ("lumen", &["lm"]), ("lux", &["lx"]), ("becquerel", &["Bq"]), ("gray", &["Gy"]),
     ("sievert", &["Sv"]), ("katal", &["kat"]),
-    ("celsius", &["degC"]), ("centigrade", &["degC"]), ("°f", &["degC", "K"]),
-    ("degf", &["degC", "K"]), ("fahrenheit", &["degC", "K"]), ("°k", &["K"]), ("degk", &["K"]),
+    ("celsius", &["degC"]), ("centigrade", &["degC"]), ("fahrenheit", &["degF"]),
+    ("ºf", &["degF"]), ("˚f", &["degF"]), ("°k", &["K"]), ("degk", &["K"]),
     ("degree", &["deg"]), ("degs", &["deg"]), ("º", &["deg"]), ("˚", &["deg"]), ("ºc", &["degC"]),
     ("˚c", &["degC"]), ("arcminute", &["arcmin"]), ("amin", &["arcmin"]),
     ("arcsecond", &["arcsec"]), ("asec", &["arcsec"]), ("mas", &["1e-3*arcsec"]),
-    ("gon", &["0.9*deg"]), ("grad", &["0.9*deg"]),
+    ("grad", &["gon"]),
     ("\"", &["arcsec", "in"]), ("”", &["arcsec", "in"]), ("“", &["arcsec", "in"]),
     ("’", &["arcmin"]), ("‘", &["arcmin"]), ("`", &["arcmin"]), ("´", &["arcmin"]),
     ("revolution", &["rev"]), ("cycle", &["rev"]), ("rps", &["rev/s"]),
     ("percent", &["%"]), ("pct", &["%"]), ("permille", &["‰"]),
     ("permil", &["‰"]), ("ppt", &["1e-12", "‰"]), ("decibel", &["dB"]),
-    ("digit", &["D"]), ("dig", &["D"]), ("dgt", &["D"]), ("cnt", &["count"]), ("cts", &["count"]),
+    ("dig", &["digit"]), ("dgt", &["digit"]), ("cnt", &["count"]), ("cts", &["count"]),
     ("bit", &["LSB"]),
     ("liter", &["L"]), ("litre", &["L"]), ("ltr", &["L"]), ("cc", &["cm^3"]), ("ccm", &["cm^3"]),
     ("tonne", &["t"]), ("ton", &["t"]), ("electronvolt", &["eV"]), ("dalton", &["Da"]),
@@ -58,22 +58,13 @@ const SPELLED: &[(&str, &[&str])] = &[
     ("micron", &["um"]), ("angstrom", &["1e-10*m"]), ("å", &["1e-10*m"]),
     ("\u{212b}", &["1e-10*m"]), ("gee", &["g_n"]), ("gn", &["g_n"]), ("g0", &["g_n"]),
     ("gravity", &["g_n"]), ("lbm", &["lb"]), ("psig", &["psi"]), ("psia", &["psi"]),
-    ("mmh2o", &["9.80665*Pa"]), ("oc", &["degC"]), ("c°", &["degC"]), ("dbm", &[]), ("dbv", &[]),
+    ("oc", &["degC"]), ("c°", &["degC"]), ("neper", &["Np"]),
     ("microstrain", &["um/m"]), ("ustrain", &["um/m"]), ("µε", &["um/m"]), ("με", &["um/m"]),
     ("strain", &["m/m"]), ("vdc", &["V"]), ("vac", &["V"]), ("vrms", &["V"]), ("vpp", &["V"]),
 ];
 
 /// Products written without a sign, and the same with one. They take prefixes.
-const JOINED: &[(&str, &str)] = &[
-    ("Nm", "N*m"),
-    ("VA", "V*A"),
-    ("As", "A*s"),
-    ("Ah", "A*h"),
-    ("Vs", "V*s"),
-    ("Ws", "W*s"),
-    ("Wh", "W*h"),
-    ("Pas", "Pa*s"),
-];
+const JOINED: &[(&str, &str)] = &[("As", "A*s"), ("Vs", "V*s"), ("Ws", "W*s"), ("Pas", "Pa*s")];
 
 /// The error for a name that is not a unit, standing at `span`.
 pub(super) fn unknown(name: &str, span: Range<usize>) -> UnitError {
@@ -227,12 +218,17 @@ fn spellings() -> impl Iterator<Item = &'static str> {
     SYMBOLS.iter().flat_map(Symbol::spellings)
 }
 
-/// The name as two units without a sign between them.
+/// The name as two units without a sign between them. Only what people do join: a prefix in the
+/// middle, or a seldom one in front, would find a product in almost every abbreviation.
 fn joined(name: &str) -> Vec<String> {
+    let usual = |left: &str| {
+        let seldom = |found: &Prefixed<'_>| !(-12..=9).contains(&found.prefix.decimal());
+        symbol(left).is_some() || (is_unit(left) && !prefixed(left).any(|found| seldom(&found)))
+    };
     name.char_indices()
         .skip(1)
         .filter_map(|(at, _)| name.split_at_checked(at))
-        .filter(|(left, right)| is_unit(left) && is_unit(right))
+        .filter(|(left, right)| usual(left) && symbol(right).is_some())
         .map(|(left, right)| format!("{left}*{right}"))
         .take(MOST)
         .collect()

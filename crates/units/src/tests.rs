@@ -1,6 +1,7 @@
 use std::f64::consts::PI;
 
 use super::names::{PREFIXES, SYMBOLS, Symbol, prefix_spellings, prefixed, read};
+use super::zero::{Turn, Zero};
 use super::{Dimension, Exponent, MissingSide, Unit, UnitError};
 
 /// Text, factor, dimension.
@@ -49,6 +50,14 @@ const RIGHT: &[Right] = &[
     ("deg", PI / 180.0, "1"), ("°", PI / 180.0, "1"), ("rev", 2.0 * PI, "1"),
     ("turn", 2.0 * PI, "1"), ("rpm", 0.10471975511965978, "s^-1"),
     ("rev/min", 0.10471975511965978, "s^-1"),
+    ("degF", 5.0 / 9.0, "K"), ("°F", 5.0 / 9.0, "K"), ("%RH", 1e-2, "1"), ("digit", 1.0, "1"),
+    ("VA", 1.0, "kg m^2 s^-3"), ("kVA", 1e3, "kg m^2 s^-3"), ("kvar", 1e3, "kg m^2 s^-3"),
+    ("Nm", 1.0, "kg m^2 s^-2"), ("mNm", 1e-3, "kg m^2 s^-2"), ("kWh", 3.6e6, "kg m^2 s^-2"),
+    ("mAh", 3.6, "s A"), ("hour", 3600.0, "s"), ("day", 86400.0, "s"), ("week", 604800.0, "s"),
+    ("month", 2_629_800.0, "s"), ("year", 31_557_600.0, "s"), ("gon", PI / 200.0, "1"),
+    ("inHg", 3386.388640341, "kg m^-1 s^-2"), ("inH2O", 249.08891, "kg m^-1 s^-2"),
+    ("mmH2O", 9.80665, "kg m^-1 s^-2"), ("dBm", 1.0, "1"), ("dBV", 1.0, "1"),
+    ("Np", 8.685889638065037, "1"), ("dB/m", 1.0, "m^-1"),
     // Products, quotients, powers.
     ("m/s^2", 1.0, "m s^-2"), ("m/s²", 1.0, "m s^-2"), ("m s^-2", 1.0, "m s^-2"),
     ("m·s⁻²", 1.0, "m s^-2"), ("m*s**-2", 1.0, "m s^-2"), ("m.s^-2", 1.0, "m s^-2"),
@@ -160,15 +169,15 @@ const WRONG: &[Wrong] = &[
     ("Kilohertz", "unknown", 0, "Kilohertz", &["kHz"]), ("MIN", "unknown", 0, "MIN", &["min"]),
     ("Min", "unknown", 0, "Min", &["min"]), ("KHz", "unknown", 0, "KHz", &["kHz"]),
     ("mhz", "unknown", 0, "mhz", &["mHz", "MHz"]), ("k", "unknown", 0, "k", &["K"]),
-    ("Nm", "unknown", 0, "Nm", &["N*m"]), ("kWh", "unknown", 0, "kWh", &["kW*h"]),
+    ("Ws", "unknown", 0, "Ws", &["W*s"]), ("kVs", "unknown", 0, "kVs", &["kV*s"]),
     ("mPas", "unknown", 0, "mPas", &["mPa*s"]), ("kmh", "unknown", 0, "kmh", &["km/h"]),
-    ("yd", "unknown", 0, "yd", &["0.9144*m"]), ("°F", "unknown", 0, "°F", &["degC", "K"]),
-    ("kg/metre^3", "unknown", 3, "metre", &["m"]), ("%RH", "unknown", 0, "%RH", &["%"]),
+    ("yd", "unknown", 0, "yd", &["0.9144*m"]), ("Fahrenheit", "unknown", 0, "Fahrenheit", &["degF"]),
+    ("kg/metre^3", "unknown", 3, "metre", &["m"]), 
     ("\"", "unknown", 0, "\"", &["arcsec", "in"]), ("º", "unknown", 0, "º", &["deg"]),
     ("radiant", "unknown", 0, "radiant", &["rad"]), ("qqq", "unknown", 0, "qqq", &[]),
     ("parsec", "unknown", 0, "parsec", &["arcsec"]), ("µ", "unknown", 0, "µ", &[]),
     ("counts", "unknown", 0, "counts", &["count"]), ("krads", "unknown", 0, "krads", &["krad"]),
-    ("dBm", "unknown", 0, "dBm", &[]), ("%FS", "unknown", 0, "%FS", &["%"]),
+    ("neper", "unknown", 0, "neper", &["Np"]), ("HRC", "unknown", 0, "HRC", &[]), ("%FS", "unknown", 0, "%FS", &["%"]),
     ("lsb", "unknown", 0, "lsb", &["LSB"]), ("gal", "unknown", 0, "gal", &["Gal", "3.785411784*L"]),
     ("м", "unknown", 0, "м", &[]), ("_", "unknown", 0, "_", &[]),
     // Prefixes.
@@ -316,6 +325,65 @@ fn values_convert_to_the_last_bit() {
         error.to_string(),
         "`mm` measures a length (m) and `ms` a time (s); one cannot be converted to the other"
     );
+}
+
+#[test]
+fn values_convert_with_the_zero_of_their_scale() {
+    let unit = |text: &str| Unit::parse(text).unwrap();
+    let convert = |value, from, to| Unit::convert(value, &unit(from), &unit(to));
+    assert_eq!(convert(20.0, "degC", "K"), Ok(293.15));
+    assert_eq!(convert(293.15, "K", "degC"), Ok(293.15 - 273.15));
+    assert_eq!(convert(20.0, "degC", "mK"), Ok(293_150.0));
+    // 0 degF is 459.67 * 5/9 K (NIST SP 811, B.8); two roundings of 16 digits
+    for (value, from, to, right) in [
+        (0.0, "degF", "K", 459.67 * 5.0 / 9.0),
+        (212.0, "degF", "degC", 100.0),
+        (20.0, "degC", "degF", 68.0),
+        (-40.0, "degF", "degC", -40.0),
+        (10.0, "dBm", "dBW", -20.0),
+        (0.0, "dBV", "dBuV", 120.0),
+        // 1 Np is 20 lg(e) dB (ISO 80000-3)
+        (1.0, "Np", "dB", 8.685889638065037),
+        (20.0, "mm", "m", 0.02),
+        (90.0, "deg", "rad", PI / 2.0),
+    ] {
+        let found = convert(value, from, to).unwrap();
+        assert!((found - right).abs() <= 1e-15 * right.abs().max(300.0), "{value} {from}: {found}");
+    }
+    for (from, to) in
+        [("dB", "1"), ("1", "dB"), ("dBm", "dB"), ("dBm", "dBV"), ("rpm", "Hz"), ("Hz", "rad/s")]
+    {
+        assert!(convert(1.0, from, to).is_err(), "{from} {to}");
+    }
+    assert_eq!(
+        convert(60.0, "rpm", "Hz").unwrap_err().to_string(),
+        "`rpm` measures an angular velocity, which counts angle and `Hz` a frequency, which counts \
+         periods; one cannot be converted to the other"
+    );
+    // differences know no zero
+    let factor = Unit::conversion_factor(&unit("degF"), &unit("degC"));
+    assert_eq!(factor, Ok(5.0 / 9.0));
+}
+
+#[test]
+fn how_units_are_written_tells_what_they_count() {
+    let unit = |text: &str| Unit::parse(text).unwrap();
+    let exponent = |text: &str| unit(text).celsius_exponent().to_f64();
+    for (text, of_celsius) in
+        [("1/degC", -1.0), ("ppm/degC^2", -2.0), ("mV/K", 0.0), ("degF", 1.0), ("W/(m^2 °C)", -1.0)]
+    {
+        assert_eq!(exponent(text), of_celsius, "{text}");
+    }
+    assert_eq!(unit("dB/km").level_exponent(), Exponent::ONE);
+    assert_eq!(unit("dBm").zero(), Some(Zero::Milliwatt));
+    assert_eq!(unit("degF").zero(), Some(Zero::Celsius));
+    assert_eq!(unit("degF/s").zero(), None);
+    assert_eq!(unit("rev/min").turn(), Some(Turn::Angle));
+    assert_eq!(unit("kHz").turn(), Some(Turn::Periods));
+    assert_eq!(unit("mrad").turn(), Some(Turn::Angle));
+    for text in ["1/s", "Bq", "rad*Hz", "Hz/V"] {
+        assert_eq!(unit(text).turn(), None, "{text}");
+    }
 }
 
 #[test]

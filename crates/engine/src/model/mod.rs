@@ -18,7 +18,8 @@ pub use trace::{Recorder, Traced};
 use std::sync::Arc;
 
 use crate::distribution::Distribution;
-use gumption_units::Unit;
+use formula::Typing;
+use gumption_units::{Unit, Zero};
 
 /// A named quantity with its unit.
 #[derive(Clone, Debug)]
@@ -126,11 +127,49 @@ pub struct Model {
     pub program: Program,
 }
 
-/// The recorded values of a model's inputs and conditions, in SI units, by name.
+/// The numbers that formulas compute with.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum NumberForm {
+    /// Those of coherent SI units; of Celsius temperatures the number of degrees Celsius, of levels
+    /// that of decibels.
+    #[default]
+    Coherent,
+    /// Those of the units that the quantities are declared in, for empirical formulas.
+    Declared,
+}
+
+impl NumberForm {
+    /// The number that a value in a unit is in formulas.
+    pub fn number(self, value: f64, unit: &Unit) -> f64 {
+        match self {
+            Self::Coherent => unit.value_to_si(value),
+            Self::Declared => value,
+        }
+    }
+
+    /// A recorded value in a unit as the number of formulas.
+    pub fn taken<'r>(self, value: Traced<'r>, unit: &Unit) -> Traced<'r> {
+        match self {
+            Self::Coherent => in_si(value, unit),
+            Self::Declared => value,
+        }
+    }
+
+    /// A number of formulas of that kind as a recorded value in a unit.
+    pub fn given<'r>(self, value: Traced<'r>, unit: &Unit, typing: Typing) -> Traced<'r> {
+        match self {
+            Self::Coherent => in_unit(value, unit, typing),
+            Self::Declared => value,
+        }
+    }
+}
+
+/// The recorded values of a model's inputs and conditions as formulas take them, by name.
 pub fn recorded_values<'r>(
     recorder: &'r Recorder,
     inputs: &[InputQuantity],
     conditions: &[Quantity],
+    form: NumberForm,
 ) -> Vec<(String, Traced<'r>)> {
     let mut next = 0;
     let mut variable = || {
@@ -143,10 +182,10 @@ pub fn recorded_values<'r>(
         for _ in 1..input.parts {
             sum = sum + variable();
         }
-        values.push((input.quantity.name.clone(), in_si(sum, &input.quantity.unit)));
+        values.push((input.quantity.name.clone(), form.taken(sum, &input.quantity.unit)));
     }
     for condition in conditions {
-        values.push((condition.name.clone(), in_si(variable(), &condition.unit)));
+        values.push((condition.name.clone(), form.taken(variable(), &condition.unit)));
     }
     values
 }
@@ -156,12 +195,18 @@ pub fn variables(inputs: &[InputQuantity], conditions: &[Quantity]) -> usize {
     inputs.iter().map(|input| input.parts).sum::<usize>() + conditions.len()
 }
 
-/// A value in a unit, converted to SI.
+/// A value in a unit, converted to SI (a Celsius temperature to degrees Celsius).
 pub fn in_si<'r>(value: Traced<'r>, unit: &Unit) -> Traced<'r> {
-    if unit.factor() == 1.0 { value } else { value * unit.factor() }
+    let scaled = if unit.factor() == 1.0 { value } else { value * unit.factor() };
+    if unit.offset() == 0.0 { scaled } else { scaled + unit.offset() }
 }
 
-/// A value in SI, converted to a unit.
-pub fn in_unit<'r>(value: Traced<'r>, unit: &Unit) -> Traced<'r> {
+/// A value in SI of that kind, converted to a unit. A difference knows no zero.
+pub fn in_unit<'r>(value: Traced<'r>, unit: &Unit, typing: Typing) -> Traced<'r> {
+    let shift = match typing.zero {
+        Some(_) => Zero::shift(typing.zero, unit.zero()).unwrap_or(0.0) - unit.offset(),
+        None => 0.0,
+    };
+    let value = if shift == 0.0 { value } else { value + shift };
     if unit.factor() == 1.0 { value } else { value / unit.factor() }
 }

@@ -6,10 +6,10 @@ use std::sync::Arc;
 
 use super::{Coverage, Row, Settings, Sharing, Task, TaskError, Trials, Variable};
 use crate::distribution::{Correlation, Distribution, Input, Invalid};
-use crate::model::formula::{Formula, Scope, Typing, check_name};
+use crate::model::formula::{Formula, ScaleMisfit, Scope, Typing, check_name};
 use crate::model::typed::{Measurement, Typed};
 use crate::model::{
-    InputQuantity, Model, Output, Quantity, Recorder, Tolerance, in_unit, recorded_values,
+    InputQuantity, Model, NumberForm, Output, Quantity, Recorder, Tolerance, recorded_values,
     variables,
 };
 use gumption_units::Unit;
@@ -148,13 +148,15 @@ impl TaskBuilder {
     }
 
     /// A quantity that a formula computes of inputs, conditions and the equations before. Formulas
-    /// are as in model files: `4*m/(pi*d^2*h)`, every quantity in coherent SI units.
+    /// are as in model files: `4*m/(pi*d^2*h)`, every quantity in coherent SI units, and a number with
+    /// a unit as `1.5 [mm]`.
     pub fn equation(mut self, name: &str, formula: &str) -> Self {
         self.equations.push((name.to_owned(), formula.to_owned()));
         self
     }
 
-    /// Leaves the dimensions of formulas unchecked, for empirical ones.
+    /// Leaves the dimensions of formulas unchecked, for empirical ones: they compute with the numbers
+    /// of the declared units, and nothing is converted.
     pub fn without_unit_check(self) -> Self {
         Self { check_units: false, ..self }
     }
@@ -423,7 +425,8 @@ impl TaskBuilder {
             scope.announce(name);
         }
         let recorder = Recorder::default();
-        let given = recorded_values(&recorder, &inputs, &conditions).into_iter();
+        let form = self.number_form();
+        let given = recorded_values(&recorder, &inputs, &conditions, form).into_iter();
         let mut values: HashMap<String, _> = given.collect();
         for (name, text) in &self.equations {
             let formula = self.formula(name, text, &scope)?;
@@ -442,6 +445,9 @@ impl TaskBuilder {
             if self.check_units && !typing.fits(unit.dimension()) {
                 return Err(wrong_unit(name, &unit, &coherent(name)));
             }
+            if self.check_units {
+                typing.reported_in(&unit).map_err(wrong_scale(name, &unit))?;
+            }
             let quantity = Quantity { name: name.clone(), unit, about: String::new() };
             outputs.push(Output::new(quantity));
         }
@@ -453,11 +459,15 @@ impl TaskBuilder {
         let results = outputs.iter().map(|output| {
             let Quantity { name, unit, .. } = &output.quantity;
             let value = values.get(name).copied().ok_or_else(|| unknown("output", name))?;
-            Ok(in_unit(value, unit))
+            Ok(form.given(value, unit, scope.get(name).unwrap_or(Typing::ANY)))
         });
         let results = results.collect::<Result<Vec<_>, TaskError>>()?;
         let program = recorder.program(variables(&inputs, &conditions), &results);
         Ok(Model { inputs, conditions, outputs, program })
+    }
+
+    fn number_form(&self) -> NumberForm {
+        if self.check_units { NumberForm::Coherent } else { NumberForm::Declared }
     }
 
     /// A formula that was read and checked, and what its result is.
@@ -554,7 +564,7 @@ impl TaskBuilder {
             parts.map(|input| Arc::new(input.distribution.clone())).collect();
         let none = vec![Vec::new()];
         let rows = if self.conditions.is_empty() { &none } else { &self.rows };
-        let scope = condition_scope(&model.conditions);
+        let (scope, form) = (condition_scope(&model.conditions), self.number_form());
         let mut varying = Vec::new();
         for (name, of) in &self.varying {
             let index = variables.iter().position(|variable| variable.name == *name);
@@ -567,7 +577,11 @@ impl TaskBuilder {
                         let found = typing.dimension.map_or_else(Unit::one, Unit::coherent);
                         return Err(wrong_unit(name, &found, unit));
                     }
-                    Some(formula)
+                    let shift = match self.check_units {
+                        true => typing.shift_to(unit).map_err(wrong_scale(name, unit))?,
+                        false => 0.0,
+                    };
+                    Some((formula, shift))
                 }
                 Varying::Whole(_) => None,
             };
@@ -580,13 +594,16 @@ impl TaskBuilder {
                 let moved = match (of, formula) {
                     (Varying::Whole(known), _) => known(row),
                     (Varying::Estimate(_), None) => continue,
-                    (Varying::Estimate(_), Some(formula)) => {
+                    (Varying::Estimate(_), Some((formula, shift))) => {
                         let values = model.conditions.iter().zip(row);
                         let values = values
-                            .map(|(of, &value)| (of.name.clone(), of.unit.to_si(value)))
+                            .map(|(of, &value)| (of.name.clone(), form.number(value, &of.unit)))
                             .collect();
                         let value = formula.evaluate(&scope, &values).map_err(in_formula(name))?;
-                        distributions[*index].moved_to(unit.from_si(value))
+                        distributions[*index].moved_to(match form {
+                            NumberForm::Coherent => unit.value_from_si(value + shift),
+                            NumberForm::Declared => value,
+                        })
                     }
                 };
                 let moved = moved.map_err(|error| TaskError::Distribution {
@@ -642,6 +659,10 @@ fn unit(of: &str, text: &str) -> Result<Unit, TaskError> {
 fn wrong_unit(of: &str, found: &Unit, expected: &Unit) -> TaskError {
     let (found, expected) = (found.to_string(), expected.to_string());
     TaskError::WrongUnit { of: of.to_owned(), found, expected }
+}
+
+fn wrong_scale(of: &str, unit: &Unit) -> impl Fn(ScaleMisfit) -> TaskError {
+    move |misfit| TaskError::WrongScale { of: of.to_owned(), unit: unit.to_string(), misfit }
 }
 
 fn unknown(kind: &'static str, name: &str) -> TaskError {

@@ -3,7 +3,7 @@
 use std::fmt;
 
 use crate::distribution::{CorrelationError, Invalid};
-use crate::model::formula::{FormulaError, NameError};
+use crate::model::formula::{FormulaError, NameError, ScaleMisfit};
 use gumption_units::UnitError;
 
 /// Why a task cannot be made of what was given.
@@ -25,6 +25,15 @@ pub enum TaskError {
         found: String,
         /// A unit that it could have.
         expected: String,
+    },
+    /// A unit of the right dimension that the scale of the quantity does not fit.
+    WrongScale {
+        /// The quantity.
+        of: String,
+        /// Its unit as given.
+        unit: String,
+        /// Why it does not fit.
+        misfit: ScaleMisfit,
     },
     /// A component that is given in another unit than the input that it is added to.
     ComponentUnit {
@@ -114,6 +123,9 @@ impl fmt::Display for TaskError {
             Self::Unit { of, error } => write!(f, "the unit of `{of}`: {error}"),
             Self::WrongUnit { of, found, expected } => {
                 write!(f, "`{of}` is in `{found}`, which cannot be converted to `{expected}`")
+            }
+            Self::WrongScale { of, unit, misfit } => {
+                write!(f, "`{of}` cannot be given in `{unit}`: it {misfit}")
             }
             Self::ComponentUnit { of, found, expected } => {
                 write!(f, "a component of `{of}` is in `{found}`, but must be in `{expected}`")

@@ -206,19 +206,19 @@ fn one(
     }
 }
 
-/// Of the entries of that name, the one that acts on most quantities of the sim; those of a bench
-/// come before those of any.
+/// Of the entries of that name, the one that acts on most quantities of the sim; of those that act on
+/// as many, that of a bench.
 fn chosen(shipped: &Catalogue, name: &str, sim: &EffectContext<'_>) -> Result<Member, Box<Misfit>> {
-    let mut best: Option<(bool, usize, Member)> = None;
+    let mut best: Option<(usize, bool, Member)> = None;
     let mut nearest: Option<Box<Misfit>> = None;
     for entry in shipped.entries.iter().filter(|entry| entry.name == name) {
         let special = entry.bench != ANY_BENCH;
         match fit::fit(shipped, entry, sim) {
             Ok((count, member)) => {
                 let better =
-                    |(known, most, _): &(bool, usize, Member)| (special, count) > (*known, *most);
+                    |(most, known, _): &(usize, bool, Member)| (count, special) > (*most, *known);
                 if best.as_ref().is_none_or(better) {
-                    best = Some((special, count, member));
+                    best = Some((count, special, member));
                 }
             }
             Err(misfit) => {

@@ -12,7 +12,7 @@ use super::diagnostics::{Collector, Diagnostics};
 use super::json::{self, Json, Node};
 use super::keys;
 use super::object::Object;
-use super::open::{check_format, read_root};
+use super::open::{FileKind, check_format, read_root, refuse_other_kind};
 use super::reader::FileReader;
 use super::source::SourceText;
 use super::{DiagnosticKind, settings};
@@ -133,8 +133,11 @@ impl Asking {
 }
 
 fn certificate(files: FileReader<'_>, root: Object<'_>, folder: &Path) -> Option<CertificateFile> {
+    if refuse_other_kind(&root, FileKind::Certificate) {
+        return None;
+    }
     root.check_keys(keys::CERTIFICATE);
-    check_format(&root);
+    check_format(&root, 1.0);
     let administrative = administrative::read(&root);
     let languages = languages(&root);
     let rounding = named(&root, "rounding", Rounding::named, &Rounding::ALL.map(Rounding::name));

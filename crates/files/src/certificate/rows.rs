@@ -296,8 +296,8 @@ impl<'a> Rows<'a> {
                 "there is no condition and no input `{name}` to take the nominal value from"
             ));
         };
-        match Unit::conversion_factor(of, unit) {
-            Ok(factor) => Some(value * factor),
+        match Unit::convert(value, of, unit) {
+            Ok(value) => Some(value),
             Err(_) => refuse(format!(
                 "the nominal value `{name}` is in `{of}`, which cannot be converted to `{unit}`"
             )),

@@ -23,8 +23,14 @@ pub(super) fn definitions() -> Vec<(String, Value)> {
 /// Keys of a model file and of a case.
 pub(crate) const MODEL: &[Key] = keys![
     "format" => object([
-                ("description", Value::from("Version of the file's form.")),
-                ("const", Value::from(1)),
+                (
+                    "description",
+                    Value::from(
+                        "Version of the file's form. 2 says that formulas whose units are not \
+                         checked are written for the numbers in the declared units.",
+                    ),
+                ),
+                ("enum", Value::from(vec![1, 2])),
             ]),
     "title" => text_of("What is measured, in a line."),
     "source" => text_of("The document that the measurement follows."),
@@ -51,7 +57,11 @@ pub(crate) const MODEL: &[Key] = keys![
                 .with("maximum", 8),
     "coverage_factor_fixed" => described("boolean", "Keep the coverage factor whatever the degrees of freedom."),
     "monte_carlo" => reference("monte-carlo"),
-    "check_units" => described("boolean", "Whether dimensions are checked through the formulas; true."),
+    "check_units" => described(
+        "boolean",
+        "Whether dimensions are checked through the formulas; true. If false, formulas compute \
+         with the numbers in the declared units, and nothing is converted.",
+    ),
     "allow_undefined" => described("number", "Share of trials that may have no finite result; 0.")
                 .with("minimum", 0)
                 .with("maximum", 1),
@@ -126,8 +136,8 @@ fn prior_of_tolerance() -> Value {
 
 /// Keys of `tolerance`.
 pub(crate) const TOLERANCE: &[Key] = keys![
-    "lower" => referenced("number", "Lower tolerance limit."),
-    "upper" => referenced("number", "Upper tolerance limit."),
+    "lower" => referenced("value", "Lower tolerance limit."),
+    "upper" => referenced("value", "Upper tolerance limit."),
     "prior" => prior_of_tolerance(),
     "risk" => described("number", "The wanted risk of false acceptance, for guard bands.")
                 .with("exclusiveMinimum", 0)
@@ -160,7 +170,7 @@ fn conditions() -> Value {
 /// Keys of a condition of a grid.
 pub(crate) const CONDITION: &[Key] = keys![
     "unit" => reference("unit"),
-    "values" => referenced("numbers", "The values; without them, a column of the observations."),
+    "values" => referenced("values", "The values; without them, a column of the observations."),
     "about" => text_of("What it is, in words."),
 ];
 

@@ -175,9 +175,9 @@ fn field(shape: &str, key: &str) -> Value {
         (_, "dof") => referenced("positive", "Degrees of freedom of the standard uncertainty."),
         (_, "half_width") => referenced("width", "Half of the distance of the limits."),
         (_, "semi_range") => referenced("width", "Another name of `half_width`."),
-        (_, "lower") => referenced("number", "Lower limit."),
-        (_, "upper") => referenced("number", "Upper limit."),
-        (_, "mode") => referenced("number", "The most probable value, from `lower` to `upper`."),
+        (_, "lower") => referenced("value", "Lower limit."),
+        (_, "upper") => referenced("value", "Upper limit."),
+        (_, "mode") => referenced("value", "The most probable value, from `lower` to `upper`."),
         (_, "inexactness") => {
             referenced("width", "Half of the length of the interval in which each limit lies.")
         }
@@ -190,6 +190,7 @@ fn field(shape: &str, key: &str) -> Value {
         (_, "alpha") => referenced("positive", "First shape parameter."),
         (_, "beta") => referenced("positive", "Second shape parameter."),
         (_, "count") => described("integer", "The count.").with("minimum", 0),
+        ("readings", "values") => reference("values"),
         (_, "values") => reference("numbers"),
         (_, "paired") => {
             described("boolean", "Readings that were taken together with those of other inputs.")

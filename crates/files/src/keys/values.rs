@@ -40,14 +40,29 @@ pub(crate) const READINGS: &[Key] = keys![
 
 pub(super) fn definitions() -> Vec<(String, Value)> {
     let numbers = object([("type", Value::from("number"))]);
-    let formula = text_of("A formula of conditions and constants, evaluated in SI units.");
+    let formula = text_of(
+        "A value with a unit, such as `100 ohm`, or a formula of conditions and constants, evaluated \
+         in SI units.",
+    );
     let specification = text_of(
         "A specification: terms of `x %` or `x ppm` (of the reading), `x % of VALUE UNIT` (of the \
          range) and `VALUE UNIT`, joined by `+`, which add linearly; or, in an input, a formula of \
-         conditions that begins with a name, evaluated in SI units.",
+         conditions, evaluated in SI units.",
+    );
+    let with_unit = text_of("A value with a unit, converted to the quantity's: `100 ohm`.")
+        .with("pattern", "^\\s*[-+]?[0-9.]");
+    let value = number_or_text(
+        "A number in the quantity's unit, or a value with a unit of its own.",
+        numbers.clone(),
+        with_unit,
     );
     let definitions = [
         ("number", described("number", "A number in the quantity's unit.")),
+        ("value", value.clone()),
+        (
+            "values",
+            described("array", "Values of the quantity.").with("items", value).with("minItems", 1),
+        ),
         ("positive", number("A number above 0.", Some(0), None)),
         ("probability", number("A probability between 0 and 1.", Some(0), Some(1))),
         ("numbers", list("Numbers in the quantity's unit.")),

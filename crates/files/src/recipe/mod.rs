@@ -131,7 +131,7 @@ pub(super) fn check_text(name: &str, text: &str, folder: &Path) -> Result<(), Di
 
 fn recipe(root: &Object<'_>, folder: &Path) -> Option<RecipeFile> {
     root.check_keys(keys::RECIPE);
-    check_format(root);
+    check_format(root, 1.0);
     let title = root.text("title").map(str::to_owned);
     root.text("source");
     let recordings = recordings::read(root, folder);

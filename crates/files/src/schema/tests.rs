@@ -113,7 +113,7 @@ fn wrong_files_are_not_valid() {
         ("monte_carlo", json!({"trials": 1})),
         ("monte_carlo", json!({"trials": "many"})),
         ("conditions", json!({"file": "x.csv", "unit": {}})),
-        ("format", json!(2)),
+        ("format", json!(3)),
         ("observations", json!({"file": "x.csv"})),
         ("observations", json!({"file": "x.csv", "columns": {}})),
         ("observations", json!({"file": "x.csv", "columns": {"y": {"sim": "s"}}})),

@@ -17,6 +17,13 @@ const NODES: usize = 64;
 /// that order.
 const FITTED_NODES: usize = 40;
 
+/// A function of coordinates with so many values each on average cannot be mistaken for noise.
+const REPEATED: f64 = 2.0;
+
+/// A smooth function has a length of so many spacings of its coordinates: the coefficient of
+/// correlation of neighbours is then 0.72.
+const SPACINGS: f64 = 1.5;
+
 /// Eigenvalues below this share of the largest are left out.
 const LEAST_EIGENVALUE: f64 = 1e-9;
 
@@ -177,6 +184,30 @@ impl Coordinates {
             }
         }
         features
+    }
+
+    /// The shortest length of a smooth function that can be told from noise: where every value has a
+    /// coordinate of its own, a function that varies from one to the next is as white as noise is.
+    pub(crate) fn shortest_length(&self) -> f64 {
+        let repeats =
+            self.touched.len() as f64 / (self.functions * self.distinct.len()).max(1) as f64;
+        if repeats >= REPEATED || self.distinct.len() > MOST_COORDINATES {
+            return 0.0;
+        }
+        let distance = |a: &[f64], b: &[f64]| -> f64 {
+            a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt()
+        };
+        let mut nearest: Vec<f64> = (0..self.distinct.len())
+            .map(|i| {
+                let others = (0..self.distinct.len()).filter(|j| *j != i);
+                others
+                    .map(|j| distance(&self.distinct[i], &self.distinct[j]))
+                    .fold(f64::INFINITY, f64::min)
+            })
+            .filter(|distance| distance.is_finite())
+            .collect();
+        nearest.sort_by(f64::total_cmp);
+        nearest.get(nearest.len() / 2).map_or(0.0, |median| SPACINGS * median)
     }
 
     /// The values that the term touches.

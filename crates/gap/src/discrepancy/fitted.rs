@@ -152,7 +152,7 @@ impl<'p> Problem<'p> {
         let output = value % self.setup.data.outputs.len();
         let known = self.setup.linear.variances[value];
         let ln_size = self.setup.ln_sizes[value];
-        let (mut ln, mut found) = (0.0, false);
+        let (mut ln, mut found) = (self.setup.data.ln_scales[value], false);
         slopes.fill(0.0);
         for ((role, &score), slope) in self.noise.iter().zip(scores).zip(slopes.iter_mut()) {
             let (map, factor) = match role {

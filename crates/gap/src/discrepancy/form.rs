@@ -44,25 +44,29 @@ struct Factored {
 pub(crate) fn forms(
     setup: &Setup<'_>,
     axes: &Axes,
-    wanted: &(dyn Fn(&Term, f64) -> bool + Sync),
+    wanted: &(dyn Fn(&Term, f64, &Coordinates) -> bool + Sync),
 ) -> Vec<Form> {
     let terms = terms(setup.case, &setup.data);
     let ln_term = -elementary::ln(terms.len() as f64);
     let sites = sites(setup.case, &setup.data);
-    let with_lengths: Vec<(&Term, f64, f64)> = terms
-        .iter()
-        .flat_map(|term| {
+    let outputs = setup.data.outputs.len();
+    let with_lengths: Vec<(&Term, Coordinates, f64, f64)> = terms
+        .par_iter()
+        .flat_map_iter(|term| {
+            let coordinates = Coordinates::new(term, axes, &sites, outputs);
             let lengths = if term.is_smooth() { &LENGTHS[..] } else { &LENGTHS[..1] };
-            let ln_weight = ln_term - elementary::ln(lengths.len() as f64);
-            lengths.iter().map(move |&length| (term, length, ln_weight))
+            let lengths: Vec<f64> = lengths
+                .iter()
+                .copied()
+                .filter(|&length| wanted(term, length, &coordinates))
+                .collect();
+            let ln_weight = ln_term - elementary::ln(lengths.len().max(1) as f64);
+            lengths.into_iter().map(move |length| (term, coordinates.clone(), length, ln_weight))
         })
-        .filter(|(term, length, _)| wanted(term, *length))
         .collect();
     with_lengths
         .into_par_iter()
-        .map(|(term, length, ln_weight)| {
-            let outputs = setup.data.outputs.len();
-            let coordinates = Coordinates::new(term, axes, &sites, outputs);
+        .map(|(term, coordinates, length, ln_weight)| {
             let nodes = Nodes::new(term, length, &coordinates, setup.linear.fitted);
             let roots = coordinates.roots(term, length, &nodes);
             let features = coordinates.features(&roots, setup.data.len());

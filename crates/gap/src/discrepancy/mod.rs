@@ -141,7 +141,10 @@ impl Unexplained {
 impl Discrepancy {
     pub(crate) fn new(setup: &Setup<'_>) -> Self {
         let axes = Axes::new(setup.case, &setup.data);
-        let forms = forms(setup, &axes, &|_, _| true);
+        let longest = LENGTHS[LENGTHS.len() - 1];
+        let forms = forms(setup, &axes, &|term, length, coordinates| {
+            !term.is_smooth() || length >= coordinates.shortest_length().min(longest)
+        });
         Self { axes, forms }
     }
 
@@ -149,8 +152,9 @@ impl Discrepancy {
     pub(crate) fn for_part(&self, part: &Setup<'_>, found: &Unexplained) -> Self {
         let axes = Axes::new(part.case, &part.data);
         let own: Vec<&Form> = found.kinds.iter().map(|kind| &self.forms[kind.form]).collect();
-        let wanted =
-            |term: &Term, length: f64| own.iter().any(|f| f.term == *term && f.length == length);
+        let wanted = |term: &Term, length: f64, _: &features::Coordinates| {
+            own.iter().any(|f| f.term == *term && f.length == length)
+        };
         let forms = forms(part, &axes, &wanted);
         if forms.is_empty() { Self::new(part) } else { Self { axes, forms } }
     }

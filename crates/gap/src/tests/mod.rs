@@ -4,6 +4,7 @@ mod discrepancy;
 mod evidence;
 mod likelihood;
 mod next;
+mod noise;
 mod regions;
 
 use std::sync::Arc;
@@ -13,7 +14,7 @@ use nalgebra::{DMatrix, DVector};
 use crate::{Candidate, Case, Effect, ModelForm, ObservedOutput, OverridableModel, Prior};
 use gumption_engine::distribution::{Distribution, Normal};
 use gumption_engine::model::formula::{Formula, Scope, Typing};
-use gumption_engine::model::{InputQuantity, Output, Quantity};
+use gumption_engine::model::{InputQuantity, NumberForm, Output, Quantity};
 use gumption_engine::task::{Row, Sharing, Task, Variable};
 use gumption_units::Unit;
 
@@ -57,6 +58,7 @@ fn case(
         conditions: vec![quantity("x")],
         outputs: equations.iter().map(|(name, _)| Output::new(quantity(name))).collect(),
         maker: ModelForm::Equations(formulas(equations)),
+        numbers: NumberForm::Coherent,
         scope: Scope::from_iter(names.map(|name| (name, Typing::in_unit(&Unit::one())))),
     };
     let distributions: Arc<[Arc<Distribution>]> = Arc::new([Arc::new(a)]);

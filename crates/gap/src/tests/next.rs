@@ -41,7 +41,7 @@ fn promises_are_kept() {
         let setup = Setup::new(case);
         let discrepancy = Discrepancy::new(&setup);
         let effort = Effort::FULL;
-        let found = posterior(&setup, &discrepancy, 1, effort, &|_| {});
+        let found = posterior(&setup, &discrepancy, 1, effort, f64::NEG_INFINITY, &|_| {});
         let ln = |effects: &[usize]| {
             let own = found.hypotheses.iter().find(|h| h.effects == effects).unwrap();
             own.evidence.ln_evidence

@@ -1,11 +1,11 @@
 //! A diagnosis as JSON.
 
-use std::collections::BTreeMap;
-
 use serde_json::{Value, json};
 
 use crate::answer::{list, object, pretty};
-use gumption_gap::{Diagnosis, EffectParameter, Hypothesis, NamedQuantity};
+use gumption_gap::{
+    Diagnosis, EffectParameter, Hypothesis, NamedQuantity, PresentEffect, PriorConflict,
+};
 
 /// The diagnosis as JSON, keys in a fixed order; `null` for what is not defined. It ends in a
 /// newline.
@@ -28,17 +28,20 @@ pub fn json(diagnosis: &Diagnosis) -> String {
             json!({
                 "kind": verdict.kind.name(),
                 "effects": verdict.effects,
+                "prior_conflict": verdict.prior_conflict,
                 "probability": verdict.probability,
                 "group": verdict.indistinguishable,
                 "group_probability": verdict.indistinguishable_probability,
             }),
         ),
+        ("present", present(diagnosis)),
+        ("prior_conflicts", list(diagnosis.prior_conflicts.iter().map(prior_conflict))),
         ("hypotheses", list(diagnosis.hypotheses.iter().map(hypothesis))),
         ("shrinks", shrinks(diagnosis)),
         ("next_measurement", next(diagnosis)),
     ];
     entries.extend(prediction(diagnosis).map(|prediction| ("prediction", prediction)));
-    entries.extend(noise(diagnosis).map(|noise| ("noise", noise)));
+    entries.push(("noise", noise(diagnosis)));
     let notes = diagnosis.notes.iter();
     entries.extend([
         ("rows", rows(diagnosis)),
@@ -71,7 +74,8 @@ fn regions(diagnosis: &Diagnosis) -> Value {
     }))
 }
 
-fn hypothesis(of: &Hypothesis) -> Value {
+/// Parameters by name.
+fn parameters(of: &[EffectParameter]) -> Value {
     let parameter = |of: &EffectParameter| {
         json!({
             "unit": of.unit,
@@ -80,7 +84,35 @@ fn hypothesis(of: &Hypothesis) -> Value {
             "interval": of.interval,
         })
     };
-    let parameters = of.parameters.iter();
+    object(of.iter().map(|of| (of.name.as_str(), parameter(of))))
+}
+
+/// By effect, most probable first.
+fn present(diagnosis: &Diagnosis) -> Value {
+    let of = |present: &PresentEffect| {
+        json!({
+            "probability": present.probability,
+            "parameters": parameters(&present.parameters),
+        })
+    };
+    object(diagnosis.present.iter().map(|present| (present.effect.as_str(), of(present))))
+}
+
+fn prior_conflict(of: &PriorConflict) -> Value {
+    json!({
+        "effect": of.effect,
+        "parameter": of.parameter.name,
+        "unit": of.parameter.unit,
+        "estimate": of.parameter.estimate,
+        "standard_uncertainty": of.parameter.standard_uncertainty,
+        "interval": of.parameter.interval,
+        "prior_distance": of.prior_distance,
+        "beyond_bound": of.bounded,
+        "probability": of.probability,
+    })
+}
+
+fn hypothesis(of: &Hypothesis) -> Value {
     json!({
         "effects": of.effects,
         "probability": of.probability,
@@ -89,7 +121,7 @@ fn hypothesis(of: &Hypothesis) -> Value {
         // an error that is not known is larger than any
         "standard_error": if of.standard_error.is_finite() { of.standard_error } else { f64::MAX },
         "ess": of.effective_sample_size,
-        "parameters": object(parameters.map(|of| (of.name.as_str(), parameter(of)))),
+        "parameters": parameters(&of.parameters),
     })
 }
 
@@ -146,19 +178,42 @@ fn prediction(diagnosis: &Diagnosis) -> Option<Value> {
     Some(json!({"rows": list(rows)}))
 }
 
-/// By name, in the order of the alphabet; `None` where none was fitted.
-fn noise(diagnosis: &Diagnosis) -> Option<Value> {
-    let noise = diagnosis.noise.iter().filter_map(|noise| {
+/// What is known of the noise, by output.
+fn noise(diagnosis: &Diagnosis) -> Value {
+    object(diagnosis.noise.iter().filter_map(|noise| {
         let output = diagnosis.outputs.get(noise.output)?;
-        let value = json!({
-            "unit": output.unit,
-            "standard_uncertainty": noise.standard_uncertainty,
-            "power": noise.power,
+        let mut entries = vec![("unit", json!(output.unit))];
+        if let Some(estimated) = noise.estimated {
+            entries.push(("standard_uncertainty", json!(estimated.standard_uncertainty)));
+            entries.push(("power", json!(estimated.power)));
+        }
+        let factor = noise.factor.map(|factor| {
+            json!({
+                "estimate": factor.estimate,
+                "interval": factor.interval,
+                "probability": factor.probability,
+            })
         });
-        Some((output.name.as_str(), value))
-    });
-    let noise: BTreeMap<&str, Value> = noise.collect();
-    (!noise.is_empty()).then(|| object(noise))
+        let suspects = noise.suspects.iter().map(|suspect| {
+            json!({
+                "row": suspect.row + 1,
+                "output": output.name,
+                "probability": suspect.probability,
+                "size": suspect.size,
+            })
+        });
+        let serial = noise.serial.map(|serial| {
+            json!({
+                "estimate": serial.estimate,
+                "interval": serial.interval,
+                "probability": serial.probability,
+            })
+        });
+        entries.push(("factor", json!(factor)));
+        entries.push(("serial_correlation", json!(serial)));
+        entries.push(("suspect_rows", list(suspects)));
+        Some((output.name.as_str(), object(entries)))
+    }))
 }
 
 fn rows(diagnosis: &Diagnosis) -> Value {

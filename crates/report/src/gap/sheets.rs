@@ -6,7 +6,8 @@ use crate::number::{MISSING, position, rounded, significant, to, with_uncertaint
 use crate::plain;
 use crate::sheet::Sheet;
 use gumption_gap::{
-    Diagnosis, EffectParameter, Hypothesis, HypothesisKind, NamedQuantity, Predicted, Shrunk,
+    Diagnosis, EffectParameter, Hypothesis, HypothesisKind, NamedQuantity, Predicted,
+    PresentEffect, Shrunk,
 };
 
 /// So much of the probability is shown by name, in so many lines at most.
@@ -30,6 +31,49 @@ pub(super) fn regions(diagnosis: &Diagnosis) -> Option<Sheet> {
     sheet.numbers("p", regions.iter().map(|region| p_value(region.p_value)));
     sheet.numbers("share", regions.iter().map(|region| share(region.share_of_gap)));
     sheet.numbers("mean z", regions.iter().map(|region| tenths(region.mean_z)));
+    Some(sheet)
+}
+
+/// Effects less probable than this are not shown.
+const PRESENT: f64 = 0.01;
+
+/// The probability that each effect is part of the truth, with its parameters over all hypotheses;
+/// `None` where no effect is worth a line.
+pub(super) fn present(diagnosis: &Diagnosis) -> Option<Sheet> {
+    let shown: Vec<&PresentEffect> =
+        diagnosis.present.iter().filter(|p| p.probability >= PRESENT).take(SHOWN).collect();
+    if shown.is_empty() {
+        return None;
+    }
+    // a line for each parameter; the effect stands in the first
+    let mut lines: Vec<[String; 7]> = Vec::new();
+    for present in shown {
+        let head = [plain(&present.effect), probability(present.probability)];
+        let mut heads =
+            std::iter::once(head).chain(std::iter::repeat([String::new(), String::new()]));
+        if present.parameters.is_empty() {
+            let [effect, p] = heads.next().unwrap_or_default();
+            lines.push([effect, p, missing(), String::new(), missing(), missing(), missing()]);
+        }
+        for of in &present.parameters {
+            let [effect, p] = heads.next().unwrap_or_default();
+            let [estimate, u, low, high] = parameter(of);
+            let name = of.name.rsplit('/').next().unwrap_or(&of.name);
+            let unit = words::unit(&of.unit).unwrap_or_default();
+            let name =
+                if unit.is_empty() { plain(name) } else { format!("{} in {unit}", plain(name)) };
+            lines.push([effect, p, name, estimate, u, low, high]);
+        }
+    }
+    let column = |position: usize| lines.iter().map(move |line| line[position].clone());
+    let mut sheet = Sheet::default();
+    sheet.text("effect", column(0));
+    sheet.numbers("present with\nprobability", column(1));
+    sheet.text("parameter", column(2));
+    sheet.numbers("estimate", column(3));
+    sheet.numbers("standard\nuncertainty", column(4));
+    sheet.numbers("interval\nfrom", column(5));
+    sheet.numbers("\nto", column(6));
     Some(sheet)
 }
 

@@ -12,7 +12,10 @@ pub fn table(diagnosis: &Diagnosis) -> String {
     let mut page = vec![heading(diagnosis)];
     page.push(section("Is there a gap?") + &wrapped(&words::gap(diagnosis)));
     page.push(section("Where?") + &regions(diagnosis));
-    page.push(section("Which effect?") + &hypotheses(diagnosis));
+    if let Some(present) = sheets::present(diagnosis) {
+        page.push(section("Which effects are there?") + &Grid::of(&present).render(WIDTH));
+    }
+    page.push(section("Which together?") + &hypotheses(diagnosis));
     if let Some(parameters) = sheets::parameters(diagnosis) {
         page.push(section("Parameters of the verdict") + &Grid::of(&parameters).render(WIDTH));
     }
@@ -40,6 +43,9 @@ fn heading(diagnosis: &Diagnosis) -> String {
     let mut heading = wrapped(&words::title(diagnosis)) + &wrapped(&words::settings(diagnosis));
     heading.push('\n');
     heading += &wrapped(&words::verdict(diagnosis));
+    heading += &paragraphs(words::conflicts(diagnosis));
+    heading += &paragraphs(words::noise_verdict(diagnosis));
+    heading += &words::present(diagnosis).map(|said| wrapped(&said)).unwrap_or_default();
     heading += &words::look_alikes(diagnosis).map(|said| wrapped(&said)).unwrap_or_default();
     heading
 }

@@ -1,9 +1,9 @@
 //! The answer in sentences.
 
-use super::digits::{condition, p_equals, percent, probability, share, tenths};
-use crate::number::{exact, position, rounded, significant};
+use super::digits::{self, condition, p_equals, percent, probability, share, tenths};
+use crate::number::{exact, position, rounded, significant, with_uncertainty};
 use crate::plain;
-use gumption_gap::{Diagnosis, GapRegion, HypothesisKind, NamedQuantity};
+use gumption_gap::{Diagnosis, GapRegion, HypothesisKind, NamedQuantity, PriorConflict};
 
 /// Odds below this power of e are none at all.
 const WORTH_SAYING: f64 = 0.01;
@@ -42,6 +42,11 @@ pub(super) fn verdict(diagnosis: &Diagnosis) -> String {
              scatter by more than their uncertainties."
             )
         }
+        HypothesisKind::None if !noise_verdict(diagnosis).is_empty() => {
+            format!(
+                "There is no gap that an effect explains {how_sure}, but the noise is not as stated."
+            )
+        }
         HypothesisKind::None => {
             format!("There is no gap: the uncertainties explain the data {how_sure}.")
         }
@@ -59,6 +64,102 @@ pub(super) fn verdict(diagnosis: &Diagnosis) -> String {
             }
         }
     }
+}
+
+/// Effects that are there with at least this probability are named in the headline.
+const WORTH_NAMING: f64 = 0.1;
+
+/// What is said of the noise in the headline is at least this probable.
+const LIKELY: f64 = 0.5;
+
+/// Which effects are part of the truth, whatever else is; `None` where none is likely to be.
+pub(super) fn present(diagnosis: &Diagnosis) -> Option<String> {
+    let named: Vec<String> = diagnosis
+        .present
+        .iter()
+        .filter(|present| present.probability >= WORTH_NAMING)
+        .map(|present| format!("{} {}", plain(&present.effect), probability(present.probability)))
+        .collect();
+    (!named.is_empty()).then(|| {
+        format!("Probability that an effect is there, alone or with others: {}.", named.join(", "))
+    })
+}
+
+/// What the named effect contradicts of its prior.
+pub(super) fn conflicts(diagnosis: &Diagnosis) -> Vec<String> {
+    let verdict = &diagnosis.most_probable;
+    if !verdict.prior_conflict {
+        return Vec::new();
+    }
+    let sentence = |conflict: &PriorConflict| {
+        let parameter = &conflict.parameter;
+        let (estimate, u) = with_uncertainty(
+            parameter.estimate,
+            parameter.standard_uncertainty,
+            digits::UNCERTAINTY,
+        );
+        let unit = unit(&parameter.unit).map(|unit| format!(" {unit}")).unwrap_or_default();
+        let distance = significant(conflict.prior_distance, 2);
+        let far = if conflict.bounded {
+            format!("{distance} widths of your prior beyond its bound")
+        } else {
+            format!("{distance} standard deviations of your prior from its mean")
+        };
+        format!(
+            "That contradicts its prior: {} = {estimate}{unit} with standard uncertainty {u} is {far}.",
+            plain(&parameter.name)
+        )
+    };
+    diagnosis
+        .prior_conflicts
+        .iter()
+        .filter(|conflict| verdict.effects.contains(&conflict.effect))
+        .map(sentence)
+        .collect()
+}
+
+/// How the noise departs from what is stated, a sentence for each output and value where it is
+/// likely to.
+pub(super) fn noise_verdict(diagnosis: &Diagnosis) -> Vec<String> {
+    let mut said = Vec::new();
+    for noise in &diagnosis.noise {
+        let Some(named) = diagnosis.outputs.get(noise.output) else { continue };
+        let name = plain(&named.name);
+        if let Some(factor) = noise.factor.filter(|factor| factor.probability > LIKELY) {
+            let [low, high] = factor.interval;
+            let (word, [estimate, low, high]) = if factor.estimate >= 1.0 {
+                ("small", [factor.estimate, low, high])
+            } else {
+                ("large", [1.0 / factor.estimate, 1.0 / high, 1.0 / low])
+            };
+            said.push(format!(
+                "The stated standard uncertainties of {name} are too {word} by a factor of {} ({} to \
+                 {}); that they are off has the probability {}.",
+                significant(estimate, 2),
+                significant(low, 2),
+                significant(high, 2),
+                probability(factor.probability)
+            ));
+        }
+        if let Some(serial) = noise.serial.filter(|serial| serial.probability > LIKELY) {
+            let [low, high] = serial.interval.map(|end| rounded(end, -2));
+            said.push(format!(
+                "Neighbouring rows of {name} share noise: their coefficient of correlation is {} ({low} \
+                 to {high}); that there is one has the probability {}.",
+                rounded(serial.estimate, -2),
+                probability(serial.probability)
+            ));
+        }
+        for suspect in noise.suspects.iter().filter(|suspect| suspect.probability > LIKELY) {
+            said.push(format!(
+                "Row {} of {name} is off by {} standard uncertainties with probability {}.",
+                suspect.row + 1,
+                significant(suspect.size, 2),
+                probability(suspect.probability)
+            ));
+        }
+    }
+    said
 }
 
 /// The hypotheses that the data cannot tell from the verdict, if there are any.
@@ -95,7 +196,7 @@ pub(super) fn gap(diagnosis: &Diagnosis) -> String {
             .to_owned();
     };
     let (chi2, dof) = (tenths(gap.chi2), exact(gap.dof));
-    if diagnosis.noise.is_empty() {
+    if diagnosis.noise.iter().all(|noise| noise.estimated.is_none()) {
         format!(
             "Chi-square test of all residuals together, in the metric of their covariance: chi-square \
              {chi2} with {dof} degrees of freedom, {}, the probability of residuals as large as these \
@@ -268,16 +369,17 @@ pub(super) fn next(diagnosis: &Diagnosis) -> String {
 pub(super) fn noise(diagnosis: &Diagnosis) -> Vec<String> {
     let sentence = |noise: &gumption_gap::NoiseEstimate| {
         let named = diagnosis.outputs.get(noise.output)?;
-        let value = significant(noise.standard_uncertainty, 2);
+        let estimated = noise.estimated?;
+        let value = significant(estimated.standard_uncertainty, 2);
         let size = in_unit(&value, named);
         let name = plain(&named.name);
-        Some(if noise.power == 0.0 {
+        Some(if estimated.power == 0.0 {
             format!("Estimated noise of {name}: {size}.")
         } else {
             format!(
                 "Estimated noise of {name}: {size} at the sim's typical size, growing with the \
                  power {} of it.",
-                rounded(noise.power, -2)
+                rounded(estimated.power, -2)
             )
         })
     };

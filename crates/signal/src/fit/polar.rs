@@ -6,7 +6,6 @@ use crate::Measured;
 use crate::analysed::{Analysed, Fundamental, local, shares, speed};
 use crate::budget::UncertaintySource;
 use crate::phasor::{angle, modulus};
-use crate::quantization::amplitude_error;
 use crate::recipe::Channel;
 use gumption_engine::number::elementary::{atan2, exp, hypot, sin};
 
@@ -30,9 +29,11 @@ pub(crate) struct Polar {
     pub(crate) shared: Vec<(UncertaintySource, f64)>,
     /// How phi moves with the cycles in a sample interval that the fit took, radians.
     pub(crate) slope: f64,
-    /// Standard deviations of the factors of cosine and sine, divided by the gain, from noise of all
-    /// kinds.
+    /// Standard deviations of the fitted phasor along its own direction and across it, divided by the
+    /// gain, from noise of all kinds.
     pub(crate) scatter: [f64; 2],
+    /// The mean of the cosine over the jitter of the instants, which the fitted phasor lost.
+    pub(crate) blur: f64,
     /// The fundamental that the tone belongs to.
     pub(crate) of: Fundamental,
 }
@@ -56,43 +57,54 @@ pub(crate) fn polar(
     let samples = design.samples as f64;
 
     // noise of all kinds: the part along the amplitude, and across it
-    let variance = residuals.variance * local(residuals, tone);
+    let [of_cosine, of_sine] = local(residuals, tone).map(|over| residuals.variance * over);
     let (va, vb) =
-        (variance * design.even[(tone + 1, tone + 1)], variance * design.odd[(tone, tone)]);
+        (of_cosine * design.even[(tone + 1, tone + 1)], of_sine * design.odd[(tone, tone)]);
     let (ca, cb) = (a / size, b / size);
     let along = ca * ca * va + cb * cb * vb;
     let across = cb * cb * va + ca * ca * vb;
-    let [quantization, jitter] = shares(analysed, channel.resolution);
+    let [quantization, jitter] = shares(analysed);
     let noise = (1.0 - quantization - jitter).max(0.0);
-    // the slope is steep where the sine is small: a half of the share of an even spread of jitter
-    // goes along, three halves across
-    let (fore, aside) = if multiple == 1 { (0.5, 1.5) } else { (1.0, 1.0) };
-    let before = (residuals.variance * noise).sqrt();
-    let rounding = match &residuals.known {
-        Some(known) => known.rounding.get(tone).copied().unwrap_or(0.0),
-        None if channel.resolution > 0.0 => {
-            let main = analysed.strongest();
-            amplitude_error(channel.resolution, main.max(channel.resolution), before)
+    // what rounding does, along and across, and the part of it that is noise
+    let (rounded, scattered) = match (&residuals.known, &analysed.rounding) {
+        (Some(known), _) => {
+            let rounding = known.rounding.get(tone).copied().unwrap_or(0.0);
+            // of many different values rounding moves the amplitude of a sine, not its phase
+            let across = if multiple == 1 { 0.0 } else { rounding * rounding };
+            ([rounding * rounding, across], quantization)
         }
-        None => 0.0,
+        (None, Some(rounding)) => {
+            let [aa, ab, bb] = rounding.tones.get(tone).copied().unwrap_or([0.0; 3]);
+            let along = ca * ca * aa + 2.0 * ca * cb * ab + cb * cb * bb;
+            let across = cb * cb * aa - 2.0 * ca * cb * ab + ca * ca * bb;
+            ([along.max(0.0), across.max(0.0)], quantization * (1.0 - rounding.repeated))
+        }
+        (None, None) => ([0.0; 2], quantization),
     };
+    // the slope is steep where the sine is small: of the share of an even spread of jitter 1 - b/2
+    // goes along and 1 + b/2 across, with b = exp(-(2 pi f s)^2) (a half and three halves of little
+    // jitter), which are the sums of cos^2 and sin^2 with the variance of cos(2 pi f (t + s z))
+    let blur = speed(analysed, tone) * base.jitter;
+    let even = exp(-blur * blur);
+    let (fore, aside) =
+        if multiple == 1 { (1.0 - even / 2.0, 1.0 + even / 2.0) } else { (1.0, 1.0) };
     let leakage = leakage(analysed, tone);
     let slope = design.slope(fit, fundamental);
     let (sa, sb) = (slope.cosines[tone], slope.sines[tone]);
     let phase_slope = (b * sa - a * sb) / (size * size);
     let cut = phase_slope * size * of.of_cut;
     let mut own: Vec<(UncertaintySource, f64, f64)> = Vec::new();
+    let mut scatter = [0.0; 2];
     let mut add = |source, along: f64, across: f64| {
         own.push((source, along.sqrt(), across.sqrt() / size));
+        scatter[0] += along;
+        scatter[1] += across;
     };
     add(UncertaintySource::Noise, along * noise, across * noise);
-    // rounding moves the amplitude of a sine, not its phase
-    let (fast, slow) = if multiple == 1 { (1.0, 0.0) } else { (1.0, 1.0) };
-    let square = rounding * rounding;
     add(
         UncertaintySource::Quantization,
-        along * quantization + fast * square,
-        across * quantization + slow * square,
+        along * scattered + rounded[0],
+        across * scattered + rounded[1],
     );
     add(UncertaintySource::Jitter, along * jitter * fore, across * jitter * aside);
     add(UncertaintySource::Leakage, leakage * leakage, leakage * leakage + cut * cut);
@@ -114,7 +126,8 @@ pub(crate) fn polar(
             amplitude * channel.scale_uncertainty * analysed.effects.power_of_scale(),
         ),
     ];
-    let blur = speed(analysed, tone) * base.jitter;
+    // the mean of cos over normal jitter s is less by exp(-(2 pi f s)^2/2), as is its scatter
+    let kept = exp(-blur * blur / 2.0);
     let cycles = of.turning * times;
     // what the steps did, and what of it is still in the fit
     let frequency = Measured {
@@ -127,25 +140,22 @@ pub(crate) fn polar(
     let relative = base.rate.standard_uncertainty / base.rate.value;
     let mut steps = analysed.effects.contributions(frequency, relative);
     for (_, along, _) in &mut steps {
-        *along *= amplitude / gain;
+        *along *= amplitude / (gain * kept);
     }
     for (_, along, _) in &mut own {
-        *along /= gain;
+        *along /= gain * kept;
     }
     Some(Polar {
         tone,
         steps,
         gain,
-        // the mean of cos over normal jitter s is less by exp(-(2 pi f s)^2/2)
-        amplitude: amplitude * exp(blur * blur / 2.0) / gain,
+        amplitude: amplitude / (gain * kept),
         phase: atan2(-b, a) - angle(left) - 2.0 * PI * (cycles * to_middle).fract(),
         own,
-        shared: shared.into_iter().map(|(source, u)| (source, u / gain)).collect(),
+        shared: shared.into_iter().map(|(source, u)| (source, u / (gain * kept))).collect(),
         slope: phase_slope - 2.0 * PI * times * to_middle,
-        scatter: [
-            (va + square + leakage * leakage).sqrt() / gain,
-            (vb + square + leakage * leakage).sqrt() / gain,
-        ],
+        scatter: scatter.map(|square| square.sqrt() / gain),
+        blur: kept,
         of,
     })
 }

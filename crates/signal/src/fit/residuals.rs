@@ -1,6 +1,8 @@
 //! What a fit leaves: its size, whether it is white, and how strong it is near each tone.
 
+use crate::coloured::{Coloured, Series};
 use crate::effects::KnownNoise;
+use crate::lattice;
 use crate::passes::SampleSource;
 use crate::sine_fit::{Sums, ToneCoefficients, ToneDesign, Waves, dot};
 
@@ -9,7 +11,7 @@ pub(crate) const LAGS: usize = 16;
 
 /// The 99.9 % quantile of chi-squared with [`LAGS`] degrees of freedom: the residuals of one white
 /// record in a thousand are taken as correlated.
-const NOT_WHITE: f64 = 39.252;
+pub(crate) const NOT_WHITE: f64 = 39.252;
 
 /// Parts of a record in which the noise near a tone is measured, at most and at least.
 const MOST_PARTS: u64 = 64;
@@ -30,26 +32,38 @@ pub(crate) struct Residuals {
     pub(crate) autocorrelation: Vec<f64>,
     /// Whether they are correlated beyond what white noise shows.
     pub(crate) correlated: bool,
-    /// The noise power at each tone over that of white noise of the same variance; none where the
-    /// record is too short to tell.
-    pub(crate) local: Option<Vec<f64>>,
-    /// The parts of the record that `local` comes from; 0 if there are none.
+    /// The variance of the cosine's and the sine's factor of each tone over that which white noise of
+    /// the same variance gives; none where neither parts of the record nor a model of the noise tell.
+    pub(crate) local: Option<Vec<[f64; 2]>>,
+    /// The parts of the record that `local` comes from; 0 if it comes from a model.
     pub(crate) parts: u64,
+    /// What a model of the noise says, where it is not white.
+    pub(crate) coloured: Option<Coloured>,
     /// By how much the cycles in a sample interval of a fundamental should be larger, and the
     /// variance of that for residuals of variance 1.
     pub(crate) cycles: Vec<(f64, f64)>,
     /// The first residuals.
     pub(crate) first: Vec<f64>,
+    /// The step that the values are multiples of, where there is one that counts beside the noise.
+    pub(crate) lattice: Option<f64>,
     /// What is known of the noise otherwise, after steps that change it.
     pub(crate) known: Option<KnownNoise>,
 }
 
 impl Residuals {
+    /// Whether the noise near the tones is known from parts of the record or from a model that fits.
+    pub(crate) fn is_measured(&self) -> bool {
+        self.parts > 0 || self.coloured.as_ref().is_some_and(|coloured| coloured.fits)
+    }
+
     /// Degrees of freedom of the noise near the tones.
     pub(crate) fn noise_freedom(&self) -> f64 {
         match (&self.known, &self.local) {
             (Some(KnownNoise { factors: Some(_), freedom, .. }), _) => *freedom,
-            (_, Some(_)) if self.correlated => 2.0 * (self.parts as f64 - 1.0),
+            (_, Some(_)) if self.correlated => match &self.coloured {
+                Some(coloured) if self.parts == 0 => coloured.freedom,
+                _ => 2.0 * (self.parts as f64 - 1.0),
+            },
             _ => self.degrees_of_freedom,
         }
     }
@@ -98,6 +112,9 @@ struct Gathered {
     /// For each fundamental: sums of residual times derivative, and of the derivative's square.
     derivatives: Vec<(f64, f64)>,
     first: Vec<f64>,
+    /// The first values.
+    values: Vec<f64>,
+    series: Series,
 }
 
 struct Harmonic {
@@ -131,6 +148,8 @@ impl Gathered {
             }),
             derivatives: vec![(0.0, 0.0); fundamentals],
             first: Vec::new(),
+            values: Vec::new(),
+            series: Series::new(design.samples),
         }
     }
 
@@ -164,6 +183,9 @@ impl Gathered {
         }
         let room = KEPT.saturating_sub(self.first.len()).min(residuals.len());
         self.first.extend_from_slice(&residuals[..room]);
+        self.series.add(&residuals);
+        let room = lattice::LOOKED_AT.saturating_sub(self.values.len()).min(values.len());
+        self.values.extend_from_slice(&values[..room]);
     }
 
     fn correlate(&mut self, residuals: &[f64]) {
@@ -207,15 +229,31 @@ impl Gathered {
             let left = square - explained;
             if left > 0.0 { (product / left, 1.0 / left) } else { (0.0, f64::INFINITY) }
         });
+        let correlated = statistic > NOT_WHITE;
+        let mut parts = self.part.as_ref().map_or(0, |part| part.count);
+        let coloured = (correlated || self.series.wanders(variance))
+            .then(|| self.series.coloured(design, parts > 0))
+            .flatten();
+        let modelled = coloured.as_ref().and_then(|of| of.over_white(design, variance));
+        let local = match (modelled, self.part) {
+            (Some(modelled), _) => {
+                parts = 0;
+                Some(modelled)
+            }
+            (None, part) => part.map(|of| of.local(variance).into_iter().map(|f| [f, f]).collect()),
+        };
         Residuals {
             variance,
             degrees_of_freedom,
-            correlated: statistic > NOT_WHITE,
-            parts: self.part.as_ref().map_or(0, |part| part.count),
-            local: self.part.map(|part| part.local(variance)),
+            correlated,
+            parts,
+            local,
+            coloured,
             cycles: cycles.collect(),
             autocorrelation,
             first: self.first,
+            // a step below a third of the noise adds less than a hundredth to its variance
+            lattice: lattice::step(&self.values, variance.sqrt() / 3.0),
             known: None,
         }
     }

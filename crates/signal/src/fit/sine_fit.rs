@@ -140,17 +140,14 @@ impl ToneDesign {
         })
     }
 
+    /// The waves at `length` samples from sample `first` on.
+    pub(crate) fn fill(&self, waves: &mut Waves, first: u64, length: usize) {
+        waves.fill(&self.steps, first, length);
+    }
+
     /// The least-squares solution for sums of products.
     pub(crate) fn solve(&self, sums: &Sums) -> ToneCoefficients {
-        // the sums count phases from the first sample; turned to the middle
-        let mut even = DVector::zeros(self.steps.len() + 1);
-        let mut odd = DVector::zeros(self.steps.len());
-        even[0] = sums.values;
-        for (k, step) in self.steps.iter().enumerate() {
-            let (sin, cos) = self.middle(*step);
-            even[k + 1] = sums.cosines[k] * cos + sums.sines[k] * sin;
-            odd[k] = sums.sines[k] * cos - sums.cosines[k] * sin;
-        }
+        let (even, odd) = self.to_middle(sums);
         // the pilot was taken off every value
         let mut solution = &self.even * even;
         let sines = &self.odd * odd;
@@ -160,6 +157,19 @@ impl ToneDesign {
             cosines: solution.iter().skip(1).copied().collect(),
             sines: sines.iter().copied().collect(),
         }
+    }
+
+    /// The sums, which count phases from the first sample, turned to the middle: even and odd ones.
+    fn to_middle(&self, sums: &Sums) -> (DVector<f64>, DVector<f64>) {
+        let mut even = DVector::zeros(self.steps.len() + 1);
+        let mut odd = DVector::zeros(self.steps.len());
+        even[0] = sums.values;
+        for (k, step) in self.steps.iter().enumerate() {
+            let (sin, cos) = self.middle(*step);
+            even[k + 1] = sums.cosines[k] * cos + sums.sines[k] * sin;
+            odd[k] = sums.sines[k] * cos - sums.cosines[k] * sin;
+        }
+        (even, odd)
     }
 
     /// Sine and cosine of a tone's phase from the first sample to the middle of the record.
@@ -240,7 +250,7 @@ pub(crate) struct Waves {
 }
 
 impl Waves {
-    fn new(count: usize) -> Self {
+    pub(crate) fn new(count: usize) -> Self {
         Self { cosines: vec![Vec::new(); count], sines: vec![Vec::new(); count] }
     }
 

@@ -1,5 +1,6 @@
 //! Fits against independent least squares, and studies of simulated recordings with known truth.
 
 mod least_squares;
-mod simulated;
+mod observations;
+pub(crate) mod simulated;
 mod study;

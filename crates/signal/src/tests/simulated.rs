@@ -3,15 +3,15 @@
 use std::f64::consts::PI;
 
 use crate::{
-    Amplitude, Channel, ChannelRecording, Frequency, InMemorySamples, Measured, Method,
-    Observation, PhaseUnit, RecipeSettings, TimeBase, observe,
+    Amplitude, Channel, ChannelRecording, ChannelStep, Frequency, InMemorySamples, Measured,
+    Method, Observation, PhaseUnit, RecipeSettings, TimeBase, observe,
 };
 use gumption_engine::distribution::{BLOCK, StreamKey};
 use gumption_engine::special::normal;
 use gumption_units::Unit;
 
 /// Normal numbers, a function of the seed and the name.
-pub(super) fn normals(seed: u64, name: &str, count: usize) -> Vec<f64> {
+pub(crate) fn normals(seed: u64, name: &str, count: usize) -> Vec<f64> {
     let key = StreamKey::new(seed, name);
     let mut numbers = Vec::with_capacity(count + BLOCK);
     for block in 0..count.div_ceil(BLOCK) {
@@ -33,9 +33,16 @@ pub(super) struct Bench {
     pub(super) channels: Vec<Vec<(f64, f64)>>,
     pub(super) offset: f64,
     pub(super) noise: f64,
-    /// Each value of noise is this much of the one before, and as much more new.
+    /// Each value of noise is this much of the one before, and as much more new; at 1 a random walk
+    /// from zero, whose steps have the standard deviation `noise`.
     pub(super) memory: f64,
+    /// The correlation of the noise of every further channel with that of the first.
+    pub(super) common: f64,
     pub(super) resolution: f64,
+    /// The recipe does not know of the resolution.
+    pub(super) hidden: bool,
+    /// What is done with every channel.
+    pub(super) steps: Vec<ChannelStep>,
     pub(super) jitter: f64,
     /// Standard uncertainties of frequency and rate, and what they really are off by, in units of
     /// that.
@@ -56,7 +63,10 @@ impl Default for Bench {
             offset: 0.7,
             noise: 0.01,
             memory: 0.0,
+            common: 0.0,
             resolution: 0.0,
+            hidden: false,
+            steps: Vec::new(),
             jitter: 0.0,
             frequency_uncertainty: 0.0,
             rate_uncertainty: 0.0,
@@ -73,8 +83,8 @@ impl Bench {
             name: name.into(),
             unit: Unit::one(),
             scale_uncertainty: 0.0,
-            resolution: self.resolution,
-            steps: Vec::new(),
+            resolution: if self.hidden { 0.0 } else { self.resolution },
+            steps: self.steps.clone(),
         };
         RecipeSettings {
             channels: (0..self.channels.len()).map(|n| channel(["a", "b", "c"][n])).collect(),
@@ -94,12 +104,24 @@ impl Bench {
         let errors = normals(seed, "errors", 2);
         let hertz = self.hertz + self.frequency_uncertainty * errors[0];
         let rate = self.rate + self.rate_uncertainty * errors[1];
+        let own = self.channels.iter().enumerate().map(|(number, _)| {
+            // one value more: the state before the first sample
+            normals(seed, ["a", "b", "c"][number], self.samples + 1)
+        });
+        let own: Vec<Vec<f64>> = own.collect();
         let channels = self.channels.iter().enumerate().map(|(number, tones)| {
             let name = ["a", "b", "c"][number];
-            let noise = normals(seed, name, self.samples);
+            let share = if number == 0 { 0.0 } else { self.common };
+            let rest = (1.0 - share * share).sqrt();
+            let noise: Vec<f64> = own[number]
+                .iter()
+                .zip(&own[0])
+                .map(|(own, first)| rest * own + share * first)
+                .collect();
             let jitter = normals(seed, &format!("jitter {name}"), self.samples);
-            let mut last = noise[0];
-            let grown = (1.0 - self.memory * self.memory).sqrt();
+            let walks = self.memory == 1.0;
+            let mut last = if walks { 0.0 } else { noise[self.samples] };
+            let grown = if walks { 1.0 } else { (1.0 - self.memory * self.memory).sqrt() };
             let value = |i: usize| {
                 let t = i as f64 / rate + self.jitter * jitter[i];
                 last = self.memory * last + grown * noise[i];

@@ -7,7 +7,7 @@ use crate::study::Errors;
 use crate::{ChannelObservation, Measured, Method};
 
 /// The figures of channel b, and the frequency, with their true values.
-fn figures(
+pub(super) fn figures(
     bench: &Bench,
     of: &ChannelObservation,
     root: &ChannelObservation,

@@ -1,17 +1,19 @@
-//! Checking names and dimensions through a formula.
+//! Checking names, dimensions and scales through a formula.
 
 use std::collections::HashSet;
 use std::ops::Range;
 
 use super::error::{FormulaError, Operand};
+use super::evaluate::constants;
 use super::fraction::{Fraction, fractions};
 use super::function::Function;
 use super::message::excerpt;
 use super::suggest;
 use super::syntax::{Kind, Node, Operator, Tree};
-use super::typing::{Celsius, Scope, Typing};
+use super::tie::Tie;
+use super::typing::{Scope, Typing};
 use crate::number::{Binary, Unary};
-use gumption_units::{Dimension, Exponent};
+use gumption_units::{Dimension, Exponent, Unit};
 
 /// The most mistakes reported of one formula.
 const MAX_ERRORS: usize = 50;
@@ -36,50 +38,89 @@ pub(super) fn check(text: &str, tree: &Tree, scope: &Scope, units: bool) -> Chec
         scope,
         units,
         fractions: fractions(text, tree),
+        constants: constants(tree),
+        ties: Vec::with_capacity(tree.nodes.len()),
         reported: HashSet::new(),
         done: Checked { typings: Vec::with_capacity(tree.nodes.len()), errors: Vec::new() },
     };
-    for node in &tree.nodes {
-        let typing = checker.node(node);
+    for (index, node) in tree.nodes.iter().enumerate() {
+        let (typing, tie) = checker.node(index, node);
+        let (tie, typing) = tie.reduced(typing);
         checker.done.typings.push(typing);
+        checker.ties.push(tie);
+    }
+    if let Some(last) = tree.nodes.len().checked_sub(1) {
+        let typing = checker.settled(last);
+        if let Some(whole) = checker.done.typings.last_mut() {
+            *whole = typing;
+        }
     }
     checker.done
 }
 
-struct Checker<'c> {
-    text: &'c str,
-    tree: &'c Tree,
+pub(super) struct Checker<'c> {
+    pub(super) text: &'c str,
+    pub(super) tree: &'c Tree,
     scope: &'c Scope,
     units: bool,
     fractions: Vec<Option<Fraction>>,
+    /// The value of every node that depends on no name and has no unit.
+    pub(super) constants: Vec<Option<f64>>,
+    /// How every node hangs on a zero.
+    pub(super) ties: Vec<Tie>,
     /// Unknown names and functions that have been reported, the latter with a parenthesis.
     reported: HashSet<&'c str>,
     done: Checked,
 }
 
 impl<'c> Checker<'c> {
-    fn node(&mut self, node: &Node) -> Typing {
+    fn node(&mut self, index: usize, node: &Node) -> (Typing, Tie) {
+        let free = |typing: Typing| (typing, Tie::of(typing));
         match &node.kind {
-            Kind::Number(0.0) => Typing::ANY,
-            Kind::Number(_) | Kind::Pi => Typing::NUMBER,
-            Kind::Name => self.name(&node.span),
-            Kind::Negate(x) => self.typing(*x),
+            Kind::Number(0.0) => free(Typing::ANY),
+            Kind::Number(_) | Kind::Pi => free(Typing::NUMBER),
+            Kind::Name => free(self.name(&node.span)),
+            Kind::Unit(unit) => {
+                // one such unit is the size of a degree, not a temperature
+                let celsius_exponent = unit.celsius_exponent();
+                let typing = Typing { zero: None, celsius_exponent, ..Typing::in_unit(unit) };
+                (typing, Tie::None)
+            }
+            Kind::Constant(constant) => free(Typing::of(constant.dimension())),
+            Kind::InUnit { number, unit } => free(self.in_unit(*number, unit, &node.span)),
+            Kind::Negate(x) => (self.typing(*x), self.tie(*x).times(-1.0)),
             Kind::Infix { operator, operator_span, left, right } => {
-                self.infix(*operator, operator_span, &node.span, *left, *right)
+                self.infix(*operator, operator_span, (index, &node.span), [*left, *right])
             }
             Kind::Call { function: None, name_span, .. } => {
                 self.no_function(name_span);
-                Typing::ANY
+                free(Typing::ANY)
             }
             Kind::Call { function: Some(function), name_span, arguments } => {
                 if function.arity().admits(arguments.len()) {
-                    self.call(*function, name_span, &node.span, arguments)
+                    free(self.call(*function, name_span, &node.span, arguments))
                 } else {
                     self.argument_count(*function, name_span, arguments);
-                    Typing::ANY
+                    free(Typing::ANY)
                 }
             }
         }
+    }
+
+    /// A number of units.
+    fn in_unit(&mut self, number: usize, unit: &Unit, span: &Range<usize>) -> Typing {
+        let typing = self.typing(number);
+        let given = self.operand(number, typing.dimension.unwrap_or_default());
+        if typing.dimension.is_some_and(|dimension| !dimension.is_none()) || !typing.level.is_zero()
+        {
+            self.report_dimension(FormulaError::NumberWithUnit {
+                number: given,
+                unit: unit.text().to_owned(),
+                span: span.clone(),
+            });
+            return Typing::ANY;
+        }
+        Typing::in_unit(unit)
     }
 
     fn name(&mut self, span: &Range<usize>) -> Typing {
@@ -142,59 +183,63 @@ impl<'c> Checker<'c> {
         &mut self,
         operator: Operator,
         operator_span: &Range<usize>,
-        span: &Range<usize>,
-        left: usize,
-        right: usize,
-    ) -> Typing {
+        (index, span): (usize, &Range<usize>),
+        [left, right]: [usize; 2],
+    ) -> (Typing, Tie) {
         let (x, y) = (self.typing(left), self.typing(right));
         match operator {
             Operator::Add | Operator::Subtract => {
                 let dimension = self.alike(operator.name(), operator_span, &[left, right]);
-                let celsius = match operator {
-                    Operator::Add => sum(x, y, Celsius::plus),
-                    _ => sum(x, y, Celsius::minus),
-                };
-                Typing { dimension, celsius }
+                let sign = if operator == Operator::Add { 1.0 } else { -1.0 };
+                let (typing, tie) = self.sum(sign, operator_span, [left, right]);
+                (Typing { dimension, ..typing }, tie)
             }
             Operator::Multiply => {
-                let (a, b) = (x.dimension, y.dimension);
-                let product = a.zip(b).map(|(a, b)| a.checked_mul(b));
-                let celsius = match (a, b) {
-                    (Some(Dimension::NONE), _) => y.celsius,
-                    (_, Some(Dimension::NONE)) => x.celsius,
-                    _ => Celsius::No,
-                };
-                Typing { dimension: self.in_range(product, span), celsius }
+                let product = x.dimension.zip(y.dimension).map(|(a, b)| a.checked_mul(b));
+                let dimension = self.in_range(product, span);
+                self.product(index, dimension, [left, right])
             }
             Operator::Divide => {
                 let quotient = x.dimension.zip(y.dimension).map(|(a, b)| a.checked_div(b));
-                let by_number = y.dimension == Some(Dimension::NONE);
-                let celsius = if by_number { x.celsius } else { Celsius::No };
-                Typing { dimension: self.in_range(quotient, span), celsius }
+                let dimension = self.in_range(quotient, span);
+                self.quotient(index, dimension, [left, right])
             }
-            Operator::Power => self.power(span, left, right),
+            Operator::Power => self.power(index, span, [left, right]),
             _ => {
                 self.alike(operator.name(), operator_span, &[left, right]);
-                Typing::NUMBER
+                self.together(operator.name(), operator_span, &[left, right]);
+                (Typing::NUMBER, Tie::None)
             }
         }
     }
 
-    fn power(&mut self, span: &Range<usize>, base: usize, exponent: usize) -> Typing {
-        let base_dimension = self.typing(base).dimension;
+    fn power(
+        &mut self,
+        index: usize,
+        span: &Range<usize>,
+        [base, exponent]: [usize; 2],
+    ) -> (Typing, Tie) {
+        let (base_typing, exponent_typing) = (self.typing(base), self.typing(exponent));
         if let Some(operand) = self.not_plain(exponent) {
             self.report_dimension(FormulaError::ExponentNotPlain { exponent: operand });
-            return Typing::ANY;
+            return (Typing::ANY, Tie::None);
+        }
+        if !exponent_typing.level.is_zero() {
+            self.check_level_as_exponent(base, exponent);
+            return (Typing::NUMBER, Tie::None);
         }
         let constant = self.fractions.get(exponent).copied().flatten();
         if constant.and_then(Fraction::exponent) == Some(Exponent::ZERO) {
-            return Typing::NUMBER;
+            return (Typing::NUMBER, Tie::None);
         }
-        let dimension = match base_dimension {
-            None => return Typing::ANY,
-            Some(Dimension::NONE) => return Typing::NUMBER,
-            Some(dimension) => dimension,
-        };
+        if base_typing.level.is_zero() {
+            match base_typing.dimension {
+                None => return (Typing::ANY, Tie::None),
+                Some(Dimension::NONE) => return (Typing::NUMBER, Tie::None),
+                Some(_) => {}
+            }
+        }
+        let Some(dimension) = base_typing.dimension else { return (Typing::ANY, Tie::None) };
         let Some(constant) = constant else {
             let base = self.operand(base, dimension);
             let exponent_span = self.tree.span(exponent);
@@ -203,10 +248,15 @@ impl<'c> Checker<'c> {
                 exponent: excerpt(self.text, exponent_span.clone()),
                 span: exponent_span,
             });
-            return Typing::ANY;
+            return (Typing::ANY, Tie::None);
         };
         let power = constant.exponent().and_then(|exponent| dimension.checked_pow(exponent));
-        Typing { dimension: self.in_range(Some(power), span), celsius: Celsius::No }
+        let dimension = self.in_range(Some(power), span);
+        match constant.exponent() {
+            Some(Exponent::ONE) => (base_typing, self.tie(base)),
+            Some(exponent) => self.raised(index, dimension, base, exponent),
+            None => (Typing { dimension, ..Typing::ANY }, Tie::None),
+        }
     }
 
     fn call(
@@ -217,18 +267,22 @@ impl<'c> Checker<'c> {
         arguments: &[usize],
     ) -> Typing {
         let first = arguments.first().copied().unwrap_or_default();
-        let typing = self.typing(first);
+        let name = function.name();
         match function {
-            Function::One(Unary::Negate | Unary::Abs) => typing,
+            Function::One(Unary::Negate | Unary::Abs) => self.without_zero(name, first),
             Function::One(operation @ (Unary::Sqrt | Unary::Cbrt)) => {
                 let degree = if operation == Unary::Sqrt { 2 } else { 3 };
+                let typing = self.without_zero(name, first);
                 let root = typing.dimension.map(|dimension| dimension.checked_root(degree));
-                Typing { dimension: self.in_range(root, span), celsius: Celsius::No }
+                let dimension = self.in_range(root, span);
+                let power = Exponent::new(1, degree).unwrap_or(Exponent::ONE);
+                self.rooted(dimension, typing, power)
             }
             Function::One(_) => {
-                if let Some(argument) = self.not_plain(first) {
+                let typing = self.plain_argument(name, first);
+                if let Some(argument) = self.not_plain(first).filter(|_| typing.is_some()) {
                     self.report_dimension(FormulaError::ArgumentNotPlain {
-                        function: function.name(),
+                        function: name,
                         function_span: name_span.clone(),
                         argument,
                     });
@@ -236,31 +290,41 @@ impl<'c> Checker<'c> {
                 Typing::NUMBER
             }
             Function::Two(Binary::Atan2) => {
-                self.alike(function.name(), name_span, arguments);
+                self.alike(name, name_span, arguments);
+                self.all_without_zero(name, name_span, arguments);
                 Typing::NUMBER
             }
+            Function::Fold(Binary::Hypot) => {
+                let dimension = self.alike(name, name_span, arguments);
+                let typing = self.all_without_zero(name, name_span, arguments);
+                Typing { dimension, ..typing }
+            }
             Function::Two(_) | Function::Fold(_) => {
-                let dimension = self.alike(function.name(), name_span, arguments);
-                let together = |x: Typing, &argument: &usize| {
-                    let y = self.typing(argument);
-                    let celsius = sum(x, y, Celsius::plus);
-                    Typing { dimension: x.dimension.or(y.dimension), celsius }
-                };
-                let celsius = arguments.iter().fold(Typing::ANY, together).celsius;
-                Typing { dimension, celsius }
+                let dimension = self.alike(name, name_span, arguments);
+                let typing = self.together(name, name_span, arguments);
+                Typing { dimension, ..typing }
             }
-            Function::Kelvin => {
-                if !typing.fits(Dimension::TEMPERATURE)
-                    && let Some(dimension) = typing.dimension
-                {
-                    let argument = self.operand(first, dimension);
-                    self.report_dimension(FormulaError::NotATemperature {
-                        function_span: name_span.clone(),
-                        argument,
-                    });
-                }
-                Typing { dimension: Some(Dimension::TEMPERATURE), celsius: Celsius::Kelvin }
+            Function::Kelvin | Function::Celsius => {
+                self.temperature(name, name_span, first);
+                self.scaled_temperature(function)
             }
+        }
+    }
+
+    /// Checks that an argument is a temperature and no difference of two.
+    fn temperature(&mut self, function: &'static str, span: &Range<usize>, argument: usize) {
+        let typing = self.settled(argument);
+        if !typing.fits(Dimension::TEMPERATURE)
+            && let Some(dimension) = typing.dimension
+        {
+            let argument = self.operand(argument, dimension);
+            self.report_dimension(FormulaError::NotATemperature {
+                function,
+                function_span: span.clone(),
+                argument,
+            });
+        } else {
+            self.refuse_difference(function, argument, typing);
         }
     }
 
@@ -321,8 +385,27 @@ impl<'c> Checker<'c> {
         Box::new(Operand { text, span, dimension, is_number })
     }
 
-    fn typing(&self, index: usize) -> Typing {
+    pub(super) fn typing(&self, index: usize) -> Typing {
         self.done.typings.get(index).copied().unwrap_or(Typing::ANY)
+    }
+
+    pub(super) fn tie(&self, index: usize) -> Tie {
+        self.ties.get(index).copied().unwrap_or(Tie::None)
+    }
+
+    /// The text of a node for a message.
+    pub(super) fn quoted(&self, index: usize) -> String {
+        excerpt(self.text, self.tree.span(index))
+    }
+
+    /// The value of a node that is a plain number written out.
+    pub(super) fn constant(&self, index: usize) -> Option<f64> {
+        self.constants.get(index).copied().flatten()
+    }
+
+    /// Whether a node is a rational number written out.
+    pub(super) fn is_rational(&self, index: usize) -> bool {
+        self.fractions.get(index).is_some_and(Option::is_some)
     }
 
     fn slice(&self, span: &Range<usize>) -> &'c str {
@@ -339,19 +422,9 @@ impl<'c> Checker<'c> {
         }
     }
 
-    fn report_dimension(&mut self, error: FormulaError) {
+    pub(super) fn report_dimension(&mut self, error: FormulaError) {
         if self.units {
             self.report(error);
         }
-    }
-}
-
-/// How a sum or the like comes from degrees Celsius. What fits every dimension is a zero and
-/// changes nothing.
-fn sum(x: Typing, y: Typing, joined: fn(Celsius, Celsius) -> Celsius) -> Celsius {
-    match (x.dimension, y.dimension) {
-        (None, _) if x.celsius == Celsius::No => y.celsius,
-        (_, None) if y.celsius == Celsius::No => x.celsius,
-        _ => joined(x.celsius, y.celsius),
     }
 }

@@ -4,7 +4,8 @@ use std::error::Error;
 use std::ops::Range;
 
 pub use super::function::Arity;
-use gumption_units::Dimension;
+use super::scale_fault::ScaleFault;
+use gumption_units::{Dimension, UnitError};
 
 /// What is wrong with a formula.
 ///
@@ -155,8 +156,10 @@ pub enum FormulaError {
         /// The argument.
         argument: Box<Operand>,
     },
-    /// `kelvin` of something other than a temperature.
+    /// `kelvin` or `celsius` of something other than a temperature.
     NotATemperature {
+        /// The function.
+        function: &'static str,
         /// Where the name of the function stands.
         function_span: Range<usize>,
         /// The argument.
@@ -174,6 +177,40 @@ pub enum FormulaError {
         /// The exponent's text.
         exponent: String,
         /// Where the exponent stands.
+        span: Range<usize>,
+    },
+    /// A text in brackets that is no unit.
+    BadUnit {
+        /// What stands between the brackets.
+        text: String,
+        /// Where it stands, with the brackets.
+        span: Range<usize>,
+        /// What is wrong with it.
+        error: UnitError,
+    },
+    /// A number with a unit that can be read in two ways.
+    TwoReadings {
+        /// The text.
+        text: String,
+        /// Where it stands.
+        span: Range<usize>,
+        /// The two ways to write what may be meant.
+        readings: [String; 2],
+    },
+    /// A unit in brackets behind something that has a unit.
+    NumberWithUnit {
+        /// What stands before the unit.
+        number: Box<Operand>,
+        /// The unit.
+        unit: String,
+        /// Where both stand.
+        span: Range<usize>,
+    },
+    /// Something that the scale of a quantity does not bear.
+    Scale {
+        /// What is wrong.
+        fault: Box<ScaleFault>,
+        /// Where.
         span: Range<usize>,
     },
     /// A result whose dimension has exponents that are too large or too fine.
@@ -232,6 +269,10 @@ impl FormulaError {
             | Self::ArgumentCount { span, .. }
             | Self::MixedDimensions { span, .. }
             | Self::ExponentNotConstant { span, .. }
+            | Self::BadUnit { span, .. }
+            | Self::TwoReadings { span, .. }
+            | Self::NumberWithUnit { span, .. }
+            | Self::Scale { span, .. }
             | Self::DimensionOverflow { span, .. } => span.clone(),
             Self::ArgumentNotPlain { argument, .. } | Self::NotATemperature { argument, .. } => {
                 argument.span.clone()
@@ -255,7 +296,7 @@ impl FormulaError {
             Self::ArgumentNotPlain { argument, function_span, .. } => {
                 vec![(function_span.clone(), "takes a plain number".to_owned()), of(argument)]
             }
-            Self::NotATemperature { argument, function_span } => {
+            Self::NotATemperature { argument, function_span, .. } => {
                 vec![(function_span.clone(), "takes a temperature".to_owned()), of(argument)]
             }
             Self::ExponentNotPlain { exponent } => vec![of(exponent)],
@@ -276,6 +317,12 @@ impl FormulaError {
                 nearest.first().cloned()
             }
             Self::NotAFunction { name, .. } => Some(format!("{name}*(")),
+            Self::BadUnit { error, .. } => {
+                error.suggestions().first().map(|unit| format!("[{unit}]"))
+            }
+            Self::TwoReadings { readings: [first, _], .. } => Some(first.clone()),
+            Self::NumberWithUnit { number, unit, .. } => Some(format!("{}/[{unit}]", number.text)),
+            Self::Scale { fault, .. } => fault.suggestion(),
             _ => None,
         }
     }
@@ -290,6 +337,8 @@ impl FormulaError {
                 | Self::ExponentNotPlain { .. }
                 | Self::ExponentNotConstant { .. }
                 | Self::DimensionOverflow { .. }
+                | Self::NumberWithUnit { .. }
+                | Self::Scale { .. }
         )
     }
 }

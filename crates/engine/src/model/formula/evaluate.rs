@@ -23,9 +23,9 @@ pub(super) fn evaluate<T: Number>(
     scope: &Scope,
     values: &HashMap<String, T>,
 ) -> Result<T, FormulaError> {
-    // only `kelvin` depends on what its argument is
+    // few values depend on what their parts are
     let typings =
-        if tree.calls_kelvin() { check(text, tree, scope, false).typings } else { Vec::new() };
+        if tree.needs_typings() { check(text, tree, scope, false).typings } else { Vec::new() };
     let constants = constants(tree);
     let mut results: Vec<T> = Vec::with_capacity(tree.nodes.len());
     for node in &tree.nodes {
@@ -40,14 +40,39 @@ pub(super) fn evaluate<T: Number>(
                     known: scope.names().map(str::to_owned).collect(),
                 })?
             }
-            Kind::Call { function: Some(Function::Kelvin), arguments, .. }
-                if arguments.len() == 1 =>
-            {
+            Kind::Call {
+                function: Some(function @ (Function::Kelvin | Function::Celsius)),
+                arguments,
+                ..
+            } if arguments.len() == 1 => {
                 // no node has the number that stands for a missing argument
                 let argument = arguments.first().copied().unwrap_or(usize::MAX);
                 let typing = typings.get(argument).copied().unwrap_or(Typing::ANY);
                 let value = at(&results, argument);
-                if typing.kelvin_shifts() { value + CELSIUS_ZERO } else { value }
+                match function {
+                    Function::Kelvin if typing.kelvin_shifts() => value + CELSIUS_ZERO,
+                    Function::Celsius if typing.celsius_shifts() => value - CELSIUS_ZERO,
+                    _ => value,
+                }
+            }
+            Kind::Infix { operator: Operator::Divide, left, right, .. }
+                if typings.get(*left).is_some_and(|typing| typing.is_celsius()) =>
+            {
+                let offset = match tree.nodes.get(*right).map(|node| &node.kind) {
+                    Some(Kind::Unit(unit)) => unit.offset(),
+                    _ => 0.0,
+                };
+                let value = at(&results, *left);
+                let value = if offset == 0.0 { value } else { value - offset };
+                value / at(&results, *right)
+            }
+            Kind::InUnit { number, unit } => {
+                let scaled = match tree.nodes.get(*number).map(|node| &node.kind) {
+                    Some(Kind::Number(number)) => T::constant(unit.value_to_si(*number)),
+                    _ if unit.offset() == 0.0 => at(&results, *number) * unit.factor(),
+                    _ => at(&results, *number) * unit.factor() + unit.offset(),
+                };
+                scaled
             }
             kind => apply(kind, &results, &constants).ok_or_else(|| wrong_call(text, kind))?,
         };
@@ -56,18 +81,18 @@ pub(super) fn evaluate<T: Number>(
     Ok(results.pop().unwrap_or_else(|| T::constant(f64::NAN)))
 }
 
-/// The value of every node that depends on no name.
-fn constants(tree: &Tree) -> Vec<Option<f64>> {
+/// The value of every node that depends on no name and has no unit.
+pub(super) fn constants(tree: &Tree) -> Vec<Option<f64>> {
     let mut constants: Vec<Option<f64>> = Vec::with_capacity(tree.nodes.len());
     let mut values: Vec<f64> = Vec::with_capacity(tree.nodes.len());
     for node in &tree.nodes {
         let known = |index: &usize| constants.get(*index).is_some_and(Option::is_some);
         let is_constant = match &node.kind {
             Kind::Number(_) | Kind::Pi => true,
-            Kind::Name => false,
+            Kind::Name | Kind::Unit(_) | Kind::Constant(_) | Kind::InUnit { .. } => false,
             Kind::Negate(x) => known(x),
             Kind::Infix { left, right, .. } => known(left) && known(right),
-            Kind::Call { function: None | Some(Function::Kelvin), .. } => false,
+            Kind::Call { function: None | Some(Function::Kelvin | Function::Celsius), .. } => false,
             Kind::Call { arguments, .. } => arguments.iter().all(known),
         };
         let value = if is_constant { apply(&node.kind, &values, &constants) } else { None };
@@ -82,7 +107,9 @@ fn apply<T: Number>(kind: &Kind, results: &[T], constants: &[Option<f64>]) -> Op
     Some(match kind {
         Kind::Number(value) => T::constant(*value),
         Kind::Pi => T::constant(std::f64::consts::PI),
-        Kind::Name => return None,
+        Kind::Name | Kind::InUnit { .. } => return None,
+        Kind::Unit(unit) => T::constant(unit.factor()),
+        Kind::Constant(constant) => T::constant(constant.value()),
         Kind::Negate(x) => -at(results, *x),
         Kind::Infix { operator: Operator::Power, left, right, .. } => {
             let exponent = constants.get(*right).copied().flatten();
@@ -103,7 +130,7 @@ fn apply<T: Number>(kind: &Kind, results: &[T], constants: &[Option<f64>]) -> Op
                 Function::Two(operation) | Function::Fold(operation) => {
                     arguments.fold(first, |result, argument| result.binary(operation, argument))
                 }
-                Function::Kelvin => return None,
+                Function::Kelvin | Function::Celsius => return None,
             }
         }
     })

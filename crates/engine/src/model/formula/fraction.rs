@@ -102,7 +102,12 @@ pub(super) fn fractions(text: &str, tree: &Tree) -> Vec<Option<Fraction>> {
                     _ => None,
                 })
             }
-            Kind::Pi | Kind::Name | Kind::Call { .. } => None,
+            Kind::Pi
+            | Kind::Name
+            | Kind::Unit(_)
+            | Kind::Constant(_)
+            | Kind::InUnit { .. }
+            | Kind::Call { .. } => None,
         };
         found.push(fraction);
     }

@@ -11,12 +11,14 @@ pub(super) enum Function {
     Two(Binary),
     /// Of two or more arguments, which are taken together from left to right.
     Fold(Binary),
-    /// The thermodynamic temperature.
+    /// The thermodynamic temperature of a Celsius temperature.
     Kelvin,
+    /// The Celsius temperature of a thermodynamic one.
+    Celsius,
 }
 
 /// All functions, in the order in which messages list them.
-const FUNCTIONS: [Function; 20] = [
+const FUNCTIONS: [Function; 21] = [
     Function::One(Unary::Sin),
     Function::One(Unary::Cos),
     Function::One(Unary::Tan),
@@ -37,6 +39,7 @@ const FUNCTIONS: [Function; 20] = [
     Function::Fold(Binary::Max),
     Function::Fold(Binary::Hypot),
     Function::Kelvin,
+    Function::Celsius,
 ];
 
 /// How many arguments a function takes.
@@ -87,13 +90,19 @@ impl Function {
             Self::One(operation) => operation.name(),
             Self::Two(operation) | Self::Fold(operation) => operation.name(),
             Self::Kelvin => "kelvin",
+            Self::Celsius => "celsius",
         }
+    }
+
+    /// Whether its argument is an angle.
+    pub(super) fn takes_angle(self) -> bool {
+        matches!(self, Self::One(Unary::Sin | Unary::Cos | Unary::Tan))
     }
 
     /// How many arguments it takes.
     pub(super) fn arity(self) -> Arity {
         match self {
-            Self::One(_) | Self::Kelvin => Arity::One,
+            Self::One(_) | Self::Kelvin | Self::Celsius => Arity::One,
             Self::Two(_) => Arity::Two,
             Self::Fold(_) => Arity::TwoOrMore,
         }

@@ -23,6 +23,8 @@ pub(super) enum TokenKind {
     Open,
     Close,
     Comma,
+    /// `[...]` as a whole.
+    Bracket,
     End,
 }
 
@@ -56,7 +58,11 @@ impl<'t> Lexer<'t> {
             let end = self.text.trim_end().len();
             return Ok(Token { kind: TokenKind::End, span: end..end });
         };
-        let kind = if c.is_ascii_digit() || (c == '.' && self.digit_after(1)) {
+        let kind = if c == '[' && self.rest().contains(']') {
+            self.take_while(|c| c != ']');
+            self.at += 1;
+            TokenKind::Bracket
+        } else if c.is_ascii_digit() || (c == '.' && self.digit_after(1)) {
             self.number()?
         } else if begins_name(c) {
             let name = self.take_while(continues_name);
@@ -104,7 +110,7 @@ impl<'t> Lexer<'t> {
                 Some("=="),
             ),
             '!' => (Some("a comparison for different values is written `!=`"), Some("!=")),
-            '%' => (Some("write 5 % as `0.05`, or give the quantity as an input in `%`"), None),
+            '%' => (Some("5 % is written `0.05` or `5 [%]`"), None),
             '|' => (Some("the modulus of x is written `abs(x)`"), None),
             '√' => (Some("the square root of x is written `sqrt(x)`"), None),
             '&' => (Some("that two comparisons both hold is their product"), Some("*")),
@@ -112,11 +118,11 @@ impl<'t> Lexer<'t> {
                 Some("a choice is written as a product with a comparison, such as `(x > 0)*y`"),
                 None,
             ),
-            '°' | 'º' | '˚' => {
-                (Some("give an angle as an input in `deg`, or write degrees as `*pi/180`"), None)
-            }
-            '[' | '{' => (Some("parentheses are `(` and `)`"), Some("(")),
-            ']' | '}' => (Some("parentheses are `(` and `)`"), Some(")")),
+            '°' | 'º' | '˚' => (Some("an angle of 30 degrees is written `30 [deg]`"), None),
+            '[' => (Some("a unit stands between `[` and `]`; parentheses are `(` and `)`"), None),
+            '{' => (Some("parentheses are `(` and `)`"), Some("(")),
+            ']' => (Some("there is no `[` before it"), None),
+            '}' => (Some("parentheses are `(` and `)`"), Some(")")),
             ';' => (Some("arguments are separated by `,`"), Some(",")),
             '.' => (Some("a decimal fraction has digits beside its point, such as `0.5`"), None),
             '–' | '—' | '‐' | '‑' => (None, Some("-")),

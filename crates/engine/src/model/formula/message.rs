@@ -6,6 +6,7 @@ use std::ops::Range;
 use super::error::{FormulaError, NumberFault, Operand};
 use super::function::Function;
 use super::name::Shown;
+use gumption_units::Dimension;
 
 /// The longest part of a formula that a message quotes, in characters.
 const LONGEST_QUOTE: usize = 40;
@@ -145,10 +146,27 @@ impl fmt::Display for FormulaError {
                 let right_kind = right.dimension.describe();
                 write!(f, "{left}, but `{}` is {right_kind}; {}", right.text, joined(operator))?;
                 if left.is_number != right.is_number {
-                    f.write_str(
-                        " (a number other than 0 in a formula has no unit; give it as an input \
-                         with one)",
+                    let number = if left.is_number { left } else { right };
+                    let other = if left.is_number { right } else { left };
+                    if number.text.starts_with("273.1") && other.dimension == Dimension::TEMPERATURE
+                    {
+                        return write!(
+                            f,
+                            " (the thermodynamic temperature of a Celsius temperature `{0}` is \
+                             `kelvin({0})`)",
+                            other.text
+                        );
+                    }
+                    write!(
+                        f,
+                        " (a number other than 0 in a formula has no unit; write one behind it, \
+                         such as `{} [{}]`)",
+                        number.text,
+                        other.dimension.usual_unit()
                     )?;
+                }
+                if left.text.contains("[h]") || right.text.contains("[h]") {
+                    f.write_str(" (`[h]` is the Planck constant; the hour is `[hour]`)")?;
                 }
                 Ok(())
             }
@@ -160,8 +178,8 @@ impl fmt::Display for FormulaError {
                 };
                 write!(f, "`{function}` needs {kind}, but {argument}")
             }
-            Self::NotATemperature { argument, .. } => {
-                write!(f, "`kelvin` needs a temperature, but {argument}")
+            Self::NotATemperature { function, argument, .. } => {
+                write!(f, "`{function}` needs a temperature, but {argument}")
             }
             Self::ExponentNotPlain { exponent } => {
                 write!(f, "an exponent must be a plain number, but {exponent}")
@@ -171,6 +189,27 @@ impl fmt::Display for FormulaError {
                 "{base}, so its exponent must be a number written out, such as `2` or `(1/2)`, \
                  not `{exponent}`"
             ),
+            Self::BadUnit { text, error, .. } => {
+                write!(f, "`[{}]` is no unit: {error}", short(text))?;
+                match text.contains(['+', '-', '(']) {
+                    true => {
+                        f.write_str(" (parts of a formula stand in parentheses, units in `[]`)")
+                    }
+                    false => Ok(()),
+                }
+            }
+            Self::TwoReadings { text, readings: [first, second], .. } => {
+                write!(f, "`{text}` can be read in two ways; write `{first}` or `{second}`")
+            }
+            Self::NumberWithUnit { number, unit, .. } => write!(
+                f,
+                "`{}` is {} already, and a unit in brackets stands behind a plain number; the \
+                 number of {unit} is `{}/[{unit}]`",
+                number.text,
+                number.dimension.describe(),
+                number.text
+            ),
+            Self::Scale { fault, .. } => fault.fmt(f),
             Self::DimensionOverflow { text, .. } => write!(
                 f,
                 "the dimension of `{text}` is out of range: its exponents are too large or too \

@@ -34,12 +34,16 @@
 //!   `2^3^2` is 512. Comparisons bind loosest, give 1 or 0, and do not chain.
 //! * A number in a formula is dimensionless, but a literal 0 fits every dimension. The exponent of
 //!   a quantity with a dimension is a rational number written out.
-//! * A temperature in degrees Celsius keeps its number; `kelvin(t)` adds 273.15, unless `t` is
-//!   known to be in kelvin.
+//! * A unit in brackets is one such unit: `p/[hPa]`, `1.5 [mm]`, `20 [degC]`; `[c]`, `[h]`, `[e]`,
+//!   `[k_B]` and `[N_A]` are the defining constants of the SI (the hour is `[hour]`).
+//! * A temperature in degrees Celsius keeps its number and has a zero: it is a summand, and
+//!   `kelvin(t)` adds 273.15, unless `t` is known to be in kelvin. Levels in decibels are made by
+//!   `10*log10(x)` or `20*log10(x)` and are summands as well.
 //! * No text makes reading or checking panic, recurse deeply or take long.
 
 #![warn(clippy::indexing_slicing)]
 
+mod constant;
 mod dimension;
 mod error;
 mod evaluate;
@@ -47,20 +51,26 @@ mod fraction;
 mod function;
 mod lexer;
 mod message;
+mod misfit;
 mod name;
 mod parser;
+mod scale;
+mod scale_fault;
 mod suggest;
 mod syntax;
 #[cfg(test)]
 mod tests;
+mod tie;
 mod typing;
 
 use std::collections::HashMap;
 use std::ops::Range;
 
 pub use error::{Arity, FormulaError, NumberFault, Operand};
+pub use misfit::ScaleMisfit;
 pub use name::{NameError, check_name, is_name};
-pub use typing::{Celsius, Scope, Typing};
+pub use scale_fault::{ScaleFault, ScaledPlace};
+pub use typing::{KelvinKind, Scope, Typing};
 
 use super::Traced;
 use crate::number::Number;
@@ -118,6 +128,30 @@ impl Formula {
     /// All mistakes (fifty at most), in the order of their places; never an empty list.
     pub fn check_names(&self, scope: &Scope) -> Result<Typing, Vec<FormulaError>> {
         self.checked(scope, false)
+    }
+
+    /// What is right by the rules and seldom meant: `sin(30)`, which is of 30 rad. Each with its
+    /// place.
+    pub fn notes(&self) -> Vec<(String, Range<usize>)> {
+        let constants = evaluate::constants(&self.tree);
+        let of_call = |node: &syntax::Node| {
+            let Kind::Call { function: Some(function), arguments, .. } = &node.kind else {
+                return None;
+            };
+            let [argument] = arguments.as_slice() else { return None };
+            let angle = constants.get(*argument).copied().flatten()?;
+            if !function.takes_angle() || angle.abs() <= std::f64::consts::TAU {
+                return None;
+            }
+            let text = self.text.get(self.tree.span(*argument)).unwrap_or_default();
+            let note = format!(
+                "`{}` takes radians, and {text} rad are more than a turn; an angle in degrees is \
+                 written `{text} [deg]`",
+                function.name()
+            );
+            (!text.contains("pi") && !text.contains('π')).then(|| (note, node.span.clone()))
+        };
+        self.tree.nodes.iter().filter_map(of_call).collect()
     }
 
     fn checked(&self, scope: &Scope, units: bool) -> Result<Typing, Vec<FormulaError>> {

@@ -8,7 +8,9 @@
 //! signed     = ( "-" | "+" ) signed | power
 //! power      = operand [ ( "^" | "**" ) exponent ]             from right to left: 2^3^2 is 2^9
 //! exponent   = ( "-" | "+" ) signed | power
-//! operand    = number | "pi" | "π" | name | call | "(" comparison ")"
+//! operand    = primary [ unit ] | unit                         1.5 [mm]
+//! primary    = number | "pi" | "π" | name | call | "(" comparison ")"
+//! unit       = "[" a unit, or a defining constant "]"
 //! call       = name "(" [ comparison { "," comparison } ] ")"
 //! number     = ( digits [ "." [ digits ] ] | "." digits ) [ ( "e" | "E" ) [ "+" | "-" ] digits ]
 //! name       = a letter or "_", then letters, digits and "_"
@@ -20,11 +22,13 @@
 
 use std::ops::Range;
 
+use super::constant::DefiningConstant;
 use super::error::{FormulaError, NumberFault};
 use super::function::Function;
 use super::lexer::{Lexer, Token, TokenKind};
 use super::message::excerpt;
 use super::syntax::{Kind, Node, Operator, Tree};
+use gumption_units::Unit;
 
 /// The longest formula, in bytes.
 pub(super) const MAX_LENGTH: usize = 100_000;
@@ -33,6 +37,9 @@ pub(super) const MAX_LENGTH: usize = 100_000;
 pub(super) const MAX_DEPTH: usize = 200;
 
 const OPERAND: &str = "a number, a name, a function or `(`";
+
+/// A constant in brackets is no unit behind a number.
+const HOUR: &str = "[hour]";
 const AFTER_WHOLE: &str = "an operator or the end of the formula";
 const AFTER_PART: &str = "an operator or `)`";
 const AFTER_ARGUMENT: &str = "an operator, `,` or `)`";
@@ -123,10 +130,65 @@ impl Parser<'_> {
         Ok(left)
     }
 
-    /// Reads an operand with its signs.
+    /// Reads an operand with its signs and the unit behind it.
     fn operand(&mut self) -> Result<Part, FormulaError> {
+        let signed = matches!(self.token.kind, TokenKind::Operator(_));
+        let part = self.primary()?;
+        if signed || self.token.kind != TokenKind::Bracket {
+            return Ok(part);
+        }
+        let place = self.token.span.clone();
+        let span = part.outer.start..place.end;
+        let text = self.slice(&span).to_owned();
+        let number = self.slice(&part.outer).to_owned();
+        let two = |first: String, second: String| {
+            let (text, readings) = (text.clone(), [first, second]);
+            Err(FormulaError::TwoReadings { text, span: span.clone(), readings })
+        };
+        let unit = match self.bracket(&place)? {
+            Kind::Unit(unit) => unit,
+            Kind::Constant(DefiningConstant::Planck) => {
+                return two(format!("{number} {HOUR}"), format!("{number}*[h]"));
+            }
+            _ => {
+                let constant = self.slice(&place).to_owned();
+                return two(format!("{number}*{constant}"), format!("{number}/{constant}"));
+            }
+        };
+        self.advance()?;
+        if self.token.kind == TokenKind::Operator(Operator::Power) {
+            let text = unit.text().trim();
+            return two(format!("{number} [({text})^2]"), format!("({number} [{text}])^2"));
+        }
+        Ok(self.push(Kind::InUnit { number: part.node, unit }, span))
+    }
+
+    /// What stands between brackets.
+    fn bracket(&self, place: &Range<usize>) -> Result<Kind, FormulaError> {
+        let inside = self.slice(place);
+        let inside = inside.strip_prefix('[').and_then(|text| text.strip_suffix(']'));
+        let text = inside.unwrap_or_default();
+        if let Some(constant) = DefiningConstant::named(text.trim()) {
+            return Ok(Kind::Constant(constant));
+        }
+        match Unit::parse(text) {
+            Ok(unit) if !text.trim().is_empty() => Ok(Kind::Unit(Box::new(unit))),
+            Ok(_) => Err(self.unexpected(OPERAND)),
+            Err(error) => {
+                Err(FormulaError::BadUnit { text: text.to_owned(), span: place.clone(), error })
+            }
+        }
+    }
+
+    /// Reads an operand with its signs.
+    fn primary(&mut self) -> Result<Part, FormulaError> {
         let span = self.token.span.clone();
         match self.token.kind {
+            TokenKind::Bracket => {
+                let kind = self.bracket(&span)?;
+                self.advance()?;
+                Ok(self.push(kind, span))
+            }
             TokenKind::Number(value) => {
                 self.advance()?;
                 Ok(self.push(Kind::Number(value), span))
@@ -148,11 +210,27 @@ impl Parser<'_> {
                 let part = self.nested(&span, |parser| parser.expression(SIGN))?;
                 let outer = span.start..part.outer.end;
                 Ok(match sign {
+                    Operator::Subtract if self.negate_literal(part.node) => Part { outer, ..part },
                     Operator::Subtract => self.push(Kind::Negate(part.node), outer),
                     _ => Part { outer, ..part },
                 })
             }
             _ => Err(self.unexpected(OPERAND)),
+        }
+    }
+
+    /// Makes -5 degC of a minus sign before `5 [degC]`: the number is negative, not the temperature.
+    fn negate_literal(&mut self, node: usize) -> bool {
+        let number = match self.nodes.get(node).map(|node| &node.kind) {
+            Some(Kind::InUnit { number, unit }) if unit.zero().is_some() => *number,
+            _ => return false,
+        };
+        match self.nodes.get_mut(number).map(|node| &mut node.kind) {
+            Some(Kind::Number(value)) => {
+                *value = -*value;
+                true
+            }
+            _ => false,
         }
     }
 
@@ -248,6 +326,11 @@ impl Parser<'_> {
             }
             TokenKind::Number(_) if self.last_is_number() => {
                 (Some("two numbers need an operator between them"), None)
+            }
+            TokenKind::Name if self.last_is_number() && Unit::parse(self.slice(span)).is_ok() => {
+                let number = self.last.as_ref().map_or("", |last| self.slice(&last.span));
+                let suggestion = format!("{number} [{}]", self.slice(span));
+                (Some("the unit of a number stands in brackets"), Some(suggestion))
             }
             TokenKind::Number(_) | TokenKind::Pi | TokenKind::Name | TokenKind::Open => {
                 let before = self.last.as_ref().map_or("", |last| self.slice(&last.span));

@@ -5,7 +5,9 @@
 
 use std::ops::Range;
 
+use super::constant::DefiningConstant;
 use super::function::Function;
+use gumption_units::Unit;
 
 /// A formula as a tree; the last node is the whole.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -30,6 +32,12 @@ pub(super) enum Kind {
     Pi,
     /// A name; it is the text at the node's span.
     Name,
+    /// A unit in brackets: one such unit.
+    Unit(Box<Unit>),
+    /// A constant in brackets.
+    Constant(DefiningConstant),
+    /// A number of units: `1.5 [mm]`.
+    InUnit { number: usize, unit: Box<Unit> },
     /// The opposite of an operand.
     Negate(usize),
     /// Two operands with an operator between them.
@@ -80,11 +88,14 @@ impl Operator {
 }
 
 impl Tree {
-    /// Whether `kelvin` is called anywhere.
-    pub(super) fn calls_kelvin(&self) -> bool {
-        self.nodes
-            .iter()
-            .any(|node| matches!(node.kind, Kind::Call { function: Some(Function::Kelvin), .. }))
+    /// Whether some value depends on what its parts are: `kelvin(t)` adds 273.15 to a Celsius
+    /// temperature, and `t/[degF]` counts from another zero.
+    pub(super) fn needs_typings(&self) -> bool {
+        self.nodes.iter().any(|node| match &node.kind {
+            Kind::Call { function: Some(Function::Kelvin | Function::Celsius), .. } => true,
+            Kind::Unit(unit) => unit.offset() != 0.0,
+            _ => false,
+        })
     }
 
     /// The place of a node in the text; empty for a node that is not there.

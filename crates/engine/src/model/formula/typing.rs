@@ -2,55 +2,71 @@
 
 use std::collections::{HashMap, HashSet};
 
-use gumption_units::{Dimension, Unit};
+use gumption_units::{Dimension, Exponent, Turn, Unit, Zero};
 
-/// The kind of a quantity: its dimension, and how it goes back to temperatures in degrees Celsius.
+/// The kind of a quantity: its dimension, and what its numbers count.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Typing {
     /// The dimension. `None` fits every dimension: so does the literal 0, and so does a quantity
     /// about which a mistake has been reported already.
     pub dimension: Option<Dimension>,
-    /// How it comes from temperatures in degrees Celsius.
-    pub celsius: Celsius,
+    /// The zero that its numbers count from: that of a Celsius temperature, the reference of a
+    /// level in dBm.
+    pub zero: Option<Zero>,
+    /// What is known about it if it is a temperature in K.
+    pub kelvin: KelvinKind,
+    /// The exponent of the degrees Celsius in the unit that it was given in: -1 of a coefficient in
+    /// `ppm/degC`, which multiplies numbers of degrees Celsius.
+    pub celsius_exponent: Exponent,
+    /// The exponent of decibels in it: 1 of a level, 0 of everything that is no level.
+    pub level: Exponent,
+    /// Whether it counts periods or angle, as far as that is known.
+    pub turn: Option<Turn>,
 }
 
-/// How a quantity comes from temperatures that are given in degrees Celsius, which keep their
-/// number in a formula.
-///
-/// Followed through sums, differences, signs, `abs`, `min`, `max`, `hypot` and products with plain
-/// numbers. Everything else (a power, a product with another quantity) is [`Celsius::No`].
+/// What is known about a temperature in K.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Celsius {
-    /// Not at all.
+pub enum KelvinKind {
+    /// Nothing: a unit does not tell a difference from a thermodynamic temperature.
     #[default]
-    No,
-    /// From them alone: a number of degrees Celsius, not of kelvin.
-    Value,
-    /// The difference of two of them, which is in kelvin just as well.
+    Either,
+    /// It is the difference of two Celsius temperatures, or of two thermodynamic ones.
     Difference,
-    /// From them and temperatures in kelvin, added or subtracted: usually degrees Celsius with a
-    /// correction.
-    Mixed,
     /// It is a thermodynamic temperature that `kelvin` gave, or a sum with one.
-    Kelvin,
+    Thermodynamic,
 }
 
 impl Typing {
     /// A plain number.
-    pub const NUMBER: Self = Self { dimension: Some(Dimension::NONE), celsius: Celsius::No };
+    pub const NUMBER: Self = Self::of(Dimension::NONE);
 
     /// Fits everything.
-    pub const ANY: Self = Self { dimension: None, celsius: Celsius::No };
+    pub const ANY: Self = Self { dimension: None, ..Self::NUMBER };
 
     /// A quantity of that dimension, in coherent SI units.
     pub const fn of(dimension: Dimension) -> Self {
-        Self { dimension: Some(dimension), celsius: Celsius::No }
+        Self {
+            dimension: Some(dimension),
+            zero: None,
+            kelvin: KelvinKind::Either,
+            celsius_exponent: Exponent::ZERO,
+            level: Exponent::ZERO,
+            turn: None,
+        }
     }
 
     /// A quantity that is given in that unit.
     pub fn in_unit(unit: &Unit) -> Self {
-        let celsius = if unit.is_celsius() { Celsius::Value } else { Celsius::No };
-        Self { dimension: Some(unit.dimension()), celsius }
+        let zero = unit.zero();
+        let celsius = unit.celsius_exponent();
+        Self {
+            zero,
+            celsius_exponent: if zero.is_some() { Exponent::ZERO } else { celsius },
+            level: unit.level_exponent(),
+            turn: unit.turn(),
+            ..Self::of(unit.dimension())
+        }
     }
 
     /// Whether the quantity can be one of that dimension.
@@ -58,40 +74,30 @@ impl Typing {
         self.dimension.is_none_or(|own| own == dimension)
     }
 
-    /// Whether it is a number of degrees Celsius that nothing has turned into a thermodynamic
-    /// temperature, so that it is an unlikely result in K.
+    /// Whether it is a Celsius temperature, which has a zero.
     pub fn is_celsius(self) -> bool {
-        self.celsius == Celsius::Value
+        self.zero == Some(Zero::Celsius)
+    }
+
+    /// Whether it is a number of degrees by the unit of a coefficient, which may be a Celsius
+    /// temperature or a difference: `dR/S` with S in ohm/degC.
+    pub fn counts_degrees(self) -> bool {
+        self.zero.is_none()
+            && self.dimension == Some(Dimension::TEMPERATURE)
+            && self.celsius_exponent == Exponent::ONE
     }
 
     /// Whether `kelvin` of it adds 273.15: unless it is known to be in kelvin.
     pub(super) fn kelvin_shifts(self) -> bool {
-        match self.celsius {
-            Celsius::Kelvin => false,
-            Celsius::No => self.dimension != Some(Dimension::TEMPERATURE),
-            Celsius::Value | Celsius::Difference | Celsius::Mixed => true,
-        }
-    }
-}
-
-impl Celsius {
-    /// Of a sum, or of the larger or smaller of two.
-    pub(super) fn plus(self, other: Self) -> Self {
-        match (self, other) {
-            (Self::Kelvin, _) | (_, Self::Kelvin) => Self::Kelvin,
-            (Self::No, Self::No) => Self::No,
-            (Self::No | Self::Mixed, _) | (_, Self::No | Self::Mixed) => Self::Mixed,
-            (Self::Difference, Self::Difference) => Self::Difference,
-            (Self::Value | Self::Difference, Self::Value | Self::Difference) => Self::Value,
-        }
+        self.is_celsius()
+            || self.counts_degrees()
+            || self.dimension != Some(Dimension::TEMPERATURE)
+            || self.kelvin == KelvinKind::Difference
     }
 
-    /// Of a difference.
-    pub(super) fn minus(self, other: Self) -> Self {
-        match (self, other) {
-            (Self::Value, Self::Value) => Self::Difference,
-            _ => self.plus(other),
-        }
+    /// Whether `celsius` of it subtracts 273.15: unless it is in degrees Celsius already.
+    pub(super) fn celsius_shifts(self) -> bool {
+        !self.is_celsius() && !self.counts_degrees()
     }
 }
 

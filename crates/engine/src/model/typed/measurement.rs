@@ -1,7 +1,8 @@
 //! What every typed measurement has, and the macro that writes it.
 
 use crate::model::{
-    InputQuantity, Model, Output, Quantity, Recorder, Traced, in_unit, recorded_values, variables,
+    InputQuantity, Model, NumberForm, Output, Quantity, Recorder, Traced, formula::Typing, in_unit,
+    recorded_values, variables,
 };
 use crate::number::Number;
 use gumption_units::{Unit, UnitError};
@@ -164,7 +165,7 @@ impl Typed {
         outputs: Vec<Output>,
     ) -> Model {
         let recorder = Recorder::default();
-        let given = recorded_values(&recorder, &inputs, &conditions);
+        let given = recorded_values(&recorder, &inputs, &conditions, NumberForm::Coherent);
         let results = self.record_with(|name| {
             given.iter().find(|(known, _)| known == name).map(|(_, value)| *value)
         });
@@ -173,7 +174,8 @@ impl Typed {
             .map(|output| {
                 let index = self.output(&output.quantity.name).map(|(index, _)| index);
                 let result = index.and_then(|index| results.get(index)).copied();
-                in_unit(result.unwrap_or_else(|| Traced::constant(f64::NAN)), &output.quantity.unit)
+                let result = result.unwrap_or_else(|| Traced::constant(f64::NAN));
+                in_unit(result, &output.quantity.unit, Typing::in_unit(&output.quantity.unit))
             })
             .collect();
         let program = recorder.program(variables(&inputs, &conditions), &results);

@@ -35,6 +35,9 @@ pub fn html(diagnosis: &Diagnosis, provenance: &Provenance) -> String {
         p.settings { (words::settings(diagnosis)) }
         div.verdict {
             p { strong { (words::verdict(diagnosis)) } }
+            @for said in words::conflicts(diagnosis) { p { (said) } }
+            @for said in words::noise_verdict(diagnosis) { p { (said) } }
+            @if let Some(said) = words::present(diagnosis) { p { (said) } }
             @if let Some(said) = words::look_alikes(diagnosis) { p { (said) } }
         }
         h2 { "Is there a gap?" }
@@ -45,7 +48,11 @@ pub fn html(diagnosis: &Diagnosis, provenance: &Provenance) -> String {
             None => p { (words::NO_REGION) }
         }
         @if let Some(drawing) = where_map::draw(diagnosis) { (drawn(drawing)) }
-        h2 { "Which effect?" }
+        @if let Some(sheet) = sheets::present(diagnosis) {
+            h2 { "Which effects are there?" }
+            (table(&sheet))
+        }
+        h2 { "Which together?" }
         (table(&sheets::hypotheses(diagnosis)))
         @if let Some(said) = sheets::left_out(diagnosis) { p { (said) } }
         (drawn(bars::draw(diagnosis)))

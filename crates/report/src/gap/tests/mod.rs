@@ -9,9 +9,10 @@ use serde_json::Value;
 
 use crate::Provenance;
 use gumption_gap::{
-    Diagnosis, DiagnosisNote, EffectParameter, GapRegion, GapTest, Hypothesis, HypothesisKind,
-    MostProbable, NamedQuantity, NextMeasurement, NoiseEstimate, Predicted, RowGap, Shrinkage,
-    Shrunk, ValueGap,
+    Diagnosis, DiagnosisNote, EffectParameter, EstimatedNoise, GapRegion, GapTest, Hypothesis,
+    HypothesisKind, MostProbable, NamedQuantity, NextMeasurement, NoiseEstimate, Predicted,
+    PresentEffect, PriorConflict, RowGap, SerialCorrelation, Shrinkage, Shrunk, SuspectValue,
+    UncertaintyFactor, ValueGap,
 };
 
 fn named(name: &str, unit: &str) -> NamedQuantity {
@@ -72,6 +73,20 @@ fn rows(count: usize) -> Vec<RowGap> {
     (0..count).map(row).collect()
 }
 
+/// Stated uncertainties that are too small, with a value that is off, and estimated ones.
+fn noise() -> Vec<NoiseEstimate> {
+    let mut stated = NoiseEstimate::new(0);
+    let probability = 0.912_345;
+    stated.factor =
+        Some(UncertaintyFactor { estimate: 1.9234, interval: [1.6123, 2.3456], probability });
+    stated.suspects = vec![SuspectValue { row: 6, probability: 0.991_234, size: -8.1234 }];
+    stated.serial =
+        Some(SerialCorrelation { estimate: 0.8765, interval: [0.71, 0.95], probability: 0.61 });
+    let mut estimated = NoiseEstimate::new(1);
+    estimated.estimated = Some(EstimatedNoise { standard_uncertainty: 0.051_234, power: 0.25 });
+    vec![stated, estimated]
+}
+
 /// A diagnosis with everything in it.
 fn diagnosis() -> Diagnosis {
     let low_pass =
@@ -107,6 +122,7 @@ fn diagnosis() -> Diagnosis {
         most_probable: MostProbable {
             kind: HypothesisKind::Explained,
             effects: strings(&["low-pass"]),
+            prior_conflict: true,
             probability: 0.877_777_86,
             indistinguishable: vec![strings(&["low-pass"]), strings(&["low-pass", "delay"])],
             indistinguishable_probability: 0.987_777_86,
@@ -153,7 +169,19 @@ fn diagnosis() -> Diagnosis {
             Predicted { conditions: vec![400.0, 35.0], outputs: vec![(1561.2, 13.4), (1.1, 0.12)] },
         ]),
         rows: rows(20),
-        noise: vec![NoiseEstimate { output: 1, standard_uncertainty: 0.051_234, power: 0.25 }],
+        noise: noise(),
+        present: vec![PresentEffect {
+            effect: "low-pass".into(),
+            probability: 0.987_777_86,
+            parameters: vec![low_pass()],
+        }],
+        prior_conflicts: vec![PriorConflict {
+            effect: "low-pass".into(),
+            parameter: low_pass(),
+            prior_distance: 6.1234,
+            bounded: false,
+            probability: 0.81,
+        }],
         notes: vec![DiagnosisNote {
             code: "few-conditions",
             text: "There are only few conditions.".into(),
@@ -227,6 +255,8 @@ fn bare() -> Diagnosis {
     bare.next = None;
     bare.prediction = Some(Vec::new());
     bare.noise.clear();
+    bare.present.clear();
+    bare.prior_conflicts.clear();
     bare.notes.clear();
     bare
 }

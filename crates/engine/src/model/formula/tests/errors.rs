@@ -20,15 +20,10 @@ const TABLE: &[(&str, &str, &str, Option<&str>)] = &[
     ("x⁻¹", "⁻", "`⁻` has no meaning in a formula; did you mean `^-1`?", Some("^-1")),
     ("x²", "²", "`²` has no meaning in a formula; did you mean `^2`?", Some("^2")),
     ("x₀", "₀", "`₀` has no meaning in a formula; did you mean `_0`?", Some("_0")),
-    (
-        "5 % of x",
-        "%",
-        "`%` has no meaning in a formula; write 5 % as `0.05`, or give the quantity as an input in `%`",
-        None,
-    ),
+    ("5 % of x", "%", "`%` has no meaning in a formula; 5 % is written `0.05` or `5 [%]`", None),
     ("|x|", "|", "`|` has no meaning in a formula; the modulus of x is written `abs(x)`", None),
     ("√2", "√", "`√` has no meaning in a formula; the square root of x is written `sqrt(x)`", None),
-    ("[1]", "[", "`[` has no meaning in a formula; parentheses are `(` and `)`", Some("(")),
+    ("{1}", "{", "`{` has no meaning in a formula; parentheses are `(` and `)`", Some("(")),
     (
         "max(1; 2)",
         ";",
@@ -50,7 +45,7 @@ const TABLE: &[(&str, &str, &str, Option<&str>)] = &[
     (
         "35°",
         "°",
-        "`°` has no meaning in a formula; give an angle as an input in `deg`, or write degrees as `*pi/180`",
+        "`°` has no meaning in a formula; an angle of 30 degrees is written `30 [deg]`",
         None,
     ),
     ("x \u{200b}", "\u{200b}", "`\\u{200b}` has no meaning in a formula", None),
@@ -229,7 +224,7 @@ const TABLE: &[(&str, &str, &str, Option<&str>)] = &[
     (
         "erf(n)",
         "erf",
-        "there is no function `erf`; the functions are sin, cos, tan, asin, acos, atan, atan2, sinh, cosh, tanh, exp, ln, log10, sqrt, cbrt, abs, min, max, hypot, kelvin",
+        "there is no function `erf`; the functions are sin, cos, tan, asin, acos, atan, atan2, sinh, cosh, tanh, exp, ln, log10, sqrt, cbrt, abs, min, max, hypot, kelvin, celsius",
         None,
     ),
     (
@@ -276,7 +271,7 @@ const TABLE: &[(&str, &str, &str, Option<&str>)] = &[
     (
         "l > 1",
         ">",
-        "`l` is a length (m), but `1` is a plain number; they cannot be compared (a number other than 0 in a formula has no unit; give it as an input with one)",
+        "`l` is a length (m), but `1` is a plain number; they cannot be compared (a number other than 0 in a formula has no unit; write one behind it, such as `1 [m]`)",
         None,
     ),
     (
@@ -303,7 +298,7 @@ const TABLE: &[(&str, &str, &str, Option<&str>)] = &[
         "`sin` needs an angle or another plain number, but `2*l` is a length (m)",
         None,
     ),
-    ("exp(t)", "t", "`exp` needs a plain number, but `t` is a temperature (K)", None),
+    ("exp(dt)", "dt", "`exp` needs a plain number, but `dt` is a temperature (K)", None),
     ("kelvin(l)", "l", "`kelvin` needs a temperature, but `l` is a length (m)", None),
     ("kelvin(20)", "20", "`kelvin` needs a temperature, but `20` is a plain number", None),
     ("2^l", "l", "an exponent must be a plain number, but `l` is a length (m)", None),

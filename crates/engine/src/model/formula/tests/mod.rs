@@ -3,6 +3,7 @@
 mod dimensions;
 mod errors;
 mod random;
+mod scales;
 mod syntax;
 mod values;
 

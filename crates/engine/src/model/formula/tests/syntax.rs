@@ -15,7 +15,8 @@ fn show(tree: &Tree, text: &str, place: usize) -> String {
     match &node.kind {
         Kind::Number(value) => value.to_string(),
         Kind::Pi => "pi".to_owned(),
-        Kind::Name => written.to_owned(),
+        Kind::Name | Kind::Unit(_) | Kind::Constant(_) => written.to_owned(),
+        Kind::InUnit { number, unit } => format!("({} {unit})", show(tree, text, *number)),
         Kind::Negate(x) => format!("(-{})", show(tree, text, *x)),
         Kind::Infix { operator, left, right, .. } => {
             let (left, right) = (show(tree, text, *left), show(tree, text, *right));

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use super::*;
 use crate::model::typed::Typed;
 use crate::model::typed::example::Projection;
-use crate::model::{Program, Recorder, in_unit, recorded_values, variables};
+use crate::model::{NumberForm, Program, Recorder, in_unit, recorded_values, variables};
 use crate::number::{Dual, Number};
 
 fn constant(text: &str) -> f64 {
@@ -204,7 +204,8 @@ fn formulas_of_the_inclined_plane_are_the_typed_model() {
         .map(|input| (input.quantity.name.as_str(), Typing::in_unit(&input.quantity.unit)))
         .collect();
     let recorder = Recorder::default();
-    let values = recorded_values(&recorder, &typed.inputs, &[]).into_iter().collect();
+    let values =
+        recorded_values(&recorder, &typed.inputs, &[], NumberForm::Coherent).into_iter().collect();
     let formulas = [
         "abs(a_ref*sin(tilt)*cos(rotation))",
         "abs(a_ref*sin(tilt)*sin(rotation))",
@@ -217,7 +218,7 @@ fn formulas_of_the_inclined_plane_are_the_typed_model() {
             let formula = Formula::parse(text).unwrap();
             let typing = formula.check(&scope).unwrap();
             assert_eq!(typing.dimension, Some(output.quantity.unit.dimension()));
-            in_unit(formula.record(&scope, &values).unwrap(), &output.quantity.unit)
+            in_unit(formula.record(&scope, &values).unwrap(), &output.quantity.unit, Typing::NUMBER)
         })
         .collect();
     let program = recorder.program(variables(&typed.inputs, &[]), &results);

@@ -1,0 +1,142 @@
+//! Whether a result can be reported in a unit of its dimension: by its zero, as a level, by what it
+//! counts.
+
+use std::error::Error;
+use std::fmt;
+
+use super::typing::{KelvinKind, Typing};
+use gumption_units::{Exponent, Turn, Unit, Zero};
+
+/// Why a quantity cannot be given in a unit, although the dimension fits. `Display` gives the
+/// reason and what to write, to be put after the quantity's name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum ScaleMisfit {
+    /// A Celsius temperature in a unit that counts from absolute zero.
+    CelsiusInKelvin,
+    /// A thermodynamic temperature, or one in K that may be a difference, in degrees Celsius.
+    KelvinInCelsius {
+        /// Whether it is known to be a thermodynamic temperature.
+        thermodynamic: bool,
+    },
+    /// A plain ratio in decibels.
+    RatioAsLevel,
+    /// A level in a unit of ratios.
+    LevelAsRatio,
+    /// A level whose reference is not that of the unit.
+    OtherReference {
+        /// The reference of the level.
+        found: Option<Zero>,
+        /// That of the unit.
+        expected: Option<Zero>,
+    },
+    /// Periods where angle is counted, or angle where periods are.
+    Turns {
+        /// What the quantity counts.
+        found: Turn,
+    },
+}
+
+impl Error for ScaleMisfit {}
+
+impl fmt::Display for ScaleMisfit {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let level = |zero: Option<Zero>| zero.map_or("dB", Zero::unit);
+        match self {
+            Self::CelsiusInKelvin => f.write_str(
+                "is a Celsius temperature, whose zero is at 273.15 K; write `kelvin(...)` for the \
+                 thermodynamic temperature, or give it in `degC`",
+            ),
+            Self::KelvinInCelsius { thermodynamic: true } => f.write_str(
+                "is a thermodynamic temperature in K; write `celsius(...)` for the Celsius \
+                 temperature, or give it in `K`",
+            ),
+            Self::KelvinInCelsius { thermodynamic: false } => f.write_str(
+                "is in K and not known to be a difference of Celsius temperatures; write \
+                 `celsius(...)` for the Celsius temperature, or give a difference in `K`",
+            ),
+            Self::RatioAsLevel => f.write_str(
+                "is a plain ratio and no level; write `10*log10(...)` of a ratio of powers, \
+                 `20*log10(...)` of a ratio of amplitudes, or `... [dB]` for a number of decibels",
+            ),
+            Self::LevelAsRatio => f.write_str(
+                "is a level in decibels; write `10^(.../10)` for the ratio of powers, \
+                 `10^(.../20)` for that of amplitudes, or give it in `dB`",
+            ),
+            Self::OtherReference { found, expected: None } => write!(
+                f,
+                "is a level in {}, which has a reference; give it in `{0}`, or take the difference \
+                 of two",
+                level(*found)
+            ),
+            Self::OtherReference { found, expected } => {
+                write!(f, "is a level in {}, not in {}", level(*found), level(*expected))?;
+                f.write_str("; write the reference out, such as `10*log10(P/1 [mW])`")
+            }
+            Self::Turns { found: Turn::Periods } => f.write_str(
+                "counts periods, and the unit counts angle; write `2*pi*...` or `...*[rev]`",
+            ),
+            Self::Turns { found: Turn::Angle } => f.write_str(
+                "counts angle, and the unit counts periods; write `.../(2*pi)` or `.../[rev]`",
+            ),
+        }
+    }
+}
+
+impl Typing {
+    /// Whether a result can be reported in a unit of its dimension as it is.
+    ///
+    /// # Errors
+    /// Why not.
+    pub fn reported_in(self, unit: &Unit) -> Result<(), ScaleMisfit> {
+        if self.dimension.is_none() {
+            return Ok(());
+        }
+        match (self.turn, unit.turn()) {
+            (Some(found), Some(expected)) if found != expected => {
+                return Err(ScaleMisfit::Turns { found });
+            }
+            _ => {}
+        }
+        let level = unit.level_exponent();
+        if self.level != level {
+            return match (self.level, level) {
+                (Exponent::ZERO, _) => Err(ScaleMisfit::RatioAsLevel),
+                // the number of decibels, as a number
+                (_, Exponent::ZERO) if unit.factors().is_empty() => Ok(()),
+                _ => Err(ScaleMisfit::LevelAsRatio),
+            };
+        }
+        match (self.zero, unit.zero()) {
+            (Some(Zero::Celsius), None) => Err(ScaleMisfit::CelsiusInKelvin),
+            (None, Some(Zero::Celsius))
+                if self.kelvin != KelvinKind::Difference && !self.counts_degrees() =>
+            {
+                let thermodynamic = self.kelvin == KelvinKind::Thermodynamic;
+                Err(ScaleMisfit::KelvinInCelsius { thermodynamic })
+            }
+            // of what `10*log10(...)` is above nothing is known
+            (None, _) => Ok(()),
+            (found, expected) => match Zero::shift(found, expected) {
+                Some(_) => Ok(()),
+                None => Err(ScaleMisfit::OtherReference { found, expected }),
+            },
+        }
+    }
+
+    /// What is added to a number of formulas where it becomes a value that counts from the zero of a
+    /// unit of its dimension: an estimate in K from a Celsius temperature.
+    ///
+    /// # Errors
+    /// Where nothing that is added makes it one.
+    pub fn shift_to(self, unit: &Unit) -> Result<f64, ScaleMisfit> {
+        match self.reported_in(unit) {
+            Ok(()) if self.zero.is_some() => Ok(Zero::shift(self.zero, unit.zero()).unwrap_or(0.0)),
+            Ok(()) => Ok(0.0),
+            Err(misfit @ (ScaleMisfit::CelsiusInKelvin | ScaleMisfit::KelvinInCelsius { .. })) => {
+                Zero::shift(self.zero, unit.zero()).ok_or(misfit)
+            }
+            Err(misfit) => Err(misfit),
+        }
+    }
+}

@@ -1,0 +1,494 @@
+//! What formulas do with quantities that have a zero, with levels, and with what counts periods or
+//! angle. Celsius temperatures are summands; everything else asks for `kelvin`.
+
+use std::ops::Range;
+
+use super::dimension::Checker;
+use super::error::FormulaError;
+use super::function::Function;
+use super::scale_fault::{ScaleFault, ScaledPlace};
+use super::syntax::{Kind, Operator};
+use super::tie::{Tie, borne, taken_up};
+use super::typing::{KelvinKind, Typing};
+use crate::number::Unary;
+use gumption_units::{Dimension, Exponent, Turn, Unit, Zero};
+
+impl Checker<'_> {
+    /// What a node is where it is used as a whole; anything after a mistake.
+    pub(super) fn settled(&mut self, index: usize) -> Typing {
+        let (typing, tie) = (self.typing(index), self.tie(index));
+        if let Some(settled) = tie.settled(typing) {
+            return settled;
+        }
+        match tie {
+            Tie::Sum { zero, weight, .. } => {
+                let total = (weight * 1e6).round() / 1e6;
+                let fault = ScaleFault::FactorsOfSum {
+                    text: self.quoted(index),
+                    zero,
+                    total: total.to_string(),
+                };
+                self.fault(index, fault);
+            }
+            Tie::Product { at, of, .. } => self.fault_of_product(at, of),
+            Tie::None => {}
+        }
+        Typing::ANY
+    }
+
+    fn fault(&mut self, index: usize, fault: ScaleFault) {
+        let span = self.tree.span(index);
+        self.report_dimension(FormulaError::Scale { fault: Box::new(fault), span });
+    }
+
+    fn fault_at(&mut self, span: &Range<usize>, fault: ScaleFault) {
+        self.report_dimension(FormulaError::Scale { fault: Box::new(fault), span: span.clone() });
+    }
+
+    /// A Celsius temperature that is part of a product, quotient or power which needs a ratio.
+    fn fault_of_product(&mut self, at: usize, of: usize) {
+        let place = match self.tree.nodes.get(at).map(|node| &node.kind) {
+            Some(Kind::Infix { operator: Operator::Divide, .. }) => ScaledPlace::Quotient,
+            Some(Kind::Infix { operator: Operator::Power, .. }) => ScaledPlace::Power,
+            _ => ScaledPlace::Product,
+        };
+        let fault =
+            ScaleFault::ZeroOutOfPlace { text: self.quoted(of), zero: Zero::Celsius, place };
+        self.fault(at, fault);
+    }
+
+    /// The argument of a function that takes quantities with a dimension, but none with a zero.
+    pub(super) fn without_zero(&mut self, function: &'static str, index: usize) -> Typing {
+        let typing = self.settled(index);
+        let Some(zero) = typing.zero else { return typing };
+        let place = ScaledPlace::Function(function);
+        self.fault(index, ScaleFault::ZeroOutOfPlace { text: self.quoted(index), zero, place });
+        Typing::ANY
+    }
+
+    /// Arguments that a function takes together and that may have no zero.
+    pub(super) fn all_without_zero(
+        &mut self,
+        function: &'static str,
+        span: &Range<usize>,
+        arguments: &[usize],
+    ) -> Typing {
+        let has_zero = |&&argument: &&usize| {
+            let (typing, tie) = (self.typing(argument), self.tie(argument));
+            tie.settled(typing).is_none_or(|typing| typing.zero.is_some())
+        };
+        match arguments.iter().find(has_zero) {
+            Some(&argument) => self.without_zero(function, argument),
+            None => self.together(function, span, arguments),
+        }
+    }
+
+    /// The argument of a function of plain numbers; `None` after a mistake.
+    pub(super) fn plain_argument(
+        &mut self,
+        function: &'static str,
+        index: usize,
+    ) -> Option<Typing> {
+        let typing = self.settled(index);
+        if !typing.level.is_zero() {
+            let text = self.quoted(index);
+            self.fault(index, ScaleFault::LevelInFunction { function, text });
+            None
+        } else if typing.zero.is_some() {
+            self.without_zero(function, index);
+            None
+        } else {
+            Some(typing)
+        }
+    }
+
+    /// What several quantities are that a function or a comparison takes together.
+    pub(super) fn together(
+        &mut self,
+        operator: &'static str,
+        span: &Range<usize>,
+        parts: &[usize],
+    ) -> Typing {
+        let mut first: Option<(usize, Typing)> = None;
+        for &part in parts {
+            let typing = self.settled(part);
+            if typing.dimension.is_none() {
+                continue;
+            }
+            let Some((known_part, known)) = first else {
+                first = Some((part, typing));
+                continue;
+            };
+            if known.dimension != typing.dimension {
+                continue; // has been reported
+            }
+            self.refuse_unlike(operator, span, [(known_part, known), (part, typing)]);
+            let loose = |typing: Typing| typing.counts_degrees();
+            if known.zero != typing.zero && !loose(known) && !loose(typing) {
+                let texts = [self.quoted(known_part), self.quoted(part)];
+                let zeros = [known.zero, typing.zero];
+                self.fault_at(span, ScaleFault::DifferentZeros { operator, texts, zeros });
+                return Typing::ANY;
+            }
+            if known.zero.is_none() && typing.zero.is_some() {
+                first = Some((part, typing));
+            }
+        }
+        first.map_or(Typing::ANY, |(_, typing)| typing)
+    }
+
+    /// Refuses a level beside a number, and periods beside angle.
+    fn refuse_unlike(
+        &mut self,
+        operator: &'static str,
+        span: &Range<usize>,
+        [(left, x), (right, y)]: [(usize, Typing); 2],
+    ) {
+        if x.level != y.level {
+            let (level, number) = if x.level.is_zero() { (right, left) } else { (left, right) };
+            let is_literal = self.is_rational(number);
+            let (level, number) = (self.quoted(level), self.quoted(number));
+            let fault = ScaleFault::LevelAndNumber { operator, level, number, is_literal };
+            self.fault_at(span, fault);
+        } else if let (Some(a), Some(b)) = (x.turn, y.turn)
+            && a != b
+        {
+            let (periods, angle) = if a == Turn::Periods { (left, right) } else { (right, left) };
+            let (periods, angle) = (self.quoted(periods), self.quoted(angle));
+            self.fault_at(span, ScaleFault::PeriodsAndAngle { operator, periods, angle });
+        }
+    }
+
+    /// A sum or a difference.
+    pub(super) fn sum(
+        &mut self,
+        sign: f64,
+        operator_span: &Range<usize>,
+        [left, right]: [usize; 2],
+    ) -> (Typing, Tie) {
+        let operator = if sign > 0.0 { "+" } else { "-" };
+        let (x, y) = (self.typing(left), self.typing(right));
+        if x.dimension.is_some() && y.dimension.is_some() && x.dimension != y.dimension {
+            return (Typing::ANY, Tie::None); // has been reported
+        }
+        // an unfinished product is no summand
+        for part in [left, right] {
+            if matches!(self.tie(part), Tie::Product { .. }) {
+                self.settled(part);
+                return (Typing::ANY, Tie::None);
+            }
+        }
+        let (a, b) = (self.tie(left), self.tie(right).times(sign));
+        if x.dimension.is_none() && a == Tie::None {
+            return (y, b);
+        }
+        if y.dimension.is_none() && b == Tie::None {
+            return (x, a);
+        }
+        self.refuse_unlike(operator, operator_span, [(left, x), (right, y)]);
+        let typing = Typing {
+            zero: None,
+            kelvin: kelvin_of_sum(sign, x.kelvin, y.kelvin),
+            celsius_exponent: nearer_zero(x.celsius_exponent, y.celsius_exponent),
+            turn: x.turn.or(y.turn),
+            ..x
+        };
+        let unlike = |of: Zero| {
+            let [p, q] = [a, b].map(|tie| match tie {
+                Tie::Sum { zero, .. } => Some(zero),
+                _ => None,
+            });
+            let texts = [left, right];
+            (of, texts, [p, q])
+        };
+        let different = match (a, b) {
+            (Tie::None | Tie::Product { .. }, Tie::None | Tie::Product { .. }) => {
+                return (typing, Tie::None);
+            }
+            (
+                Tie::Sum { zero, weight: p, loose: q },
+                Tie::Sum { zero: other, weight: r, loose: s },
+            ) => {
+                if zero == other {
+                    return (typing, Tie::Sum { zero, weight: p + r, loose: q + s });
+                }
+                unlike(zero)
+            }
+            (Tie::Sum { zero, weight, loose }, _) => {
+                if y.kelvin != KelvinKind::Thermodynamic {
+                    let loose = if y.counts_degrees() { loose + sign } else { loose };
+                    return (typing, Tie::Sum { zero, weight, loose });
+                }
+                unlike(zero)
+            }
+            (_, Tie::Sum { zero, weight, loose }) => {
+                if x.kelvin != KelvinKind::Thermodynamic {
+                    let loose = if x.counts_degrees() { loose + 1.0 } else { loose };
+                    return (typing, Tie::Sum { zero, weight, loose });
+                }
+                unlike(zero)
+            }
+        };
+        let (_, texts, zeros) = different;
+        let texts = texts.map(|part| self.quoted(part));
+        self.fault_at(operator_span, ScaleFault::DifferentZeros { operator, texts, zeros });
+        (Typing::ANY, Tie::None)
+    }
+
+    /// A product; `dimension` is its dimension.
+    pub(super) fn product(
+        &mut self,
+        index: usize,
+        dimension: Option<Dimension>,
+        [left, right]: [usize; 2],
+    ) -> (Typing, Tie) {
+        for (number, other) in [(left, right), (right, left)] {
+            let Some(factor) = self.constant(number) else { continue };
+            let typing = self.typing(other);
+            if matches!(factor.abs(), 10.0 | 20.0) && self.is_common_logarithm(other) {
+                return (Typing { level: Exponent::ONE, ..Typing::NUMBER }, Tie::None);
+            }
+            let turn = self.turned(typing.turn, number, factor);
+            return (Typing { dimension, turn, ..typing }, self.tie(other).times(factor));
+        }
+        let (x, y) = (self.typing(left), self.typing(right));
+        let turn = match (x.turn, y.turn) {
+            (None, turn) | (turn, None) => turn,
+            // a number of revolutions
+            (Some(Turn::Periods), Some(Turn::Angle)) if self.is_unit(right, "rev") => y.turn,
+            (Some(Turn::Angle), Some(Turn::Periods)) if self.is_unit(left, "rev") => x.turn,
+            _ => None,
+        };
+        let level = x.level.checked_add(y.level).unwrap_or(Exponent::ZERO);
+        let unit = x.celsius_exponent.checked_add(y.celsius_exponent).unwrap_or(Exponent::ZERO);
+        let typing = Typing { level, turn, ..Typing { dimension, ..Typing::ANY } };
+        let powers = [self.tie(left).power(), self.tie(right).power()];
+        self.tied(index, typing, unit, powers, [left, right])
+    }
+
+    /// A quotient; `dimension` is its dimension.
+    pub(super) fn quotient(
+        &mut self,
+        index: usize,
+        dimension: Option<Dimension>,
+        [left, right]: [usize; 2],
+    ) -> (Typing, Tie) {
+        let (x, y) = (self.typing(left), self.typing(right));
+        if let Some(divisor) = self.constant(right).filter(|divisor| *divisor != 0.0) {
+            let turn = match self.turned(Some(Turn::Periods), right, divisor) {
+                Some(Turn::Periods) => x.turn,
+                Some(Turn::Angle) if x.turn == Some(Turn::Angle) => Some(Turn::Periods),
+                _ => None,
+            };
+            return (Typing { dimension, turn, ..x }, self.tie(left).times(1.0 / divisor));
+        }
+        if let Some(Kind::Unit(unit)) = self.tree.nodes.get(right).map(|node| &node.kind)
+            && unit.zero().is_some()
+        {
+            let unit = unit.as_ref().clone();
+            self.refuse_kelvin_per_celsius(left, &unit);
+            let level = x.level.checked_add(Exponent::integer(-1)).unwrap_or(Exponent::ZERO);
+            let level = if unit.is_celsius() { x.level } else { level };
+            match dimension {
+                None => return (Typing::ANY, Tie::None),
+                Some(Dimension::NONE) => {
+                    return (Typing { level, ..Typing::NUMBER }, Tie::None);
+                }
+                Some(_) => {}
+            }
+        }
+        let turn = match (x.turn, y.turn) {
+            (turn, None) => turn,
+            (Some(Turn::Angle), Some(Turn::Angle)) if self.is_unit(right, "rev") => {
+                Some(Turn::Periods)
+            }
+            _ => None,
+        };
+        let minus = |exponent: Exponent| exponent.checked_neg().unwrap_or(Exponent::ZERO);
+        let level = x.level.checked_add(minus(y.level)).unwrap_or(Exponent::ZERO);
+        let unit = x.celsius_exponent.checked_add(minus(y.celsius_exponent));
+        let typing = Typing { level, turn, ..Typing { dimension, ..Typing::ANY } };
+        let powers = [self.tie(left).power(), minus(self.tie(right).power())];
+        self.tied(index, typing, unit.unwrap_or(Exponent::ZERO), powers, [left, right])
+    }
+
+    /// A power with an exponent other than 0 and 1; `dimension` is its dimension.
+    pub(super) fn raised(
+        &mut self,
+        index: usize,
+        dimension: Option<Dimension>,
+        base: usize,
+        exponent: Exponent,
+    ) -> (Typing, Tie) {
+        let typing = self.typing(base);
+        let times = |of: Exponent| of.checked_mul(exponent).unwrap_or(Exponent::ZERO);
+        let (unit, power) = (times(typing.celsius_exponent), times(self.tie(base).power()));
+        let raised = Typing { level: times(typing.level), ..Typing { dimension, ..Typing::ANY } };
+        self.tied(index, raised, unit, [power, Exponent::ZERO], [base, base])
+    }
+
+    /// The root of a quantity without a zero.
+    pub(super) fn rooted(
+        &self,
+        dimension: Option<Dimension>,
+        typing: Typing,
+        power: Exponent,
+    ) -> Typing {
+        let times = |of: Exponent| of.checked_mul(power).unwrap_or(Exponent::ZERO);
+        let celsius_exponent = borne(times(typing.celsius_exponent), dimension);
+        let level = times(typing.level);
+        Typing { level, celsius_exponent, ..Typing { dimension, ..Typing::ANY } }
+    }
+
+    /// A product with powers of degrees Celsius in its factors, as far as the units of coefficients
+    /// do not take them up.
+    fn tied(
+        &mut self,
+        index: usize,
+        typing: Typing,
+        unit: Exponent,
+        [first, second]: [Exponent; 2],
+        [left, right]: [usize; 2],
+    ) -> (Typing, Tie) {
+        let of = if first.is_zero() { right } else { left };
+        if typing.dimension.is_none() {
+            return (typing, Tie::None);
+        }
+        if first.to_f64() * second.to_f64() < 0.0 {
+            // the quotient of two Celsius temperatures
+            self.fault_of_product(index, of);
+            return (Typing::ANY, Tie::None);
+        }
+        let power = first.checked_add(second).unwrap_or(Exponent::ZERO);
+        let (power, unit) = taken_up(power, unit);
+        if power.is_zero() {
+            let celsius_exponent = borne(unit, typing.dimension);
+            return (Typing { celsius_exponent, ..typing }, Tie::None);
+        }
+        let (at, of) = match self.tie(of) {
+            Tie::Product { at, of, .. } => (at, of),
+            _ => (index, of),
+        };
+        (Typing { celsius_exponent: unit, ..typing }, Tie::Product { power, at, of })
+    }
+
+    /// What something counts after a multiplication with a number written out: periods become angle
+    /// by 2 pi.
+    fn turned(&self, turn: Option<Turn>, number: usize, factor: f64) -> Option<Turn> {
+        let is = |wanted: f64| (factor.abs() / wanted - 1.0).abs() < 1e-12;
+        let turns = std::f64::consts::TAU;
+        match turn {
+            _ if self.is_rational(number) => turn,
+            Some(Turn::Periods) if is(turns) => Some(Turn::Angle),
+            Some(Turn::Angle) if is(1.0 / turns) => Some(Turn::Periods),
+            _ => None,
+        }
+    }
+
+    fn is_common_logarithm(&self, index: usize) -> bool {
+        let logarithm = Some(Function::One(Unary::Log10));
+        let kind = self.tree.nodes.get(index).map(|node| &node.kind);
+        matches!(kind, Some(Kind::Call { function, .. }) if *function == logarithm)
+    }
+
+    fn is_unit(&self, index: usize, text: &str) -> bool {
+        let kind = self.tree.nodes.get(index).map(|node| &node.kind);
+        matches!(kind, Some(Kind::Unit(unit)) if unit.text().trim() == text)
+    }
+
+    /// Checks `10^(L/10)`, the only kind of power that a level is the exponent of.
+    pub(super) fn check_level_as_exponent(&mut self, base: usize, exponent: usize) {
+        let mut inner = exponent;
+        while let Some(Kind::Negate(x)) = self.tree.nodes.get(inner).map(|node| &node.kind) {
+            inner = *x;
+        }
+        let is = |factor: Option<f64>, wanted: [f64; 2]| {
+            factor.is_some_and(|factor| wanted.contains(&factor.abs()))
+        };
+        let is_right = match self.tree.nodes.get(inner).map(|node| &node.kind) {
+            Some(Kind::Infix { operator: Operator::Divide, right, .. }) => {
+                is(self.constant(*right), [10.0, 20.0])
+            }
+            Some(Kind::Infix { operator: Operator::Multiply, left, right, .. }) => {
+                let factor = self.constant(*left).or(self.constant(*right));
+                is(factor, [0.1, 0.05])
+            }
+            _ => false,
+        };
+        if !is_right
+            || self.constant(base) != Some(10.0)
+            || self.typing(exponent).level != Exponent::ONE
+        {
+            let text = self.quoted(exponent);
+            self.fault(exponent, ScaleFault::LevelAsExponent { text });
+        }
+    }
+
+    pub(super) fn refuse_difference(
+        &mut self,
+        function: &'static str,
+        argument: usize,
+        typing: Typing,
+    ) {
+        if typing.zero.is_none() && typing.kelvin == KelvinKind::Difference {
+            let text = self.quoted(argument);
+            self.fault(argument, ScaleFault::OfDifference { function, text });
+        }
+    }
+
+    /// What `kelvin` and `celsius` give.
+    pub(super) fn scaled_temperature(&self, function: Function) -> Typing {
+        let typing = Typing::of(Dimension::TEMPERATURE);
+        match function {
+            Function::Celsius => Typing { zero: Some(Zero::Celsius), ..typing },
+            _ => Typing { kelvin: KelvinKind::Thermodynamic, ..typing },
+        }
+    }
+
+    /// `T/[degC]` of a temperature in K that is not known to be a difference.
+    fn refuse_kelvin_per_celsius(&mut self, left: usize, unit: &Unit) {
+        // a sum with a coefficient's unit takes up any factors
+        if !unit.is_celsius() || (unit.offset() == 0.0 && self.tie(left) != Tie::None) {
+            return;
+        }
+        let typing = self.settled(left);
+        if typing.dimension == Some(Dimension::TEMPERATURE)
+            && typing.zero.is_none()
+            && typing.kelvin != KelvinKind::Difference
+            && !typing.counts_degrees()
+        {
+            let (text, unit) = (self.quoted(left), unit.text().trim().to_owned());
+            self.fault(left, ScaleFault::KelvinPerCelsius { text, unit });
+        }
+    }
+}
+
+/// What is known of a sum of temperatures in K.
+fn kelvin_of_sum(sign: f64, x: KelvinKind, y: KelvinKind) -> KelvinKind {
+    use KelvinKind::{Difference, Either, Thermodynamic};
+    match (x, y) {
+        (Difference, Difference) => Difference,
+        (Thermodynamic, Thermodynamic) if sign < 0.0 => Difference,
+        (Thermodynamic, Difference) => Thermodynamic,
+        (Difference, Thermodynamic)
+        | (Thermodynamic, Thermodynamic | Either)
+        | (Either, Thermodynamic)
+            if sign > 0.0 =>
+        {
+            Thermodynamic
+        }
+        _ => Either,
+    }
+}
+
+/// Of two exponents that nearer to 0; 0 if they have different signs.
+fn nearer_zero(a: Exponent, b: Exponent) -> Exponent {
+    let (x, y) = (a.to_f64(), b.to_f64());
+    if x * y <= 0.0 {
+        Exponent::ZERO
+    } else if x.abs() <= y.abs() {
+        a
+    } else {
+        b
+    }
+}

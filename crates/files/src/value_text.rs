@@ -1,0 +1,97 @@
+//! Values as people write them: a number with a unit, `"100 ohm"`, `"20 degC"`.
+
+use super::width::number;
+use gumption_units::Unit;
+
+/// What a number with a unit is about, which decides whether zeros of scales are counted from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum ValueOf {
+    /// A quantity: 20 degC is 293.15 K.
+    Quantity,
+    /// A difference or a width: 20 degC is 20 K.
+    Difference,
+    /// A quantity or a difference, which nothing here tells: of a limit of an output in degC.
+    Either,
+}
+
+/// The number and the unit of a text that is a value with a unit; `None` if it is something else,
+/// such as a formula.
+pub(super) fn with_unit(text: &str) -> Option<(f64, &str)> {
+    let (value, rest) = number(text.trim()).ok()?;
+    let begins_unit = rest.chars().next().is_some_and(|c| {
+        c.is_alphanumeric()
+            || matches!(c, '%' | '‰' | '°' | '℃' | '℉' | '√' | '\'' | '"' | '′' | '″')
+    });
+    (value.is_finite() && (begins_unit || is_comma(rest))).then_some((value, rest))
+}
+
+/// Whether a number went on with a decimal comma.
+fn is_comma(rest: &str) -> bool {
+    let digits = rest.strip_prefix(',');
+    digits.is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit()))
+}
+
+/// A number in a unit given as text, converted to another unit.
+///
+/// # Errors
+/// Why it cannot be read or converted, as a sentence without a capital.
+pub(super) fn converted(
+    (value, text): (f64, &str),
+    unit: &Unit,
+    of: ValueOf,
+) -> Result<f64, String> {
+    if is_comma(text) {
+        return Err("a decimal fraction is written with a point, such as `5.01`".to_owned());
+    }
+    let given = Unit::parse(text).map_err(|error| error.to_string())?;
+    if of == ValueOf::Either && given.zero() != unit.zero() {
+        return Err(format!(
+            "nothing tells whether it is a temperature or a difference of temperatures; write it \
+             in `{unit}`"
+        ));
+    }
+    let found = match of {
+        ValueOf::Quantity | ValueOf::Either => Unit::convert(value, &given, unit),
+        ValueOf::Difference => Unit::conversion_factor(&given, unit).map(|factor| value * factor),
+    };
+    match found {
+        Ok(found) if found.is_finite() => Ok(found),
+        Ok(found) => Err(format!("it is {found} in `{unit}`")),
+        Err(error) => Err(error.to_string()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(text: &str, unit: &str, of: ValueOf) -> Result<f64, String> {
+        converted(with_unit(text).ok_or("no value with a unit")?, &Unit::parse(unit).unwrap(), of)
+    }
+
+    #[test]
+    fn values_with_units() {
+        let value = |text, unit| read(text, unit, ValueOf::Quantity).unwrap();
+        assert_eq!(value("100 ohm", "ohm"), 100.0);
+        assert_eq!(value("5.1V", "mV"), 5100.0);
+        assert_eq!(value("-5 degC", "K"), 268.15);
+        assert_eq!(value("300 K", "degC"), 300.0 - 273.15);
+        assert_eq!(value("1e-3 m/s^2", "mm/s^2"), 1.0);
+        assert_eq!(value("50 %", "1"), 0.5);
+        assert_eq!(value("5 1/degC", "1/K"), 5.0);
+        assert_eq!(value("30°", "deg"), 30.0);
+        assert_eq!(read("2 degC", "K", ValueOf::Difference), Ok(2.0));
+        assert_eq!(read("2 degC", "degC", ValueOf::Either), Ok(2.0));
+        assert!(read("2 degC", "K", ValueOf::Either).unwrap_err().contains("difference"));
+        assert!(read("60 rpm", "Hz", ValueOf::Quantity).unwrap_err().contains("periods"));
+        assert!(read("5,01 V", "V", ValueOf::Quantity).unwrap_err().contains("point"));
+        assert!(read("5 furlong", "m", ValueOf::Quantity).unwrap_err().contains("furlong"));
+    }
+
+    #[test]
+    fn formulas_are_none() {
+        for text in ["2*f", "2/f", "f", "100", "2 + f", "2^f", "(2)", "1.5 [mm]", "2 > f", ""] {
+            assert_eq!(with_unit(text), None, "{text}");
+        }
+    }
+}

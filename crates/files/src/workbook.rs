@@ -1,0 +1,378 @@
+//! The first sheet of a workbook as the text of a CSV table.
+//!
+//! What a workbook of a few kilobytes unpacks to has no bounds of its own: a part may be a thousand
+//! times as large as it is in the file, and a single stray cell in the last corner spans a sheet of
+//! seventeen thousand million. So every part is unpacked within a limit before anybody reads it,
+//! cells are read one by one, and only those that hold something are kept.
+
+use std::collections::BTreeMap;
+use std::io::{Cursor, Read};
+
+use calamine::{Data, DataRef, Reader as _, Xlsx};
+use quick_xml::events::{BytesStart, Event};
+use zip::ZipArchive;
+
+/// Bytes of an unpacked part, at most. A table of ten thousand rows has less than a quarter of it.
+const MOST_OF_PART: u64 = 20_000_000;
+
+/// Bytes of all unpacked parts, at most.
+const MOST_OF_ALL: u64 = 100_000_000;
+
+/// Parts, at most.
+const MOST_PARTS: usize = 10_000;
+
+/// Bytes of the table's text, at most: a text that is stored once may stand in any number of cells.
+const MOST_OF_TEXT: usize = 20_000_000;
+
+/// Rows and columns of a sheet, as ECMA-376 and every program that writes workbooks have them.
+const ROWS: u32 = 1 << 20;
+const COLUMNS: u32 = 1 << 14;
+
+/// The cells of a sheet that hold something: rows, then columns, both counted from 0.
+type Cells = BTreeMap<u32, BTreeMap<u32, String>>;
+
+/// The first sheet as CSV, its rows the lines of the text.
+///
+/// # Errors
+/// What is wrong with the workbook, as a sentence about it.
+pub(super) fn first_sheet(bytes: Vec<u8>) -> Result<String, String> {
+    check_parts(&bytes)?;
+    csv(&cells(bytes)?)
+}
+
+fn is_none(error: impl std::fmt::Display) -> String {
+    format!("it is no workbook: {error}")
+}
+
+/// Unpacks every part once, to see how large it is and whether its cells are where cells can be.
+fn check_parts(bytes: &[u8]) -> Result<(), String> {
+    // the entries of the list of parts, counted before anybody makes room for them
+    let parts = bytes.windows(4).filter(|window| window == b"PK\x01\x02").count();
+    if parts > MOST_PARTS {
+        return Err(format!(
+            "its archive has {parts} parts; this version takes {MOST_PARTS} at most"
+        ));
+    }
+    let mut archive = ZipArchive::new(Cursor::new(bytes)).map_err(is_none)?;
+    let mut all = 0;
+    for number in 0..archive.len() {
+        let part = archive.by_index(number).map_err(is_none)?;
+        let name = part.name().map_err(is_none)?.into_owned();
+        let mut content = Vec::new();
+        part.take(MOST_OF_PART + 1).read_to_end(&mut content).map_err(is_none)?;
+        all += content.len() as u64;
+        let (what, found, most) = match content.len() as u64 {
+            size if size > MOST_OF_PART => (format!("its part `{name}`"), size, MOST_OF_PART),
+            _ => ("the workbook".to_owned(), all, MOST_OF_ALL),
+        };
+        if found > most {
+            let most = most / 1_000_000;
+            return Err(format!(
+                "{what} unpacks to more than {most} MB, which this version takes at most"
+            ));
+        }
+        // parts of another kind are pictures and settings of printers
+        if let Ok(text) = std::str::from_utf8(&content)
+            && text.contains("sheetData")
+        {
+            check_references(text).map_err(|reason| format!("its part `{name}` {reason}"))?;
+        }
+    }
+    Ok(())
+}
+
+/// Whether all cells, rows and ranges of a sheet's XML have references that a sheet can have.
+fn check_references(text: &str) -> Result<(), String> {
+    let mut xml = quick_xml::Reader::from_str(text);
+    loop {
+        // what is no XML is told by whoever reads the cells
+        let element = match xml.read_event() {
+            Ok(Event::Start(element) | Event::Empty(element)) => element,
+            Ok(Event::Eof) | Err(_) => return Ok(()),
+            Ok(_) => continue,
+        };
+        let name = element.local_name();
+        let right = match name.as_ref() {
+            "c" => attribute(&element, "r").is_none_or(|r| is_cell(&r)),
+            "row" => attribute(&element, "r").is_none_or(|r| is_row(&r)),
+            "dimension" => attribute(&element, "ref")
+                .is_none_or(|range| range.splitn(2, ':').all(is_cell) && is_ordered(&range)),
+            _ => true,
+        };
+        if !right {
+            let found = attribute(&element, "r").or_else(|| attribute(&element, "ref"));
+            let found: String = found.unwrap_or_default().chars().take(40).collect();
+            return Err(format!(
+                "has a cell at `{found}`, which no sheet has: cells are A1 to XFD1048576"
+            ));
+        }
+    }
+}
+
+fn attribute(element: &BytesStart<'_>, name: &str) -> Option<String> {
+    Some(element.try_get_attribute(name).ok()??.value.into_owned())
+}
+
+/// Whether a text is a row of a sheet, `1` to `1048576`.
+fn is_row(text: &str) -> bool {
+    text.parse().is_ok_and(|row: u32| (1..=ROWS).contains(&row))
+        && text.bytes().all(|byte| byte.is_ascii_digit())
+}
+
+/// Whether a text is a cell of a sheet, `A1` to `XFD1048576`.
+fn is_cell(text: &str) -> bool {
+    place(text).is_some()
+}
+
+/// Column and row of a cell's reference, both counted from 1.
+fn place(text: &str) -> Option<(u32, u32)> {
+    let (letters, row) = text.split_at_checked(text.find(|c: char| c.is_ascii_digit())?)?;
+    let digit = |column: u32, letter: u8| {
+        let letter = letter.to_ascii_uppercase();
+        let value = letter.is_ascii_uppercase().then(|| u32::from(letter - b'A') + 1)?;
+        column.checked_mul(26)?.checked_add(value)
+    };
+    let column = letters.bytes().try_fold(0, digit)?;
+    let is_right = is_row(row) && (1..=COLUMNS).contains(&column);
+    is_right.then_some(())?;
+    Some((column, row.parse().ok()?))
+}
+
+/// Whether a range's last cell is not before its first.
+fn is_ordered(range: &str) -> bool {
+    let Some((first, last)) = range.split_once(':') else { return true };
+    place(first).zip(place(last)).is_some_and(|((a, b), (c, d))| a <= c && b <= d)
+}
+
+/// The name of a column counted from 0.
+fn letters(column: u32) -> String {
+    let mut rest = column + 1;
+    let mut name = String::new();
+    while rest > 0 {
+        rest -= 1;
+        name.insert(0, char::from(b'A' + (rest % 26) as u8));
+        rest /= 26;
+    }
+    name
+}
+
+fn cells(bytes: Vec<u8>) -> Result<Cells, String> {
+    let mut workbook: Xlsx<_> = Xlsx::new(Cursor::new(bytes)).map_err(is_none)?;
+    let sheet = workbook.sheet_names().first().cloned();
+    let sheet = sheet.ok_or_else(|| "the workbook has no sheet".to_owned())?;
+    let mut reader = workbook.worksheet_cells_reader(&sheet).map_err(is_none)?;
+    let (mut cells, mut size) = (Cells::new(), 0);
+    while let Some(cell) = reader.next_cell().map_err(is_none)? {
+        let ((row, column), value) = (cell.get_position(), cell.get_value());
+        if row >= ROWS || column >= COLUMNS {
+            return Err(is_none("it has a cell outside of the sheet"));
+        }
+        let value = match value {
+            DataRef::Empty => continue,
+            DataRef::SharedString(text) => Data::String((*text).to_owned()),
+            other => Data::from(other.clone()),
+        };
+        let text = match value {
+            // a line of the text is a row of the sheet
+            Data::String(text) if text.contains([',', ';', '"', '\n', '\r', '#']) => {
+                format!("\"{}\"", text.replace('"', "\"\"").replace(['\n', '\r'], " "))
+            }
+            other => other.to_string(),
+        };
+        if text.trim().is_empty() {
+            continue;
+        }
+        size += text.len() + 1;
+        if size > MOST_OF_TEXT {
+            let most = MOST_OF_TEXT / 1_000_000;
+            return Err(format!(
+                "its cells hold more than {most} MB of text, which this version takes at most"
+            ));
+        }
+        cells.entry(row).or_default().insert(column, text);
+    }
+    Ok(cells)
+}
+
+/// The table's text: its columns are those of the first row that is no comment, and a cell outside
+/// of them is a mistake, such as what a stray keystroke leaves.
+fn csv(cells: &Cells) -> Result<String, String> {
+    let is_comment = |row: &BTreeMap<u32, String>| {
+        row.first_key_value().is_some_and(|(_, text)| text.trim_start_matches('"').starts_with('#'))
+    };
+    let header = cells.values().find(|row| !is_comment(row));
+    let ends = header.and_then(|header| Some([*header.keys().next()?, *header.keys().last()?]));
+    let Some([first, last]) = ends else { return Ok(String::new()) };
+    let mut text = String::new();
+    let mut line = 0;
+    for (&row, held) in cells {
+        text.extend(std::iter::repeat_n('\n', (row - line) as usize));
+        line = row;
+        if is_comment(held) {
+            // skipped, like a line of a text
+            text.push('#');
+            continue;
+        }
+        if let Some((&column, value)) = held.iter().find(|(c, _)| !(first..=last).contains(*c)) {
+            let value: String = value.chars().take(40).collect();
+            return Err(format!(
+                "its cell {}{} holds `{value}`, but the columns of the table are {} to {}; clear \
+                 the cell, or give its column a name",
+                letters(column),
+                row + 1,
+                letters(first),
+                letters(last)
+            ));
+        }
+        let columns = (first..=last).map(|column| held.get(&column).map_or("", String::as_str));
+        text.push_str(&columns.collect::<Vec<_>>().join(","));
+    }
+    text.push('\n');
+    Ok(text)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::io::Write;
+
+    use super::*;
+
+    const PARTS: [(&str, &str); 4] = [
+        (
+            "[Content_Types].xml",
+            r#"<Types xmlns="http://schemas.openxmlformats.org/package/2006/content-types"/>"#,
+        ),
+        (
+            "_rels/.rels",
+            r#"<Relationships xmlns="http://schemas.openxmlformats.org/package/2006/relationships"><Relationship Id="r1" Type="http://schemas.openxmlformats.org/officeDocument/2006/relationships/officeDocument" Target="xl/workbook.xml"/></Relationships>"#,
+        ),
+        (
+            "xl/workbook.xml",
+            r#"<workbook xmlns="http://schemas.openxmlformats.org/spreadsheetml/2006/main" xmlns:r="http://schemas.openxmlformats.org/officeDocument/2006/relationships"><sheets><sheet name="a" sheetId="1" r:id="r1"/></sheets></workbook>"#,
+        ),
+        (
+            "xl/_rels/workbook.xml.rels",
+            r#"<Relationships xmlns="http://schemas.openxmlformats.org/package/2006/relationships"><Relationship Id="r1" Type="http://schemas.openxmlformats.org/officeDocument/2006/relationships/worksheet" Target="worksheets/sheet1.xml"/><Relationship Id="r2" Type="http://schemas.openxmlformats.org/officeDocument/2006/relationships/sharedStrings" Target="sharedStrings.xml"/></Relationships>"#,
+        ),
+    ];
+
+    /// A workbook whose sheet and shared strings are written by these.
+    fn workbook(
+        sheet: impl FnOnce(&mut dyn Write) -> std::io::Result<()>,
+        strings: impl FnOnce(&mut dyn Write) -> std::io::Result<()>,
+    ) -> Vec<u8> {
+        let mut zip = zip::ZipWriter::new(Cursor::new(Vec::new()));
+        let options = zip::write::SimpleFileOptions::default();
+        for (name, text) in PARTS {
+            zip.start_file(name, options).unwrap();
+            zip.write_all(text.as_bytes()).unwrap();
+        }
+        zip.start_file("xl/sharedStrings.xml", options).unwrap();
+        zip.write_all(b"<sst xmlns=\"http://schemas.openxmlformats.org/spreadsheetml/2006/main\">")
+            .unwrap();
+        strings(&mut zip).unwrap();
+        zip.write_all(b"</sst>").unwrap();
+        zip.start_file("xl/worksheets/sheet1.xml", options).unwrap();
+        zip.write_all(
+            b"<worksheet xmlns=\"http://schemas.openxmlformats.org/spreadsheetml/2006/main\"><sheetData>",
+        )
+        .unwrap();
+        sheet(&mut zip).unwrap();
+        zip.write_all(b"</sheetData></worksheet>").unwrap();
+        zip.finish().unwrap().into_inner()
+    }
+
+    fn of(sheet: &str) -> Result<String, String> {
+        first_sheet(workbook(|out| out.write_all(sheet.as_bytes()), |_| Ok(())))
+    }
+
+    const TABLE: &str = r#"<row r="2"><c r="B2" t="inlineStr"><is><t>label</t></is></c><c r="C2" t="inlineStr"><is><t>x</t></is></c></row><row r="4"><c r="B4" t="inlineStr"><is><t>a, b</t></is></c><c r="C4"><v>1.5</v></c></row>"#;
+
+    #[test]
+    fn rows_are_lines_and_columns_those_of_the_header() {
+        assert_eq!(of(TABLE).unwrap(), "\nlabel,x\n\n\"a, b\",1.5\n");
+        let comment = r##"<row r="1"><c r="A1" t="inlineStr"><is><t># note, with a comma</t></is></c></row>"##;
+        assert_eq!(of(&format!("{comment}{TABLE}")).unwrap(), "#\nlabel,x\n\n\"a, b\",1.5\n");
+        assert_eq!(of("").unwrap(), "");
+    }
+
+    /// A sheet of 2^34 cells would take 512 GiB as a rectangle.
+    #[test]
+    fn a_stray_cell_far_away_is_named() {
+        let stray = r#"<row r="1048576"><c r="XFD1048576"><v>7</v></c></row>"#;
+        let said = of(&format!("{TABLE}{stray}")).unwrap_err();
+        let expected = "its cell XFD1048576 holds `7`, but the columns of the table are B to C; clear \
+                        the cell, or give its column a name";
+        assert_eq!(said, expected);
+        // an empty one is nothing
+        let empty = r#"<row r="1048576"><c r="XFD1048576" s="1"/></row>"#;
+        assert_eq!(of(&format!("{TABLE}{empty}")), of(TABLE));
+    }
+
+    #[test]
+    fn references_that_no_sheet_has_are_mistakes() {
+        for wrong in [
+            "ZZZZZZZZ99999999999",
+            "XFE1",
+            "A1048577",
+            "A0",
+            "A",
+            "1",
+            "",
+            "A1B",
+            "Ä1",
+            "A4294967297",
+        ] {
+            let said = of(&format!("{TABLE}<row r=\"9\"><c r=\"{wrong}\"><v>7</v></c></row>"));
+            let said = said.unwrap_err();
+            assert!(said.contains(&format!("has a cell at `{wrong}`")), "{said}");
+        }
+        for wrong in ["0", "1048577", "4294967297", "-1", "x"] {
+            assert!(of(&format!("<row r=\"{wrong}\"/>")).is_err(), "{wrong}");
+        }
+        assert_eq!(letters(0), "A");
+        assert_eq!([letters(25), letters(26), letters(16383)], ["Z", "AA", "XFD"]);
+    }
+
+    /// Some megabytes of archive that unpack to gigabytes.
+    #[test]
+    fn parts_are_unpacked_within_a_limit() {
+        let many = |piece: &'static str, times: usize| {
+            move |out: &mut dyn Write| {
+                let million = piece.repeat(1 + 1_000_000 / piece.len());
+                (0..times).try_for_each(|_| out.write_all(million.as_bytes()))
+            }
+        };
+        let no = |_: &mut dyn Write| Ok(());
+        let cases = [
+            workbook(many(" ", 25), no),
+            workbook(many("<c/>", 25), no),
+            workbook(many("<row/>", 25), no),
+            workbook(no, many("<si><t>A</t></si>", 25)),
+            workbook(no, many("A", 25)),
+        ];
+        for bytes in cases {
+            assert!(bytes.len() < 200_000);
+            let said = first_sheet(bytes).unwrap_err();
+            assert!(said.contains("unpacks to more than 20 MB"), "{said}");
+        }
+        // a text that is stored once and stands in many cells
+        let sheet = "<c t=\"s\"><v>0</v></c>".repeat(100);
+        let string = format!("<si><t>{}</t></si>", "A".repeat(1_000_000));
+        let bytes =
+            workbook(|out| out.write_all(sheet.as_bytes()), |out| out.write_all(string.as_bytes()));
+        let said = first_sheet(bytes).unwrap_err();
+        assert!(said.contains("hold more than 20 MB of text"), "{said}");
+    }
+
+    #[test]
+    fn what_is_no_workbook_is_refused() {
+        for bytes in
+            [&b""[..], b"PK", b"label,x", b"PK\x05\x06\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0"]
+        {
+            assert!(first_sheet(bytes.to_vec()).unwrap_err().contains("it is no workbook"));
+        }
+        let said = first_sheet(b"PK\x01\x02".repeat(10_001)).unwrap_err();
+        assert!(said.contains("10001 parts"), "{said}");
+    }
+}

@@ -1,0 +1,512 @@
+//! What the noise of the data may be, other than stated.
+//!
+//! The commonest causes of a gap on a bench are no effects at all: uncertainties that are stated too
+//! small, and a row that is wrong. A diagnosis that takes the stated noise for certain explains them
+//! by whatever effect or discrepancy comes nearest. What the noise is therefore belongs to every
+//! hypothesis: as stated, or with the uncertainties of each output multiplied by an unknown factor
+//! (Birge 1932, Physical Review 40, 207), or with single values off by many standard uncertainties.
+//! Probabilities of effects are summed over it.
+
+use nalgebra::{DMatrix, DVector};
+use rayon::prelude::*;
+
+use super::discrepancy::Discrepancy;
+use super::latent::{Map, Role};
+use super::likelihood::Visitor;
+use super::logarithm::ln_add;
+use super::posterior::{self, Effort, MANY_VALUES, Posterior, WeighedHypothesis};
+use super::setup::Setup;
+use crate::Case;
+use gumption_engine::linalg::dot;
+use gumption_engine::linalg::packed::{self, triangle};
+use gumption_engine::number::{Column, elementary};
+
+/// The factor on stated uncertainties is log-uniform between these.
+const FACTORS: [f64; 2] = [0.25, 10.0];
+
+/// Prior probability that stated uncertainties are off by a factor.
+const PRIOR_FACTOR: f64 = 0.1;
+
+/// Prior probability that at least one value is off.
+const PRIOR_SUSPECT: f64 = 0.1;
+
+/// Prior probability that there is one more, once there is one.
+const PRIOR_ANOTHER: f64 = 0.3;
+
+/// Prior probability that the priors of the effects' parameters are too narrow.
+const PRIOR_CONFLICT: f64 = 0.05;
+
+/// Prior probability that neighbouring rows share noise.
+const PRIOR_SERIAL: f64 = 0.1;
+
+/// Coefficients of correlation that are tried for it, equally probable beforehand.
+const SERIAL: [f64; 4] = [0.3, 0.6, 0.8, 0.92];
+
+/// A serial correlation is tried although its evidence at the modes without it is lower by this
+/// factor's logarithm: modes move with it.
+const MOVED: f64 = 2.0;
+
+/// The size of what is wrong with a value that is off, in standard uncertainties.
+const SUSPECT_SIZE: f64 = 10.0;
+
+/// Values that are off, at most.
+const MOST_SUSPECTS: usize = 5;
+
+/// A value is suspected where that may come to have this posterior probability.
+const WORTH_TRYING: f64 = 0.02;
+
+/// Half the step of differences in the scores.
+const STEP: f64 = 1e-4;
+
+/// A measured value: a row of the case and an observed output.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Suspect {
+    pub(crate) id: usize,
+    pub(crate) output: usize,
+}
+
+/// A noise that the data may have.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct NoiseModel {
+    /// Whether stated uncertainties are multiplied by an unknown factor.
+    pub(crate) factor: bool,
+    /// The values that are off.
+    pub(crate) suspects: Vec<Suspect>,
+    /// The coefficient of correlation of the noise of neighbouring rows.
+    pub(crate) serial: Option<f64>,
+}
+
+impl NoiseModel {
+    /// Stated uncertainties with an unknown factor.
+    fn with_factor() -> Self {
+        Self { factor: true, ..Self::default() }
+    }
+
+    /// With these values off.
+    fn with_suspects(suspects: Vec<Suspect>) -> Self {
+        Self { suspects, ..Self::default() }
+    }
+
+    /// With noise that neighbouring rows share in part.
+    fn with_serial(coefficient: f64) -> Self {
+        Self { serial: Some(coefficient), ..Self::default() }
+    }
+
+    /// What a value's standard uncertainty is multiplied by: a suspect is off by a normal quantity of
+    /// its own.
+    pub(crate) fn stretch(&self, id: usize, output: usize) -> f64 {
+        if self.suspects.contains(&Suspect { id, output }) {
+            elementary::hypot(1.0, SUSPECT_SIZE)
+        } else {
+            1.0
+        }
+    }
+
+    /// The unknown factor of an output's stated uncertainties.
+    pub(crate) fn role(output: usize) -> Role {
+        let [lower, upper] = FACTORS;
+        let map =
+            Map::Uniform { lower: elementary::ln(lower), width: elementary::ln(upper / lower) };
+        Role::Noise { output, map }
+    }
+
+    /// Its prior probability, for data of so many values.
+    fn prior(&self, values: usize) -> f64 {
+        if self.factor {
+            return PRIOR_FACTOR;
+        }
+        if self.serial.is_some() {
+            return PRIOR_SERIAL / SERIAL.len() as f64;
+        }
+        let mut prior = match self.suspects.len() {
+            0 => return 1.0 - PRIOR_FACTOR - PRIOR_SUSPECT - PRIOR_SERIAL - PRIOR_CONFLICT,
+            _ => PRIOR_SUSPECT,
+        };
+        for more in 0..self.suspects.len() {
+            // one of the sets of so many values
+            prior *= (more + 1) as f64 / values.saturating_sub(more).max(1) as f64;
+            prior *= if more == 0 { 1.0 - PRIOR_ANOTHER } else { PRIOR_ANOTHER };
+        }
+        prior
+    }
+}
+
+/// The hypotheses weighed with one noise model.
+pub(crate) struct Weighing<'c> {
+    /// Whether the priors of the effects' parameters are wider than stated.
+    pub(crate) wide: bool,
+    pub(crate) setup: Setup<'c>,
+    pub(crate) discrepancy: Discrepancy,
+    pub(crate) posterior: Posterior,
+    /// Prior probability of the noise model.
+    prior: f64,
+    /// Its posterior probability.
+    pub(crate) probability: f64,
+}
+
+/// The hypotheses weighed with every noise model that the data do not rule out, the one as stated
+/// first; and with wider priors, which `wide` has, where the stated ones contradict the data.
+pub(crate) fn weighings<'c>(
+    case: &'c Case,
+    wide: &'c Case,
+    seed: u64,
+    effort: Effort,
+    progress: &(dyn Fn(f64) + Sync),
+) -> Vec<Weighing<'c>> {
+    let weighing = |setup: Setup<'c>, prior: f64, known: &[Weighing<'c>], [from, to]: [f64; 2]| {
+        let discrepancy = Discrepancy::new(&setup);
+        let rivals = ln_total(known) - elementary::ln(prior);
+        let posterior =
+            posterior::posterior(&setup, &discrepancy, seed, effort, rivals, &|share| {
+                progress(from + (to - from) * share);
+            });
+        Weighing { wide: false, setup, discrepancy, posterior, prior, probability: 0.0 }
+    };
+    let values = case.task.rows.len() * case.observed.iter().flatten().count();
+    let stated = NoiseModel::default().prior(values);
+    let mut weighings = vec![weighing(Setup::new(case), stated, &[], [0.0, 0.35])];
+    let stated = &weighings[0].setup.data.uncertainties;
+    // of much data each model costs a pass for every draw
+    let few = weighings[0].setup.data.len() <= MANY_VALUES;
+    if stated.iter().any(Option::is_some) && few {
+        let model = NoiseModel::with_factor();
+        let prior = model.prior(values);
+        let setup = weighings[0].setup.with_noise(model);
+        weighings.push(weighing(setup, prior, &weighings, [0.35, 0.7]));
+    }
+    if few {
+        for coefficient in serial_correlations(&weighings) {
+            let model = NoiseModel::with_serial(coefficient);
+            let prior = model.prior(values);
+            let setup = weighings[0].setup.with_noise(model);
+            weighings.push(weighing(setup, prior, &weighings, [0.7, 0.7]));
+        }
+    }
+    if few && prior_conflict(wide, &weighings, seed, effort) {
+        let mut of_wide = weighing(Setup::new(wide), PRIOR_CONFLICT, &weighings, [0.7, 0.8]);
+        of_wide.wide = true;
+        weighings.push(of_wide);
+    }
+    for _ in 0..if few { MOST_SUSPECTS } else { 0 } {
+        let Some(suspects) = more_suspects(&weighings) else { break };
+        let model = NoiseModel::with_suspects(suspects);
+        let prior = model.prior(values);
+        let setup = weighings[0].setup.with_noise(model);
+        weighings.push(weighing(setup, prior, &weighings, [0.8, 1.0]));
+    }
+    weigh(&mut weighings);
+    progress(1.0);
+    weighings
+}
+
+/// The logarithm of prior probabilities times evidences, summed.
+fn ln_total(weighings: &[Weighing<'_>]) -> f64 {
+    weighings.iter().map(Weighing::ln_weight).fold(f64::NEG_INFINITY, ln_add)
+}
+
+impl Weighing<'_> {
+    fn ln_weight(&self) -> f64 {
+        elementary::ln(self.prior) + self.posterior.ln_evidence
+    }
+}
+
+/// The serial correlations that may be worth an evidence of their own: the densities of the
+/// residuals that the hypotheses leave at their modes, with the correlation and without.
+fn serial_correlations(weighings: &[Weighing<'_>]) -> Vec<f64> {
+    let Some(Weighing { setup, posterior, .. }) = weighings.first() else { return Vec::new() };
+    if setup.linear.fitted || setup.data.rows() < LEAST_ROWS {
+        return Vec::new();
+    }
+    let total = ln_total(weighings);
+    let found: Vec<Vec<f64>> = posterior
+        .hypotheses
+        .par_iter()
+        .map(|hypothesis| {
+            let residuals = residuals_at_mode(setup, hypothesis);
+            let ln = elementary::ln(hypothesis.prior.max(f64::MIN_POSITIVE))
+                + hypothesis.evidence.ln_evidence;
+            SERIAL.iter().map(|&of| ln + serial_gain(setup, &residuals, of)).collect()
+        })
+        .collect();
+    let ln_prior = elementary::ln(NoiseModel::with_serial(0.0).prior(setup.data.len()));
+    let worth = |n: &usize| {
+        let sum = found
+            .iter()
+            .filter_map(|of| of.get(*n))
+            .fold(f64::NEG_INFINITY, |sum, ln| ln_add(sum, *ln));
+        sum + ln_prior + MOVED - total > elementary::ln(WORTH_TRYING)
+    };
+    (0..SERIAL.len()).filter(worth).map(|n| SERIAL[n]).collect()
+}
+
+/// Fewer rows say nothing of a serial correlation.
+const LEAST_ROWS: usize = 8;
+
+/// Residuals at the best mode of a hypothesis, whitened by the blocks, without a serial correlation.
+pub(crate) fn residuals_at_mode(setup: &Setup<'_>, hypothesis: &WeighedHypothesis) -> Vec<f64> {
+    let Some(mode) = hypothesis.evidence.modes.first() else { return Vec::new() };
+    let likelihood = setup.likelihood(&hypothesis.effects);
+    let mut scores = vec![Column::ZERO; likelihood.unknowns()];
+    for (column, score) in scores.iter_mut().zip(&mode.scores) {
+        column.0.fill(*score);
+    }
+    let mut kept = Kept::new(1, setup.data.len());
+    likelihood.visit(&scores, 1, &mut kept);
+    kept.lanes.into_iter().map(|(residuals, _)| residuals).next().unwrap_or_default()
+}
+
+/// By how much the logarithm of the density of residuals rises if neighbouring rows are correlated.
+pub(crate) fn serial_gain(setup: &Setup<'_>, residuals: &[f64], coefficient: f64) -> f64 {
+    let outputs = setup.data.outputs.len();
+    let mut gain = 0.0;
+    for (row, ids) in setup.data.ids.windows(2).enumerate() {
+        let lag = lag(coefficient, ids[0], ids[1]);
+        for output in 0..outputs {
+            let (before, here) = (
+                residuals.get(row * outputs + output),
+                residuals.get((row + 1) * outputs + output),
+            );
+            let (Some(before), Some(here)) = (before, here) else { return f64::NEG_INFINITY };
+            let rest = here - lag * before;
+            gain -= 0.5 * (rest * rest / (1.0 - lag * lag) - here * here);
+            gain -= 0.5 * elementary::ln(1.0 - lag * lag);
+        }
+    }
+    gain
+}
+
+/// The coefficient of correlation of two rows, the later one second.
+pub(crate) fn lag(coefficient: f64, before: usize, here: usize) -> f64 {
+    let gap = here.saturating_sub(before).max(1);
+    (1..gap).fold(coefficient, |lag, _| lag * coefficient)
+}
+
+/// Whether a single effect with a wider prior explains the data so much better than anything else
+/// that the conflict may be probable.
+fn prior_conflict(wide: &Case, weighings: &[Weighing<'_>], seed: u64, effort: Effort) -> bool {
+    let setup = Setup::new(wide);
+    let singles = posterior::singles(&setup, seed, effort);
+    let ln = |h: &WeighedHypothesis| {
+        elementary::ln(h.prior.max(f64::MIN_POSITIVE)) + h.evidence.ln_evidence
+    };
+    let total = singles.iter().filter(|h| !h.effects.is_empty()).map(ln);
+    let total = total.fold(f64::NEG_INFINITY, ln_add) + elementary::ln(PRIOR_CONFLICT);
+    total - ln_total(weighings) > elementary::ln(WORTH_TRYING)
+}
+
+/// Posterior probabilities of the noise models.
+fn weigh(weighings: &mut [Weighing<'_>]) {
+    let total = ln_total(weighings);
+    for weighing in weighings.iter_mut() {
+        weighing.probability = elementary::exp(weighing.ln_weight() - total);
+    }
+}
+
+/// The place of the most probable weighing.
+fn most_probable(weighings: &[Weighing<'_>]) -> usize {
+    (0..weighings.len())
+        .max_by(|&a, &b| weighings[a].probability.total_cmp(&weighings[b].probability))
+        .unwrap_or(0)
+}
+
+/// Whether wider priors than stated are most probable.
+pub(crate) fn is_prior_conflict(weighings: &[Weighing<'_>]) -> bool {
+    weighings[most_probable(weighings)].wide
+}
+
+/// The weighing with the most probable noise, in which the probabilities of hypotheses are summed
+/// over what the noise may be.
+pub(crate) fn summed(mut weighings: Vec<Weighing<'_>>) -> (Setup<'_>, Discrepancy, Posterior) {
+    let most = most_probable(&weighings);
+    let mut first = weighings.swap_remove(most);
+    if let (true, Some(stated)) = (first.wide, weighings.first_mut()) {
+        // pairs are not among the hypotheses with wider priors; their draws are of other priors
+        let several = |h: &WeighedHypothesis| h.effects.len() > 1;
+        let at = stated.posterior.hypotheses.iter().position(several);
+        let pairs = at.map(|at| stated.posterior.hypotheses.split_off(at)).unwrap_or_default();
+        first.posterior.hypotheses.extend(pairs.into_iter().map(|pair| WeighedHypothesis {
+            probability: pair.probability * stated.probability / first.probability,
+            evidence: pair.evidence.without_draws(),
+            ..pair
+        }));
+    }
+    let Posterior { hypotheses, probability, .. } = &mut first.posterior;
+    for hypothesis in hypotheses.iter_mut() {
+        hypothesis.probability *= first.probability;
+    }
+    *probability *= first.probability;
+    for other in &weighings {
+        // hypotheses stand in the same order whatever the noise
+        for (own, theirs) in hypotheses.iter_mut().zip(&other.posterior.hypotheses) {
+            own.probability += other.probability * theirs.probability;
+        }
+        *probability += other.probability * other.posterior.probability;
+    }
+    (first.setup, first.discrepancy, first.posterior)
+}
+
+/// A set of values that are off which may be worth an evidence of its own: the last one that was
+/// tried and one more. `None` where no further value is suspicious.
+fn more_suspects(weighings: &[Weighing<'_>]) -> Option<Vec<Suspect>> {
+    let is_known = |w: &&Weighing<'_>| {
+        let noise = &w.setup.data.noise;
+        !noise.factor && noise.serial.is_none() && !w.wide
+    };
+    let last = weighings.iter().rfind(is_known)?;
+    let values = last.setup.data.len();
+    let known = &last.setup.data.noise.suspects;
+    let total = ln_total(weighings);
+    let with = |suspect: Suspect| {
+        let mut suspects = known.clone();
+        suspects.push(suspect);
+        suspects
+    };
+    let of_hypothesis = |hypothesis: &WeighedHypothesis| -> Vec<f64> {
+        let gains = gains(&last.setup, hypothesis);
+        let ln = elementary::ln(hypothesis.prior.max(f64::MIN_POSITIVE))
+            + hypothesis.evidence.ln_evidence;
+        gains.into_iter().map(|gain| ln + gain).collect()
+    };
+    let found: Vec<Vec<f64>> = last.posterior.hypotheses.par_iter().map(of_hypothesis).collect();
+    let sum = |value: usize| {
+        found
+            .iter()
+            .filter_map(|of| of.get(value))
+            .fold(f64::NEG_INFINITY, |sum, ln| ln_add(sum, *ln))
+    };
+    let outputs = last.setup.data.outputs.len();
+    let best = (0..values)
+        .map(|value| {
+            (
+                sum(value),
+                Suspect { id: last.setup.data.ids[value / outputs], output: value % outputs },
+            )
+        })
+        .filter(|(_, suspect)| !known.contains(suspect))
+        .max_by(|a, b| a.0.total_cmp(&b.0))?;
+    let suspects = with(best.1);
+    let model = NoiseModel::with_suspects(suspects);
+    let ln = best.0 + elementary::ln(model.prior(values));
+    (ln - total > elementary::ln(WORTH_TRYING)).then_some(model.suspects)
+}
+
+/// By how much the logarithm of a hypothesis' evidence rises if each value is off, in the Gaussian
+/// approximation at its best mode.
+///
+/// There the data are normal with covariance C = V + H H', H being their derivatives by the scores,
+/// and inv(C) (y - E y) = inv(V) r with the residuals r at the mode. A variance s^2 added to value i
+/// changes the logarithm of the density by -ln(1 + s^2 c)/2 + s^2 g^2/(1 + s^2 c)/2 with the i-th
+/// diagonal element c of inv(C) and the i-th element g of inv(V) r (Sherman and Morrison).
+fn gains(setup: &Setup<'_>, hypothesis: &WeighedHypothesis) -> Vec<f64> {
+    let Some(mode) = hypothesis.evidence.modes.first() else { return Vec::new() };
+    let likelihood = setup.likelihood(&hypothesis.effects);
+    let covariance = likelihood.covariance;
+    let unknowns = likelihood.unknowns();
+    let mut points = vec![mode.scores.clone()];
+    for i in 0..unknowns {
+        for step in [-STEP, STEP] {
+            let mut moved = mode.scores.clone();
+            moved[i] += step;
+            points.push(moved);
+        }
+    }
+    let mut lanes: Vec<(Vec<f64>, Vec<f64>)> = Vec::new();
+    for points in points.chunks(gumption_engine::number::COLUMN) {
+        let mut scores = vec![Column::ZERO; unknowns];
+        for (i, column) in scores.iter_mut().enumerate() {
+            for (lane, out) in column.0.iter_mut().enumerate() {
+                *out = points[lane.min(points.len() - 1)][i];
+            }
+        }
+        let mut kept = Kept::new(points.len(), setup.data.len());
+        likelihood.visit(&scores, points.len(), &mut kept);
+        lanes.extend(kept.lanes);
+    }
+    let Some((residuals, ln_variances)) = lanes.first() else { return Vec::new() };
+    let values = residuals.len();
+    let outputs = setup.data.outputs.len();
+    // the whitened columns of what is integrated out, and of the scores
+    let mut columns: Vec<Vec<f64>> = if covariance.fitted {
+        let root = |(value, x): (usize, &f64)| x * elementary::exp(-0.5 * ln_variances[value]);
+        covariance.basis.iter().map(|c| c.iter().enumerate().map(root).collect()).collect()
+    } else {
+        covariance.basis.clone()
+    };
+    columns.extend((0..unknowns).filter(|&i| !likelihood.roles[i].is_noise()).map(|i| {
+        let (low, high) = (&lanes[1 + 2 * i].0, &lanes[2 + 2 * i].0);
+        low.iter().zip(high).map(|(low, high)| (high - low) / (2.0 * STEP)).collect()
+    }));
+    let k = columns.len();
+    let information = DMatrix::from_fn(k, k, |i, j| {
+        dot(&columns[i], &columns[j]) + if i == j { 1.0 } else { 0.0 }
+    });
+    let Some(root) = information.cholesky() else { return Vec::new() };
+    let products = DVector::from_fn(k, |i, _| dot(&columns[i], residuals));
+    // of what is integrated out linearly the residuals at the mode are not free yet
+    let free = covariance.basis.len();
+    let mut adjusted = residuals.clone();
+    if free > 0 {
+        let inner = root.l().view((0, 0), (free, free)).into_owned();
+        let half = inner.solve_lower_triangular(&products.rows(0, free).into_owned());
+        let solved = half.and_then(|half| inner.tr_solve_lower_triangular(&half));
+        let Some(solved) = solved else { return Vec::new() };
+        for (column, factor) in columns.iter().take(free).zip(solved.iter()) {
+            for (adjusted, x) in adjusted.iter_mut().zip(column) {
+                *adjusted -= factor * x;
+            }
+        }
+    }
+    let lower = root.l();
+    (0..values)
+        .map(|value| {
+            let (row, output) = (value / outputs, value % outputs);
+            // the whitened unit vector of the value: nothing of it lies outside of its row
+            let mut unit = vec![0.0; outputs];
+            let u = match (&setup.data.uncertainties[output], covariance.fitted) {
+                (Some(u), _) => u[row],
+                (None, _) => elementary::exp(0.5 * ln_variances[value]),
+            };
+            if covariance.fitted {
+                unit[output] = elementary::exp(-0.5 * ln_variances[value]);
+            } else {
+                let block = &covariance.roots[row * triangle(outputs)..];
+                for (i, part) in packed::rows(&block[..triangle(outputs)]).enumerate() {
+                    unit[i] = part.get(output).copied().unwrap_or(0.0);
+                }
+            }
+            let at = row * outputs;
+            let along = DVector::from_fn(k, |i, _| dot(&columns[i][at..at + outputs], &unit));
+            let Some(half) = lower.solve_lower_triangular(&along) else { return 0.0 };
+            let c = dot(&unit, &unit) - half.norm_squared();
+            let g = dot(&unit, &adjusted[at..at + outputs]);
+            let s2 = (SUSPECT_SIZE * u).powi(2);
+            let growth = 1.0 + s2 * c.max(0.0);
+            0.5 * (s2 * g * g / growth - elementary::ln(growth))
+        })
+        .collect()
+}
+
+/// Keeps the whitened residuals of every lane, and the logarithms of the variances where these are
+/// estimated, row by row.
+struct Kept {
+    lanes: Vec<(Vec<f64>, Vec<f64>)>,
+}
+
+impl Kept {
+    fn new(lanes: usize, values: usize) -> Self {
+        Self { lanes: vec![(vec![0.0; values], vec![0.0; values]); lanes] }
+    }
+}
+
+impl Visitor for Kept {
+    #[inline(always)]
+    fn row(&mut self, row: usize, residuals: &[Column], ln_variances: &[Column]) {
+        let first = row * residuals.len();
+        for (output, (residual, ln)) in residuals.iter().zip(ln_variances).enumerate() {
+            for (n, (kept, kept_ln)) in self.lanes.iter_mut().enumerate() {
+                kept[first + output] = residual.0[n];
+                kept_ln[first + output] = ln.0[n];
+            }
+        }
+    }
+}

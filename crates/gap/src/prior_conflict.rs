@@ -1,0 +1,86 @@
+//! Effects that explain the data with a size that their prior all but excludes.
+
+use super::case::WIDER;
+use super::diagnosis::PriorConflict;
+use super::noise_model::Weighing;
+use super::parameters::parameters;
+use crate::Case;
+use gumption_engine::distribution::Distribution;
+use gumption_engine::number::elementary;
+
+/// Conflicts below this probability are not worth a word.
+const LEAST: f64 = 0.01;
+
+/// A normal prior contradicts an estimate from so many standard deviations on.
+const FAR: f64 = 3.0;
+
+/// The conflicts, most probable first, with intervals of this coverage probability.
+pub(crate) fn conflicts(
+    case: &Case,
+    weighings: &[Weighing<'_>],
+    coverage: f64,
+) -> Vec<PriorConflict> {
+    let mut found = Vec::new();
+    for weighing in weighings.iter().filter(|weighing| weighing.wide) {
+        for hypothesis in &weighing.posterior.hypotheses {
+            let probability = hypothesis.probability * weighing.probability;
+            let [effect] = hypothesis.effects[..] else { continue };
+            if probability < LEAST {
+                continue;
+            }
+            let candidate = &case.candidates[effect];
+            let of = parameters(&weighing.setup, hypothesis, coverage);
+            for ((parameter, prior), stated) in
+                of.into_iter().zip(&candidate.priors).zip(&candidate.effect.parameters)
+            {
+                let (prior_distance, bounded) = distance(prior, parameter.estimate);
+                if prior_distance > if bounded { 0.0 } else { FAR } {
+                    let effect = candidate.effect.name.clone();
+                    debug_assert!(parameter.name.ends_with(&stated.name));
+                    found.push(PriorConflict {
+                        effect,
+                        parameter,
+                        prior_distance,
+                        bounded,
+                        probability,
+                    });
+                }
+            }
+        }
+    }
+    found.sort_by(|a, b| b.probability.total_cmp(&a.probability));
+    found
+}
+
+/// How far a value is from a prior, and whether that is beyond a bound.
+fn distance(prior: &Distribution, value: f64) -> (f64, bool) {
+    let [low, high] = [prior.quantile(0.25), prior.quantile(0.75)];
+    let beyond = |low: f64, high: f64, value: f64| {
+        // the quartiles are half a width apart
+        let width = 2.0 * (high - low);
+        let middle = 0.5 * (low + high);
+        ((value - middle).abs() / width - 0.5, true)
+    };
+    match prior {
+        Distribution::Rectangular(_) => beyond(low, high, value),
+        Distribution::LogUniform(_) => {
+            beyond(elementary::ln(low), elementary::ln(high), elementary::ln(value))
+        }
+        _ => ((value - prior.mean()).abs() / prior.standard_uncertainty(), false),
+    }
+}
+
+/// The sentence of the note.
+pub(crate) fn note(conflict: &PriorConflict) -> String {
+    let PriorConflict { effect, parameter, prior_distance, bounded, probability } = conflict;
+    let far = if *bounded {
+        format!("{prior_distance:.1} widths of your prior beyond its bound")
+    } else {
+        format!("{prior_distance:.1} standard deviations of your prior from its mean")
+    };
+    format!(
+        "{effect} alone would explain the data with {} of a size that is {far} (probability \
+         {probability:.2}, with priors {WIDER} times as wide).",
+        parameter.name
+    )
+}

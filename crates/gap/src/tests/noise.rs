@@ -1,0 +1,170 @@
+//! What the noise may be, and modes that are hard to find.
+
+use super::{candidate, case, formulas, normal, observed, quantity};
+use crate::{Candidate, Case, Diagnosis, DiagnosisOptions, Effect, HypothesisKind, diagnose};
+use gumption_engine::distribution::{Distribution, LogUniform, Rectangular, StreamKey};
+use gumption_engine::task::Sharing;
+
+/// Standard normal numbers.
+fn normals(count: usize, seed: u64) -> Vec<f64> {
+    let mut stream = StreamKey::new(seed, "test").block(0);
+    let mut columns = Vec::new();
+    while columns.len() < count {
+        let mut column = gumption_engine::number::Column::ZERO;
+        crate::mixture::standard_normals(&mut stream, &mut column);
+        columns.extend(column.0);
+    }
+    columns.truncate(count);
+    columns
+}
+
+/// A line of 30 points with uncertainties of 0.1, its residuals given, and an offset and a slope as
+/// candidate effects.
+fn line_with(residuals: &[f64]) -> Case {
+    let values: Vec<f64> =
+        residuals.iter().enumerate().map(|(n, r)| 1.0 + 0.5 * n as f64 + r).collect();
+    case(
+        normal(1.0, 0.01),
+        Sharing::All,
+        &[("y", "a + 0.5*x")],
+        vec![observed(&values, Some(&vec![0.1; values.len()]))],
+        vec![
+            candidate("offset", "o", normal(0.0, 0.4), &[("y", "y + o")]),
+            candidate("slope", "s", normal(0.0, 0.05), &[("y", "y + s*x")]),
+        ],
+    )
+}
+
+fn diagnosed(case: &Case, seed: u64) -> Diagnosis {
+    diagnose(case, None, DiagnosisOptions::new(seed), &|_| {}).unwrap()
+}
+
+fn present(diagnosis: &Diagnosis, effect: &str) -> f64 {
+    diagnosis.present.iter().find(|of| of.effect == effect).unwrap().probability
+}
+
+#[test]
+fn uncertainties_that_are_too_small_are_no_effect() {
+    let residuals: Vec<f64> = normals(30, 3).into_iter().map(|z| 0.2 * z).collect();
+    let found = diagnosed(&line_with(&residuals), 1);
+    assert_eq!(found.most_probable.kind, HypothesisKind::None);
+    let factor = found.noise[0].factor.unwrap();
+    assert!(factor.probability > 0.9, "{factor:?}");
+    // the factor of these residuals, whose standard error is 1/sqrt(60) of it: 4.5 of those
+    let rms = (residuals.iter().map(|r| r * r).sum::<f64>() / 30.0).sqrt() / 0.1;
+    assert!((factor.estimate / rms - 1.0).abs() < 4.5 / 60f64.sqrt(), "{factor:?} {rms}");
+    let [low, high] = factor.interval;
+    assert!(low < rms && rms < high, "{factor:?} {rms}");
+}
+
+#[test]
+fn uncertainties_that_are_right_are_not_suspected() {
+    let residuals: Vec<f64> = normals(30, 4).into_iter().map(|z| 0.1 * z).collect();
+    let found = diagnosed(&line_with(&residuals), 1);
+    assert_eq!(found.most_probable.kind, HypothesisKind::None);
+    assert!(found.noise[0].factor.unwrap().probability < 0.1);
+    assert!(found.noise[0].suspects.is_empty(), "{:?}", found.noise[0].suspects);
+}
+
+#[test]
+fn a_value_that_is_off_is_found_and_explains_nothing_else() {
+    let mut residuals: Vec<f64> = normals(30, 5).into_iter().map(|z| 0.1 * z).collect();
+    residuals[6] = 0.85;
+    let found = diagnosed(&line_with(&residuals), 1);
+    assert_eq!(found.most_probable.kind, HypothesisKind::None);
+    let suspect = found.noise[0].suspects.first().unwrap();
+    assert_eq!(suspect.row, 6);
+    assert!(suspect.probability > 0.95, "{suspect:?}");
+    // off by 8.5 standard uncertainties from the truth; what the others let expect is known to 0.1
+    assert!((suspect.size - 8.5).abs() < 0.5, "{suspect:?}");
+    // and an effect is found beside it
+    let with_offset: Vec<f64> = residuals.iter().map(|r| r + 0.3).collect();
+    let found = diagnosed(&line_with(&with_offset), 1);
+    assert_eq!(found.most_probable.effects, ["offset"]);
+    assert_eq!(found.noise[0].suspects[0].row, 6);
+    let offset = &found.present.iter().find(|of| of.effect == "offset").unwrap().parameters[0];
+    // the mean of 29 values, five standard errors
+    assert!((offset.estimate - 0.3).abs() < 5.0 * 0.1 / 29f64.sqrt(), "{offset:?}");
+}
+
+#[test]
+fn noise_that_neighbours_share_is_no_effect() {
+    let mut before = 0.0;
+    let residuals: Vec<f64> = normals(60, 6)
+        .into_iter()
+        .map(|z| {
+            before = 0.9 * before + (1.0f64 - 0.81).sqrt() * z;
+            0.1 * before
+        })
+        .collect();
+    let found = diagnosed(&line_with(&residuals), 1);
+    let serial = found.noise[0].serial.unwrap();
+    assert!(serial.probability > 0.5, "{serial:?}");
+    let [low, high] = serial.interval;
+    assert!(low < 0.9 && 0.9 < high, "{serial:?}");
+    assert!(found.most_probable.probability < 0.9 || found.most_probable.effects.is_empty());
+}
+
+#[test]
+fn an_effect_far_outside_its_prior_is_named() {
+    let residuals: Vec<f64> =
+        normals(30, 7).into_iter().enumerate().map(|(n, z)| 0.1 * z + 0.3 * n as f64).collect();
+    let found = diagnosed(&line_with(&residuals), 1);
+    assert_eq!(found.most_probable.effects, ["slope"]);
+    assert!(found.most_probable.prior_conflict);
+    let conflict = &found.prior_conflicts[0];
+    // 0.3 is six standard deviations of the prior; the slope is known to 0.002
+    assert_eq!(conflict.effect, "slope");
+    assert!((conflict.prior_distance - 6.0).abs() < 0.2, "{conflict:?}");
+    assert!(found.notes.iter().any(|note| note.code == "prior-conflict"));
+    assert!(present(&found, "slope") > 0.5);
+}
+
+/// An oscillation of 70 periods in 200 rows: the mode of its frequency is a thousandth of the prior
+/// wide, and none of the draws of the prior is near it.
+fn oscillation() -> Case {
+    let turn = 2.0 * std::f64::consts::PI;
+    let values: Vec<f64> = normals(200, 8)
+        .into_iter()
+        .enumerate()
+        .map(|(n, z)| 300.0 * (turn * 0.351_7 * n as f64 + 1.0).sin() + 130.0 * z)
+        .collect();
+    let parameters: [(&str, Distribution); 3] = [
+        ("b", LogUniform::new(10.0, 1000.0).unwrap().into()),
+        ("f", Rectangular::between(0.01, 0.5).unwrap().into()),
+        ("p", Rectangular::between(0.0, turn).unwrap().into()),
+    ];
+    let oscillation = Candidate {
+        effect: Effect {
+            name: "oscillation".to_owned(),
+            parameters: parameters.iter().map(|(name, _)| quantity(name)).collect(),
+            overrides: formulas(&[("y", "y + b*sin(2*pi*f*x + p)")]),
+        },
+        priors: parameters.into_iter().map(|(_, prior)| prior).collect(),
+        about: String::new(),
+        source: String::new(),
+    };
+    case(
+        normal(0.0, 20.0),
+        Sharing::All,
+        &[("y", "a + 0*x")],
+        vec![observed(&values, None)],
+        vec![oscillation, candidate("drift", "d", normal(0.0, 1.0), &[("y", "y + d*x")])],
+    )
+}
+
+#[test]
+fn a_needle_is_found_whatever_the_seed() {
+    let case = oscillation();
+    let found: Vec<Diagnosis> = (1..=3).map(|seed| diagnosed(&case, seed)).collect();
+    for diagnosis in &found {
+        assert_eq!(diagnosis.most_probable.effects, ["oscillation"]);
+        // as wanted of any two seeds
+        let apart = diagnosis.most_probable.probability - found[0].most_probable.probability;
+        assert!(apart.abs() < 0.02, "{apart}");
+        let parameters = &diagnosis.hypotheses[0].parameters;
+        let f = parameters.iter().find(|of| of.name == "oscillation/f").unwrap();
+        // five standard uncertainties: sqrt(6)/pi u/a/n^1.5 = 1.2e-4
+        assert!((f.estimate - 0.351_7).abs() < 6e-4, "{f:?}");
+    }
+}

@@ -1,0 +1,106 @@
+//! What the data say of their noise, over all hypotheses.
+
+use super::latent::Role;
+use super::noise_model::{Suspect, Weighing, residuals_at_mode, serial_gain};
+use super::parameters::equal_tails;
+use gumption_engine::number::{COLUMN, elementary};
+
+/// Hypotheses below this probability do not contribute to the factor.
+const LEAST: f64 = 1e-3;
+
+/// What is known of the noise of the data.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct WeighedNoise {
+    /// Probability that stated uncertainties are off by a factor.
+    pub(crate) factor_probability: f64,
+    /// For each observed output with stated uncertainties what they are to be multiplied by, if they
+    /// are off: draws with weights that sum to one.
+    pub(crate) factors: Vec<(usize, Vec<(f64, f64)>)>,
+    /// Values that may be off, with their probabilities.
+    pub(crate) suspects: Vec<(Suspect, f64)>,
+    /// Probability that neighbouring rows share noise, and draws of their coefficient of correlation,
+    /// if they do, with weights that sum to one.
+    pub(crate) serial: Option<(f64, Vec<(f64, f64)>)>,
+}
+
+impl WeighedNoise {
+    pub(crate) fn of(weighings: &[Weighing<'_>]) -> Self {
+        let mut of = Self::default();
+        for weighing in weighings.iter().filter(|w| w.setup.data.noise.factor) {
+            of.factor_probability += weighing.probability;
+            of.factors = factors(weighing);
+        }
+        of.serial = serial(weighings);
+        for weighing in weighings {
+            for &suspect in &weighing.setup.data.noise.suspects {
+                match of.suspects.iter_mut().find(|(known, ..)| *known == suspect) {
+                    Some((_, probability)) => *probability += weighing.probability,
+                    None => of.suspects.push((suspect, weighing.probability)),
+                }
+            }
+        }
+        of
+    }
+
+    /// The factor of an output's stated uncertainties, given that they are off: its geometric mean and
+    /// an interval with equal tails.
+    pub(crate) fn factor(&self, output: usize, coverage: f64) -> Option<(f64, [f64; 2])> {
+        let (_, draws) = self.factors.iter().find(|(of, _)| *of == output)?;
+        let ln: f64 = draws.iter().map(|(factor, w)| w * elementary::ln(*factor)).sum();
+        Some((elementary::exp(ln), equal_tails(draws, coverage)))
+    }
+}
+
+/// The probability that neighbouring rows share noise, and the density of their coefficient of
+/// correlation on a grid: that of the residuals of the leading hypothesis with it, at its best mode.
+fn serial(weighings: &[Weighing<'_>]) -> Option<(f64, Vec<(f64, f64)>)> {
+    let stated = weighings.first()?;
+    if stated.setup.linear.fitted {
+        return None;
+    }
+    let correlated = weighings.iter().filter(|w| w.setup.data.noise.serial.is_some());
+    let probability = correlated.clone().map(|w| w.probability).sum();
+    let leading = correlated.max_by(|a, b| a.probability.total_cmp(&b.probability))?;
+    let hypotheses = leading.posterior.hypotheses.iter();
+    let best = hypotheses.max_by(|a, b| a.probability.total_cmp(&b.probability))?;
+    let residuals = residuals_at_mode(&stated.setup, best);
+    let grid: Vec<f64> = (0..GRID).map(|n| (n as f64 + 0.5) / GRID as f64).collect();
+    let ln: Vec<f64> = grid.iter().map(|&r| serial_gain(&stated.setup, &residuals, r)).collect();
+    let most = ln.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let density: Vec<f64> = ln.iter().map(|ln| elementary::exp(ln - most)).collect();
+    let total: f64 = density.iter().sum();
+    let draws = grid.into_iter().zip(density).map(|(r, density)| (r, density / total));
+    Some((probability, draws.collect()))
+}
+
+/// Coefficients of correlation between 0 and 1.
+const GRID: usize = 200;
+
+/// Draws of the factors, over all hypotheses.
+fn factors(weighing: &Weighing<'_>) -> Vec<(usize, Vec<(f64, f64)>)> {
+    let roles = weighing.setup.roles.iter().enumerate();
+    roles
+        .filter_map(|(place, role)| match role {
+            // of an output that states uncertainties
+            Role::Noise { output, map } if weighing.setup.has_factor(*output) => {
+                let mut draws: Vec<(f64, f64)> = Vec::new();
+                for hypothesis in &weighing.posterior.hypotheses {
+                    if hypothesis.probability < LEAST {
+                        continue;
+                    }
+                    let evidence = &hypothesis.evidence;
+                    let weighted = evidence.weights.iter().enumerate().filter(|(_, w)| **w > 0.0);
+                    draws.extend(weighted.map(|(n, w)| {
+                        let score = evidence.columns[n / COLUMN][place].0[n % COLUMN];
+                        (elementary::exp(map.value(score)), w * hypothesis.probability)
+                    }));
+                }
+                let total: f64 = draws.iter().map(|(_, w)| w).sum();
+                draws.iter_mut().for_each(|(_, w)| *w /= total);
+                draws.sort_by(|a, b| a.0.total_cmp(&b.0));
+                (!draws.is_empty()).then_some((*output, draws))
+            }
+            _ => None,
+        })
+        .collect()
+}

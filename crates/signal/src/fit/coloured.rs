@@ -1,0 +1,544 @@
+//! Noise with a memory in a record that is too short, or at a frequency too low, to see it in parts:
+//! an autoregressive moving-average process of order (1, 1), of which first-order low-passed noise,
+//! a random walk, both with white noise on top, and means of either are cases.
+//!
+//! Its parameters are those of the greatest restricted likelihood, which allows for what the fit of
+//! the constant and the tones takes out of the residuals (D. A. Harville, J. Am. Stat. Assoc. 72
+//! (1977) 320). The likelihood is that of the innovations (P. J. Brockwell, R. A. Davis, Time Series:
+//! Theory and Methods, 2nd ed., 5.3); the variance of a fitted constant or factor is then that of the
+//! weighted sum of values that it is.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::dirichlet::sum_of_cosines;
+use super::residuals::{LAGS, NOT_WHITE};
+use super::sine_fit::ToneDesign;
+use gumption_engine::number::elementary::{ln, sin_cos_turn, tanh};
+
+/// Values that a model is fitted to at most; longer records give means of so many samples.
+pub(crate) const HELD: u64 = 4096;
+
+/// Means of a record that stand for it where no model of its values does.
+const MEANS: usize = 64;
+
+/// By how much the restricted log-likelihood of a process that comes back to its mean must be above
+/// that of a random walk for half of this difference: a walk passes for such a process in one record
+/// in a hundred (simulated, with a constant in the fit), one whose memory is a thirtieth of the
+/// record hardly ever for a walk.
+const COMES_BACK: f64 = 6.0;
+
+/// The difference of twice the log-likelihood from which a moving average is worth its parameter.
+const WORTH: f64 = 6.0;
+
+/// Residuals of a record: values, or means of as many successive ones.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Series {
+    values: Vec<f64>,
+    /// Samples of each mean.
+    every: u64,
+    sum: f64,
+    filled: u64,
+}
+
+/// What a model says of the fit of a channel.
+#[derive(Clone, Debug)]
+pub(crate) struct Coloured {
+    /// The variance of the constant.
+    pub(crate) level: f64,
+    /// The variances of the factors of the cosine and the sine of each tone; none where the model does
+    /// not fit and the record has periods enough to do without it.
+    pub(crate) tones: Option<Vec<[f64; 2]>>,
+    /// Degrees of freedom of these.
+    pub(crate) freedom: f64,
+    /// Whether the innovations that the model leaves are white.
+    pub(crate) fits: bool,
+    /// Whether the noise wanders off and does not come back within the record: its level is then
+    /// counted from the record's first value.
+    pub(crate) walks: bool,
+}
+
+/// An ARMA(1, 1) process x = rho x' + e + theta e' of innovations e.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Process {
+    rho: f64,
+    theta: f64,
+    /// Variance of the innovations.
+    variance: f64,
+    /// It starts from nothing at the first value instead of having gone on for ever.
+    walks: bool,
+}
+
+impl Coloured {
+    /// The variances of the tones' factors over those that white noise of a variance gives.
+    pub(crate) fn over_white(&self, design: &ToneDesign, variance: f64) -> Option<Vec<[f64; 2]>> {
+        let of = |(tone, [cosine, sine]): (usize, &[f64; 2])| {
+            let (even, odd) = (design.even[(tone + 1, tone + 1)], design.odd[(tone, tone)]);
+            [cosine / (variance * even), sine / (variance * odd)]
+        };
+        let tones = self.tones.as_ref()?;
+        Some(tones.iter().enumerate().map(of).collect())
+    }
+}
+
+impl Series {
+    pub(crate) fn new(samples: u64) -> Self {
+        Self { every: samples.div_ceil(HELD).max(1), ..Self::default() }
+    }
+
+    pub(crate) fn add(&mut self, residuals: &[f64]) {
+        if self.every == 1 {
+            self.values.extend_from_slice(residuals);
+            return;
+        }
+        for value in residuals {
+            self.sum += value;
+            self.filled += 1;
+            if self.filled == self.every {
+                self.values.push(self.sum / self.every as f64);
+                (self.sum, self.filled) = (0.0, 0);
+            }
+        }
+    }
+
+    /// Whether means over long parts scatter more than those of white noise of this variance do: of
+    /// one white record in a thousand.
+    pub(crate) fn wanders(&self, variance: f64) -> bool {
+        let (means, length) = self.means();
+        if means.len() < 8 {
+            return false;
+        }
+        let freedom = means.len() as f64 - 1.0;
+        let mean = means.iter().sum::<f64>() / means.len() as f64;
+        let squares: f64 = means.iter().map(|m| (m - mean) * (m - mean)).sum();
+        // the quantile of chi-squared by Wilson and Hilferty's cube
+        let part = 2.0 / (9.0 * freedom);
+        let cube = 1.0 - part + 3.09 * part.sqrt();
+        squares * length > variance * freedom * cube * cube * cube
+    }
+
+    /// Up to [`MEANS`] means of successive values, and the samples of each.
+    fn means(&self) -> (Vec<f64>, f64) {
+        let length = self.values.len().div_ceil(MEANS).max(1);
+        let whole = self.values.chunks_exact(length);
+        let means = whole.map(|part| part.iter().sum::<f64>() / length as f64).collect();
+        (means, length as f64 * self.every as f64)
+    }
+
+    /// The variances of what a fit found; none where the record is too short for any model. Of a
+    /// record of `many` periods the tones take too little out of the noise to count.
+    pub(crate) fn coloured(&self, design: &ToneDesign, many: bool) -> Option<Coloured> {
+        let count = self.values.len();
+        let constant = vec![1.0; count];
+        let (columns, seen) = self.waves(design);
+        let whole = Regression { columns: [vec![constant.clone()], columns].concat() };
+        let short = Regression { columns: vec![constant] };
+        let (process, fits) = if many { &short } else { &whole }.process(&self.values)?;
+        let (mut process, mut freedom) = (process, process.freedom(count));
+        let variance = |weights: &[f64]| process.variance_of(weights);
+        let mut level = variance(&whole.weights(0)?);
+        let mut tones = None;
+        if fits || !many {
+            let places = seen.then_some(0..design.tones.len());
+            tones = places.and_then(|mut places| {
+                places.try_fold(Vec::new(), |mut tones, tone| {
+                    let [even, odd] = [1, 2].map(|part| whole.weights(2 * tone + part));
+                    tones.push([variance(&even?), variance(&odd?)]);
+                    Some(tones)
+                })
+            });
+        }
+        if !fits {
+            // hum and the like: the means of long parts know nothing of it
+            let (means, _) = self.means();
+            let slow = Regression { columns: vec![vec![1.0; means.len()]] };
+            if let Some((of_means, _)) = slow.process(&means).filter(|_| means.len() >= 8) {
+                level = of_means.variance_of(&slow.weights(0)?);
+                freedom = of_means.freedom(means.len());
+                process = of_means;
+            }
+        }
+        Some(Coloured { level, tones, freedom, fits, walks: process.walks })
+    }
+
+    /// Cosine and sine of the tones as the values have them, and whether they do: means of much of
+    /// a period have little of it.
+    fn waves(&self, design: &ToneDesign) -> (Vec<Vec<f64>>, bool) {
+        let (count, every) = (self.values.len(), self.every as f64);
+        let middle = (count as f64 - 1.0) / 2.0;
+        let mut columns = Vec::new();
+        let mut seen = true;
+        for tone in &design.tones {
+            if self.every > 1 && tone.cycles * every > 0.25 {
+                seen = false;
+                continue;
+            }
+            let kept = sum_of_cosines(tone.cycles, self.every) / every;
+            let waves = (0..count).map(|i| {
+                let turns = tone.cycles * every * (i as f64 - middle);
+                let (sin, cos) = sin_cos_turn(turns - turns.floor());
+                (cos * kept, sin * kept)
+            });
+            let (cosines, sines) = waves.unzip();
+            columns.extend([cosines, sines]);
+        }
+        (columns, seen)
+    }
+}
+
+/// A design.
+struct Regression {
+    columns: Vec<Vec<f64>>,
+}
+
+/// Its columns and, last, the values that are fitted.
+struct Fitted<'f> {
+    columns: Vec<&'f [f64]>,
+}
+
+/// The restricted likelihood of a process, but for constants.
+#[derive(Clone, Copy)]
+struct Likelihood {
+    /// Minus twice its logarithm.
+    value: f64,
+    /// Variance of the innovations.
+    variance: f64,
+}
+
+impl Regression {
+    /// The weights of the values in a coefficient of the ordinary least-squares fit.
+    fn weights(&self, coefficient: usize) -> Option<Vec<f64>> {
+        let design = &self.columns;
+        let count = design.len();
+        let products = DMatrix::from_fn(count, count, |i, j| dot(&design[i], &design[j]));
+        let unit = DVector::from_fn(count, |i, _| f64::from(u8::from(i == coefficient)));
+        let solved = products.cholesky()?.solve(&unit);
+        let value = |i: usize| design.iter().zip(solved.iter()).map(|(x, s)| x[i] * s).sum();
+        Some((0..design.first().map_or(0, Vec::len)).map(value).collect())
+    }
+
+    /// The likeliest process of what the design leaves of values, and whether its innovations are
+    /// white.
+    fn process(&self, values: &[f64]) -> Option<(Process, bool)> {
+        let design = self.columns.iter().map(Vec::as_slice);
+        Fitted { columns: design.chain([values]).collect() }.process()
+    }
+}
+
+impl Fitted<'_> {
+    fn length(&self) -> usize {
+        self.columns.first().map_or(0, |column| column.len())
+    }
+
+    /// The likeliest process, and whether its innovations are white.
+    fn process(&self) -> Option<(Process, bool)> {
+        if self.length() < self.columns.len() + 4 {
+            return None;
+        }
+        let products = Products::of(self);
+        let (first, of_first) = along(|place| products.likelihood(self, tanh(place)), reach(self))?;
+        let edge = tanh(reach(self).1);
+        let mut best =
+            Process { rho: tanh(first), theta: 0.0, variance: of_first.variance, walks: false };
+        let mut value = of_first.value;
+        let mut walk = products.likelihood(self, edge)?;
+        let mut walk_theta = 0.0;
+        if !self.is_white(best) {
+            if let Some((rho, theta, found)) = self.moving_average() {
+                if found.value < value - WORTH {
+                    best = Process { rho, theta, variance: found.variance, walks: false };
+                    value = found.value;
+                    let of = |place: f64| self.likelihood(edge, tanh(place));
+                    if let Some((place, found)) = along(of, (-4.0, 3.0)) {
+                        (walk, walk_theta) = (found, tanh(place));
+                    }
+                }
+            }
+        }
+        if best.rho > 0.0 && walk.value < value + COMES_BACK {
+            best = Process { rho: 1.0, theta: walk_theta, variance: walk.variance, walks: true };
+        }
+        Some((best, self.is_white(best)))
+    }
+
+    /// The likeliest ARMA(1, 1) process by a look over a grid and ever smaller steps from its best.
+    fn moving_average(&self) -> Option<(f64, f64, Likelihood)> {
+        let edge = reach(self).1;
+        let at =
+            |[rho, theta]: [f64; 2]| self.likelihood(tanh(rho.clamp(-edge, edge)), tanh(theta));
+        let mut best: Option<([f64; 2], Likelihood)> = None;
+        let better = |place: [f64; 2], best: &mut Option<([f64; 2], Likelihood)>| {
+            let Some(found) = at(place) else { return false };
+            if best.is_none_or(|(_, known)| found.value < known.value) {
+                *best = Some((place, found));
+                return true;
+            }
+            false
+        };
+        for rho in [-1.2, 0.8, 2.0, 3.5] {
+            for theta in [-3.0, -1.5, -0.5, 0.5, 1.5] {
+                // a process whose two parts cancel is white
+                if rho + theta != 0.0 {
+                    better([rho, theta], &mut best);
+                }
+            }
+        }
+        let mut step = 0.5;
+        while step > 0.01 {
+            let ([rho, theta], _) = best?;
+            let around = [
+                [rho + step, theta],
+                [rho - step, theta],
+                [rho, theta + step],
+                [rho, theta - step],
+                [rho + step, theta - step],
+                [rho - step, theta + step],
+            ];
+            if !around.into_iter().any(|place| better(place, &mut best)) {
+                step /= 2.0;
+            }
+        }
+        let ([rho, theta], found) = best?;
+        Some((tanh(rho.clamp(-edge, edge)), tanh(theta), found))
+    }
+
+    fn likelihood(&self, rho: f64, theta: f64) -> Option<Likelihood> {
+        let (white, logarithms) = self.innovations(rho, theta);
+        let count = white.len();
+        let products =
+            DMatrix::from_fn(
+                count,
+                count,
+                |i, j| {
+                    if i >= j { dot(&white[i], &white[j]) } else { 0.0 }
+                },
+            );
+        likelihood(products, logarithms, self.length())
+    }
+
+    /// Columns less their best predictions from the values before, over the prediction's relative
+    /// standard deviation; and the sum of the logarithms of these variances.
+    fn innovations(&self, rho: f64, theta: f64) -> (Vec<Vec<f64>>, f64) {
+        let mut relative = (1.0 + 2.0 * theta * rho + theta * theta) / (1.0 - rho * rho);
+        let mut logarithms = 0.0;
+        // the variance settles to that of the innovations, 1
+        let mut start = Vec::new();
+        while start.len() < self.length() && (relative - 1.0).abs() > 1e-15 {
+            start.push(relative);
+            logarithms += ln(relative);
+            relative = 1.0 + theta * theta - theta * theta / relative;
+        }
+        let of = |column: &&[f64]| {
+            let mut predicted = 0.0;
+            let mut out = Vec::with_capacity(column.len());
+            for (i, value) in column.iter().enumerate() {
+                let error = value - predicted;
+                match start.get(i) {
+                    Some(relative) => {
+                        out.push(error / relative.sqrt());
+                        predicted = rho * value + theta * error / relative;
+                    }
+                    None => {
+                        out.push(error);
+                        predicted = rho * value + theta * error;
+                    }
+                }
+            }
+            out
+        };
+        (self.columns.iter().map(of).collect(), logarithms)
+    }
+
+    /// Whether the innovations that a process leaves are white as far as [`LAGS`] lags show it.
+    fn is_white(&self, process: Process) -> bool {
+        let edge = tanh(reach(self).1);
+        let rho = process.rho.min(edge);
+        let (mut white, _) = self.innovations(rho, process.theta);
+        let Some(mut rest) = white.pop() else { return true };
+        let count = white.len();
+        let products = DMatrix::from_fn(count, count, |i, j| dot(&white[i], &white[j]));
+        let right = DVector::from_fn(count, |i, _| dot(&white[i], &rest));
+        let Some(solved) = products.cholesky().map(|inverse| inverse.solve(&right)) else {
+            return false;
+        };
+        for (column, factor) in white.iter().zip(solved.iter()) {
+            rest.iter_mut().zip(column).for_each(|(rest, x)| *rest -= factor * x);
+        }
+        let power = dot(&rest, &rest);
+        let lag = |lag: usize| {
+            let r = dot(&rest[lag.min(rest.len())..], &rest) / power;
+            r * r
+        };
+        // the tones that were taken out leave correlations of their own
+        let taken = 1.0 + count as f64 / 8.0;
+        rest.len() as f64 * (1..=LAGS).map(lag).sum::<f64>() < NOT_WHITE * taken
+    }
+}
+
+/// Between which hyperbolic arcs of the coefficient the likeliest is looked for: up to a memory of a
+/// thousand records.
+fn reach(regression: &Fitted<'_>) -> (f64, f64) {
+    let most = 0.5 * ln(2000.0 * regression.length() as f64);
+    (-most, most)
+}
+
+/// Minus twice the restricted log-likelihood of the lower triangle of products of whitened columns,
+/// the values last, and the sum of the logarithms of the innovations' relative variances.
+fn likelihood(products: DMatrix<f64>, logarithms: f64, length: usize) -> Option<Likelihood> {
+    let parameters = products.nrows() - 1;
+    let factor = products.cholesky()?.unpack();
+    let diagonal = factor.diagonal();
+    let of_design: f64 = diagonal.iter().take(parameters).map(|d| 2.0 * ln(*d)).sum();
+    let squares = diagonal[parameters] * diagonal[parameters];
+    let freedom = (length - parameters) as f64;
+    let value = freedom * ln(squares) + logarithms + of_design;
+    value.is_finite().then_some(Likelihood { value, variance: squares / freedom })
+}
+
+/// Sums of products of all columns, of which those of the innovations of any autoregression of order
+/// one are made.
+struct Products {
+    /// Of the first values.
+    first: DMatrix<f64>,
+    /// Of successive differences, of values with the following differences, and of values but the
+    /// last.
+    steps: [DMatrix<f64>; 3],
+}
+
+impl Products {
+    fn of(regression: &Fitted<'_>) -> Self {
+        let columns = &regression.columns;
+        let count = columns.len();
+        let differences: Vec<Vec<f64>> = columns
+            .iter()
+            .map(|column| column.windows(2).map(|pair| pair[1] - pair[0]).collect())
+            .collect();
+        let before = |i: usize| &columns[i][..columns[i].len() - 1];
+        let over = |of: &dyn Fn(usize, usize) -> f64| DMatrix::from_fn(count, count, of);
+        Self {
+            first: over(&|i, j| columns[i][0] * columns[j][0]),
+            steps: [
+                over(&|i, j| dot(&differences[i], &differences[j])),
+                over(&|i, j| dot(before(i), &differences[j]) + dot(before(j), &differences[i])),
+                over(&|i, j| dot(before(i), before(j))),
+            ],
+        }
+    }
+
+    fn likelihood(&self, regression: &Fitted<'_>, rho: f64) -> Option<Likelihood> {
+        let back = 1.0 - rho;
+        let [differences, mixed, before] = &self.steps;
+        let start = back * (1.0 + rho);
+        let products = &self.first * start + differences + mixed * back + before * (back * back);
+        likelihood(products, -ln(start), regression.length())
+    }
+}
+
+impl Process {
+    /// The variance of a weighted sum of successive values.
+    fn variance_of(&self, weights: &[f64]) -> f64 {
+        let follows = self.rho + self.theta;
+        let (mut later, mut sum) = (0.0, 0.0);
+        for weight in weights.iter().rev() {
+            let share = weight + follows * later;
+            sum += share * share;
+            later = weight + self.rho * later;
+        }
+        if !self.walks {
+            let before = follows * later;
+            sum += before * before / (1.0 - self.rho * self.rho);
+        }
+        sum * self.variance
+    }
+
+    /// Degrees of freedom of such a variance at low frequencies: that of the innovations has as many
+    /// as there are values, the coefficient of autoregression the variance (1 - rho^2) over that.
+    fn freedom(&self, values: usize) -> f64 {
+        let values = values as f64;
+        if self.walks {
+            return values - 1.0;
+        }
+        1.0 / (1.0 / values + 2.0 * (1.0 + self.rho) / (values * (1.0 - self.rho)))
+    }
+}
+
+/// The place between two where a function is least, by a look every quarter and golden sections.
+fn along(
+    of: impl Fn(f64) -> Option<Likelihood>,
+    (from, to): (f64, f64),
+) -> Option<(f64, Likelihood)> {
+    let steps = (4.0 * (to - from)).ceil() as u32;
+    let at = |step: u32| from + (to - from) * f64::from(step) / f64::from(steps);
+    let found = (0..=steps).filter_map(|step| Some((step, of(at(step))?)));
+    let (step, mut best) = found.min_by(|a, b| a.1.value.total_cmp(&b.1.value))?;
+    let mut place = at(step);
+    let (mut low, mut high) = (at(step.saturating_sub(1)), at((step + 1).min(steps)));
+    let section = (3.0 - 5f64.sqrt()) / 2.0;
+    while high - low > 1e-3 {
+        let [left, right] = [low + section * (high - low), high - section * (high - low)];
+        let [of_left, of_right] = [of(left)?, of(right)?];
+        if of_left.value < of_right.value {
+            high = right;
+        } else {
+            low = left;
+        }
+        for (x, found) in [(left, of_left), (right, of_right)] {
+            if found.value < best.value {
+                (place, best) = (x, found);
+            }
+        }
+    }
+    Some((place, best))
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    super::sine_fit::dot(a, &b[..a.len().min(b.len())], 0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::tests::simulated::normals;
+
+    /// A record of white noise, of a walk, of noise with a memory.
+    fn process(seed: u64, rho: f64, count: usize) -> Vec<f64> {
+        let noise = normals(seed, "process", count + 1);
+        let mut last = if rho < 1.0 { noise[count] / (1.0 - rho * rho).sqrt() } else { 0.0 };
+        noise[..count]
+            .iter()
+            .map(|new| {
+                last = rho * last + new;
+                last
+            })
+            .collect()
+    }
+
+    #[test]
+    #[ignore = "calibration"]
+    fn walks() {
+        for kappa in [0.0, 3.0, 10.0, 20.0, 31.5, 60.0] {
+            let n = 3150;
+            let mut differences: Vec<f64> = (0..1000)
+                .map(|seed| {
+                    let values = process(seed, 1.0 - kappa / n as f64, n);
+                    let ones = vec![1.0; n];
+                    let r = Fitted { columns: vec![&ones, &values] };
+                    let products = Products::of(&r);
+                    let of = |place: f64| products.likelihood(&r, tanh(place));
+                    let best = along(of, reach(&r)).unwrap().1.value;
+                    of(reach(&r).1).unwrap().value - best
+                })
+                .collect();
+            differences.sort_by(f64::total_cmp);
+            let at = |p: f64| differences[(p * 999.0) as usize];
+            println!(
+                "{kappa}: {:.2} {:.2} {:.2} {:.2} {:.2} {:.2}",
+                at(0.01),
+                at(0.05),
+                at(0.5),
+                at(0.9),
+                at(0.95),
+                at(0.99)
+            );
+        }
+    }
+}
