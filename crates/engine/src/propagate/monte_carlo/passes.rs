@@ -25,6 +25,8 @@ pub(super) struct Pass {
     pub(super) sums: Vec<(u64, u64, Vec<Sums>)>,
     pub(super) products: Products,
     pub(super) tallies: Vec<Tally>,
+    /// Whether the run was stopped meanwhile; all of the other figures are of the trials until then.
+    pub(super) stopped: bool,
 }
 
 /// Adds a block's moments.
@@ -79,7 +81,7 @@ pub(super) fn narrow(partition: &mut Partition, leaves: &[Leaf], needed: &[bool]
     );
 }
 
-/// Goes once over the first `count` trials; `None` if the run was stopped.
+/// Goes once over the first `count` trials, as far as the run is not stopped.
 pub(super) fn pass(
     trials: &RowTrials,
     count: u64,
@@ -87,7 +89,7 @@ pub(super) fn pass(
     plans: &[Plan],
     partitions: &[Partition],
     with_sums: bool,
-) -> Option<Pass> {
+) -> Pass {
     let blocks = count.div_ceil(BLOCK as u64);
     // the chunks of a run that holds its tails, so that sums have the same bits
     let chunk_blocks = batch_blocks(count);
@@ -99,6 +101,7 @@ pub(super) fn pass(
         sums: Vec::new(),
         products: Products::default(),
         tallies: partitions.iter().map(Partition::tally).collect(),
+        stopped: false,
     };
     let mut whole = empty();
     whole.products = Products::new(if with_sums { plans.len() } else { 0 }, chunks);
@@ -152,8 +155,12 @@ pub(super) fn pass(
             whole.products.take(sums.iter_mut());
         }
         whole.add(found);
+        if control.is_stopped() {
+            break;
+        }
     }
-    (!control.is_stopped()).then_some(whole)
+    whole.stopped = control.is_stopped();
+    whole
 }
 
 impl Pass {

@@ -54,7 +54,7 @@ fn kept_bytes(plans: &[Plan], request: Request<'_>) -> usize {
 }
 
 /// A run in bounded memory. A run of its first trials is what is handed back if the user stops the
-/// whole.
+/// whole before it has come farther.
 fn run_in_passes(
     trials: &RowTrials,
     request: Request<'_>,
@@ -66,10 +66,14 @@ fn run_in_passes(
     let quiet = Control { progress: None, ..*control };
     let mut first = run_held(trials, Request { trials: part, ..request }, &quiet);
     let scatters = scatters(trials, request, &quiet, plans);
-    several_pass::run(trials, request, control, plans, &scatters).unwrap_or_else(|| {
-        first.stopped = true;
-        first
-    })
+    let whole = several_pass::run(trials, request, control, plans, &scatters);
+    match whole.filter(|whole| !whole.stopped || whole.trials > first.trials) {
+        Some(whole) => whole,
+        None => {
+            first.stopped = true;
+            first
+        }
+    }
 }
 
 /// How the shortest intervals of the first batches scatter, made by themselves: the same as those of
