@@ -240,14 +240,34 @@ impl Parser<'_> {
         self.advance()?;
         if self.token.kind != TokenKind::Open {
             return match function {
-                Some(function) => Err(self.without_arguments(function, name_span)),
-                None => Ok(self.push(Kind::Name, name_span)),
+                Some(function) if function.is_reserved() => {
+                    Err(self.without_arguments(function, name_span))
+                }
+                _ => Ok(self.push(Kind::Name, name_span)),
             };
         }
         self.open()?;
         let arguments = self.nested(&name_span, Self::arguments)?;
         let span = name_span.start..self.token.span.end;
         self.close(AFTER_ARGUMENT)?;
+        if let Some(Function::Sum | Function::Mean) = function
+            && let [first, rest @ ..] = arguments.as_slice()
+            && !rest.is_empty()
+        {
+            let mut part = Part { node: *first, outer: span.clone() };
+            for &right in rest {
+                let (operator, operator_span) = (Operator::Add, name_span.clone());
+                let kind = Kind::Infix { operator, operator_span, left: part.node, right };
+                part = self.push(kind, span.clone());
+            }
+            if function == Some(Function::Sum) {
+                return Ok(part);
+            }
+            let count = self.push(Kind::Number(arguments.len() as f64), name_span.clone());
+            let (operator, operator_span) = (Operator::Divide, name_span);
+            let (left, right) = (part.node, count.node);
+            return Ok(self.push(Kind::Infix { operator, operator_span, left, right }, span));
+        }
         Ok(self.push(Kind::Call { function, name_span, arguments }, span))
     }
 
