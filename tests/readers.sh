@@ -238,7 +238,9 @@ CERTIFICATES=(
   "correlated   tests/readers/certificate.json"
 )
 
-certificate() { "$GUMPTION" certificate "$2" --format "$3" --output "$DIR/$1.$3" --quiet; }
+certificate() {
+  "$GUMPTION" certificate "$2" --format "$3" --output "$DIR/$1.$3" --allow-path models --quiet
+}
 
 tables() {
   local name=$1

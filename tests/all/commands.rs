@@ -132,7 +132,25 @@ fn fail_makes_a_refuted_interval_exit_code_3() {
     let (code, answer, _) = ended(&["run", "-", "--fail"], REFUTED);
     assert_eq!(code, 3);
     assert!(answer.contains('y'));
-    assert_eq!(ended(&["run", "-", "--fail", "--trials", "0"], REFUTED).0, 0);
+    // a gate that checks nothing is none, and one that cannot tell does not let pass
+    let (code, answer, message) = ended(&["run", "-", "--fail", "--trials", "0"], REFUTED);
+    assert_eq!((code, answer.as_str()), (2, ""));
+    assert!(message.contains("nothing to judge"), "{message}");
+    let undecided = r#"{"inputs": {"x": {"distribution": "normal", "mean": 0, "std": 1}},
+        "equations": {"y": "x"}, "outputs": {"y": {}}}"#;
+    let arguments = ["run", "-", "--trials", "1000", "--digits", "3", "--fail"];
+    let (code, _, message) = ended(&arguments, undecided);
+    assert_eq!(code, 3);
+    assert!(message.contains("`y`: is the GUM interval valid (clause 8): undecided"), "{message}");
+    // readings of one degree of freedom that are correlated have no GUM interval
+    let without = r#"{"inputs": {
+        "a": {"distribution": "normal", "mean": 0, "std": 1, "dof": 5},
+        "b": {"distribution": "normal", "mean": 0, "std": 1, "dof": 5}},
+        "correlations": [["a", "b", 0.5]],
+        "equations": {"y": "a + b"}, "outputs": {"y": {}}}"#;
+    let (code, answer, message) = ended(&["run", "-", "--trials", "20000", "--fail"], without);
+    assert_eq!(code, 2, "{message}");
+    assert!(answer.contains('y') && message.contains("nothing to judge"), "{message}");
 }
 
 #[test]
@@ -177,7 +195,10 @@ fn set_replaces_estimates_and_fields() {
     let u = 0.1 / 3f64.sqrt();
     near(with(&["x=3"]), (1500.0, u));
     near(with(&["x=300 cm"]), (1500.0, u));
-    near(with(&["x=3", "x=4"]), (2000.0, u));
+    let twice = ["run", "-", "--set", "x=3", "--set", "x=4"];
+    let (code, answer, message) = ended(&twice, SMALL);
+    assert_eq!((code, answer.as_str()), (2, ""));
+    assert!(message.contains("`--set x=3` and `--set x=4`"), "{message}");
     near(with(&["x.half_width=0.3"]), (500.0, 3.0 * u));
     near(with(&["x.half_width=10 %"]), (500.0, u));
     near(with(&["x=2", "x.half_width=10 %", "t=4"]), (500.0, 2.0 * u));
@@ -337,7 +358,7 @@ fn interrupted(arguments: &[&str], milliseconds: u64) -> Output {
 
 #[cfg(unix)]
 #[test]
-fn an_interrupt_prints_what_there_is_and_leaves_no_file() {
+fn an_interrupt_writes_what_there_is_where_it_was_asked_for() {
     let folder = folder();
     let file = folder.path().join("answer.txt");
     let name = file.to_str().expect("UTF-8");
@@ -346,15 +367,19 @@ fn an_interrupt_prints_what_there_is_and_leaves_no_file() {
         // on a busy machine the run may not have begun when the signal comes; then again, later
         let ended = [500, 2000, 10_000]
             .into_iter()
-            .map(|wait| interrupted(&arguments, wait))
-            .find(|ended| {
-                ended.status.code().is_some()
-                    && !text(&ended.stdout).contains("\"monte_carlo\": null")
-                    && !text(&ended.stdout).contains("stopped after 0 trials")
+            .map(|wait| {
+                let ended = interrupted(&arguments, wait);
+                let answer = fs::read_to_string(&file).unwrap_or_default();
+                (ended, answer)
             })
-            .expect("a run that was interrupted after it began");
+            .find(|(_, answer)| {
+                !answer.is_empty()
+                    && !answer.contains("\"monte_carlo\": null")
+                    && !answer.contains("stopped after 0 trials")
+            });
+        let (ended, answer) = ended.expect("a run that was interrupted after it began");
         assert_eq!(ended.status.code(), Some(130), "{}", text(&ended.stderr));
-        let answer = text(&ended.stdout);
+        assert!(ended.stdout.is_empty());
         if format == "json" {
             let answer: Value = serde_json::from_str(&answer).expect("JSON");
             assert_eq!(answer["stopped"], true);
@@ -363,7 +388,7 @@ fn an_interrupt_prints_what_there_is_and_leaves_no_file() {
         } else {
             assert!(answer.contains("stopped after"), "{answer}");
         }
-        assert!(entries(folder.path()).is_empty());
+        assert_eq!(entries(folder.path()).len(), 1);
     }
 }
 

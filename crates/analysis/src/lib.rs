@@ -8,4 +8,5 @@ pub mod assumptions;
 pub mod certificate;
 pub mod compare;
 pub mod diff;
+pub mod integrity;
 pub mod verification;

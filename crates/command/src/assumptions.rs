@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use clap::{Args, ValueEnum};
 
 use super::options::{Answer, Model, Seed, Threads};
-use super::{CommandLine, Exit, Failure, options, progress, run};
+use super::{CommandLine, Exit, Failure, options, progress, run, signals};
 use gumption_analysis::assumptions::{Audit, Question, audit, trials_to_make};
 use gumption_engine::task::{Coverage, Task, Trials, Warning};
 use gumption_files::ModelFile;
@@ -79,7 +79,8 @@ impl Assumptions {
         }
         let mut warnings = file.warnings.clone();
         let question = Question { trials: self.trials(&task, &mut warnings), allowed: self.allow };
-        let stop = progress::stop_flag();
+        let place = self.answer.open(&self.model.paths(&file))?;
+        let stop = signals::stop_flag();
         let Some(found) = self.audit(&file, &task, question, &stop)? else {
             return Ok(Exit::Interrupted);
         };
@@ -98,7 +99,7 @@ impl Assumptions {
             Format::Csv => report::assumptions::csv(&report),
         };
         self.answer.say(&warnings);
-        self.answer.write(&answer)?;
+        place.write(&answer)?;
         Ok(Exit::Done)
     }
 

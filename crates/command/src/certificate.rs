@@ -6,8 +6,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use clap::{Args, ValueEnum};
 
-use super::options::{self, Answer, Seed, Threads};
-use super::{CommandLine, Exit, Failure, output, progress, run};
+use super::options::{self, Answer, Seed, Threads, Trust};
+use super::{CommandLine, Exit, Failure, progress, run, signals};
 use gumption_analysis::certificate::contents::Certificate as Asked;
 use gumption_analysis::certificate::{Failed, Issued, issue};
 use gumption_engine::propagate::{EvaluationError, warnings};
@@ -20,6 +20,8 @@ use gumption_report::certificate::{self as report, CertificateReport, ModelSourc
 pub(super) struct Certificate {
     /// The certificate file; - for standard input
     file: PathBuf,
+    #[command(flatten)]
+    trust: Trust,
     #[command(flatten)]
     answer: Answer<Format>,
     #[command(flatten)]
@@ -56,6 +58,7 @@ impl Certificate {
     pub(super) fn execute(&self, program: &CommandLine) -> Result<Exit, Failure> {
         let mut file = self.read(program)?;
         self.check_format(&file)?;
+        let place = self.answer.open(&self.paths(&file))?;
         for asked in &mut file.certificate.evaluations {
             let settings = &mut asked.task.settings;
             settings.seed = self.seed.or(settings.seed);
@@ -77,7 +80,7 @@ impl Certificate {
                 files: of.files,
             })
             .collect();
-        let stop = progress::stop_flag();
+        let stop = signals::stop_flag();
         let issued = self.issue(&file, &models, &stop)?;
         let warnings = notes(&file, &issued);
         self.answer.say(&warnings);
@@ -93,6 +96,10 @@ impl Certificate {
             // half a certificate is none
             return Ok(Exit::Interrupted);
         }
+        if self.answer.format == Format::Dcc {
+            let names = report::attached(&report).join(", ");
+            self.answer.note([format!("attached to the certificate: {names}").as_str()]);
+        }
         let answer = match self.answer.format {
             Format::Table => report::table(&report),
             Format::Json => report::json(&report),
@@ -104,18 +111,29 @@ impl Certificate {
             Format::Xlsx => {
                 let bytes = report::xlsx(&report)
                     .map_err(|error| Failure::System(format!("no workbook: {error}")))?;
-                output::write_with(self.answer.output.as_deref(), |out| out.write_all(&bytes))?;
+                place.write_with(|out| out.write_all(&bytes))?;
                 return Ok(Exit::Done);
             }
         };
-        self.answer.write(&answer)?;
+        place.write(&answer)?;
         Ok(Exit::Done)
     }
 
     fn read(&self, program: &CommandLine) -> Result<CertificateFile, Failure> {
-        let files = program.files();
+        let files = self.trust.files(program);
         let text = |text: &str| files.certificate_text("<stdin>", text, Path::new(""));
         Ok(options::given(&self.file, text, |path| files.certificate(path))??)
+    }
+
+    /// The paths of the file, of its models, and of the tables that these name.
+    fn paths(&self, file: &CertificateFile) -> Vec<PathBuf> {
+        let mut paths = options::with_named(&self.file, file.models.iter().map(|of| &of.name));
+        for (number, model) in file.models.iter().enumerate() {
+            let path = paths[number + 1].clone();
+            let tables = options::with_named(&path, model.files.iter().map(|(name, _)| name));
+            paths.extend(tables.into_iter().skip(1));
+        }
+        paths
     }
 
     /// Whether the certificate can be given in the format that was asked for.

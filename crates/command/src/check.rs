@@ -5,15 +5,19 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use serde::Serialize;
 
-use super::options::{self, Answer, Format};
+use super::exit::say;
+use super::options::{self, Answer, Format, Trust};
 use super::{CommandLine, Exit, Failure, diagnostics};
 use gumption_files::{Diagnostic, Diagnostics};
+use gumption_report::{plain, pretty};
 
 /// Check a file.
 #[derive(Debug, Args)]
 pub(super) struct Check {
     /// The file; - for standard input
     file: PathBuf,
+    #[command(flatten)]
+    trust: Trust,
     #[command(flatten)]
     answer: Answer<Format>,
 }
@@ -51,7 +55,8 @@ impl From<&Diagnostic> for Mistake {
 
 impl Check {
     pub(super) fn execute(&self, program: &CommandLine) -> Result<Exit, Failure> {
-        let files = program.files();
+        let files = self.trust.files(program);
+        let place = self.answer.open(std::slice::from_ref(&self.file))?;
         let text = |text: &str| files.check_text("<stdin>", text, Path::new(""));
         let result = options::given(&self.file, text, |path| files.check(path))?;
         let found = match result {
@@ -63,22 +68,22 @@ impl Check {
             Format::Json => {
                 let errors = found.0.iter().map(Mistake::from).collect();
                 let verdict = Verdict { ok: right, errors };
-                serde_json::to_string_pretty(&verdict)
-                    .map_err(|error| Failure::System(error.to_string()))?
-                    + "\n"
+                pretty(&verdict)
             }
             Format::Csv => {
                 return Err(Failure::Argument("`check` answers as table or json".into()));
             }
-            Format::Table if right => format!("{}: no mistakes found\n", self.file.display()),
+            Format::Table if right => {
+                format!("{}: no mistakes found\n", plain(&self.file.display().to_string()))
+            }
             Format::Table => {
                 // a list of mistakes is an error message wherever it goes
                 return Err(Failure::Diagnostics(found));
             }
         };
-        self.answer.write(&answer)?;
+        place.write(&answer)?;
         if !right && !self.answer.quiet {
-            anstream::eprint!("{}", diagnostics::render(&found, true));
+            say(&diagnostics::render(&found, true));
         }
         Ok(if right { Exit::Done } else { Exit::Wrong })
     }

@@ -58,6 +58,9 @@ impl Compare {
         let text = |text: &str| file::read_comparison_text("<stdin>", text, options);
         let table = options::given(&self.table, text, |path| file::read_comparison(path, options));
         let table = table??;
+        let read = [Some(&self.table), self.against.as_ref(), self.correlations.as_ref()];
+        let read: Vec<PathBuf> = read.into_iter().flatten().cloned().collect();
+        let place = self.answer.open(&read)?;
         let found = match table {
             ComparisonTable::Pairs(pairs) => {
                 // pairs without an uncertainty are mistakes of the table
@@ -78,7 +81,7 @@ impl Compare {
             Format::Json => report::json(&found),
             Format::Csv => report::csv(&found),
         };
-        self.answer.write(&answer)?;
+        place.write(&answer)?;
         Ok(if self.fail && !found.is_compatible() { Exit::No } else { Exit::Done })
     }
 }

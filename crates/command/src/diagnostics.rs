@@ -25,6 +25,8 @@ pub(crate) fn render(diagnostics: &Diagnostics, colours: bool) -> String {
 /// The command that helps with a mistake, to be said after its sentence.
 pub(crate) fn command(kind: &DiagnosticKind) -> &'static str {
     match kind {
+        DiagnosticKind::Outside { .. } => "; `--allow-path DIR` allows another folder",
+        DiagnosticKind::SavedChanged { .. } => ", or take it as it is with `--accept-changed`",
         DiagnosticKind::NoModel => "; `gumption models` lists these",
         DiagnosticKind::UnknownModel { nearest: None, .. } => {
             "; `gumption models` lists those that there are"

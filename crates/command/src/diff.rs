@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 
-use super::options::{self, Answer};
+use super::options::{self, Answer, Trust};
 use super::{CommandLine, Exit, Failure};
 use gumption_files as file;
 use gumption_files::{Diagnostics, ModelOrResult};
@@ -17,6 +17,8 @@ pub(super) struct Diff {
     a: PathBuf,
     /// The second one
     b: PathBuf,
+    #[command(flatten)]
+    trust: Trust,
     #[command(flatten)]
     answer: Answer<Format>,
 }
@@ -36,7 +38,7 @@ impl Diff {
         if standard(&self.a) && standard(&self.b) {
             return Err(Failure::Argument("only one of the files can be standard input".into()));
         }
-        let (first, second) = match (read(program, &self.a)?, read(program, &self.b)?) {
+        let (first, second) = match (self.read(program, &self.a)?, self.read(program, &self.b)?) {
             (Ok(first), Ok(second)) => (first, second),
             // the mistakes of both at once
             (first, second) => {
@@ -46,19 +48,40 @@ impl Diff {
                 );
             }
         };
+        let mut names = named(&self.a, &first);
+        names.extend(named(&self.b, &second));
+        let place = self.answer.open(&names)?;
+        for file in [&first, &second] {
+            if let ModelOrResult::Result(result) = file {
+                self.answer.say(&result.warnings);
+            }
+        }
         let difference = file::difference(&first, &second)?;
         let names = [&first, &second].map(ModelOrResult::name);
         let answer = match self.answer.format {
             Format::Table => report::diff::table(names, &difference),
             Format::Json => report::diff::json(names, &difference),
         };
-        self.answer.write(&answer)?;
+        place.write(&answer)?;
         Ok(Exit::Done)
+    }
+
+    fn read(
+        &self,
+        program: &CommandLine,
+        path: &Path,
+    ) -> Result<Result<ModelOrResult, Diagnostics>, Failure> {
+        let files = self.trust.files(program);
+        let text = |text: &str| files.either_text("<stdin>", text, Path::new(""));
+        options::given(path, text, |path| files.either(path))
     }
 }
 
-fn read(program: &CommandLine, path: &Path) -> Result<Result<ModelOrResult, Diagnostics>, Failure> {
-    let files = program.files();
-    let text = |text: &str| files.either_text("<stdin>", text, Path::new(""));
-    options::given(path, text, |path| files.either(path))
+/// The paths of a file and of those that it names.
+fn named(path: &Path, file: &ModelOrResult) -> Vec<PathBuf> {
+    let tables = match file {
+        ModelOrResult::Model(model) => model.files.as_slice(),
+        ModelOrResult::Result(_) => &[],
+    };
+    options::with_named(path, tables.iter().map(|(name, _)| name))
 }

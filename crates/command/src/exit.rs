@@ -1,10 +1,12 @@
 //! How a command can end.
 
 use std::fmt;
+use std::io::Write;
 use std::process::ExitCode;
 
-use super::diagnostics;
+use super::{diagnostics, signals};
 use gumption_files::Diagnostics;
+use gumption_report::plain;
 
 /// A regular end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -15,7 +17,7 @@ pub enum Exit {
     No,
     /// A file was checked and found wrong; the mistakes are the answer.
     Wrong,
-    /// Interrupted by the user.
+    /// Interrupted by a signal.
     Interrupted,
 }
 
@@ -25,7 +27,7 @@ impl Exit {
             Self::Done => 0,
             Self::Wrong => 2,
             Self::No => 3,
-            Self::Interrupted => 130,
+            Self::Interrupted => signals::exit_code(),
         })
     }
 }
@@ -51,21 +53,27 @@ impl fmt::Display for Failure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Diagnostics(diagnostics) => f.write_str(&diagnostics::render(diagnostics, false)),
-            Self::Argument(message) | Self::System(message) => writeln!(f, "gumption: {message}"),
+            Self::Argument(message) | Self::System(message) => {
+                writeln!(f, "gumption: {}", plain(message))
+            }
         }
     }
 }
 
 impl Failure {
     /// Says what is wrong on standard error and gives the exit code.
-    #[allow(clippy::print_stderr)]
     pub(super) fn report(&self) -> ExitCode {
         match self {
-            Self::Diagnostics(diagnostics) => {
-                anstream::eprint!("{}", diagnostics::render(diagnostics, true))
-            }
-            Self::Argument(_) | Self::System(_) => eprint!("{self}"),
+            Self::Diagnostics(diagnostics) => say(&diagnostics::render(diagnostics, true)),
+            Self::Argument(_) | Self::System(_) => say(&self.to_string()),
         }
         ExitCode::from(if matches!(self, Self::System(_)) { 1 } else { 2 })
     }
+}
+
+/// Says something on standard error. Where that cannot be written, as on a full disk, it is not
+/// said: what was computed counts more.
+pub(super) fn say(text: &str) {
+    let mut out = anstream::stderr().lock();
+    let _ = out.write_all(text.as_bytes()).and_then(|()| out.flush());
 }

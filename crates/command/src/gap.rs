@@ -4,8 +4,8 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
-use super::options::{Answer, Seed, Threads};
-use super::{CommandLine, Exit, Failure, output, progress, run};
+use super::options::{self, Answer, Seed, Threads, Trust};
+use super::{CommandLine, Exit, Failure, progress, run};
 use gumption_engine::task::Row;
 use gumption_files::CaseFile;
 use gumption_gap as gap;
@@ -21,6 +21,8 @@ pub(super) struct Gap {
     /// Conditions (CSV) at which to give the corrected prediction as well
     #[arg(long, value_name = "CONDITIONS.csv")]
     predict: Option<PathBuf>,
+    #[command(flatten)]
+    trust: Trust,
     #[command(flatten)]
     answer: Answer<Format>,
     #[command(flatten)]
@@ -44,12 +46,15 @@ enum Format {
 
 impl Gap {
     pub(super) fn execute(&self, program: &CommandLine) -> Result<Exit, Failure> {
-        let whole = progress::whole_on_interrupt();
-        let file = program.files().case(&self.case)?;
+        let files = self.trust.files(program);
+        let file = files.case(&self.case)?;
         let at = match &self.predict {
-            Some(path) => Some(program.files().case_at(&self.case, path)?),
+            Some(path) => Some(files.case_at(&self.case, path)?),
             None => None,
         };
+        let mut read = options::with_named(&self.case, file.files.iter().map(|(name, _)| name));
+        read.extend(self.predict.clone());
+        let place = self.answer.open(&read)?;
         self.answer.say(&file.warnings);
         let diagnosis = self.diagnose(&file, at.as_deref())?;
         let answer = match self.answer.format {
@@ -62,13 +67,7 @@ impl Gap {
         if self.answer.format != Format::Table || self.answer.output.is_some() {
             self.answer.note(diagnosis.notes.iter().map(|note| note.text.as_str()));
         }
-        match &self.answer.output {
-            Some(path) => {
-                let _writing = whole.lock();
-                output::write_file(&answer, path)?;
-            }
-            None => output::write(&answer, None)?,
-        }
+        place.write(&answer)?;
         Ok(Exit::Done)
     }
 

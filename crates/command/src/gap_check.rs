@@ -9,7 +9,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use clap::{Args, ValueEnum};
 use rayon::prelude::*;
 
-use super::options::{Answer, Seed, Threads};
+use super::options::{self, Answer, Seed, Threads, Trust};
+use super::signals::{self, Temporary};
 use super::{CommandLine, Exit, Failure, progress, run};
 use gumption_files::CaseFile;
 use gumption_gap as gap;
@@ -24,6 +25,8 @@ pub(super) struct GapCheck {
     /// Number of truths to draw
     #[arg(long, value_name = "N", default_value = "200", value_parser = draws)]
     draws: u64,
+    #[command(flatten)]
+    trust: Trust,
     #[command(flatten)]
     answer: Answer<Format>,
     #[command(flatten)]
@@ -55,20 +58,23 @@ fn draws(text: &str) -> Result<u64, String> {
 
 impl GapCheck {
     pub(super) fn execute(&self, program: &CommandLine) -> Result<Exit, Failure> {
-        let file = program.files().case(&self.case)?;
+        let file = self.trust.files(program).case(&self.case)?;
+        let read = options::with_named(&self.case, file.files.iter().map(|(name, _)| name));
+        let place = self.answer.open(&read)?;
         self.answer.say(&file.warnings);
         let seed = self.seed.or(file.case.task.settings.seed);
         let kept;
         let folder: &Path = match &self.keep {
             Some(folder) => folder,
             None => {
-                kept = tempfile::tempdir().map_err(|error| {
+                let made = tempfile::tempdir().map_err(|error| {
                     Failure::System(format!("cannot make a temporary folder: {error}"))
                 })?;
+                kept = Temporary::new(made.keep());
                 kept.path()
             }
         };
-        let stop = progress::stop_flag();
+        let stop = signals::stop_flag();
         let scores = || self.scores(program, &file, folder, seed, &stop);
         let Some(scores) = self.threads.install(scores)?? else {
             return Ok(Exit::Interrupted);
@@ -82,7 +88,7 @@ impl GapCheck {
             }
             Format::Json => report::gap::check_json(&design.title, &scores),
         };
-        self.answer.write(&answer)?;
+        place.write(&answer)?;
         Ok(Exit::Done)
     }
 

@@ -16,9 +16,11 @@ mod observe;
 mod options;
 mod output;
 mod progress;
+mod replacement;
 mod run;
 mod save;
 mod schema;
+mod signals;
 mod verify;
 
 use std::process::ExitCode;
@@ -93,8 +95,9 @@ impl CommandLine {
 
     /// Runs with the arguments of the process: says what is wrong on standard error, and ends with
     /// 0 (done), 1 (the system is at fault), 2 (the arguments or files are), 3 (done, and the answer
-    /// is "no" where `--fail` was given) or 130 (interrupted).
+    /// is "no" where `--fail` was given), or 130, 143 or 129 (interrupted, terminated, hung up).
     pub fn main(&self) -> ExitCode {
+        signals::watch();
         let arguments = Arguments::parse();
         let result = match arguments.command {
             Command::Run(command) => command.execute(self),
@@ -107,7 +110,7 @@ impl CommandLine {
             Command::Diff(command) => command.execute(self),
             Command::Gap(command) => command.execute(self),
             Command::GapCheck(command) => command.execute(self),
-            Command::Observe(command) => command.execute(),
+            Command::Observe(command) => command.execute(self),
             Command::Schema(command) => command.execute(),
         };
         match result {

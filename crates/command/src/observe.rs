@@ -4,10 +4,9 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::options::{self, Answer, Format, Seed};
-use super::{Exit, Failure, run};
+use super::options::{self, AllowedFolders, Answer, Format, Seed};
+use super::{CommandLine, Exit, Failure, run};
 use gumption_engine::task::Warning;
-use gumption_files as file;
 use gumption_files::RecipeFile;
 use gumption_report::observe::{self as report, ObservationReport};
 use gumption_signal::{Observation, observe};
@@ -18,15 +17,19 @@ pub(super) struct Observe {
     /// The recipe: recordings, channels and what is taken from them; - for standard input
     recipe: PathBuf,
     #[command(flatten)]
+    allowed: AllowedFolders,
+    #[command(flatten)]
     seed: Seed,
     #[command(flatten)]
     answer: Answer<Format>,
 }
 
 impl Observe {
-    pub(super) fn execute(&self) -> Result<Exit, Failure> {
-        let text = |text: &str| file::read_recipe_text("<stdin>", text, Path::new(""));
-        let mut file = options::given(&self.recipe, text, file::read_recipe)??;
+    pub(super) fn execute(&self, program: &CommandLine) -> Result<Exit, Failure> {
+        let files = self.allowed.files(program);
+        let text = |text: &str| files.recipe_text("<stdin>", text, Path::new(""));
+        let mut file = options::given(&self.recipe, text, |path| files.recipe(path))??;
+        let place = self.answer.open(&options::with_named(&self.recipe, file.named_files()))?;
         file.settings.seed = self.seed.or(file.settings.seed);
         let mut provenance = run::provenance(&file.source.text, &[]);
         let mut warnings: Vec<Warning> = Vec::new();
@@ -63,7 +66,7 @@ impl Observe {
         if self.answer.format != Format::Table || self.answer.output.is_some() {
             self.answer.say(&warnings);
         }
-        self.answer.write(&answer)?;
+        place.write(&answer)?;
         Ok(Exit::Done)
     }
 }

@@ -1,5 +1,6 @@
 //! Options that several commands share.
 
+use std::borrow::Cow;
 use std::io::{self, IsTerminal};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
@@ -7,11 +8,13 @@ use std::sync::atomic::AtomicBool;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
 
+use super::exit::say;
+use super::output::Place;
 use super::{CommandLine, Failure, output};
 use gumption_engine::propagate::Control;
 use gumption_engine::task::{StoppingRule, Trials, Warning};
-use gumption_files::{ModelFile, Override, bytes};
-use gumption_report::BudgetColumn;
+use gumption_files::{FileReader, ModelFile, Override, bytes};
+use gumption_report::{BudgetColumn, plain};
 
 /// The format of an answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -58,9 +61,10 @@ pub(super) struct Answer<F: ValueEnum + Send + Sync + 'static> {
 }
 
 impl<F: ValueEnum + Send + Sync + 'static> Answer<F> {
-    /// Gives the answer.
-    pub(super) fn write(&self, text: &str) -> Result<(), Failure> {
-        output::write(text, self.output.as_deref())
+    /// Opens the place of the answer; `read` are the files that it is made from.
+    pub(super) fn open(&self, read: &[PathBuf]) -> Result<Place, Failure> {
+        let [file] = output::open([("--output", self.output.as_deref())], read)?;
+        Ok(file.map_or(Place::StandardOutput, Place::File))
     }
 
     /// Warnings and notes on standard error, unless nothing is to be said.
@@ -69,10 +73,9 @@ impl<F: ValueEnum + Send + Sync + 'static> Answer<F> {
     }
 
     /// Sentences on standard error, unless nothing is to be said.
-    #[allow(clippy::print_stderr)]
     pub(super) fn note<'t>(&self, texts: impl IntoIterator<Item = &'t str>) {
         for text in texts.into_iter().filter(|_| !self.quiet) {
-            anstream::eprintln!("note: {text}");
+            say(&format!("note: {text}\n"));
         }
     }
 
@@ -131,11 +134,55 @@ impl Threads {
     }
 }
 
+/// Folders beside that of a file that its names may lead to.
+#[derive(Debug, Args)]
+pub(super) struct AllowedFolders {
+    /// Let files name others below this folder too, and not only below their own (repeatable)
+    #[arg(long = "allow-path", value_name = "DIR")]
+    folders: Vec<PathBuf>,
+}
+
+impl AllowedFolders {
+    /// The readers of files that may name others below these folders.
+    pub(super) fn files<'f>(&'f self, program: &'f CommandLine) -> FileReader<'f> {
+        program.files().allowing(&self.folders)
+    }
+}
+
+/// What is taken of files that others may have written.
+#[derive(Debug, Args)]
+pub(super) struct Trust {
+    #[command(flatten)]
+    folders: AllowedFolders,
+    /// Take saved results that were changed since they were written
+    #[arg(long)]
+    accept_changed: bool,
+}
+
+impl Trust {
+    /// The readers of files that are trusted so far.
+    pub(super) fn files<'f>(&'f self, program: &'f CommandLine) -> FileReader<'f> {
+        self.folders.files(program).accepting_changed_results(self.accept_changed)
+    }
+}
+
+/// A file that was given and those that it names, as paths.
+pub(super) fn with_named<'n>(
+    file: &Path,
+    names: impl IntoIterator<Item = &'n String>,
+) -> Vec<PathBuf> {
+    let folder = file.parent().unwrap_or(Path::new(""));
+    let named = names.into_iter().map(|name| folder.join(name));
+    std::iter::once(file.to_owned()).chain(named).collect()
+}
+
 /// The model file of an evaluation.
 #[derive(Debug, Args)]
 pub(super) struct Model {
     /// The model file; - for standard input
     model: PathBuf,
+    #[command(flatten)]
+    trust: Trust,
     /// Replace an input's estimate (NAME=35, NAME="35 deg") or a field (NAME.half_width=0.2)
     #[arg(long = "set", value_name = "NAME=VALUE", value_parser = replacement)]
     pub(super) replacements: Vec<Override>,
@@ -144,9 +191,24 @@ pub(super) struct Model {
 impl Model {
     /// The model file with the replacements.
     pub(super) fn read(&self, program: &CommandLine) -> Result<ModelFile, Failure> {
-        let (files, replaced) = (program.files(), &self.replacements);
+        let (files, replaced) = (self.trust.files(program), &self.replacements);
+        for (number, set) in replaced.iter().enumerate() {
+            let same = |other: &&Override| other.input == set.input && other.field == set.field;
+            if let Some(first) = replaced.iter().take(number).find(same) {
+                return Err(Failure::Argument(format!(
+                    "`--set {}` and `--set {}` replace the same; give one of them",
+                    plain(&first.text),
+                    plain(&set.text)
+                )));
+            }
+        }
         let text = |text: &str| files.model_text("<stdin>", text, Path::new(""), replaced);
         Ok(given(&self.model, text, |path| files.model(path, replaced))??)
+    }
+
+    /// The paths of the file and of those that it names.
+    pub(super) fn paths(&self, file: &ModelFile) -> Vec<PathBuf> {
+        with_named(&self.model, file.files.iter().map(|(name, _)| name))
     }
 }
 
@@ -181,12 +243,20 @@ pub(super) fn trials(text: &str) -> Result<Trials, String> {
     }
 }
 
+/// Bytes of memory that can be asked for.
+#[cfg(target_pointer_width = "64")]
+const MOST_MEMORY: usize = 1 << 40;
+#[cfg(not(target_pointer_width = "64"))]
+const MOST_MEMORY: usize = usize::MAX / 2;
+
 /// A size of memory: bytes, or with K, M, G (or KiB, MiB, GiB).
 pub(super) fn memory(text: &str) -> Result<usize, String> {
     let needed = || "a size such as 64M, 512MiB or 1G is needed".to_owned();
     let digits = text.find(|c: char| !c.is_ascii_digit()).unwrap_or(text.len());
     let (number, unit) = text.split_at(digits);
-    let number: usize = number.parse().map_err(|_| needed())?;
+    if number.is_empty() {
+        return Err(needed());
+    }
     let factor: usize = match unit.trim().trim_end_matches("iB").trim_end_matches('B') {
         "" => 1,
         "K" | "k" => 1 << 10,
@@ -194,10 +264,15 @@ pub(super) fn memory(text: &str) -> Result<usize, String> {
         "G" => 1 << 30,
         _ => return Err(needed()),
     };
-    number
-        .checked_mul(factor)
-        .filter(|bytes| *bytes >= 1 << 20)
-        .ok_or_else(|| "at least 1 MiB is needed for kept values".to_owned())
+    // digits that are no number are too many of them
+    let bytes = number.parse::<usize>().ok().and_then(|number| number.checked_mul(factor));
+    match bytes {
+        Some(bytes) if bytes < 1 << 20 => {
+            Err("at least 1 MiB is needed for kept values".to_owned())
+        }
+        Some(bytes) if bytes <= MOST_MEMORY => Ok(bytes),
+        _ => Err("at most 1024G (1 TiB) can be asked for".to_owned()),
+    }
 }
 
 /// A further column of the budget, by its name.
@@ -229,6 +304,6 @@ fn replacement(text: &str) -> Result<Override, String> {
 fn standard_input() -> Result<String, Failure> {
     let bytes = bytes::of(io::stdin(), bytes::MOST)
         .map_err(|message| Failure::Argument(format!("cannot read standard input: {message}")))?;
-    String::from_utf8(bytes)
-        .map_err(|_| Failure::Argument("standard input is not UTF-8 text".to_owned()))
+    let text = bytes::text(&bytes).map(Cow::into_owned);
+    text.map_err(|reason| Failure::Argument(format!("standard input: {reason}")))
 }

@@ -1,103 +1,228 @@
 //! Giving the answer: to standard output, or to a file that is there whole or not at all.
+//!
+//! Files are opened before anything is computed, so that a missing folder or a full disk is told at
+//! once, and so that nothing that is read is written over. What is written has no name until it is
+//! whole ([`Replacement`]); then it takes the place of what was there.
 
+use std::fmt;
+use std::fs::{File, OpenOptions};
 use std::io::{self, BufWriter, ErrorKind, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use super::Failure;
+use super::replacement::{Replacement, target};
+use super::{Failure, signals};
 
-/// Writes the answer. A reader that closed the pipe has had enough; that is no failure.
-pub(super) fn write(text: &str, file: Option<&Path>) -> Result<(), Failure> {
-    write_with(file, |out| out.write_all(text.as_bytes()))
+/// Where an answer goes.
+#[derive(Debug)]
+pub(super) enum Place {
+    /// To standard output.
+    StandardOutput,
+    /// To a file.
+    File(Destination),
 }
 
-/// Lets `write` write the answer piece by piece.
-pub(super) fn write_with(
-    file: Option<&Path>,
-    write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
-) -> Result<(), Failure> {
-    match file {
-        Some(path) => write_parts(path, |file| {
-            let mut out = BufWriter::new(file);
-            write(&mut out).and_then(|()| out.flush()).map_err(|error| failed(path, &error))?;
-            Ok(true)
-        }),
-        None => {
-            let mut out = BufWriter::new(io::stdout().lock());
-            match write(&mut out).and_then(|()| out.flush()) {
-                Err(error) if error.kind() != ErrorKind::BrokenPipe => {
-                    Err(Failure::System(format!("cannot write the answer: {error}")))
+impl Place {
+    /// Writes the answer. A reader that closed the pipe has had enough; that is no failure.
+    pub(super) fn write(self, text: &str) -> Result<(), Failure> {
+        self.write_with(|out| out.write_all(text.as_bytes()))
+    }
+
+    /// Lets `write` write the answer piece by piece.
+    pub(super) fn write_with(
+        self,
+        write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+    ) -> Result<(), Failure> {
+        match self {
+            Self::File(file) => file.write_with(|out| write(out).map(|()| true)),
+            Self::StandardOutput => {
+                let mut out = BufWriter::new(io::stdout().lock());
+                match write(&mut out).and_then(|()| out.flush()) {
+                    Err(error) if error.kind() != ErrorKind::BrokenPipe => {
+                        Err(Failure::System(format!("cannot write the answer: {error}")))
+                    }
+                    _ => Ok(()),
                 }
-                _ => Ok(()),
             }
         }
     }
 }
 
-/// Writes a text to a file.
-pub(super) fn write_file(text: &str, path: &Path) -> Result<(), Failure> {
-    write_parts(path, |file| {
-        put(file, path, text.as_bytes())?;
-        Ok(true)
-    })
+/// A file that is to be written, open since before the computation.
+#[derive(Debug)]
+pub(super) struct Destination {
+    path: PathBuf,
+    sink: Sink,
 }
 
-/// Bytes into a file that is to become `path`.
-pub(super) fn put(
-    file: &mut (impl Write + ?Sized),
-    path: &Path,
-    bytes: &[u8],
-) -> Result<(), Failure> {
-    file.write_all(bytes).map_err(|error| failed(path, &error))
+#[derive(Debug)]
+enum Sink {
+    /// A new file that takes the place of the wanted one.
+    Replacement(Replacement),
+    /// A device or a pipe, or a file that cannot be replaced: one of several names, or in a folder
+    /// that takes no other file.
+    InPlace(File),
 }
 
-fn failed(path: &Path, error: &io::Error) -> Failure {
-    Failure::System(format!("cannot write `{}`: {error}", path.display()))
-}
+/// The options that name a file, and the file.
+pub(super) type Asked<'a> = (&'static str, Option<&'a Path>);
 
-/// Lets `write` fill a temporary file beside the wanted one, then renames it; if `write` gives
-/// false, nothing is left.
-pub(super) fn write_parts(
-    path: &Path,
-    write: impl FnOnce(&mut (dyn Write + Send)) -> Result<bool, Failure>,
-) -> Result<(), Failure> {
-    let failed = |error: io::Error| failed(path, &error);
-    let folder = match path.parent() {
-        Some(folder) if !folder.as_os_str().is_empty() => folder,
-        _ => Path::new("."),
-    };
-    // a device or a pipe cannot be renamed over
-    if path.exists() && !path.is_file() {
-        let mut file = std::fs::OpenOptions::new().write(true).open(path).map_err(failed)?;
-        return write(&mut file).map(|_| ());
+/// Opens the files that are asked for, those that are; `read` are the files that the answer rests
+/// on.
+///
+/// # Errors
+/// A file that would be written twice, or that is read; one that cannot be written.
+pub(super) fn open<const N: usize>(
+    asked: [Asked<'_>; N],
+    read: &[PathBuf],
+) -> Result<[Option<Destination>; N], Failure> {
+    check(&asked, read)?;
+    let mut opened = [const { None }; N];
+    for (place, (_, path)) in opened.iter_mut().zip(asked) {
+        *place = path.map(Destination::open).transpose()?;
     }
-    let mut file = tempfile::Builder::new()
-        .prefix(".gumption-")
-        .permissions_like_new_files()
-        .tempfile_in(folder)
-        .map_err(failed)?;
-    if !write(file.as_file_mut())? {
-        return Ok(());
+    Ok(opened)
+}
+
+/// Whether every file is written once, and none that is read.
+fn check(asked: &[Asked<'_>], read: &[PathBuf]) -> Result<(), Failure> {
+    let wanted: Vec<(&str, &Path, Identity)> = asked
+        .iter()
+        .filter_map(|&(option, path)| Some((option, path?, Identity::of(path?)?)))
+        .collect();
+    for (number, (option, path, identity)) in wanted.iter().enumerate() {
+        let shown = shown(path);
+        if read.iter().filter_map(|read| Identity::of(read)).any(|read| read == *identity) {
+            let reason = format!(
+                "`{option} {shown}` would replace a file that the answer is made from; name another"
+            );
+            return Err(Failure::Argument(reason));
+        }
+        if let Some((other, ..)) = wanted.iter().take(number).find(|(.., of)| of == identity) {
+            let reason = format!("`{other}` and `{option}` would both write `{shown}`");
+            return Err(Failure::Argument(reason));
+        }
     }
-    file.as_file().sync_all().map_err(failed)?;
-    file.persist(path).map_err(|error| failed(error.error))?;
     Ok(())
 }
 
-/// Temporary files are private by default; an answer is as readable as any new file.
-trait PermissionsLikeNewFiles {
-    fn permissions_like_new_files(&mut self) -> &mut Self;
+/// What tells a file from others, whatever it is called.
+#[derive(Debug, PartialEq, Eq)]
+enum Identity {
+    /// Device and number of a file on Unix.
+    #[cfg(unix)]
+    Node(u64, u64),
+    /// The path, links followed.
+    Path(PathBuf),
 }
 
-impl PermissionsLikeNewFiles for tempfile::Builder<'_, '_> {
-    #[cfg(unix)]
-    fn permissions_like_new_files(&mut self) -> &mut Self {
-        use std::os::unix::fs::PermissionsExt;
-        // the process's mask is applied to this
-        self.permissions(std::fs::Permissions::from_mode(0o666))
+impl Identity {
+    /// Nothing for devices, which may be written as often as one likes.
+    fn of(path: &Path) -> Option<Self> {
+        let Ok(found) = std::fs::metadata(path) else {
+            let target = target(path);
+            let folder = folder_of(&target).canonicalize().ok()?;
+            return Some(Self::Path(folder.join(target.file_name()?)));
+        };
+        #[cfg(unix)]
+        {
+            use std::os::unix::fs::{FileTypeExt, MetadataExt};
+            let kind = found.file_type();
+            let is_device = kind.is_char_device() || kind.is_block_device();
+            (!is_device).then(|| Self::Node(found.dev(), found.ino()))
+        }
+        #[cfg(not(unix))]
+        if found.is_file() { path.canonicalize().ok().map(Self::Path) } else { None }
+    }
+}
+
+/// The folder that a file stands in.
+pub(super) fn folder_of(path: &Path) -> &Path {
+    match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    }
+}
+
+impl Destination {
+    fn open(path: &Path) -> Result<Self, Failure> {
+        let sink = Sink::open(path).map_err(|error| failed(path, error))?;
+        Ok(Self { path: path.to_owned(), sink })
     }
 
-    #[cfg(not(unix))]
-    fn permissions_like_new_files(&mut self) -> &mut Self {
-        self
+    /// The path, as it was given.
+    pub(super) fn path(&self) -> &Path {
+        &self.path
     }
+
+    /// Lets `write` write the content; where it gives false, or fails, the file stays as it is.
+    pub(super) fn write_with(
+        self,
+        write: impl FnOnce(&mut (dyn Write + Send)) -> io::Result<bool>,
+    ) -> Result<(), Failure> {
+        let Self { path, sink } = self;
+        let written = match sink {
+            Sink::InPlace(file) => in_place(file, write),
+            Sink::Replacement(mut new) => {
+                let mut out = BufWriter::new(new.file());
+                let done = write(&mut out).and_then(|done| out.flush().map(|()| done));
+                drop(out);
+                done.and_then(|done| if done { new.persist() } else { Ok(()) })
+            }
+        };
+        written.map_err(|error| failed(&path, error))
+    }
+}
+
+/// Writes over the content of a file, or to a device or a pipe.
+fn in_place(
+    file: File,
+    write: impl FnOnce(&mut (dyn Write + Send)) -> io::Result<bool>,
+) -> io::Result<()> {
+    let _whole = signals::whole();
+    let is_file = file.metadata().is_ok_and(|found| found.is_file());
+    if is_file {
+        file.set_len(0)?;
+    }
+    let mut out = BufWriter::new(&file);
+    let written = write(&mut out).and_then(|_| out.flush());
+    drop(out);
+    match written {
+        Err(error) if !is_file && error.kind() == ErrorKind::BrokenPipe => Ok(()),
+        Ok(()) if is_file => file.sync_all(),
+        other => other,
+    }
+}
+
+impl Sink {
+    fn open(path: &Path) -> io::Result<Self> {
+        let existing = match std::fs::metadata(path) {
+            Ok(existing) => existing,
+            Err(error) if error.kind() == ErrorKind::NotFound => {
+                return Replacement::of_none(&target(path)).map(Self::Replacement);
+            }
+            Err(error) => return Err(error),
+        };
+        let in_place = || OpenOptions::new().write(true).open(path);
+        if !existing.is_file() {
+            return in_place().map(Self::InPlace);
+        }
+        // whoever made it so wants it to stay as it is, whatever the system would allow
+        if existing.permissions().readonly() {
+            return Err(io::Error::new(ErrorKind::PermissionDenied, "the file is read-only"));
+        }
+        let old = in_place()?;
+        Ok(match Replacement::of(&path.canonicalize()?, &existing)? {
+            Some(new) => Self::Replacement(new),
+            None => Self::InPlace(old),
+        })
+    }
+}
+
+/// A name as messages show it.
+fn shown(path: &Path) -> String {
+    gumption_report::plain(&path.display().to_string())
+}
+
+fn failed(path: &Path, error: impl fmt::Display) -> Failure {
+    Failure::System(format!("cannot write `{}`: {error}", shown(path)))
 }

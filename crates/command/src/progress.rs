@@ -1,10 +1,10 @@
-//! Progress on the terminal, and Ctrl-C.
+//! Progress on the terminal.
 
+use std::fmt::Write;
 use std::io::IsTerminal;
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, Mutex};
 
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use gumption_report::grouped;
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 
 /// A bar that counts examples, diagnoses or other things that take their time one by one.
 pub(super) fn counted(count: u64, things: &str, quiet: bool) -> ProgressBar {
@@ -20,10 +20,8 @@ pub(super) fn bar(trials: Option<u64>, quiet: bool) -> ProgressBar {
         if hidden { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr_with_hz(10) };
     let bar = ProgressBar::with_draw_target(trials, target);
     let look = match trials {
-        Some(_) => {
-            "{bar:30} {percent:>3} %  {human_pos} of {human_len} trials, {per_sec}, {eta} left"
-        }
-        None => "{spinner} {human_pos} trials, {per_sec}",
+        Some(_) => "{bar:30} {percent:>3} %  {made} of {all} trials, {rate}/s, {eta} left",
+        None => "{spinner} {made} trials, {rate}/s",
     };
     styled(bar, look)
 }
@@ -31,6 +29,17 @@ pub(super) fn bar(trials: Option<u64>, quiet: bool) -> ProgressBar {
 fn styled(bar: ProgressBar, template: &str) -> ProgressBar {
     // a template that cannot be read leaves the usual bar
     if let Ok(style) = ProgressStyle::with_template(template) {
+        // digits in groups, as on every page
+        let style = style
+            .with_key("made", |state: &ProgressState, out: &mut dyn Write| {
+                let _ = out.write_str(&grouped(state.pos()));
+            })
+            .with_key("all", |state: &ProgressState, out: &mut dyn Write| {
+                let _ = out.write_str(&grouped(state.len().unwrap_or(0)));
+            })
+            .with_key("rate", |state: &ProgressState, out: &mut dyn Write| {
+                let _ = out.write_str(&grouped(state.per_sec() as u64));
+            });
         bar.set_style(style);
     }
     bar
@@ -49,30 +58,4 @@ pub(super) fn share(quiet: bool) -> ProgressBar {
 pub(super) fn tell(bar: &ProgressBar, share: f64) {
     let position = (share.clamp(0.0, 1.0) * PARTS as f64) as u64;
     bar.set_position(position.max(bar.position()));
-}
-
-/// Lets Ctrl-C end the process at once with 130, but not while the lock is held: a file that is being
-/// written becomes whole first.
-pub(super) fn whole_on_interrupt() -> Arc<Mutex<()>> {
-    let lock = Arc::new(Mutex::new(()));
-    let held = lock.clone();
-    // without a handler Ctrl-C ends the process, which is all right as well
-    let _ = ctrlc::set_handler(move || {
-        let _whole = held.lock();
-        std::process::exit(130);
-    });
-    lock
-}
-
-/// A flag that the first Ctrl-C sets; a second one ends the process at once.
-pub(super) fn stop_flag() -> Arc<AtomicBool> {
-    let stop = Arc::new(AtomicBool::new(false));
-    let flag = stop.clone();
-    // without a handler Ctrl-C ends the process, which is all right as well
-    let _ = ctrlc::set_handler(move || {
-        if flag.swap(true, Ordering::Relaxed) {
-            std::process::exit(130);
-        }
-    });
-    stop
 }

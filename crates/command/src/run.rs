@@ -7,8 +7,10 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use clap::{Args, ValueEnum};
 use sha2::{Digest, Sha256};
 
+use super::exit::say;
 use super::options::{self, Answer, Model, Page, Seed, Threads};
-use super::{CommandLine, Exit, Failure, output, progress, save};
+use super::output::Place;
+use super::{CommandLine, Exit, Failure, output, progress, save, signals};
 use gumption_engine::propagate::monte_carlo::Histogram;
 use gumption_engine::propagate::{
     Control, Evaluation, EvaluationError, evaluate, histograms, warnings,
@@ -67,7 +69,8 @@ pub(super) struct Run {
     /// Write the trials: a .csv or a .npy file
     #[arg(long, value_name = "FILE", value_parser = save::samples)]
     samples: Option<save::SampleFile>,
-    /// End with exit code 3 if clause 8 finds a GUM interval not valid or an output does not conform
+    /// End with exit code 3 if clause 8 finds a GUM interval not valid, an output does not conform, or
+    /// that is undecided
     #[arg(long)]
     fail: bool,
 }
@@ -92,7 +95,17 @@ impl Run {
         }
         save::check(&task, self.save.as_deref(), self.samples.as_ref())?;
         self.check_format(&task)?;
-        let stop = progress::stop_flag();
+        if self.fail && task.settings.trials == Trials::Fixed(0) {
+            let reason = "`--fail` has nothing to judge by without trials, but their number is 0";
+            return Err(Failure::Argument(reason.to_owned()));
+        }
+        let asked = [
+            ("--output", self.answer.output.as_deref()),
+            ("--save", self.save.as_deref()),
+            ("--samples", self.samples.as_ref().map(save::SampleFile::path)),
+        ];
+        let [answer, saved, samples] = output::open(asked, &self.model.paths(&file))?;
+        let stop = signals::stop_flag();
         let (evaluation, warnings) = self.evaluate(&file, &task, &stop)?;
         let provenance = provenance(text, &file.files);
         let report = EvaluationReport {
@@ -102,14 +115,6 @@ impl Run {
             provenance: &provenance,
         };
         self.answer.say(&warnings);
-        if evaluation.stopped || stop.load(Ordering::Relaxed) {
-            // a workbook is no answer on a screen
-            let format =
-                if self.answer.format == Page::Xlsx { Page::Table } else { self.answer.format };
-            let shown = Shown { columns: &self.columns, ..Shown::default() };
-            output::write_with(None, |out| write(format, &report, &shown, out))?;
-            return Ok(Exit::Interrupted);
-        }
         let control = self.control(&stop);
         let histograms = self.histograms(&report, &control)?;
         let replaced: Vec<String> =
@@ -120,19 +125,54 @@ impl Run {
             replaced: &replaced,
             model: text,
         };
+        // what fails is told when all that can be written is
         let saver = save::Saver { report: &report, control: &control };
-        if let Some(path) = &self.save {
-            saver.result(path)?;
+        let left = [
+            saved.map(|file| (file.path().to_owned(), saver.result(file))),
+            samples
+                .zip(self.samples.as_ref())
+                .map(|(file, asked)| (file.path().to_owned(), saver.samples(asked, file))),
+        ];
+        let place = answer.map_or(Place::StandardOutput, Place::File);
+        let format = self.answer.format;
+        let written = place.write_with(|out| write(format, &report, &shown, out));
+        let mut failures: Vec<Failure> = written.err().into_iter().collect();
+        for (path, left) in left.into_iter().flatten() {
+            match left {
+                Ok(true) => {}
+                Ok(false) => {
+                    let name = report::plain(&path.display().to_string());
+                    say(&format!("gumption: interrupted, `{name}` is not written\n"));
+                }
+                Err(failure) => failures.push(failure),
+            }
         }
-        if let Some(file) = &self.samples {
-            saver.samples(file)?;
+        let mut failures = failures.into_iter();
+        if let Some(first) = failures.next() {
+            failures.for_each(|failure| say(&failure.to_string()));
+            return Err(first);
         }
-        if stop.load(Ordering::Relaxed) {
+        if evaluation.stopped || stop.load(Ordering::Relaxed) {
             return Ok(Exit::Interrupted);
         }
-        let Answer { format, output, .. } = &self.answer;
-        output::write_with(output.as_deref(), |out| write(*format, &report, &shown, out))?;
-        Ok(if self.fail && is_refuted(&evaluation) { Exit::No } else { Exit::Done })
+        if self.fail { self.judged(&task, &evaluation) } else { Ok(Exit::Done) }
+    }
+
+    /// How a run with `--fail` ends: with "no" where clause 8 or the conformity of an output is
+    /// against it, or undecided.
+    fn judged(&self, task: &Task, evaluation: &Evaluation) -> Result<Exit, Failure> {
+        let judgements = judgements(task, evaluation);
+        if judgements.iter().all(|judgement| judgement.verdict.is_none()) {
+            let reason = "`--fail` has nothing to judge: no output has a GUM interval to compare \
+                          with, or tolerance limits";
+            return Err(Failure::Argument(reason.to_owned()));
+        }
+        let against: Vec<&Judgement> =
+            judgements.iter().filter(|of| of.verdict != Some(Verdict::Yes)).collect();
+        for judgement in against.iter().take(MOST_JUDGEMENTS) {
+            self.answer.note([judgement.text().as_str()]);
+        }
+        Ok(if against.is_empty() { Exit::Done } else { Exit::No })
     }
 
     /// Whether the answer can be given in the format that was asked for.
@@ -283,10 +323,61 @@ pub(super) fn provenance(text: &str, files: &[(String, Vec<u8>)]) -> Provenance 
     }
 }
 
-/// Whether clause 8 clearly fails for some output, or an output does not conform.
-fn is_refuted(evaluation: &Evaluation) -> bool {
-    evaluation.rows.iter().flat_map(|row| &row.outputs).any(|output| {
-        output.validation.is_some_and(|v| v.gum_valid == Some(false))
-            || output.conformity.is_some_and(|c| !c.conforms)
-    })
+/// What `--fail` asks of an output, and the answer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Verdict {
+    Yes,
+    No,
+    Undecided,
+}
+
+/// The answer for an output in a row; `None` where it could not be asked.
+struct Judgement {
+    output: String,
+    row: Option<usize>,
+    asked: &'static str,
+    verdict: Option<Verdict>,
+}
+
+impl Judgement {
+    fn text(&self) -> String {
+        let row = self.row.map_or(String::new(), |row| format!("row {}, ", row + 1));
+        let verdict = match self.verdict {
+            Some(Verdict::Yes) => "yes",
+            Some(Verdict::No) => "no",
+            Some(Verdict::Undecided) => "undecided",
+            None => "it could not be checked",
+        };
+        format!("--fail: {row}`{}`: {}: {verdict}", self.output, self.asked)
+    }
+}
+
+/// Judgements that are told, at most.
+const MOST_JUDGEMENTS: usize = 20;
+
+fn judgements(task: &Task, evaluation: &Evaluation) -> Vec<Judgement> {
+    let mut all = Vec::new();
+    for (number, row) in evaluation.rows.iter().enumerate() {
+        for (output, found) in task.model.outputs.iter().zip(&row.outputs) {
+            let judgement = |asked, verdict| Judgement {
+                output: output.quantity.name.clone(),
+                row: (evaluation.rows.len() > 1).then_some(number),
+                asked,
+                verdict,
+            };
+            let valid = found.validation.map(|validation| match validation.gum_valid {
+                Some(true) => Verdict::Yes,
+                Some(false) => Verdict::No,
+                None => Verdict::Undecided,
+            });
+            let conforms = found
+                .conformity
+                .map(|conformity| if conformity.conforms { Verdict::Yes } else { Verdict::No });
+            all.push(judgement("is the GUM interval valid (clause 8)", valid));
+            if output.tolerance.is_some() {
+                all.push(judgement("does it conform", conforms));
+            }
+        }
+    }
+    all
 }

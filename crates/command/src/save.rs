@@ -1,8 +1,10 @@
 //! What a run leaves for others: a result file, and its trials.
 
+use std::io;
 use std::path::{Path, PathBuf};
 
-use super::{Failure, output};
+use super::Failure;
+use super::output::Destination;
 use gumption_engine::distribution::Scores;
 use gumption_engine::propagate::{
     Control, EvaluationError, for_each_block, joint_ranks, linear, origins, quantiles,
@@ -16,6 +18,12 @@ use gumption_report::{EvaluationReport, TrialsForm};
 pub(super) struct SampleFile {
     path: PathBuf,
     form: TrialsForm,
+}
+
+impl SampleFile {
+    pub(super) fn path(&self) -> &Path {
+        &self.path
+    }
 }
 
 /// A file of trials; its extension says the form.
@@ -63,13 +71,25 @@ impl From<EvaluationError> for Failure {
     }
 }
 
+/// Why a block is not written.
+enum BlockError {
+    Io(io::Error),
+    Evaluation(EvaluationError),
+}
+
+impl From<EvaluationError> for BlockError {
+    fn from(error: EvaluationError) -> Self {
+        Self::Evaluation(error)
+    }
+}
+
 impl Saver<'_> {
-    /// The result file; nothing if the run is stopped meanwhile.
-    pub(super) fn result(&self, path: &Path) -> Result<(), Failure> {
+    /// The result file; `false` if the run was stopped, and the file is as it was.
+    pub(super) fn result(&self, file: Destination) -> Result<bool, Failure> {
         let EvaluationReport { task, evaluation, provenance, .. } = *self.report;
         let scores: Vec<f64> = Scores::WRITTEN.values().collect();
         let (Some(row), Some(evaluated)) = (task.rows.first(), evaluation.rows.first()) else {
-            return Ok(());
+            return Ok(false);
         };
         for (output, found) in task.model.outputs.iter().zip(&evaluated.outputs) {
             let spread = found.monte_carlo.as_ref().and_then(|m| m.standard_uncertainty);
@@ -81,30 +101,43 @@ impl Saver<'_> {
             }
         }
         let Some(quantiles) = quantiles(task, evaluation, 0, &scores, self.control)? else {
-            return Ok(());
+            return Ok(false);
         };
         let Some(ranks) = joint_ranks(task, evaluation, 0, self.control)? else {
-            return Ok(());
+            return Ok(false);
         };
         let gums: Vec<_> = evaluated.outputs.iter().map(linear).collect();
         let origins = origins(task, row, &gums, &provenance.model_sha256);
-        output::write_file(&report::saved(self.report, &origins, &quantiles, &ranks), path)
+        let text = report::saved(self.report, &origins, &quantiles, &ranks);
+        file.write_with(|out| out.write_all(text.as_bytes()).map(|()| true))?;
+        Ok(true)
     }
 
-    /// The trials, block by block; nothing is left if the run is stopped meanwhile.
-    pub(super) fn samples(&self, file: &SampleFile) -> Result<(), Failure> {
+    /// The trials, block by block; `false` if the run was stopped, and the file is as it was.
+    pub(super) fn samples(&self, asked: &SampleFile, file: Destination) -> Result<bool, Failure> {
         let EvaluationReport { task, evaluation, .. } = *self.report;
-        let SampleFile { path, form } = file;
+        if self.control.is_stopped() {
+            return Ok(false);
+        }
+        let form = asked.form;
         let names: Vec<&str> =
             task.model.outputs.iter().map(|output| output.quantity.name.as_str()).collect();
         let figures = evaluation.rows.iter().flat_map(|row| &row.outputs);
         let trials = figures.filter_map(|output| output.monte_carlo.as_ref()).map(|m| m.trials);
         let header = form.header(&names, trials.max().unwrap_or(0));
-        output::write_parts(path, |out| {
-            output::put(out, path, &header)?;
-            for_each_block(task, evaluation, 0, self.control, |block| {
-                output::put(out, path, &form.block(block))
-            })
-        })
+        let (mut whole, mut failed) = (false, None);
+        file.write_with(|out| {
+            out.write_all(&header)?;
+            let blocks = for_each_block(task, evaluation, 0, self.control, |block| {
+                out.write_all(&form.block(block)).map_err(BlockError::Io)
+            });
+            match blocks {
+                Ok(done) => whole = done,
+                Err(BlockError::Io(error)) => return Err(error),
+                Err(BlockError::Evaluation(error)) => failed = Some(error),
+            }
+            Ok(whole)
+        })?;
+        failed.map_or(Ok(whole), |error| Err(error.into()))
     }
 }

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use super::output::Place;
 use super::{Exit, Failure, output};
 use gumption_files::schema;
 
@@ -17,7 +18,8 @@ pub(super) struct Schema {
 
 impl Schema {
     pub(super) fn execute(&self) -> Result<Exit, Failure> {
-        output::write(&schema::text(), self.output.as_deref())?;
+        let [file] = output::open([("--output", self.output.as_deref())], &[])?;
+        file.map_or(Place::StandardOutput, Place::File).write(&schema::text())?;
         Ok(Exit::Done)
     }
 }

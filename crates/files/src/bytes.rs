@@ -1,5 +1,6 @@
 //! The content of files, up to a size.
 
+use std::borrow::Cow;
 use std::fmt;
 use std::fs::File;
 use std::io::{self, Read};
@@ -59,9 +60,44 @@ pub fn of(reader: impl Read, most: u64) -> Result<Vec<u8>, ReadError> {
     Ok(bytes)
 }
 
+/// The text of a file: UTF-8, or UTF-16 with its byte-order mark, as Windows PowerShell writes it.
+///
+/// # Errors
+/// What it is not, as a sentence about it.
+pub fn text(bytes: &[u8]) -> Result<Cow<'_, str>, String> {
+    let (rest, of): (&[u8], fn([u8; 2]) -> u16) = match bytes {
+        [0xff, 0xfe, rest @ ..] => (rest, u16::from_le_bytes),
+        [0xfe, 0xff, rest @ ..] => (rest, u16::from_be_bytes),
+        _ => {
+            let text = std::str::from_utf8(bytes).map_err(|_| "it is not UTF-8 text".to_owned());
+            return text.map(Cow::Borrowed);
+        }
+    };
+    let (units, left) = rest.as_chunks();
+    let text = String::from_utf16(&units.iter().map(|&unit| of(unit)).collect::<Vec<u16>>());
+    match text {
+        Ok(text) if left.is_empty() => Ok(text.into()),
+        _ => Err("it begins as UTF-16 text, but is not".to_owned()),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn texts_of_both_widths_are_read() {
+        let wide = |mark: u16, of: fn(u16) -> [u8; 2]| -> Vec<u8> {
+            std::iter::once(mark).chain("aµ😀".encode_utf16()).flat_map(of).collect()
+        };
+        for bytes in [wide(0xfeff, u16::to_le_bytes), wide(0xfeff, u16::to_be_bytes), "aµ😀".into()]
+        {
+            assert_eq!(text(&bytes).unwrap(), "aµ😀");
+        }
+        assert!(text(b"\xff\xfea").unwrap_err().contains("UTF-16"));
+        assert!(text(b"\xff\xfe\x00\xd8").unwrap_err().contains("UTF-16"));
+        assert!(text(b"\x80").unwrap_err().contains("UTF-8"));
+    }
 
     #[test]
     fn a_file_without_an_end_is_refused() {

@@ -78,7 +78,7 @@ impl ModelReader<'_> {
             let what = "a case of the gap diagnosis";
             self.root.report(DiagnosticKind::MissingKey { key: "observations", what });
         }
-        let results = Results::new(self.folder);
+        let results = Results::new(self.folder, self.options.files);
         let mut warnings = Vec::new();
         let sim = found.as_ref().map(|found| &found.sim);
         let own = match self.root.get("effects") {

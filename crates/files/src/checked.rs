@@ -20,7 +20,7 @@ pub(super) fn check_text(
 ) -> Result<(), Diagnostics> {
     if let Ok(root) = json::parse(&SourceText::new(name, text)) {
         if recipe::is_meant(&root) {
-            return recipe::check_text(name, text, folder);
+            return recipe::check_text(name, text, files.folder(folder));
         }
         if certificate::is_meant(&root) {
             return files.certificate_text(name, text, folder).map(|_| ());

@@ -1,9 +1,10 @@
 //! Tables of results to be compared: two results a row, or one result a laboratory.
 
+use std::borrow::Cow;
 use std::path::Path;
 
 use super::diagnostics::{Collector, Diagnostics};
-use super::open::{open_as, utf8};
+use super::open::open_as;
 use super::source::{Place, SourceText};
 use super::text_table::TextTable;
 use super::{DiagnosticKind, answer, bytes, table, workbook};
@@ -81,7 +82,7 @@ fn text_of(path: &Path, bytes: Vec<u8>) -> Result<String, String> {
     if is_workbook {
         return workbook::first_sheet(bytes);
     }
-    utf8(bytes)
+    bytes::text(&bytes).map(Cow::into_owned)
 }
 
 struct Reader<'a> {

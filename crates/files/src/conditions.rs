@@ -2,10 +2,10 @@
 
 use std::collections::HashMap;
 use std::ops::Range;
-use std::path::Path;
 
 use super::DiagnosticKind;
 use super::diagnostics::Collector;
+use super::folder::Folder;
 use super::json::{Json, Member};
 use super::keys;
 use super::object::Object;
@@ -76,7 +76,7 @@ impl Conditions {
 pub(super) fn read(
     log: &Collector,
     member: &Member,
-    folder: &Path,
+    folder: Folder<'_>,
     data: Option<&Table>,
 ) -> Option<Conditions> {
     let object = Object::new(log, "`conditions`", &member.value, &member.key_span)?;
@@ -212,7 +212,7 @@ fn grid(object: &Object<'_>) -> Option<Conditions> {
     Some(conditions)
 }
 
-fn from_table(object: &Object<'_>, file: &Member, folder: &Path) -> Option<Conditions> {
+fn from_table(object: &Object<'_>, file: &Member, folder: Folder<'_>) -> Option<Conditions> {
     object.check_keys(keys::TABLE_OF_CONDITIONS);
     let log = object.log;
     let name = object.text("file")?;

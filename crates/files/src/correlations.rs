@@ -2,11 +2,11 @@
 
 use std::collections::{HashMap, HashSet};
 use std::ops::Range;
-use std::path::Path;
 use std::sync::Arc;
 
 use super::DiagnosticKind;
 use super::diagnostics::Collector;
+use super::folder::Folder;
 use super::input_set::InputSet;
 use super::json::{Json, Node};
 use super::keys;
@@ -24,7 +24,7 @@ pub(super) fn read(
     root: &Object<'_>,
     inputs: &InputSet,
     rows: &Rows<'_>,
-    folder: &Path,
+    folder: Folder<'_>,
     files: &mut Vec<(String, Vec<u8>)>,
     fits: &Fits,
 ) -> (Vec<Correlation>, Vec<Warning>) {
@@ -129,7 +129,7 @@ impl Reader<'_> {
         &mut self,
         log: &Collector,
         member: &super::json::Member,
-        folder: &Path,
+        folder: Folder<'_>,
         files: &mut Vec<(String, Vec<u8>)>,
     ) {
         let Some(object) =

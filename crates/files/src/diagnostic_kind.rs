@@ -19,6 +19,12 @@ pub enum DiagnosticKind {
         /// What the system or the parser says.
         message: String,
     },
+    /// A file that may not be read, because it lies outside of the folder of the file that names
+    /// it.
+    Outside {
+        /// Its name, as it is written.
+        name: String,
+    },
     /// The file has no content.
     Empty,
     /// The text is not JSON.
@@ -334,6 +340,11 @@ pub enum DiagnosticKind {
         /// The most that is allowed.
         most: usize,
     },
+    /// A saved result that was changed since it was written.
+    SavedChanged {
+        /// What was changed, by the keys that lead to it; `None` where that cannot be told.
+        part: Option<String>,
+    },
     /// A file that `--save` did not write.
     NotResult {
         /// The file.
@@ -446,6 +457,7 @@ impl DiagnosticKind {
     pub fn code(&self) -> &'static str {
         match self {
             Self::Unreadable { .. } => "unreadable",
+            Self::Outside { .. } => "outside",
             Self::Empty => "empty",
             Self::NotJson { .. } => "not-json",
             Self::NotFiniteInJson => "not-finite",
@@ -493,6 +505,7 @@ impl DiagnosticKind {
             Self::Correlation { .. } => "bad-correlation",
             Self::TooMany { .. } => "too-many",
             Self::MoreMistakes { .. } => "more-mistakes",
+            Self::SavedChanged { .. } => "changed-result",
             Self::NotResult { .. } => "not-a-result",
             Self::NoSuchResult { .. } => "no-such-result",
             Self::SavedEntry { .. } => "bad-result",
@@ -565,6 +578,11 @@ impl fmt::Display for DiagnosticKind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Unreadable { message } => write!(f, "cannot read the file: {message}"),
+            Self::Outside { name } => write!(
+                f,
+                "`{name}` lies outside of the folder of this file, below which the files that it names \
+                 are read"
+            ),
             Self::Empty => f.write_str(
                 "the file is empty; a model file is a JSON object with `inputs`, `outputs` and \
                  `equations` or `model`",
@@ -716,9 +734,19 @@ impl fmt::Display for DiagnosticKind {
             }
             Self::Effect { name, reason } => write!(f, "the effect `{name}` {reason}"),
             Self::Correlation { reason } => f.write_str(reason),
+            // more than can be counted, or than was looked at
+            Self::TooMany { what, found: usize::MAX, most } => {
+                write!(f, "there are more than {most} {what}, which this version takes at most")
+            }
             Self::TooMany { what, found, most } => {
                 write!(f, "there are {found} {what}; this version takes {most} at most")
             }
+            Self::SavedChanged { part: Some(part) } => {
+                write!(f, "`{part}` was changed since the result was saved; save it again")
+            }
+            Self::SavedChanged { part: None } => f.write_str(
+                "this result was changed since it was saved, and does not say where; save it again",
+            ),
             Self::NotResult { file } => {
                 write!(f, "`{file}` is not a saved result (`\"result\": true` is missing)")
             }

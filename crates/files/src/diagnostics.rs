@@ -42,12 +42,23 @@ impl Diagnostic {
             if number > 0 {
                 message.push('`');
             }
-            for c in shortened(part).chars() {
-                if c.is_control() { message.extend(c.escape_default()) } else { message.push(c) }
-            }
+            message += &printable(&shortened(part));
         }
         message
     }
+}
+
+/// A text without characters that a terminal would obey, that change the direction of the text
+/// around them, or that have no width.
+fn printable(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    for c in text.chars() {
+        let is_obeyed = c.is_control()
+            || matches!(c, '\u{ad}' | '\u{feff}' | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}'
+                | '\u{2060}'..='\u{2069}');
+        if is_obeyed { out.extend(c.escape_default()) } else { out.push(c) }
+    }
+    out
 }
 
 /// A part of a sentence without the middle of what is longer than anything that is said.
@@ -66,7 +77,7 @@ fn shortened(part: &str) -> Cow<'_, str> {
 impl fmt::Display for Diagnostic {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (line, column) = self.position();
-        write!(f, "{}:{line}:{column}: {}", self.source.name, self.message())
+        write!(f, "{}:{line}:{column}: {}", printable(&self.source.name), self.message())
     }
 }
 

@@ -6,8 +6,9 @@ use super::diagnostics::{Diagnostic, Diagnostics};
 use super::json::{self, Json};
 use super::model_file::ModelFile;
 use super::reader::FileReader;
-use super::result_file::{ResultFile, read_result};
+use super::result_file::ResultFile;
 use super::{DiagnosticKind, SourceText};
+use gumption_engine::task::Warning;
 
 /// A model file or a result file that was read and found right.
 #[derive(Debug)]
@@ -41,10 +42,20 @@ pub(super) fn read_text(
         _ => false,
     });
     Ok(if is_result {
-        ModelOrResult::Result(read_result(name, text)?)
+        ModelOrResult::Result(files.result_text(name, text)?)
     } else {
         ModelOrResult::Model(Box::new(files.model_text(name, text, folder, &[])?))
     })
+}
+
+impl ModelOrResult {
+    /// Notes on what was read.
+    pub fn warnings(&self) -> &[Warning] {
+        match self {
+            Self::Model(file) => &file.warnings,
+            Self::Result(file) => &file.warnings,
+        }
+    }
 }
 
 impl ModelFile {

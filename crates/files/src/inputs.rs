@@ -1,12 +1,12 @@
 //! The inputs of a file: quantities, their variables, and what is known about them in each row.
 
 use std::collections::HashSet;
-use std::path::Path;
 
 use super::DiagnosticKind;
 use super::condition_values::ConditionValues;
 use super::conditions::unit;
 use super::diagnostics::Collector;
+use super::folder::Folder;
 use super::input_set::InputSet;
 use super::json::{Json, Member};
 use super::keys::{self, Shape};
@@ -74,7 +74,7 @@ struct Reader<'a, 'i> {
     name: &'a str,
     conditions: &'a dyn ConditionValues,
     moved: Option<&'a Override>,
-    folder: &'a Path,
+    folder: Folder<'a>,
     results: &'a Results<'a>,
     inputs: &'i mut InputSet,
 }

@@ -21,6 +21,7 @@ mod difference;
 mod effect_context;
 mod effects;
 mod either;
+mod folder;
 mod input_set;
 mod inputs;
 mod json;
@@ -40,6 +41,7 @@ mod prior;
 mod reader;
 mod recipe;
 mod recording;
+mod result_consistency;
 mod result_file;
 mod results;
 mod samples;
@@ -69,12 +71,12 @@ pub use difference::difference;
 pub use either::ModelOrResult;
 pub use model_file::ModelFile;
 pub use overrides::{Override, Overrides};
-pub use reader::{FileReader, check, check_text, read, read_case, read_certificate, read_text};
-pub use recipe::{
-    OpenedRow, RecipeCondition, RecipeFile, RecipeRow, read as read_recipe,
-    read_text as read_recipe_text,
+pub use reader::{
+    FileReader, check, check_text, read, read_case, read_certificate, read_recipe,
+    read_recipe_text, read_result, read_text,
 };
+pub use recipe::{OpenedRow, RecipeCondition, RecipeFile, RecipeRow};
 pub use recording::Recording;
-pub use result_file::{ResultFile, SavedOutput, read_result};
+pub use result_file::{ResultFile, SavedOutput};
 pub use source::SourceText;
 pub use variant::NotCopied;

@@ -63,7 +63,23 @@ pub(super) fn check_names(root: &Object<'_>, of: &Quantities, body: &Option<Mode
         let written = equations.iter().filter_map(|(_, member, _)| *member);
         named.extend(written.map(|m| (2, m.key.as_str(), &m.key_span)));
     }
+    let mut looks: HashMap<String, &str> = HashMap::new();
     for (kind, name, place) in named {
+        let alike = *looks.entry(looks_of(name)).or_insert(name);
+        if alike != name {
+            let codes = |name: &str| {
+                let codes = name.chars().filter(|c| !c.is_ascii());
+                codes.map(|c| format!("U+{:04X}", u32::from(c))).collect::<Vec<_>>().join(", ")
+            };
+            let which = match [codes(alike), codes(name)] {
+                [first, second] if first.is_empty() => format!("it has {second}"),
+                [first, second] if second.is_empty() => format!("that has {first}"),
+                [first, second] => format!("{first} there, {second} here"),
+            };
+            let reason =
+                format!("it looks like `{alike}`, but is another name ({which}); write both alike");
+            root.log.report(place, DiagnosticKind::BadName { name: name.to_owned(), reason });
+        }
         if let Err(error) = check_name(name) {
             let (name, reason) = (name.to_owned(), error.to_string());
             root.log.report(place, DiagnosticKind::BadName { name, reason });
@@ -72,6 +88,27 @@ pub(super) fn check_names(root: &Object<'_>, of: &Quantities, body: &Option<Mode
         }
         taken.entry(name).or_insert(kind);
     }
+}
+
+/// A name with letters in place of those of other alphabets, and of signs of units, that nobody can
+/// tell from them.
+fn looks_of(name: &str) -> String {
+    const ALIKE: [(&str, &str); 3] = [
+        // signs of units
+        ("\u{b5}\u{2126}\u{212a}\u{212b}", "\u{3bc}\u{3a9}K\u{c5}"),
+        // Cyrillic
+        ("аеорсухіјѕАВЕКМНОРСТХІЈЅ", "aeopcyxijsABEKMHOPCTXIJS"),
+        // Greek
+        ("οΑΒΕΖΗΙΚΜΝΟΡΤΥΧ", "oABEZHIKMNOPTYX"),
+    ];
+    if name.is_ascii() {
+        return name.to_owned();
+    }
+    let plain = |letter: char| {
+        let pairs = ALIKE.iter().flat_map(|(from, to)| from.chars().zip(to.chars()));
+        pairs.into_iter().find(|(from, _)| *from == letter).map_or(letter, |(_, to)| to)
+    };
+    name.chars().map(plain).collect()
 }
 
 /// Checks that a typed model has the quantities, all of those that it needs, and units that fit.

@@ -25,6 +25,7 @@ use std::sync::Arc;
 
 use super::conditions::{self, Conditions};
 use super::diagnostics::{Collector, Diagnostics};
+use super::folder::Folder;
 use super::input_set::InputSet;
 use super::json::{Json, Member, Node};
 use super::model_checks::{
@@ -88,8 +89,8 @@ pub(super) struct Found {
 #[derive(Debug)]
 pub(super) struct ModelReader<'a> {
     pub(super) root: Object<'a>,
-    pub(super) folder: &'a Path,
-    options: ModelOptions<'a>,
+    pub(super) folder: Folder<'a>,
+    pub(super) options: ModelOptions<'a>,
 }
 
 /// An equation: the quantity, where it stands unless it is a column of the data, and its formula if
@@ -121,6 +122,7 @@ pub(super) fn read_with<T>(
 ) -> Result<T, Diagnostics> {
     let change = |log: &Collector, root: &mut Node| overrides::apply(log, root, options.overrides);
     read_changed_root(name, text, "a model file", change, |root| {
+        let folder = options.files.folder(folder);
         read(&ModelReader { root, folder, options })
     })
 }
@@ -142,7 +144,7 @@ impl<'a> ModelReader<'a> {
 
         let Data { mut observations, conditions, simulated } = self.data()?;
         let body = self.body(&simulated);
-        let results = Results::new(self.folder);
+        let results = Results::new(self.folder, self.options.files);
         let mut of = self.quantities(conditions, check_units, &body, &results)?;
 
         let mut files = std::mem::take(&mut of.conditions.files);
@@ -155,6 +157,7 @@ impl<'a> ModelReader<'a> {
         let (correlations, notes) = self.correlations(&of, &mut files, &fits);
         let mut warnings = of.inputs.warnings.clone();
         warnings.extend(notes);
+        warnings.extend(results.warnings.take());
         let sim = self.sim(body?, &mut of, &mut warnings)?;
         let observed = self.observed(observations.as_ref(), &sim)?;
 
@@ -181,7 +184,7 @@ impl<'a> ModelReader<'a> {
         let at = match self.options.at {
             Some(path) => {
                 let name = path.display().to_string();
-                Some(table::read(log, Path::new(""), &name, &(0..0))?.0)
+                Some(table::read(log, Folder::of_the_user(), &name, &(0..0))?.0)
             }
             None => None,
         };

@@ -1,10 +1,10 @@
 //! The observations of a case: the table of the data, and which column holds what.
 
 use std::ops::Range;
-use std::path::Path;
 
 use super::DiagnosticKind;
 use super::diagnostics::Collector;
+use super::folder::Folder;
 use super::json::{Json, Member};
 use super::keys;
 use super::object::Object;
@@ -34,7 +34,7 @@ pub(super) struct Column {
 }
 
 /// Reads `observations`; paths are relative to `folder`.
-pub(super) fn read(log: &Collector, member: &Member, folder: &Path) -> Option<Observations> {
+pub(super) fn read(log: &Collector, member: &Member, folder: Folder<'_>) -> Option<Observations> {
     let object = Object::new(log, "`observations`", &member.value, &member.key_span)?;
     object.check_keys(keys::OBSERVATIONS);
     let file = object.required("file")?;
@@ -80,7 +80,7 @@ fn once_each(log: &Collector, outputs: &[Member]) {
 
 struct Reader<'a> {
     log: &'a Collector,
-    folder: &'a Path,
+    folder: Folder<'a>,
     table: &'a Table,
 }
 

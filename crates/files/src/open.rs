@@ -1,5 +1,6 @@
 //! Files that are opened by their path, and texts whose root is a JSON object.
 
+use std::borrow::Cow;
 use std::path::Path;
 
 use super::diagnostics::{Collector, Diagnostics};
@@ -16,7 +17,7 @@ pub(super) fn open<T>(
     path: &Path,
     read: impl FnOnce(&str, &str, &Path) -> Result<T, Diagnostics>,
 ) -> Result<T, Diagnostics> {
-    open_as(path, utf8, read)
+    open_as(path, text, read)
 }
 
 /// As [`open`], with what makes a text of the file's bytes.
@@ -37,8 +38,16 @@ pub(super) fn open_as<T>(
 }
 
 /// The bytes as text, or why they are none.
-pub(super) fn utf8(bytes: Vec<u8>) -> Result<String, String> {
-    String::from_utf8(bytes).map_err(|_| "it is not UTF-8 text".to_owned())
+pub(super) fn text(bytes: Vec<u8>) -> Result<String, String> {
+    bytes::text(&bytes).map(Cow::into_owned)
+}
+
+/// Why a text that is named as a JSON file is none at all; a mistake within one is told where it is.
+/// Nothing of such a text is quoted, since it may be anything.
+pub(super) fn is_no_object(text: &str) -> Option<String> {
+    let start = text.trim_start_matches('\u{feff}').trim_start();
+    let is_object = start.is_empty() || start.starts_with('{');
+    (!is_object).then(|| "it is no JSON object: it does not begin with `{`".to_owned())
 }
 
 /// Reads a text whose root is an object, which is called `what` in messages.

@@ -1,15 +1,18 @@
 //! All files that may name typed measurements, read with a catalogue of these.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use super::case::{self, CaseFile};
 use super::certificate::{self, CertificateFile};
 use super::checked;
 use super::diagnostics::Diagnostics;
 use super::either::{self, ModelOrResult};
+use super::folder::Folder;
 use super::model_file::{self, ModelFile};
 use super::open::open;
 use super::overrides::Override;
+use super::recipe::{self, RecipeFile};
+use super::result_file::{self, ResultFile};
 use gumption_engine::model::typed::Catalogue;
 use gumption_engine::task::Row;
 
@@ -25,6 +28,8 @@ use gumption_engine::task::Row;
 #[derive(Clone, Copy, Debug)]
 pub struct FileReader<'c> {
     catalogue: &'c Catalogue,
+    allowed: &'c [PathBuf],
+    changed_results: bool,
 }
 
 impl Default for FileReader<'static> {
@@ -37,7 +42,35 @@ impl Default for FileReader<'static> {
 impl<'c> FileReader<'c> {
     /// Readers of files that may name these measurements.
     pub fn new(catalogue: &'c Catalogue) -> Self {
-        Self { catalogue }
+        Self { catalogue, allowed: &[], changed_results: false }
+    }
+
+    /// The same for files that may name others below these folders too. Without them a file names
+    /// files below its own folder, or below the nearest folder above that holds an (empty) file
+    /// `.gumption-root`; others are refused, since a file may come from a stranger.
+    #[must_use]
+    pub fn allowing(self, folders: &'c [PathBuf]) -> Self {
+        Self { allowed: folders, ..self }
+    }
+
+    /// The same, taking saved results that were changed since they were written, with a note, where
+    /// `accepted`. What is not consistent is refused all the same.
+    #[must_use]
+    pub fn accepting_changed_results(self, accepted: bool) -> Self {
+        Self { changed_results: accepted, ..self }
+    }
+
+    /// Whether saved results that were changed are taken.
+    pub(crate) fn accepts_changed_results(self) -> bool {
+        self.changed_results
+    }
+
+    /// The folder that a file's names are relative to.
+    pub(crate) fn folder<'f>(self, path: &'f Path) -> Folder<'f>
+    where
+        'c: 'f,
+    {
+        Folder::new(path, self.allowed)
     }
 
     /// The measurements that files may name.
@@ -92,6 +125,26 @@ impl<'c> FileReader<'c> {
         open(path, |name, text, folder| case::read_at(self, name, text, folder, conditions))
     }
 
+    /// A saved result's text.
+    pub fn result_text(self, name: &str, text: &str) -> Result<ResultFile, Diagnostics> {
+        result_file::read_text(self, name, text)
+    }
+
+    /// A recipe; its recordings are opened later.
+    pub fn recipe(self, path: &Path) -> Result<RecipeFile, Diagnostics> {
+        open(path, |name, text, folder| self.recipe_text(name, text, folder))
+    }
+
+    /// A recipe's text.
+    pub fn recipe_text(
+        self,
+        name: &str,
+        text: &str,
+        folder: &Path,
+    ) -> Result<RecipeFile, Diagnostics> {
+        recipe::read_text(name, text, self.folder(folder))
+    }
+
     /// A certificate file with its model files.
     pub fn certificate(self, path: &Path) -> Result<CertificateFile, Diagnostics> {
         open(path, |name, text, folder| self.certificate_text(name, text, folder))
@@ -138,6 +191,9 @@ with_built_in_measurements! {
     read_text = model_text(name: &str, text: &str, folder: &Path, overrides: &[Override]) -> ModelFile;
     read_case = case(path: &Path) -> CaseFile;
     read_certificate = certificate(path: &Path) -> CertificateFile;
+    read_result = result_text(name: &str, text: &str) -> ResultFile;
+    read_recipe = recipe(path: &Path) -> RecipeFile;
+    read_recipe_text = recipe_text(name: &str, text: &str, folder: &Path) -> RecipeFile;
     check = check(path: &Path) -> ();
     check_text = check_text(name: &str, text: &str, folder: &Path) -> ();
 }

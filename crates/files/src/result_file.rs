@@ -1,7 +1,9 @@
 //! Result files: what `gumption run --save` writes, read and checked.
 
+use std::ops::Range;
 use std::sync::Arc;
 
+use serde_json::{Map, Value};
 use sha2::{Digest, Sha256};
 
 use super::DiagnosticKind;
@@ -10,10 +12,14 @@ use super::diagnostics::{Collector, Diagnostics};
 use super::json::{Json, Node};
 use super::object::Object;
 use super::open::{check_format, read_root};
+use super::reader::FileReader;
+use super::result_consistency::{self, Stated};
 use super::source::SourceText;
+use gumption_analysis::integrity;
 use gumption_engine::distribution::{
     Constant, Distribution, Origin, Root, RootCorrelation, RootName, Saved, SavedResult, Scores,
 };
+use gumption_engine::task::Warning;
 use gumption_units::Unit;
 
 /// At most so many quantiles of an output.
@@ -24,6 +30,9 @@ const MOST_RANKS: usize = 1_000_000;
 
 /// At most so many trials behind a result.
 const MOST_TRIALS: u64 = 1_000_000_000_000;
+
+/// Changes that are listed, at most.
+const MOST_CHANGES: usize = 10;
 
 /// A result file that was read and found right.
 #[derive(Clone, Debug)]
@@ -42,6 +51,8 @@ pub struct ResultFile {
     pub model: Arc<str>,
     /// The file's text.
     pub source: Arc<SourceText>,
+    /// Notes on the file: that it has no digest, or was changed.
+    pub warnings: Vec<Warning>,
 }
 
 /// An output of a result file.
@@ -65,14 +76,16 @@ fn sha256(bytes: &[u8]) -> String {
 }
 
 /// Reads and checks the text of a result file; `name` is used in messages.
-///
-/// # Errors
-/// All mistakes of the text, in the order of their places.
-pub fn read_result(name: &str, text: &str) -> Result<ResultFile, Diagnostics> {
+pub(super) fn read_text(
+    files: FileReader<'_>,
+    name: &str,
+    text: &str,
+) -> Result<ResultFile, Diagnostics> {
     // results are told apart by their content
     let hash = sha256(text.as_bytes());
     read_root(name, text, "a result file", |root| {
-        Reader { log: root.log, root, hash: &hash }.read()
+        let accepted = files.accepts_changed_results();
+        Reader { log: root.log, root, hash: &hash, accepted }.read()
     })
 }
 
@@ -80,6 +93,8 @@ struct Reader<'a> {
     log: &'a Collector,
     root: Object<'a>,
     hash: &'a str,
+    /// Whether a file that was changed is taken.
+    accepted: bool,
 }
 
 /// The whole file's part of an origin.
@@ -109,6 +124,7 @@ impl<'a> Reader<'a> {
         let member = root.needed("outputs")?;
         root.text("gumption");
         let title = root.text("title").unwrap_or("").to_owned();
+        let (warnings, intact) = self.integrity();
         let coverage_probability = self.coverage_probability();
         let common = self.common()?;
         let object = Object::new(self.log, "`outputs`", &member.value, &member.key_span)?;
@@ -119,7 +135,7 @@ impl<'a> Reader<'a> {
             .filter_map(|member| {
                 let what = "an output of a result file";
                 let object = Object::new(self.log, what, &member.value, &member.key_span)?;
-                self.output(&member.key, &object, &common)
+                self.output(&member.key, &object, &common, intact)
             })
             .collect();
         self.log.is_clean().then(|| ResultFile {
@@ -130,7 +146,76 @@ impl<'a> Reader<'a> {
             input_correlations: common.correlations.to_vec(),
             model: common.model,
             source: self.log.source.clone(),
+            warnings,
         })
+    }
+
+    /// Notes on the digest, and whether the file is as it was written.
+    fn integrity(&self) -> (Vec<Warning>, bool) {
+        if let Some(parts) = self.root.get(integrity::PARTS)
+            && let Some(parts) =
+                Object::new(self.log, "`sha256_of_parts`", &parts.value, &parts.key_span)
+        {
+            for member in parts.members() {
+                parts.text(&member.key);
+            }
+        }
+        let file = &self.log.source.name;
+        let note = |code, text| (vec![Warning::new(code, file, text)], false);
+        let Some(stated) = self.root.get(integrity::DIGEST) else {
+            let text = format!(
+                "`{file}` has no digest of itself, as those of older versions: whether it was \
+                 changed since it was saved cannot be told"
+            );
+            return note("result-without-digest", text);
+        };
+        // it is JSON, and its root an object: this was read before
+        let Ok(content) = serde_json::from_str::<Map<String, Value>>(&self.log.source.text) else {
+            self.log.report(&stated.key_span, DiagnosticKind::SavedChanged { part: None });
+            return (Vec::new(), true);
+        };
+        let found = integrity::digest(&content);
+        if stated.value.value == Json::Text(found) {
+            return (Vec::new(), true);
+        }
+        let changed = integrity::changed(&content);
+        if self.accepted {
+            let where_ = match changed.as_slice() {
+                [] => String::new(),
+                some => {
+                    let some: Vec<&str> =
+                        some.iter().take(MOST_CHANGES).map(String::as_str).collect();
+                    format!(" ({})", some.join(", "))
+                }
+            };
+            let text = format!(
+                "`{file}` was changed since it was saved{where_}, and is taken all the same"
+            );
+            return note("result-changed", text);
+        }
+        for part in changed.iter().take(MOST_CHANGES) {
+            let place = self.place_of(part).unwrap_or(&stated.key_span);
+            let part = Some(part.clone());
+            self.log.report(place, DiagnosticKind::SavedChanged { part });
+        }
+        if changed.is_empty() {
+            self.log.report(&stated.key_span, DiagnosticKind::SavedChanged { part: None });
+        }
+        (Vec::new(), true)
+    }
+
+    /// Where a part stands, by the keys that lead to it; `None` of one that is gone.
+    fn place_of(&self, part: &str) -> Option<&Range<usize>> {
+        let mut keys = part.split('/');
+        let mut node = &self.root.get(keys.next()?)?.value;
+        for key in keys {
+            node = match &node.value {
+                Json::Object(members) => &members.iter().find(|member| member.key == key)?.value,
+                Json::List(items) => items.get(key.parse::<usize>().ok()?)?,
+                _ => return None,
+            };
+        }
+        Some(&node.span)
     }
 
     /// Whether all outputs that have ranks have as many.
@@ -302,7 +387,13 @@ impl<'a> Reader<'a> {
         found
     }
 
-    fn output(&self, name: &str, object: &Object<'a>, common: &Common) -> Option<SavedOutput> {
+    fn output(
+        &self,
+        name: &str,
+        object: &Object<'a>,
+        common: &Common,
+        intact: bool,
+    ) -> Option<SavedOutput> {
         for key in ["unit", "estimate", "standard_uncertainty", "quantiles"] {
             object.needed(key);
         }
@@ -336,6 +427,21 @@ impl<'a> Reader<'a> {
             dof,
             drawn_dof: or_infinite(object, "drawn_dof"),
         };
+        if !intact {
+            result_consistency::check(
+                object,
+                &Stated {
+                    estimate,
+                    standard_uncertainty: u,
+                    standard_deviation: saved.standard_deviation,
+                    quantiles: &quantiles,
+                    scores: common.scores,
+                    sensitivities: sensitivities.as_deref(),
+                    roots: &common.roots,
+                    correlations: &common.correlations,
+                },
+            );
+        }
         let made = if constant {
             Constant::new(estimate).map(Distribution::from)
         } else {

@@ -2,32 +2,39 @@
 
 use std::cell::RefCell;
 use std::collections::HashMap;
-use std::path::Path;
 use std::sync::Arc;
 
 use super::diagnostics::{Collector, Diagnostics};
+use super::folder::Folder;
 use super::json::Node;
 use super::object::Object;
-use super::result_file::{ResultFile, SavedOutput, read_result};
+use super::open::is_no_object;
+use super::reader::FileReader;
+use super::result_file::{ResultFile, SavedOutput};
 use super::source::Place;
 use super::{DiagnosticKind, bytes};
 use gumption_engine::distribution::Distribution;
+use gumption_engine::task::Warning;
 use gumption_units::Unit;
 use gumption_units::nearest;
 
 /// The result files that a model file names, each read once.
 #[derive(Debug)]
 pub(super) struct Results<'a> {
-    pub(super) folder: &'a Path,
+    pub(super) folder: Folder<'a>,
+    reader: FileReader<'a>,
     read: RefCell<HashMap<String, Option<Arc<ResultFile>>>>,
     /// The content of the files, by name.
     pub(super) files: RefCell<Vec<(String, Vec<u8>)>>,
+    /// What is to be known of the files.
+    pub(super) warnings: RefCell<Vec<Warning>>,
 }
 
 impl<'a> Results<'a> {
     /// Paths are relative to `folder`.
-    pub(crate) fn new(folder: &'a Path) -> Self {
-        Self { folder, read: RefCell::default(), files: RefCell::default() }
+    pub(crate) fn new(folder: Folder<'a>, reader: FileReader<'a>) -> Self {
+        let (read, files) = (RefCell::default(), RefCell::default());
+        Self { folder, reader, read, files, warnings: RefCell::default() }
     }
 
     /// The unit of the result that an input names, for an input without a unit of its own.
@@ -112,15 +119,29 @@ impl<'a> Results<'a> {
             log.report(&place.span, DiagnosticKind::Unreadable { message });
             None
         };
-        let bytes = match bytes::of_file(&self.folder.join(name), bytes::MOST) {
+        let path = match self.folder.file(name) {
+            Ok(path) => path,
+            Err(outside) => {
+                log.report(&place.span, outside);
+                return None;
+            }
+        };
+        let bytes = match bytes::of_file(&path, bytes::MOST) {
             Ok(bytes) => bytes,
             Err(message) => return unreadable(message),
         };
-        let Ok(text) = std::str::from_utf8(&bytes) else {
-            return unreadable("it is not UTF-8 text".to_owned());
+        let text = match bytes::text(&bytes) {
+            Ok(text) => text,
+            Err(message) => return unreadable(message),
         };
-        match read_result(name, text) {
+        if let Some(message) = is_no_object(&text) {
+            return unreadable(message);
+        }
+        let read = self.reader.result_text(name, &text);
+        drop(text);
+        match read {
             Ok(result) => {
+                self.warnings.borrow_mut().extend(result.warnings.iter().cloned());
                 self.files.borrow_mut().push((name.to_owned(), bytes));
                 Some(result)
             }

@@ -2,8 +2,8 @@
 //! line.
 
 use std::ops::Range;
-use std::path::Path;
 
+use super::folder::Folder;
 use super::object::Object;
 use super::source::{Place, SourceText};
 use super::{DiagnosticKind, bytes};
@@ -20,7 +20,7 @@ const LONGEST: usize = 40;
 pub(super) fn read(
     object: &Object<'_>,
     name: &str,
-    folder: &Path,
+    folder: Folder<'_>,
     files: &mut Vec<(String, Vec<u8>)>,
 ) -> Option<Samples> {
     let (values, place) = numbers(object, name, folder, files)?;
@@ -34,7 +34,7 @@ pub(super) fn read(
 pub(crate) fn numbers<'a>(
     object: &Object<'a>,
     name: &str,
-    folder: &Path,
+    folder: Folder<'_>,
     files: &mut Vec<(String, Vec<u8>)>,
 ) -> Option<(Vec<f64>, &'a Range<usize>)> {
     match (object.get("file"), object.get("values")) {
@@ -58,24 +58,32 @@ pub(crate) fn numbers<'a>(
 fn from_file(
     object: &Object<'_>,
     file: &str,
-    folder: &Path,
+    folder: Folder<'_>,
     files: &mut Vec<(String, Vec<u8>)>,
 ) -> Option<Vec<f64>> {
     let unreadable = |message: String| {
-        // a file that is not there is named where the model file names it
-        let place = object.get("file").map_or(object.place(), |member| &member.value.span);
         let message = format!("`{file}`: {message}");
-        object.log.report(place, DiagnosticKind::Unreadable { message });
+        object.log.report(place(object), DiagnosticKind::Unreadable { message });
     };
-    let bytes = bytes::of_file(&folder.join(file), bytes::MOST_OF_SAMPLES);
+    let path = match folder.file(file) {
+        Ok(path) => path,
+        Err(outside) => {
+            object.log.report(place(object), outside);
+            return None;
+        }
+    };
+    let bytes = bytes::of_file(&path, bytes::MOST_OF_SAMPLES);
     let bytes = bytes.map_err(&unreadable).ok()?;
-    let Ok(text) = std::str::from_utf8(&bytes) else {
-        unreadable("it is not UTF-8 text".to_owned());
-        return None;
-    };
-    let source = SourceText::new(file, text);
+    let text = bytes::text(&bytes).map_err(&unreadable).ok()?;
+    let source = SourceText::new(file, &text);
+    drop(text);
     let numbers = match parse(&source.text) {
         Ok(numbers) => numbers,
+        // it may be anything, and is not shown
+        Err(_) if !has_numbers(&source.text) => {
+            unreadable("it is no file of numbers, one a line: no line is one".to_owned());
+            return None;
+        }
         Err(kinds) => {
             for (span, diagnostic) in kinds {
                 object.log.report_at(Place { source: source.clone(), span }, diagnostic);
@@ -87,6 +95,16 @@ fn from_file(
         files.push((file.to_owned(), bytes));
     }
     Some(numbers)
+}
+
+/// A file that is not there is named where the model file names it.
+fn place<'a>(object: &Object<'a>) -> &'a Range<usize> {
+    object.get("file").map_or(object.place(), |member| &member.value.span)
+}
+
+/// Whether some line is a number.
+fn has_numbers(text: &str) -> bool {
+    text.lines().any(|line| line.trim().parse::<f64>().is_ok())
 }
 
 type PlacedKinds = Vec<(Range<usize>, DiagnosticKind)>;

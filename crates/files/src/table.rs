@@ -5,6 +5,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::diagnostics::Collector;
+use super::folder::Folder;
 use super::source::{Place, SourceText};
 use super::{DiagnosticKind, bytes};
 
@@ -41,11 +42,18 @@ type PlacedKinds = Vec<(Place, DiagnosticKind)>;
 /// at `named`, where the model file names it. The content is given too.
 pub(super) fn read(
     log: &Collector,
-    folder: &Path,
+    folder: Folder<'_>,
     name: &str,
     named: &Range<usize>,
 ) -> Option<(Table, Vec<u8>)> {
-    let kinds = match read_file(&folder.join(name), name) {
+    let path = match folder.file(name) {
+        Ok(path) => path,
+        Err(outside) => {
+            log.report(named, outside);
+            return None;
+        }
+    };
+    let kinds = match read_file(&path, name) {
         Ok(read) => return Some(read),
         Err(kinds) => kinds,
     };
@@ -68,13 +76,35 @@ fn read_file(path: &Path, name: &str) -> Result<(Table, Vec<u8>), PlacedKinds> {
         let place = Place { source: SourceText::new(name, ""), span: 0..0 };
         vec![(place, DiagnosticKind::Unreadable { message })]
     })?;
-    let Ok(text) = std::str::from_utf8(&bytes) else {
+    let unreadable = |message: String| {
         let place = Place { source: SourceText::new(name, ""), span: 0..0 };
-        let message = "it is not UTF-8 text".to_owned();
-        return Err(vec![(place, DiagnosticKind::Unreadable { message })]);
+        vec![(place, DiagnosticKind::Unreadable { message })]
     };
-    let source = SourceText::new(name, text);
-    Ok((parse(&source)?, bytes))
+    let text = bytes::text(&bytes).map_err(unreadable)?;
+    let source = SourceText::new(name, &text);
+    drop(text);
+    match parse(&source) {
+        Ok(table) => Ok((table, bytes)),
+        // it may be anything, and is not shown
+        Err(_) if !has_numbers(&source.text) => {
+            let message = "it is no table of numbers: below its first line there is none";
+            Err(unreadable(message.to_owned()))
+        }
+        Err(kinds) => Err(kinds),
+    }
+}
+
+/// Whether some cell below the first line is a number; of an empty file nothing is to be hidden.
+fn has_numbers(text: &str) -> bool {
+    let mut lines = text.lines().filter(|line| !is_skipped(Some(line)));
+    let number = |cell: &str| {
+        let cell = cell.trim().trim_matches('"');
+        cell.parse::<f64>().is_ok() || cell.replace(',', ".").parse::<f64>().is_ok()
+    };
+    match lines.next() {
+        None => true,
+        Some(_) => lines.any(|line| line.split([',', ';']).any(number)),
+    }
 }
 
 pub(super) fn parse(source: &Arc<SourceText>) -> Result<Table, PlacedKinds> {

@@ -27,14 +27,29 @@ impl TextTable {
     pub(super) fn parse(log: &Collector, source: &Arc<SourceText>) -> Option<Self> {
         let mut table: Option<Self> = None;
         let mut start = 0;
-        for line in source.text.split_inclusive('\n') {
-            let content = line.trim_end();
-            let span = start..start + content.len();
-            start += line.len();
-            if content.trim().is_empty() || content.trim_start().starts_with('#') {
+        while let Some(rest) = source.text.get(start..).filter(|rest| !rest.is_empty()) {
+            let line = rest.split_inclusive('\n').next().unwrap_or(rest);
+            if line.trim().is_empty() || line.trim_start().starts_with('#') {
+                start += line.len();
                 continue;
             }
-            let semicolon = table.as_ref().map_or(content.contains(';'), |table| table.semicolon);
+            let separator = match &table {
+                Some(table) if table.semicolon => ';',
+                None if line.contains(';') => ';',
+                _ => ',',
+            };
+            // a cell in quotes may go on over the end of the line (RFC 4180, 2.6)
+            let Some(length) = record(rest, separator) else {
+                let span = start..start + line.trim_end().len();
+                let reason = "a cell that begins with a quote has no quote at its end".to_owned();
+                let place = Place { source: source.clone(), span };
+                log.report_at(place, DiagnosticKind::Table { reason });
+                return None;
+            };
+            let content = rest.get(..length).unwrap_or(rest).trim_end();
+            let span = start..start + content.len();
+            start += length;
+            let semicolon = separator == ';';
             let place = Place { source: source.clone(), span: span.clone() };
             let cells = match cells(content, semicolon) {
                 Ok(cells) => cells,
@@ -54,7 +69,8 @@ impl TextTable {
             }
             table.rows.push((span, cells));
             if table.rows.len() > MOST_ROWS {
-                let (what, found) = ("rows of a table", table.rows.len());
+                // how many more there are is not looked at
+                let (what, found) = ("rows of a table", usize::MAX);
                 log.report(&table.header, DiagnosticKind::TooMany { what, found, most: MOST_ROWS });
                 return None;
             }
@@ -126,6 +142,30 @@ impl TextTable {
     }
 }
 
+/// The length of the record that a text begins with, its line's end included; `None` where a cell in
+/// quotes has no end.
+fn record(text: &str, separator: char) -> Option<usize> {
+    let (mut begins, mut quoted) = (true, false);
+    let mut letters = text.char_indices().peekable();
+    while let Some((at, letter)) = letters.next() {
+        match letter {
+            // two quotes are one in the cell
+            '"' if quoted => match letters.peek() {
+                Some((_, '"')) => {
+                    letters.next();
+                }
+                _ => quoted = false,
+            },
+            _ if quoted => {}
+            '"' if begins => quoted = true,
+            '\n' => return Some(at + 1),
+            _ => {}
+        }
+        begins = !quoted && letter == separator;
+    }
+    (!quoted).then_some(text.len())
+}
+
 /// The cells of a line.
 fn cells(line: &str, semicolon: bool) -> Result<Vec<String>, String> {
     let mut reader = csv::ReaderBuilder::new()
@@ -137,5 +177,49 @@ fn cells(line: &str, semicolon: bool) -> Result<Vec<String>, String> {
         Some(Ok(record)) => Ok(record.iter().map(str::to_owned).collect()),
         Some(Err(error)) => Err(error.to_string()),
         None => Ok(Vec::new()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_record_ends_where_its_line_does_outside_of_quotes() {
+        for (text, length) in [
+            ("a,b\nc", Some(4)),
+            ("a,b", Some(3)),
+            ("\"a\nb\",c\nd", Some(8)),
+            ("\"a\"\"\nb\",c\nd", Some(10)),
+            // inches are no quotes, and neither are those that do not begin a cell
+            ("x, \"a\nb\"\nd", Some(6)),
+            ("5\" pipe,c\nd", Some(10)),
+            ("\"a\nb", None),
+            ("\"a\",\"", None),
+        ] {
+            assert_eq!(record(text, ','), length, "{text:?}");
+        }
+        assert_eq!(record("a;\"b\nc\"\nd", ';'), Some(8));
+    }
+
+    #[test]
+    fn cells_hold_line_breaks_in_quotes() {
+        let text = "label,x\n\"two\r\nlines\",1\n# no row\nb,2\n";
+        let source = SourceText::new("t", text);
+        let log = Collector::new(source.clone());
+        let table = TextTable::parse(&log, &source).unwrap();
+        assert_eq!((table.rows(), table.text(0, "label")), (2, "two\r\nlines"));
+        assert_eq!(table.number(1, "x"), "2");
+        let place = table.place(1, "x");
+        assert_eq!(source.position(place.span.start), (5, 3));
+    }
+
+    #[test]
+    fn a_cell_without_an_end_is_named() {
+        let source = SourceText::new("t", "label,x\n\"a,1\nb,2\n");
+        let log = Collector::new(source.clone());
+        assert!(TextTable::parse(&log, &source).is_none());
+        let said = log.into_diagnostics().to_string();
+        assert!(said.starts_with("t:2:1:") && said.contains("no quote at its end"), "{said}");
     }
 }

@@ -3,7 +3,7 @@
 use super::CaseFile;
 use super::json::{self, Json, Member, Node};
 use super::source::SourceText;
-use super::table;
+use super::{bytes, table};
 
 /// Why a case cannot be copied.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -27,7 +27,7 @@ impl CaseFile {
         let data = text_of(&observations.value, "file").ok_or_else(|| whole("`file`"))?;
         let columns = member(&observations.value, "columns").ok_or_else(|| whole("`columns`"))?;
         let mut files = vec![("case.json".to_owned(), self.without(&root, without).into_bytes())];
-        for (name, bytes) in &self.files {
+        for (name, content) in &self.files {
             let inside = std::path::Path::new(name)
                 .components()
                 .all(|part| matches!(part, std::path::Component::Normal(_)));
@@ -38,11 +38,11 @@ impl CaseFile {
                 )));
             }
             if name != &data {
-                files.push((name.clone(), bytes.clone()));
+                files.push((name.clone(), content.clone()));
                 continue;
             }
-            let text = std::str::from_utf8(bytes).map_err(|_| whole("the data"))?;
-            let table = table::parse(&SourceText::new(name.as_str(), text))
+            let text = bytes::text(content).map_err(|_| whole("the data"))?;
+            let table = table::parse(&SourceText::new(name.as_str(), &text))
                 .map_err(|_| whole("the data"))?;
             let mut rows = table.rows.clone();
             let observed = self.case.model.outputs.iter().zip(&self.case.observed);

@@ -3,9 +3,13 @@
 //! not a number is `null`, because JSON has neither.
 
 use std::fmt::Debug;
+use std::io::{self, Write};
 
-use serde::{Serialize, Serializer};
+use serde::Serialize;
 use serde_json::Value;
+use serde_json::ser::{Formatter, PrettyFormatter, Serializer};
+
+use super::table::is_obeyed;
 
 /// An object of these keys, in their order.
 pub(crate) fn object<K: Into<String>, V: Into<Value>>(
@@ -19,9 +23,58 @@ pub(crate) fn list<T: Into<Value>>(items: impl IntoIterator<Item = T>) -> Value 
     items.into_iter().collect()
 }
 
-/// Indented JSON that ends in a newline.
-pub(crate) fn pretty(answer: &impl Serialize) -> String {
-    in_memory(|bytes| serde_json::to_writer_pretty(bytes, answer)) + "\n"
+/// Indented JSON that ends in a newline. Characters that a terminal would obey, and those without a
+/// width, are escaped.
+pub fn pretty(answer: &impl Serialize) -> String {
+    in_memory(|bytes| write_pretty(answer, bytes)) + "\n"
+}
+
+/// Writes what [`pretty`] gives, but for the newline.
+pub(crate) fn write_pretty(answer: &impl Serialize, out: impl Write) -> serde_json::Result<()> {
+    answer.serialize(&mut Serializer::with_formatter(out, Printable(PrettyFormatter::new())))
+}
+
+/// Indented JSON whose texts are of printable characters.
+struct Printable<'a>(PrettyFormatter<'a>);
+
+macro_rules! as_usual {
+    ($($name:ident($($argument:ident: $kind:ty),*);)*) => {
+        $(
+            fn $name<W: ?Sized + Write>(&mut self, out: &mut W $(, $argument: $kind)*) -> io::Result<()> {
+                self.0.$name(out $(, $argument)*)
+            }
+        )*
+    };
+}
+
+impl Formatter for Printable<'_> {
+    as_usual! {
+        begin_array();
+        end_array();
+        begin_array_value(first: bool);
+        end_array_value();
+        begin_object();
+        end_object();
+        begin_object_key(first: bool);
+        begin_object_value();
+        end_object_value();
+    }
+
+    fn write_string_fragment<W: ?Sized + Write>(
+        &mut self,
+        out: &mut W,
+        fragment: &str,
+    ) -> io::Result<()> {
+        let mut rest = fragment;
+        while let Some((at, c)) = rest.char_indices().find(|(_, c)| is_obeyed(*c)) {
+            out.write_all(rest[..at].as_bytes())?;
+            for unit in c.encode_utf16(&mut [0; 2]) {
+                write!(out, "\\u{unit:04x}")?;
+            }
+            rest = &rest[at + c.len_utf8()..];
+        }
+        out.write_all(rest.as_bytes())
+    }
 }
 
 /// What `write` writes, as text.
@@ -37,7 +90,7 @@ pub(crate) fn in_memory<E: Debug>(write: impl FnOnce(&mut Vec<u8>) -> Result<(),
 }
 
 /// Pairs as an object in their order, for fields of answers that are written piece by piece.
-pub(crate) fn in_order<K: Serialize, V: Serialize, S: Serializer>(
+pub(crate) fn in_order<K: Serialize, V: Serialize, S: serde::Serializer>(
     entries: &[(K, V)],
     serializer: S,
 ) -> Result<S::Ok, S::Error> {
@@ -57,5 +110,14 @@ mod tests {
         ]);
         let text: String = pretty(&answer).split_whitespace().collect();
         assert_eq!(text, r#"{"z":0.1,"a":null,"m":[1.0,2.5,1e+300,5e-324]}"#);
+    }
+
+    #[test]
+    fn texts_are_escaped_as_far_as_a_terminal_would_obey_them() {
+        let text = "\u{1b}[2J\u{9b}2J\u{202e}\u{feff}µ \"\n";
+        let answer = pretty(&object([(text, text)]));
+        assert!(answer.contains(r#""\u001b[2J\u009b2J\u202e\ufeffµ \"\n""#), "{answer}");
+        let read: Value = serde_json::from_str(&answer).unwrap();
+        assert_eq!(read[text], text);
     }
 }

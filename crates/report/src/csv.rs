@@ -5,6 +5,7 @@ use std::io::{self, Write};
 use super::EvaluationReport;
 use super::answer::in_memory;
 use super::number::MISSING;
+use super::table::{one_line, stopped};
 use gumption_engine::propagate::gum::Dof;
 use gumption_engine::propagate::{OutputEvaluation, RowEvaluation};
 use gumption_engine::task::Task;
@@ -34,7 +35,8 @@ const COLUMNS: [&str; 18] = [
 /// conditions. Numbers have full precision; an empty cell stands for what is infinite or not
 /// defined.
 ///
-/// A text that a spreadsheet would take for a formula gets an apostrophe in front.
+/// A text that a spreadsheet would take for a formula gets an apostrophe in front. A run that was
+/// stopped says so in a comment at the end.
 pub fn csv(report: &EvaluationReport<'_>) -> String {
     in_memory(|bytes| write_csv(report, bytes))
 }
@@ -43,9 +45,9 @@ pub fn csv(report: &EvaluationReport<'_>) -> String {
 ///
 /// # Errors
 /// Those of the writer.
-pub fn write_csv(report: &EvaluationReport<'_>, out: impl Write) -> io::Result<()> {
+pub fn write_csv(report: &EvaluationReport<'_>, mut out: impl Write) -> io::Result<()> {
     let EvaluationReport { task, evaluation, .. } = report;
-    let mut writer = csv::Writer::from_writer(out);
+    let mut writer = csv::Writer::from_writer(&mut out);
     let conditions = task.model.conditions.iter().filter(|_| task.swept);
     let names = conditions.map(|condition| text(&condition.name));
     let header: Vec<String> = names.chain(COLUMNS.map(str::to_owned)).collect();
@@ -55,7 +57,12 @@ pub fn write_csv(report: &EvaluationReport<'_>, out: impl Write) -> io::Result<(
             writer.write_record(&record)?;
         }
     }
-    writer.flush()
+    writer.flush()?;
+    drop(writer);
+    match stopped(evaluation) {
+        Some(said) => writeln!(out, "# {said}"),
+        None => Ok(()),
+    }
 }
 
 fn records<'a>(task: &'a Task, row: &'a RowEvaluation) -> impl Iterator<Item = Vec<String>> + 'a {
@@ -140,7 +147,9 @@ pub(super) fn number(value: Option<f64>) -> String {
     }
 }
 
+/// A user's text as a cell: on one line of printable characters, and no formula.
 pub(crate) fn text(text: &str) -> String {
+    let text = one_line(text);
     let formula = text.starts_with(['=', '+', '-', '@', '\t', '\r', '\n']);
-    if formula { format!("'{text}") } else { text.to_owned() }
+    if formula { format!("'{text}") } else { text }
 }

@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use serde::{Serialize, Serializer};
 
 use super::EvaluationReport;
-use super::answer::{in_order, pretty};
+use super::answer::{in_order, pretty, write_pretty};
 use super::subtotals::Subtotals;
 use gumption_engine::propagate::gum::{BudgetLine, CorrelationLine, Dof, Gum};
 use gumption_engine::propagate::monte_carlo::{MonteCarlo, NumericalError};
@@ -27,7 +27,7 @@ pub fn json(report: &EvaluationReport<'_>) -> String {
 /// # Errors
 /// Those of the writer.
 pub fn write_json(report: &EvaluationReport<'_>, mut out: impl Write) -> io::Result<()> {
-    serde_json::to_writer_pretty(&mut out, &Answer::of(report))?;
+    write_pretty(&Answer::of(report), &mut out)?;
     out.write_all(b"\n")
 }
 

@@ -24,6 +24,7 @@ mod table;
 pub mod verification;
 mod workbook;
 
+pub use answer::pretty;
 pub use csv::{csv, write_csv};
 pub use evaluation::{MOST_RESULTS, Shown, histograms, html, latex, markdown, xlsx};
 pub use json::{json, write_json};
@@ -31,9 +32,9 @@ pub use samples::TrialsForm;
 pub use saved::saved;
 pub use table::Grid;
 pub use table::WIDTH;
-pub use table::wrapped;
+pub(crate) use table::conditions_text;
 pub use table::{BudgetColumn, TableStyle, table, write_table};
-pub(crate) use table::{conditions_text, grouped, plain};
+pub use table::{grouped, plain, wrapped};
 
 use gumption_engine::propagate::Evaluation;
 use gumption_engine::task::{Task, Warning};

@@ -3,10 +3,12 @@
 use std::io;
 
 use serde::Serialize;
+use serde_json::Value;
 use serde_json::ser::{Formatter, PrettyFormatter, Serializer};
 
 use super::EvaluationReport;
 use super::answer::{in_memory, in_order};
+use gumption_analysis::integrity;
 use gumption_engine::distribution::{RootName, Scores};
 use gumption_engine::propagate::gum::Dof;
 use gumption_engine::propagate::monte_carlo::MonteCarlo;
@@ -27,7 +29,15 @@ pub fn saved(
     let Some(row) = report.evaluation.rows.first() else {
         return String::new();
     };
-    let file = File::of(report, row, origins, quantiles, ranks);
+    let mut file = File::of(report, row, origins, quantiles, ranks);
+    // numbers as they will be read
+    if let Ok(Value::Object(mut content)) = serde_json::to_value(&file) {
+        let parts = integrity::parts(&content);
+        let listed = parts.iter().map(|(name, of)| (name.clone(), Value::from(of.as_str())));
+        content.insert(integrity::PARTS.to_owned(), Value::Object(listed.collect()));
+        file.sha256 = Some(integrity::digest(&content));
+        file.sha256_of_parts = parts;
+    }
     let written = |bytes: &mut Vec<u8>| {
         file.serialize(&mut Serializer::with_formatter(bytes, Layout::default()))
     };
@@ -52,6 +62,10 @@ struct File<'a> {
     /// Places in `inputs`, counted from 0, and a coefficient.
     input_correlations: Vec<(usize, usize, f64)>,
     provenance: Origin<'a>,
+    #[serde(serialize_with = "in_order", skip_serializing_if = "Vec::is_empty")]
+    sha256_of_parts: Vec<(String, String)>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    sha256: Option<String>,
 }
 
 #[derive(Serialize)]
@@ -167,6 +181,8 @@ impl<'a> File<'a> {
                 trials: trials.map_or(0, |figures| figures.trials),
                 files: &provenance.files,
             },
+            sha256_of_parts: Vec::new(),
+            sha256: None,
         }
     }
 }

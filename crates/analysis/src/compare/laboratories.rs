@@ -147,6 +147,23 @@ impl Results {
         Some(ReferenceValue { members, value, standard_uncertainty: u, chi_squared, dof, p_value })
     }
 
+    /// The members' precision, from which chi-squared without some of them follows.
+    pub(super) fn precision(&self, members: &[usize]) -> Option<Precision> {
+        let n = members.len();
+        let part = DMatrix::from_fn(n, n, |i, j| self.covariance[(members[i], members[j])]);
+        let inverse = part.cholesky()?.inverse();
+        let mean = self.reference(members)?.value;
+        let of_ones = inverse.column_sum();
+        let of_values = &inverse * DVector::from_fn(n, |i, _| self.values[members[i]] - mean);
+        let squares = DVector::from_fn(n, |i, _| self.values[members[i]] - mean).dot(&of_values);
+        Some(Precision {
+            sums: [of_ones.sum(), of_values.sum(), squares],
+            inverse,
+            of_ones,
+            of_values,
+        })
+    }
+
     /// The standard uncertainty of a laboratory's difference from the members' mean.
     fn of_difference(&self, laboratory: usize, members: &[usize]) -> Option<f64> {
         let (weights, u) = self.weights(members)?;
@@ -157,6 +174,38 @@ impl Results {
             .sum();
         let own = self.covariance[(laboratory, laboratory)];
         Some((own + u * u - 2.0 * shared).max(0.0).sqrt())
+    }
+}
+
+/// The inverse P of some laboratories' covariance matrix, with P 1 and P x, where x are their values
+/// about their mean.
+///
+/// Taking laboratories out needs no other inverse: what is left of each of the sums 1'P1, 1'Px and
+/// x'Px is the sum without its part a' Q^-1 b, where Q is the block of P of those that are taken out
+/// and a, b are their entries of P 1 and P x (the inverse of a block matrix, by Schur's complement).
+/// Chi-squared is x'Px - (1'Px)^2 / 1'P1.
+#[derive(Debug)]
+pub(super) struct Precision {
+    inverse: DMatrix<f64>,
+    of_ones: DVector<f64>,
+    of_values: DVector<f64>,
+    /// 1'P1, 1'Px and x'Px.
+    sums: [f64; 3],
+}
+
+impl Precision {
+    /// Chi-squared of the others without those at some places; `None` where rounding left nothing.
+    pub(super) fn chi_squared_without(&self, out: &[usize]) -> Option<f64> {
+        let k = out.len();
+        let block = DMatrix::from_fn(k, k, |i, j| self.inverse[(out[i], out[j])]);
+        let block = block.cholesky()?;
+        let [a, b] =
+            [&self.of_ones, &self.of_values].map(|of| DVector::from_fn(k, |i, _| of[out[i]]));
+        let [of_a, of_b] = [&a, &b].map(|of| block.solve(of));
+        let [ones, mixed, squares] = self.sums;
+        let [ones, mixed] = [ones - a.dot(&of_a), mixed - a.dot(&of_b)];
+        let found = squares - b.dot(&of_b) - mixed * mixed / ones;
+        (ones > 0.0 && found.is_finite()).then_some(found)
     }
 }
 

@@ -35,20 +35,10 @@ pub(super) fn largest(results: &Results, count: usize) -> Option<(ReferenceValue
         if looked_at > MOST {
             return one_at_a_time(results, count).map(|found| (found, SubsetSearch::OneAtATime));
         }
-        let mut best: Option<ReferenceValue> = None;
-        let mut members: Vec<usize> = (0..count - out).collect();
-        loop {
-            let found = results.reference(&members)?;
-            let better = best.as_ref().is_none_or(|best| found.chi_squared < best.chi_squared);
-            if found.is_consistent() && better {
-                best = Some(found);
-            }
-            if !next(&mut members, count) {
-                break;
-            }
-        }
-        if let Some(best) = best {
-            return Some((best, SubsetSearch::All));
+        let found = results.reference(&smallest(results, count, out)?)?;
+        // the others of its size have larger chi-squared
+        if found.is_consistent() {
+            return Some((found, SubsetSearch::All));
         }
     }
     None
@@ -67,17 +57,49 @@ fn next(chosen: &mut [usize], count: usize) -> bool {
     true
 }
 
+/// Differences of chi-squared below this share are rounding.
+const ROUNDING: f64 = 1e-9;
+
+/// The subset without `out` laboratories that has the smallest chi-squared; the first one of equals.
+fn smallest(results: &Results, count: usize, out: usize) -> Option<Vec<usize>> {
+    let precision = results.precision(&(0..count).collect::<Vec<_>>())?;
+    let mut best: Option<(f64, Vec<usize>)> = None;
+    let mut members: Vec<usize> = (0..count - out).collect();
+    loop {
+        // what is left of a few is told best by themselves
+        let chi_squared = if 2 * out > count {
+            results.reference(&members)?.chi_squared
+        } else {
+            let left: Vec<usize> =
+                (0..count).filter(|place| members.binary_search(place).is_err()).collect();
+            match precision.chi_squared_without(&left) {
+                Some(found) => found,
+                None => results.reference(&members)?.chi_squared,
+            }
+        };
+        if best.as_ref().is_none_or(|(least, _)| chi_squared < least * (1.0 - ROUNDING)) {
+            best = Some((chi_squared, members.clone()));
+        }
+        if !next(&mut members, count) {
+            return best.map(|(_, members)| members);
+        }
+    }
+}
+
 fn one_at_a_time(results: &Results, count: usize) -> Option<ReferenceValue> {
     let mut members: Vec<usize> = (0..count).collect();
     let mut found = results.reference(&members)?;
     while !found.is_consistent() {
-        let without = (0..members.len()).filter_map(|place| {
-            let mut fewer = members.clone();
-            fewer.remove(place);
-            results.reference(&fewer)
-        });
-        found = without.min_by(|a, b| a.chi_squared.total_cmp(&b.chi_squared))?;
-        members.clone_from(&found.members);
+        let precision = results.precision(&members)?;
+        let mut best: Option<(f64, usize)> = None;
+        for place in 0..members.len() {
+            let Some(chi_squared) = precision.chi_squared_without(&[place]) else { continue };
+            if best.is_none_or(|(least, _)| chi_squared < least * (1.0 - ROUNDING)) {
+                best = Some((chi_squared, place));
+            }
+        }
+        members.remove(best?.1);
+        found = results.reference(&members)?;
     }
     Some(found)
 }

@@ -23,11 +23,6 @@ pub(super) fn named(name: Option<&str>) -> Result<EffectListing, Failure> {
     Ok(EffectListing { names, effects })
 }
 
-pub(super) fn json(listing: &EffectListing) -> Result<String, Failure> {
-    let text = serde_json::to_string_pretty(listing);
-    Ok(text.map_err(|error| Failure::System(error.to_string()))? + "\n")
-}
-
 pub(super) fn page(listing: &EffectListing) -> String {
     let mut text = String::new();
     for effect in &listing.effects {

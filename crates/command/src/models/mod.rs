@@ -8,7 +8,8 @@ use clap::Args;
 use comfy_table::{ContentArrangement, Table, presets};
 
 use super::options::Format;
-use super::{CommandLine, Exit, Failure, output};
+use super::output::Place;
+use super::{CommandLine, Exit, Failure};
 use gumption_engine::model::typed::{Catalogue, CatalogueEntry};
 use gumption_units::nearest;
 
@@ -35,7 +36,7 @@ impl Models {
                 let listing = effects::named(name.as_deref())?;
                 match self.format {
                     Format::Table => effects::page(&listing),
-                    Format::Json => effects::json(&listing)?,
+                    Format::Json => gumption_report::pretty(&listing),
                     Format::Csv => {
                         let message = "`models --effects` answers as table or json";
                         return Err(Failure::Argument(message.into()));
@@ -59,7 +60,7 @@ impl Models {
                 None => return Err(unknown(&program.catalogue, name)),
             },
         };
-        output::write(&text, None)?;
+        Place::StandardOutput.write(&text)?;
         Ok(Exit::Done)
     }
 }

@@ -10,7 +10,7 @@ use std::sync::atomic::Ordering;
 use clap::{Args, ValueEnum};
 
 use super::options::{Answer, Threads};
-use super::{CommandLine, Exit, Failure, output, progress};
+use super::{CommandLine, Exit, Failure, progress, signals};
 pub use examples::PublishedExamples;
 use gumption_analysis::verification::{PublishedVerdict, RecomputedExample};
 use gumption_report::verification;
@@ -53,7 +53,8 @@ impl Verify {
         if self.paths {
             return self.compared.execute(program, threads, self.fail);
         }
-        let stop = progress::stop_flag();
+        let place = self.answer.open(&[])?;
+        let stop = signals::stop_flag();
         let examples = examples::all(&program.published).map_err(Failure::System)?;
         let bar = progress::counted(examples.len() as u64, "examples", self.answer.quiet);
         let machine = Machine { threads, stop: &stop };
@@ -73,11 +74,10 @@ impl Verify {
             Format::Csv => verification::csv(&found),
             Format::Markdown => verification::markdown(&found),
         };
+        place.write(&answer)?;
         if stop.load(Ordering::Relaxed) {
-            output::write(&answer, None)?;
             return Ok(Exit::Interrupted);
         }
-        self.answer.write(&answer)?;
         let differs =
             found.iter().flat_map(|e| &e.rows).any(|row| row.verdict == PublishedVerdict::Diff);
         Ok(if differs && self.fail { Exit::No } else { Exit::Done })

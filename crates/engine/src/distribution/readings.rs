@@ -39,7 +39,11 @@ impl Readings {
         let offset = values.iter().map(|v| v - origin).sum::<f64>() / n;
         let squares: f64 = values.iter().map(|v| (v - origin - offset).powi(2)).sum();
         let scale = (squares / (n - 1.0) / n).sqrt();
-        if scale > 0.0 {
+        let differ = values.iter().any(|v| *v != origin);
+        if differ && !(scale > 0.0 && scale.is_finite()) {
+            return Err(Invalid::ScatterOutOfRange { count });
+        }
+        if differ {
             Ok(Self {
                 values,
                 mean: finite("the mean of the values", origin + offset)?,

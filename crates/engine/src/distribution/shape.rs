@@ -111,6 +111,11 @@ pub enum Invalid {
         /// How many readings there are.
         count: usize,
     },
+    /// The readings differ, but by so much or so little that their variance is no number above zero.
+    ScatterOutOfRange {
+        /// How many readings there are.
+        count: usize,
+    },
     /// An empirical distribution needs at least two samples.
     TooFewSamples {
         /// How many there are.
@@ -160,6 +165,7 @@ impl Invalid {
             Self::LimitsReversed { .. } => "upper",
             Self::TooFewReadings { .. }
             | Self::NoScatter { .. }
+            | Self::ScatterOutOfRange { .. }
             | Self::TooFewSamples { .. }
             | Self::EqualSamples { .. }
             | Self::TooFewPaired { .. } => "values",
@@ -190,6 +196,11 @@ impl fmt::Display for Invalid {
                 f,
                 "all {count} readings are equal, so they show no scatter to evaluate; \
                  state the resolution as a rectangular distribution"
+            ),
+            Self::ScatterOutOfRange { count } => write!(
+                f,
+                "the variance of these {count} readings is beyond what numbers of double precision \
+                 can be; give them in another unit"
             ),
             Self::TooFewSamples { count } => {
                 write!(f, "an empirical distribution needs at least two samples, not {count}")

@@ -249,6 +249,11 @@ fn impossible_parameters_are_refused() {
     assert!(matches!(StudentT::new(0.0, 1.0, 0.0), Err(Invalid::NotPositive { .. })));
     assert!(matches!(Readings::new(vec![1.0]), Err(Invalid::TooFewReadings { count: 1 })));
     assert!(matches!(Readings::new(vec![1.0, 1.0]), Err(Invalid::NoScatter { count: 2 })));
+    // these are not equal
+    for values in [vec![1e308, -1e308], vec![1e-320, 2e-320, 3e-320]] {
+        let refused = Readings::new(values);
+        assert!(matches!(refused, Err(Invalid::ScatterOutOfRange { .. })), "{refused:?}");
+    }
 }
 
 /// Three joint normals keep their declared coefficients: with 1,024,000 draws each coefficient has

@@ -16,6 +16,7 @@ use super::open::{FileKind, check_format, read_root, refuse_other_kind};
 use super::reader::FileReader;
 use super::source::SourceText;
 use super::{DiagnosticKind, settings};
+use crate::folder::Folder;
 use gumption_analysis::certificate::contents::{Certificate, Language, Rounding};
 use gumption_engine::task::{Coverage, Settings, Warning};
 use rows::Rows;
@@ -91,7 +92,9 @@ pub(super) fn read_text(
     text: &str,
     folder: &Path,
 ) -> Result<CertificateFile, Diagnostics> {
-    read_root(name, text, "a certificate file", |root| certificate(files, root, folder))
+    read_root(name, text, "a certificate file", |root| {
+        certificate(files, root, files.folder(folder))
+    })
 }
 
 /// Whether a text is meant as a certificate file.
@@ -122,7 +125,11 @@ impl Asking {
     }
 }
 
-fn certificate(files: FileReader<'_>, root: Object<'_>, folder: &Path) -> Option<CertificateFile> {
+fn certificate<'a>(
+    files: FileReader<'a>,
+    root: Object<'a>,
+    folder: Folder<'a>,
+) -> Option<CertificateFile> {
     if refuse_other_kind(&root, FileKind::Certificate) {
         return None;
     }

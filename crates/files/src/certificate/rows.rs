@@ -2,7 +2,6 @@
 
 use std::collections::BTreeMap;
 use std::ops::Range;
-use std::path::Path;
 
 use super::super::DiagnosticKind;
 use super::super::diagnostics::{Collector, Diagnostic};
@@ -16,6 +15,8 @@ use super::super::reader::FileReader;
 use super::super::source::Place;
 use super::administrative::localized;
 use super::{Asking, CertifiedModel};
+use crate::folder::Folder;
+use crate::open::is_no_object;
 use gumption_analysis::certificate::contents::{Asked, Line};
 use gumption_engine::model::Quantity;
 use gumption_engine::task::{Task, Warning};
@@ -39,7 +40,7 @@ pub(super) struct Read {
 pub(super) struct Rows<'a> {
     log: &'a Collector,
     /// What reads the model files, and where these are looked for.
-    files_in: (FileReader<'a>, &'a Path),
+    files_in: (FileReader<'a>, Folder<'a>),
     asking: Asking,
     /// The model files without replacements, by name; `None` after a mistake.
     files: BTreeMap<String, Option<usize>>,
@@ -53,7 +54,7 @@ pub(super) struct Rows<'a> {
 impl<'a> Rows<'a> {
     pub(super) fn new(
         log: &'a Collector,
-        files_in: (FileReader<'a>, &'a Path),
+        files_in: (FileReader<'a>, Folder<'a>),
         asking: Asking,
     ) -> Self {
         Self {
@@ -154,12 +155,24 @@ impl<'a> Rows<'a> {
     /// A model file with replacements; mistakes of the replacements are reported at `member`.
     fn model(&self, name: &str, member: &Member, overrides: &[Override]) -> Option<ModelFile> {
         let (files, folder) = self.files_in;
-        let diagnostics = match files.model(&folder.join(name), overrides) {
+        let path = match folder.file(name) {
+            Ok(path) => path,
+            Err(outside) => {
+                self.log.report(&member.value.span, outside);
+                return None;
+            }
+        };
+        let diagnostics = match files.model(&path, overrides) {
             Ok(file) => return Some(file),
             Err(diagnostics) => diagnostics,
         };
         for diagnostic in diagnostics.0 {
             let here = &member.value.span;
+            if let Some(message) = is_no_object(&diagnostic.source.text) {
+                let message = format!("`{name}`: {message}");
+                self.log.report(here, DiagnosticKind::Unreadable { message });
+                return None;
+            }
             match diagnostic.kind {
                 DiagnosticKind::Unreadable { message } => {
                     let message = format!("`{name}`: {message}");

@@ -5,6 +5,7 @@
 use super::node::{With, object, reference, texts};
 use super::values::whole;
 use super::{described, named, referenced, text_of};
+use gumption_analysis::integrity;
 use serde_json::Value;
 
 pub(super) fn definitions() -> Vec<(String, Value)> {
@@ -109,6 +110,22 @@ fn root() -> Value {
             ),
         ),
         ("provenance", reference("result-provenance")),
+        (
+            integrity::PARTS,
+            described(
+                "object",
+                "The first digits of the SHA-256 of each part, by the keys that lead to it with `/` \
+                 between them, to tell what was changed.",
+            )
+            .with("additionalProperties", object([("type", Value::from("string"))])),
+        ),
+        (
+            integrity::DIGEST,
+            text_of(
+                "SHA-256 of all else in the file, in hexadecimal: of its JSON without blanks, the \
+                 keys in order, a comma after each member, numbers as whole ones or as d.ddde-d.",
+            ),
+        ),
     ];
     let required = ["format", "result", "outputs", "scores", "inputs", "provenance"];
     open("A result file, as `gumption run --save` writes it.", properties, &required)

@@ -8,7 +8,6 @@ mod rows;
 mod steps;
 
 use std::ops::Range;
-use std::path::Path;
 use std::sync::Arc;
 
 use super::DiagnosticKind;
@@ -16,9 +15,10 @@ use super::diagnostics::{Collector, Diagnostics};
 use super::json::{Json, Node};
 use super::keys;
 use super::object::Object;
-use super::open::{check_format, open, read_root};
+use super::open::{check_format, read_root};
 use super::recording::{self, Recording};
 use super::source::SourceText;
+use crate::folder::Folder;
 use channels::ChannelFile;
 use gumption_engine::model::formula;
 use gumption_engine::task::Warning;
@@ -92,19 +92,15 @@ pub struct OpenedRow {
     of: Vec<usize>,
 }
 
-/// Reads and checks a recipe file; its recordings are opened later.
-///
-/// # Errors
-/// All mistakes of the file.
-pub fn read(path: &Path) -> Result<RecipeFile, Diagnostics> {
-    open(path, read_text)
-}
-
 /// Reads and checks a recipe's text; its recordings are looked for in `folder`.
 ///
 /// # Errors
 /// All mistakes of the text.
-pub fn read_text(name: &str, text: &str, folder: &Path) -> Result<RecipeFile, Diagnostics> {
+pub(super) fn read_text(
+    name: &str,
+    text: &str,
+    folder: Folder<'_>,
+) -> Result<RecipeFile, Diagnostics> {
     read_root(name, text, "a recipe", |root| recipe(&root, folder))
 }
 
@@ -118,7 +114,7 @@ pub(super) fn is_meant(root: &Node) -> bool {
 ///
 /// # Errors
 /// All mistakes of the text, or the first of each row's recordings.
-pub(super) fn check_text(name: &str, text: &str, folder: &Path) -> Result<(), Diagnostics> {
+pub(super) fn check_text(name: &str, text: &str, folder: Folder<'_>) -> Result<(), Diagnostics> {
     let file = read_text(name, text, folder)?;
     let mut diagnostics = Vec::new();
     for row in 0..file.rows.len() {
@@ -129,7 +125,7 @@ pub(super) fn check_text(name: &str, text: &str, folder: &Path) -> Result<(), Di
     if diagnostics.is_empty() { Ok(()) } else { Err(Diagnostics(diagnostics)) }
 }
 
-fn recipe(root: &Object<'_>, folder: &Path) -> Option<RecipeFile> {
+fn recipe(root: &Object<'_>, folder: Folder<'_>) -> Option<RecipeFile> {
     root.check_keys(keys::RECIPE);
     check_format(root, 1.0);
     let title = root.text("title").map(str::to_owned);
@@ -262,6 +258,11 @@ fn check_name(log: &Collector, name: &str, place: &Range<usize>) {
 }
 
 impl RecipeFile {
+    /// The names of the recordings' files, as the recipe has them.
+    pub fn named_files(&self) -> impl Iterator<Item = &String> {
+        self.rows.iter().flat_map(|row| row.files.iter().map(|(name, _)| name))
+    }
+
     /// Reads the recordings of a row through, and checks every sample.
     ///
     /// # Errors
@@ -290,8 +291,16 @@ impl RecipeFile {
             }
             let of = |channel: &usize| self.channels[*channel].wanted();
             let slowest = of_row.frequencies.iter().filter_map(|f| f.hertz).min_by(f64::total_cmp);
+            let path = match file.path(name) {
+                Ok(path) => path,
+                Err(outside) => {
+                    log.report(place, outside);
+                    continue;
+                }
+            };
+            let named = (path, name.as_str());
             let reading =
-                file.reading(name, channels.iter().map(of).collect(), slowest, *from, *to);
+                file.reading(named, channels.iter().map(of).collect(), slowest, *from, *to);
             match recording::open(reading) {
                 Ok(recording) => {
                     for channel in &channels {

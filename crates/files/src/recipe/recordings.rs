@@ -1,7 +1,7 @@
 //! The recordings of a recipe.
 
 use std::ops::Range;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use super::super::DiagnosticKind;
 use super::super::json::{Json, Member};
@@ -11,6 +11,7 @@ use super::super::recording::{ColumnName, Conversion, Reading, Wanted};
 use super::check_name;
 use super::column::column;
 use super::quantity::{positive, quantity, unit};
+use crate::folder::Folder;
 use gumption_signal::Measured;
 
 /// The search for a sampling rate, as the recipe describes it.
@@ -37,13 +38,15 @@ pub(super) struct RecordingFile {
     /// The rms deviation of instants, in seconds.
     pub(super) jitter: f64,
     folder: PathBuf,
+    /// Other folders that its files may lie in.
+    allowed: Vec<PathBuf>,
     /// How the sampling rate is found, where it is.
     pub(super) search: Option<SearchFile>,
     rate: Option<Measured>,
     time: Option<(ColumnName, f64)>,
 }
 
-pub(super) fn read(root: &Object<'_>, folder: &Path) -> Option<Vec<RecordingFile>> {
+pub(super) fn read(root: &Object<'_>, folder: Folder<'_>) -> Option<Vec<RecordingFile>> {
     let member = root.required("recordings")?;
     let object = Object::new(root.log, "`recordings`", &member.value, &member.key_span)?;
     let mut recordings = Vec::new();
@@ -91,7 +94,8 @@ pub(super) fn read(root: &Object<'_>, folder: &Path) -> Option<Vec<RecordingFile
             from,
             to,
             jitter: jitter.map_or(0.0, |jitter| jitter.si()),
-            folder: folder.to_owned(),
+            folder: folder.path().to_owned(),
+            allowed: folder.allowed().to_vec(),
             rate: rate.or(found),
             search,
             time: time.zip(unit.map(|unit| unit.factor())),
@@ -102,6 +106,9 @@ pub(super) fn read(root: &Object<'_>, folder: &Path) -> Option<Vec<RecordingFile
     }
     (recordings.len() == object.members().len()).then_some(recordings)
 }
+
+/// Steps of a search at most: each looks at a hundred thousand values.
+const MOST_STEPS: f64 = 5000.0;
 
 /// The search within `sampling_rate`, if there is one.
 fn searched<'a>(of: &Object<'a>) -> Option<(&'a Member, &'a Member)> {
@@ -150,6 +157,18 @@ fn search(of: &Object<'_>) -> Option<SearchFile> {
         of.log.report(&of.get("to")?.value.span, DiagnosticKind::Recipe { reason });
         return None;
     }
+    let steps = (to - from) / step;
+    if steps > MOST_STEPS {
+        let reason = format!(
+            "the search from {} Hz to {} Hz has {steps:.0} steps, but at most {MOST_STEPS} are made; \
+             a step much narrower than the maximum gains nothing, as its place is then refined",
+            gumption_engine::number::Shortest(from),
+            gumption_engine::number::Shortest(to),
+        );
+        let place = of.get("step").unwrap_or(of.get("to")?);
+        of.log.report(&place.value.span, DiagnosticKind::Recipe { reason });
+        return None;
+    }
     Some(SearchFile { channel, place: place?, frequency, between: [from, to], step })
 }
 
@@ -169,17 +188,25 @@ pub(super) fn check_part(object: &Object<'_>, from: Option<f64>, to: Option<f64>
 }
 
 impl RecordingFile {
-    /// How to read one of its files.
+    /// The path of one of its files.
+    ///
+    /// # Errors
+    /// That it may not be read.
+    pub(super) fn path(&self, name: &str) -> Result<PathBuf, DiagnosticKind> {
+        Folder::new(&self.folder, &self.allowed).file(name)
+    }
+
+    /// How to read one of its files, by its path and its name.
     pub(super) fn reading(
         &self,
-        name: &str,
+        (path, name): (PathBuf, &str),
         channels: Vec<(Wanted, Conversion)>,
         slowest: Option<f64>,
         from: Option<f64>,
         to: Option<f64>,
     ) -> Reading {
         Reading {
-            path: self.folder.join(name),
+            path,
             name: name.to_owned(),
             channels,
             time: self.time.clone(),

@@ -123,7 +123,11 @@ impl Reading {
         let wanted = self.wanted();
         let extension = self.path.extension().and_then(|e| e.to_str()).unwrap_or("");
         match extension.to_ascii_lowercase().as_str() {
-            "wav" | "wave" => Ok(Box::new(wav_frames::WavFrames::new(reader, wanted)?)),
+            "wav" | "wave" => {
+                let size = std::fs::metadata(&self.path).ok().filter(|of| of.is_file());
+                let size = size.map(|of| of.len());
+                Ok(Box::new(wav_frames::WavFrames::new(reader, size, wanted)?))
+            }
             "npy" => Ok(Box::new(npy_frames::NpyFrames::new(reader, wanted)?)),
             _ => Ok(Box::new(csv_frames::CsvFrames::new(reader, wanted)?)),
         }

@@ -28,6 +28,7 @@ pub(super) struct NpyNumber {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Kind {
+    F16,
     F32,
     F64,
     I8,
@@ -37,6 +38,7 @@ enum Kind {
     U8,
     U16,
     U32,
+    U64,
 }
 
 impl NpyNumber {
@@ -44,6 +46,7 @@ impl NpyNumber {
     fn parse(text: &str) -> Option<Self> {
         let (order, kind) = text.split_at_checked(1)?;
         let kind = match kind {
+            "f2" => Kind::F16,
             "f4" => Kind::F32,
             "f8" => Kind::F64,
             "i1" => Kind::I8,
@@ -53,6 +56,7 @@ impl NpyNumber {
             "u1" => Kind::U8,
             "u2" => Kind::U16,
             "u4" => Kind::U32,
+            "u8" => Kind::U64,
             _ => return None,
         };
         let number = Self { kind, big_endian: order == ">" };
@@ -64,15 +68,15 @@ impl NpyNumber {
     pub(super) fn size(self) -> usize {
         match self.kind {
             Kind::I8 | Kind::U8 => 1,
-            Kind::I16 | Kind::U16 => 2,
+            Kind::F16 | Kind::I16 | Kind::U16 => 2,
             Kind::F32 | Kind::I32 | Kind::U32 => 4,
-            Kind::F64 | Kind::I64 => 8,
+            Kind::F64 | Kind::I64 | Kind::U64 => 8,
         }
     }
 
     /// Whether it is of an integer format.
     pub(super) fn is_whole(self) -> bool {
-        !matches!(self.kind, Kind::F32 | Kind::F64)
+        !matches!(self.kind, Kind::F16 | Kind::F32 | Kind::F64)
     }
 
     /// The number that the bytes begin with; not a number where they are too few.
@@ -89,6 +93,7 @@ impl NpyNumber {
             };
         }
         let value = match self.kind {
+            Kind::F16 => of!(u16).map(half),
             Kind::F32 => of!(f32),
             Kind::F64 => of!(f64),
             Kind::I8 => of!(i8),
@@ -98,9 +103,24 @@ impl NpyNumber {
             Kind::U8 => of!(u8),
             Kind::U16 => of!(u16),
             Kind::U32 => of!(u32),
+            Kind::U64 => of!(u64),
         };
         value.unwrap_or(f64::NAN)
     }
+}
+
+/// The number whose 16 bits (IEEE 754, binary16) are a whole number.
+fn half(bits: f64) -> f64 {
+    let bits = bits as u16;
+    let (exponent, fraction) = (bits >> 10 & 0x1f, f64::from(bits & 0x3ff));
+    let size = match exponent {
+        // subnormal: steps of 2^-24
+        0 => fraction / 16_777_216.0,
+        0x1f if fraction == 0.0 => f64::INFINITY,
+        0x1f => f64::NAN,
+        _ => (1.0 + fraction / 1024.0) * f64::powi(2.0, i32::from(exponent) - 15),
+    };
+    if bits >> 15 == 1 { -size } else { size }
 }
 
 impl NpyHeader {
@@ -176,7 +196,8 @@ impl NpyHeader {
         };
         let number = NpyNumber::parse(name).ok_or_else(|| {
             format!(
-                "its array has the type `{name}`, but must be of whole or floating-point numbers"
+                "its array has the type `{name}`, but must be of whole or floating-point numbers of \
+                 at most 64 bits"
             )
         })?;
         Ok(Self { number, fortran_order, shape })

@@ -1,6 +1,6 @@
 //! Frames of a WAV file: whole numbers as they stand in it, or floating-point numbers.
 
-use std::io::Read;
+use std::io::{Chain, Cursor, Read};
 
 use hound::{SampleFormat, WavReader};
 
@@ -8,15 +8,82 @@ use super::{BLOCK, ColumnName, Frames, Wanted, finite};
 
 /// Frames of a WAV file.
 pub(super) struct WavFrames<R> {
-    reader: WavReader<R>,
+    reader: WavReader<Chain<Cursor<Vec<u8>>, R>>,
     places: Vec<usize>,
     wanted: Vec<Wanted>,
     samples: u64,
 }
 
+/// Bytes in which the samples begin.
+const LONGEST_HEADER: u64 = 1 << 16;
+
+/// Checks what a header says before the samples, and fills in their length where the program that
+/// wrote them to a pipe could not: it leaves 0 or the largest number there.
+fn header(start: &mut [u8], size: Option<u64>) -> Result<(), String> {
+    let number = |bytes: &[u8], at: usize| -> Option<u32> {
+        Some(u32::from_le_bytes(*bytes.get(at..)?.first_chunk()?))
+    };
+    let half = |bytes: &[u8], at: usize| -> Option<u16> {
+        Some(u16::from_le_bytes(*bytes.get(at..)?.first_chunk()?))
+    };
+    if !start.starts_with(b"RIFF") || start.get(8..12) != Some(b"WAVE") {
+        return Err(
+            "it is not a WAV file: it does not begin with `RIFF`, a length and `WAVE`".into()
+        );
+    }
+    let (mut at, mut frame) = (12, 0);
+    while let Some(length) = number(start, at + 4) {
+        let inside = at + 8;
+        match start.get(at..at + 4) {
+            Some(b"fmt ") => {
+                let bits = half(start, inside + 14).unwrap_or(0);
+                // of the extensible form the kind is the beginning of a longer number
+                let kind = match half(start, inside) {
+                    Some(0xfffe) => half(start, inside + 24),
+                    other => other,
+                };
+                if kind == Some(3) && bits != 32 {
+                    return Err(format!(
+                        "its samples are floating-point numbers of {bits} bits; of 32 bits they are \
+                         read, and whole numbers of 8 to 32 bits"
+                    ));
+                }
+                if number(start, inside + 4) == Some(0) {
+                    return Err("its header states a sampling rate of 0 Hz".to_owned());
+                }
+                frame = u64::from(half(start, inside + 12).unwrap_or(0));
+            }
+            Some(b"data") => {
+                let unknown = length == 0 || length >= u32::MAX - 64;
+                if let Some(size) = size.filter(|_| unknown && frame > 0) {
+                    let left = size.saturating_sub(inside as u64).min(u64::from(u32::MAX));
+                    let left = (left / frame * frame) as u32;
+                    if let Some(place) = start.get_mut(at + 4..inside) {
+                        place.copy_from_slice(&left.to_le_bytes());
+                    }
+                }
+                return Ok(());
+            }
+            _ => {}
+        }
+        // chunks begin at even places
+        at = inside + length as usize + (length % 2) as usize;
+    }
+    Ok(())
+}
+
 impl<R: Read> WavFrames<R> {
-    pub(super) fn new(reader: R, wanted: Vec<Wanted>) -> Result<Self, String> {
-        let reader = WavReader::new(reader)
+    /// A file of so many bytes, as far as that is known.
+    pub(super) fn new(
+        mut reader: R,
+        size: Option<u64>,
+        wanted: Vec<Wanted>,
+    ) -> Result<Self, String> {
+        let mut start = Vec::new();
+        let read = reader.by_ref().take(LONGEST_HEADER).read_to_end(&mut start);
+        read.map_err(|error| error.to_string())?;
+        header(&mut start, size)?;
+        let reader = WavReader::new(Cursor::new(start).chain(reader))
             .map_err(|error| format!("it is not a WAV file that this version reads: {error}"))?;
         let channels = usize::from(reader.spec().channels);
         let mut places = Vec::new();

@@ -18,7 +18,7 @@ pub use dcc::{Needed, dcc, needed};
 pub use json::json;
 pub use workbook::xlsx;
 
-use super::document as look;
+use super::{document as look, plain};
 use gumption_analysis::certificate::Issued;
 use gumption_analysis::certificate::contents::Certificate;
 use gumption_engine::task::Warning;
@@ -53,6 +53,14 @@ pub struct ModelSource<'a> {
     pub tables: &'a [(String, Vec<u8>)],
     /// SHA-256 of every one of them, by name.
     pub files: Vec<(String, String)>,
+}
+
+/// The names of the files that a digital calibration certificate has attached.
+pub fn attached(report: &CertificateReport<'_>) -> Vec<String> {
+    let models = report.models.iter().flat_map(|model| {
+        std::iter::once(model.name).chain(model.tables.iter().map(|(name, _)| name.as_str()))
+    });
+    ["result.json", "certificate.json"].into_iter().chain(models).map(plain).collect()
 }
 
 /// The certificate as a page of at most 100 columns for a terminal.

@@ -3,6 +3,7 @@
 use maud::html;
 
 use super::{Compare, figure, sheets, words};
+use crate::document::{self, Block, Document};
 use crate::html::{figure as numbered, page, table as html_table};
 use crate::sheet::Sheet;
 use crate::{Grid, WIDTH, wrapped};
@@ -48,21 +49,10 @@ pub fn html(compare: &Compare) -> String {
 
 /// The comparison as Markdown, as GitHub shows it.
 pub fn markdown(compare: &Compare) -> String {
-    let cell = |text: &str| text.replace('\\', "\\\\").replace('|', "\\|").replace('\n', " ");
-    let sheet = sheet(compare);
-    let row = |cells: Vec<String>| format!("| {} |\n", cells.join(" | "));
-    let mut text = format!("# {}\n\n", words::title(compare));
-    text += &(words::verdict(compare).join(" ") + "\n\n");
-    text += &row(sheet.columns.iter().map(|column| cell(&column.header)).collect());
-    let rule = sheet.columns.iter().map(|c| if c.is_numeric() { "---:" } else { "---" }.to_owned());
-    text += &row(rule.collect());
-    for number in 0..sheet.rows() {
-        let cells =
-            sheet.columns.iter().map(|c| c.cells.get(number).map_or(String::new(), |t| cell(t)));
-        text += &row(cells.collect());
-    }
-    for note in notes(compare) {
-        text += &format!("\n{note}\n");
-    }
-    text
+    let mut document = Document { title: words::title(compare), ..Document::default() };
+    let verdict = words::verdict(compare);
+    document.blocks.push(Block::Text(verdict.join(" ")));
+    document.blocks.push(Block::Table(sheet(compare)));
+    document.blocks.extend(notes(compare).into_iter().map(|note| Block::Text(note.to_owned())));
+    document::markdown(&document)
 }

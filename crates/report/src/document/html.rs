@@ -37,12 +37,7 @@ fn block(block: &Block, figures: &mut usize) -> Markup {
         }
         Block::Listing { about, text } => html! {
             p { (about) }
-            pre { code { (printable(text)) } }
+            pre { code { (text) } }
         },
     }
-}
-
-/// A text without the characters that no page may have.
-fn printable(text: &str) -> String {
-    text.chars().filter(|c| !c.is_control() || matches!(c, '\n' | '\t')).collect()
 }

@@ -3,6 +3,7 @@
 use super::{Block, Document};
 use crate::number::align;
 use crate::sheet::{Column, Sheet};
+use crate::table::one_line;
 
 /// The whole document, ending in a newline.
 pub(crate) fn markdown(document: &Document) -> String {
@@ -79,7 +80,7 @@ fn listing(about: &str, text: &str) -> String {
 /// A text of which no character means anything: on one line, what would be markup behind a
 /// backslash. An underscore within a word means nothing by itself.
 fn escaped(text: &str) -> String {
-    let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    let text = one_line(text);
     let mut out = String::with_capacity(text.len());
     let mut before: Option<char> = None;
     let mut letters = text.chars().peekable();

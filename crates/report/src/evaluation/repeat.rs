@@ -3,6 +3,7 @@
 use super::Shown;
 use crate::document::{Block, Document};
 use crate::sheet::Sheet;
+use crate::table::printable;
 use crate::{EvaluationReport, plain};
 use gumption_engine::task::Trials;
 
@@ -19,7 +20,7 @@ pub(super) fn section(document: &mut Document, report: &EvaluationReport<'_>, sh
     let model = shown.model;
     if !model.trim().is_empty() {
         let about = "The model file:".to_owned();
-        document.blocks.push(Block::Listing { about, text: model.to_owned() });
+        document.blocks.push(Block::Listing { about, text: printable(model) });
     }
 }
 

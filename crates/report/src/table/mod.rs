@@ -10,8 +10,8 @@ mod text;
 
 pub use columns::BudgetColumn;
 pub use grid::Grid;
-pub use text::wrapped;
-pub(crate) use text::{grouped, plain};
+pub use text::{grouped, plain, wrapped};
+pub(crate) use text::{is_obeyed, one_line, printable};
 
 use std::io::{self, Write};
 
@@ -189,7 +189,7 @@ pub(super) fn left_out(row: &RowEvaluation) -> Option<String> {
 }
 
 /// Whether the run was stopped, and when.
-pub(super) fn stopped(evaluation: &Evaluation) -> Option<String> {
+pub(crate) fn stopped(evaluation: &Evaluation) -> Option<String> {
     let trials = grouped(trials_made(evaluation));
     evaluation.stopped.then(|| format!("stopped after {trials} trials"))
 }

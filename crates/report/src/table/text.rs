@@ -11,8 +11,8 @@ const LONGEST: usize = 2000;
 
 /// One line of printable characters: everything that a terminal would obey becomes a space, and so
 /// do line breaks.
-fn one_line(text: &str) -> String {
-    text.split(|c: char| c.is_control() || c.is_whitespace() || is_invisible(c))
+pub(crate) fn one_line(text: &str) -> String {
+    text.split(|c: char| c.is_whitespace() || is_obeyed(c))
         .filter(|word| !word.is_empty())
         .collect::<Vec<_>>()
         .join(" ")
@@ -20,7 +20,7 @@ fn one_line(text: &str) -> String {
 
 /// A user's text on one line of printable characters. What is too long to be read is cut, with an
 /// ellipsis.
-pub(crate) fn plain(text: &str) -> String {
+pub fn plain(text: &str) -> String {
     let text = one_line(text);
     match text.char_indices().nth(LONGEST) {
         Some((end, _)) => text.get(..end).unwrap_or_default().trim_end().to_owned() + "…",
@@ -28,9 +28,16 @@ pub(crate) fn plain(text: &str) -> String {
     }
 }
 
-/// Marks that change the direction of the text around them, and characters without a width.
-fn is_invisible(c: char) -> bool {
-    matches!(c, '\u{ad}' | '\u{feff}' | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{2069}')
+/// A text of several lines without characters that a terminal would obey.
+pub(crate) fn printable(text: &str) -> String {
+    text.chars().filter(|c| matches!(c, '\n' | '\t') || !is_obeyed(*c)).collect()
+}
+
+/// Characters that a terminal would obey, marks that change the direction of the text around them,
+/// and characters without a width.
+pub(crate) fn is_obeyed(c: char) -> bool {
+    c.is_control()
+        || matches!(c, '\u{ad}' | '\u{feff}' | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{2069}')
 }
 
 /// A paragraph within the width of the page, ending in a newline; nothing for an empty text.
@@ -53,7 +60,7 @@ pub(super) fn definitions(entries: &[(&str, &str)]) -> String {
 }
 
 /// A count with its digits in groups of three: 1 000 000.
-pub(crate) fn grouped(count: u64) -> String {
+pub fn grouped(count: u64) -> String {
     let digits = count.to_string();
     let mut text = String::with_capacity(digits.len() + digits.len() / 3);
     for (place, digit) in digits.chars().enumerate() {

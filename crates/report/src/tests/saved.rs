@@ -329,7 +329,10 @@ fn without_ranks(text: &str) -> String {
         left.truncate(left.trim_end().trim_end_matches(',').len());
         left += part.split_once(']').unwrap().1;
     }
-    left
+    // nor did it have digests then
+    let digests = left.find(",\n  \"sha256_of_parts\"").unwrap();
+    left.truncate(digests);
+    left + "\n}\n"
 }
 
 /// All outputs of a file at once, one a function of others' inputs, two of no normal shape, and a

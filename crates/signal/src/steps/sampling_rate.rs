@@ -62,8 +62,14 @@ pub fn sampling_rate(signal: &Signal, search: &RateSearch) -> Result<Rate, Unsui
     let mean = signal.values.iter().sum::<f64>() / n as f64;
     let centred: Vec<f64> = signal.values.iter().map(|x| x - mean).collect();
 
-    let first = n.min(FIRST_LOOK);
-    let step = search.step.min(low * low / (first as f64 * f) / 4.0);
+    // a shorter part has a wider maximum, which fewer rates find
+    let finest = |first: usize| low * low / (first as f64 * f) / 4.0;
+    let mut first = n.min(FIRST_LOOK);
+    while (high - low) / finest(first) * first as f64 > MOST_TERMS && first as f64 * f > 8.0 * high
+    {
+        first /= 2;
+    }
+    let step = search.step.min(finest(first));
     let scan = look(&centred[..first], f, search.between, step);
     let best = highest(&scan);
     if scan[best][1] == 0.0 {
@@ -106,10 +112,13 @@ pub fn sampling_rate(signal: &Signal, search: &RateSearch) -> Result<Rate, Unsui
 /// So many values are looked at first: 80 s at the source's rate.
 const FIRST_LOOK: usize = 1 << 17;
 
+/// Values times rates of the first look, at most.
+const MOST_TERMS: f64 = 1e9;
+
 /// Rates and the amplitudes at them. The maximum is one part of the length wide in turns a value,
 /// `rate^2 / (n f)` in hertz.
 fn look(centred: &[f64], f: f64, [low, high]: [f64; 2], step: f64) -> Vec<[f64; 2]> {
-    let count = ((high - low) / step).ceil().clamp(4.0, 1e6);
+    let count = ((high - low) / step).ceil().clamp(4.0, 1e5);
     (0..=count as usize)
         .map(|i| {
             let rate = low + (high - low) * (i as f64 / count);

@@ -103,3 +103,44 @@ fn many_laboratories() {
     let outside = found.rows.iter().find(|row| !row.member).unwrap();
     assert!((outside.expanded - 2.0 * (1.0 + u * u).sqrt()).abs() < 1e-12);
 }
+
+/// Chi-squared without some laboratories by the precision of all is that of the others by
+/// themselves; to 1e-9, as both are sums of a few dozen terms of numbers about 1.
+#[test]
+fn laboratories_are_taken_out_without_another_inverse() {
+    let n = 9;
+    let value = |i: usize| elementary_noise(i) * 3.0;
+    let covariance = DMatrix::from_fn(n, n, |i, j| {
+        let u = |i: usize| 0.5 + 0.1 * i as f64;
+        let r = if i == j { 1.0 } else { 0.3 / (1.0 + i.abs_diff(j) as f64) };
+        r * u(i) * u(j)
+    });
+    let results = Results { values: (0..n).map(value).collect(), covariance };
+    let everybody: Vec<usize> = (0..n).collect();
+    let precision = results.precision(&everybody).unwrap();
+    for out in [&[0][..], &[8], &[2, 5], &[0, 1, 7], &[1, 3, 4, 8]] {
+        let left: Vec<usize> = everybody.iter().copied().filter(|i| !out.contains(i)).collect();
+        let expected = results.reference(&left).unwrap().chi_squared;
+        let found = precision.chi_squared_without(out).unwrap();
+        assert!((found - expected).abs() < 1e-9 * expected.max(1.0), "{out:?} {found} {expected}");
+    }
+}
+
+/// Some numbers from -1 to 1.
+fn elementary_noise(i: usize) -> f64 {
+    ((i * 7919 + 13) % 1000) as f64 / 500.0 - 1.0
+}
+
+/// A hundred laboratories that do not agree: every subset without three of them would take minutes
+/// if each were inverted.
+#[test]
+fn a_hundred_inconsistent_laboratories() {
+    let all: Vec<Laboratory> = (0..200)
+        .map(|i| laboratory(&i.to_string(), 5.0 * elementary_noise(i), 0.25 + 0.001 * i as f64))
+        .collect();
+    for count in [100, 200] {
+        let found = compare(&all[..count], &[]).unwrap();
+        assert_eq!(found.search, Some(SubsetSearch::OneAtATime));
+        assert!(found.reference.is_consistent() && found.reference.members.len() < count);
+    }
+}

@@ -27,6 +27,8 @@ pub(super) struct Pass {
     pub(super) sums: Vec<(u64, u64, Vec<Sums>)>,
     pub(super) products: Products,
     pub(super) tallies: Vec<Tally>,
+    /// Whether the run was stopped meanwhile; all of the other figures are of the trials until then.
+    pub(super) stopped: bool,
 }
 
 /// Adds a block's moments.
@@ -81,7 +83,7 @@ pub(super) fn narrow(partition: &mut Partition, leaves: &[Leaf], needed: &[bool]
     );
 }
 
-/// Goes once over the first `count` trials; `None` if the run was stopped.
+/// Goes once over the first `count` trials, as far as the run is not stopped.
 pub(super) fn pass(
     trials: &RowTrials,
     count: u64,
@@ -89,7 +91,7 @@ pub(super) fn pass(
     plans: &[Plan],
     partitions: &[Partition],
     with_sums: bool,
-) -> Option<Pass> {
+) -> Pass {
     let blocks = count.div_ceil(BLOCK as u64);
     let empty = || Pass {
         trials: 0,
@@ -98,6 +100,7 @@ pub(super) fn pass(
         sums: Vec::new(),
         products: Products::default(),
         tallies: partitions.iter().map(Partition::tally).collect(),
+        stopped: false,
     };
     let mut whole = empty();
     whole.products = Products::new(if with_sums { plans.len() } else { 0 });
@@ -151,8 +154,12 @@ pub(super) fn pass(
             whole.products.take(sums.iter_mut());
         }
         whole.add(found);
+        if control.is_stopped() {
+            break;
+        }
     }
-    (!control.is_stopped()).then_some(whole)
+    whole.stopped = control.is_stopped();
+    whole
 }
 
 impl Pass {

@@ -46,7 +46,10 @@ pub(super) fn prepare(
     }
     let part = request.trials / PART;
     let search = SearchTargets::new(request.trials, request.probability);
-    let coarse = pass(trials, part, control, plans, partitions, false)?;
+    let coarse = pass(trials, part, control, plans, partitions, false);
+    if coarse.stopped {
+        return None;
+    }
     for (partition, tally) in partitions.iter_mut().zip(&coarse.tallies) {
         let leaves = partition.leaves(tally);
         let mut wanted = around_targets(&leaves, coarse.trials, &search);
@@ -56,7 +59,10 @@ pub(super) fn prepare(
         let parts = parts.clamp(16, 4096);
         partition.refine(&leaves, |_| false, |leaf| if wanted[leaf] { parts } else { 0 });
     }
-    let narrow = pass(trials, part, control, plans, partitions, false)?;
+    let narrow = pass(trials, part, control, plans, partitions, false);
+    if narrow.stopped {
+        return None;
+    }
     for (partition, tally) in partitions.iter_mut().zip(&narrow.tallies) {
         let leaves = partition.leaves(tally);
         let wanted = around_targets(&leaves, narrow.trials, &search);

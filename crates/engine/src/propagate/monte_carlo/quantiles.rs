@@ -82,7 +82,10 @@ fn of_cells(
     let budget = kept_budget(&plans, control);
     let mut found: Vec<Option<Vec<f64>>> = vec![None; plans.len()];
     for number in 1..=MOST_PASSES {
-        let made = pass(trials, count, control, &plans, &partitions, false)?;
+        let made = pass(trials, count, control, &plans, &partitions, false);
+        if made.stopped {
+            return None;
+        }
         if made.trials == 0 {
             return None;
         }

@@ -57,7 +57,7 @@ fn kept_bytes(plans: &[Plan], request: Request<'_>) -> usize {
 }
 
 /// A run in bounded memory. A run of its first trials tells how far the shortest interval scatters,
-/// and is what is handed back if the user stops the whole.
+/// and is what is handed back if the user stops the whole before it has come farther.
 fn run_in_passes(
     trials: &RowTrials,
     request: Request<'_>,
@@ -74,10 +74,14 @@ fn run_in_passes(
         .iter()
         .map(|output| output.errors.shortest_interval.map(|error| law * error))
         .collect();
-    several_pass::run(trials, request, control, plans, &errors).unwrap_or_else(|| {
-        first.stopped = true;
-        first
-    })
+    let whole = several_pass::run(trials, request, control, plans, &errors);
+    match whole.filter(|whole| !whole.stopped || whole.trials > first.trials) {
+        Some(whole) => whole,
+        None => {
+            first.stopped = true;
+            first
+        }
+    }
 }
 
 /// Accumulates all trials, chunk by chunk on all threads; the chunks come back in order, with the sums of

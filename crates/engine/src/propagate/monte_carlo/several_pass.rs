@@ -40,7 +40,9 @@ const SHORTEST_TOLERANCE: f64 = 1e-5;
 const MOST_PASSES: usize = 20;
 
 /// Runs all trials. `shortest_errors` are the numerical standard errors of the shortest intervals'
-/// ends, found otherwise. `None` if the run was stopped.
+/// ends, found otherwise. A run that is stopped has the figures of all trials that were counted until
+/// then, their order statistics as far as the cells tell; `None` if it was stopped before the first
+/// pass.
 pub(super) fn run(
     trials: &RowTrials,
     request: Request<'_>,
@@ -54,7 +56,15 @@ pub(super) fn run(
     let mut searches: Vec<Option<Search>> = vec![None; plans.len()];
     let mut first: Option<(Pass, Vec<(Moments, Sums)>)> = None;
     for number in 0..MOST_PASSES {
-        let mut found = pass(trials, request.trials, control, plans, &partitions, number == 0)?;
+        let mut found = pass(trials, request.trials, control, plans, &partitions, number == 0);
+        let stopped = found.stopped;
+        if stopped && number > 0 {
+            // what the passes before it told is all that is known
+            if let Some((whole, _)) = &mut first {
+                whole.stopped = true;
+            }
+            break;
+        }
         let tallies = std::mem::take(&mut found.tallies);
         if number == 0 {
             let summary = |(output, plan)| summary(&found.sums, output, plan);
@@ -73,9 +83,13 @@ pub(super) fn run(
             let std = summaries[output].0.std;
             let mut search = Search::new(whole.trials, request.probability, std);
             let leaves = partitions[output].leaves(&tally);
-            let last = number + 1 == MOST_PASSES;
-            let needed = search.step(&leaves, &tally.into_sorted(), last);
+            let last = number + 1 == MOST_PASSES || stopped;
+            let kept = tally.into_sorted();
+            let needed = search.step(&leaves, &kept, last);
             if search.found.is_none() {
+                let mut bounded = search.clone();
+                bounded.step(&leaves, &kept, true);
+                search.bounds = bounded.found;
                 open = true;
                 narrow(&mut partitions[output], &leaves, &needed, budget);
             }
@@ -113,11 +127,13 @@ struct Search {
     ranks: Ranks,
     std: f64,
     found: Option<Found>,
+    /// What is known until it is found.
+    bounds: Option<Found>,
 }
 
 impl Search {
     fn new(trials: u64, probability: f64, std: f64) -> Self {
-        Self { trials, ranks: Ranks::new(trials, probability), std, found: None }
+        Self { trials, ranks: Ranks::new(trials, probability), std, found: None, bounds: None }
     }
 
     /// Looks for the figures in what a pass kept; gives the leaves that are still needed. With
@@ -230,8 +246,13 @@ fn is_known(leaf: &Leaf) -> bool {
 }
 
 fn value_at(leaf: &Leaf, kept: &[f64], rank: u64, anyway: bool) -> Option<f64> {
-    if leaf.least == leaf.greatest || (anyway && leaf.kept.is_none()) {
+    if leaf.least == leaf.greatest {
         return Some(leaf.least);
+    }
+    if anyway && leaf.kept.is_none() {
+        // as if the values were evenly spread in the cell
+        let share = ((rank - leaf.below) as f64 - 0.5) / leaf.count as f64;
+        return Some(leaf.least + share * (leaf.greatest - leaf.least));
     }
     let offset = (rank - leaf.below - 1) as usize;
     kept.get(leaf.kept? + offset).copied()
@@ -255,7 +276,8 @@ fn finish(
     let figures = searches.into_iter().zip(summaries).enumerate();
     let outputs: Vec<MonteCarlo> = figures
         .filter_map(|(output, (search, (moments, _)))| {
-            let found = search?.found?;
+            let search = search?;
+            let found = search.found.or(search.bounds)?;
             let dof = request.drawn_dof.get(output).copied().unwrap_or(f64::INFINITY);
             let shortest_error = shortest_errors.get(output).copied().unwrap_or([f64::NAN; 2]);
             let errors = NumericalError::new(moments, dof, found.errors, shortest_error);
@@ -265,5 +287,5 @@ fn finish(
         })
         .collect();
     let trials = if outputs.len() == summaries.len() { whole.trials } else { 0 };
-    Finished { trials, outputs, correlations, undefined, stopped: false }
+    Finished { trials, outputs, correlations, undefined, stopped: whole.stopped }
 }

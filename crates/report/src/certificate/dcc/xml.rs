@@ -6,6 +6,7 @@ use quick_xml::Writer;
 use quick_xml::events::{BytesDecl, BytesEnd, BytesStart, BytesText, Event};
 
 use crate::answer::in_memory;
+use crate::table::is_obeyed;
 use gumption_analysis::certificate::contents::{Language, Localized};
 
 /// A document in memory.
@@ -83,7 +84,7 @@ impl Xml {
     }
 }
 
-/// Whether XML 1.0 may have a character.
+/// Whether XML 1.0 may have a character, and nobody obeys it.
 fn is_allowed(c: char) -> bool {
-    matches!(c, '\t' | '\n') || (c >= ' ' && !matches!(c, '\u{fffe}' | '\u{ffff}' | '\u{7f}'))
+    matches!(c, '\t' | '\n') || !(is_obeyed(c) || matches!(c, '\u{fffe}' | '\u{ffff}'))
 }

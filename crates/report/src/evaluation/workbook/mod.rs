@@ -116,6 +116,10 @@ fn about(
     let mut leaf = book.leaf("About")?;
     leaf.title(0, "To repeat this")?;
     let mut row = 2;
+    if let Some(said) = table::stopped(report.evaluation) {
+        leaf.line(row, &said)?;
+        row += 1;
+    }
     for (name, value) in repeat::lines(report, shown) {
         leaf.text(row, 0, &name)?;
         leaf.text(row, 1, &value)?;

@@ -232,6 +232,7 @@ fn bare() -> Diagnosis {
     bare.regions.clear();
     bare.gap = GapTest { present: false, p_value: None, chi2: f64::NAN, dof: 0.0 };
     bare.most_probable = MostProbable {
+        prior_conflict: false,
         kind: HypothesisKind::None,
         effects: Vec::new(),
         probability: 1.0,
@@ -265,6 +266,7 @@ fn bare() -> Diagnosis {
 fn unexplained() -> Diagnosis {
     let mut unexplained = diagnosis();
     unexplained.most_probable = MostProbable {
+        prior_conflict: false,
         kind: HypothesisKind::Unexplained,
         effects: Vec::new(),
         probability: 0.99,

@@ -1,0 +1,68 @@
+//! A run that is stopped hands back all trials that it counted, and figures that are theirs.
+#![allow(clippy::disallowed_methods)] // nothing of this is printed as a result
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+
+use gumption_engine::distribution::Input;
+use gumption_engine::propagate::{Control, Evaluation, evaluate};
+use gumption_engine::task::Task;
+
+/// A standard normal quantity and its exponential, stopped once so many trials are reported; the
+/// trials that were reported in the end.
+fn stopped_at(trials: u64, memory: usize) -> (Evaluation, u64) {
+    let task = Task::builder("stopped")
+        .input("x", Input::normal(0.0, 1.0, "1").unwrap())
+        .equation("e", "exp(x)")
+        .output("x", "1")
+        .output("e", "1")
+        .trials(40_000_000)
+        .build()
+        .unwrap();
+    let (stop, counted) = (AtomicBool::new(false), AtomicU64::new(0));
+    let advance = |more: u64| {
+        if counted.fetch_add(more, Ordering::Relaxed) + more >= trials {
+            stop.store(true, Ordering::Relaxed);
+        }
+    };
+    let control = Control::default().with_memory(memory).with_stop(&stop).with_progress(&advance);
+    let evaluation = evaluate(&task, &control).unwrap();
+    (evaluation, counted.into_inner())
+}
+
+#[test]
+fn all_trials_that_were_counted_are_handed_back() {
+    // in several passes, whose cells tell the order statistics, and with all values kept
+    for (trials, memory) in [(300_000, 1 << 20), (3_000_000, 1 << 20), (300_000, 1 << 30)] {
+        let (evaluation, counted) = stopped_at(trials, memory);
+        assert!(evaluation.stopped);
+        assert!(counted >= trials && counted < 40_000_000);
+        for (output, expected) in evaluation.rows[0].outputs.iter().zip([
+            // mean, u, and the ends of the symmetric and of the shortest interval of 95 %
+            [0.0, 1.0, -1.959_964, 1.959_964, -1.959_964, 1.959_964],
+            // of exp(x): exp(1/2), sqrt((e - 1) e), exp of the normal's; the shortest one solves
+            // f(a) = f(b), F(b) - F(a) = 0.95
+            [1.648_721, 2.161_197, 0.140_863, 7.099_071, 0.025_934, 5.186_792],
+        ]) {
+            let found = output.monte_carlo.as_ref().unwrap();
+            assert_eq!(found.trials, counted);
+            let errors = &found.errors;
+            let figures = [
+                (found.estimate, errors.estimate.unwrap()),
+                (found.standard_uncertainty.unwrap(), errors.standard_uncertainty.unwrap()),
+                (found.symmetric_interval[0], errors.symmetric_interval[0]),
+                (found.symmetric_interval[1], errors.symmetric_interval[1]),
+            ];
+            for ((value, error), expected) in figures.into_iter().zip(expected) {
+                // six standard errors: wrong once in five hundred million figures; the errors are
+                // estimates themselves, of u of exp(x) within some percent
+                assert!((value - expected).abs() <= 6.0 * error, "{value} {expected} {error}");
+            }
+            let [low, high] = found.shortest_interval;
+            // no interval of 95 % is shorter; cells widen it by a thousandth of u at most, and the
+            // trials scatter its length by far less than that of either end
+            let (length, least) = (high - low, expected[5] - expected[4]);
+            assert!((length - least).abs() <= 0.01 * least, "{length} {least}");
+        }
+    }
+}

@@ -1,0 +1,137 @@
+//! Where the files that a file names are looked for, and which of them may be read.
+//!
+//! A file may come from a stranger, and what it names is quoted in messages, evaluated, and attached
+//! to certificates. So it names files below its own folder, or below one that the user allows: on
+//! the command line, or by an empty file [`ROOT`] in a folder above, which says that everything
+//! below belongs together. Links are followed before that is looked at.
+
+use std::path::{Component, Path, PathBuf};
+
+use super::DiagnosticKind;
+
+/// A file of this name makes its folder one below which files may name each other.
+pub(super) const ROOT: &str = ".gumption-root";
+
+/// The folder of a file, and which other folders it may name files in.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Folder<'a> {
+    path: &'a Path,
+    /// `None` for all.
+    allowed: Option<&'a [PathBuf]>,
+}
+
+impl<'a> Folder<'a> {
+    /// A folder whose files may name others below it and below these.
+    pub(super) fn new(path: &'a Path, allowed: &'a [PathBuf]) -> Self {
+        Self { path, allowed: Some(allowed) }
+    }
+
+    /// The current folder, for files that the user names himself.
+    pub(super) fn of_the_user() -> Self {
+        Self { path: Path::new(""), allowed: None }
+    }
+
+    /// Its path.
+    pub(super) fn path(self) -> &'a Path {
+        self.path
+    }
+
+    /// The folders that are allowed beside it.
+    pub(super) fn allowed(self) -> &'a [PathBuf] {
+        self.allowed.unwrap_or(&[])
+    }
+
+    /// The path of the file of that name.
+    ///
+    /// # Errors
+    /// That the file lies outside of what may be read. Whether it exists is not told then.
+    pub(super) fn file(self, name: &str) -> Result<PathBuf, DiagnosticKind> {
+        let path = self.path.join(name);
+        let Some(allowed) = self.allowed else { return Ok(path) };
+        let outside = || DiagnosticKind::Outside { name: name.to_owned() };
+        let own = canonical(self.path);
+        let root = own.ancestors().find(|folder| folder.join(ROOT).is_file()).map(Path::to_owned);
+        let mut folders = vec![own.clone()];
+        folders.extend(root);
+        folders.extend(allowed.iter().map(|folder| canonical(folder)));
+        let is_below = |path: &Path| folders.iter().any(|folder| path.starts_with(folder));
+        // as it is written, so that nobody learns what exists elsewhere
+        if !is_below(&without_dots(&own.join(name))) {
+            return Err(outside());
+        }
+        match path.canonicalize() {
+            Ok(found) if !is_below(&found) => Err(outside()),
+            // whoever opens it says that it is not there
+            _ => Ok(path),
+        }
+    }
+}
+
+/// The folder with its links followed; as it is written where that cannot be done.
+fn canonical(folder: &Path) -> PathBuf {
+    let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+    folder.canonicalize().unwrap_or_else(|_| folder.to_owned())
+}
+
+/// A path without `.` and `..`, by its words alone.
+fn without_dots(path: &Path) -> PathBuf {
+    let mut plain = PathBuf::new();
+    for part in path.components() {
+        match part {
+            Component::CurDir => {}
+            Component::ParentDir => {
+                plain.pop();
+            }
+            other => plain.push(other),
+        }
+    }
+    plain
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+
+    use super::*;
+
+    #[test]
+    fn files_lie_below_their_own_folder_or_an_allowed_one() {
+        let place = tempfile::tempdir().unwrap();
+        let at = |name: &str| place.path().join(name);
+        for folder in ["own/below", "other"] {
+            fs::create_dir_all(at(folder)).unwrap();
+        }
+        for file in ["own/a.csv", "own/below/b.csv", "other/c.csv", "secret.csv"] {
+            fs::write(at(file), "1").unwrap();
+        }
+        let own = at("own");
+        let asked = |name: &str| Folder::new(&own, &[]).file(name).is_ok();
+        for inside in ["a.csv", "./a.csv", "below/b.csv", "below/../a.csv", "../own/a.csv", "no"] {
+            assert!(asked(inside), "{inside}");
+        }
+        let absolute = at("own/a.csv").canonicalize().unwrap();
+        assert!(asked(absolute.to_str().unwrap()));
+        for outside in [
+            "../secret.csv",
+            "../other/c.csv",
+            "../no",
+            "below/../../secret.csv",
+            "/etc/passwd",
+            "..",
+        ] {
+            assert!(!asked(outside), "{outside}");
+        }
+        let allowed = [at("other")];
+        let asked = |name: &str| Folder::new(&own, &allowed).file(name).is_ok();
+        assert!(asked("../other/c.csv") && asked("a.csv") && !asked("../secret.csv"));
+        assert!(Folder::of_the_user().file("/etc/passwd").is_ok());
+        #[cfg(unix)]
+        {
+            std::os::unix::fs::symlink(at("secret.csv"), at("own/link.csv")).unwrap();
+            std::os::unix::fs::symlink(at("own/a.csv"), at("own/near.csv")).unwrap();
+            assert!(!asked("link.csv") && asked("near.csv"));
+        }
+        fs::write(at(ROOT), "").unwrap();
+        assert!(asked("../secret.csv") && !asked("/etc/passwd"));
+    }
+}
