@@ -35,6 +35,8 @@ pub(crate) const MODEL: &[Key] = keys![
     "title" => text_of("What is measured, in a line."),
     "source" => text_of("The document that the measurement follows."),
     "about" => text_of("Remarks."),
+    "units" => described("object", "Units of one's own by name: `\"HBW\": \"1\"`.")
+        .with("additionalProperties", object([("type", Value::from("string"))])),
     "inputs" => named(
                 "What is known about the input quantities; their order is that of every table.",
                 reference("input"),
