@@ -287,3 +287,27 @@ fn a_gain_in_decibels() {
         assert!((found - right).abs() < 1e-12 * right, "{formula}: {found}");
     }
 }
+
+/// Hardness numbers and the like are plain numbers with a name.
+#[test]
+fn units_of_a_files_own() {
+    let model = json!({"units": {"HBW": "1", "tex": "1e-6*kg/m"}, "inputs": {
+            "h": {"unit": "HBW", "distribution": "normal", "mean": "250 HBW", "std": "2 HBW"},
+            "yarn": {"unit": "tex", "distribution": "normal", "mean": 20, "std": 0.1},
+            "L": {"unit": "km", "distribution": "constant", "value": 1}},
+        "equations": {"y": "h + 5", "m": "yarn*L"},
+        "outputs": {"y": {"unit": "HBW"}, "m": {"unit": "g"}}});
+    let answer = answered(&[("m.json", model.clone())], &["run", "--trials", "0"]);
+    assert_eq!(estimate(&answer), 255.0);
+    assert_eq!(answer["outputs"]["y"]["unit"], "HBW");
+    // 20 tex are 20 g/km
+    let mass = answer["outputs"]["m"]["gum"]["estimate"].as_f64().unwrap();
+    assert!((mass - 20.0).abs() < 1e-12, "{mass}");
+    for (name, said) in [("mm", "there is a unit of that name"), ("H B", "letters, digits")] {
+        let mut wrong = model.clone();
+        wrong["units"][name] = "1".into();
+        let errors = read_text("m.json", &wrong.to_string(), Path::new(""), &[]);
+        let errors = errors.expect_err(name).to_string();
+        assert!(errors.contains(said), "{errors}");
+    }
+}

@@ -104,7 +104,7 @@ pub(super) fn unit(object: &Object<'_>, key: &str) -> Option<Unit> {
 }
 
 fn parse_unit(log: &Collector, text: &str, span: &Range<usize>) -> Option<Unit> {
-    let parsed = Unit::parse(text);
+    let parsed = log.unit(text);
     log.value(span, parsed.map_err(|error| DiagnosticKind::Unit { unit: text.to_owned(), error }))
 }
 

@@ -9,6 +9,7 @@ use std::sync::Arc;
 
 use super::DiagnosticKind;
 use super::source::{Place, SourceText};
+use gumption_units::{Unit, UnitError};
 
 /// At most so many mistakes are collected: a table of a million faulty cells helps nobody.
 const MOST: usize = 1000;
@@ -107,12 +108,26 @@ pub(crate) struct Collector {
     more: Cell<bool>,
     /// The diagnostics by where they begin.
     by_start: RefCell<HashMap<usize, Vec<usize>>>,
+    /// Units that the file defines.
+    units: RefCell<Vec<Unit>>,
 }
 
 impl Collector {
     pub(crate) fn new(source: Arc<SourceText>) -> Self {
         let (diagnostics, by_start) = (RefCell::default(), RefCell::default());
-        Self { source, diagnostics, more: Cell::new(false), by_start }
+        Self { source, diagnostics, more: Cell::new(false), by_start, units: RefCell::default() }
+    }
+
+    /// A unit as text: one that the file defines, or one that everybody knows.
+    pub(crate) fn unit(&self, text: &str) -> Result<Unit, UnitError> {
+        let units = self.units.borrow();
+        let own = units.iter().find(|unit| unit.text() == text.trim());
+        own.map_or_else(|| Unit::parse(text), |unit| Ok(unit.clone()))
+    }
+
+    /// Defines a unit.
+    pub(crate) fn define_unit(&self, unit: Unit) {
+        self.units.borrow_mut().push(unit);
     }
 
     /// A mistake in the file itself.

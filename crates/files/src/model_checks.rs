@@ -197,9 +197,9 @@ fn check_unit(log: &Collector, name: &str, found: &Unit, expected: &Unit, place:
         let diagnostic = DiagnosticKind::WrongDimension {
             name: name.to_owned(),
             found: found.to_string(),
-            found_as: found.dimension().describe(),
+            found_as: found.describe(),
             expected: shown.to_owned(),
-            expected_as: expected.dimension().describe(),
+            expected_as: expected.describe(),
         };
         log.report(place, diagnostic);
     }

@@ -136,6 +136,7 @@ impl<'a> ModelReader<'a> {
         }
         root.check_keys(keys::MODEL);
         check_format(root, 2.0);
+        own_units(root);
         let title = root.text("title").unwrap_or("").to_owned();
         root.text("source");
         let check_units = root.truth("check_units").unwrap_or(true);
@@ -428,4 +429,26 @@ fn task(parts: Parts, model: Model, of: Quantities) -> Option<Task> {
     (task.title, task.swept, task.settings) = (title, swept, settings);
     (task.correlations, task.fits) = (correlations, fits);
     Some(task)
+}
+
+/// Reads `units`: units of the file's own, each with what it is in known ones.
+fn own_units(root: &Object<'_>) {
+    let Some(member) = root.get("units") else { return };
+    let log = root.log;
+    let Some(object) = Object::new(log, "`units`", &member.value, &member.key_span) else { return };
+    for member in object.members() {
+        let Some(text) = object.text(&member.key) else { continue };
+        let unit = |error| DiagnosticKind::Unit { unit: text.to_owned(), error };
+        let Some(definition) = log.value(&member.value.span, Unit::parse(text).map_err(unit))
+        else {
+            continue;
+        };
+        match Unit::defined(&member.key, &definition) {
+            Ok(unit) => log.define_unit(unit),
+            Err(reason) => {
+                let (name, reason) = (member.key.clone(), reason.to_owned());
+                log.report(&member.key_span, DiagnosticKind::BadName { name, reason });
+            }
+        }
+    }
 }

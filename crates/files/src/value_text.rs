@@ -43,6 +43,10 @@ pub(super) fn converted(
     if is_comma(text) {
         return Err("a decimal fraction is written with a point, such as `5.01`".to_owned());
     }
+    // also one that the file defines
+    if text == unit.text().trim() {
+        return Ok(value);
+    }
     let given = Unit::parse(text).map_err(|error| error.to_string())?;
     if of == ValueOf::Either && given.zero() != unit.zero() {
         return Err(format!(

@@ -141,6 +141,9 @@ fn converted(value: f64, text: &str, unit: &Unit, term: &str) -> Result<f64, Str
             Err(format!("`{term}` has no unit; write for example `{term} {unit}`"))
         };
     }
+    if text == unit.text().trim() {
+        return Ok(value);
+    }
     let given = Unit::parse(text).map_err(|error| format!("in `{term}`: {error}"))?;
     let factor = Unit::conversion_factor(&given, unit)
         .map_err(|_| format!("`{text}` in `{term}` cannot be converted to the unit `{unit}`"))?;

@@ -29,6 +29,8 @@ pub enum FactorBase {
         /// Its symbol.
         symbol: &'static Symbol,
     },
+    /// A unit that a file defines: `HBW`.
+    Defined(&'static str),
     /// A positive number other than 1: 0.5 in `0.5*m`. A power of ten is the number 10 with an
     /// exponent, whether it was written `1e-6` or `10^-6`.
     Number(f64),
@@ -54,6 +56,7 @@ impl fmt::Display for FactorBase {
             Self::Named { prefix, symbol } => {
                 write!(f, "{}{}", prefix.map_or("", Prefix::symbol), symbol.name())
             }
+            Self::Defined(name) => f.write_str(name),
             Self::Number(number) if (1e-4..1e6).contains(&number) => write!(f, "{number}"),
             Self::Number(number) => write!(f, "{number:e}"),
         }

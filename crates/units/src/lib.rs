@@ -18,6 +18,7 @@
 
 #![cfg_attr(test, allow(clippy::disallowed_methods))] // tests compare within tolerances
 
+mod defined;
 mod dimension;
 mod error;
 mod exponent;
@@ -114,6 +115,34 @@ impl Unit {
         Ok(Self::new(text.to_owned(), meaning, factors))
     }
 
+    /// A unit with a name of its own that is as large as another: the hardness `HBW`, which is a
+    /// plain number. Its dimension and size are those of the definition, its text is the name.
+    ///
+    /// # Errors
+    ///
+    /// Why the name cannot be one: it is not of letters and digits with a letter in front, it is
+    /// that of a unit already, or there are too many names.
+    ///
+    /// ```
+    /// use gumption_units::Unit;
+    ///
+    /// let hardness = Unit::defined("HBW", &Unit::one())?;
+    /// assert_eq!((hardness.text(), hardness.factor()), ("HBW", 1.0));
+    /// assert_eq!(hardness.normal_text(), "HBW");
+    /// assert!(Unit::defined("mm", &Unit::one()).is_err());
+    /// # Ok::<(), &str>(())
+    /// ```
+    pub fn defined(name: &str, definition: &Self) -> Result<Self, &'static str> {
+        let interned = defined::intern(name)?;
+        let meaning = Meaning {
+            dimension: definition.dimension,
+            scale: definition.scale,
+            flavour: Flavour::Plain,
+        };
+        let factors = vec![Factor::of(FactorBase::Defined(interned))];
+        Ok(Self::new(name.to_owned(), meaning, factors))
+    }
+
     fn new(text: String, meaning: Meaning, factors: Vec<Factor>) -> Self {
         let Meaning { dimension, scale, flavour } = meaning;
         let (factor, fraction) = (scale.value(), scale.fraction());
@@ -181,7 +210,7 @@ impl Unit {
     fn exponent_of(&self, is_of_kind: impl Fn(Flavour) -> bool) -> Exponent {
         let of_kind = self.factors.iter().filter(|factor| match factor.base {
             FactorBase::Named { symbol, .. } => is_of_kind(symbol.flavour),
-            FactorBase::Number(_) => false,
+            FactorBase::Number(_) | FactorBase::Defined(_) => false,
         });
         let sum = of_kind
             .map(|factor| factor.exponent)

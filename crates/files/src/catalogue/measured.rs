@@ -80,13 +80,15 @@ fn extreme(sim: &EffectContext<'_>, name: &str, better: fn(f64, f64) -> f64) -> 
         Some(place) => {
             let unit = &sim.sim.conditions.get(place)?.unit;
             let values = rows.iter().filter_map(|row| row.conditions.get(place));
-            values.map(|&value| unit.to_si(value)).collect()
+            values.map(|&value| sim.sim.numbers.number(value, unit)).collect()
         }
         None => {
             let place = sim.task.variables.iter().position(|variable| variable.name == name)?;
             let unit = &sim.task.variables.get(place)?.unit;
             let distributions = rows.iter().filter_map(|row| row.distributions.get(place));
-            distributions.map(|distribution| unit.to_si(distribution.mean())).collect()
+            distributions
+                .map(|distribution| sim.sim.numbers.number(distribution.mean(), unit))
+                .collect()
         }
     };
     let sizes = values.into_iter().map(f64::abs).filter(|size| *size > 0.0 && size.is_finite());

@@ -35,6 +35,8 @@ pub(crate) const MODEL: &[Key] = keys![
     "title" => text_of("What is measured, in a line."),
     "source" => text_of("The document that the measurement follows."),
     "about" => text_of("Remarks."),
+    "units" => described("object", "Units of one's own by name: `\"HBW\": \"1\"`.")
+        .with("additionalProperties", object([("type", Value::from("string"))])),
     "inputs" => named(
                 "What is known about the input quantities; their order is that of every table.",
                 reference("input"),
@@ -50,7 +52,7 @@ pub(crate) const MODEL: &[Key] = keys![
             .with("minProperties", 1),
     "model" => text_of("Name of a typed model, in place of `equations`: `gumption models`."),
     "outputs" => named("The quantities to report.", reference("output")).with("minProperties", 1),
-    "coverage_probability" => referenced("probability", "Coverage probability; 0.95."),
+    "coverage_probability" => referenced("probability", "Coverage probability; 0.9545, that of the factor 2, unless given."),
     "coverage_factor" => described("number", "Coverage factor for infinite degrees of freedom; sets the \
                                  coverage probability.")
                 .with("exclusiveMinimum", 0)

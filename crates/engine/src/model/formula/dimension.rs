@@ -304,6 +304,8 @@ impl<'c> Checker<'c> {
                 let typing = self.together(name, name_span, arguments);
                 Typing { dimension, ..typing }
             }
+            // the parser reads them as sums
+            Function::Sum | Function::Mean => Typing::ANY,
             Function::Kelvin | Function::Celsius => {
                 self.temperature(name, name_span, first);
                 self.scaled_temperature(function)

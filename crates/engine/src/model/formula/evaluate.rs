@@ -130,7 +130,9 @@ fn apply<T: Number>(kind: &Kind, results: &[T], constants: &[Option<f64>]) -> Op
                 Function::Two(operation) | Function::Fold(operation) => {
                     arguments.fold(first, |result, argument| result.binary(operation, argument))
                 }
-                Function::Kelvin | Function::Celsius => return None,
+                Function::Sum | Function::Mean | Function::Kelvin | Function::Celsius => {
+                    return None;
+                }
             }
         }
     })

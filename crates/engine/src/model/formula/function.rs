@@ -11,6 +11,10 @@ pub(super) enum Function {
     Two(Binary),
     /// Of two or more arguments, which are taken together from left to right.
     Fold(Binary),
+    /// The sum of its arguments; read as one with `+`.
+    Sum,
+    /// The mean of its arguments; read as a sum over their number.
+    Mean,
     /// The thermodynamic temperature of a Celsius temperature.
     Kelvin,
     /// The Celsius temperature of a thermodynamic one.
@@ -18,7 +22,7 @@ pub(super) enum Function {
 }
 
 /// All functions, in the order in which messages list them.
-const FUNCTIONS: [Function; 21] = [
+const FUNCTIONS: [Function; 23] = [
     Function::One(Unary::Sin),
     Function::One(Unary::Cos),
     Function::One(Unary::Tan),
@@ -38,6 +42,8 @@ const FUNCTIONS: [Function; 21] = [
     Function::Fold(Binary::Min),
     Function::Fold(Binary::Max),
     Function::Fold(Binary::Hypot),
+    Function::Sum,
+    Function::Mean,
     Function::Kelvin,
     Function::Celsius,
 ];
@@ -89,6 +95,8 @@ impl Function {
         match self {
             Self::One(operation) => operation.name(),
             Self::Two(operation) | Self::Fold(operation) => operation.name(),
+            Self::Sum => "sum",
+            Self::Mean => "mean",
             Self::Kelvin => "kelvin",
             Self::Celsius => "celsius",
         }
@@ -99,12 +107,18 @@ impl Function {
         matches!(self, Self::One(Unary::Sin | Unary::Cos | Unary::Tan))
     }
 
+    /// Whether no quantity may be called so. Names of functions that came later still may be those
+    /// of quantities where no parenthesis follows, because files have them.
+    pub(super) fn is_reserved(self) -> bool {
+        !matches!(self, Self::Sum | Self::Mean | Self::Celsius)
+    }
+
     /// How many arguments it takes.
     pub(super) fn arity(self) -> Arity {
         match self {
             Self::One(_) | Self::Kelvin | Self::Celsius => Arity::One,
             Self::Two(_) => Arity::Two,
-            Self::Fold(_) => Arity::TwoOrMore,
+            Self::Fold(_) | Self::Sum | Self::Mean => Arity::TwoOrMore,
         }
     }
 }

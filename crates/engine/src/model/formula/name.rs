@@ -48,7 +48,7 @@ pub fn check_name(text: &str) -> Result<(), NameError> {
     if let Some(found) = text.chars().find(|c| !continues_name(*c)) {
         return Err(NameError::Character { found });
     }
-    if Function::named(text).is_some() {
+    if Function::named(text).is_some_and(Function::is_reserved) {
         return Err(NameError::Function);
     }
     if is_pi(text) { Err(NameError::Pi) } else { Ok(()) }

@@ -137,6 +137,13 @@ impl Parser<'_> {
         if signed || self.token.kind != TokenKind::Bracket {
             return Ok(part);
         }
+        self.number_of_units(part)
+    }
+
+    /// Reads the unit behind a number; apart from [`Self::operand`], which calls itself in the end
+    /// and so has little room on the stack.
+    #[inline(never)]
+    fn number_of_units(&mut self, part: Part) -> Result<Part, FormulaError> {
         let place = self.token.span.clone();
         let span = part.outer.start..place.end;
         let text = self.slice(&span).to_owned();
@@ -240,15 +247,46 @@ impl Parser<'_> {
         self.advance()?;
         if self.token.kind != TokenKind::Open {
             return match function {
-                Some(function) => Err(self.without_arguments(function, name_span)),
-                None => Ok(self.push(Kind::Name, name_span)),
+                Some(function) if function.is_reserved() => {
+                    Err(self.without_arguments(function, name_span))
+                }
+                _ => Ok(self.push(Kind::Name, name_span)),
             };
         }
         self.open()?;
         let arguments = self.nested(&name_span, Self::arguments)?;
         let span = name_span.start..self.token.span.end;
         self.close(AFTER_ARGUMENT)?;
+        if let Some(Function::Sum | Function::Mean) = function
+            && arguments.len() > 1
+        {
+            return Ok(self.summed(function, &arguments, (name_span, span)));
+        }
         Ok(self.push(Kind::Call { function, name_span, arguments }, span))
+    }
+
+    /// `sum(a, b, c)` as `a + b + c`, and `mean` of them as that over 3.
+    #[inline(never)]
+    fn summed(
+        &mut self,
+        function: Option<Function>,
+        arguments: &[usize],
+        (name_span, span): (Range<usize>, Range<usize>),
+    ) -> Part {
+        let mut nodes = arguments.iter().copied();
+        let mut part = Part { node: nodes.next().unwrap_or_default(), outer: span.clone() };
+        for right in nodes {
+            let (operator, operator_span) = (Operator::Add, name_span.clone());
+            let kind = Kind::Infix { operator, operator_span, left: part.node, right };
+            part = self.push(kind, span.clone());
+        }
+        if function == Some(Function::Sum) {
+            return part;
+        }
+        let count = self.push(Kind::Number(arguments.len() as f64), name_span.clone());
+        let (operator, operator_span) = (Operator::Divide, name_span);
+        let (left, right) = (part.node, count.node);
+        self.push(Kind::Infix { operator, operator_span, left, right }, span)
     }
 
     /// Reads the arguments of a call up to its closing parenthesis.

@@ -96,6 +96,8 @@ const RIGHT: &[(&str, &str)] = &[
     ("(t - t1)/[K]", "1"),
     ("exp(0.061*t/[degC])*p", "hPa"),
     ("0*t", "degC"),
+    ("mean(t, t1, tf)", "degC"),
+    ("sum(t, -1*t1)", "K"),
 ];
 
 /// Formulas with Celsius temperatures that are wrong, the part that is pointed at, and a part of
@@ -308,6 +310,8 @@ fn values_of_units_in_brackets() {
         ("[rev]/[deg]", 360.0),
         ("time/[hour]", 0.25 / 3600.0),
         // products and quotients of the exact values, in double precision
+        ("mean(n, 4, 5)", 4.0),
+        ("2*sum(n, 4)^2/mean(1, 2)", 2.0 * 49.0 / 1.5),
         ("[h]*[c]", 6.62607015e-34 * 299792458.0),
         ("[k_B]*[N_A]", 1.380649e-23 * 6.02214076e23),
         ("2*[e]/[h]", 2.0 * 1.602176634e-19 / 6.62607015e-34),
