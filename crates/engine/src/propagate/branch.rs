@@ -33,7 +33,7 @@ pub(super) fn note(
     let spread = trials.standard_uncertainty?;
     // a share p of the trials is a turn away: their mean by p turns, their variance larger by
     // p (1 - p) turns squared
-    let away = (trials.estimate - gum.estimate).abs() / turn;
+    let away = (trials.estimate? - gum.estimate).abs() / turn;
     let u = gum.standard_uncertainty;
     let expected = (u * u + turn * turn * away * (1.0 - away)).sqrt();
     let few = away * trials.trials as f64 <= LEAST || away < LEAST_SHARE;
