@@ -48,7 +48,7 @@ fn all_trials_that_were_counted_are_handed_back() {
             assert_eq!(found.trials, counted);
             let errors = &found.errors;
             let figures = [
-                (found.estimate, errors.estimate.unwrap()),
+                (found.estimate.unwrap(), errors.estimate.unwrap()),
                 (found.standard_uncertainty.unwrap(), errors.standard_uncertainty.unwrap()),
                 (found.symmetric_interval[0], errors.symmetric_interval[0]),
                 (found.symmetric_interval[1], errors.symmetric_interval[1]),
