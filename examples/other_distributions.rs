@@ -37,7 +37,7 @@ pub(crate) fn task(trials: u64) -> Result<Task, Box<dyn Error>> {
 pub(crate) fn figures(evaluation: &Evaluation) -> Option<[f64; 4]> {
     let found = evaluation.rows.first()?.outputs.first()?.monte_carlo.as_ref()?;
     let [low, high] = found.symmetric_interval;
-    Some([found.estimate, found.standard_uncertainty?, low, high])
+    Some([found.estimate?, found.standard_uncertainty?, low, high])
 }
 
 #[cfg_attr(test, allow(dead_code))]

@@ -38,7 +38,9 @@ const T: f64 = 2.262_157_162_740_991_6;
 const RUNS: u64 = 1000;
 
 fn task(text: &str) -> Task {
-    file::read_text("sum", text, Path::new(""), &[]).unwrap().task
+    let mut task = file::read_text("sum", text, Path::new(""), &[]).unwrap().task;
+    task.settings.coverage = Coverage::Probability(0.95);
+    task
 }
 
 fn run(task: &Task, rule: StoppingRule, seed: u64, digits: u32) -> MonteCarlo {
@@ -56,7 +58,7 @@ fn run(task: &Task, rule: StoppingRule, seed: u64, digits: u32) -> MonteCarlo {
 fn errors(figures: &MonteCarlo) -> [f64; 4] {
     let [low, high] = figures.symmetric_interval;
     let u = figures.standard_uncertainty.unwrap();
-    [figures.estimate, u - U, low + END, high - END].map(f64::abs)
+    [figures.location(), u - U, low + END, high - END].map(f64::abs)
 }
 
 /// The first values of a task's output, from a run of as many trials.

@@ -1,8 +1,8 @@
-//! Answers of `gap` and `observe` to the last bit, on any processor.
+//! Answers of every command to the last bit, on any processor.
 //!
-//! `tests/data/answers.csv` holds a hash over every answer, so that a change of any digit is seen.
-//! `GUMPTION_GOLDEN=write cargo test answers` writes it anew; such a change belongs into the
-//! changelog.
+//! `tests/data/answers.csv` holds a hash over every answer (of `run` with all moments and numerical
+//! errors), so that a change of any digit is seen. `GUMPTION_GOLDEN=write cargo test --test all golden`
+//! writes it and the hashes over all trials anew; such a change belongs into the changelog.
 
 use std::fs;
 use std::path::Path;
@@ -10,13 +10,16 @@ use std::process::Command;
 
 use sha2::{Digest, Sha256};
 
-use crate::support::{command, root};
+use crate::support::{command, file_name, model_files, root};
 
 /// Turns the C library's kernels with fused products off, as on a processor without them.
 const WITHOUT_FUSED_PRODUCTS: &str = "glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4,-AVX512F,-AVX512VL";
 
-/// Every ready case and recipe, with the command that answers it.
-fn questions() -> Vec<(&'static str, String)> {
+/// Trials of `run`: enough for every branch of the intervals and moments.
+const TRIALS: &str = "100000";
+
+/// Every ready file, with the command that answers it and the command's own arguments.
+fn questions() -> Vec<(&'static str, String, Vec<&'static str>)> {
     let of = |command, folder: &'static str, file: &'static str| {
         let entries = fs::read_dir(root().join(folder)).expect("a folder of ready files");
         let mut paths: Vec<String> = entries
@@ -25,25 +28,47 @@ fn questions() -> Vec<(&'static str, String)> {
             .map(|name| format!("{folder}/{name}/{file}"))
             .collect();
         paths.sort();
-        paths.into_iter().map(move |path| (command, path))
+        paths.into_iter().map(move |path| (command, path, vec!["--format", "json"]))
     };
     let mut questions: Vec<_> = of("gap", "models/gap", "case.json").collect();
     questions.extend(of("observe", "models/recordings", "recipe.json"));
     assert!(questions.len() >= 12, "only {} ready files", questions.len());
+    for path in model_files() {
+        let path = format!("models/{}", file_name(&path));
+        questions.push(("run", path, vec!["--trials", TRIALS, "--format", "json"]));
+    }
+    let mut one = |command, path: &str, arguments: &[&'static str]| {
+        questions.push((command, path.to_owned(), arguments.to_vec()));
+    };
+    let json = ["--format", "json"];
+    // pages: figures, and what is rounded for people
+    one("run", "models/phase_budget.json", &["--trials", TRIALS, "--format", "html"]);
+    one("gap", "models/gap/radius/case.json", &["--format", "html"]);
+    one("gap-check", "models/gap/radius/case.json", &["--draws", "2", "--format", "json"]);
+    for path in ["models/inclined_plane.json", "models/spurious_component.json"] {
+        one("assumptions", path, &json);
+    }
+    one("compare", "tests/data/pairs.csv", &json);
+    one("diff", "models/sensitivity.json models/sensitivity_datasheet.json", &json);
+    one("diff", "models/rotating_table.json models/rotating_table_instant.json", &json);
+    for format in ["csv", "dcc"] {
+        let path = "models/certificates/three_axis_accelerometer.json";
+        one("certificate", path, &["--format", format]);
+    }
     questions
 }
 
 /// One line for each answer.
 fn lines(environment: &dyn Fn(&mut Command)) -> Vec<String> {
-    let line = |(verb, path): (&str, String)| {
+    let line = |(verb, paths, arguments): (&str, String, Vec<&str>)| {
         let mut run = command();
-        run.current_dir(root()).args([verb, &path, "--format", "json", "--quiet"]);
+        run.current_dir(root()).arg(verb).args(paths.split(' ')).args(&arguments).arg("--quiet");
         environment(&mut run);
         let run = run.output().expect("the program runs");
-        assert!(run.status.success(), "{verb} {path}: {}", String::from_utf8_lossy(&run.stderr));
+        assert!(run.status.success(), "{verb} {paths}: {}", String::from_utf8_lossy(&run.stderr));
         let hash: String =
             Sha256::digest(&run.stdout).iter().map(|byte| format!("{byte:02x}")).collect();
-        format!("{verb},{path},{hash}")
+        format!("{verb},{paths},{},{hash}", arguments.join(" "))
     };
     questions().into_iter().map(line).collect()
 }
@@ -62,10 +87,10 @@ fn assert_golden(lines: &[String]) {
 }
 
 #[test]
-fn answers_are_the_golden_ones() {
+fn golden_answers() {
     let lines = lines(&|_| {});
     if std::env::var_os("GUMPTION_GOLDEN").is_some_and(|value| value == "write") {
-        let text = format!("command,file,sha256\n{}\n", lines.join("\n"));
+        let text = format!("command,file,arguments,sha256\n{}\n", lines.join("\n"));
         fs::write(golden(), text).expect("the list is written");
     }
     assert_golden(&lines);

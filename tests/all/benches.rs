@@ -15,6 +15,7 @@ fn task(file: &str, trials: u64) -> Task {
     let path = root().join(Path::new("benches/models")).join(file);
     let mut task = read(&path, &[]).unwrap_or_else(|e| panic!("{file}: {e}")).task;
     task.settings.trials = Trials::Fixed(trials);
+    task.settings.coverage = 0.95.into();
     task
 }
 
@@ -33,7 +34,7 @@ fn compare(file: &str, mean: f64, u: f64, interval: [f64; 2]) {
     let near = |found: f64, right: f64, error: f64, what: &str| {
         assert!((found - right).abs() < 6.0 * error, "{file}: {what} {found}, not {right}");
     };
-    near(found.estimate, mean, errors.estimate.unwrap(), "mean");
+    near(found.location(), mean, errors.estimate.unwrap(), "mean");
     let u_error = errors.standard_uncertainty.unwrap();
     near(found.standard_uncertainty.unwrap(), u, u_error, "u");
     let ends = found.symmetric_interval.into_iter().zip(interval).zip(errors.symmetric_interval);

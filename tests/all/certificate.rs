@@ -157,6 +157,36 @@ fn inputs_of_two_files_are_shared_only_where_the_certificate_says_so() {
     assert!((number(&together["correlations"][0][1]) - 0.5).abs() < 1e-12);
 }
 
+/// A certificate takes the coverage of its models where it states none, and the command line beats
+/// both.
+#[test]
+fn the_coverage_of_the_models() {
+    let model = |coverage: Value| {
+        let mut model = json!({"inputs": {"n": normal(10.0, 0.1)}, "equations": {"a": "n"},
+            "outputs": {"a": {}}});
+        if let (Some(model), Value::Object(coverage)) = (model.as_object_mut(), coverage) {
+            model.extend(coverage);
+        }
+        model
+    };
+    let rows = json!([{"model": "m.json", "output": "a"}, {"model": "n.json", "output": "a"}]);
+    let factors = |own: Value, more: &[&str]| {
+        let mut file = json!({"rows": rows});
+        if let (Some(file), Value::Object(own)) = (file.as_object_mut(), own) {
+            file.extend(own);
+        }
+        let models = [model(json!({"coverage_probability": 0.95})), model(json!({}))];
+        let [m, n] = models;
+        let arguments = [&["--trials", "0"], more].concat();
+        let found = answer(&[("c.json", file), ("m.json", m), ("n.json", n)], &arguments);
+        [0, 1].map(|row| found["rows"][row]["stated"]["coverage_factor"].to_string())
+    };
+    let quoted = |factors: [&str; 2]| factors.map(|factor| format!("\"{factor}\""));
+    assert_eq!(factors(json!({}), &[]), quoted(["1.96", "2.00"]));
+    assert_eq!(factors(json!({"coverage_factor": 3}), &[]), quoted(["3.00", "3.00"]));
+    assert_eq!(factors(json!({"coverage_factor": 3}), &["--k", "2"]), quoted(["2.00", "2.00"]));
+}
+
 /// Each basis with its factor: a rectangular distribution has k = 0.9545 sqrt(3) = 1.653 at 95.45 %
 /// (EA-4/02, S9.14 has 1.65 at 95 %), a t distribution with 4 degrees of freedom 2.87 (EA-4/02,
 /// table E.1).

@@ -166,6 +166,9 @@ fn the_command_line_beats_the_file() {
     assert_ne!(figure(&base), figure(&with(&["--seed", "2"])));
     assert_eq!(with(&["--seed", "2"])["provenance"]["seed"], 2);
     assert_eq!(with(&["--coverage", "0.99"])["coverage_probability"], 0.99);
+    let tripled = with(&["--k", "3"]);
+    assert_eq!(tripled["outputs"]["v"]["gum"]["coverage_factor"], 3.0);
+    assert!((tripled["coverage_probability"].as_f64().unwrap_or(0.0) - 0.9973).abs() < 1e-5);
     assert_eq!(with(&["--digits", "1"])["outputs"]["v"]["validation"]["digits"], 1);
 }
 
@@ -264,6 +267,9 @@ fn wrong_arguments_end_with_2() {
         &["run", "-", "--threads", "0"],
         &["run", "-", "--threads", "many"],
         &["run", "-", "--coverage", "95"],
+        &["run", "-", "--k", "0"],
+        &["run", "-", "--k", "9"],
+        &["run", "-", "--k", "2", "--coverage", "0.95"],
         &["run", "-", "--coverage", "nan"],
         &["run", "-", "--digits", "0"],
         &["run", "-", "--seed", "-1"],

@@ -81,11 +81,11 @@ fn the_page_leaves_out_what_did_not_change() {
 
     equation `power`: from "(voltage + drift)^2/resistance" to "voltage^2/resistance"
 
-    power: U from 1.99 to 3.93 mW (+97.2 %)
+    power: U from 2.03 to 4.01 mW (+97.2 %)
     what changed  from                             to                        change  share
                                                                                of U   in %
     ──────────────────────────────────────────────────────────────────────────────────────
-    voltage       5.000 V, u 0.010, normal         5.000 V, u 0.020, normal    1.95  100.4
+    voltage       5.000 V, u 0.010, normal         5.000 V, u 0.020, normal    1.99  100.4
     drift         0.0000 V, u 0.0012, rectangular  absent                     -0.01   -0.4
     "#);
 }

@@ -117,7 +117,7 @@ fn compare_gum(place: &str, task: &Task, one: &Gum, other: &Gum) {
 fn compare_trials(place: &str, u: f64, one: &MonteCarlo, other: &MonteCarlo) {
     let figures = |of: &MonteCarlo| {
         let [low, high] = of.symmetric_interval;
-        [of.estimate, of.median, low, high]
+        [of.location(), of.median, low, high]
     };
     for (one, other) in figures(one).into_iter().zip(figures(other)) {
         let tolerance = SHARE_OF_TRIALS * u + 1e-15 * one.abs();

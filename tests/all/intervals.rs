@@ -194,7 +194,7 @@ fn ends_are_order_statistics(trials: u64, per_mille: u64) {
     let counts = evaluate(&task(&counting, trials, p), &Control::default());
     let counts = counts.expect("an evaluation").rows.remove(0).outputs;
     let count = |output: usize| {
-        let share = counts[output].monte_carlo.as_ref().expect("trials").estimate;
+        let share = counts[output].monte_carlo.as_ref().expect("trials").location();
         (share * trials as f64).round() as u64
     };
     let q = width_in_ranks(trials, per_mille).clamp(1, trials - 1);

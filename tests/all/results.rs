@@ -38,7 +38,8 @@ fn samples_are_the_trials_of_the_run() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
     fs::write(folder.join("m.json"), MODEL).unwrap();
-    let said = answer(folder, &["m.json", "--samples", "t.csv", "--format", "json"]);
+    let said =
+        answer(folder, &["m.json", "--samples", "t.csv", "--format", "json", "--coverage", "0.95"]);
     answer(folder, &["m.json", "--samples", "t.npy", "--threads", "1", "--memory", "1M"]);
     let text = fs::read_to_string(folder.join("t.csv")).unwrap();
     let mut lines = text.lines();

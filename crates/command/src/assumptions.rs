@@ -4,10 +4,10 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use clap::{Args, ValueEnum};
 
-use super::options::{Answer, Model, Seed, Threads};
+use super::options::{Answer, CoverageOption, Model, Seed, Threads};
 use super::{CommandLine, Exit, Failure, options, progress, run, signals};
 use gumption_analysis::assumptions::{Audit, Question, audit, trials_to_make};
-use gumption_engine::task::{Coverage, Task, Trials, Warning};
+use gumption_engine::task::{Task, Trials, Warning};
 use gumption_files::ModelFile;
 use gumption_report as report;
 
@@ -28,9 +28,8 @@ pub(super) struct Assumptions {
     trials: Option<u64>,
     #[command(flatten)]
     threads: Threads,
-    /// Coverage probability
-    #[arg(long, value_name = "P", value_parser = options::probability)]
-    coverage: Option<f64>,
+    #[command(flatten)]
+    coverage: CoverageOption,
 }
 
 /// The format of the answer.
@@ -74,9 +73,7 @@ impl Assumptions {
         let file = self.model.read(program)?;
         let mut task = file.task.clone();
         task.settings.seed = self.seed.or(task.settings.seed);
-        if let Some(p) = self.coverage {
-            task.settings.coverage = Coverage::Probability(p);
-        }
+        task.settings.coverage = self.coverage.or(task.settings.coverage);
         let mut warnings = file.warnings.clone();
         let question = Question { trials: self.trials(&task, &mut warnings), allowed: self.allow };
         let place = self.answer.open(&self.model.paths(&file))?;

@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use clap::{Args, ValueEnum};
 
-use super::options::{self, Answer, Seed, Threads, Trust};
+use super::options::{self, Answer, CoverageOption, Seed, Threads, Trust};
 use super::{CommandLine, Exit, Failure, progress, run, signals};
 use gumption_analysis::certificate::contents::Certificate as Asked;
 use gumption_analysis::certificate::{Failed, Issued, issue};
@@ -29,6 +29,8 @@ pub(super) struct Certificate {
     /// Number of Monte Carlo trials for each row; 0 for the law of propagation alone
     #[arg(long, value_name = "N|adaptive", value_parser = options::trials)]
     trials: Option<Trials>,
+    #[command(flatten)]
+    coverage: CoverageOption,
     #[command(flatten)]
     threads: Threads,
 }
@@ -62,7 +64,11 @@ impl Certificate {
         for asked in &mut file.certificate.evaluations {
             let settings = &mut asked.task.settings;
             settings.seed = self.seed.or(settings.seed);
-            settings.trials = self.trials.unwrap_or(settings.trials);
+            settings.coverage = self.coverage.or(settings.coverage);
+            if let Some(trials) = self.trials {
+                settings.trials = trials;
+                settings.decide_up_to = 0;
+            }
         }
         let provenance = run::provenance(&file.source.text, &[]);
         let models: Vec<ModelSource<'_>> = file

@@ -12,7 +12,7 @@ use super::exit::say;
 use super::output::Place;
 use super::{CommandLine, Failure, output};
 use gumption_engine::propagate::Control;
-use gumption_engine::task::{StoppingRule, Trials, Warning};
+use gumption_engine::task::{Coverage, StoppingRule, Trials, Warning};
 use gumption_files::{FileReader, ModelFile, Override, bytes};
 use gumption_report::{BudgetColumn, plain};
 
@@ -104,6 +104,27 @@ impl Seed {
     /// The seed, unless given that of the file.
     pub(super) fn or(&self, of_file: u64) -> u64 {
         self.seed.unwrap_or(of_file)
+    }
+}
+
+/// The coverage of intervals and expanded uncertainties.
+#[derive(Debug, Args)]
+pub(super) struct CoverageOption {
+    /// Coverage probability
+    #[arg(long, value_name = "P", value_parser = probability)]
+    coverage: Option<f64>,
+    /// Coverage factor for infinite degrees of freedom, which sets the coverage probability; 2
+    /// (approximately 95 %) unless given
+    #[arg(long, value_name = "K", value_parser = factor, conflicts_with = "coverage")]
+    k: Option<f64>,
+}
+
+impl CoverageOption {
+    /// The coverage, unless given that of the file. A factor that the file keeps fixed is kept fixed.
+    pub(super) fn or(&self, of_file: Coverage) -> Coverage {
+        let fixed = matches!(of_file, Coverage::Factor { fixed: true, .. });
+        let given = self.k.map(|factor| Coverage::Factor { factor, fixed });
+        self.coverage.map(Coverage::Probability).or(given).unwrap_or(of_file)
     }
 }
 
@@ -292,6 +313,15 @@ pub(super) fn probability(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(p) if p > 0.0 && p < 1.0 => Ok(p),
         _ => Err("a probability between 0 and 1 is needed, such as 0.95".to_owned()),
+    }
+}
+
+/// A coverage factor.
+fn factor(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        // beyond 8 the probability is 1 in double precision
+        Ok(factor) if factor > 0.0 && factor <= 8.0 => Ok(factor),
+        _ => Err("a coverage factor above 0 and at most 8 is needed, such as 2".to_owned()),
     }
 }
 

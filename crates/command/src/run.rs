@@ -8,14 +8,14 @@ use clap::{Args, ValueEnum};
 use sha2::{Digest, Sha256};
 
 use super::exit::say;
-use super::options::{self, Answer, Model, Page, Seed, Threads};
+use super::options::{self, Answer, CoverageOption, Model, Page, Seed, Threads};
 use super::output::Place;
 use super::{CommandLine, Exit, Failure, output, progress, save, signals};
 use gumption_engine::propagate::monte_carlo::Histogram;
 use gumption_engine::propagate::{
     Control, Evaluation, EvaluationError, evaluate, histograms, warnings,
 };
-use gumption_engine::task::{Coverage, StoppingRule, Task, Trials, Warning};
+use gumption_engine::task::{StoppingRule, Task, Trials, Warning};
 use gumption_files::{Diagnostic, DiagnosticKind, Diagnostics, ModelFile};
 use gumption_report as report;
 use gumption_report::{BudgetColumn, EvaluationReport, Provenance, Shown, TableStyle};
@@ -48,9 +48,8 @@ pub(super) struct Run {
     /// Memory for kept trial values
     #[arg(long, value_name = "SIZE", default_value = "64M", value_parser = options::memory)]
     memory: usize,
-    /// Coverage probability
-    #[arg(long, value_name = "P", value_parser = options::probability)]
-    coverage: Option<f64>,
+    #[command(flatten)]
+    coverage: CoverageOption,
     /// Significant digits of the standard uncertainty that are held meaningful (clause 8)
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=15))]
     digits: Option<u32>,
@@ -234,10 +233,11 @@ impl Run {
     /// The command line beats the file.
     fn settings(&self, task: &mut Task) {
         let settings = &mut task.settings;
-        if let Some(p) = self.coverage {
-            settings.coverage = Coverage::Probability(p);
+        settings.coverage = self.coverage.or(settings.coverage);
+        if let Some(trials) = self.trials {
+            settings.trials = trials;
+            settings.decide_up_to = 0;
         }
-        settings.trials = self.trials.unwrap_or(settings.trials);
         if self.validate {
             settings.trials = Trials::Adaptive;
             settings.for_validation = true;
@@ -245,7 +245,9 @@ impl Run {
         settings.rule = self.rule.unwrap_or(settings.rule);
         settings.max_trials = self.max_trials.unwrap_or(settings.max_trials);
         settings.seed = self.seed.or(settings.seed);
-        settings.digits = self.digits.unwrap_or(settings.digits);
+        if let Some(digits) = self.digits {
+            *settings = settings.with_digits(digits);
+        }
         settings.real_dof |= self.dof.is_some();
     }
 

@@ -9,9 +9,14 @@ use gumption_engine::task::{Coverage, Settings, StoppingRule, Trials};
 /// At most so many trials.
 pub(super) const MOST_TRIALS: u64 = 1_000_000_000_000;
 
+/// Up to so many trials a run goes on of itself where clause 8 is undecided, if nobody said how many to
+/// make.
+const DECIDE_UP_TO: u64 = 64_000_000;
+
 /// Reads the settings of the root object; what is not there has its default.
 pub(super) fn read(root: &Object<'_>) -> Settings {
     let mut settings = Settings::default();
+    settings.decide_up_to = DECIDE_UP_TO;
     if let Some(coverage) = coverage(root) {
         settings.coverage = coverage;
     }
@@ -36,6 +41,7 @@ pub(super) fn read(root: &Object<'_>) -> Settings {
     object.check_keys(keys::MONTE_CARLO);
     if let Some(trials) = trials(&object) {
         settings.trials = trials;
+        settings.decide_up_to = 0;
     }
     if let Some(rule) = rule(&object) {
         settings.rule = rule;
@@ -44,7 +50,7 @@ pub(super) fn read(root: &Object<'_>) -> Settings {
         settings.seed = seed;
     }
     if let Some(digits) = object.whole("digits", 1, 15) {
-        settings.digits = u32::try_from(digits).unwrap_or(2);
+        settings = settings.with_digits(u32::try_from(digits).unwrap_or(2));
     }
     if let Some(most) = object.whole("max_trials", 20_000, MOST_TRIALS) {
         settings.max_trials = most;

@@ -140,9 +140,16 @@ impl<'a> Fields<'a> {
             "triangular" => self.triangular(),
             "trapezoidal" => {
                 let beta = self.number("beta");
+                let dof = self.dof();
                 let (mean, half_width, _) = self.limits()?;
                 match half_width {
-                    Some(half_width) => self.made(Trapezoidal::new(mean, half_width, beta?)),
+                    Some(half_width) => {
+                        let shape = Trapezoidal::new(mean, half_width, beta?);
+                        self.made(shape.and_then(|shape| match dof {
+                            Some(dof) => shape.with_dof(dof),
+                            None => Ok(shape),
+                        }))
+                    }
                     None => self.made(Constant::new(mean)),
                 }
             }
@@ -312,6 +319,11 @@ impl<'a> Fields<'a> {
     }
 
     fn triangular(&self) -> Option<Distribution> {
+        let dof = self.dof();
+        let inexact = |shape: Triangular| match dof {
+            Some(dof) => shape.with_dof(dof),
+            None => Ok(shape),
+        };
         let (mean, half_width, limits) = self.limits()?;
         let Some(half_width) = half_width else {
             return self.made(Constant::new(mean));
@@ -322,10 +334,10 @@ impl<'a> Fields<'a> {
                     DiagnosticKind::MissingKey { key: "lower", what: "an input with a `mode`" };
                 self.object.log.report(&mode.key_span, diagnostic);
             }
-            return self.made(Triangular::new(mean, half_width));
+            return self.made(Triangular::new(mean, half_width).and_then(inexact));
         };
         let mode = self.object.value("mode", self.unit, self.of());
-        self.moved(Triangular::between(lower, upper, mode))
+        self.moved(Triangular::between(lower, upper, mode).and_then(inexact))
     }
 
     /// Middle, half-width (`None` where a specification became 0) and, if given so, the limits.

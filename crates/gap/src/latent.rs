@@ -37,7 +37,7 @@ impl Map {
                 mean: distribution.mean(),
                 deviation: distribution.standard_uncertainty(),
             },
-            Distribution::Rectangular(_) => {
+            Distribution::Rectangular(_) if distribution.drawn_as().is_none() => {
                 let (lower, upper) = (distribution.quantile(0.25), distribution.quantile(0.75));
                 let width = 2.0 * (upper - lower);
                 Self::Uniform { lower: lower - 0.25 * width, width }

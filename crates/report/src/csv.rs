@@ -97,7 +97,7 @@ fn cells(output: &OutputEvaluation) -> [String; 16] {
         number(interval.map(|[low, _]| low)),
         number(interval.map(|[_, high]| high)),
         figures.map(|figures| figures.trials.to_string()).unwrap_or_default(),
-        number(figures.map(|figures| figures.estimate)),
+        number(figures.and_then(|figures| figures.estimate)),
         number(figures.and_then(|figures| figures.standard_uncertainty)),
         number(figures.map(|figures| figures.median)),
         number(figures.map(|figures| figures.symmetric_interval[0])),

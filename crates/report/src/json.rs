@@ -10,7 +10,8 @@ use super::subtotals::Subtotals;
 use gumption_engine::propagate::gum::{BudgetLine, CorrelationLine, Dof, Gum};
 use gumption_engine::propagate::monte_carlo::{MonteCarlo, NumericalError};
 use gumption_engine::propagate::{
-    CapabilityStatement, Conformity, Evaluation, OutputEvaluation, RowEvaluation, validate,
+    CapabilityStatement, Conformity, Evaluation, OutputEvaluation, RowEvaluation, SecondOrder,
+    validate,
 };
 use gumption_engine::task::{Task, Trials, Warning};
 
@@ -80,7 +81,10 @@ struct Row<'a> {
 #[derive(Serialize)]
 struct Figures<'a> {
     outputs: Outputs<'a>,
-    output_correlations: Pairs<'a>,
+    output_correlations: Pairs<'a, f64>,
+    /// Those of the coefficients; not there without trials.
+    #[serde(skip_serializing_if = "Pairs::is_empty")]
+    output_correlations_standard_error: Pairs<'a, Option<f64>>,
 }
 
 /// The outputs of a row, made one by one.
@@ -97,7 +101,7 @@ impl Serialize for Outputs<'_> {
         serializer.collect_map(outputs.map(|(output, evaluation)| {
             let side = Output {
                 unit: output.quantity.unit.text(),
-                gum: evaluation.gum.as_ref().map(|gum| GumSide::of(task, gum)),
+                gum: evaluation.gum.as_ref().map(|gum| GumSide::of(task, gum, evaluation)),
                 monte_carlo: MonteCarloSide::of(task, row, evaluation, stopped),
                 validation: evaluation.validation.map(Validation::from),
                 conformity: evaluation.conformity.map(|conformity| ConformitySide::of(&conformity)),
@@ -108,17 +112,23 @@ impl Serialize for Outputs<'_> {
     }
 }
 
-/// The correlation coefficients of the outputs i < j.
-struct Pairs<'a> {
+/// A figure of each pair of outputs i < j: the correlation coefficients, or their errors.
+struct Pairs<'a, T> {
     task: &'a Task,
-    row: &'a RowEvaluation,
+    figures: &'a [T],
 }
 
-impl Serialize for Pairs<'_> {
+impl<T> Pairs<'_, T> {
+    fn is_empty(&self) -> bool {
+        self.figures.is_empty()
+    }
+}
+
+impl<T: Copy + Serialize> Serialize for Pairs<'_, T> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let names = || self.task.model.outputs.iter().map(|output| &output.quantity.name);
         let pairs = names().enumerate().flat_map(|(i, a)| names().skip(i + 1).map(move |b| (a, b)));
-        serializer.collect_seq(pairs.zip(&self.row.correlations).map(|((a, b), r)| (a, b, r)))
+        serializer.collect_seq(pairs.zip(self.figures).map(|((a, b), figure)| (a, b, *figure)))
     }
 }
 
@@ -143,8 +153,26 @@ struct GumSide<'a> {
     coverage_factor: Option<f64>,
     expanded_uncertainty: Option<f64>,
     interval: Option<[f64; 2]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    second_order: Option<SecondOrderSide<'a>>,
     budget: Lines<'a>,
     subtotals: Vec<Subtotal<'a>>,
+}
+
+/// The law of propagation with its terms of second order, where they tell something.
+#[derive(Serialize)]
+struct SecondOrderSide<'a> {
+    standard_uncertainty: f64,
+    /// Products that matter, with their contributions.
+    products: Vec<(&'a str, &'a str, f64)>,
+}
+
+impl<'a> SecondOrderSide<'a> {
+    fn of(task: &'a Task, second: &SecondOrder) -> Self {
+        let name = |v: usize| task.variables.get(v).map_or("", |variable| &variable.name);
+        let products = second.products.iter().map(|&(i, j, c)| (name(i), name(j), c));
+        Self { standard_uncertainty: second.standard_uncertainty, products: products.collect() }
+    }
 }
 
 /// The lines of a budget, made one by one.
@@ -211,12 +239,13 @@ struct MonteCarloSide {
     stopped: bool,
     #[serde(skip_serializing_if = "Option::is_none")]
     undefined_share: Option<f64>,
-    estimate: f64,
+    estimate: Option<f64>,
     standard_uncertainty: Option<f64>,
     median: f64,
     symmetric_interval: [f64; 2],
     shortest_interval: [f64; 2],
     shortest_exact: bool,
+    shortest_unique: bool,
     skewness: Option<f64>,
     excess_kurtosis: Option<f64>,
     numerical_standard_error: ErrorSide,
@@ -229,6 +258,8 @@ struct ConformitySide {
     lower: Option<f64>,
     upper: Option<f64>,
     probability: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    probability_without_prior: Option<f64>,
     numerical_standard_error: f64,
     conforms: bool,
     specific_risk: Risks,
@@ -263,6 +294,7 @@ impl ConformitySide {
             lower: conformity.tolerance.lower,
             upper: conformity.tolerance.upper,
             probability: conformity.probability,
+            probability_without_prior: conformity.without_prior,
             numerical_standard_error: conformity.numerical_standard_error,
             conforms: accepted,
             specific_risk: Risks {
@@ -383,12 +415,16 @@ impl<'a> Answer<'a> {
 impl<'a> Figures<'a> {
     fn of(task: &'a Task, row: &'a RowEvaluation, stopped: bool) -> Self {
         let outputs = Outputs { task, row, stopped };
-        Self { outputs, output_correlations: Pairs { task, row } }
+        Self {
+            outputs,
+            output_correlations: Pairs { task, figures: &row.correlations },
+            output_correlations_standard_error: Pairs { task, figures: &row.correlation_errors },
+        }
     }
 }
 
 impl<'a> GumSide<'a> {
-    fn of(task: &'a Task, gum: &'a Gum) -> Self {
+    fn of(task: &'a Task, gum: &'a Gum, evaluation: &OutputEvaluation) -> Self {
         let (dof, dof_status) = match gum.dof {
             Dof::Finite(dof) => (Some(dof), "finite"),
             Dof::Infinite => (None, "infinite"),
@@ -405,6 +441,7 @@ impl<'a> GumSide<'a> {
             coverage_factor: gum.coverage_factor,
             expanded_uncertainty: gum.expanded_uncertainty(),
             interval: gum.interval(),
+            second_order: evaluation.second_order.as_ref().map(|of| SecondOrderSide::of(task, of)),
             budget: Lines { task, gum },
             subtotals: groups.chain(types).collect(),
         }
@@ -419,7 +456,7 @@ impl<'a> InputLine<'a> {
             estimate: line.estimate,
             standard_uncertainty: line.standard_uncertainty,
             distribution: line.distribution,
-            drawn_as: line.drawn_as_t.then_some("t"),
+            drawn_as: line.drawn_as,
             r#type: variable.evaluation.letter(),
             group: variable.group.as_deref(),
             dof: line.dof.is_finite().then_some(line.dof),
@@ -464,6 +501,7 @@ impl MonteCarloSide {
             symmetric_interval: figures.symmetric_interval,
             shortest_interval: figures.shortest_interval,
             shortest_exact: figures.shortest_exact,
+            shortest_unique: figures.shortest_unique,
             skewness: figures.skewness,
             excess_kurtosis: figures.excess_kurtosis,
             numerical_standard_error: ErrorSide::from(figures.errors),

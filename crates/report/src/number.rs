@@ -1,6 +1,8 @@
 //! Numbers for people: an estimate with the digits of its uncertainty, and decimal points that stand
 //! under each other (JCGM 100, 7.2.6). The rounding itself is [`gumption_engine::decimal`]'s.
 
+use gumption_engine::propagate::monte_carlo::MonteCarlo;
+
 pub(crate) use gumption_engine::decimal::{MISSING, exact, position, rounded, significant};
 
 /// The position that two demands allow: the coarser one, or the only one there is.
@@ -24,6 +26,17 @@ pub fn to(value: f64, position: Option<i32>) -> String {
 /// ```
 pub fn justified(value: f64, position: Option<i32>, error: f64) -> String {
     to(value, coarser(position, self::position(error, 1)))
+}
+
+/// The position of the last digit of the median and of the ends of coverage intervals: that of the
+/// standard uncertainty, unless it is larger than half of the interval. So it is where few trials of
+/// a long tail make it, or where there is none: then half the interval says how finely its ends are
+/// told apart.
+pub fn place_of_ends(figures: &MonteCarlo, uncertainty: Option<f64>, digits: u32) -> Option<i32> {
+    let [low, high] = figures.symmetric_interval;
+    let half = 0.5 * high - 0.5 * low;
+    let width = uncertainty.map_or(half, |u| if half > 0.0 { u.min(half) } else { u });
+    position(width, digits)
 }
 
 /// An estimate and its standard uncertainty as a report prints them: the uncertainty to `digits`

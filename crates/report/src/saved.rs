@@ -207,7 +207,7 @@ impl<'a> Output<'a> {
         let spread = figures.standard_uncertainty;
         Some(Self {
             unit: task.model.outputs.get(place)?.quantity.unit.text(),
-            estimate: gum.map_or(figures.estimate, |gum| gum.estimate),
+            estimate: gum.map_or(figures.location(), |gum| gum.estimate),
             standard_uncertainty: gum.map(|gum| gum.standard_uncertainty).or(spread)?,
             dof,
             dof_status,

@@ -1,10 +1,10 @@
 //! What steps find in a signal beside what they hand on: root mean squares, delays, and how much
 //! nearer to the reference a correction brings it.
 
+use super::delay::of_one_recording;
 use super::surroundings::{Finding, Surroundings};
 use super::{
-    CrossCorrelation, CrossSpectrum, Measured, Noise, RmsOf, Signal, Unsuitable, agreement,
-    improvement,
+    CrossCorrelation, CrossSpectrum, Measured, Noise, RmsOf, Signal, Unsuitable, improvement,
 };
 
 /// A finding; without a unit it is in the channel's.
@@ -74,7 +74,9 @@ pub(super) fn delay(
     let segments = segments.unwrap_or((periods as usize).clamp(2, 32));
     let spectrum = CrossSpectrum { frequency, segments };
     let crossed = spectrum.of(&reference, &signal).map_err(said)?;
-    let agreed = agreement(correlated.delay, crossed.delay, correlated.period);
+    let pair = [&reference, &signal];
+    let agreed =
+        of_one_recording(pair, harmonics, segments, (&correlated, &crossed)).map_err(said)?;
     let degrees = 180.0 / std::f64::consts::PI;
     let phase = Measured {
         value: crossed.phase.value * degrees,

@@ -4,6 +4,7 @@ use std::rc::Rc;
 
 use super::analysed::{Analysed, local};
 use super::analysis::{Group, MOST_HELD, Refused, Through, unreadable};
+use super::common_noise::correlation;
 use super::effects::{Effects, StepEffect};
 use super::observation::{ChannelObservation, Observation};
 use super::passes::{InMemorySamples, SampleSource, gathered};
@@ -278,20 +279,67 @@ fn notes(settings: &RecipeSettings, analysed: &[Analysed]) -> Vec<Note> {
         let expected = residuals.known.as_ref().is_some_and(|known| known.factors.is_some());
         if residuals.correlated && !expected {
             let lag = residuals.autocorrelation.first().copied().unwrap_or(0.0);
-            let way = if residuals.local.is_some() {
-                format!(
+            let way = match (&residuals.coloured, residuals.parts) {
+                (_, 1..) => format!(
                     "the noise near each frequency is taken from {} parts of the record",
                     residuals.parts
-                )
-            } else {
-                "the record is too short to tell the noise near each frequency, so standard \
-                 uncertainties may be too small"
-                    .to_owned()
+                ),
+                (Some(coloured), _) if coloured.fits => {
+                    "the noise near each frequency is that of a \
+                     process of first order, which the residuals have"
+                        .to_owned()
+                }
+                _ => "the record is too short to tell the noise near each frequency, so standard \
+                     uncertainties may be too small"
+                    .to_owned(),
             };
             let text = format!(
                 "`{name}`: the residuals are correlated (coefficient {lag:.2} at lag 1); {way}"
             );
             notes.push(("correlated-residuals", of.channel, text));
+        }
+        if residuals.coloured.as_ref().is_some_and(|coloured| coloured.walks) && !expected {
+            let text = format!(
+                "`{name}`: the level wanders and does not come back within the record; the \
+                 uncertainty of the offset is that of the record's first value"
+            );
+            notes.push(("wandering-level", of.channel, text));
+        }
+        let stated = settings.channels[of.channel].resolution;
+        if of.resolution > stated {
+            let unit = unit_text(settings, of);
+            let known = if stated > 0.0 { "a finer" } else { "no" };
+            // as many digits as single precision has
+            let step = format!("{:.5e}", of.resolution).parse().unwrap_or(of.resolution);
+            let text = format!(
+                "`{name}`: {known} resolution is stated, but the values are multiples of {}{unit}, \
+                 which is taken for it",
+                gumption_engine::number::Shortest(step)
+            );
+            notes.push(("looks-quantized", of.channel, text));
+        }
+        if let Some(rounding) = of.rounding.as_ref().filter(|rounding| rounding.repeated > 0.05) {
+            if let Some(phases) = rounding.phases {
+                let text = format!(
+                    "`{name}`: the {} samples fall on {phases} different phases of the oscillation, \
+                     and there is too little noise to blur the rounding, so that it averages out \
+                     over these only",
+                    of.design.samples
+                );
+                notes.push(("coherent-sampling", of.channel, text));
+            }
+        }
+        let reference = settings.reference.and_then(|channel| {
+            analysed.iter().find(|other| other.channel == channel && channel != of.channel)
+        });
+        let common = reference
+            .and_then(|reference| correlation(of, reference, of.fundamentals.first()?.cycles));
+        if let Some(common) = common.filter(|common| common.abs() > 0.1) {
+            let text = format!(
+                "`{name}`: its noise and that of the reference have something in common (the errors \
+                 of the two phases are correlated, {common:.2}); the phase's uncertainty allows for it"
+            );
+            notes.push(("common-noise", of.channel, text));
         }
         for (number, fundamental) in of.fundamentals.iter().enumerate() {
             let Some((step, variance)) = residuals.cycles.get(number) else { continue };
@@ -315,4 +363,15 @@ fn notes(settings: &RecipeSettings, analysed: &[Analysed]) -> Vec<Note> {
         }
     }
     notes
+}
+
+/// The unit of a channel's values before its steps have none of their own, with a blank before it.
+fn unit_text(settings: &RecipeSettings, of: &Analysed) -> String {
+    let channel = &settings.channels[of.channel];
+    let unit = channel.unit.text();
+    if unit.is_empty() || unit == "1" || !channel.steps.is_empty() {
+        String::new()
+    } else {
+        format!(" {unit}")
+    }
 }

@@ -247,6 +247,11 @@ fn offset(settings: &RecipeSettings, analysed: &Analysed, noise_dof: f64) -> Bud
     let (noise, noise_dof) = match (&residuals.known, &residuals.coloured) {
         (Some(known), _) => (white * known.level, noise_dof),
         (None, Some(coloured)) => (coloured.level, coloured.freedom),
+        // no model: as far as sixteen lags tell
+        (None, None) if residuals.correlated => {
+            let slow = 1.0 + 2.0 * residuals.autocorrelation.iter().sum::<f64>();
+            (white * slow.max(0.1), noise_dof)
+        }
         (None, None) => (white, residuals.degrees_of_freedom),
     };
     let value = analysed.fit.offset;

@@ -63,9 +63,17 @@ impl Shape {
         })
     }
 
-    /// The shape of a stated distribution, if it is one of these.
+    /// The shape of a stated distribution, if it is one of these. One whose width is not known
+    /// exactly is none of them.
     fn of(stated: &Distribution) -> Option<Self> {
         match stated {
+            Distribution::Rectangular(_)
+            | Distribution::Triangular(_)
+            | Distribution::Trapezoidal(_)
+                if stated.drawn_as().is_some() =>
+            {
+                None
+            }
             Distribution::Normal(_) if stated.is_drawn_normal() => Some(Self::Normal),
             Distribution::Normal(_) | Distribution::StudentT(_) => Some(Self::T(stated.dof())),
             Distribution::Rectangular(_) => Some(Self::Rectangular),
@@ -89,6 +97,11 @@ pub(super) fn limits(stated: &Distribution) -> Option<[f64; 2]> {
             | Distribution::Beta(_)
             | Distribution::LogUniform(_)
     );
+    // limits that are not known exactly are stated about the middle
+    if let (Some(_), Some(divisor), true) = (stated.drawn_as(), stated.divisor(), bounded) {
+        let half_width = divisor * stated.standard_uncertainty();
+        return Some([stated.mean() - half_width, stated.mean() + half_width]);
+    }
     // the ends of the support, to rounding
     let end = f64::MIN_POSITIVE;
     bounded.then(|| [stated.quantile(end), stated.quantile_upper(end)])

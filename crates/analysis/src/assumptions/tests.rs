@@ -29,7 +29,8 @@ const RECTANGLE: &str = r#""x": {"distribution": "rectangular", "mean": 3, "half
 /// other shapes follow from their quantiles.
 #[test]
 fn other_shapes_of_a_rectangle() {
-    let file = model(RECTANGLE, "x", "");
+    let mut file = model(RECTANGLE, "x", "");
+    file.task.settings.coverage = 0.95.into();
     let found = audited(&file, 200_000);
     let input = &output(&found).inputs[0];
     let z = 1.959_963_984_540_054;

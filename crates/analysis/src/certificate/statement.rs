@@ -4,7 +4,6 @@ use super::rounding;
 use crate::certificate::contents::Rounding;
 use gumption_engine::decimal::{Decimal, Direction, to_position};
 use gumption_engine::model::Capability;
-use gumption_engine::number::elementary;
 use gumption_engine::propagate::OutputEvaluation;
 use gumption_engine::propagate::gum::{Dof, Gum};
 use gumption_engine::propagate::monte_carlo::MonteCarlo;
@@ -114,6 +113,19 @@ struct Found {
     interval: Option<[f64; 2]>,
 }
 
+impl Found {
+    /// Whether another's interval is the same to the digits of the certificate.
+    fn states_as(&self, other: &Self, wanted: Wanted<'_>) -> bool {
+        let Wanted { digits, rounding, .. } = wanted;
+        let Some(to) = rounding::expanded(self.expanded_uncertainty, digits, rounding) else {
+            return false;
+        };
+        let own = [self.value - self.expanded_uncertainty, self.value + self.expanded_uncertainty];
+        let ends = |ends: [f64; 2]| ends.map(|end| to_position(end, to.position()));
+        other.interval.is_some_and(|interval| ends(interval) == ends(own))
+    }
+}
+
 /// The statement of an output; `None` where there is no expanded uncertainty to be stated.
 pub(super) fn of(
     output: &OutputEvaluation,
@@ -124,6 +136,11 @@ pub(super) fn of(
     let refuted = output.validation.is_some_and(|v| v.gum_valid == Some(false));
     let linear = || by_propagation(output.gum.as_ref()?, settings);
     let trials = || by_trials(output.monte_carlo.as_ref()?, output.gum.as_ref());
+    // a clause 8 that fails is no matter where what is stated would be the same
+    let refuted = refuted
+        && !linear()
+            .zip(trials())
+            .is_some_and(|(linear, trials)| linear.states_as(&trials, wanted));
     let found = if refuted { trials().or_else(linear) } else { linear().or_else(trials) }?;
     let evaluated = found.expanded_uncertainty;
     let limit = capability.map(|capability| {
@@ -157,11 +174,7 @@ pub(super) fn of(
 }
 
 fn by_propagation(gum: &Gum, settings: &Settings) -> Option<Found> {
-    let coverage_factor = match (settings.coverage, gum.dof) {
-        // K itself, and not the factor at its probability of 0.9545, which is 2.000 02
-        (Coverage::Factor { factor, .. }, Dof::Infinite) => factor,
-        _ => gum.coverage_factor?,
-    };
+    let coverage_factor = gum.coverage_factor?;
     let basis = match (settings.coverage, gum.dof) {
         (Coverage::Factor { fixed: true, .. }, Dof::Finite(_)) | (_, Dof::Undefined) => {
             Basis::Fixed
@@ -188,24 +201,9 @@ fn is_normal(factor: f64, coverage: Coverage) -> bool {
     to_position(factor, -2) == to_position(normal, -2)
 }
 
-/// How many numerical standard errors longer than the shortest interval another one may be and
-/// still count as the shortest: it is the least of many that scatter by about one.
-const AS_SHORT: f64 = 4.0;
-
-/// The shortest coverage interval. Of a symmetric distribution many intervals are as short, and the
-/// scatter of the trials would choose among them; the probabilistically symmetric one is taken if it
-/// is as short within its numerical error.
-fn interval(figures: &MonteCarlo) -> [f64; 2] {
-    let length = |[low, high]: [f64; 2]| high - low;
-    let (symmetric, shortest) = (figures.symmetric_interval, figures.shortest_interval);
-    let [low, high] = figures.errors.symmetric_interval;
-    let allowed = AS_SHORT * elementary::hypot(low, high);
-    if length(symmetric) - length(shortest) <= allowed { symmetric } else { shortest }
-}
-
 fn by_trials(figures: &MonteCarlo, gum: Option<&Gum>) -> Option<Found> {
-    let [low, high] = interval(figures);
-    let value = figures.estimate;
+    let [low, high] = figures.stated_interval().ends;
+    let value = figures.location();
     // few readings have no variance in the trials
     let u = figures.standard_uncertainty.or_else(|| gum.map(|gum| gum.standard_uncertainty))?;
     let expanded_uncertainty = (high - value).max(value - low);

@@ -36,6 +36,11 @@ impl CurvilinearTrapezoid {
         }
     }
 
+    /// The same about a middle. The inexactness may be all of the half-width.
+    pub(super) fn of_width(mean: f64, half_width: f64, inexactness: f64) -> Self {
+        Self { mean, half_width, inexactness }
+    }
+
     /// How far from the middle the quantity can be.
     fn reach(&self) -> f64 {
         self.half_width + self.inexactness
@@ -67,7 +72,7 @@ impl Shape for CurvilinearTrapezoid {
         let (reach, flat) = (self.reach(), half_width - inexactness);
         let per_density = 4.0 * inexactness;
         let top = libm::log1p(2.0 * inexactness / flat);
-        if (p - 0.5).abs() * per_density <= flat * top {
+        if flat > 0.0 && (p - 0.5).abs() * per_density <= flat * top {
             return mean + (p - 0.5) * per_density / top;
         }
         let tail = p.min(1.0 - p);

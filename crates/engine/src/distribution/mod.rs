@@ -11,6 +11,7 @@ mod curvilinear_trapezoid;
 mod exponential;
 mod external;
 mod gamma;
+mod inexact_width;
 mod input;
 mod joint;
 mod log_uniform;
@@ -112,6 +113,14 @@ macro_rules! distributions {
             /// all other shapes. Moments of that order and above do not exist.
             pub fn drawn_dof(&self) -> f64 {
                 match self { $(Self::$shape(shape) => shape.drawn_dof(),)* }
+            }
+
+            /// The name of what trials are drawn from, where that is not the stated shape: a t for
+            /// a normal distribution, a curvilinear trapezoid for a rectangular one, and one of
+            /// inexact width for a triangular or trapezoidal one whose standard uncertainty has
+            /// finite degrees of freedom.
+            pub fn drawn_as(&self) -> Option<&'static str> {
+                match self { $(Self::$shape(shape) => shape.drawn_as(),)* }
             }
 
             /// Standard deviation of the drawn values; infinite where it does not exist.

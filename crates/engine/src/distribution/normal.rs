@@ -69,6 +69,10 @@ impl Shape for Normal {
         self.dof
     }
 
+    fn drawn_as(&self) -> Option<&'static str> {
+        self.dof.is_finite().then_some(student::StudentT::NAME)
+    }
+
     fn standard_deviation(&self) -> f64 {
         student::standard_deviation(self.std, self.dof)
     }

@@ -1,6 +1,8 @@
 //! The rectangular distribution (JCGM 101, 6.4.2; JCGM 100, 4.3.7).
 
-use super::shape::{Invalid, Shape, degrees_of_freedom, finite, limits, positive};
+use super::curvilinear_trapezoid::CurvilinearTrapezoid;
+use super::inexact_width::InexactWidth;
+use super::shape::{Invalid, Shape, finite, limits, positive};
 use super::stream::Stream;
 use crate::number::{COLUMN, Column};
 
@@ -9,7 +11,7 @@ use crate::number::{COLUMN, Column};
 pub struct Rectangular {
     mean: f64,
     half_width: f64,
-    dof: f64,
+    width: InexactWidth,
 }
 
 impl Rectangular {
@@ -19,7 +21,7 @@ impl Rectangular {
     /// Parameters that are not finite, a half-width that is not above zero.
     pub fn new(mean: f64, half_width: f64) -> Result<Self, Invalid> {
         let (mean, half_width) = (finite("mean", mean)?, positive("half_width", half_width)?);
-        Ok(Self { mean, half_width, dof: f64::INFINITY })
+        Ok(Self { mean, half_width, width: InexactWidth::EXACT })
     }
 
     /// All values between two limits equally likely.
@@ -36,13 +38,24 @@ impl Rectangular {
         self.half_width
     }
 
-    /// The same with degrees of freedom (> 0) that say how well the half-width is known (JCGM 100,
-    /// G.4.2). They count on the GUM side; trials are drawn as before.
+    /// The same with degrees of freedom (at least 0.5) that say how well the half-width is known
+    /// (JCGM 100, G.4.2). Trials are then drawn from the curvilinear trapezoid (JCGM 101, 6.4.3)
+    /// whose inexactness is the half-width over sqrt(2 dof).
     ///
     /// # Errors
-    /// Degrees of freedom that are not above zero.
+    /// Degrees of freedom below 0.5, with which the limits could cross.
     pub fn with_dof(self, dof: f64) -> Result<Self, Invalid> {
-        Ok(Self { dof: degrees_of_freedom(dof)?, ..self })
+        let width = InexactWidth::of_dof(dof)?;
+        finite("half_width", self.half_width * (1.0 + width.share()))?;
+        Ok(Self { width, ..self })
+    }
+
+    /// What is drawn in place of a rectangle whose width is not known exactly.
+    pub(super) fn inexact(&self) -> Option<CurvilinearTrapezoid> {
+        (!self.width.is_exact()).then(|| {
+            let inexactness = self.half_width * self.width.share();
+            CurvilinearTrapezoid::of_width(self.mean, self.half_width, inexactness)
+        })
     }
 }
 
@@ -62,19 +75,37 @@ impl Shape for Rectangular {
     }
 
     fn dof(&self) -> f64 {
-        self.dof
+        self.width.dof()
+    }
+
+    fn drawn_as(&self) -> Option<&'static str> {
+        self.inexact().map(|_| CurvilinearTrapezoid::NAME)
+    }
+
+    fn standard_deviation(&self) -> f64 {
+        self.inexact()
+            .map_or_else(|| self.standard_uncertainty(), |drawn| drawn.standard_deviation())
     }
 
     fn quantile(&self, p: f64) -> f64 {
+        if let Some(drawn) = self.inexact() {
+            return drawn.quantile(p);
+        }
         self.mean + self.half_width * (2.0 * p - 1.0)
     }
 
     fn quantile_upper(&self, q: f64) -> f64 {
+        if let Some(drawn) = self.inexact() {
+            return drawn.quantile_upper(q);
+        }
         self.mean + self.half_width * (1.0 - 2.0 * q)
     }
 
     #[inline(always)]
     fn draw(&self, stream: &mut Stream, out: &mut Column) {
+        if let Some(drawn) = self.inexact() {
+            return drawn.draw(stream, out);
+        }
         stream.uniform(&mut out.0);
         for i in 0..COLUMN {
             out.0[i] = self.mean + self.half_width * (2.0 * out.0[i] - 1.0);

@@ -43,6 +43,12 @@ pub(crate) trait Shape {
         f64::INFINITY
     }
 
+    /// The name of what trials are drawn from, where that is another shape because the standard
+    /// uncertainty has finite degrees of freedom.
+    fn drawn_as(&self) -> Option<&'static str> {
+        None
+    }
+
     /// Standard deviation of the drawn values; infinite where it does not exist.
     fn standard_deviation(&self) -> f64 {
         self.standard_uncertainty()

@@ -14,6 +14,29 @@ fn located() -> Vec<(&'static str, Distribution)> {
         ("normal, 4 dof", Normal::with_dof(10.0, 0.3, 4.0).unwrap().into()),
         ("rectangular", Rectangular::new(-2.0, 0.5).unwrap().into()),
         ("rectangular by limits", Rectangular::between(1.0, 4.0).unwrap().into()),
+        ("rectangular, 2 dof", Rectangular::new(1.0, 0.05).unwrap().with_dof(2.0).unwrap().into()),
+        ("rectangular, 0.5 dof", Rectangular::new(1.0, 2.0).unwrap().with_dof(0.5).unwrap().into()),
+        ("triangular, 2 dof", Triangular::new(3.0, 0.5).unwrap().with_dof(2.0).unwrap().into()),
+        (
+            "triangular, skew, 3 dof",
+            Triangular::between(0.0, 3.0, Some(0.5)).unwrap().with_dof(3.0).unwrap().into(),
+        ),
+        (
+            "triangular, mode at the limit, 0.5 dof",
+            Triangular::between(0.0, 3.0, Some(3.0)).unwrap().with_dof(0.5).unwrap().into(),
+        ),
+        (
+            "trapezoidal, 2 dof",
+            Trapezoidal::new(3.0, 0.5, 0.4).unwrap().with_dof(2.0).unwrap().into(),
+        ),
+        (
+            "trapezoidal as a rectangle, 8 dof",
+            Trapezoidal::new(3.0, 0.5, 1.0).unwrap().with_dof(8.0).unwrap().into(),
+        ),
+        (
+            "trapezoidal as a triangle, 0.5 dof",
+            Trapezoidal::new(3.0, 0.5, 0.0).unwrap().with_dof(0.5).unwrap().into(),
+        ),
         ("triangular", Triangular::new(3.0, 0.5).unwrap().into()),
         ("triangular, skew", Triangular::between(0.0, 3.0, Some(0.5)).unwrap().into()),
         ("triangular, mode at the limit", Triangular::between(0.0, 3.0, Some(3.0)).unwrap().into()),
@@ -144,7 +167,7 @@ fn stated_moments_are_those_of_the_quantile_function() {
             mean += weight * offset;
             variance += weight * offset * offset;
         }
-        let u = distribution.standard_uncertainty();
+        let u = distribution.standard_deviation();
         assert!(mean.abs() < 1e-6 * u, "{name}: mean off by {mean}");
         assert!((variance.sqrt() / u - 1.0).abs() < 1e-6, "{name}: {} not {u}", variance.sqrt());
     }
@@ -326,5 +349,28 @@ fn upper_quantiles_are_those_of_the_other_tail() {
             assert!(x.is_finite() && x >= last - 1e-9 * std, "{name} at 2^{exponent}: {x}");
             last = x;
         }
+    }
+}
+
+/// JCGM 101, 9.5.2.8: the difference of temperature of the gauge blocks lies within 0.05 degC, and
+/// that with 2 degrees of freedom (JCGM 100, H.1.4); its curvilinear trapezoid has d = 0.025.
+/// JCGM 100 has its standard uncertainty, 0.029 degC, with the degrees of freedom; the trials have
+/// that of 6.4.3.4, sqrt(w^2/3 + d^2/9).
+#[test]
+fn a_rectangle_with_degrees_of_freedom_is_a_curvilinear_trapezoid() {
+    let stated: Distribution = Rectangular::new(0.0, 0.05).unwrap().with_dof(2.0).unwrap().into();
+    let drawn: Distribution = CurvilinearTrapezoid::new(-0.05, 0.05, 0.025).unwrap().into();
+    assert_eq!(stated.drawn_as(), Some("curvilinear-trapezoid"));
+    assert_eq!(draws(&stated, BLOCK), draws(&drawn, BLOCK));
+    assert_eq!(stated.quantile(0.01), drawn.quantile(0.01));
+    assert_eq!((stated.dof(), stated.name()), (2.0, "rectangular"));
+    assert!((stated.standard_uncertainty() - 0.05 / 3f64.sqrt()).abs() < 1e-17);
+    let expected = (0.05f64.powi(2) / 3.0 + 0.025f64.powi(2) / 9.0).sqrt();
+    assert!((stated.standard_deviation() - expected).abs() < 1e-16);
+    // and a rectangle whose width is known exactly is drawn as it ever was
+    let exact: Distribution = Rectangular::new(0.0, 0.05).unwrap().into();
+    assert_eq!(exact.drawn_as(), None);
+    for dof in [0.0, 0.49, f64::NAN] {
+        assert!(Rectangular::new(0.0, 0.05).unwrap().with_dof(dof).is_err(), "{dof}");
     }
 }

@@ -1,5 +1,6 @@
 //! The symmetric trapezoidal distribution (JCGM 101, 6.4.4; JCGM 100, 4.3.9).
 
+use super::inexact_width::InexactWidth;
 use super::shape::{Invalid, Shape, finite, limits, positive, within};
 use super::stream::Stream;
 use crate::number::{COLUMN, Column};
@@ -10,6 +11,7 @@ pub struct Trapezoidal {
     mean: f64,
     half_width: f64,
     beta: f64,
+    inexact: InexactWidth,
 }
 
 impl Trapezoidal {
@@ -23,6 +25,7 @@ impl Trapezoidal {
             mean: finite("mean", mean)?,
             half_width: positive("half_width", half_width)?,
             beta: within("beta", beta, 0.0, 1.0, "from 0 to 1")?,
+            inexact: InexactWidth::EXACT,
         })
     }
 
@@ -33,6 +36,18 @@ impl Trapezoidal {
     pub fn between(lower: f64, upper: f64, beta: f64) -> Result<Self, Invalid> {
         let (mean, half_width) = limits(lower, upper)?;
         Self::new(mean, half_width, beta)
+    }
+
+    /// The same with degrees of freedom (at least 0.5) that say how well its width is known
+    /// (JCGM 100, G.4.2). Every trial then has limits of its own, which are as much farther from
+    /// the middle or nearer to it, by up to the share 1/sqrt(2 dof).
+    ///
+    /// # Errors
+    /// Degrees of freedom below 0.5, with which the width could be negative.
+    pub fn with_dof(self, dof: f64) -> Result<Self, Invalid> {
+        let inexact = InexactWidth::of_dof(dof)?;
+        finite("half_width", self.half_width * (1.0 + inexact.share()))?;
+        Ok(Self { inexact, ..self })
     }
 }
 
@@ -51,9 +66,25 @@ impl Shape for Trapezoidal {
         Some((6.0 / (1.0 + self.beta * self.beta)).sqrt())
     }
 
+    fn dof(&self) -> f64 {
+        self.inexact.dof()
+    }
+
+    fn drawn_as(&self) -> Option<&'static str> {
+        (!self.inexact.is_exact()).then_some("trapezoidal-inexact-width")
+    }
+
+    fn standard_deviation(&self) -> f64 {
+        self.standard_uncertainty() * self.inexact.mean_square().sqrt()
+    }
+
     fn quantile(&self, p: f64) -> f64 {
-        let Self { mean, half_width, beta } = *self;
+        let Self { mean, half_width, beta, inexact } = *self;
         let tail = p.min(1.0 - p);
+        if !inexact.is_exact() {
+            let distance = half_width * inexact.distance(beta, tail);
+            return mean + if p < 0.5 { -distance } else { distance };
+        }
         // the flanks hold (1 - beta) / (1 + beta) of the probability, half of it each
         if 2.0 * tail * (1.0 + beta) < 1.0 - beta {
             let inwards = (2.0 * tail * (1.0 - beta) * (1.0 + beta)).sqrt();
@@ -72,6 +103,12 @@ impl Shape for Trapezoidal {
         for (x, second) in out.0.iter_mut().zip(&second) {
             let sum = wide * *x + narrow * second;
             *x = self.mean + self.half_width * (sum - 1.0);
+        }
+        if !self.inexact.is_exact() {
+            stream.uniform(&mut second);
+            for (x, factor) in out.0.iter_mut().zip(&second) {
+                *x = self.mean + self.inexact.factor(*factor) * (*x - self.mean);
+            }
         }
     }
 

@@ -1,5 +1,6 @@
 //! The triangular distribution (JCGM 101, 6.4.5; JCGM 100, 4.3.9).
 
+use super::inexact_width::InexactWidth;
 use super::shape::{Invalid, Shape, finite, limits, positive};
 use super::stream::Stream;
 use crate::number::{COLUMN, Column};
@@ -12,6 +13,7 @@ pub struct Triangular {
     rise: f64,
     /// Distance from the mode to the upper limit.
     fall: f64,
+    inexact: InexactWidth,
 }
 
 impl Triangular {
@@ -21,7 +23,12 @@ impl Triangular {
     /// Parameters that are not finite, a half-width that is not above zero.
     pub fn new(mean: f64, half_width: f64) -> Result<Self, Invalid> {
         let (mean, half_width) = (finite("mean", mean)?, positive("half_width", half_width)?);
-        Ok(Self { lower: mean - half_width, rise: half_width, fall: half_width })
+        Ok(Self {
+            lower: mean - half_width,
+            rise: half_width,
+            fall: half_width,
+            inexact: InexactWidth::EXACT,
+        })
     }
 
     /// A triangle between two limits, its peak at `mode` or in the middle.
@@ -34,14 +41,38 @@ impl Triangular {
             return Self::new(middle, half_width);
         };
         if mode >= lower && mode <= upper {
-            Ok(Self { lower, rise: mode - lower, fall: upper - mode })
+            Ok(Self { lower, rise: mode - lower, fall: upper - mode, inexact: InexactWidth::EXACT })
         } else {
             Err(Invalid::OutOfRange { parameter: "mode", value: mode, range: "between the limits" })
         }
     }
 
+    /// The same with degrees of freedom (at least 0.5) that say how well its width is known
+    /// (JCGM 100, G.4.2). Every trial then has limits of its own, all of them as much farther from
+    /// the mode or nearer to it, by up to the share 1/sqrt(2 dof).
+    ///
+    /// # Errors
+    /// Degrees of freedom below 0.5, with which the width could be negative.
+    pub fn with_dof(self, dof: f64) -> Result<Self, Invalid> {
+        let inexact = InexactWidth::of_dof(dof)?;
+        finite("half_width", self.width() * (1.0 + inexact.share()))?;
+        Ok(Self { inexact, ..self })
+    }
+
     fn width(&self) -> f64 {
         self.rise + self.fall
+    }
+
+    /// The value that lies with the probability `tail` below it, or above it, where the width is
+    /// not known exactly. `near` is the distance of that limit from the mode, `far` of the other.
+    fn inexact_distance(&self, tail: f64, near: f64, far: f64) -> f64 {
+        // the shares of the two sides, which keep them at any width
+        let share = near / (near + far);
+        if tail < share {
+            near * self.inexact.distance(0.0, 0.5 * tail / share)
+        } else {
+            -far * self.inexact.distance(0.0, (0.5 * (1.0 - tail) / (1.0 - share)).min(0.5))
+        }
     }
 }
 
@@ -57,6 +88,20 @@ impl Shape for Triangular {
         ((rise * rise + rise * fall + fall * fall) / 18.0).sqrt()
     }
 
+    fn dof(&self) -> f64 {
+        self.inexact.dof()
+    }
+
+    fn drawn_as(&self) -> Option<&'static str> {
+        (!self.inexact.is_exact()).then_some("triangular-inexact-width")
+    }
+
+    fn standard_deviation(&self) -> f64 {
+        // the mode stays where it is
+        let (square, off) = (self.inexact.mean_square(), (self.fall - self.rise) / 3.0);
+        (square * self.standard_uncertainty().powi(2) + (square - 1.0) * off * off).sqrt()
+    }
+
     /// The limits of a triangle with its mode off the middle are not one width.
     fn divisor(&self) -> Option<f64> {
         let off = (self.rise - self.fall).abs();
@@ -65,6 +110,9 @@ impl Shape for Triangular {
 
     fn quantile(&self, p: f64) -> f64 {
         let width = self.width();
+        if !self.inexact.is_exact() {
+            return self.lower + self.rise - self.inexact_distance(p, self.rise, self.fall);
+        }
         if p * width < self.rise {
             self.lower + (p * width * self.rise).sqrt()
         } else {
@@ -74,6 +122,9 @@ impl Shape for Triangular {
 
     fn quantile_upper(&self, q: f64) -> f64 {
         let width = self.width();
+        if !self.inexact.is_exact() {
+            return self.lower + self.rise + self.inexact_distance(q, self.fall, self.rise);
+        }
         if q * width < self.fall {
             self.lower + width - (q * width * self.fall).sqrt()
         } else {
@@ -91,6 +142,14 @@ impl Shape for Triangular {
             let low = self.lower + (u * width * self.rise).sqrt();
             let high = upper - ((1.0 - u) * width * self.fall).sqrt();
             out.0[i] = if u * width < self.rise { low } else { high };
+        }
+        if !self.inexact.is_exact() {
+            let mode = self.lower + self.rise;
+            let mut factors = [0.0; COLUMN];
+            stream.uniform(&mut factors);
+            for (x, factor) in out.0.iter_mut().zip(&factors) {
+                *x = mode + self.inexact.factor(*factor) * (*x - mode);
+            }
         }
     }
 

@@ -19,8 +19,9 @@ pub struct BudgetLine {
     pub divisor: Option<f64>,
     /// Degrees of freedom of u(x_i); infinite unless it was estimated.
     pub dof: f64,
-    /// Whether a normal distribution is drawn as a t for its few degrees of freedom.
-    pub drawn_as_t: bool,
+    /// What the trials are drawn from, where that is not `distribution` because the standard
+    /// uncertainty has finite degrees of freedom.
+    pub drawn_as: Option<&'static str>,
     /// Sensitivity coefficient c_i, output unit per input unit.
     pub sensitivity: f64,
     /// Contribution |c_i| u(x_i) in the output's unit.
@@ -91,8 +92,7 @@ impl BudgetLine {
             distribution: distribution.name(),
             divisor: distribution.divisor(),
             dof: distribution.dof(),
-            drawn_as_t: matches!(distribution, Distribution::Normal(_))
-                && distribution.drawn_dof().is_finite(),
+            drawn_as: distribution.drawn_as(),
             sensitivity,
             contribution: (sensitivity * standard_uncertainty).abs(),
             share: 0.0,

@@ -9,6 +9,7 @@ use global::Inspection;
 
 use super::monte_carlo::MonteCarlo;
 use crate::model::{Output, Tolerance};
+use crate::number::elementary;
 use crate::special;
 
 /// How probable it is that an output lies within its tolerance limits, and what is decided.
@@ -16,10 +17,14 @@ use crate::special;
 pub struct Conformity {
     /// The limits.
     pub tolerance: Tolerance,
-    /// The estimate that is decided about: the mean of the trials.
+    /// The estimate that is decided about: the mean of the trials, or their median where there is
+    /// no mean.
     pub estimate: f64,
-    /// The conformance probability (JCGM 106, 7): the share of trials within the limits.
+    /// The conformance probability (JCGM 106, 7): with a prior that of the posterior distribution
+    /// (6.3 and 7.1), otherwise the share of trials within the limits.
     pub probability: f64,
+    /// The share of trials within the limits, where the probability takes a prior into account.
+    pub without_prior: Option<f64>,
     /// Numerical standard error of the probability.
     pub numerical_standard_error: f64,
     /// The risk of false acceptance that is wanted.
@@ -43,12 +48,18 @@ impl Conformity {
         if self.conforms { 1.0 - self.probability } else { self.probability }
     }
 
-    /// The decision about an output from its trials; `None` without a tolerance. Guard bands and
-    /// global risks take the measured value to be normally distributed about the true one, with
-    /// `u` as standard uncertainty.
-    pub fn of(output: &Output, figures: &MonteCarlo, u: Option<f64>) -> Option<Self> {
+    /// The decision about an output from its trials; `None` without a tolerance. The posterior
+    /// probability, guard bands and global risks take the measured value to be normally distributed
+    /// about the true one, with `u` as standard uncertainty. `linear` are estimate and standard
+    /// uncertainty by the law of propagation, where that may be trusted.
+    pub fn of(
+        output: &Output,
+        figures: &MonteCarlo,
+        u: Option<f64>,
+        linear: Option<(f64, f64)>,
+    ) -> Option<Self> {
         let tolerance = output.tolerance?;
-        let p = figures.inside;
+        let share = figures.inside;
         let u = figures.standard_uncertainty.or(u).filter(|u| u.is_finite() && *u > 0.0);
         let limits = tolerance.ends();
         let inspection = output.prior.as_deref().zip(u);
@@ -61,16 +72,34 @@ impl Conformity {
         };
         let acceptance = guard_band.map(|width| tolerance.narrowed(width));
         let acceptance_ends = acceptance.map(|acceptance| acceptance.ends());
-        let global = inspection.zip(acceptance_ends).map(|(of, ends)| of.risks(ends));
+        let estimate = figures.location();
+        let global = inspection.as_ref().zip(acceptance_ends).map(|(of, ends)| of.risks(ends));
+        let posterior = output.prior.as_deref().zip(u).map(|(prior, spread)| {
+            let at = |y: f64, u: f64| Inspection::new(prior, u, limits).conformance(y);
+            if let Some((y, u)) = linear.filter(|(_, u)| *u > 0.0) {
+                return (at(y, u), 0.0);
+            }
+            // the trials know both to their numerical standard errors
+            let of_y = figures.errors.estimate.unwrap_or(figures.errors.median);
+            let of_u = figures.errors.standard_uncertainty.unwrap_or(0.0).min(0.5 * spread);
+            let change = |y: f64, u: f64| {
+                0.5 * (at(estimate + y, spread + u) - at(estimate - y, spread - u))
+            };
+            let error = elementary::hypot(change(of_y, 0.0), change(0.0, of_u));
+            (at(estimate, spread), error)
+        });
+        let error = (share * (1.0 - share) / figures.trials as f64).sqrt();
+        let (probability, numerical_standard_error) = posterior.unwrap_or((share, error));
         Some(Self {
             tolerance,
-            estimate: figures.estimate,
-            probability: p,
-            numerical_standard_error: (p * (1.0 - p) / figures.trials as f64).sqrt(),
+            estimate,
+            probability,
+            without_prior: posterior.map(|_| share),
+            numerical_standard_error,
             wanted_risk: output.risk,
             acceptance,
             guard_band,
-            conforms: acceptance.is_some_and(|acceptance| acceptance.holds(figures.estimate)),
+            conforms: acceptance.is_some_and(|acceptance| acceptance.holds(figures.location())),
             global,
         })
     }

@@ -10,6 +10,7 @@ use super::Control;
 use super::conformity::Conformity;
 use super::gum::{self, Gum, GumRow};
 use super::monte_carlo::{self, MonteCarlo, Request, Search, Undefined};
+use super::second_order::{SecondOrder, second_order};
 use super::validate::{Validation, validate};
 use crate::distribution::{BLOCK, Correlation, CorrelationError, Joint};
 use crate::model::{Output, Program};
@@ -48,6 +49,9 @@ pub struct RowEvaluation {
     /// Correlation coefficients between the outputs i < j: from the trials, or by the law of
     /// propagation if there are none.
     pub correlations: Vec<f64>,
+    /// Numerical standard errors of those from the trials; `None` where an output's trials do not
+    /// tell them. Empty by the law of propagation, which has none.
+    pub correlation_errors: Vec<Option<f64>>,
     /// Trials that were left out because an output was not finite.
     pub undefined: Option<Undefined>,
     /// The variables that are outputs of saved results, drawn as they varied together there.
@@ -73,6 +77,9 @@ pub struct OutputEvaluation {
     pub gum: Option<Gum>,
     /// By the Monte Carlo method; `None` without trials.
     pub monte_carlo: Option<MonteCarlo>,
+    /// The law of propagation with its terms of second order, where they tell why the two differ, or
+    /// what the law leaves out.
+    pub second_order: Option<SecondOrder>,
     /// Their comparison.
     pub validation: Option<Validation>,
     /// The probability that the output conforms to its tolerance; `None` without a tolerance or
@@ -106,13 +113,22 @@ impl OutputEvaluation {
         let of_trials = || {
             let figures = self.monte_carlo.as_ref()?;
             let [low, high] = figures.symmetric_interval;
-            Some((figures.estimate, 0.5 * high - 0.5 * low))
+            Some((figures.location(), 0.5 * high - 0.5 * low))
         };
         let (estimate, expanded) = of_gum().or_else(of_trials)?;
         let cmc = capability.at(estimate);
         let raised = capability.floor && expanded < cmc;
         let expanded_uncertainty = if raised { cmc } else { expanded };
         Some(CapabilityStatement { cmc, expanded_uncertainty, raised })
+    }
+}
+
+impl RowEvaluation {
+    /// The trials that were made, those that were left out included; `None` without trials.
+    pub(super) fn made(&self) -> Option<u64> {
+        let figures = self.outputs.iter().find_map(|output| output.monte_carlo.as_ref())?;
+        let undefined = self.undefined.as_ref().map_or(0, |undefined| undefined.count);
+        Some(figures.trials + undefined)
     }
 }
 
@@ -272,9 +288,16 @@ fn evaluate_rows(task: &Task, control: &Control<'_>) -> Result<Evaluation, Evalu
     // the first row that failed, whichever was ready first
     let rows = rows.into_iter().map_while(|row| row).collect::<Result<Vec<_>, _>>()?;
     let notes = notes.into_inner().unwrap_or_else(PoisonError::into_inner);
+    let mut settings = task.settings;
+    // one row's number of trials is that with which its figures come out again
+    if let ([row], Trials::Fixed(asked)) = (rows.as_slice(), settings.trials)
+        && !notes.stopped
+    {
+        settings.trials = Trials::Fixed(row.made().unwrap_or(asked).max(asked));
+    }
     Ok(Evaluation {
         coverage_probability: task.settings.coverage.probability(),
-        settings: task.settings,
+        settings,
         rows,
         rounded_correlations: notes.rounded,
         copula: notes.copula.into_iter().collect(),
@@ -309,12 +332,13 @@ fn evaluate_row(
     notes: &Mutex<Notes>,
 ) -> Result<RowEvaluation, EvaluationError> {
     let joint = joint(task, row)?;
-    let gums = std::mem::take(&mut linear.outputs);
+    let mut gums = std::mem::take(&mut linear.outputs);
     let drawn_dof: Vec<f64> = reaches.iter().map(|reach| fewest_dof(reach, row)).collect();
     let mut result = RowEvaluation {
         conditions: row.conditions.clone(),
         outputs: Vec::with_capacity(gums.len()),
         correlations: Vec::new(),
+        correlation_errors: Vec::new(),
         undefined: None,
         jointly_drawn: joint
             .rank_samples()
@@ -327,7 +351,7 @@ fn evaluate_row(
     let mut stopped = false;
     if task.settings.trials != Trials::Fixed(0) {
         let mut trials = monte_carlo::RowTrials::new(task, row, &linear.estimates, &joint);
-        let finished = run(task, &mut trials, &gums, &drawn_dof, control);
+        let finished = decided(task, &mut trials, &gums, &drawn_dof, control);
         stopped = finished.stopped;
         if let Some(undefined) = finished.undefined {
             if undefined.count as f64 > task.settings.allowed_undefined * undefined.trials as f64 {
@@ -338,31 +362,118 @@ fn evaluate_row(
         if finished.trials > 0 {
             figures = finished.outputs.into_iter().map(Some).collect();
             result.correlations = finished.correlations;
+            result.correlation_errors = finished.correlation_errors;
         }
     }
     if figures.iter().all(Option::is_none) {
         result.correlations = linear.correlations();
     }
     notes.lock().unwrap_or_else(PoisonError::into_inner).add(&joint, stopped);
+    let by_product = (task.rows.len() <= FEW_ROWS).then_some(());
+    let asks = gums.iter().zip(&figures).any(|(gum, figures)| {
+        gum.as_ref().is_some_and(|gum| match figures {
+            Some(figures) => differs_from_linear(gum, figures),
+            None => by_product.is_some(),
+        })
+    });
+    let mut second = vec![None; gums.len()];
+    if asks {
+        linear.outputs = std::mem::take(&mut gums);
+        second = second_order(task, row, &linear);
+        gums = std::mem::take(&mut linear.outputs);
+    }
     let evaluated = gums.into_iter().zip(figures).zip(drawn_dof).zip(&task.model.outputs);
-    for (((gum, monte_carlo), drawn_dof), output) in evaluated {
-        let conformity = monte_carlo.as_ref().and_then(|figures| {
-            let u = gum.as_ref().map(|gum| gum.standard_uncertainty);
-            Conformity::of(output, figures, u)
+    for ((((gum, monte_carlo), drawn_dof), output), second_order) in evaluated.zip(second) {
+        // only where there is something to say
+        let second_order = second_order.filter(|second| {
+            gum.as_ref().is_some_and(|gum| {
+                let u = gum.standard_uncertainty;
+                let told = monte_carlo.as_ref().is_none_or(|m| differs_from_linear(gum, m));
+                told && (second.standard_uncertainty - u).abs() > NOTEWORTHY * u
+            })
         });
         let validation = match (&gum, &monte_carlo) {
             (Some(gum), Some(figures)) => validate(gum, figures, task.settings.digits),
             _ => None,
         };
+        let conformity = monte_carlo.as_ref().and_then(|figures| {
+            let u = gum.as_ref().map(|gum| gum.standard_uncertainty);
+            let trusted = validation.is_some_and(|v| v.gum_valid != Some(false));
+            let linear = gum.as_ref().filter(|_| trusted);
+            let linear = linear.map(|gum| (gum.estimate, gum.standard_uncertainty));
+            Conformity::of(output, figures, u, linear)
+        });
         result.outputs.push(OutputEvaluation {
             gum,
             monte_carlo,
+            second_order,
             validation,
             conformity,
             drawn_dof,
         });
     }
     Ok(result)
+}
+
+/// A difference of two standard uncertainties below this share is not worth a word.
+pub(super) const NOTEWORTHY: f64 = 0.01;
+
+/// Rows at most of an evaluation without trials for which terms of second order are computed.
+const FEW_ROWS: usize = 16;
+
+/// Whether the trials' standard deviation is noteworthily another one than that of a linear model.
+pub(super) fn differs_from_linear(gum: &Gum, figures: &MonteCarlo) -> bool {
+    let Some(u) = figures.standard_uncertainty.filter(|_| !figures.heavy_tailed) else {
+        return false;
+    };
+    let drawn = gum.drawn_uncertainty();
+    let noteworthy = NOTEWORTHY * gum.standard_uncertainty;
+    match figures.errors.standard_uncertainty {
+        Some(error) => (u - drawn).abs() > f64::max(3.0 * error, noteworthy),
+        // of few degrees of freedom it settles slowly, and of up to 3, which have no skewness, so
+        // slowly that it may still be anywhere below
+        None if figures.skewness.is_some() => (u - drawn).abs() > 0.03 * drawn,
+        None => u > 1.03 * drawn || u < gum.standard_uncertainty - noteworthy,
+    }
+}
+
+/// How many times as many trials are made where clause 8 is undecided.
+const FURTHER: u64 = 4;
+
+/// The Monte Carlo run of a row, and runs of more trials while clause 8 is undecided.
+fn decided(
+    task: &Task,
+    trials: &mut monte_carlo::RowTrials,
+    gums: &[Option<Gum>],
+    drawn_dof: &[f64],
+    control: &Control<'_>,
+) -> monte_carlo::Finished {
+    let settings = &task.settings;
+    let mut finished = run(task, trials, gums, drawn_dof, control);
+    let mut count = Settings::USUAL_TRIALS;
+    if settings.trials != Trials::Fixed(count) {
+        return finished;
+    }
+    let most = settings.decide_up_to / task.rows.len().max(1) as u64;
+    let is_open = |finished: &monte_carlo::Finished| {
+        let pairs = gums.iter().zip(&finished.outputs);
+        pairs
+            .filter_map(|(gum, figures)| validate(gum.as_ref()?, figures, settings.digits))
+            .any(|validation| validation.gum_valid.is_none())
+    };
+    while count.saturating_mul(FURTHER) <= most && is_open(&finished) && !control.is_stopped() {
+        count *= FURTHER;
+        let request =
+            Request { trials: count, probability: settings.coverage.probability(), drawn_dof };
+        let more = monte_carlo::run(trials, request, &Control { progress: None, ..*control });
+        // what was counted before is whole
+        if more.stopped {
+            finished.stopped = true;
+            break;
+        }
+        finished = more;
+    }
+    finished
 }
 
 /// The Monte Carlo run of a row, of a fixed or an adaptive number of trials.
@@ -399,7 +510,9 @@ fn run(
     let mut finished = monte_carlo::run(trials, request, &control);
     finished.stopped |= stopped;
     for (figures, end) in finished.outputs.iter_mut().zip(ends) {
-        figures.adaptive = Some(end);
+        // figures that do not exist agree between blocks by chance at most
+        let converged = end.converged && !figures.heavy_tailed;
+        figures.adaptive = Some(monte_carlo::Adaptive { converged, ..end });
     }
     finished
 }

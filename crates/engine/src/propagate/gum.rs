@@ -59,6 +59,20 @@ impl Gum {
         Some(self.coverage_factor? * self.standard_uncertainty)
     }
 
+    /// The standard deviation that the trials of a linear model would have: that of the Guide with the
+    /// standard deviations of what is drawn. It is above u where an input has few degrees of freedom,
+    /// and infinite where one has two or fewer.
+    pub fn drawn_uncertainty(&self) -> f64 {
+        let signed = |v: usize| {
+            let known = self.inputs.get(v).zip(self.sensitivities.get(v));
+            known.filter(|(_, c)| **c != 0.0).map_or(0.0, |(d, c)| c * d.standard_deviation())
+        };
+        let own: f64 = (0..self.inputs.len()).map(|v| signed(v).powi(2)).sum();
+        let joint =
+            self.links.iter().map(|c| 2.0 * c.coefficient * signed(c.first) * signed(c.second));
+        (own + joint.sum::<f64>()).max(0.0).sqrt()
+    }
+
     /// The coverage interval y - U to y + U.
     pub fn interval(&self) -> Option<[f64; 2]> {
         let expanded = self.expanded_uncertainty()?;
@@ -159,6 +173,16 @@ impl<'a> Rows<'a> {
 }
 
 impl GumRow {
+    /// The sensitivity coefficients of an output.
+    pub(crate) fn gradient(&self, output: usize) -> Option<&[f64]> {
+        self.gradients.get(output).map(Vec::as_slice)
+    }
+
+    /// Whether correlation coefficients link quantities that vary.
+    pub(crate) fn is_correlated(&self) -> bool {
+        !self.links.is_empty()
+    }
+
     /// Correlation coefficients of the outputs i < j.
     pub(crate) fn correlations(&self) -> Vec<f64> {
         let u = &self.uncertainties;
@@ -403,7 +427,10 @@ pub fn coverage_factor(coverage: Coverage, dof: Dof, real: bool) -> Option<f64> 
     let probability = coverage.probability();
     match dof {
         Dof::Undefined => coverage.given_factor(),
-        Dof::Infinite => Some(special::student::two_sided_factor(probability, f64::INFINITY)),
+        // K itself, and not the factor at its probability of 0.9545, which is 2.000 02
+        Dof::Infinite => coverage
+            .given_factor()
+            .or_else(|| Some(special::student::two_sided_factor(probability, f64::INFINITY))),
         Dof::Finite(dof) => {
             let whole = whole(dof);
             let used = if real || whole < 1.0 { dof } else { whole };

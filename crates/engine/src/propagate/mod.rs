@@ -3,6 +3,7 @@
 //! ([`monte_carlo`], JCGM 101) at the same time, and the comparison of the two ([`validate`],
 //! JCGM 101, clause 8).
 
+mod branch;
 mod budget;
 mod conformity;
 mod control;
@@ -12,6 +13,7 @@ pub mod gum;
 pub mod monte_carlo;
 mod origins;
 mod replay;
+mod second_order;
 pub mod validate;
 mod warnings;
 
@@ -25,4 +27,5 @@ pub use evaluation::{
 };
 pub use origins::{Origins, linear, origins};
 pub use replay::{for_each_block, histograms, joint_ranks, quantiles};
-pub use warnings::warnings;
+pub use second_order::SecondOrder;
+pub use warnings::{second_order_text, warnings};

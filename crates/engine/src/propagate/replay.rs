@@ -14,12 +14,7 @@ const MOST_RANKS: usize = 1 << 20;
 
 /// How many trials the run of a row made, undefined ones included; 0 without trials.
 fn made(evaluation: &Evaluation, row: usize) -> u64 {
-    let Some(row) = evaluation.rows.get(row) else {
-        return 0;
-    };
-    let trials = row.outputs.iter().find_map(|output| output.monte_carlo.as_ref());
-    let undefined = row.undefined.as_ref().map_or(0, |undefined| undefined.count);
-    trials.map_or(0, |figures| figures.trials + undefined)
+    evaluation.rows.get(row).and_then(|row| row.made()).unwrap_or(0)
 }
 
 fn trials(task: &Task, row: usize) -> Result<Option<RowTrials>, EvaluationError> {

@@ -2,15 +2,17 @@
 
 use std::collections::HashMap;
 
-use super::evaluation::{Evaluation, OutputEvaluation, RowEvaluation};
+use super::branch;
+use super::evaluation::{
+    Evaluation, NOTEWORTHY, OutputEvaluation, RowEvaluation, differs_from_linear,
+};
 use super::gum::{BudgetLine, Dof, Gum};
 use super::monte_carlo::{Adaptive, MonteCarlo};
+use super::second_order::SecondOrder;
+use crate::decimal;
 use crate::model::Output;
 use crate::number::Shortest;
 use crate::task::{Task, Trials, Warning};
-
-/// A difference of the two standard uncertainties below this is not worth a note.
-const NOTEWORTHY: f64 = 0.01;
 
 /// Outputs of saved results that cancel are worth a note from this share of the standard uncertainty
 /// on.
@@ -51,7 +53,12 @@ pub fn warnings(task: &Task, evaluation: &Evaluation) -> Vec<Warning> {
             let text = format!("{count} of {all} trials are not finite and were left out");
             push(&mut found, Warning::new("undefined-trials", "", text));
         }
-        for (output, evaluated) in task.model.outputs.iter().zip(&row.outputs) {
+        for (number, (output, evaluated)) in task.model.outputs.iter().zip(&row.outputs).enumerate()
+        {
+            if let (Some(gum), Some(trials)) = (&evaluated.gum, &evaluated.monte_carlo) {
+                let note = branch::note(&task.model.program, (number, output), gum, trials);
+                note.into_iter().for_each(|note| push(&mut found, note));
+            }
             of_output(task, &output.quantity.name, row, evaluated, &mut found);
             of_capability(output, evaluated, &mut found);
         }
@@ -176,12 +183,29 @@ fn of_output(
         push(found, Warning::new("gum-dof-undefined", name, text));
     }
     let Some(monte_carlo) = &output.monte_carlo else {
+        if let Some(second) = &output.second_order {
+            let said = second_order_text(task, gum, second);
+            push(found, Warning::new("non-linear", name, format!("`{name}`{at}: {said}")));
+        }
         return;
     };
     of_extremes(name, &at, monte_carlo, found);
+    if monte_carlo.heavy_tailed {
+        let text = format!(
+            "`{name}`{at}: a few of the {} trials carry their standard uncertainty (excess kurtosis \
+             {}), so that its distribution may have no expectation and no standard deviation (JCGM \
+             101, 3.6, note 1): estimate and standard uncertainty of the trials are of these trials \
+             alone and have no numerical standard error; median and coverage intervals stand",
+            monte_carlo.trials,
+            decimal::significant(monte_carlo.excess_kurtosis.unwrap_or(f64::NAN), 1)
+        );
+        push(found, Warning::new("heavy-tails", name, text));
+    }
     let spread = monte_carlo.standard_uncertainty.unwrap_or(gum.standard_uncertainty);
     of_results(name, &at, row, (gum, spread), found);
-    if let Some(Adaptive { converged: false, tolerance, .. }) = monte_carlo.adaptive {
+    if let Some(Adaptive { converged: false, tolerance, .. }) = monte_carlo.adaptive
+        && !monte_carlo.heavy_tailed
+    {
         let text = format!(
             "`{name}`{at}: after {} trials the figures are not yet stable to the tolerance \
              {tolerance}; the numerical standard errors say how far they are",
@@ -192,27 +216,126 @@ fn of_output(
     if output.drawn_dof <= 2.0 {
         let text = format!(
             "`{name}`{at}: an input is drawn from a t distribution with {} degrees of freedom, which \
-             has no variance, so the trials have no standard uncertainty; the coverage intervals \
-             stand",
-            output.drawn_dof
+             has no {}, so the trials have no {}; the coverage intervals stand",
+            output.drawn_dof,
+            if output.drawn_dof > 1.0 { "variance" } else { "expectation and no variance" },
+            if output.drawn_dof > 1.0 {
+                "standard uncertainty"
+            } else {
+                "estimate and no standard uncertainty"
+            }
         );
         push(found, Warning::new("no-variance", name, text));
-    } else if let (true, Some(u)) = (output.drawn_dof.is_finite(), monte_carlo.standard_uncertainty)
-    {
-        let error = monte_carlo.errors.standard_uncertainty.unwrap_or(0.0);
-        let difference = u - gum.standard_uncertainty;
-        if difference > NOTEWORTHY * gum.standard_uncertainty && difference > 3.0 * error {
+    } else {
+        of_difference(task, (name, &at), row, (gum, output, monte_carlo), found);
+    }
+}
+
+/// Why the standard uncertainties of the two methods differ: few degrees of freedom, a model that is
+/// not linear, or both.
+fn of_difference(
+    task: &Task,
+    (name, at): (&str, &str),
+    row: &RowEvaluation,
+    (gum, output, monte_carlo): (&Gum, &OutputEvaluation, &MonteCarlo),
+    found: &mut Vec<Warning>,
+) {
+    let Some(u) = monte_carlo.standard_uncertainty.filter(|_| !monte_carlo.heavy_tailed) else {
+        return;
+    };
+    let (linear, drawn) = (gum.standard_uncertainty, gum.drawn_uncertainty());
+    let error = monte_carlo.errors.standard_uncertainty.unwrap_or(0.0);
+    if (u - linear).abs() <= f64::max(NOTEWORTHY * linear, 3.0 * error) {
+        return;
+    }
+    let percent = |from: f64| format!("{:.0} %", 100.0 * (from / linear - 1.0).abs());
+    let by_dof = drawn > (1.0 + NOTEWORTHY) * linear;
+    let side = if u > linear { "above" } else { "below" };
+    let difference = if linear > 0.0 {
+        format!("is {} {side} that of the GUM", percent(u))
+    } else {
+        "is not zero as that of the GUM is".to_owned()
+    };
+    if !differs_from_linear(gum, monte_carlo) {
+        if by_dof {
             let text = format!(
-                "`{name}`{at}: the Monte Carlo standard uncertainty is {:.0} % above that of the GUM \
-                 because an input has few degrees of freedom ({}): its trials follow a t \
-                 distribution, whose standard deviation is sqrt(dof/(dof - 2)) times the standard \
-                 uncertainty. Neither is wrong; the GUM allows for it in the coverage factor",
-                100.0 * difference / gum.standard_uncertainty,
-                output.drawn_dof
+                "`{name}`{at}: the Monte Carlo standard uncertainty {difference} because standard \
+                 uncertainties of inputs have few degrees of freedom{}: what is drawn for them has \
+                 a larger standard deviation, which alone makes {}. {}",
+                fewest(output),
+                percent(drawn),
+                if output.drawn_dof.is_finite() {
+                    "Neither is wrong; the GUM allows for it in the coverage factor"
+                } else {
+                    "The GUM allows for it in its coverage factor, that of a t distribution, whose \
+                     long tails these inputs do not have"
+                }
             );
             push(found, Warning::new("few-dof", name, text));
         }
+        return;
     }
+    // what a copula or the ranks of a result change is said elsewhere
+    if !row.copula_changes.is_empty() || !row.jointly_drawn.is_empty() {
+        return;
+    }
+    let mut text = format!(
+        "`{name}`{at}: the Monte Carlo standard uncertainty {difference} because the model is not \
+         linear over the uncertainties of its inputs"
+    );
+    if by_dof {
+        text += &format!(
+            "; few degrees of freedom{} alone would bring it {} above",
+            fewest(output),
+            if drawn.is_finite() { percent(drawn) } else { "beyond all bounds".to_owned() }
+        );
+    }
+    if let Some(second) = &output.second_order {
+        text += "; ";
+        text += &second_order_text(task, gum, second);
+    }
+    push(found, Warning::new("non-linear", name, text + ". Take the Monte Carlo figures"));
+}
+
+/// The fewest degrees of freedom of what is drawn as a t, in brackets.
+fn fewest(output: &OutputEvaluation) -> String {
+    let dof = output.drawn_dof;
+    if dof.is_finite() { format!(" ({})", Shortest(dof)) } else { String::new() }
+}
+
+/// What the terms of second order of the law of propagation make of it, and which products matter
+/// though nothing is seen of them at the estimates.
+pub fn second_order_text(task: &Task, gum: &Gum, second: &SecondOrder) -> String {
+    let number = |value: f64| decimal::significant(value, task.settings.digits.max(2));
+    let mut text = format!(
+        "with its terms of second order (JCGM 100, 5.1.2, note) the law of propagation gives {} \
+         instead of {}",
+        number(second.standard_uncertainty),
+        number(gum.standard_uncertainty)
+    );
+    let name = |v: usize| task.variables.get(v).map_or("", |variable| variable.name.as_str());
+    let lines: HashMap<usize, BudgetLine> =
+        gum.budget().map(|line| (line.variable, line)).collect();
+    let contribution = |v: usize| lines.get(&v).map_or(0.0, |line| line.contribution);
+    let products: Vec<String> = second
+        .products
+        .iter()
+        .map(|&(i, j, c)| {
+            let product = if i == j {
+                format!("`{}` squared", name(i))
+            } else {
+                format!("`{}` times `{}`", name(i), name(j))
+            };
+            let hidden = contribution(i).max(contribution(j)) < 0.1 * c;
+            let seen =
+                if hidden { ", though their sensitivity coefficients vanish here" } else { "" };
+            format!("{product} contributes {}{seen}", number(c))
+        })
+        .collect();
+    if !products.is_empty() {
+        text += &format!("; {}", products.join(", "));
+    }
+    text
 }
 
 /// Intervals from the least to the greatest trial.

@@ -16,6 +16,13 @@ pub enum Coverage {
     },
 }
 
+/// The factor 2, for approximately 95 % (EA-4/02, 5.1; ILAC-P14).
+impl Default for Coverage {
+    fn default() -> Self {
+        Self::Factor { factor: 2.0, fixed: false }
+    }
+}
+
 /// A coverage probability.
 impl From<f64> for Coverage {
     fn from(probability: f64) -> Self {

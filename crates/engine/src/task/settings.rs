@@ -64,6 +64,10 @@ pub struct Settings {
     pub trials: Trials,
     /// When an adaptive run stops.
     pub rule: StoppingRule,
+    /// Up to so many trials of all rows together a run of the usual number of trials
+    /// ([`Settings::USUAL_TRIALS`]) goes on, fourfold each time, where clause 8 is undecided; 0 for no
+    /// more than asked for.
+    pub decide_up_to: u64,
     /// The largest number of trials of an adaptive run.
     pub max_trials: u64,
     /// Whether an adaptive run goes to a fifth of the tolerance, as the validation of the GUM
@@ -73,6 +77,8 @@ pub struct Settings {
     pub seed: u64,
     /// Significant digits of the standard uncertainty that are held meaningful (JCGM 101, 7.9.2).
     pub digits: u32,
+    /// Whether these digits were asked for: a certificate takes its own otherwise.
+    pub own_digits: bool,
     /// Whether the coverage factor is taken at the real number of effective degrees of freedom
     /// instead of its integer part (JCGM 100, G.4.1).
     pub real_dof: bool,
@@ -83,13 +89,15 @@ pub struct Settings {
 impl Default for Settings {
     fn default() -> Self {
         Self {
-            coverage: Coverage::Probability(0.95),
-            trials: Trials::Fixed(1_000_000),
+            coverage: Coverage::default(),
+            trials: Trials::Fixed(Self::USUAL_TRIALS),
             rule: StoppingRule::default(),
+            decide_up_to: 0,
             max_trials: 1_000_000_000,
             for_validation: false,
             seed: 1,
             digits: 2,
+            own_digits: false,
             real_dof: false,
             allowed_undefined: 0.0,
         }
@@ -97,6 +105,9 @@ impl Default for Settings {
 }
 
 impl Settings {
+    /// How many trials are made where nobody says how many.
+    pub const USUAL_TRIALS: u64 = 1_000_000;
+
     /// With this coverage probability or factor.
     #[must_use]
     pub fn with_coverage(self, coverage: Coverage) -> Self {
@@ -118,6 +129,6 @@ impl Settings {
     /// With so many meaningful digits.
     #[must_use]
     pub fn with_digits(self, digits: u32) -> Self {
-        Self { digits, ..self }
+        Self { digits, own_digits: true, ..self }
     }
 }

@@ -107,7 +107,11 @@ pub(super) fn is_meant(root: &Node) -> bool {
 /// What is asked of every model.
 #[derive(Clone, Copy, Debug)]
 struct Asking {
-    coverage: Coverage,
+    /// The coverage that the certificate states; a model's own where it states none.
+    coverage: Option<Coverage>,
+    /// The digits that it states, which decide whether a GUM interval is valid where neither it nor
+    /// the model says another number.
+    digits: u32,
     /// Settings of the trials that beat those of the model files.
     trials: Option<Settings>,
 }
@@ -116,12 +120,18 @@ impl Asking {
     fn apply(self, settings: &mut Settings) {
         if let Some(own) = self.trials {
             settings.trials = own.trials;
+            settings.decide_up_to = own.decide_up_to;
             settings.rule = own.rule;
             settings.max_trials = own.max_trials;
             settings.seed = own.seed;
-            settings.digits = own.digits;
+            if own.own_digits {
+                *settings = settings.with_digits(own.digits);
+            }
         }
-        settings.coverage = self.coverage;
+        if !settings.own_digits {
+            settings.digits = self.digits;
+        }
+        settings.coverage = self.coverage.unwrap_or(settings.coverage);
     }
 }
 
@@ -139,13 +149,13 @@ fn certificate<'a>(
     let languages = languages(&root);
     let rounding = named(&root, "rounding", Rounding::named, &Rounding::ALL.map(Rounding::name));
     let digits = root.whole("digits", 1, MOST_DIGITS).unwrap_or(2);
-    // a whole probability or factor of the certificate, not of its models
-    let coverage = settings::coverage(&root).unwrap_or(Coverage::Factor {
-        factor: 2.0,
-        fixed: root.truth("coverage_factor_fixed").unwrap_or(false),
-    });
+    let coverage = settings::coverage(&root);
     let trials = root.get("monte_carlo").map(|_| settings::read(&root));
-    let mut rows = Rows::new(root.log, (files, folder), Asking { coverage, trials });
+    let mut rows = Rows::new(
+        root.log,
+        (files, folder),
+        Asking { coverage, digits: u32::try_from(digits).unwrap_or(2), trials },
+    );
     match root.required("rows").and_then(|_| root.list("rows")) {
         Some([]) => {
             let place = root.get("rows").map_or(root.place(), |member| &member.key_span);

@@ -52,7 +52,7 @@ pub(crate) const MODEL: &[Key] = keys![
             .with("minProperties", 1),
     "model" => text_of("Name of a typed model, in place of `equations`: `gumption models`."),
     "outputs" => named("The quantities to report.", reference("output")).with("minProperties", 1),
-    "coverage_probability" => referenced("probability", "Coverage probability; 0.95."),
+    "coverage_probability" => referenced("probability", "Coverage probability; 0.9545, that of the factor 2, unless given."),
     "coverage_factor" => described("number", "Coverage factor for infinite degrees of freedom; sets the \
                                  coverage probability.")
                 .with("exclusiveMinimum", 0)

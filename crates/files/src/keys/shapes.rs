@@ -51,7 +51,8 @@ pub(crate) const SHAPES: [Shape; 17] = [
     Shape {
         name: "rectangular",
         aliases: &["uniform"],
-        about: "Rectangular (uniform) within limits.",
+        about: "Rectangular (uniform) within limits; with `dof` it is drawn as the curvilinear \
+                trapezoid of inexactness half_width/sqrt(2 dof) (JCGM 101, 6.4.3).",
         fields: &["mean", "half_width", "semi_range", "lower", "upper", "dof"],
         rule: Rule::Limits(&[]),
     },
@@ -59,15 +60,17 @@ pub(crate) const SHAPES: [Shape; 17] = [
         name: "triangular",
         aliases: &[],
         about: "Triangular within limits; with `lower` and `upper` the mode may lie off the \
-                middle.",
-        fields: &["mean", "half_width", "semi_range", "lower", "upper", "mode"],
+                middle. With `dof` every trial has a width of its own, which is up to the share \
+                1/sqrt(2 dof) off.",
+        fields: &["mean", "half_width", "semi_range", "lower", "upper", "mode", "dof"],
         rule: Rule::Limits(&[]),
     },
     Shape {
         name: "trapezoidal",
         aliases: &[],
-        about: "Symmetric trapezoidal within limits (JCGM 101, 6.4.4).",
-        fields: &["mean", "half_width", "semi_range", "lower", "upper", "beta"],
+        about: "Symmetric trapezoidal within limits (JCGM 101, 6.4.4); with `dof` drawn as a \
+                triangular one.",
+        fields: &["mean", "half_width", "semi_range", "lower", "upper", "beta", "dof"],
         rule: Rule::Limits(&["beta"]),
     },
     Shape {

@@ -3,7 +3,7 @@
 use super::{Shown, figures};
 use crate::EvaluationReport;
 use crate::document::{Block, Document, sentence};
-use crate::number::{justified, position, with_uncertainty};
+use crate::number::{justified, place_of_ends, position, with_uncertainty};
 use crate::sheet::Sheet;
 use crate::table;
 use crate::table::budget;
@@ -28,7 +28,9 @@ pub(super) fn section(
     let quantity = &output_of.quantity;
     let digits = evaluation.settings.digits;
     document.section(table::title_text(quantity));
-    document.blocks.push(Block::Verdict(verdict(&evaluation.settings, output_of, found)));
+    let mut said = verdict(&evaluation.settings, output_of, found);
+    said.extend(comparison::differences(report, output_of, found));
+    document.blocks.push(Block::Verdict(said));
     match &found.gum {
         Some(gum) => {
             let budget = Budget { task, output: quantity, gum, digits };
@@ -48,6 +50,9 @@ pub(super) fn section(
     if let Some(figures) = &found.monte_carlo {
         if !figures.shortest_exact {
             document.sentence(comparison::NEARLY_SHORTEST);
+        }
+        if !figures.shortest_unique {
+            document.sentence(comparison::NOT_UNIQUE);
         }
         if let Some(end) = &figures.adaptive {
             document.sentence(&comparison::stability(quantity, end, figures.trials));
@@ -97,18 +102,22 @@ fn result(settings: &Settings, output: &Quantity, found: &OutputEvaluation) -> S
     }
     if let Some(figures) = &found.monte_carlo {
         let u = figures.standard_uncertainty.or_else(|| gum.map(|gum| gum.standard_uncertainty));
-        let digits = u.and_then(|u| position(u, settings.digits));
-        let [low, high] = [0, 1].map(|end| {
-            let error = figures.errors.symmetric_interval[end];
-            justified(figures.symmetric_interval[end], digits, error)
-        });
-        let error = figures.errors.estimate.unwrap_or(f64::NAN);
-        let estimate = justified(figures.estimate, digits, error);
+        let ends = place_of_ends(figures, u, settings.digits);
+        let stated = figures.stated_interval();
+        let [low, high] = [0, 1].map(|end| justified(stated.ends[end], ends, stated.errors[end]));
+        let estimate = match figures.estimate {
+            Some(estimate) => {
+                let digits = u.and_then(|u| position(u, settings.digits));
+                justified(estimate, digits, figures.errors.estimate.unwrap_or(f64::NAN))
+            }
+            None => justified(figures.median, ends, figures.errors.median),
+        };
+        let kind = if stated.shortest { "shortest" } else { "probabilistically symmetric" };
         let high = in_unit(&high, &output.unit);
         let estimate = in_unit(&estimate, &output.unit);
         return format!(
-            "{name} = {estimate}; coverage interval from {low} to {high} (Monte Carlo, \
-             probabilistically symmetric), coverage probability {coverage}"
+            "{name} = {estimate}; coverage interval from {low} to {high} (Monte Carlo, {kind}), \
+             coverage probability {coverage}"
         );
     }
     match gum {

@@ -219,10 +219,9 @@ pub(super) fn coefficient_lines(gum: &Gum) -> usize {
 }
 
 fn distribution(line: &BudgetLine) -> String {
-    if line.drawn_as_t {
-        format!("{} (drawn as t)", line.distribution)
-    } else {
-        line.distribution.to_owned()
+    match line.drawn_as {
+        Some(drawn) => format!("{} (drawn as {drawn})", line.distribution),
+        None => line.distribution.to_owned(),
     }
 }
 

@@ -1,19 +1,27 @@
 //! The two methods side by side, and the verdict of JCGM 101, clause 8.
 
 use super::grid::Grid;
-use super::{WIDTH, in_unit, text};
-use crate::number::{MISSING, coarser, exact, justified, position, rounded, significant, to};
+use super::{WIDTH, coverage_text, in_unit, text};
+use crate::EvaluationReport;
+use crate::document::sentence;
+use crate::number::{
+    MISSING, coarser, exact, justified, place_of_ends, position, rounded, significant, to,
+};
 use crate::sheet::Sheet;
 use gumption_engine::model::{Output, Quantity, Tolerance};
-use gumption_engine::propagate::gum::Gum;
+use gumption_engine::propagate::gum::{Dof, Gum};
 use gumption_engine::propagate::monte_carlo::{Adaptive, FIRST_STAGE, MonteCarlo};
 use gumption_engine::propagate::validate::Validation;
 use gumption_engine::propagate::{Conformity, OutputEvaluation};
-use gumption_engine::task::StoppingRule;
+use gumption_engine::task::{Coverage, StoppingRule};
 
 /// What is said of a shortest interval that is not exact.
 pub(crate) const NEARLY_SHORTEST: &str =
     "the shortest interval is that of the trials within 1e-5 u";
+
+/// What is said where there is no one shortest interval.
+pub(crate) const NOT_UNIQUE: &str = "the shortest interval is not unique: others are as short \
+                                     within their numerical error, and the trials chose among them";
 
 /// Position of the last digit of skewness and kurtosis.
 const SHAPE_PLACE: i32 = -2;
@@ -36,6 +44,9 @@ pub(super) fn table(output: &Quantity, figures: &OutputEvaluation, digits: u32) 
     if !monte_carlo.shortest_exact {
         page += &text::wrapped(NEARLY_SHORTEST);
     }
+    if !monte_carlo.shortest_unique {
+        page += &text::wrapped(NOT_UNIQUE);
+    }
     if let Some(end) = &monte_carlo.adaptive {
         page += &text::wrapped(&stability(output, end, monte_carlo.trials));
     }
@@ -45,6 +56,35 @@ pub(super) fn table(output: &Quantity, figures: &OutputEvaluation, digits: u32) 
         page += &conformity(output, found).map(|said| text::wrapped(&said)).concat();
     }
     Some(page)
+}
+
+/// Notes that say why the two methods differ, or what one of them leaves out.
+const DIFFERENCES: [&str; 5] =
+    ["few-dof", "non-linear", "no-variance", "heavy-tails", "gum-dof-undefined"];
+
+/// Why the two methods differ, where they do: the notes about it, and a factor that is fixed.
+pub(crate) fn differences(
+    report: &EvaluationReport<'_>,
+    output: &Output,
+    figures: &OutputEvaluation,
+) -> Vec<String> {
+    let name = &output.quantity.name;
+    let own = report.warnings.iter().filter(|warning| warning.place == *name);
+    let own = own.filter(|warning| DIFFERENCES.contains(&warning.code));
+    let mut said: Vec<String> = own.map(|warning| sentence(&warning.text)).collect();
+    let settings = &report.evaluation.settings;
+    let gum = figures.gum.as_ref();
+    if let (Coverage::Factor { factor, fixed: true }, Some(Dof::Finite(_)), Some(_)) =
+        (settings.coverage, gum.map(|gum| gum.dof), &figures.monte_carlo)
+    {
+        said.push(format!(
+            "The coverage factor {} is fixed whatever the degrees of freedom; the Monte Carlo \
+             intervals have the coverage probability {}.",
+            exact(factor),
+            coverage_text(settings.coverage)
+        ));
+    }
+    said
 }
 
 /// What may be stated beside the laboratory's capability.
@@ -76,10 +116,19 @@ fn conformity_text(output: &Quantity, found: &Conformity) -> String {
     let side = if found.tolerance.holds(found.estimate) { "within" } else { "outside" };
     format!(
         "Tolerance {}: the estimate lies {side}, and the value conforms with a probability of {probability} % \
-         (numerical standard error {} %).",
+         (numerical standard error {} %{}).",
         limits_text(output, &found.tolerance, None),
-        significant(error, 1)
+        significant(error, 1),
+        prior_text(found)
     )
+}
+
+/// That a probability takes a prior into account, and what it would be without.
+fn prior_text(found: &Conformity) -> String {
+    found.without_prior.map_or_else(String::new, |share| {
+        let share = rounded(100.0 * share, -2);
+        format!("; with the prior, by JCGM 106, 6.3 and 7.1; without it {share} %")
+    })
 }
 
 /// Limits with the unit; to a position if there is one.
@@ -209,19 +258,25 @@ fn lines(gum: Option<&Gum>, figures: &MonteCarlo, digits: u32) -> Vec<Line> {
     let own = figures.standard_uncertainty.or(uncertainty);
     let gum_position = uncertainty.and_then(|u| position(u, digits));
     let own_position = own.and_then(|u| position(u, digits)).or(gum_position);
+    let end_position = place_of_ends(figures, own, digits).or(own_position);
     let errors = &figures.errors;
-    let line =
-        |names: [&'static str; 2], gum: Option<f64>, value: Option<f64>, error: Option<f64>| Line {
-            names,
-            gum: gum.map_or_else(|| MISSING.to_owned(), |value| to(value, gum_position)),
-            monte_carlo: value.map_or_else(
-                || MISSING.to_owned(),
-                |value| justified(value, own_position, error.unwrap_or(f64::NAN)),
-            ),
-            error: error
-                .filter(|error| !error.is_nan())
-                .map_or_else(|| MISSING.to_owned(), |error| significant(error, 1)),
-        };
+    let figure = |place: Option<i32>,
+                  names: [&'static str; 2],
+                  gum: Option<f64>,
+                  value: Option<f64>,
+                  error: Option<f64>| Line {
+        names,
+        gum: gum.map_or_else(|| MISSING.to_owned(), |value| to(value, gum_position)),
+        monte_carlo: value.map_or_else(
+            || MISSING.to_owned(),
+            |value| justified(value, place, error.unwrap_or(f64::NAN)),
+        ),
+        error: error
+            .filter(|error| !error.is_nan())
+            .map_or_else(|| MISSING.to_owned(), |error| significant(error, 1)),
+    };
+    let line = |names, gum, value, error| figure(own_position, names, gum, value, error);
+    let end = |names, gum, value, error| figure(end_position, names, gum, value, error);
     let ends = |[low, high]: [f64; 2]| (Some(low), Some(high));
     let (gum_low, gum_high) = gum.and_then(Gum::interval).map_or((None, None), ends);
     let (low, high) = ends(figures.symmetric_interval);
@@ -230,22 +285,26 @@ fn lines(gum: Option<&Gum>, figures: &MonteCarlo, digits: u32) -> Vec<Line> {
     let (short_low_error, short_high_error) = ends(errors.shortest_interval);
     let spread = figures.standard_uncertainty;
     vec![
-        line(["estimate"; 2], gum.map(|gum| gum.estimate), Some(figures.estimate), errors.estimate),
+        line(["estimate"; 2], gum.map(|gum| gum.estimate), figures.estimate, errors.estimate),
         line(["standard uncertainty"; 2], uncertainty, spread, errors.standard_uncertainty),
-        line(["median"; 2], None, Some(figures.median), Some(errors.median)),
-        line(SYMMETRIC_LOW, gum_low, low, low_error),
-        line(SYMMETRIC_HIGH, gum_high, high, high_error),
-        line(SHORTEST_LOW, None, short_low, short_low_error),
-        line(SHORTEST_HIGH, None, short_high, short_high_error),
-        shape("skewness", figures.skewness, errors.skewness),
-        shape("excess kurtosis", figures.excess_kurtosis, errors.excess_kurtosis),
+        end(["median"; 2], None, Some(figures.median), Some(errors.median)),
+        end(SYMMETRIC_LOW, gum_low, low, low_error),
+        end(SYMMETRIC_HIGH, gum_high, high, high_error),
+        end(SHORTEST_LOW, None, short_low, short_low_error),
+        end(SHORTEST_HIGH, None, short_high, short_high_error),
+        shape("skewness", figures.skewness, errors.skewness, figures),
+        shape("excess kurtosis", figures.excess_kurtosis, errors.excess_kurtosis, figures),
     ]
 }
 
-/// Skewness and kurtosis: two decimals, fewer where the numerical standard error says so.
-fn shape(name: &'static str, value: Option<f64>, error: Option<f64>) -> Line {
+/// Skewness and kurtosis: two decimals, fewer where the numerical standard error says so, and one
+/// digit where few trials carry them.
+fn shape(name: &'static str, value: Option<f64>, error: Option<f64>, of: &MonteCarlo) -> Line {
     let missing = || MISSING.to_owned();
-    let figure = |value: f64| justified(value, Some(SHAPE_PLACE), error.unwrap_or(f64::NAN));
+    let figure = |value: f64| match error {
+        None if of.heavy_tailed => significant(value, 1),
+        _ => justified(value, Some(SHAPE_PLACE), error.unwrap_or(f64::NAN)),
+    };
     Line {
         names: [name; 2],
         gum: missing(),
@@ -293,7 +352,8 @@ pub(crate) fn verdict(
         }
         Some(false) => format!(
             "JCGM 101, clause 8: the GUM interval is not valid here: {ends}, beyond {limit}. \
-             Take the Monte Carlo interval."
+             Take the {} Monte Carlo interval.",
+            if monte_carlo.stated_interval().shortest { "shortest" } else { "symmetric" }
         ),
         None => format!(
             "JCGM 101, clause 8: undecided whether the GUM interval is valid here: {ends}, too near \

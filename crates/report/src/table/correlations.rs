@@ -10,6 +10,10 @@ use gumption_engine::task::Task;
 /// Decimal place of the coefficients (JCGM 100, 7.2.6).
 const PLACE: i32 = -3;
 
+/// The same of an output whose trials have no standard uncertainty, or one that few of them carry, so
+/// that coefficients scatter nobody knows how far.
+const UNKNOWN_PLACE: i32 = -1;
+
 /// Pairs of outputs on a page, at most: those of 45 outputs.
 const MOST_PAIRS: usize = 1000;
 
@@ -52,8 +56,21 @@ pub(crate) fn found(task: &Task, row: &RowEvaluation) -> Option<Coefficients> {
         return Some(Coefficients::TooMany(said));
     }
     let trials = row.outputs.first()?.monte_carlo.as_ref().map(|figures| figures.trials);
-    let coefficients: Vec<Figure> =
-        row.correlations.iter().map(|&r| Figure::of(r, cell(r, trials))).collect();
+    let scatters = |i: usize| {
+        let figures = row.outputs.get(i).and_then(|output| output.monte_carlo.as_ref());
+        figures.is_none_or(|of| of.standard_uncertainty.is_some() && !of.heavy_tailed)
+    };
+    let places = (0..names.len()).flat_map(|i| (i + 1..names.len()).map(move |j| (i, j)));
+    let errors = row.correlation_errors.iter().copied().chain(std::iter::repeat(None));
+    let coefficients: Vec<Figure> = row
+        .correlations
+        .iter()
+        .zip(errors.zip(places))
+        .map(|(&r, (error, (i, j)))| {
+            let place = if scatters(i) && scatters(j) { PLACE } else { UNKNOWN_PLACE };
+            Figure::of(r, cell(r, error, trials, place))
+        })
+        .collect();
     let sheet = matrix(&names, &coefficients);
     let pairs =
         names.iter().enumerate().flat_map(|(i, a)| names.iter().skip(i + 1).map(move |b| (a, b)));
@@ -80,8 +97,9 @@ fn pair(i: usize, j: usize, count: usize) -> Option<usize> {
     (i < j).then(|| i * (2 * count - i - 1) / 2 + j - i - 1)
 }
 
-/// A coefficient from that many trials; its standard error is that of jointly normal outputs.
-fn cell(coefficient: f64, trials: Option<u64>) -> String {
-    let error = trials.map_or(0.0, |trials| (1.0 - coefficient.powi(2)) / (trials as f64).sqrt());
-    justified(coefficient, Some(PLACE), error)
+/// A coefficient to the digits that its numerical standard error justifies. Where that is not known,
+/// it is at least that of jointly normal outputs.
+fn cell(coefficient: f64, error: Option<f64>, trials: Option<u64>, place: i32) -> String {
+    let normal = trials.map_or(0.0, |trials| (1.0 - coefficient.powi(2)) / (trials as f64).sqrt());
+    justified(coefficient, Some(place), error.unwrap_or(normal))
 }

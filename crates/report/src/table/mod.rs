@@ -67,7 +67,7 @@ pub fn write_table(
     match evaluation.rows.as_slice() {
         [row] => {
             for (output, figures) in task.model.outputs.iter().zip(&row.outputs) {
-                below(section(task, evaluation, output, figures, digits, &style.columns))?;
+                below(section(report, output, figures, digits, &style.columns))?;
             }
             let whole = correlations::table(task, row)
                 .into_iter()
@@ -142,13 +142,13 @@ pub(super) const NO_BUDGET: &str =
 
 /// Everything about one output.
 fn section(
-    task: &Task,
-    evaluation: &Evaluation,
+    report: &EvaluationReport<'_>,
     output: &Output,
     figures: &OutputEvaluation,
     digits: u32,
     columns: &[BudgetColumn],
 ) -> String {
+    let EvaluationReport { task, evaluation, .. } = *report;
     let mut parts = vec![title(&output.quantity)];
     match &figures.gum {
         Some(gum) => {
@@ -158,6 +158,8 @@ fn section(
         None => parts.push(wrapped(NO_BUDGET)),
     }
     parts.extend(comparison::table(&output.quantity, figures, digits));
+    let said = comparison::differences(report, output, figures);
+    parts.extend(said.iter().map(|said| wrapped(said)));
     parts.extend(comparison::capability(output, figures).map(|said| wrapped(&said)));
     parts.join("\n")
 }

@@ -2,7 +2,9 @@
 
 use super::grid::{Grid, PAGE};
 use super::{WIDTH, conditions_text, has_name, text, title};
-use crate::number::{MISSING, align, exact, justified, position, rounded, significant, to};
+use crate::number::{
+    MISSING, align, exact, justified, place_of_ends, position, rounded, significant, to,
+};
 use crate::sheet::{Figure, Sheet};
 use gumption_engine::model::{Output, Quantity};
 use gumption_engine::propagate::gum::Gum;
@@ -255,7 +257,9 @@ fn line(output: Option<&OutputEvaluation>, digits: u32) -> [String; 7] {
     let figures = output.and_then(|output| output.monte_carlo.as_ref());
     let gum_position = gum.and_then(|gum| position(gum.standard_uncertainty, digits));
     let own = figures.and_then(|figures| figures.standard_uncertainty);
-    let own_position = own.and_then(|u| position(u, digits)).or(gum_position);
+    let spread = own.or_else(|| gum.map(|gum| gum.standard_uncertainty));
+    let own_position = figures.and_then(|figures| place_of_ends(figures, spread, digits));
+    let own_position = own_position.or(gum_position);
     let end = |end: usize| {
         figures.map_or_else(missing, |figures| {
             let error = figures.errors.symmetric_interval[end];

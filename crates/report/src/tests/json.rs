@@ -99,6 +99,7 @@ fn whole_answer_in_the_order_of_the_contract() {
                   [number]
                 ],
                 "shortest_exact": true,
+                "shortest_unique": true,
                 "skewness": [number],
                 "excess_kurtosis": [number],
                 "numerical_standard_error": {

@@ -13,7 +13,7 @@ use super::{EvaluationReport, Provenance};
 use gumption_engine::distribution::{Correlation, Input};
 use gumption_engine::model::Quantity;
 use gumption_engine::propagate::{Control, Evaluation, evaluate};
-use gumption_engine::task::{Settings, Task, Trials, Warning};
+use gumption_engine::task::{Coverage, Settings, Task, Trials, Warning};
 use gumption_measurements::InclinedPlane;
 use gumption_units::Unit;
 
@@ -46,7 +46,8 @@ impl Case {
 }
 
 fn settings(trials: u64) -> Settings {
-    Settings::default().with_trials(Trials::Fixed(trials))
+    let coverage = Coverage::Probability(0.95);
+    Settings::default().with_trials(Trials::Fixed(trials)).with_coverage(coverage)
 }
 
 /// The inclined plane of the literature at a tilt.
@@ -65,6 +66,7 @@ fn only_z(mut case: Case) -> Case {
     for row in &mut case.evaluation.rows {
         row.outputs.drain(..2);
         row.correlations.clear();
+        row.correlation_errors.clear();
     }
     case
 }

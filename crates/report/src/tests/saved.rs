@@ -250,8 +250,8 @@ fn a_result_can_be_moved() {
     let component = Run::new(text, folder.path(), 1);
     assert_eq!(component.gum(0).estimate, 7000.0);
     close(component.gum(0).standard_uncertainty, run.gum(0).standard_uncertainty, 1e-12);
-    let middle = component.trials(0).estimate - 7000.0;
-    let was = run.trials(0).estimate - run.gum(0).estimate;
+    let middle = component.trials(0).location() - 7000.0;
+    let was = run.trials(0).location() - run.gum(0).estimate;
     assert!((middle - was).abs() < 0.01 * run.gum(0).standard_uncertainty, "{middle} {was}");
 }
 

@@ -37,7 +37,7 @@ impl Standard {
         let dof = distribution.drawn_dof();
         match &**distribution {
             Distribution::Constant(_) => Self::Constant,
-            Distribution::Rectangular(_) => Self::Rectangular,
+            Distribution::Rectangular(shape) if shape.inexact().is_none() => Self::Rectangular,
             Distribution::Readings(readings) if readings.together() > 1 => {
                 Self::Own(Arc::clone(distribution))
             }

@@ -63,6 +63,53 @@ impl<'a> Inspection<'a> {
         }
     }
 
+    /// The conformance probability of an item that was measured as `value`: the share of the posterior
+    /// distribution that lies within the tolerance (JCGM 106, 6.3 and 7.1), by Bayes' theorem from the
+    /// prior and a normally distributed error of the measurement.
+    pub(super) fn conformance(&self, value: f64) -> f64 {
+        let [lower, upper] = self.limits.map(|limit| self.score(limit));
+        let distance = |z: f64| (value - self.prior.at_score(z)) / self.u;
+        // a quadratic form, so that a value far from all of the prior does not underflow
+        let form = |z: f64| z * z + distance(z).powi(2);
+        let mut cuts = self.cuts([value, f64::INFINITY]);
+        let least = self.least(&form, &cuts);
+        // about the peak, which may be narrow
+        let peak = 1.0 / (1.0 + self.slope(least).powi(2)).sqrt();
+        cuts.extend([-8.0, -4.0, -2.0, 0.0, 2.0, 4.0, 8.0].map(|step| least + step * peak));
+        cuts.extend([lower, upper]);
+        cuts.sort_by(f64::total_cmp);
+        let lowest = form(least);
+        let posterior = |z: f64| libm::exp(-0.5 * (form(z) - lowest));
+        let inside = integral(&posterior, lower, upper, &cuts);
+        let outside = integral(&posterior, -FARTHEST, lower, &cuts)
+            + integral(&posterior, upper, FARTHEST, &cuts);
+        inside / (inside + outside)
+    }
+
+    /// The score at which a form is least, by golden sections between the best of many.
+    fn least(&self, form: &impl Fn(f64) -> f64, cuts: &[f64]) -> f64 {
+        let steps = 400;
+        let even = (0..=steps).map(|i| FARTHEST * (2.0 * f64::from(i) / f64::from(steps) - 1.0));
+        let mut all: Vec<f64> = even.chain(cuts.iter().copied()).collect();
+        all.sort_by(f64::total_cmp);
+        let best = (0..all.len()).min_by(|&a, &b| form(all[a]).total_cmp(&form(all[b])));
+        let best = best.unwrap_or(0);
+        let mut low = all[best.saturating_sub(1)];
+        let mut high = all[(best + 1).min(all.len() - 1)];
+        for _ in 0..60 {
+            let width = 0.381_966_011_250_105 * (high - low);
+            let (a, b) = (low + width, high - width);
+            if form(a) <= form(b) { high = b } else { low = a }
+        }
+        0.5 * (low + high)
+    }
+
+    /// How many standard uncertainties the prior's value moves for each unit of the score.
+    fn slope(&self, z: f64) -> f64 {
+        let step = 1e-4;
+        (self.prior.at_score(z + step) - self.prior.at_score(z - step)) / (2.0 * step * self.u)
+    }
+
     /// The guard band with which the risk of false acceptance is at most this; `None` if no band
     /// gives that.
     pub(super) fn guard_band(&self, risk: f64) -> Option<f64> {

@@ -99,3 +99,44 @@ fn guard_bands_for_a_specific_risk() {
     assert!((risk - 0.05).abs() < 1e-8);
     assert_eq!(guard_band(0.05, 2.0, [7.0, 10.0]), None);
 }
+
+/// The posterior of a normal prior and a normal error is normal (JCGM 106, 6.3, example): mean
+/// (x0/u0^2 + y/u^2) of the weights' sum, to 1e-9 also where the value lies 40 standard uncertainties
+/// from the prior and where the measurement says next to nothing.
+#[test]
+fn the_posterior_of_a_normal_prior() {
+    let (x0, u0) = (10.0, 0.4);
+    let prior: Distribution = Normal::new(x0, u0).unwrap().into();
+    for (y, u) in [(10.3, 0.2), (9.0, 0.4), (26.0, 0.4), (10.0, 50.0), (10.1, 0.001)] {
+        let weights = [1.0 / (u0 * u0), 1.0 / (u * u)];
+        let variance = 1.0 / (weights[0] + weights[1]);
+        let mean = (x0 * weights[0] + y * weights[1]) * variance;
+        let limits = [mean - 0.7 * variance.sqrt(), mean + 1.1 * variance.sqrt()];
+        let expected = special::normal::cdf(1.1) - special::normal::cdf(-0.7);
+        let found = Inspection::new(&prior, u, limits).conformance(y);
+        // beyond the scores that are integrated over there is nothing of the prior
+        let limit = if y > 20.0 { 1.0 } else { 1e-8 };
+        assert!((found - expected).abs() < limit, "{y}, {u}: {found} {expected}");
+        assert!((0.0..=1.0).contains(&found));
+    }
+}
+
+/// A bearing of JCGM 106's gamma prior that was measured as 1.9 um with u = 0.25 um conforms to 2 um
+/// with 84.01 % (quadrature over values by another program; and by the rule below), where the share of
+/// the measurement's own distribution is Phi(0.4) = 65.54 %.
+#[test]
+fn the_posterior_of_a_ball_bearing() {
+    let prior: Distribution = Gamma::new(4.0, 4.0).unwrap().into();
+    let of = Inspection::new(&prior, 0.25, [f64::NEG_INFINITY, 2.0]);
+    let found = of.conformance(1.9);
+    assert!((found - 0.8401).abs() < 5e-5, "{found}");
+    let density =
+        |x: f64| x.powi(3) * (-4.0 * x).exp() * (-0.5 * ((1.9 - x) / 0.25f64).powi(2)).exp();
+    let sum = |from: f64, to: f64| {
+        let n = 100_000;
+        let h = (to - from) / f64::from(n);
+        (0..n).map(|i| h * density(from + h * (f64::from(i) + 0.5))).sum::<f64>()
+    };
+    let expected = sum(0.0, 2.0) / (sum(0.0, 2.0) + sum(2.0, 6.0));
+    assert!((found - expected).abs() < 1e-7, "{found} {expected}");
+}

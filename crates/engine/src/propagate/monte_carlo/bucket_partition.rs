@@ -198,7 +198,7 @@ impl BucketPartition {
         high: usize,
         count: usize,
         middle: usize,
-    ) -> Option<[f64; 2]> {
+    ) -> Option<([f64; 2], usize)> {
         // stretches over which both indices stay in one bucket, with the least difference there can be
         let mut stretches = Vec::new();
         let (mut a, mut b) = (self.bucket_of_index(low), self.bucket_of_index(high));
@@ -219,7 +219,7 @@ impl BucketPartition {
         let bound = stretches.iter().map(|s| s.most).fold(f64::INFINITY, f64::min);
         stretches.retain(|stretch| stretch.least <= bound);
         stretches.sort_by(|s, t| s.least.total_cmp(&t.least));
-        let mut best: Option<(f64, usize, [f64; 2])> = None;
+        let mut best: Option<(f64, usize, ([f64; 2], usize))> = None;
         for stretch in stretches {
             if best.is_some_and(|(length, ..)| stretch.least > length) {
                 break;
@@ -234,7 +234,7 @@ impl BucketPartition {
                     length < least || (length == least && distance < nearest)
                 });
                 if better {
-                    best = Some((length, distance, ends));
+                    best = Some((length, distance, (ends, i)));
                 }
             }
         }
@@ -288,7 +288,7 @@ mod tests {
             let wanted = (0..count)
                 .filter(|&i| sorted[q + i] - sorted[i] == least)
                 .min_by_key(|i| i.abs_diff(middle))
-                .map(|i| [sorted[i], sorted[q + i]]);
+                .map(|i| ([sorted[i], sorted[q + i]], i));
             assert_eq!(buckets.closest(0, q, count, middle), wanted);
         }
     }

@@ -30,11 +30,11 @@ pub(crate) fn symmetric(order: &mut Order, p: f64) -> Option<[f64; 2]> {
 }
 
 /// The shortest interval that holds as many trials: the least y(r + q) - y(r) over all r (7.7.4).
-/// Of equally short ones that nearest to the symmetric one.
-pub(crate) fn shortest(order: &mut Order, p: f64) -> Option<[f64; 2]> {
+/// Of equally short ones that nearest to the symmetric one. With it comes the rank of its lower end.
+pub(crate) fn shortest(order: &mut Order, p: f64) -> Option<([f64; 2], u64)> {
     let Ranks { q, r: symmetric } = Ranks::new(order.trials, p);
     if order.trials <= q {
-        return Some([order.get(1)?, order.get(order.trials)?]);
+        return Some(([order.get(1)?, order.get(order.trials)?], 1));
     }
     order.closest(q, order.trials - q, symmetric)
 }
@@ -93,20 +93,21 @@ mod tests {
     #[test]
     fn shortest_of_a_skew_set_starts_at_its_dense_end() {
         let mut order = order((1..=1000).map(|i| f64::from(i).powi(2)).collect());
-        assert_eq!(shortest(&mut order, 0.95), Some([1.0, 951.0 * 951.0]));
+        assert_eq!(shortest(&mut order, 0.95), Some(([1.0, 951.0 * 951.0], 1)));
     }
 
     #[test]
     fn of_equally_short_intervals_the_most_symmetric() {
         let mut order = order((1..=1000).map(f64::from).collect());
-        assert_eq!(shortest(&mut order, 0.95), symmetric(&mut order, 0.95));
+        let shortest = shortest(&mut order, 0.95).map(|(ends, _)| ends);
+        assert_eq!(shortest, symmetric(&mut order, 0.95));
     }
 
     #[test]
     fn few_trials_give_the_extremes() {
         let mut order = order(vec![3.0, 1.0, 2.0]);
         assert_eq!(symmetric(&mut order, 0.95), Some([1.0, 3.0]));
-        assert_eq!(shortest(&mut order, 0.95), Some([1.0, 3.0]));
+        assert_eq!(shortest(&mut order, 0.95), Some(([1.0, 3.0], 1)));
     }
 
     /// Of 20 trials (q = 19, r = 1) the ends of the interval are the extremes, of 51 (q = 48, r = 2)

@@ -30,6 +30,7 @@ mod repeat;
 mod request;
 mod run;
 mod several_pass;
+mod shortest_scatter;
 #[cfg(target_arch = "x86_64")]
 mod simd;
 mod sorting;
@@ -44,7 +45,7 @@ pub(crate) use block::RowTrials;
 pub use block::onto_branch;
 pub use block::stream_name;
 pub(crate) use figures::Finished;
-pub use figures::{MonteCarlo, NumericalError, Undefined};
+pub use figures::{MonteCarlo, NumericalError, StatedInterval, Undefined};
 pub(crate) use hash::hash_trials;
 pub use histogram::Histogram;
 pub(crate) use histogram::histograms;

@@ -1,7 +1,10 @@
 //! Moments of the trials from their sums.
 
+use std::borrow::Borrow;
+
 use super::plan::Reference;
 use super::products::Products;
+use super::shortest_scatter::BATCHES;
 use super::sums::Sums;
 
 /// Mean, standard deviation and shape of one output's trials.
@@ -14,28 +17,12 @@ pub(crate) struct Moments {
     pub(crate) skewness: f64,
     pub(crate) excess_kurtosis: f64,
     /// Numerical standard errors of the two.
-    pub(crate) shape_errors: Option<[f64; 2]>,
+    pub(crate) shape_errors: [Option<f64>; 2],
     /// Share of the trials within the tolerance limits.
     pub(crate) inside: f64,
 }
 
 impl Moments {
-    /// The moments of all `parts` together, with the errors that their scatter gives, and the sums
-    /// of all parts.
-    pub(crate) fn of_parts<'s>(
-        parts: impl Iterator<Item = (u64, &'s Sums)> + Clone,
-        reference: Reference,
-    ) -> (Self, Sums) {
-        let mut total = Sums::default();
-        let mut trials = 0;
-        for (count, sums) in parts.clone() {
-            trials += count;
-            total.merge(sums);
-        }
-        let shape_errors = shape_errors(parts, reference);
-        (Self { shape_errors, ..Self::new(trials, reference, &total) }, total)
-    }
-
     /// The moments of `trials` many values with these sums.
     pub(crate) fn new(trials: u64, reference: Reference, sums: &Sums) -> Self {
         let n = trials as f64;
@@ -49,7 +36,7 @@ impl Moments {
             std: reference.scale * (m2 * n / (n - 1.0)).sqrt(),
             skewness: m3 / (m2 * m2.sqrt()),
             excess_kurtosis: m4 / (m2 * m2) - 3.0,
-            shape_errors: None,
+            shape_errors: [None; 2],
             inside: sums.inside as f64 / n,
         }
     }
@@ -66,38 +53,111 @@ impl Moments {
     }
 }
 
-/// Numerical standard errors of skewness and excess kurtosis: their scatter between parts of the
-/// trials, brought to all trials by the square-root law. They would need moments up to the eighth
-/// otherwise. `None` with fewer than four parts of comparable size.
-pub(crate) fn shape_errors<'s>(
-    parts: impl Iterator<Item = (u64, &'s Sums)> + Clone,
-    reference: Reference,
-) -> Option<[f64; 2]> {
-    let total: u64 = parts.clone().map(|(trials, _)| trials).sum();
-    let largest = parts.clone().map(|(trials, _)| trials).max()?;
-    let shapes: Vec<[f64; 2]> = parts
-        .filter(|(trials, _)| 2 * trials > largest)
-        .map(|(trials, sums)| {
-            let moments = Moments::new(trials, reference, sums);
+/// One output's sums: of all trials, and of some groups of them.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Parts {
+    pub(super) trials: u64,
+    total: Sums,
+    groups: Vec<(u64, Sums)>,
+}
+
+impl Parts {
+    /// From the chunks of the trials in order, each with the number of its trials.
+    pub(super) fn of<'s>(chunks: impl Iterator<Item = (u64, &'s Sums)>) -> Self {
+        let chunks: Vec<(u64, &Sums)> = chunks.collect();
+        let mut parts = Self::default();
+        for (trials, sums) in chunks.iter().filter(|(trials, _)| *trials > 0) {
+            parts.trials += trials;
+            parts.total.merge(sums);
+        }
+        for group in chunks.chunks(chunks_in_group(chunks.len())) {
+            let mut own = (0, Sums::default());
+            for (trials, sums) in group.iter().filter(|(trials, _)| *trials > 0) {
+                own.0 += trials;
+                own.1.merge(sums);
+            }
+            parts.groups.push(own);
+        }
+        parts
+    }
+
+    /// The moments of all trials, with the errors that the scatter of the groups gives.
+    pub(super) fn moments(&self, reference: Reference) -> Moments {
+        let all = Moments::new(self.trials, reference, &self.total);
+        let of_group = |group: &(u64, Sums)| {
+            let moments = Moments::new(group.0, reference, &group.1);
             [moments.skewness, moments.excess_kurtosis]
-        })
-        .collect();
-    let n = shapes.len() as f64;
-    let law = (largest as f64 / total as f64).sqrt();
-    let error = |which: usize| {
-        let mean = shapes.iter().map(|s| s[which]).sum::<f64>() / n;
-        law * (shapes.iter().map(|s| (s[which] - mean).powi(2)).sum::<f64>() / (n - 1.0)).sqrt()
-    };
-    (shapes.len() >= 4).then(|| [error(0), error(1)])
+        };
+        let shapes: Vec<(u64, [f64; 2])> =
+            self.groups.iter().map(|group| (group.0, of_group(group))).collect();
+        let pooled = [all.skewness, all.excess_kurtosis];
+        let [skewness, kurtosis] = [0, 1].map(|which| {
+            let figures = shapes.iter().map(|(trials, shape)| (*trials, shape[which]));
+            group_error(&figures.collect::<Vec<_>>(), pooled[which])
+        });
+        Moments { shape_errors: [skewness, kurtosis], ..all }
+    }
+}
+
+/// How many chunks of so many make a group, so that there are no more groups than batches.
+pub(super) fn chunks_in_group(chunks: usize) -> usize {
+    chunks.div_ceil(BATCHES).max(1)
+}
+
+/// The numerical standard error of a figure of all trials: its scatter between groups of them,
+/// brought to all trials by the square-root law. `None` with fewer than four groups of comparable
+/// size, and where the figure of all trials is more than that away from the mean of the groups: so it
+/// is where few trials of a long tail carry it, which most groups have not seen, and all groups are
+/// off together.
+fn group_error(groups: &[(u64, f64)], pooled: f64) -> Option<f64> {
+    let total: u64 = groups.iter().map(|(trials, _)| trials).sum();
+    let largest = groups.iter().map(|(trials, _)| *trials).max()?;
+    let large = groups.iter().filter(|(trials, _)| 2 * trials > largest);
+    let figures: Vec<f64> = large.map(|(_, figure)| *figure).collect();
+    if figures.len() < 4 {
+        return None;
+    }
+    let n = figures.len() as f64;
+    let mean = figures.iter().sum::<f64>() / n;
+    let variance = figures.iter().map(|figure| (figure - mean).powi(2)).sum::<f64>() / (n - 1.0);
+    let error = (largest as f64 / total as f64 * variance).sqrt();
+    // figures that are the same but for rounding are known
+    let rounding = 1e-12 * pooled.abs();
+    ((pooled - mean).abs() <= error.max(rounding)).then_some(error)
 }
 
 /// The correlation coefficients of all outputs i < j from their sums and the sums of products.
-pub(super) fn correlations(trials: u64, totals: &[&Sums], products: &Products) -> Vec<f64> {
-    let pairs = totals.iter().enumerate().flat_map(|(i, a)| {
-        let others = totals[i + 1..].iter().zip(products.of(i));
-        others.map(move |(b, &product)| correlation(trials, a, b, product))
+pub(super) fn correlations<P: Borrow<Parts>>(
+    trials: u64,
+    parts: &[P],
+    products: &Products,
+) -> Vec<f64> {
+    let pairs = parts.iter().enumerate().flat_map(|(i, a)| {
+        let others = parts[i + 1..].iter().zip(products.of(i));
+        others.map(move |(b, &product)| {
+            correlation(trials, &a.borrow().total, &b.borrow().total, product)
+        })
     });
     pairs.collect()
+}
+
+/// The numerical standard errors of these coefficients; `None` where they cannot be told, and of very
+/// many outputs.
+pub(super) fn correlation_errors<P: Borrow<Parts>>(
+    parts: &[P],
+    products: &Products,
+    pooled: &[f64],
+) -> Vec<Option<f64>> {
+    let outputs = parts.len();
+    let pairs = (0..outputs).flat_map(|i| (i + 1..outputs).map(move |j| (i, j)));
+    let error = |((i, j), &pooled): ((usize, usize), &f64)| {
+        let (a, b): (&Parts, &Parts) = (parts[i].borrow(), parts[j].borrow());
+        let groups = a.groups.iter().zip(&b.groups).zip(products.of_groups(i, j)?);
+        let groups = groups.filter(|((a, _), _)| a.0 > 1);
+        let figures = groups.map(|((a, b), product)| (a.0, correlation(a.0, &a.1, &b.1, product)));
+        group_error(&figures.collect::<Vec<_>>(), pooled).filter(|error| error.is_finite())
+    };
+    pairs.zip(pooled).map(error).collect()
 }
 
 /// The correlation coefficient of two outputs from their sums and the sum of their products.

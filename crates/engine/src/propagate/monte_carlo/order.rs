@@ -73,14 +73,16 @@ impl Order {
     }
 
     /// The least y(r + q) - y(r) over the ranks r from 1 to `count`, and its ends; of equally short
-    /// ones that with r nearest to `middle`. `None` if an order statistic was not kept.
-    pub(crate) fn closest(&mut self, q: u64, count: u64, middle: u64) -> Option<[f64; 2]> {
+    /// ones that with r nearest to `middle`; and that r. `None` if an order statistic was not kept.
+    pub(crate) fn closest(&mut self, q: u64, count: u64, middle: u64) -> Option<([f64; 2], u64)> {
         let length = usize::try_from(count).ok()?;
         let (low, low_length) = self.index_of(1)?;
         let (high, high_length) = self.index_of(q + 1)?;
         if low_length < length || high_length < length {
             return None;
         }
-        self.buckets.closest(low, high, length, middle.saturating_sub(1) as usize)
+        let middle = middle.saturating_sub(1) as usize;
+        let (ends, index) = self.buckets.closest(low, high, length, middle)?;
+        Some((ends, index as u64 + 1))
     }
 }

@@ -9,13 +9,11 @@ use super::partition::{Leaf, Partition, Tally};
 use super::plan::Plan;
 use super::products::{self, Products, waves};
 use super::request::trials_in;
+use super::shortest_scatter::batch_blocks;
 use super::sums::Sums;
 use crate::distribution::BLOCK;
 use crate::number::{CodePath, Kernel};
 use crate::propagate::Control;
-
-/// Blocks that a thread works on at a time.
-const CHUNK: u64 = 64;
 
 /// What one pass over all trials gives.
 #[derive(Debug)]
@@ -93,6 +91,9 @@ pub(super) fn pass(
     with_sums: bool,
 ) -> Pass {
     let blocks = count.div_ceil(BLOCK as u64);
+    // the chunks of a run that holds its tails, so that sums have the same bits
+    let chunk_blocks = batch_blocks(count);
+    let chunks = blocks.div_ceil(chunk_blocks);
     let empty = || Pass {
         trials: 0,
         undefined: 0,
@@ -103,15 +104,15 @@ pub(super) fn pass(
         stopped: false,
     };
     let mut whole = empty();
-    whole.products = Products::new(if with_sums { plans.len() } else { 0 });
-    for wave in waves(blocks.div_ceil(CHUNK), if with_sums { plans.len() } else { 0 }) {
+    whole.products = Products::new(if with_sums { plans.len() } else { 0 }, chunks);
+    for wave in waves(chunks, if with_sums { plans.len() } else { 0 }) {
         let wave = wave.into_par_iter().with_min_len(16).fold(
             || (empty(), trials.workspace()),
             |(mut pass, mut workspace), chunk| {
                 let chunk = chunk as u64;
                 let mut sums = vec![Sums::default(); plans.len()];
                 let before = pass.trials;
-                for block in chunk * CHUNK..((chunk + 1) * CHUNK).min(blocks) {
+                for block in chunk * chunk_blocks..((chunk + 1) * chunk_blocks).min(blocks) {
                     if control.is_stopped() {
                         break;
                     }

@@ -4,26 +4,20 @@ use rayon::prelude::*;
 
 use super::accumulate::{AccumulateKernel, Accumulated, drop_undefined};
 use super::block::{RowTrials, Workspace};
-use super::figures::{Finished, MonteCarlo, NumericalError, Undefined};
+use super::figures::{Finished, Intervals, MonteCarlo, NumericalError, Undefined, of_moments};
 use super::interval::{Ranks, is_extreme, quantile_error, shortest, symmetric};
-use super::moments::{Moments, correlations};
+use super::moments::{Moments, Parts, correlation_errors, correlations};
 use super::order::Order;
 use super::pilot::{KEEP_ALL_MARGIN, pilot_blocks, plans};
 use super::plan::Plan;
 use super::products::{Products, waves};
 use super::request::{Request, trials_in};
 use super::several_pass;
-use super::sums::Sums;
+use super::shortest_scatter::{BATCHES, BatchInterval, ShortestScatter, batch_blocks};
 use super::windows::Windows;
 use crate::distribution::BLOCK;
-use crate::number::{CodePath, elementary};
+use crate::number::CodePath;
 use crate::propagate::Control;
-
-/// Batches whose scatter gives the numerical standard error of the shortest interval.
-const BATCHES: usize = 32;
-
-/// Blocks that a thread works on at a time, at most.
-const LARGEST_CHUNK: u64 = 64;
 
 /// Runs the trials of one row. Where every trial is undefined, or the run was stopped before the
 /// first one, there are no outputs.
@@ -35,13 +29,16 @@ pub(crate) fn run(trials: &mut RowTrials, request: Request<'_>, control: &Contro
 
 fn run_held(trials: &RowTrials, request: Request<'_>, control: &Control<'_>) -> Finished {
     let mut margin = 1.0;
+    // from the first windows, which a run in less memory has as well
+    let mut scatters: Vec<Option<ShortestScatter>> = vec![None; trials.outputs()];
     loop {
         let plans = plans(trials, request, control, margin);
         if kept_bytes(&plans, request) > control.memory {
             return run_in_passes(trials, request, control, &plans);
         }
         let (chunks, products) = accumulate_all(trials, request.trials, &plans, control);
-        if let Some(finished) = finish(trials, request, control, &plans, chunks, &products) {
+        let made = (chunks, &products);
+        if let Some(finished) = finish(trials, request, control, &plans, made, &mut scatters) {
             return finished;
         }
         // a tail came out short: wider windows, in the end everything, which cannot come out short
@@ -56,8 +53,8 @@ fn kept_bytes(plans: &[Plan], request: Request<'_>) -> usize {
     (8.0 * share * request.trials as f64) as usize
 }
 
-/// A run in bounded memory. A run of its first trials tells how far the shortest interval scatters,
-/// and is what is handed back if the user stops the whole before it has come farther.
+/// A run in bounded memory. A run of its first trials is what is handed back if the user stops the
+/// whole before it has come farther.
 fn run_in_passes(
     trials: &RowTrials,
     request: Request<'_>,
@@ -68,13 +65,8 @@ fn run_in_passes(
     let part = (request.trials / 64).min(affordable as u64 / 2).max(2);
     let quiet = Control { progress: None, ..*control };
     let mut first = run_held(trials, Request { trials: part, ..request }, &quiet);
-    let law = elementary::cbrt(part as f64 / request.trials as f64);
-    let errors: Vec<[f64; 2]> = first
-        .outputs
-        .iter()
-        .map(|output| output.errors.shortest_interval.map(|error| law * error))
-        .collect();
-    let whole = several_pass::run(trials, request, control, plans, &errors);
+    let scatters = scatters(trials, request, &quiet, plans);
+    let whole = several_pass::run(trials, request, control, plans, &scatters);
     match whole.filter(|whole| !whole.stopped || whole.trials > first.trials) {
         Some(whole) => whole,
         None => {
@@ -82,6 +74,38 @@ fn run_in_passes(
             first
         }
     }
+}
+
+/// How the shortest intervals of the first batches scatter, made by themselves: the same as those of
+/// a run that holds its tails, in memory for a batch on each thread.
+fn scatters(
+    trials: &RowTrials,
+    request: Request<'_>,
+    control: &Control<'_>,
+    plans: &[Plan],
+) -> Vec<ShortestScatter> {
+    let chunk = batch_blocks(request.trials);
+    let count = request.trials.min(BATCHES as u64 * chunk * BLOCK as u64);
+    let of_batch = |workspace: &mut Workspace, number: u64| {
+        let made = accumulate_chunk(trials, request.trials, plans, control, workspace, number);
+        let outputs = made.outputs.into_iter().zip(plans);
+        let intervals = outputs.map(|(output, plan)| {
+            let (trials, below_median) = (made.trials, output.below_median);
+            let batch = Batch { trials, below_median, kept: output.kept };
+            let mut order = order_of(control.path, &[batch], &plan.windows);
+            BatchInterval::of(&mut order, request.probability, number).filter(|_| trials > 0)
+        });
+        (made.trials, intervals.collect::<Vec<_>>())
+    };
+    let numbers = 0..count.div_ceil(BLOCK as u64).div_ceil(chunk);
+    let found: Vec<(u64, Vec<Option<BatchInterval>>)> =
+        numbers.into_par_iter().map_init(|| trials.workspace(), of_batch).collect();
+    (0..plans.len())
+        .map(|output| {
+            let batches = found.iter().filter_map(|(_, intervals)| intervals.get(output)?.as_ref());
+            ShortestScatter::of(batches.copied().collect(), request.trials)
+        })
+        .collect()
 }
 
 /// Accumulates all trials, chunk by chunk on all threads; the chunks come back in order, with the sums of
@@ -92,40 +116,15 @@ fn accumulate_all(
     plans: &[Plan],
     control: &Control<'_>,
 ) -> (Vec<Accumulated>, Products) {
-    let blocks = count.div_ceil(BLOCK as u64);
-    let chunk = blocks.div_ceil(BATCHES as u64).clamp(1, LARGEST_CHUNK);
-    let path = control.path;
-    let accumulate_chunk = |workspace: &mut Workspace, number: u64| {
-        let own = number * chunk..((number + 1) * chunk).min(blocks);
-        let mut accumulated = Accumulated::new(plans, (own.end - own.start) * BLOCK as u64);
-        for block in own {
-            if control.is_stopped() {
-                break;
-            }
-            trials.block(control.path, block, workspace);
-            let values = &mut workspace.outputs;
-            let wanted = trials_in(block, count);
-            let (count, first) = drop_undefined(path, values, wanted);
-            if let Some(first) = first {
-                accumulated.undefined += (wanted - count) as u64;
-                accumulated.first_undefined = accumulated.first_undefined.or(Some((block, first)));
-            }
-            path.run(AccumulateKernel {
-                path,
-                values,
-                count,
-                plans,
-                accumulated: &mut accumulated,
-            });
-            control.advance(wanted as u64);
-        }
-        accumulated
+    let chunks_of_all = count.div_ceil(BLOCK as u64).div_ceil(batch_blocks(count));
+    let accumulate = |workspace: &mut Workspace, number: u64| {
+        accumulate_chunk(trials, count, plans, control, workspace, number)
     };
     let mut chunks: Vec<Accumulated> = Vec::new();
-    let mut products = Products::new(plans.len());
-    for wave in waves(blocks.div_ceil(chunk), plans.len()) {
+    let mut products = Products::new(plans.len(), chunks_of_all);
+    for wave in waves(chunks_of_all, plans.len()) {
         let wave = wave.into_par_iter().map(|number| number as u64);
-        let wave = wave.map_init(|| trials.workspace(), accumulate_chunk);
+        let wave = wave.map_init(|| trials.workspace(), accumulate);
         let mut wave: Vec<Accumulated> = wave.collect();
         for accumulated in &mut wave {
             products.take(accumulated.outputs.iter_mut().map(|output| &mut output.sums));
@@ -135,33 +134,60 @@ fn accumulate_all(
     (chunks, products)
 }
 
+/// Accumulates one chunk of the first `count` trials.
+fn accumulate_chunk(
+    trials: &RowTrials,
+    count: u64,
+    plans: &[Plan],
+    control: &Control<'_>,
+    workspace: &mut Workspace,
+    number: u64,
+) -> Accumulated {
+    let (path, chunk) = (control.path, batch_blocks(count));
+    let own = number * chunk..((number + 1) * chunk).min(count.div_ceil(BLOCK as u64));
+    let mut accumulated = Accumulated::new(plans, (own.end - own.start) * BLOCK as u64);
+    for block in own {
+        if control.is_stopped() {
+            break;
+        }
+        trials.block(path, block, workspace);
+        let values = &mut workspace.outputs;
+        let wanted = trials_in(block, count);
+        let (count, first) = drop_undefined(path, values, wanted);
+        if let Some(first) = first {
+            accumulated.undefined += (wanted - count) as u64;
+            accumulated.first_undefined = accumulated.first_undefined.or(Some((block, first)));
+        }
+        path.run(AccumulateKernel { path, values, count, plans, accumulated: &mut accumulated });
+        control.advance(wanted as u64);
+    }
+    accumulated
+}
+
 /// The figures from the chunks; `None` if a window missed a value that is needed.
 fn finish(
     trials: &RowTrials,
     request: Request<'_>,
     control: &Control<'_>,
     plans: &[Plan],
-    mut chunks: Vec<Accumulated>,
-    products: &Products,
+    (mut chunks, products): (Vec<Accumulated>, &Products),
+    scatters: &mut [Option<ShortestScatter>],
 ) -> Option<Finished> {
     let undefined = undefined(trials, control.path, &chunks);
     let stopped = control.is_stopped();
     let count: u64 = chunks.iter().map(|chunk| chunk.trials).sum();
     if count == 0 {
-        let (outputs, correlations) = (Vec::new(), Vec::new());
-        return Some(Finished { trials: 0, outputs, correlations, undefined, stopped });
+        return Some(Finished { undefined, stopped, ..Finished::default() });
     }
-    let summaries: Vec<(Moments, Sums)> = plans
-        .iter()
-        .enumerate()
-        .map(|(output, plan)| {
-            let parts = chunks.iter().filter(|chunk| chunk.trials > 0);
-            let parts = parts.map(|chunk| (chunk.trials, &chunk.outputs[output].sums));
-            Moments::of_parts(parts, plan.reference)
+    let parts: Vec<Parts> = (0..plans.len())
+        .map(|output| {
+            Parts::of(chunks.iter().map(|chunk| (chunk.trials, &chunk.outputs[output].sums)))
         })
         .collect();
-    let totals: Vec<&Sums> = summaries.iter().map(|(_, total)| total).collect();
-    let correlations = correlations(count, &totals, products);
+    let moments: Vec<Moments> =
+        parts.iter().zip(plans).map(|(parts, plan)| parts.moments(plan.reference)).collect();
+    let correlations = correlations(count, &parts, products);
+    let correlation_errors = correlation_errors(&parts, products, &correlations);
     let mut per_output: Vec<Vec<Batch>> = (0..plans.len()).map(|_| Vec::new()).collect();
     for chunk in &mut chunks {
         for (batches, output) in per_output.iter_mut().zip(&mut chunk.outputs) {
@@ -177,13 +203,16 @@ fn finish(
     let outputs: Vec<Option<MonteCarlo>> = per_output
         .into_iter()
         .enumerate()
-        .map(|(o, chunks)| {
+        .zip(scatters)
+        .map(|((o, chunks), scatter)| {
             let dof = request.drawn_dof.get(o).copied().unwrap_or(f64::INFINITY);
-            figures(path, summaries[o].0, dof, request.probability, &plans[o].windows, chunks)
+            let (p, windows) = (request.probability, &plans[o].windows);
+            figures(path, (moments[o], dof), (p, windows), chunks, scatter)
         })
         .collect();
     let outputs = outputs.into_iter().collect::<Option<Vec<_>>>()?;
-    Some(Finished { trials: count, outputs, correlations, undefined, stopped })
+    let correlation_errors = of_moments(correlation_errors, &outputs);
+    Some(Finished { trials: count, outputs, correlations, correlation_errors, undefined, stopped })
 }
 
 fn undefined(trials: &RowTrials, path: CodePath, chunks: &[Accumulated]) -> Option<Undefined> {
@@ -209,20 +238,20 @@ fn order_of(path: CodePath, batches: &[Batch], windows: &Windows) -> Order {
 
 fn figures(
     path: CodePath,
-    moments: Moments,
-    drawn_dof: f64,
-    probability: f64,
-    windows: &Windows,
+    (moments, drawn_dof): (Moments, f64),
+    (probability, windows): (f64, &Windows),
     chunks: Vec<Batch>,
+    scatter: &mut Option<ShortestScatter>,
 ) -> Option<MonteCarlo> {
-    let (shortest_error, mut order) = rayon::join(
-        || shortest_error(path, &chunks, probability, windows),
+    let (found, mut order) = rayon::join(
+        || scatter.unwrap_or_else(|| shortest_scatter(path, &chunks, probability, windows)),
         || order_of(path, &chunks, windows),
     );
     drop(chunks);
+    *scatter = Some(found);
     let order = &mut order;
     let symmetric_interval = symmetric(order, probability)?;
-    let shortest_interval = shortest(order, probability)?;
+    let (shortest_interval, _) = shortest(order, probability)?;
     let median = order.median()?;
     let ranks = Ranks::new(order.trials, probability);
     let upper = (ranks.r + ranks.q).min(order.trials);
@@ -233,39 +262,31 @@ fn figures(
     ];
     // with so few trials the shortest interval, too, is that of the extremes
     let few = is_extreme(order.trials, ranks.r);
-    let shortest_error = if few { [f64::NAN; 2] } else { shortest_error };
-    let errors = NumericalError::new(&moments, drawn_dof, quantile_errors, shortest_error);
-    let intervals = (symmetric_interval, shortest_interval, true);
+    let shortest_error = if few { [f64::NAN; 2] } else { found.errors };
+    let extremes = [order.get(1)?, order.get(order.trials)?];
+    let errors =
+        NumericalError::new(&moments, drawn_dof, quantile_errors, shortest_error, extremes);
+    let intervals = Intervals {
+        symmetric: symmetric_interval,
+        shortest: shortest_interval,
+        exact: true,
+        unique: found.unique,
+    };
     Some(MonteCarlo::new(&moments, drawn_dof, median, intervals, errors))
 }
 
-/// The scatter of the shortest interval between batches of the trials, brought to the number of
-/// all trials by the cube-root law of such intervals (Kim and Pollard, Annals of Statistics 18,
-/// 1990).
-fn shortest_error(
+/// How the shortest intervals of the first batches scatter.
+fn shortest_scatter(
     path: CodePath,
     chunks: &[Batch],
     probability: f64,
     windows: &Windows,
-) -> [f64; 2] {
-    let batches: Vec<&[Batch]> = chunks.chunks(chunks.len().div_ceil(BATCHES).max(1)).collect();
-    let trials = |batch: &[Batch]| batch.iter().map(|chunk| chunk.trials).sum::<u64>();
-    let total: u64 = batches.iter().map(|batch| trials(batch)).sum();
-    let largest = batches.iter().map(|batch| trials(batch)).max().unwrap_or(0);
-    let ends: Vec<[f64; 2]> = batches
-        .into_par_iter()
-        // a last batch of few trials would scatter more than the others
-        .filter(|batch| 2 * trials(batch) > largest)
-        .filter_map(|batch| shortest(&mut order_of(path, batch, windows), probability))
-        .collect();
-    let n = ends.len() as f64;
-    if ends.len() < 4 {
-        return [f64::NAN; 2];
-    }
-    let law = elementary::cbrt(largest as f64 / total as f64);
-    [0, 1].map(|end| {
-        let mean = ends.iter().map(|e| e[end]).sum::<f64>() / n;
-        let squares: f64 = ends.iter().map(|e| (e[end] - mean).powi(2)).sum();
-        law * (squares / (n - 1.0)).sqrt()
-    })
+) -> ShortestScatter {
+    let total = chunks.iter().map(|chunk| chunk.trials).sum();
+    let batches = chunks.par_chunks(1).take(BATCHES).enumerate();
+    let batches = batches.filter(|(_, batch)| batch.iter().all(|chunk| chunk.trials > 0));
+    let intervals = batches.filter_map(|(number, batch)| {
+        BatchInterval::of(&mut order_of(path, batch, windows), probability, number as u64)
+    });
+    ShortestScatter::of(intervals.collect(), total)
 }

@@ -16,14 +16,15 @@
 //! uncertainty.
 
 use super::block::RowTrials;
-use super::figures::{Finished, MonteCarlo, NumericalError, Undefined};
+use super::figures::{Finished, Intervals, MonteCarlo, NumericalError, Undefined, of_moments};
 use super::interval::{Ranks, is_extreme};
-use super::moments::{Moments, correlations};
+use super::moments::{Moments, Parts, correlation_errors, correlations};
 use super::partition::Leaf;
 use super::passes::{Pass, first_partitions, kept_budget, narrow, pass};
 use super::pilot_refinement;
 use super::plan::Plan;
 use super::request::Request;
+use super::shortest_scatter::ShortestScatter;
 use super::sums::Sums;
 use super::targets::{SearchTargets, leaf_of};
 use crate::number::CodePath;
@@ -39,22 +40,21 @@ const SHORTEST_TOLERANCE: f64 = 1e-5;
 /// that the 2^53 numbers of a binade are told apart earlier.
 const MOST_PASSES: usize = 20;
 
-/// Runs all trials. `shortest_errors` are the numerical standard errors of the shortest intervals'
-/// ends, found otherwise. A run that is stopped has the figures of all trials that were counted until
-/// then, their order statistics as far as the cells tell; `None` if it was stopped before the first
-/// pass.
+/// Runs all trials. `scatters` tell how the shortest intervals scatter, found otherwise. A run that
+/// is stopped has the figures of all trials that were counted until then, their order statistics as
+/// far as the cells tell; `None` if it was stopped before the first pass.
 pub(super) fn run(
     trials: &RowTrials,
     request: Request<'_>,
     control: &Control<'_>,
     plans: &[Plan],
-    shortest_errors: &[[f64; 2]],
+    scatters: &[ShortestScatter],
 ) -> Option<Finished> {
     let mut partitions = first_partitions(plans);
     let budget = kept_budget(plans, control);
     pilot_refinement::prepare(trials, request, control, plans, &mut partitions, budget)?;
     let mut searches: Vec<Option<Search>> = vec![None; plans.len()];
-    let mut first: Option<(Pass, Vec<(Moments, Sums)>)> = None;
+    let mut first: Option<(Pass, Vec<(Moments, Parts)>)> = None;
     for number in 0..MOST_PASSES {
         let mut found = pass(trials, request.trials, control, plans, &partitions, number == 0);
         let stopped = found.stopped;
@@ -100,14 +100,13 @@ pub(super) fn run(
         }
     }
     let (whole, summaries) = first?;
-    Some(finish(trials, (request, control.path), whole, &summaries, searches, shortest_errors))
+    Some(finish(trials, (request, control.path), whole, &summaries, searches, scatters))
 }
 
-/// One output's moments and total from its sums, chunk by chunk in order.
-fn summary(sums: &[(u64, u64, Vec<Sums>)], output: usize, plan: &Plan) -> (Moments, Sums) {
-    let parts = sums.iter().filter(|(_, trials, _)| *trials > 0);
-    let parts = parts.map(|(_, trials, sums)| (*trials, &sums[output]));
-    Moments::of_parts(parts, plan.reference)
+/// One output's moments and parts from its sums, chunk by chunk in order.
+fn summary(sums: &[(u64, u64, Vec<Sums>)], output: usize, plan: &Plan) -> (Moments, Parts) {
+    let parts = Parts::of(sums.iter().map(|(_, trials, sums)| (*trials, &sums[output])));
+    (parts.moments(plan.reference), parts)
 }
 
 /// The figures of one output that are order statistics.
@@ -116,6 +115,8 @@ struct Found {
     /// Lower end, upper end, median.
     at: [f64; 3],
     errors: [f64; 3],
+    /// The least and the greatest trial.
+    extremes: [f64; 2],
     shortest: [f64; 2],
     exact: bool,
 }
@@ -166,7 +167,11 @@ impl Search {
             };
             let upper_rank = (r + q).min(self.trials);
             let errors = [of_end(r, c - a), of_end(upper_rank, f - d), (i - g) / 2.0];
-            self.found = Some(Found { at: [b, e, median], errors, shortest, exact });
+            let full = || leaves.iter().filter(|leaf| leaf.count > 0);
+            let extremes = [full().next().map(|l| l.least), full().next_back().map(|l| l.greatest)];
+            let extremes = extremes.map(|end| end.unwrap_or(f64::NAN));
+            let at = [b, e, median];
+            self.found = Some(Found { at, errors, extremes, shortest, exact });
         } else {
             // everything that this search still needs is wanted again in the next pass
             for rank in targets.ranks() {
@@ -262,30 +267,40 @@ fn finish(
     trials: &RowTrials,
     (request, path): (Request<'_>, CodePath),
     whole: Pass,
-    summaries: &[(Moments, Sums)],
+    summaries: &[(Moments, Parts)],
     searches: Vec<Option<Search>>,
-    shortest_errors: &[[f64; 2]],
+    scatters: &[ShortestScatter],
 ) -> Finished {
     let undefined = whole.first_undefined.map(|(block, trial)| Undefined {
         count: whole.undefined,
         trials: whole.trials + whole.undefined,
         first: trials.inputs_of(path, block, trial),
     });
-    let totals: Vec<&Sums> = summaries.iter().map(|(_, total)| total).collect();
-    let correlations = correlations(whole.trials, &totals, &whole.products);
+    let parts: Vec<&Parts> = summaries.iter().map(|(_, parts)| parts).collect();
+    let correlations = correlations(whole.trials, &parts, &whole.products);
+    let correlation_errors = correlation_errors(&parts, &whole.products, &correlations);
     let figures = searches.into_iter().zip(summaries).enumerate();
     let outputs: Vec<MonteCarlo> = figures
         .filter_map(|(output, (search, (moments, _)))| {
             let search = search?;
             let found = search.found.or(search.bounds)?;
             let dof = request.drawn_dof.get(output).copied().unwrap_or(f64::INFINITY);
-            let shortest_error = shortest_errors.get(output).copied().unwrap_or([f64::NAN; 2]);
-            let errors = NumericalError::new(moments, dof, found.errors, shortest_error);
+            let scatter = scatters.get(output).copied();
+            let shortest_error = scatter.map_or([f64::NAN; 2], |scatter| scatter.errors);
+            let errors =
+                NumericalError::new(moments, dof, found.errors, shortest_error, found.extremes);
             let [low, high, median] = found.at;
-            let intervals = ([low, high], found.shortest, found.exact);
+            let intervals = Intervals {
+                symmetric: [low, high],
+                shortest: found.shortest,
+                exact: found.exact,
+                unique: scatter.is_none_or(|scatter| scatter.unique),
+            };
             Some(MonteCarlo::new(moments, dof, median, intervals, errors))
         })
         .collect();
     let trials = if outputs.len() == summaries.len() { whole.trials } else { 0 };
-    Finished { trials, outputs, correlations, undefined, stopped: whole.stopped }
+    let correlation_errors = of_moments(correlation_errors, &outputs);
+    let stopped = whole.stopped;
+    Finished { trials, outputs, correlations, correlation_errors, undefined, stopped }
 }

@@ -432,7 +432,7 @@ impl Block<'_> {
         let Some(figures) = figures else { return Ok(()) };
         leaf.text(first - 1, 4, "Monte Carlo")?;
         let values = [
-            (0, Some(figures.estimate)),
+            (0, figures.estimate),
             (1, figures.standard_uncertainty),
             (5, Some(figures.symmetric_interval[0])),
             (6, Some(figures.symmetric_interval[1])),

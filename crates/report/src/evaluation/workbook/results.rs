@@ -3,7 +3,7 @@
 use rust_xlsxwriter::XlsxError;
 
 use super::budget::Totals;
-use crate::number::position;
+use crate::number::{place_of_ends, position};
 use crate::workbook::{Cached, Leaf, Look};
 use crate::{EvaluationReport, plain, table};
 use gumption_engine::propagate::OutputEvaluation;
@@ -121,15 +121,16 @@ fn figures(
     }
     let Some(figures) = &found.monte_carlo else { return Ok(()) };
     let own = figures.standard_uncertainty.and_then(|u| position(u, digits));
+    let ends = place_of_ends(figures, figures.standard_uncertainty, digits);
     let values = [
         (Some(figures.trials as f64), Some(0)),
-        (Some(figures.estimate), own),
+        (figures.estimate, own),
         (figures.standard_uncertainty, own),
-        (Some(figures.median), own),
-        (Some(figures.symmetric_interval[0]), own),
-        (Some(figures.symmetric_interval[1]), own),
-        (Some(figures.shortest_interval[0]), own),
-        (Some(figures.shortest_interval[1]), own),
+        (Some(figures.median), ends),
+        (Some(figures.symmetric_interval[0]), ends),
+        (Some(figures.symmetric_interval[1]), ends),
+        (Some(figures.shortest_interval[0]), ends),
+        (Some(figures.shortest_interval[1]), ends),
     ];
     for (column, (value, shown)) in (first + 7..).zip(values) {
         leaf.number((at, column), value.unwrap_or(f64::NAN), shown, Look::Plain)?;

@@ -1,6 +1,11 @@
 //! Whether two determinations of one delay or phase agree.
 
-use crate::Measured;
+use std::f64::consts::TAU;
+
+use crate::{
+    CrossCorrelation, CrossPhase, Delay, Harmonics, Measured, Periodic, Signal, Unsuitable, phasor,
+};
+use gumption_engine::special::student;
 
 /// The difference of two values of one quantity.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,4 +29,48 @@ pub fn agreement(first: Measured, second: Measured, period: Option<f64>) -> Dela
     let expanded = 2.0 * (u + v).sqrt();
     let normalized_error = if difference == 0.0 { 0.0 } else { difference.abs() / expanded };
     DelayAgreement { difference, normalized_error }
+}
+
+/// Compares the two delays of one pair of signals. Both come from the same samples, so that nearly all
+/// of their errors are one and the same: what their difference may be is its scatter over the segments
+/// of the cross-spectrum, with the coverage factor of 95.45 % for one degree of freedom less than
+/// there are segments.
+///
+/// # Errors
+/// A segment in which one of the two cannot be found.
+pub(crate) fn of_one_recording(
+    [reference, signal]: [&Signal; 2],
+    harmonics: Harmonics,
+    segments: usize,
+    (correlated, crossed): (&Delay, &CrossPhase),
+) -> Result<DelayAgreement, Unsuitable> {
+    let period = 1.0 / harmonics.frequency;
+    let near_zero = |delay: f64| delay - period * (delay / period).round();
+    let length = reference.values.len() / segments;
+    let single = Harmonics { count: 1, ..harmonics };
+    let differences = (0..segments).map(|segment| {
+        let part = |signal: &Signal| {
+            let values = signal.values[segment * length..(segment + 1) * length].to_vec();
+            Signal { values, start: 0.0, ..*signal }
+        };
+        let (reference, signal) = (part(reference), part(signal));
+        let by_correlation = CrossCorrelation::Periodic(harmonics).of(&reference, &signal)?;
+        let [of_reference, of_signal] =
+            [Periodic::fit(&reference, single)?, Periodic::fit(&signal, single)?];
+        let turned = of_reference.parts[0].phasor.conj() * of_signal.parts[0].phasor;
+        let by_phase = -phasor::angle(turned) / (TAU * harmonics.frequency);
+        Ok(near_zero(by_correlation.delay.value - by_phase))
+    });
+    let differences = differences.collect::<Result<Vec<f64>, Unsuitable>>()?;
+    let count = segments as f64;
+    let mean = differences.iter().sum::<f64>() / count;
+    let squares: f64 = differences.iter().map(|d| (d - mean) * (d - mean)).sum();
+    let u = (squares / (count * (count - 1.0))).sqrt();
+    let difference = near_zero(correlated.delay.value - crossed.delay.value);
+    // delays that differ by the rounding of double precision are equal
+    let rounding = 1e-12 * period;
+    let expanded = student::two_sided_factor(0.9545, count - 1.0) * u;
+    let normalized_error =
+        if difference.abs() <= rounding { 0.0 } else { difference.abs() / expanded.max(rounding) };
+    Ok(DelayAgreement { difference, normalized_error })
 }

@@ -11,6 +11,7 @@ mod cross_spectrum;
 #[cfg(test)]
 mod tests;
 
+pub(crate) use agreement::of_one_recording;
 pub use agreement::{DelayAgreement, agreement};
 pub use correlation::{CrossCorrelation, Delay};
 pub use cross_spectrum::{CrossPhase, CrossSpectrum};

@@ -1,0 +1,206 @@
+//! Numerical standard errors against the scatter between seeds.
+#![allow(clippy::disallowed_methods)] // nothing of this is printed as a result
+#![allow(clippy::unwrap_used, clippy::panic)]
+
+use std::path::Path;
+
+use gumption_engine::propagate::monte_carlo::MonteCarlo;
+use gumption_engine::propagate::{Control, Evaluation, evaluate, warnings};
+use gumption_engine::task::{Coverage, Task, Trials};
+use gumption_files as file;
+
+/// A model of one output `y`.
+fn task(inputs: &str, formula: &str) -> Task {
+    let text = format!(
+        r#"{{"inputs": {{{inputs}}}, "equations": {{"y": "{formula}"}}, "outputs": {{"y": {{}}}}}}"#
+    );
+    let mut task = file::read_text("m.json", &text, Path::new(""), &[]).unwrap().task;
+    task.settings.coverage = Coverage::Probability(0.95);
+    task
+}
+
+fn run(task: &mut Task, seed: u64, trials: u64) -> Evaluation {
+    task.settings.seed = seed;
+    task.settings.trials = Trials::Fixed(trials);
+    evaluate(task, &Control::default()).unwrap()
+}
+
+fn figures(task: &mut Task, seed: u64, trials: u64) -> MonteCarlo {
+    run(task, seed, trials).rows[0].outputs[0].monte_carlo.clone().unwrap()
+}
+
+const SEEDS: u64 = 60;
+
+/// The standard deviation of a figure between the seeds that state an error over the root mean square
+/// of that, and the share of these seeds.
+fn ratio(all: &[MonteCarlo], of: impl Fn(&MonteCarlo) -> (f64, Option<f64>)) -> (f64, f64) {
+    let stated = all.iter().map(of).filter_map(|(value, error)| Some((value, error?)));
+    let (values, errors): (Vec<f64>, Vec<f64>) = stated.unzip();
+    let n = values.len() as f64;
+    let mean = values.iter().sum::<f64>() / n;
+    let scatter = values.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / (n - 1.0);
+    let stated = errors.iter().map(|e| e * e).sum::<f64>() / errors.len().max(1) as f64;
+    ((scatter / stated).sqrt(), n / all.len() as f64)
+}
+
+const NORMAL: &str = r#""x": {"distribution": "normal", "mean": 0, "std": 1}"#;
+
+/// The ends of the shortest interval scatter as they say: with smooth peaks by the cube-root law, with
+/// modes at a bound by that of quantiles. Sixty seeds know a scatter to 9 %, and the stated errors
+/// come from 15 batches each; the seeds are fixed. Before, the upper ends of the skew ones were stated
+/// 1.7 times too large. Lower ends at the limit itself, which scatter by almost nothing, may be stated
+/// too large.
+#[test]
+fn ends_of_the_shortest_interval_scatter_as_stated() {
+    let exponential = r#""x": {"distribution": "exponential", "mean": 1}"#;
+    let triangular = r#""x": {"distribution": "triangular", "mean": 0, "half_width": 1}"#;
+    let gamma = r#""x": {"distribution": "gamma", "shape": 2.5, "rate": 0.5}"#;
+    let lognormal = r#""x": {"distribution": "lognormal", "mean": 1, "std": 1}"#;
+    let cases = [
+        ("normal", NORMAL, "x", [0.7..1.4, 0.7..1.4]),
+        ("triangular", triangular, "x", [0.7..1.4, 0.7..1.4]),
+        ("gamma", gamma, "x", [0.7..1.4, 0.7..1.4]),
+        ("exponential", exponential, "x", [0.01..1.6, 0.7..1.4]),
+        ("half-normal", NORMAL, "abs(x)", [0.01..1.6, 0.7..1.4]),
+        ("lognormal", lognormal, "x", [0.01..1.6, 0.7..1.4]),
+    ];
+    for (name, inputs, formula, limits) in cases {
+        let mut task = task(inputs, formula);
+        let all: Vec<MonteCarlo> = (1..=SEEDS).map(|s| figures(&mut task, s, 30_000)).collect();
+        assert!(all.iter().all(|found| found.shortest_unique), "{name}");
+        for (end, limits) in limits.iter().enumerate() {
+            let of = |found: &MonteCarlo| {
+                (found.shortest_interval[end], Some(found.errors.shortest_interval[end]))
+            };
+            let (ratio, _) = ratio(&all, of);
+            assert!(limits.contains(&ratio), "{name}, end {end}: {ratio}");
+        }
+    }
+}
+
+/// Where the density is flat or rises to both limits, there is no one shortest interval: no error is
+/// stated, and the interval to be stated is the symmetric one. Before, the errors of a rectangular
+/// output were 2.7 times too small.
+#[test]
+fn equally_short_intervals_are_said_to_be() {
+    let rectangular = r#""x": {"distribution": "rectangular", "mean": 0, "half_width": 1}"#;
+    let arcsine = r#""x": {"distribution": "arcsine", "mean": 0, "half_width": 1}"#;
+    let beta = r#""x": {"distribution": "beta", "alpha": 0.3, "beta": 0.3}"#;
+    for (inputs, formula) in [(rectangular, "x"), (arcsine, "x"), (beta, "x")] {
+        let mut task = task(inputs, formula);
+        for (seed, trials) in [(1, 50_000), (2, 50_000), (3, 1_000_000), (4, 3_000_000)] {
+            let found = figures(&mut task, seed, trials);
+            assert!(!found.shortest_unique, "{inputs}");
+            assert!(found.errors.shortest_interval.iter().all(|error| error.is_nan()));
+            let stated = found.stated_interval();
+            assert!(!stated.shortest);
+            assert_eq!(stated.ends, found.symmetric_interval);
+        }
+    }
+}
+
+/// A skew output states its shortest interval, a symmetric one the symmetric interval.
+#[test]
+fn skew_outputs_state_the_shortest_interval() {
+    let exponential = r#""x": {"distribution": "exponential", "mean": 1}"#;
+    let skew = figures(&mut task(exponential, "x"), 1, 100_000).stated_interval();
+    // from 0 to -ln(0.05) = 2.996
+    assert!(skew.shortest && skew.ends[0] < 0.01 && (skew.ends[1] - 2.996).abs() < 0.05);
+    assert!(!figures(&mut task(NORMAL, "x"), 1, 100_000).stated_interval().shortest);
+}
+
+/// Skewness and kurtosis have honest errors or none. Of a lognormal distribution they were 2.4 and
+/// 5.3 times too small: most parts of the trials have not seen the few that carry the moments.
+#[test]
+fn skewness_and_kurtosis_scatter_as_stated() {
+    let lognormal = r#""x": {"distribution": "lognormal", "mean": 1, "std": 1}"#;
+    let exponential = r#""x": {"distribution": "exponential", "mean": 1}"#;
+    let rectangular = r#""x": {"distribution": "rectangular", "mean": 0, "half_width": 1}"#;
+    let cases = [
+        ("normal", NORMAL, 0.9),
+        ("rectangular", rectangular, 0.9),
+        ("exponential", exponential, 0.6),
+        ("lognormal", lognormal, 0.0),
+    ];
+    for (name, inputs, least) in cases {
+        let mut task = task(inputs, "x");
+        let all: Vec<MonteCarlo> = (1..=SEEDS).map(|s| figures(&mut task, s, 50_000)).collect();
+        let skewness = ratio(&all, |f| (f.skewness.unwrap(), f.errors.skewness));
+        let kurtosis = ratio(&all, |f| (f.excess_kurtosis.unwrap(), f.errors.excess_kurtosis));
+        for (ratio, stated) in [skewness, kurtosis] {
+            assert!(stated >= least, "{name}: {stated} of the seeds");
+            let honest = stated < 0.25 || (0.7..1.4).contains(&ratio);
+            assert!(honest, "{name}: {ratio}, {stated} of the seeds");
+        }
+    }
+}
+
+/// 1/z and x/z with z about 0 have no expectation. Their trials' mean and standard deviation have no
+/// error, a warning says so, and an adaptive run has not converged. The ends of the interval of 1/z,
+/// z ~ N(1, 0.3), were computed from 2e7 trials elsewhere: 0.63 and 2.41.
+#[test]
+fn tails_without_moments_are_said_to_be_heavy() {
+    let z = r#""z": {"distribution": "normal", "mean": 1, "std": 0.3}"#;
+    let t = r#""z": {"distribution": "t", "mean": 0, "scale": 0.5, "dof": 5}"#;
+    for (inputs, formula) in [(z, "1/z"), (t, "exp(z)")] {
+        let mut task = task(inputs, formula);
+        for seed in 1..=3 {
+            let evaluation = run(&mut task, seed, 1_000_000);
+            let found = evaluation.rows[0].outputs[0].monte_carlo.as_ref().unwrap();
+            let heavy = found.heavy_tailed;
+            assert!(heavy || formula != "1/z", "{formula}, seed {seed}");
+            assert_eq!(found.errors.standard_uncertainty.is_none(), heavy);
+            assert_eq!(found.errors.estimate.is_none(), heavy);
+            let noted = warnings(&task, &evaluation);
+            assert_eq!(noted.iter().any(|warning| warning.code == "heavy-tails"), heavy);
+            if formula == "1/z" {
+                let [low, high] = found.symmetric_interval;
+                assert!((low - 0.63).abs() < 0.005 && (high - 2.41).abs() < 0.02, "{low} {high}");
+            }
+        }
+    }
+    // two blocks that happen to agree are no convergence
+    let mut adaptive = task(z, "1/z");
+    adaptive.settings.trials = Trials::Adaptive;
+    adaptive.settings.coverage = Coverage::Factor { factor: 2.0, fixed: false };
+    (adaptive.settings.digits, adaptive.settings.seed) = (1, 3);
+    let evaluation = evaluate(&adaptive, &Control::default()).unwrap();
+    let found = evaluation.rows[0].outputs[0].monte_carlo.as_ref().unwrap();
+    let end = found.adaptive.unwrap();
+    assert!(found.heavy_tailed && !end.converged && found.trials < 1_000_000, "{end:?}");
+    let noted = warnings(&adaptive, &evaluation);
+    assert!(!noted.iter().any(|warning| warning.code == "not-converged"));
+    for (inputs, formula) in [(NORMAL, "x"), (NORMAL, "exp(x)"), (NORMAL, "x^2")] {
+        assert!(!figures(&mut task(inputs, formula), 1, 1_000_000).heavy_tailed, "{formula}");
+    }
+}
+
+/// Correlation coefficients scatter between seeds as they say; where an output is heavy-tailed, none
+/// says anything. For jointly normal outputs of coefficient 0.6 the error is (1 - r^2)/sqrt(M).
+#[test]
+fn correlations_have_numerical_standard_errors() {
+    let text = r#"{"inputs": {
+        "x": {"distribution": "normal", "mean": 0, "std": 0.6},
+        "w": {"distribution": "normal", "mean": 0, "std": 0.8},
+        "z": {"distribution": "normal", "mean": 1, "std": 0.3}},
+        "equations": {"a": "x + w", "b": "x/0.6", "c": "1/z + x"},
+        "outputs": {"a": {}, "b": {}, "c": {}}}"#;
+    let mut task = file::read_text("m.json", text, Path::new(""), &[]).unwrap().task;
+    let trials = 50_000;
+    let mut values = Vec::new();
+    let mut stated = Vec::new();
+    for seed in 1..=SEEDS {
+        let row = run(&mut task, seed, trials).rows.remove(0);
+        let [ab, ac, bc] = row.correlation_errors[..] else { panic!("three pairs") };
+        assert_eq!((ac, bc), (None, None));
+        values.push(row.correlations[0]);
+        stated.push(ab.unwrap());
+    }
+    let expected = (1.0 - 0.36) / (trials as f64).sqrt();
+    let n = values.len() as f64;
+    let mean = values.iter().sum::<f64>() / n;
+    let scatter = (values.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / (n - 1.0)).sqrt();
+    let rms = (stated.iter().map(|e| e * e).sum::<f64>() / n).sqrt();
+    assert!((rms / expected - 1.0).abs() < 0.1, "{rms} for {expected}");
+    assert!((scatter / rms - 1.0).abs() < 0.3, "{scatter} for {rms}");
+}
