@@ -252,17 +252,17 @@ impl fmt::Display for Shown {
 #[non_exhaustive]
 pub struct IncompatibleUnits {
     /// The text of the unit to convert from.
-    pub from: String,
+    pub from: Box<str>,
     /// Its dimension.
     pub from_dimension: Dimension,
     /// What it measures, in words.
-    pub from_is: String,
+    pub from_is: Box<str>,
     /// The text of the unit to convert to.
-    pub to: String,
+    pub to: Box<str>,
     /// Its dimension.
     pub to_dimension: Dimension,
     /// What that measures, in words.
-    pub to_is: String,
+    pub to_is: Box<str>,
 }
 
 impl Error for IncompatibleUnits {}

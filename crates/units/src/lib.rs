@@ -334,12 +334,12 @@ impl Unit {
 
     fn incompatible(from: &Self, to: &Self) -> IncompatibleUnits {
         IncompatibleUnits {
-            from: from.text.clone(),
+            from: from.text.clone().into(),
             from_dimension: from.dimension,
-            from_is: from.describe(),
-            to: to.text.clone(),
+            from_is: from.describe().into(),
+            to: to.text.clone().into(),
             to_dimension: to.dimension,
-            to_is: to.describe(),
+            to_is: to.describe().into(),
         }
     }
 

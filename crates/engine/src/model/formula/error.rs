@@ -186,7 +186,7 @@ pub enum FormulaError {
         /// Where it stands, with the brackets.
         span: Range<usize>,
         /// What is wrong with it.
-        error: UnitError,
+        error: Box<UnitError>,
     },
     /// A number with a unit that can be read in two ways.
     TwoReadings {

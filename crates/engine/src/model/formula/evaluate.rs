@@ -66,14 +66,11 @@ pub(super) fn evaluate<T: Number>(
                 let value = if offset == 0.0 { value } else { value - offset };
                 value / at(&results, *right)
             }
-            Kind::InUnit { number, unit } => {
-                let scaled = match tree.nodes.get(*number).map(|node| &node.kind) {
-                    Some(Kind::Number(number)) => T::constant(unit.value_to_si(*number)),
-                    _ if unit.offset() == 0.0 => at(&results, *number) * unit.factor(),
-                    _ => at(&results, *number) * unit.factor() + unit.offset(),
-                };
-                scaled
-            }
+            Kind::InUnit { number, unit } => match tree.nodes.get(*number).map(|node| &node.kind) {
+                Some(Kind::Number(number)) => T::constant(unit.value_to_si(*number)),
+                _ if unit.offset() == 0.0 => at(&results, *number) * unit.factor(),
+                _ => at(&results, *number) * unit.factor() + unit.offset(),
+            },
             kind => apply(kind, &results, &constants).ok_or_else(|| wrong_call(text, kind))?,
         };
         results.push(result);

@@ -182,7 +182,8 @@ impl Parser<'_> {
             Ok(unit) if !text.trim().is_empty() => Ok(Kind::Unit(Box::new(unit))),
             Ok(_) => Err(self.unexpected(OPERAND)),
             Err(error) => {
-                Err(FormulaError::BadUnit { text: text.to_owned(), span: place.clone(), error })
+                let (text, error) = (text.to_owned(), Box::new(error));
+                Err(FormulaError::BadUnit { text, span: place.clone(), error })
             }
         }
     }
