@@ -65,7 +65,8 @@ pub fn of(reader: impl Read, most: u64) -> Result<Vec<u8>, ReadError> {
 /// # Errors
 /// What it is not, as a sentence about it.
 pub fn text(bytes: &[u8]) -> Result<Cow<'_, str>, String> {
-    let (rest, of): (&[u8], fn([u8; 2]) -> u16) = match bytes {
+    type Unit = fn([u8; 2]) -> u16;
+    let (rest, of): (&[u8], Unit) = match bytes {
         [0xff, 0xfe, rest @ ..] => (rest, u16::from_le_bytes),
         [0xfe, 0xff, rest @ ..] => (rest, u16::from_be_bytes),
         _ => {

@@ -108,6 +108,9 @@ pub(super) struct Group<'g> {
     pub(super) through: Option<&'g Through>,
 }
 
+/// The tones of a recording, and for each channel their coefficients and what they leave.
+type FittedTones = (ToneDesign, Vec<ToneCoefficients>, Vec<Residuals>);
+
 impl Group<'_> {
     /// Analyses the channels.
     pub(super) fn analyse<P: SampleSource>(
@@ -334,7 +337,7 @@ impl Group<'_> {
         &self,
         passes: &mut P,
         fundamentals: &mut [Fundamental],
-    ) -> Result<(ToneDesign, Vec<ToneCoefficients>, Vec<Residuals>), Refused<P::Error>> {
+    ) -> Result<FittedTones, Refused<P::Error>> {
         let samples = passes.frames();
         let lead = self.lead().1;
         let as_stated = fundamentals.to_vec();

@@ -318,16 +318,16 @@ fn notes(settings: &RecipeSettings, analysed: &[Analysed]) -> Vec<Note> {
             );
             notes.push(("looks-quantized", of.channel, text));
         }
-        if let Some(rounding) = of.rounding.as_ref().filter(|rounding| rounding.repeated > 0.05) {
-            if let Some(phases) = rounding.phases {
-                let text = format!(
-                    "`{name}`: the {} samples fall on {phases} different phases of the oscillation, \
-                     and there is too little noise to blur the rounding, so that it averages out \
-                     over these only",
-                    of.design.samples
-                );
-                notes.push(("coherent-sampling", of.channel, text));
-            }
+        if let Some(rounding) = of.rounding.as_ref().filter(|rounding| rounding.repeated > 0.05)
+            && let Some(phases) = rounding.phases
+        {
+            let text = format!(
+                "`{name}`: the {} samples fall on {phases} different phases of the oscillation, and \
+                 there is too little noise to blur the rounding, so that it averages out over these \
+                 only",
+                of.design.samples
+            );
+            notes.push(("coherent-sampling", of.channel, text));
         }
         let reference = settings.reference.and_then(|channel| {
             analysed.iter().find(|other| other.channel == channel && channel != of.channel)

@@ -242,16 +242,15 @@ impl Fitted<'_> {
         let mut value = of_first.value;
         let mut walk = products.likelihood(self, edge)?;
         let mut walk_theta = 0.0;
-        if !self.is_white(best) {
-            if let Some((rho, theta, found)) = self.moving_average() {
-                if found.value < value - WORTH {
-                    best = Process { rho, theta, variance: found.variance, walks: false };
-                    value = found.value;
-                    let of = |place: f64| self.likelihood(edge, tanh(place));
-                    if let Some((place, found)) = along(of, (-4.0, 3.0)) {
-                        (walk, walk_theta) = (found, tanh(place));
-                    }
-                }
+        if !self.is_white(best)
+            && let Some((rho, theta, found)) = self.moving_average()
+            && found.value < value - WORTH
+        {
+            best = Process { rho, theta, variance: found.variance, walks: false };
+            value = found.value;
+            let of = |place: f64| self.likelihood(edge, tanh(place));
+            if let Some((place, found)) = along(of, (-4.0, 3.0)) {
+                (walk, walk_theta) = (found, tanh(place));
             }
         }
         if best.rho > 0.0 && walk.value < value + COMES_BACK {

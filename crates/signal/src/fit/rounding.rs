@@ -57,7 +57,7 @@ impl Rounding {
             6.0 / (PI * PI) * exp(-damped * damped) / f64::from(k * k)
         };
         let repeated: f64 = (1..=1000).map(share).sum();
-        if !(repeated > LEAST) {
+        if repeated.is_nan() || repeated <= LEAST {
             return None;
         }
         let affordable = (MOST_WORK / design.samples).clamp(2, u64::from(MOST_TERMS)) as u32;
