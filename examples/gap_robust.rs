@@ -10,6 +10,7 @@
 //! something is made wrong with the noise or with the priors. SETS is the number of data sets for
 //! each bench and fault (12 unless told), SEEDS that of the seeds of the second table (20).
 #![allow(clippy::disallowed_methods)] // nothing of this is printed as a result
+#![allow(clippy::print_stdout)] // rows as they come
 
 use std::error::Error;
 use std::f64::consts::TAU;
@@ -20,7 +21,6 @@ use gumption::file::FileReader;
 use gumption::gap::{Case, Diagnosis, DiagnosisOptions, HypothesisKind, diagnose};
 use serde_json::{Map, Value, json};
 
-#[allow(dead_code)]
 mod generator;
 
 use generator::SplitMix64;
