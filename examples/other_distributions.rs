@@ -29,6 +29,7 @@ pub(crate) fn task(trials: u64) -> Result<Task, Box<dyn Error>> {
         .input("gust", Input::new(gust, "m/s")?)
         .equation("v", "wind + gust")
         .output("v", "m/s")
+        .coverage(0.95)
         .trials(trials)
         .build()?)
 }

@@ -16,7 +16,7 @@ const SMALL: &str = r#"{
   },
   "equations": {"v": "x / t"},
   "outputs": {"v": {"unit": "mm/s"}},
-  "monte_carlo": {"trials": 200000}
+  "monte_carlo": {"trials": 300000}
 }"#;
 
 /// A model that clause 8 refutes: a square at zero.

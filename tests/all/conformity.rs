@@ -11,7 +11,7 @@ fn model(mean: f64, std: f64, more: &str) -> String {
     format!(
         r#"{{"inputs": {{"x": {{"unit": "um", "distribution": "normal", "mean": {mean}, "std": {std}}}}},
         "equations": {{"y": "x"}}, "outputs": {{"y": {{"unit": "um", {more}}}}},
-        "monte_carlo": {{"trials": 200000}}}}"#
+        "monte_carlo": {{"trials": 300000}}}}"#
     )
 }
 

@@ -182,11 +182,11 @@ fn the_page_of_saved_results() {
     output `power`: other sensitivity coefficients to `voltage`, `resistance`, `drift`; what that does
     to U is counted with these inputs
 
-    power: U from 1.99 to 7.93 mW (+298.1 %)
+    power: U from 2.03 to 8.10 mW (+298.1 %)
     what changed  from                                 to                                  change  share
                                                                                              of U   in %
     ────────────────────────────────────────────────────────────────────────────────────────────────────
-    voltage       5.000 V, u 0.010, normal,            5.000 V, u 0.020, normal,             5.80   97.7
+    voltage       5.000 V, u 0.010, normal,            5.000 V, u 0.020, normal,             5.92   97.7
                   sensitivity 100.0                    sensitivity 200.0
     resistance    100.000 ohm, u 0.058, rectangular,   50.000 ohm, u 0.058, rectangular,     0.12    2.0
                   sensitivity -2.500                   sensitivity -10.00

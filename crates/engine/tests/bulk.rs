@@ -71,8 +71,12 @@ fn budgets_in_columns_are_those_of_single_rows() {
                     dof: each(dof, short),
                 })
                 .collect();
-            let options =
-                BulkOptions { correlations: &task.correlations, path, ..BulkOptions::default() };
+            let options = BulkOptions {
+                correlations: &task.correlations,
+                coverage: task.settings.coverage,
+                path,
+                ..BulkOptions::default()
+            };
             let made = budgets(
                 &task.model.program,
                 &known,

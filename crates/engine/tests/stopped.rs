@@ -16,6 +16,7 @@ fn stopped_at(trials: u64, memory: usize) -> (Evaluation, u64) {
         .equation("e", "exp(x)")
         .output("x", "1")
         .output("e", "1")
+        .coverage(0.95)
         .trials(40_000_000)
         .build()
         .unwrap();

@@ -194,10 +194,8 @@ fn by_propagation(gum: &Gum, settings: &Settings) -> Option<Found> {
 
 /// Whether a coverage factor is printed like that of a normal distribution: to two decimals.
 fn is_normal(factor: f64, coverage: Coverage) -> bool {
-    let normal = match coverage {
-        Coverage::Factor { factor, .. } => factor,
-        Coverage::Probability(p) => special::normal::quantile(0.5 + 0.5 * p),
-    };
+    let of_probability = || special::normal::quantile(0.5 + 0.5 * coverage.probability());
+    let normal = coverage.nominal_factor().unwrap_or_else(of_probability);
     to_position(factor, -2) == to_position(normal, -2)
 }
 

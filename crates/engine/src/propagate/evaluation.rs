@@ -79,7 +79,7 @@ pub struct OutputEvaluation {
     pub monte_carlo: Option<MonteCarlo>,
     /// The law of propagation with its terms of second order, where they tell why the two differ, or
     /// what the law leaves out.
-    pub second_order: Option<SecondOrder>,
+    pub second_order: Option<Box<SecondOrder>>,
     /// Their comparison.
     pub validation: Option<Validation>,
     /// The probability that the output conforms to its tolerance; `None` without a tolerance or
@@ -406,7 +406,7 @@ fn evaluate_row(
         result.outputs.push(OutputEvaluation {
             gum,
             monte_carlo,
-            second_order,
+            second_order: second_order.map(Box::new),
             validation,
             conformity,
             drawn_dof,

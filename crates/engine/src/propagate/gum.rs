@@ -429,7 +429,7 @@ pub fn coverage_factor(coverage: Coverage, dof: Dof, real: bool) -> Option<f64> 
         Dof::Undefined => coverage.given_factor(),
         // K itself, and not the factor at its probability of 0.9545, which is 2.000 02
         Dof::Infinite => coverage
-            .given_factor()
+            .nominal_factor()
             .or_else(|| Some(special::student::two_sided_factor(probability, f64::INFINITY))),
         Dof::Finite(dof) => {
             let whole = whole(dof);

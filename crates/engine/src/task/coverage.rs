@@ -5,6 +5,10 @@ use crate::special;
 /// A coverage probability, or the coverage factor that accreditation practice names instead.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Coverage {
+    /// What is usual where nobody states a coverage: the factor 2 for infinite degrees of freedom,
+    /// approximately 95 % (EA-4/02, 5.1; ILAC-P14). No factor is given by it where the degrees of
+    /// freedom are undefined.
+    Usual,
     /// The coverage probability p, 0 < p < 1.
     Probability(f64),
     /// The coverage factor K > 0 for infinite degrees of freedom; it sets the probability.
@@ -16,10 +20,10 @@ pub enum Coverage {
     },
 }
 
-/// The factor 2, for approximately 95 % (EA-4/02, 5.1; ILAC-P14).
+/// What is usual.
 impl Default for Coverage {
     fn default() -> Self {
-        Self::Factor { factor: 2.0, fixed: false }
+        Self::Usual
     }
 }
 
@@ -35,7 +39,7 @@ impl Coverage {
     pub fn probability(self) -> f64 {
         match self {
             Self::Probability(p) => p,
-            Self::Factor { factor: 2.0, .. } => 0.9545,
+            Self::Usual | Self::Factor { factor: 2.0, .. } => 0.9545,
             Self::Factor { factor, .. } => 1.0 - 2.0 * special::normal::sf(factor),
         }
     }
@@ -43,8 +47,16 @@ impl Coverage {
     /// The factor that the file gives, if it gives one.
     pub fn given_factor(self) -> Option<f64> {
         match self {
-            Self::Probability(_) => None,
+            Self::Probability(_) | Self::Usual => None,
             Self::Factor { factor, .. } => Some(factor),
+        }
+    }
+
+    /// The factor for infinite degrees of freedom that sets the probability, where one does.
+    pub fn nominal_factor(self) -> Option<f64> {
+        match self {
+            Self::Usual => Some(2.0),
+            Self::Probability(_) | Self::Factor { .. } => self.given_factor(),
         }
     }
 }

@@ -204,7 +204,7 @@ fn trials_made(evaluation: &Evaluation) -> u64 {
 
 pub(super) fn coverage_text(coverage: Coverage) -> String {
     match coverage {
-        Coverage::Factor { factor: 2.0, .. } => "approximately 95 %".to_owned(),
+        Coverage::Usual | Coverage::Factor { factor: 2.0, .. } => "approximately 95 %".to_owned(),
         _ => {
             // 99.73 % for K = 3, but 95 % for 0.95
             format!("{} %", exact(to_position(100.0 * coverage.probability(), -4)))

@@ -154,8 +154,12 @@ pub struct BulkOptions<'a> {
 
 impl Default for BulkOptions<'_> {
     fn default() -> Self {
-        let coverage = Coverage::Probability(0.95);
-        Self { coverage, real_dof: false, correlations: &[], path: CodePath::best() }
+        Self {
+            coverage: Coverage::default(),
+            real_dof: false,
+            correlations: &[],
+            path: CodePath::best(),
+        }
     }
 }
 

@@ -202,8 +202,8 @@ fn units_are_converted() {
     assert!((share(output, "a") - 1.0).abs() < 1e-12, "{output:?}");
     assert_eq!(output.parts.len(), 2, "{output:?}");
     let expanded = output.expanded.map(|u| (u.unwrap() * 1e3).round());
-    // 1.96 sqrt((1000 * 0.1)^2 + (1 * 10)^2) = 196.974; with 200: 392.48 mm^2
-    assert_eq!(expanded, [196_974.0, 392_482.0]);
+    // 2 sqrt((1000 * 0.1)^2 + (1 * 10)^2) = 200.998; with 200: 400.50 mm^2
+    assert_eq!(expanded, [200_998.0, 400_500.0]);
 }
 
 #[test]

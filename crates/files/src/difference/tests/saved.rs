@@ -224,7 +224,7 @@ fn a_model_file_and_a_result() {
         );
         ModelOrResult::Model(Box::new(read_text("m.json", &text, Path::new(""), &[]).unwrap()))
     };
-    let (first, second) = (first.result(), model(""));
+    let (first, second) = (first.result(), model(r#""coverage_probability": 0.95,"#));
     let compared = difference(&first, &second).unwrap();
     let output = only(&compared);
     assert_complete(output);

@@ -21,7 +21,8 @@ fn numbers_are_those_of_the_json() {
     let cells = |name: &str| -> Vec<String> {
         let line = page
             .lines()
-            .find(|line| line.strip_prefix(name).is_some_and(|rest| rest.starts_with("  ")));
+            // the hypothesis stands below the effect of the same name
+            .rfind(|line| line.strip_prefix(name).is_some_and(|rest| rest.starts_with("  ")));
         let rest = line.unwrap_or_else(|| panic!("{name} in {page}")).strip_prefix(name).unwrap();
         // a range of conditions has numbers in its words, parted by single spaces
         let cells = rest.split("  ").map(str::trim).filter(|cell| cell.parse::<f64>().is_ok());
