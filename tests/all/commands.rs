@@ -160,7 +160,7 @@ fn the_command_line_beats_the_file() {
     };
     let base = with(&[]);
     let figure = |answer: &Value| answer["outputs"]["v"]["monte_carlo"]["estimate"].as_f64();
-    assert_eq!(base["outputs"]["v"]["monte_carlo"]["trials"], 200_000);
+    assert_eq!(base["outputs"]["v"]["monte_carlo"]["trials"], 300_000);
     assert_eq!(with(&["--trials", "3000"])["outputs"]["v"]["monte_carlo"]["trials"], 3000);
     assert_eq!(with(&["--trials", "1e4"])["outputs"]["v"]["monte_carlo"]["trials"], 10_000);
     assert_ne!(figure(&base), figure(&with(&["--seed", "2"])));

@@ -374,6 +374,7 @@ fn judgements(task: &Task, evaluation: &Evaluation) -> Vec<Judgement> {
             });
             let conforms = found
                 .conformity
+                .as_ref()
                 .map(|conformity| if conformity.conforms { Verdict::Yes } else { Verdict::No });
             all.push(judgement("is the GUM interval valid (clause 8)", valid));
             if output.tolerance.is_some() {

@@ -104,7 +104,7 @@ impl Serialize for Outputs<'_> {
                 gum: evaluation.gum.as_ref().map(|gum| GumSide::of(task, gum, evaluation)),
                 monte_carlo: MonteCarloSide::of(task, row, evaluation, stopped),
                 validation: evaluation.validation.map(Validation::from),
-                conformity: evaluation.conformity.map(|conformity| ConformitySide::of(&conformity)),
+                conformity: evaluation.conformity.as_deref().map(ConformitySide::of),
                 cmc: CmcSide::of(output, evaluation),
             };
             (&output.quantity.name, side)

@@ -84,7 +84,7 @@ pub struct OutputEvaluation {
     pub validation: Option<Validation>,
     /// The probability that the output conforms to its tolerance; `None` without a tolerance or
     /// without trials.
-    pub conformity: Option<Conformity>,
+    pub conformity: Option<Box<Conformity>>,
     /// The fewest degrees of freedom among the t distributions that the output depends on.
     pub drawn_dof: f64,
 }
@@ -401,7 +401,7 @@ fn evaluate_row(
             let trusted = validation.is_some_and(|v| v.gum_valid != Some(false));
             let linear = gum.as_ref().filter(|_| trusted);
             let linear = linear.map(|gum| (gum.estimate, gum.standard_uncertainty));
-            Conformity::of(output, figures, u, linear)
+            Conformity::of(output, figures, u, linear).map(Box::new)
         });
         result.outputs.push(OutputEvaluation {
             gum,

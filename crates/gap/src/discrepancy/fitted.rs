@@ -36,6 +36,10 @@ const STEP: f64 = 1e-4;
 
 const MOST_STEPS: usize = 20;
 
+/// The information that a rectangular score has where the data say nothing of it, so that its
+/// integral is one: a rectangle of unit variance has the area of a normal peak of this curvature.
+const FLAT: f64 = std::f64::consts::PI / 6.0;
+
 /// A gain in the logarithm of the density that is not worth another step.
 const ENOUGH: f64 = 1e-3;
 
@@ -313,7 +317,13 @@ impl<'p> Problem<'p> {
                 damping = (damping * 30.0).max(1e-2);
             }
         }
-        let determinant = here.information.determinant();
+        let mut information = here.information;
+        for (i, role) in self.noise.iter().enumerate() {
+            if role.is_bounded() {
+                information[(i, i)] += FLAT;
+            }
+        }
+        let determinant = information.determinant();
         here.ln - 0.5 * if determinant > 0.0 { elementary::ln(determinant) } else { 0.0 }
     }
 }

@@ -19,9 +19,9 @@ const FILE: &str = r#"{
     "skew": {"unit": "mV", "distribution": "triangular", "lower": 0, "upper": 0.3, "mode": 0},
     "noise": {"unit": "mV", "distribution": "normal", "mean": 0, "std": 0.03},
     "temp": {"unit": "degC", "distribution": "rectangular", "mean": 23, "half_width": 2},
-    "slope": {"unit": "mV/degC", "distribution": "constant", "value": 0.05}
+    "slope": {"unit": "mV/K", "distribution": "constant", "value": 0.05}
   },
-  "equations": {"v": "reading + certificate + drift + resolution + offset + skew + noise + slope*temp"},
+  "equations": {"v": "reading + certificate + drift + resolution + offset + skew + noise + slope*(temp - 0 [degC])"},
   "outputs": {"v": {"unit": "mV"}},
   "monte_carlo": {"trials": 0}
 }"#;
@@ -59,7 +59,7 @@ fn widths_and_divisors() {
     skew            0.100    -        -         0.071  mV    triangular     ∞   1.000      0.071    9.3
     noise           0.000    0.03     1         0.030  mV    normal         ∞   1.000      0.030    1.7
     temp           23.0      2        1.732     1.2    degC  rectangular    ∞   0.05000    0.058    6.2
-    slope           0.05     -        -         0      mV/degC  constant       ∞  23.00       0        0.0
+    slope           0.05     -        -         0      mV/K  constant       ∞  23.00       0        0.0
     ───────────────────────────────────────────────────────────────────────────────────────────────────
     v            5011.75                        0.23   mV    combined     125              0.23   100.0
     sensitivity coefficients in mV per unit of the quantity, contributions in mV
@@ -81,7 +81,7 @@ fn relative_figures() {
     skew            0.100     0.071  71       mV    triangular     ∞   1.000      0.071  0.0014     9.3
     noise           0.000     0.030   -       mV    normal         ∞   1.000      0.030  0.00060    1.7
     temp           23.0       1.2     -       degC  rectangular    ∞   0.05000    0.058  0.0012     6.2
-    slope           0.05      0       0       mV/degC  constant       ∞  23.00       0      0          0.0
+    slope           0.05      0       0       mV/K  constant       ∞  23.00       0      0          0.0
     ───────────────────────────────────────────────────────────────────────────────────────────────────
     v            5011.75      0.23    0.0046  mV    combined     125              0.23   0.0046   100.0
     sensitivity coefficients in mV per unit of the quantity, contributions in mV; relative: standard
@@ -103,7 +103,7 @@ fn type_and_source() {
     skew            0.100        0.071  mV    triangular      ∞      1.000           0.071    9.3
     noise           0.000        0.030  mV    normal          ∞      1.000           0.030    1.7
     temp           23.0          1.2    degC  rectangular     ∞      0.05000         0.058    6.2
-    slope           0.05         0      mV/degC  constant        ∞     23.00            0        0.0
+    slope           0.05         0      mV/K  constant        ∞     23.00            0        0.0
     ─────────────────────────────────────────────────────────────────────────────────────────────
     v            5011.75         0.23   mV    combined      125                      0.23   100.0
 
@@ -140,7 +140,7 @@ fn all_columns() {
     skew            0.100        0.071  mV    triangular      ∞      1.000           0.071    9.3
     noise           0.000        0.030  mV    normal          ∞      1.000           0.030    1.7
     temp           23.0          1.2    degC  rectangular     ∞      0.05000         0.058    6.2
-    slope           0.05         0      mV/degC  constant        ∞     23.00            0        0.0
+    slope           0.05         0      mV/K  constant        ∞     23.00            0        0.0
     ─────────────────────────────────────────────────────────────────────────────────────────────
     v            5011.75         0.23   mV    combined      125                      0.23   100.0
 

@@ -142,7 +142,7 @@ fn figures(
         None => "-",
     };
     leaf.text(at, first + 15, verdict)?;
-    if let Some(conformity) = found.conformity {
+    if let Some(conformity) = &found.conformity {
         leaf.number((at, first + 16), conformity.probability, Some(-6), Look::Plain)?;
         let error = conformity.numerical_standard_error;
         leaf.number((at, first + 17), error, position(error, 1), Look::Plain)?;
