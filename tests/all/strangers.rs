@@ -89,7 +89,8 @@ fn files_outside_of_the_folder_are_not_read() {
     };
     let absolute = folder.path().join("secret.csv").canonicalize().unwrap();
     let absolute = absolute.to_str().unwrap().to_owned();
-    let kinds: [(&dyn Fn(&str) -> String, &str); 7] = [
+    type Named<'f> = (&'f dyn Fn(&str) -> String, &'f str);
+    let kinds: [Named<'_>; 7] = [
         (&with_table, "run"),
         (&with_samples, "run"),
         (&result, "run"),

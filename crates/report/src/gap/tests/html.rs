@@ -54,11 +54,11 @@ fn numbers_are_those_of_the_json() {
     let document = parsed(&body);
     let cells = |name: &str| -> Vec<String> {
         let rows = document.descendants().filter(|node| node.has_tag_name("tr"));
-        let rows = rows.filter(|row| {
+        let mut rows = rows.filter(|row| {
             row.children().find(Node::is_element).is_some_and(|first| text(first) == name)
         });
         // the hypothesis stands below the effect of the same name
-        let row = rows.last().unwrap_or_else(|| panic!("{name} in {body}"));
+        let row = rows.next_back().unwrap_or_else(|| panic!("{name} in {body}"));
         let numbers = row.children().filter(|cell| cell.attribute("class") == Some("number"));
         numbers.map(text).filter(|cell| !cell.is_empty() && cell != "-").collect()
     };
