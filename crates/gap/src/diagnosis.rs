@@ -318,6 +318,17 @@ pub struct PriorConflict {
     pub probability: f64,
 }
 
+impl PriorConflict {
+    /// What the distance is counted in and from, in words.
+    pub fn counted_in(&self) -> &'static str {
+        if self.bounded {
+            "widths of your prior beyond its bound"
+        } else {
+            "standard deviations of your prior from its mean"
+        }
+    }
+}
+
 /// Whether an effect is part of the truth, whatever else is.
 #[derive(Clone, Debug)]
 pub struct PresentEffect {

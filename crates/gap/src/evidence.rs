@@ -200,13 +200,12 @@ impl EvidenceEstimate {
 
     /// The evidence alone, where what was drawn is of no use.
     pub(crate) fn without_draws(self) -> Self {
-        let nothing = Vec::new;
         Self {
             modes: Vec::new(),
             columns: Vec::new(),
-            weights: nothing(),
-            ln_targets: nothing(),
-            ln_proposals: nothing(),
+            weights: Vec::new(),
+            ln_targets: Vec::new(),
+            ln_proposals: Vec::new(),
             ..self
         }
     }

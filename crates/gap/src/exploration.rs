@@ -53,8 +53,8 @@ impl<'s, 'c> Exploration<'s, 'c> {
         effects: Vec<usize>,
         known: &[WeighedHypothesis],
     ) -> WeighedHypothesis {
-        let mut starts = seeds(self.setup, &effects, known);
-        let evidence = self.integral(&effects, known, &mut starts, "");
+        let starts = seeds(self.setup, &effects, known);
+        let evidence = self.integral(&effects, known, starts, "");
         let prior = self.setup.case.prior;
         let count = self.setup.case.candidates.len();
         let share = |of: f64, count: usize| if count == 0 { 0.0 } else { of / count as f64 };
@@ -81,7 +81,7 @@ impl<'s, 'c> Exploration<'s, 'c> {
         &self,
         effects: &[usize],
         known: &[WeighedHypothesis],
-        starts: &mut Vec<Vec<f64>>,
+        mut starts: Vec<Vec<f64>>,
         run: &str,
     ) -> EvidenceEstimate {
         let candidates = &self.setup.case.candidates;
@@ -90,14 +90,14 @@ impl<'s, 'c> Exploration<'s, 'c> {
         if let Some(part) = &self.part {
             let likelihood = part.likelihood(effects);
             starts.extend(scanned(part, &likelihood, effects, known));
-            let found = EvidenceEstimate::begin(&likelihood, key, starts, 16);
-            *starts = found.modes.into_iter().take(3).map(|mode| mode.scores).collect();
+            let found = EvidenceEstimate::begin(&likelihood, key, &starts, 16);
+            starts = found.modes.into_iter().take(3).map(|mode| mode.scores).collect();
         }
         let likelihood = self.setup.likelihood(effects);
         if self.part.is_none() {
             starts.extend(scanned(self.setup, &likelihood, effects, known));
         }
-        EvidenceEstimate::begin(&likelihood, key, starts, self.starts)
+        EvidenceEstimate::begin(&likelihood, key, &starts, self.starts)
     }
 
     /// Tries the modes of pairs on their members, and what that gives on the pairs, until nothing new
@@ -163,7 +163,7 @@ impl<'s, 'c> Exploration<'s, 'c> {
         }
         let likelihood = self.setup.likelihood(&hypothesis.effects);
         let own = &mut hypothesis.evidence;
-        let mut second = self.integral(&hypothesis.effects, known, &mut Vec::new(), "/second");
+        let mut second = self.integral(&hypothesis.effects, known, Vec::new(), "/second");
         let scores = |evidence: &EvidenceEstimate| -> Vec<Vec<f64>> {
             evidence.modes.iter().map(|mode| mode.scores.clone()).collect()
         };

@@ -38,6 +38,7 @@ mod setup;
 mod shrink;
 mod weighed;
 mod weighed_noise;
+mod whitened;
 
 pub use case::{Candidate, Case, ObservedOutput, Prior};
 pub use diagnose::{DiagnosisOptions, diagnose};

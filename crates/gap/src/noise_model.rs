@@ -12,14 +12,14 @@ use rayon::prelude::*;
 
 use super::discrepancy::Discrepancy;
 use super::latent::{Map, Role};
-use super::likelihood::Visitor;
 use super::logarithm::ln_add;
 use super::posterior::{self, Effort, MANY_VALUES, Posterior, WeighedHypothesis};
 use super::setup::Setup;
+use super::whitened::{self, WhitenedResiduals};
 use crate::Case;
 use gumption_engine::linalg::dot;
 use gumption_engine::linalg::packed::{self, triangle};
-use gumption_engine::number::{Column, elementary};
+use gumption_engine::number::elementary;
 
 /// The factor on stated uncertainties is log-uniform between these.
 const FACTORS: [f64; 2] = [0.25, 10.0];
@@ -153,14 +153,21 @@ pub(crate) fn weighings<'c>(
     effort: Effort,
     progress: &(dyn Fn(f64) + Sync),
 ) -> Vec<Weighing<'c>> {
-    let weighing = |setup: Setup<'c>, prior: f64, known: &[Weighing<'c>], [from, to]: [f64; 2]| {
+    let begun = |(setup, singles): (Setup<'c>, Vec<WeighedHypothesis>),
+                 prior: f64,
+                 known: &[Weighing<'c>],
+                 [from, to]: [f64; 2]| {
         let discrepancy = Discrepancy::new(&setup);
         let rivals = ln_total(known) - elementary::ln(prior);
         let posterior =
-            posterior::posterior(&setup, &discrepancy, seed, effort, rivals, &|share| {
+            posterior::posterior(&setup, singles, &discrepancy, seed, effort, rivals, &|share| {
                 progress(from + (to - from) * share);
             });
         Weighing { wide: false, setup, discrepancy, posterior, prior, probability: 0.0 }
+    };
+    let weighing = |setup: Setup<'c>, prior: f64, known: &[Weighing<'c>], parts: [f64; 2]| {
+        let singles = posterior::singles(&setup, seed, effort);
+        begun((setup, singles), prior, known, parts)
     };
     let values = case.task.rows.len() * case.observed.iter().flatten().count();
     let stated = NoiseModel::default().prior(values);
@@ -182,8 +189,9 @@ pub(crate) fn weighings<'c>(
             weighings.push(weighing(setup, prior, &weighings, [0.7, 0.7]));
         }
     }
-    if few && prior_conflict(wide, &weighings, seed, effort) {
-        let mut of_wide = weighing(Setup::new(wide), PRIOR_CONFLICT, &weighings, [0.7, 0.8]);
+    let conflict = if few { prior_conflict(wide, &weighings, seed, effort) } else { None };
+    if let Some(conflict) = conflict {
+        let mut of_wide = begun(conflict, PRIOR_CONFLICT, &weighings, [0.7, 0.8]);
         of_wide.wide = true;
         weighings.push(of_wide);
     }
@@ -223,8 +231,7 @@ fn serial_correlations(weighings: &[Weighing<'_>]) -> Vec<f64> {
         .par_iter()
         .map(|hypothesis| {
             let residuals = residuals_at_mode(setup, hypothesis);
-            let ln = elementary::ln(hypothesis.prior.max(f64::MIN_POSITIVE))
-                + hypothesis.evidence.ln_evidence;
+            let ln = hypothesis.ln_weight();
             SERIAL.iter().map(|&of| ln + serial_gain(setup, &residuals, of)).collect()
         })
         .collect();
@@ -246,13 +253,8 @@ const LEAST_ROWS: usize = 8;
 pub(crate) fn residuals_at_mode(setup: &Setup<'_>, hypothesis: &WeighedHypothesis) -> Vec<f64> {
     let Some(mode) = hypothesis.evidence.modes.first() else { return Vec::new() };
     let likelihood = setup.likelihood(&hypothesis.effects);
-    let mut scores = vec![Column::ZERO; likelihood.unknowns()];
-    for (column, score) in scores.iter_mut().zip(&mode.scores) {
-        column.0.fill(*score);
-    }
-    let mut kept = Kept::new(1, setup.data.len());
-    likelihood.visit(&scores, 1, &mut kept);
-    kept.lanes.into_iter().map(|(residuals, _)| residuals).next().unwrap_or_default()
+    let found = whitened::residuals(&likelihood, std::slice::from_ref(&mode.scores)).pop();
+    found.map(|found| found.values).unwrap_or_default()
 }
 
 /// By how much the logarithm of the density of residuals rises if neighbouring rows are correlated.
@@ -281,17 +283,20 @@ pub(crate) fn lag(coefficient: f64, before: usize, here: usize) -> f64 {
     (1..gap).fold(coefficient, |lag, _| lag * coefficient)
 }
 
-/// Whether a single effect with a wider prior explains the data so much better than anything else
-/// that the conflict may be probable.
-fn prior_conflict(wide: &Case, weighings: &[Weighing<'_>], seed: u64, effort: Effort) -> bool {
+/// Every effect alone with a wider prior, where one explains the data so much better than anything
+/// else that the conflict may be probable.
+fn prior_conflict<'c>(
+    wide: &'c Case,
+    weighings: &[Weighing<'_>],
+    seed: u64,
+    effort: Effort,
+) -> Option<(Setup<'c>, Vec<WeighedHypothesis>)> {
     let setup = Setup::new(wide);
     let singles = posterior::singles(&setup, seed, effort);
-    let ln = |h: &WeighedHypothesis| {
-        elementary::ln(h.prior.max(f64::MIN_POSITIVE)) + h.evidence.ln_evidence
-    };
-    let total = singles.iter().filter(|h| !h.effects.is_empty()).map(ln);
-    let total = total.fold(f64::NEG_INFINITY, ln_add) + elementary::ln(PRIOR_CONFLICT);
-    total - ln_total(weighings) > elementary::ln(WORTH_TRYING)
+    let effects = singles.iter().filter(|h| !h.effects.is_empty());
+    let total = effects.map(WeighedHypothesis::ln_weight).fold(f64::NEG_INFINITY, ln_add);
+    let ln = total + elementary::ln(PRIOR_CONFLICT) - ln_total(weighings);
+    (ln > elementary::ln(WORTH_TRYING)).then_some((setup, singles))
 }
 
 /// Posterior probabilities of the noise models.
@@ -363,8 +368,7 @@ fn more_suspects(weighings: &[Weighing<'_>]) -> Option<Vec<Suspect>> {
     };
     let of_hypothesis = |hypothesis: &WeighedHypothesis| -> Vec<f64> {
         let gains = gains(&last.setup, hypothesis);
-        let ln = elementary::ln(hypothesis.prior.max(f64::MIN_POSITIVE))
-            + hypothesis.evidence.ln_evidence;
+        let ln = hypothesis.ln_weight();
         gains.into_iter().map(|gain| ln + gain).collect()
     };
     let found: Vec<Vec<f64>> = last.posterior.hypotheses.par_iter().map(of_hypothesis).collect();
@@ -410,19 +414,10 @@ fn gains(setup: &Setup<'_>, hypothesis: &WeighedHypothesis) -> Vec<f64> {
             points.push(moved);
         }
     }
-    let mut lanes: Vec<(Vec<f64>, Vec<f64>)> = Vec::new();
-    for points in points.chunks(gumption_engine::number::COLUMN) {
-        let mut scores = vec![Column::ZERO; unknowns];
-        for (i, column) in scores.iter_mut().enumerate() {
-            for (lane, out) in column.0.iter_mut().enumerate() {
-                *out = points[lane.min(points.len() - 1)][i];
-            }
-        }
-        let mut kept = Kept::new(points.len(), setup.data.len());
-        likelihood.visit(&scores, points.len(), &mut kept);
-        lanes.extend(kept.lanes);
-    }
-    let Some((residuals, ln_variances)) = lanes.first() else { return Vec::new() };
+    let found = whitened::residuals(&likelihood, &points);
+    let Some(WhitenedResiduals { values: residuals, ln_variances }) = found.first() else {
+        return Vec::new();
+    };
     let values = residuals.len();
     let outputs = setup.data.outputs.len();
     // the whitened columns of what is integrated out, and of the scores
@@ -433,7 +428,7 @@ fn gains(setup: &Setup<'_>, hypothesis: &WeighedHypothesis) -> Vec<f64> {
         covariance.basis.clone()
     };
     columns.extend((0..unknowns).filter(|&i| !likelihood.roles[i].is_noise()).map(|i| {
-        let (low, high) = (&lanes[1 + 2 * i].0, &lanes[2 + 2 * i].0);
+        let (low, high) = (&found[1 + 2 * i].values, &found[2 + 2 * i].values);
         low.iter().zip(high).map(|(low, high)| (high - low) / (2.0 * STEP)).collect()
     }));
     let k = columns.len();
@@ -484,29 +479,4 @@ fn gains(setup: &Setup<'_>, hypothesis: &WeighedHypothesis) -> Vec<f64> {
             0.5 * (s2 * g * g / growth - elementary::ln(growth))
         })
         .collect()
-}
-
-/// Keeps the whitened residuals of every lane, and the logarithms of the variances where these are
-/// estimated, row by row.
-struct Kept {
-    lanes: Vec<(Vec<f64>, Vec<f64>)>,
-}
-
-impl Kept {
-    fn new(lanes: usize, values: usize) -> Self {
-        Self { lanes: vec![(vec![0.0; values], vec![0.0; values]); lanes] }
-    }
-}
-
-impl Visitor for Kept {
-    #[inline(always)]
-    fn row(&mut self, row: usize, residuals: &[Column], ln_variances: &[Column]) {
-        let first = row * residuals.len();
-        for (output, (residual, ln)) in residuals.iter().zip(ln_variances).enumerate() {
-            for (n, (kept, kept_ln)) in self.lanes.iter_mut().enumerate() {
-                kept[first + output] = residual.0[n];
-                kept_ln[first + output] = ln.0[n];
-            }
-        }
-    }
 }

@@ -96,11 +96,12 @@ pub(crate) fn singles(setup: &Setup<'_>, seed: u64, effort: Effort) -> Vec<Weigh
     Exploration::new(setup, seed, effort.starts).singles()
 }
 
-/// Weighs all hypotheses against the data of a setup. `rivals` is the logarithm of the evidence of
+/// Weighs all hypotheses against the data of a setup, of which the `singles` are begun. `rivals` is the logarithm of the evidence of
 /// everything else that may be true, over the prior probability of this setup: what is improbable
 /// beside it need not be known well.
 pub(crate) fn posterior(
     setup: &Setup<'_>,
+    singles: Vec<WeighedHypothesis>,
     discrepancy: &Discrepancy,
     seed: u64,
     effort: Effort,
@@ -111,7 +112,7 @@ pub(crate) fn posterior(
     let effort = effort.for_values(setup.data.len());
     let prior = setup.case.prior;
     let exploration = Exploration::new(setup, seed, effort.starts);
-    let mut hypotheses = exploration.singles();
+    let mut hypotheses = singles;
     progress(0.2);
     let residuals = by_rows(&setup.data.nominal_residuals());
     let unexplained =
@@ -200,6 +201,11 @@ pub(crate) fn posterior(
 }
 
 impl WeighedHypothesis {
+    /// The logarithm of its prior probability times its evidence.
+    pub(crate) fn ln_weight(&self) -> f64 {
+        ln_weight(self.prior, self.evidence.ln_evidence)
+    }
+
     /// Whether its probability, beside everything else of which this setup has a share, is not yet
     /// known well enough.
     fn is_open(&self, error: f64, share: f64) -> bool {
@@ -221,10 +227,8 @@ fn ln_weight(prior: f64, ln_evidence: f64) -> f64 {
 
 /// The evidence of "unexplained" that would make it as probable as the leading hypothesis.
 fn floor(hypotheses: &[WeighedHypothesis], prior: f64) -> f64 {
-    let ln = |h: &WeighedHypothesis| {
-        elementary::ln(h.prior.max(f64::MIN_POSITIVE)) + h.evidence.ln_evidence
-    };
-    let most = hypotheses.iter().map(ln).fold(f64::NEG_INFINITY, f64::max);
+    let most =
+        hypotheses.iter().map(WeighedHypothesis::ln_weight).fold(f64::NEG_INFINITY, f64::max);
     most - elementary::ln(prior.max(f64::MIN_POSITIVE))
 }
 
@@ -293,12 +297,12 @@ impl Posterior {
     /// Probabilities from priors and evidences.
     fn weigh(&mut self) {
         let unexplained = ln_weight(self.prior, self.unexplained.ln_evidence);
-        let total = self.hypotheses.iter().fold(unexplained, |sum, hypothesis| {
-            ln_add(sum, ln_weight(hypothesis.prior, hypothesis.evidence.ln_evidence))
-        });
+        let total = self
+            .hypotheses
+            .iter()
+            .fold(unexplained, |sum, hypothesis| ln_add(sum, hypothesis.ln_weight()));
         for hypothesis in &mut self.hypotheses {
-            let own = ln_weight(hypothesis.prior, hypothesis.evidence.ln_evidence);
-            hypothesis.probability = elementary::exp(own - total);
+            hypothesis.probability = elementary::exp(hypothesis.ln_weight() - total);
         }
         self.probability = elementary::exp(unexplained - total);
         self.ln_evidence = total;

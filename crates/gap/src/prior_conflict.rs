@@ -30,13 +30,10 @@ pub(crate) fn conflicts(
             }
             let candidate = &case.candidates[effect];
             let of = parameters(&weighing.setup, hypothesis, coverage);
-            for ((parameter, prior), stated) in
-                of.into_iter().zip(&candidate.priors).zip(&candidate.effect.parameters)
-            {
+            for (parameter, prior) in of.into_iter().zip(&candidate.priors) {
                 let (prior_distance, bounded) = distance(prior, parameter.estimate);
                 if prior_distance > if bounded { 0.0 } else { FAR } {
                     let effect = candidate.effect.name.clone();
-                    debug_assert!(parameter.name.ends_with(&stated.name));
                     found.push(PriorConflict {
                         effect,
                         parameter,
@@ -72,15 +69,11 @@ fn distance(prior: &Distribution, value: f64) -> (f64, bool) {
 
 /// The sentence of the note.
 pub(crate) fn note(conflict: &PriorConflict) -> String {
-    let PriorConflict { effect, parameter, prior_distance, bounded, probability } = conflict;
-    let far = if *bounded {
-        format!("{prior_distance:.1} widths of your prior beyond its bound")
-    } else {
-        format!("{prior_distance:.1} standard deviations of your prior from its mean")
-    };
+    let PriorConflict { effect, parameter, prior_distance, probability, .. } = conflict;
     format!(
-        "{effect} alone would explain the data with {} of a size that is {far} (probability \
-         {probability:.2}, with priors {WIDER} times as wide).",
-        parameter.name
+        "{effect} alone would explain the data with {} of a size that is {prior_distance:.1} {} \
+         (probability {probability:.2}, with priors {WIDER} times as wide).",
+        parameter.name,
+        conflict.counted_in()
     )
 }

@@ -13,9 +13,9 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::latent::{EDGE, Map, Role};
-use super::likelihood::{Likelihood, Visitor};
+use super::likelihood::Likelihood;
+use super::whitened::{self, WhitenedResiduals};
 use gumption_engine::linalg::dot;
-use gumption_engine::number::{COLUMN, Column};
 
 /// Responses are alike from this coefficient of correlation on. Halfway between such neighbours at
 /// least 0.85 of the largest gain in the likelihood remains.
@@ -88,7 +88,10 @@ pub(crate) fn starts(
     base: &[f64],
     scanned: std::ops::Range<usize>,
 ) -> Vec<Vec<f64>> {
-    let scan = Scan { likelihood, base };
+    let Some(without) = whitened_at(likelihood, &[base.to_vec()]).pop() else {
+        return Vec::new();
+    };
+    let scan = Scan { likelihood, base, without };
     let Some(plan) = scan.plan(scanned) else { return Vec::new() };
     if plan.other.is_empty() {
         return scan.at(&plan, &[base.to_vec()]).into_iter().map(|(_, best, _)| best).collect();
@@ -99,6 +102,24 @@ pub(crate) fn starts(
 struct Scan<'l, 'c> {
     likelihood: &'l Likelihood<'c>,
     base: &'l [f64],
+    /// The residuals at the base, with which responses are compared.
+    without: Whitened,
+}
+
+/// The whitened residuals at points, and their coordinates along what is integrated out.
+fn whitened_at(likelihood: &Likelihood<'_>, points: &[Vec<f64>]) -> Vec<Whitened> {
+    let covariance = likelihood.covariance;
+    let of = |found: WhitenedResiduals| {
+        // with estimated noise the scan leaves out what is integrated linearly: it only has to come
+        // near
+        let shared = if covariance.fitted || covariance.basis.is_empty() {
+            Vec::new()
+        } else {
+            covariance.project(&found.values)
+        };
+        Whitened { values: found.values, shared }
+    };
+    whitened::residuals(likelihood, points).into_iter().map(of).collect()
 }
 
 impl Scan<'_, '_> {
@@ -134,31 +155,7 @@ impl Scan<'_, '_> {
 
     /// The whitened residuals at points, whatever their number.
     fn residuals(&self, points: &[Vec<f64>]) -> Vec<Whitened> {
-        let unknowns = self.likelihood.unknowns();
-        let covariance = self.likelihood.covariance;
-        let mut all = Vec::with_capacity(points.len());
-        for points in points.chunks(COLUMN) {
-            let mut scores = vec![Column::ZERO; unknowns];
-            for (i, column) in scores.iter_mut().enumerate() {
-                for (lane, out) in column.0.iter_mut().enumerate() {
-                    *out = points[lane.min(points.len() - 1)][i];
-                }
-            }
-            let values = self.likelihood.data.len();
-            let mut kept = Kept { lanes: vec![vec![0.0; values]; points.len()] };
-            self.likelihood.visit(&scores, points.len(), &mut kept);
-            all.extend(kept.lanes.into_iter().map(|values| {
-                // with estimated noise the scan leaves out what is integrated linearly: it only has
-                // to come near
-                let shared = if covariance.fitted || covariance.basis.is_empty() {
-                    Vec::new()
-                } else {
-                    covariance.project(&values)
-                };
-                Whitened { values, shared }
-            }));
-        }
-        all
+        whitened_at(self.likelihood, points)
     }
 
     /// Whether the response is linear in each parameter and in those together; `None` where nothing
@@ -233,12 +230,11 @@ impl Scan<'_, '_> {
                 asked.push(moved);
             }
         }
-        let without = self.residuals(&[self.base.to_vec()]);
         let found = self.residuals(&asked);
         asked
             .chunks_exact(group)
             .zip(found.chunks_exact(group))
-            .map(|(points, residuals)| self.solved(plan, &points[0], residuals, &without[0]))
+            .map(|(points, residuals)| self.solved(plan, &points[0], residuals))
             .collect()
     }
 
@@ -247,13 +243,12 @@ impl Scan<'_, '_> {
         plan: &Plan,
         middle: &[f64],
         residuals: &[Whitened],
-        without: &Whitened,
     ) -> (f64, Vec<f64>, Whitened) {
         let own = &residuals[0];
         let mut best = middle.to_vec();
         let mut square = own.dot(own);
         // what this point moves the residuals by, with the first linear parameter where there is one
-        let mut response = own.slope(without, 1.0);
+        let mut response = own.slope(&self.without, 1.0);
         if !plan.linear.is_empty() {
             let k = plan.linear.len();
             let middles: Vec<f64> = plan.linear.iter().map(|&p| self.value(p, 0.0)).collect();
@@ -436,21 +431,4 @@ fn peaks(grid: Vec<Scanned>) -> Vec<Vec<f64>> {
     peaks.truncate(PEAKS);
     let mut grid: Vec<Option<Vec<f64>>> = grid.into_iter().map(|s| Some(s.best)).collect();
     peaks.into_iter().filter_map(|n| grid[n].take()).collect()
-}
-
-/// Keeps the whitened residuals of every lane, row by row.
-struct Kept {
-    lanes: Vec<Vec<f64>>,
-}
-
-impl Visitor for Kept {
-    #[inline(always)]
-    fn row(&mut self, row: usize, residuals: &[Column], _: &[Column]) {
-        let first = row * residuals.len();
-        for (output, residual) in residuals.iter().enumerate() {
-            for (kept, value) in self.lanes.iter_mut().zip(&residual.0) {
-                kept[first + output] = *value;
-            }
-        }
-    }
 }

@@ -6,7 +6,7 @@ use super::{line, ln_normal};
 use crate::data::by_rows;
 use crate::discrepancy::Discrepancy;
 use crate::evidence::EvidenceEstimate;
-use crate::posterior::{Effort, posterior};
+use crate::posterior::{Effort, posterior, singles};
 use crate::setup::Setup;
 use gumption_engine::distribution::StreamKey;
 
@@ -78,7 +78,15 @@ fn probabilities_follow_from_exact_evidences() {
     let case = line();
     let setup = Setup::new(&case);
     let discrepancy = Discrepancy::new(&setup);
-    let found = posterior(&setup, &discrepancy, 1, Effort::FULL, f64::NEG_INFINITY, &|_| {});
+    let found = posterior(
+        &setup,
+        singles(&setup, 1, Effort::FULL),
+        &discrepancy,
+        1,
+        Effort::FULL,
+        f64::NEG_INFINITY,
+        &|_| {},
+    );
     let sum: f64 = found.hypotheses.iter().map(|h| h.probability).sum::<f64>() + found.probability;
     assert!((sum - 1.0).abs() < 1e-12);
     // relative to "none", whose prior is 0.15, one effect has 0.55/2 and the pair 0.15

@@ -5,7 +5,7 @@ use crate::Case;
 use crate::discrepancy::Discrepancy;
 use crate::mixture::standard_normals;
 use crate::next::expected;
-use crate::posterior::{Effort, Posterior, posterior};
+use crate::posterior::{Effort, Posterior, posterior, singles};
 use crate::predict;
 use crate::setup::Setup;
 use gumption_engine::distribution::StreamKey;
@@ -41,7 +41,15 @@ fn promises_are_kept() {
         let setup = Setup::new(case);
         let discrepancy = Discrepancy::new(&setup);
         let effort = Effort::FULL;
-        let found = posterior(&setup, &discrepancy, 1, effort, f64::NEG_INFINITY, &|_| {});
+        let found = posterior(
+            &setup,
+            singles(&setup, 1, effort),
+            &discrepancy,
+            1,
+            effort,
+            f64::NEG_INFINITY,
+            &|_| {},
+        );
         let ln = |effects: &[usize]| {
             let own = found.hypotheses.iter().find(|h| h.effects == effects).unwrap();
             own.evidence.ln_evidence

@@ -187,26 +187,17 @@ fn noise(diagnosis: &Diagnosis) -> Value {
             entries.push(("standard_uncertainty", json!(estimated.standard_uncertainty)));
             entries.push(("power", json!(estimated.power)));
         }
-        let factor = noise.factor.map(|factor| {
-            json!({
-                "estimate": factor.estimate,
-                "interval": factor.interval,
-                "probability": factor.probability,
-            })
-        });
+        let figures = |estimate: f64, interval: [f64; 2], probability: f64| {
+            json!({"estimate": estimate, "interval": interval, "probability": probability})
+        };
+        let factor = noise.factor.map(|of| figures(of.estimate, of.interval, of.probability));
+        let serial = noise.serial.map(|of| figures(of.estimate, of.interval, of.probability));
         let suspects = noise.suspects.iter().map(|suspect| {
             json!({
                 "row": suspect.row + 1,
                 "output": output.name,
                 "probability": suspect.probability,
                 "size": suspect.size,
-            })
-        });
-        let serial = noise.serial.map(|serial| {
-            json!({
-                "estimate": serial.estimate,
-                "interval": serial.interval,
-                "probability": serial.probability,
             })
         });
         entries.push(("factor", json!(factor)));

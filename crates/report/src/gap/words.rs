@@ -100,13 +100,10 @@ pub(super) fn conflicts(diagnosis: &Diagnosis) -> Vec<String> {
         );
         let unit = unit(&parameter.unit).map(|unit| format!(" {unit}")).unwrap_or_default();
         let distance = significant(conflict.prior_distance, 2);
-        let far = if conflict.bounded {
-            format!("{distance} widths of your prior beyond its bound")
-        } else {
-            format!("{distance} standard deviations of your prior from its mean")
-        };
+        let counted_in = conflict.counted_in();
         format!(
-            "That contradicts its prior: {} = {estimate}{unit} with standard uncertainty {u} is {far}.",
+            "That contradicts its prior: {} = {estimate}{unit} with standard uncertainty {u} is \
+             {distance} {counted_in}.",
             plain(&parameter.name)
         )
     };
