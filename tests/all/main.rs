@@ -33,6 +33,7 @@ mod other_distributions;
 mod outputs;
 mod own_program;
 mod phases;
+mod planning;
 mod recordings;
 mod reports;
 mod reproducible;

@@ -183,17 +183,22 @@ fn offers(object: &Object<'_>, unit: Option<&Unit>) -> Option<Vec<Offer>> {
         object.required("standard_uncertainty")?;
         object.required("cost")?;
         let about = object.text("about").unwrap_or("").to_owned();
-        let cost = object.number("cost")?;
-        if cost.is_nan() || cost < 0.0 {
-            out_of_range(&object, "cost", cost, "zero or more");
-            return None;
-        }
-        let standard_uncertainty = width(&object, "standard_uncertainty", unit)?;
-        if standard_uncertainty == 0.0 {
-            let (key, found) = ("standard_uncertainty".to_owned(), 0.0);
-            object.report(DiagnosticKind::NotPositive { key, found });
-            return None;
-        }
+        let cost = object.number("cost").filter(|cost| {
+            let right = *cost >= 0.0;
+            if !right {
+                out_of_range(&object, "cost", *cost, "zero or more");
+            }
+            right
+        });
+        let width = width(&object, "standard_uncertainty", unit).filter(|width| {
+            let right = *width > 0.0;
+            if !right {
+                let (key, found) = ("standard_uncertainty".to_owned(), *width);
+                object.report(DiagnosticKind::NotPositive { key, found });
+            }
+            right
+        });
+        let (standard_uncertainty, cost) = (width?, cost?);
         Some(Offer { standard_uncertainty, cost, about })
     };
     let found: Vec<Offer> = list.iter().filter_map(offer).collect();
