@@ -309,7 +309,7 @@ fn a_budget_states_the_estimate_of_a_sum_of_components() {
         report::html(&case.report(), &Default::default()),
     ] {
         let words: Vec<&str> =
-            page.split([' ', '|', '<', '>', '&']).filter(|w| !w.is_empty()).collect();
+            page.split([' ', '\n', '|', '<', '>', '&']).filter(|w| !w.is_empty()).collect();
         let place = |word: &str| words.iter().position(|found| *found == word);
         let (estimate, first) = (place("23.000").unwrap(), place("t/cal").unwrap());
         assert!(estimate < first, "{page}");
