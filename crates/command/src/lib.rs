@@ -21,15 +21,21 @@ mod run;
 mod save;
 mod schema;
 mod signals;
+mod surroundings;
 mod verify;
 
+use std::ffi::OsString;
 use std::process::ExitCode;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 
 use clap::{Parser, Subcommand};
 use gumption_engine::model::typed::{Catalogue, CatalogueEntry};
 use gumption_files::FileReader;
 
+pub use check::Mistake;
 pub use exit::{Exit, Failure};
+pub use surroundings::GivenFile;
 pub use verify::PublishedExamples;
 
 /// Measurement uncertainty by the GUM and by Monte Carlo, side by side.
@@ -68,6 +74,17 @@ enum Command {
     Schema(schema::Schema),
 }
 
+/// What a command gave that was called as a function.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Answered {
+    /// What it would have printed on standard output.
+    pub answer: Vec<u8>,
+    /// What it would have said on standard error.
+    pub notes: String,
+    /// How it ended.
+    pub exit: Exit,
+}
+
 /// The command line with what it knows: typed measurements and published examples.
 #[derive(Clone, Debug, Default)]
 pub struct CommandLine {
@@ -89,7 +106,7 @@ impl CommandLine {
     }
 
     /// The readers of files that may name the measurements.
-    fn files(&self) -> FileReader<'_> {
+    pub fn files(&self) -> FileReader<'_> {
         FileReader::new(&self.catalogue)
     }
 
@@ -97,9 +114,51 @@ impl CommandLine {
     /// 0 (done), 1 (the system is at fault), 2 (the arguments or files are), 3 (done, and the answer
     /// is "no" where `--fail` was given), or 130, 143 or 129 (interrupted, terminated, hung up).
     pub fn main(&self) -> ExitCode {
+        self.main_of(std::env::args_os())
+    }
+
+    /// The same with these arguments, the first of which is the name of the program.
+    pub fn main_of(&self, arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         signals::watch();
-        let arguments = Arguments::parse();
-        let result = match arguments.command {
+        let arguments = Arguments::parse_from(arguments);
+        match self.execute(arguments.command) {
+            Ok(exit) => exit.code(),
+            Err(failure) => failure.report(),
+        }
+    }
+
+    /// Runs a command as a function: what would go to standard output and standard error is handed
+    /// back, and nothing of the process is touched. `arguments` are those behind the name of the
+    /// program; `input` is what `-` stands for where a command reads a model file, and its text
+    /// wherever else `-` may stand. `stop` does what a signal does.
+    ///
+    /// # Errors
+    /// What the program says on standard error with the exit codes 1 and 2; its `Display` is the
+    /// same text, without colours.
+    pub fn call(
+        &self,
+        arguments: impl IntoIterator<Item = OsString>,
+        input: Option<GivenFile>,
+        stop: Arc<AtomicBool>,
+    ) -> Result<Answered, Failure> {
+        let name = std::iter::once(OsString::from("gumption"));
+        let arguments = match Arguments::try_parse_from(name.chain(arguments)) {
+            Ok(arguments) => arguments,
+            // help and version are answers
+            Err(told) if !told.use_stderr() => {
+                let answer = told.to_string().into_bytes();
+                return Ok(Answered { answer, notes: String::new(), exit: Exit::Done });
+            }
+            Err(error) => return Err(Failure::Argument(error.to_string().trim_end().to_owned())),
+        };
+        let input = input.map(Arc::new);
+        let given = surroundings::Surroundings { stop, input, ..Default::default() };
+        let (exit, left) = surroundings::within(given, || self.execute(arguments.command));
+        Ok(Answered { answer: left.answer, notes: left.notes, exit: exit? })
+    }
+
+    fn execute(&self, command: Command) -> Result<Exit, Failure> {
+        match command {
             Command::Run(command) => command.execute(self),
             Command::Assumptions(command) => command.execute(self),
             Command::Certificate(command) => command.execute(self),
@@ -112,10 +171,6 @@ impl CommandLine {
             Command::GapCheck(command) => command.execute(self),
             Command::Observe(command) => command.execute(self),
             Command::Schema(command) => command.execute(),
-        };
-        match result {
-            Ok(exit) => exit.code(),
-            Err(failure) => failure.report(),
         }
     }
 }
