@@ -63,6 +63,15 @@ def test_correlations(plane: gu.Result) -> None:
 
 
 class TestSamples:
+    def test_without_trials(self) -> None:
+        result = gu.load(MODELS / "inclined_plane.json").run(trials=0)
+        with pytest.raises(gu.ModelError, match="no trials"):
+            result.samples("a_x")
+        with pytest.raises(gu.ModelError, match="needs Monte Carlo trials"):
+            result.saved()
+        assert math.isnan(result["a_x"].monte_carlo.estimate)
+        assert len(result.plot("a_x").axes) == 1
+
     def test_moments(self, plane: gu.Result) -> None:
         values = plane.samples("a_x")
         assert isinstance(values, np.ndarray) and values.shape == (50_000,)
@@ -276,6 +285,8 @@ class TestBudgets:
             gu.budgets(self.product(), a=([1.0], [0.1]))
         with pytest.raises(gu.ModelError, match="different lengths"):
             gu.budgets(self.product(), a=([1.0, 2.0], 0.1), b=([1.0], 0.1))
+        with pytest.raises(gu.ModelError, match="`a`: the standard uncertainty in row 1"):
+            gu.budgets(self.product(), a=([1.0, 2.0], [0.1, -0.1]), b=1.0)
         with pytest.raises(gu.ModelError, match="no input or condition `c`"):
             gu.budgets(self.product(), a=1.0, b=2.0, c=3.0)
 

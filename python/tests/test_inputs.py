@@ -86,6 +86,17 @@ def test_arguments_are_checked() -> None:
         difference(1, 2, a=1)
 
 
+def test_units_are_checked() -> None:
+    slow = gu.model(inputs={"x": "V"}, outputs={"y": "V"}, trace=False)(lambda x: x)
+    for measurement in (same, slow):
+        with pytest.raises(gu.ModelError, match="given in m, but the model takes V"):
+            measurement(gu.normal(1, 0.1, "m"))
+    plain = gu.model(inputs={"x": "V"}, outputs={"y": "V"}, check_units=False)(lambda x: x * 1)
+    assert plain(gu.normal(1, 0.1, "V")).run(trials=0)["y"].gum.estimate == 1
+    with pytest.raises(gu.ModelError, match="give it in V"):
+        plain(gu.normal(1, 0.1, "mV"))
+
+
 class TestScipy:
     stats = pytest.importorskip("scipy.stats")
 

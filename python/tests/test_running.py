@@ -13,6 +13,7 @@ import textwrap
 import threading
 import time
 from concurrent.futures import ProcessPoolExecutor
+from pathlib import Path
 
 import pytest
 from conftest import MODELS
@@ -153,6 +154,21 @@ def test_pickle() -> None:
     assert pickle.loads(pickle.dumps(model)) == model
     # computed anew from model and seed
     assert again.to_json() == result.to_json()
+
+
+def test_a_pickled_model_is_whole(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """What it read from its folder goes along."""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "f.csv").write_text("f\n1\n2\n")
+    (tmp_path / "m.json").write_text(
+        '{"format": 1, "inputs": {"a": {"unit": "m", "distribution": "normal", "mean": 1, "std": 0.1}},'
+        '"conditions": {"file": "f.csv", "units": {"f": "Hz"}},'
+        '"equations": {"y": "a*f"}, "outputs": {"y": {"unit": "m/s"}}}'
+    )
+    model = gu.load("m.json")
+    expected, pickled = model.run(trials=1000).to_json(), pickle.dumps(model)
+    (tmp_path / "f.csv").unlink()
+    assert pickle.loads(pickled).run(trials=1000).to_json() == expected
 
 
 def test_many_threads_at_once() -> None:

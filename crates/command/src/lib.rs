@@ -174,3 +174,55 @@ impl CommandLine {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn call(arguments: &[&str], input: Option<GivenFile>) -> Result<Answered, Failure> {
+        let arguments = arguments.iter().map(OsString::from);
+        CommandLine::default().call(arguments, input, Arc::default())
+    }
+
+    fn given(text: &str) -> Option<GivenFile> {
+        let held = vec![("f.csv".to_owned(), b"f\n1\n2\n".to_vec())];
+        let (name, text) = ("mine".to_owned(), text.to_owned());
+        Some(GivenFile { name, text, held, ..GivenFile::default() })
+    }
+
+    #[test]
+    fn a_command_called_as_a_function_gives_back_what_it_prints() {
+        let model = r#"{"format": 1,
+            "inputs": {"a": {"unit": "m", "distribution": "normal", "mean": 1, "std": 0.1}},
+            "conditions": {"file": "f.csv", "units": {"f": "Hz"}},
+            "equations": {"y": "a*f"}, "outputs": {"y": {"unit": "m/s"}}}"#;
+        let arguments = ["run", "-", "--format", "csv", "--trials", "1000"];
+        let answered = call(&arguments, given(model)).unwrap();
+        assert_eq!(String::from_utf8(answered.answer).unwrap().lines().count(), 3);
+        assert!(answered.notes.contains("few"), "{}", answered.notes);
+        assert_eq!(answered.exit, Exit::Done);
+        // the surroundings of one call are not those of the next
+        let schema = call(&["schema"], None).unwrap();
+        assert!(schema.answer.starts_with(b"{") && schema.notes.is_empty());
+    }
+
+    #[test]
+    fn its_failures_have_the_text_of_the_program() {
+        let wrong = call(&["run", "-"], given("{\n \"inputs\": 1}")).unwrap_err().to_string();
+        assert!(wrong.contains("mine:2:12: "), "{wrong}");
+        let wrong = call(&["run", "--nothing"], None).unwrap_err().to_string();
+        assert!(wrong.contains("unexpected argument '--nothing'"), "{wrong}");
+        assert!(call(&["--version"], None).unwrap().answer.starts_with(b"gumption "));
+    }
+
+    #[test]
+    fn a_call_is_stopped_by_its_own_flag() {
+        let model = r#"{"format": 1,
+            "inputs": {"a": {"unit": "m", "distribution": "normal", "mean": 1, "std": 0.1}},
+            "equations": {"y": "a*a"}, "outputs": {"y": {"unit": "m^2"}}}"#;
+        let arguments = ["run", "-", "--format", "json", "--trials", "1e11"].map(OsString::from);
+        let stop = Arc::new(AtomicBool::new(true));
+        let answered = CommandLine::default().call(arguments, given(model), stop).unwrap();
+        assert_eq!(answered.exit, Exit::Interrupted);
+    }
+}

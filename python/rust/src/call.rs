@@ -50,6 +50,13 @@ pub(crate) fn unit_scale(py: Python<'_>, unit: &str) -> PyResult<(f64, f64)> {
     Ok((parsed.factor(), parsed.offset()))
 }
 
+/// Whether values in one unit can be converted to another.
+#[pyfunction]
+pub(crate) fn units_fit(first: &str, second: &str) -> bool {
+    let parse = |text| gumption::unit::Unit::parse(text).ok();
+    parse(first).zip(parse(second)).is_some_and(|(first, second)| first.is_compatible(&second))
+}
+
 /// The command line; the first argument is the name of the program. It gives the exit code.
 #[pyfunction]
 pub(crate) fn main(py: Python<'_>, arguments: Vec<OsString>) -> u8 {

@@ -14,7 +14,7 @@ use pyo3::types::PyDict;
 pub(crate) fn column(evaluation: &Evaluation, output: usize, name: &str) -> Option<Vec<f64>> {
     let of = figure(name)?;
     let rows = evaluation.rows.iter();
-    Some(rows.map(|row| row.outputs.get(output).and_then(|o| of(o)).unwrap_or(f64::NAN)).collect())
+    Some(rows.map(|row| row.outputs.get(output).and_then(&of).unwrap_or(f64::NAN)).collect())
 }
 
 type Figure = Box<dyn Fn(&OutputEvaluation) -> Option<f64>>;

@@ -34,5 +34,6 @@ fn _gumption(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(call::call, module)?)?;
     module.add_function(wrap_pyfunction!(call::main, module)?)?;
     module.add_function(wrap_pyfunction!(call::unit_scale, module)?)?;
+    module.add_function(wrap_pyfunction!(call::units_fit, module)?)?;
     Ok(())
 }

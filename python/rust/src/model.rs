@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use gumption::command::Failure;
-use gumption::file::{ModelFile, Override};
+use gumption::file::{ModelFile, Override, bytes};
 use gumption::propagate::{Control, Evaluation, evaluate, warnings};
 use gumption::report::Provenance;
 use gumption::task::{Coverage, StoppingRule, Task, Trials};
@@ -210,28 +210,29 @@ impl Model {
     ) -> PyResult<Self> {
         let name = path.display().to_string();
         let folder = path.parent().unwrap_or(Path::new("")).display().to_string();
-        let text = match std::fs::read(&path) {
-            Ok(bytes) => gumption::file::bytes::text(&bytes).map(|text| text.into_owned()),
-            Err(error) => Err(error.to_string()),
-        };
-        match text {
-            Ok(text) => {
+        let bytes = std::fs::File::open(&path).ok().and_then(|f| bytes::of(f, bytes::MOST).ok());
+        match bytes.and_then(|bytes| bytes::text(&bytes).ok().map(|text| text.into_owned())) {
+            Some(text) => {
                 Self::new(py, &name, &text, &folder, Vec::new(), allow, replaced, accept_changed)
             }
-            // the reader of files says so, with its place
-            Err(_) => Err(match application().files().model(&path, &[]) {
+            // the reader of files says why, with its place
+            None => Err(match application().files().model(&path, &[]) {
                 Err(found) => failed(py, &Failure::Diagnostics(found)),
                 Ok(_) => argument(py, format!("{name}: it cannot be read")),
             }),
         }
     }
 
-    /// All that the model is read from, in the order of the constructor's arguments.
+    /// All that the model is read from, in the order of the constructor's arguments. Files that it names
+    /// are there with the content that was read, so that it can be read again elsewhere.
     #[getter]
     fn source<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
         let Source { name, text, folder, held, allowed, replaced, accept_changed } = &*self.source;
+        let known = |name: &str| held.iter().any(|(held, _)| held == name);
+        let read = self.file.files.iter().filter(|(name, _)| !known(name));
         let held: Vec<(String, Bound<'_, pyo3::types::PyBytes>)> = held
             .iter()
+            .chain(read)
             .map(|(name, bytes)| (name.clone(), pyo3::types::PyBytes::new(py, bytes)))
             .collect();
         let folder = folder.display().to_string();

@@ -179,6 +179,9 @@ impl Run {
     ) -> PyResult<Vec<Bound<'py, PyArray1<f64>>>> {
         self.check_row(row)?;
         let outputs = outputs.iter().map(|name| self.output(name)).collect::<PyResult<Vec<_>>>()?;
+        if self.0.evaluation.rows[row].outputs.iter().all(|output| output.monte_carlo.is_none()) {
+            return Err(argument(py, "the run has no trials, as their number was 0"));
+        }
         let found = self.made(py, move |ran, control| ran.samples(&outputs, row, control))?;
         let found = found.map_err(|error| broken(py, &error))?;
         Ok(found.into_iter().map(|values| PyArray1::from_vec(py, values)).collect())

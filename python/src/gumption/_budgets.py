@@ -136,6 +136,7 @@ def budgets(
     units = {**model.inputs, **model.conditions}
     for name, value in columns.items():
         parts = tuple(_column(part) for part in _parts(value, units.get(name), name))
+        _check(name, parts, name in model.conditions)
         rows |= {part.size for part in parts if isinstance(part, np.ndarray)}
         given[name] = (parts[0], parts[1], parts[2])
     if len(rows) > 1:
@@ -145,6 +146,20 @@ def budgets(
     found = _gumption.budgets(model._rust, given, coverage, k, real_dof)
     outputs = model.outputs.items()
     return _All({n: OutputBudgets(n, unit, of) for (n, unit), of in zip(outputs, found)})
+
+
+def _check(name: str, parts: tuple[Any, ...], is_condition: bool) -> None:
+    """Whether widths and degrees of freedom can be such."""
+    _, u, dof = parts
+    for what, wrong in (
+        ("standard uncertainty", ~(np.asarray(u) >= 0) | np.isinf(u)),
+        ("number of degrees of freedom", ~(np.asarray(dof) > 0)),
+    ):
+        if np.any(wrong):
+            row = int(np.argmax(np.ravel(wrong)))
+            raise _gumption.ModelError(f"`{name}`: the {what} in row {row} (from 0) is not possible")
+    if is_condition and np.any(np.asarray(u) != 0):
+        raise _gumption.ModelError(f"`{name}` is a condition, which is known exactly")
 
 
 def _parts(value: Any, unit: str | None, name: str) -> tuple[Any, Any, Any]:

@@ -66,6 +66,11 @@ def condition_file(table: Any, units: Mapping[str, str]) -> tuple[dict[str, Any]
     if missing:
         raise _gumption.ModelError(f"the table of conditions has no column {', '.join(missing)}")
     own = {name: unit_of(found[name]) or unit for name, unit in units.items()}
+    for name, unit in units.items():
+        if not _gumption.units_fit(own[name], unit):
+            raise _gumption.ModelError(
+                f"the column `{name}` is in {own[name]}, but the model takes {unit}"
+            )
     values = {name: numbers(found[name]) for name in units}
     lengths = {len(column) for column in values.values()}
     if len(lengths) > 1:

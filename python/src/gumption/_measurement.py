@@ -217,6 +217,7 @@ class Measurement:
                     continue
             elif twin is not None:
                 twins.append((twin, name, 1.0))
+            self._check_unit(name, found.unit)
             first.setdefault(id(value), name)
             inputs[name] = found.to_dict(self.inputs[name])
             held.update(found.held)
@@ -272,6 +273,20 @@ class Measurement:
         name = f"<{getattr(self, '__name__', 'model')}>"
         text = json.dumps(file, indent=1, ensure_ascii=False, allow_nan=False)
         return Model._of(_gumption.Model(name, text, "", list(held.items())), function)
+
+    def _check_unit(self, name: str, unit: str | None) -> None:
+        """Whether an input may be given in that unit."""
+        own = self.inputs[name]
+        if unit is None or unit == own:
+            return
+        _gumption.unit_scale(unit)
+        if not self.check_units:
+            raise _gumption.ModelError(
+                f"`{name}` is given in {unit}, but a function whose units are not checked computes with "
+                f"the numbers of its declared units; give it in {own}"
+            )
+        if not _gumption.units_fit(unit, own):
+            raise _gumption.ModelError(f"`{name}` is given in {unit}, but the model takes {own}")
 
     def _bound(self, arguments: Sequence[Any], named: Mapping[str, Any]) -> dict[str, Any]:
         names = list(self.inputs)

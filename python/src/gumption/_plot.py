@@ -23,7 +23,7 @@ def plot(result: Result, outputs: list[str], row: int | None) -> Any:
         if bins is None:
             _sweep(panel, result, output)
         else:
-            _distribution(panel, output, bins[output.name], row or 0)
+            _distribution(panel, output, bins.get(output.name), row or 0)
     return figure
 
 

@@ -21,11 +21,18 @@ pub(crate) struct RowTrials {
     branches: Vec<Option<(f64, f64)>>,
     /// For each output its tolerance limits, infinite where there are none.
     limits: Vec<[f64; 2]>,
-    /// What computes the outputs in place of the schedule, and the values that do not vary: for each
-    /// variable of the program its value, or nothing.
-    function: Option<(Arc<dyn ColumnFunction>, Vec<Option<f64>>)>,
+    /// What computes the outputs in place of the schedule.
+    function: Option<Called>,
     /// The outputs' values in the first blocks, as far as they are held.
     held: Vec<Box<[[f64; BLOCK]]>>,
+}
+
+/// A function that takes columns.
+#[derive(Debug)]
+struct Called {
+    function: Arc<dyn ColumnFunction>,
+    /// For each variable of the program its value where it does not vary.
+    bound: Vec<Option<f64>>,
 }
 
 /// Buffers of one thread, reused from block to block.
@@ -69,7 +76,10 @@ impl RowTrials {
             keys,
             branches,
             limits,
-            function: task.function.as_ref().map(|function| (Arc::clone(function), bound)),
+            function: task
+                .function
+                .as_ref()
+                .map(|function| Called { function: Arc::clone(function), bound }),
             held: Vec::new(),
         }
     }
@@ -109,8 +119,8 @@ impl RowTrials {
             workspace.outputs.copy_from_slice(held);
             return;
         }
-        if let Some((function, bound)) = &self.function {
-            self.called(&**function, bound, (path, block), workspace);
+        if let Some(called) = &self.function {
+            self.called(called, (path, block), workspace);
             return;
         }
         let wanted = Wanted::Outputs;
@@ -121,8 +131,7 @@ impl RowTrials {
     #[cold]
     fn called(
         &self,
-        function: &dyn ColumnFunction,
-        bound: &[Option<f64>],
+        Called { function, bound }: &Called,
         (path, block): (CodePath, u64),
         workspace: &mut Workspace,
     ) {
