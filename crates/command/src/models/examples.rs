@@ -4,14 +4,11 @@ use gumption_units::nearest;
 use serde::Deserialize;
 
 use super::super::{Failure, PublishedExamples};
-use super::{one_line, plain_table, render};
+use super::one_line;
 
-/// What a list tells of a model file.
+/// What a list tells of an example.
 #[derive(Deserialize)]
-struct Titled {
-    #[serde(default)]
-    title: String,
-    #[serde(default)]
+struct Sourced {
     source: String,
 }
 
@@ -34,13 +31,12 @@ pub(super) fn named(published: &PublishedExamples, name: Option<&str>) -> Result
 }
 
 fn list(published: &PublishedExamples) -> Result<String, Failure> {
-    let mut table = plain_table();
-    table.set_header(["example", "measurement", "source"]);
-    for (name, model, _) in published.cases {
-        let of: Titled = serde_json::from_str(model)
+    let mut text = String::from("Published measurements, each as a model file to start from:\n\n");
+    let widest = published.cases.iter().map(|(name, ..)| name.len()).max().unwrap_or(0);
+    for (name, _, expected) in published.cases {
+        let of: Sourced = serde_json::from_str(expected)
             .map_err(|error| Failure::System(format!("{name}: {error}")))?;
-        table.add_row([(*name).to_owned(), one_line(&of.title), one_line(&of.source)]);
+        text += &format!("{name:<widest$}  {}\n", one_line(&of.source));
     }
-    Ok(render(&table)
-        + "\nPrint one with `gumption models --examples NAME`, write it with `--output FILE`.\n")
+    Ok(text + "\n`gumption models --examples NAME` prints one, `--output FILE` writes it.\n")
 }

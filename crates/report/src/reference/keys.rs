@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 use gumption_files::schema;
 use serde_json::{Map, Value};
 
-use crate::document::Document;
+use crate::document::{Block, Document};
 use crate::sheet::Sheet;
 
 /// Definitions that are told elsewhere: with the distributions, and once for all inputs.
@@ -129,9 +129,7 @@ impl Definitions {
         if let Some(examples) = node.get("examples").and_then(Value::as_array) {
             for example in examples {
                 let text = format!("{example:#}");
-                document
-                    .blocks
-                    .push(crate::document::Block::Listing { about: "Example:".to_owned(), text });
+                document.blocks.push(Block::Listing { about: "Example:".to_owned(), text });
             }
         }
     }

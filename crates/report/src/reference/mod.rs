@@ -8,7 +8,7 @@ mod keys;
 mod tests;
 mod units;
 
-use super::document::{self, Document};
+use super::document::{self, Block, Document};
 
 /// What is told about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -92,7 +92,15 @@ impl Topic {
 
 /// The topic as a page of text for a terminal.
 pub fn table(topic: Topic) -> String {
-    document::text(&topic.document())
+    let mut document = topic.document();
+    // code is known by its column
+    for block in &mut document.blocks {
+        if let Block::Table(sheet) = block {
+            let cells = sheet.columns.iter_mut().flat_map(|column| &mut column.cells);
+            cells.for_each(|cell| cell.retain(|letter| letter != '`'));
+        }
+    }
+    document::text(&document)
 }
 
 /// The topic as Markdown.
