@@ -65,6 +65,8 @@ pub fn diagnose(
     let Weighed {
         prior_conflicts,
         departure,
+        composed,
+        compositions,
         noise: weighed_noise,
         setup,
         discrepancy,
@@ -137,6 +139,7 @@ pub fn diagnose(
         present,
         prior_conflicts,
         departure,
+        composed,
         notes,
         probability,
         seed,

@@ -6,6 +6,7 @@
 
 mod case;
 pub mod check;
+mod composed;
 mod correlated;
 mod covariance;
 mod data;
@@ -42,6 +43,7 @@ mod weighed_noise;
 mod whitened;
 
 pub use case::{Candidate, Case, ObservedOutput, Prior};
+pub use composed::{ComposedEffect, ComposedForm, ComposedParameter, ComposedPrior, ComposedTerm};
 pub use diagnose::{DiagnosisOptions, diagnose};
 pub use diagnosis::{
     DepartureForm, DepartureKind, DepartureOver, DepartureShape, Diagnosis, DiagnosisNote,
