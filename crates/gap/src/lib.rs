@@ -11,6 +11,7 @@ mod correlated;
 mod covariance;
 mod data;
 mod departure;
+mod departure_prediction;
 mod diagnose;
 mod diagnosis;
 mod differential_evolution;

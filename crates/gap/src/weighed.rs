@@ -83,7 +83,7 @@ impl<'c> Weighed<'c> {
         let correction = if explained {
             Correction::Effects(posterior.hypotheses[best].effects.clone())
         } else {
-            Correction::Unexplained
+            Correction::Unexplained(compositions.clone())
         };
         let variances = noise_variances(&setup, &posterior, best, explained);
         Self {
@@ -135,7 +135,7 @@ fn composed(weighings: &[Weighing<'_>]) -> (Vec<ComposedEffect>, Compositions) {
         return (Vec::new(), Compositions::default());
     };
     let Weighing { setup, discrepancy, posterior, .. } = weighing;
-    let found = composed::compose(setup, discrepancy, &posterior.unexplained);
+    let found = composed::compose(setup, discrepancy, posterior);
     let effects = found.effects(setup, unexplained);
     let same = noise_model::most_probable(weighings) == leading;
     (effects, if same { found } else { Compositions::default() })

@@ -13,6 +13,7 @@ use crate::data::by_rows;
 use crate::diagnosis::{DepartureKind, DepartureOver, Shrunk};
 use crate::model::Effect;
 use crate::setup::Setup;
+use crate::weighed::names;
 use gumption_engine::decimal::to_digits;
 use gumption_engine::model::formula::Formula;
 use gumption_engine::model::{NumberForm, Quantity};
@@ -116,7 +117,9 @@ impl Compositions {
             let Some(mut effect) = composition.effect(setup, &metric, &white) else { continue };
             // a variant of the same terms says nothing new
             let same = |other: &ComposedEffect| {
-                other.terms == effect.terms && other.product == effect.product
+                other.terms == effect.terms
+                    && other.product == effect.product
+                    && other.beside == effect.beside
             };
             if let Some(known) = effects.iter_mut().find(|other| same(other)) {
                 known.probability += composition.share * unexplained;
@@ -170,8 +173,15 @@ impl Composition {
         nominal: &[Vec<f64>],
         shares: &[Vec<f64>],
     ) -> Vec<Vec<f64>> {
-        let of = |(term, shares): (&Term, &Vec<f64>)| term.columns(setup, rows, nominal, shares);
-        self.terms.iter().zip(shares).flat_map(of).collect()
+        let mut terms = self.terms.iter().zip(shares).map(|(term, own)| (term, own.as_slice()));
+        if self.product {
+            let first = terms.next();
+            let others: Vec<(&Term, &[f64])> = terms.collect();
+            let of =
+                |(term, own): (&Term, &[f64])| term.columns(setup, rows, nominal, own, &others);
+            return first.map(of).unwrap_or_default();
+        }
+        terms.flat_map(|(term, own)| term.columns(setup, rows, nominal, own, &[])).collect()
     }
 
     pub(super) fn shares(&self) -> Vec<Vec<f64>> {
@@ -209,10 +219,10 @@ impl Composition {
         let fit = self.fit(setup, metric, residuals, &best)?;
         let sim = &setup.case.model;
         let mut written = Written { sim, parameters: Vec::new(), overrides: Vec::new() };
-        let mut place = 0;
-        for (number, term) in self.terms.iter().enumerate() {
-            // what the sizes become one standard deviation off in each parameter
-            let moved: Vec<[Option<Fit>; 2]> = (0..term.shares.len())
+        // what the sizes become one standard deviation off in each parameter
+        let moved = |number: usize| -> Vec<[Option<Fit>; 2]> {
+            let term = &self.terms[number];
+            (0..term.shares.len())
                 .map(|n| {
                     [1.0, -1.0].map(|sign| {
                         let mut shares = best.clone();
@@ -221,10 +231,18 @@ impl Composition {
                         self.fit(setup, metric, residuals, &shares)
                     })
                 })
-                .collect();
-            let columns = term.shape.count();
-            written.term(term, &fit, &moved, place)?;
-            place += columns;
+                .collect()
+        };
+        if self.product {
+            let all: Vec<_> = (0..self.terms.len()).flat_map(moved).collect();
+            let terms: Vec<&Term> = self.terms.iter().collect();
+            written.term(&terms, &fit, &all, 0)?;
+        } else {
+            let mut place = 0;
+            for (number, term) in self.terms.iter().enumerate() {
+                written.term(&[term], &fit, &moved(number), place)?;
+                place += term.shape.count();
+            }
         }
         let Written { parameters, overrides, .. } = written;
         let effect = ComposedEffect {
@@ -233,7 +251,7 @@ impl Composition {
             product: self.product,
             overrides,
             parameters,
-            beside: Vec::new(),
+            beside: names(setup, &self.beside),
             probability: 0.0,
             shrunk: Shrunk {
                 rms_before: 0.0,
@@ -309,37 +327,20 @@ impl Written<'_> {
         name
     }
 
-    /// Adds a term whose functions stand at `place` among those of a fit.
+    /// Adds a term, or several whose functions are multiplied, which stand at `place` among those of a
+    /// fit.
     fn term(
         &mut self,
-        term: &Term,
+        terms: &[&Term],
         fit: &Fit,
         moved: &[[Option<Fit>; 2]],
         place: usize,
     ) -> Option<()> {
-        let sim = self.sim;
-        let one = Unit::one();
+        let term = *terms.first()?;
         let size_unit = match term.kind {
             DepartureKind::Additive => of_differences(&term.target.unit),
-            DepartureKind::Proportional => one.clone(),
+            DepartureKind::Proportional => Unit::one(),
         };
-        let (argument, unit) = match term.argument {
-            Argument::Nothing => (String::new(), one.clone()),
-            Argument::Condition(c) => {
-                let condition = &sim.conditions[c];
-                (condition.name.clone(), condition.unit.clone())
-            }
-            Argument::Value => (term.target.names[0].clone(), term.target.unit.clone()),
-        };
-        // formulas compute with plain numbers of the argument's unit
-        let number = |text: &str, unit: &Unit| match sim.numbers {
-            NumberForm::Declared => text.to_owned(),
-            NumberForm::Coherent if unit.dimension().is_none() && unit.factor() == 1.0 => {
-                text.to_owned()
-            }
-            NumberForm::Coherent => format!("{text}/[{}]", unit.text()),
-        };
-        let x = number(&argument, &unit);
         // the size with its uncertainty, and what a change of the parameters makes of it
         let factor = |of: &Fit, n: usize| of.factors[place + n];
         let spread = |of: &dyn Fn(&Fit) -> f64| -> f64 {
@@ -383,36 +384,12 @@ impl Written<'_> {
             let prior = ComposedPrior::Rectangular { lower: -100.0, upper: 100.0 };
             phase = self.add("phase", &degrees, prior, [found.0, found.1]);
         }
-        let mut texts = Vec::new();
-        for (n, range) in term.shape.ranges.iter().enumerate() {
-            let own = match range.of {
-                RangeOf::Place => unit.clone(),
-                RangeOf::Width => of_differences(&unit),
-                RangeOf::Number => one.clone(),
-            };
-            let [lower, upper] = range.ends;
-            let prior = if range.logarithmic {
-                ComposedPrior::LogUniform { lower, upper }
-            } else {
-                ComposedPrior::Rectangular { lower, upper }
-            };
-            let share = term.shares[n];
-            let width = match term.shape.function {
-                // between two levels a step may be anywhere
-                Function::Step => term.shape.gap_about(range.value(share)),
-                _ => term.widths[n] * range.slope(share).abs(),
-            };
-            let wanted = match range.of {
-                RangeOf::Place if !argument.is_empty() => format!("{argument}_{}", range.name),
-                _ => range.name.to_owned(),
-            };
-            let name = self.add(&wanted, &own, prior, [range.value(share), width]);
-            texts.push(number(&name, &own));
+        let mut sum = k;
+        for term in terms {
+            if let Some(function) = self.function(term, &phase) {
+                sum = format!("{sum}*{function}");
+            }
         }
-        let mut sum = match term.shape.text(&x, &texts, &phase) {
-            Some(function) => format!("{k}*{function}"),
-            None => k,
-        };
         if term.shape.offset {
             let last = term.shape.count() - 1;
             let of = |fit: &Fit| factor(fit, last);
@@ -434,6 +411,56 @@ impl Written<'_> {
             }
         }
         Some(())
+    }
+}
+
+impl Written<'_> {
+    /// The function of a term as a formula; its parameters are added.
+    fn function(&mut self, term: &Term, phase: &str) -> Option<String> {
+        let sim = self.sim;
+        let (argument, unit) = match term.argument {
+            Argument::Nothing => return None,
+            Argument::Condition(c) => {
+                let condition = &sim.conditions[c];
+                (condition.name.clone(), condition.unit.clone())
+            }
+            Argument::Value => (term.target.names[0].clone(), term.target.unit.clone()),
+        };
+        // formulas compute with plain numbers of the argument's unit
+        let number = |text: &str, unit: &Unit| match sim.numbers {
+            NumberForm::Declared => text.to_owned(),
+            NumberForm::Coherent if unit.dimension().is_none() && unit.factor() == 1.0 => {
+                text.to_owned()
+            }
+            NumberForm::Coherent => format!("{text}/[{}]", unit.text()),
+        };
+        let mut texts = Vec::new();
+        for (n, range) in term.shape.ranges.iter().enumerate() {
+            let own = match range.of {
+                RangeOf::Place => unit.clone(),
+                RangeOf::Width => of_differences(&unit),
+                RangeOf::Number => Unit::one(),
+            };
+            let [lower, upper] = range.ends;
+            let prior = if range.logarithmic {
+                ComposedPrior::LogUniform { lower, upper }
+            } else {
+                ComposedPrior::Rectangular { lower, upper }
+            };
+            let share = term.shares[n];
+            let width = match term.shape.function {
+                // between two levels a step may be anywhere
+                Function::Step => term.shape.gap_about(range.value(share)),
+                _ => term.widths[n] * range.slope(share).abs(),
+            };
+            let wanted = match range.of {
+                RangeOf::Place => format!("{argument}_{}", range.name),
+                RangeOf::Width | RangeOf::Number => range.name.to_owned(),
+            };
+            let name = self.add(&wanted, &own, prior, [range.value(share), width]);
+            texts.push(number(&name, &own));
+        }
+        term.shape.text(&number(&argument, &unit), &texts, phase)
     }
 }
 

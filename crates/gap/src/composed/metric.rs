@@ -73,6 +73,13 @@ impl<'s> Metric<'s> {
         White { values, shared }
     }
 
+    /// What was whitened in a metric with the same noise.
+    pub(super) fn rewhitened(&self, white: &White) -> White {
+        let values = white.values.clone();
+        let shared = self.project(&values);
+        White { values, shared }
+    }
+
     /// The coordinates of whitened values along what is integrated out.
     fn project(&self, whitened: &[f64]) -> Vec<f64> {
         self.solved(self.basis.iter().map(|column| dot(column, whitened)).collect())

@@ -11,12 +11,15 @@
 //! stands: a departure that is none of these forms leaves them improbable.
 
 mod effect;
+mod joint;
 mod metric;
 mod prediction;
 mod search;
 mod shape;
 mod target;
 mod term;
+#[cfg(test)]
+mod tests;
 
 pub use effect::{ComposedEffect, ComposedParameter, ComposedPrior, ComposedTerm};
 pub use shape::ComposedForm;
@@ -27,6 +30,7 @@ use crate::data::by_rows;
 use crate::diagnosis::DepartureKind;
 use crate::discrepancy::{Discrepancy, Unexplained};
 use crate::logarithm::{ln_add, ln_sum};
+use crate::posterior::Posterior;
 use crate::setup::Setup;
 use gumption_engine::linalg::dot;
 use gumption_engine::number::elementary;
@@ -38,6 +42,11 @@ use term::{Argument, Term};
 
 /// So many forms of the first grid are looked at closely.
 const REFINED: usize = 300;
+
+/// Prior weights of functions of an output's own value, and of those of a quantity within the sim,
+/// beside a condition's.
+const OWN_VALUE: f64 = 0.5;
+const OWN_VALUE_WITHIN: f64 = 0.1;
 
 /// Composed effects that are handed over, at most.
 const MOST: usize = 8;
@@ -58,8 +67,12 @@ pub(crate) struct Composition {
     terms: Vec<Term>,
     /// Whether the terms' functions are multiplied by each other rather than added.
     product: bool,
+    /// Places of the effects of the list that it acts beside.
+    beside: Vec<usize>,
     /// The logarithm of prior times evidence, above that of the data without a departure.
     ln_weight: f64,
+    /// The same with the parameters of the functions at their best values.
+    best: f64,
     /// Posterior share among all that "unexplained" stands for.
     pub(crate) share: f64,
 }
@@ -69,8 +82,6 @@ pub(crate) struct Composition {
 pub(crate) struct Compositions {
     /// Most probable first.
     pub(crate) all: Vec<Composition>,
-    /// Their posterior share of "unexplained", together.
-    pub(crate) share: f64,
     /// Variances of the noise by value, where it is estimated.
     variances: Option<Vec<f64>>,
 }
@@ -118,8 +129,9 @@ fn tabulated(values: &Values) -> Vec<Tabulated> {
 pub(crate) fn compose(
     setup: &Setup<'_>,
     discrepancy: &Discrepancy,
-    unexplained: &Unexplained,
+    posterior: &Posterior,
 ) -> Compositions {
+    let unexplained = &posterior.unexplained;
     if setup.data.len() > MOST_VALUES {
         return Compositions::default();
     }
@@ -130,9 +142,24 @@ pub(crate) fn compose(
     let white = metric.white(&residuals);
     let targets = target::targets(setup);
     let responses: Vec<Response> = targets.par_iter().map(|t| t.in_data(setup)).collect();
-    let found = singles(setup, &metric, &white, &targets, &responses);
+    let search = Search { setup, targets: &targets, responses: &responses };
+    let mut found = search.singles(&metric, &white, REFINED);
     let of_process = of_process(setup, discrepancy, unexplained, &metric, &residuals);
+    let best = found.iter().map(|of| of.ln_weight).fold(f64::NEG_INFINITY, f64::max);
+    if best < of_process || search.misfits(&metric, &residuals, &found) {
+        let more = search.joint(&metric, &residuals, &found, posterior);
+        let rest = 1.0 - joint::SHARE;
+        found.iter_mut().for_each(|of| of.ln_weight += elementary::ln(rest));
+        found.extend(more);
+    }
     weighed(found, of_process, variances)
+}
+
+/// What all searches of a case have in common.
+struct Search<'s> {
+    setup: &'s Setup<'s>,
+    targets: &'s [Target],
+    responses: &'s [Response],
 }
 
 /// The logarithm of the evidence of the discrepancies, above that without any, in this metric.
@@ -170,128 +197,132 @@ fn gain(of: &Metric<'_>, over: &Metric<'_>, residuals: &[f64]) -> f64 {
     ln(of) - ln(over)
 }
 
-/// Departures of one term.
-fn singles(
-    setup: &Setup<'_>,
-    metric: &Metric<'_>,
-    white: &White,
-    targets: &[Target],
-    responses: &[Response],
-) -> Vec<Composition> {
-    let ways = ways(setup, metric, white, targets, responses);
-    let conditions = term::conditions(setup);
-    let tables: Vec<(Argument, &Values, Vec<Tabulated>)> = conditions
-        .iter()
-        .map(|(argument, values)| (*argument, values, tabulated(values)))
-        .collect();
-    let ln_way = -elementary::ln(ways.len().max(1) as f64);
-    let mut candidates: Vec<Candidate> = ways
-        .par_iter()
-        .enumerate()
-        .flat_map_iter(|(number, way)| {
-            let own = way.value.as_ref().filter(|_| way.kind == DepartureKind::Additive);
-            let own = own.map(|values| {
-                // a departure in proportion to the value itself is a proportional constant
-                let mut table = tabulated(values);
-                table.retain(|of| of.shape.form() != ComposedForm::Slope);
-                (Argument::Value, values, table)
-            });
-            let arguments = 1 + tables.len() + usize::from(own.is_some());
-            let ln_argument = ln_way - elementary::ln(arguments as f64);
-            let constant = Shape::constant();
-            let points = setup.data.points.len();
-            let grid = vec![(Vec::new(), constant.columns(&vec![0.0; points], &[]))];
-            let mut found: Vec<Candidate> = Vec::new();
-            let mut add = |argument, shape: &Shape, grid: &[_], ln_prior| {
-                if let Some(on_grid) = way.frame.on_grid(grid) {
-                    let shape = shape.clone();
-                    let candidate =
-                        Candidate { way: number, argument, shape, found: on_grid, ln_prior };
-                    found.push(candidate);
+impl Search<'_> {
+    /// Departures of one term in a metric; so many forms of the first grid are looked at closely.
+    fn singles(&self, metric: &Metric<'_>, white: &White, refined: usize) -> Vec<Composition> {
+        let Self { setup, targets, .. } = *self;
+        let ways = self.ways(metric, white);
+        let conditions = term::conditions(setup);
+        let tables: Vec<(Argument, &Values, Vec<Tabulated>)> = conditions
+            .iter()
+            .map(|(argument, values)| (*argument, values, tabulated(values)))
+            .collect();
+        let ln_way = -elementary::ln(ways.len().max(1) as f64);
+        let mut candidates: Vec<Candidate> = ways
+            .par_iter()
+            .enumerate()
+            .flat_map_iter(|(number, way)| {
+                let own = way.value.as_ref().filter(|_| way.kind == DepartureKind::Additive);
+                let own = own.map(|values| {
+                    // a departure in proportion to the value itself is a proportional constant
+                    let mut table = tabulated(values);
+                    table.retain(|of| of.shape.form() != ComposedForm::Slope);
+                    (Argument::Value, values, table)
+                });
+                // what is a function of the value is often one of a condition too, which can be set
+                let own_weight = match (&own, targets[way.target].outputs.is_empty()) {
+                    (None, _) => 0.0,
+                    (Some(_), false) => OWN_VALUE,
+                    (Some(_), true) => OWN_VALUE_WITHIN,
+                };
+                let arguments = 1.0 + tables.len() as f64 + own_weight;
+                let ln_of = |argument: Argument| {
+                    let weight = if argument == Argument::Value { own_weight } else { 1.0 };
+                    ln_way + elementary::ln(weight / arguments)
+                };
+                let constant = Shape::constant();
+                let points = setup.data.points.len();
+                let grid = vec![(Vec::new(), constant.columns(&vec![0.0; points], &[]))];
+                let mut found: Vec<Candidate> = Vec::new();
+                let mut add = |argument, shape: &Shape, grid: &[_], ln_prior| {
+                    if let Some(on_grid) = way.frame.on_grid(grid) {
+                        let shape = shape.clone();
+                        let candidate =
+                            Candidate { way: number, argument, shape, found: on_grid, ln_prior };
+                        found.push(candidate);
+                    }
+                };
+                add(Argument::Nothing, &constant, &grid, ln_of(Argument::Nothing));
+                for (argument, _, table) in tables.iter().chain(&own) {
+                    let forms: Vec<ComposedForm> = table.iter().map(|of| of.shape.form()).collect();
+                    let mut each = forms.clone();
+                    each.sort_by_key(|form| form.name());
+                    each.dedup();
+                    let ln_form = ln_of(*argument) - elementary::ln(each.len().max(1) as f64);
+                    for of in table {
+                        let form = of.shape.form();
+                        let variants = forms.iter().filter(|other| **other == form).count();
+                        let ln_prior = ln_form - elementary::ln(variants as f64);
+                        add(*argument, &of.shape, &of.grid, ln_prior);
+                    }
                 }
-            };
-            add(Argument::Nothing, &constant, &grid, ln_argument);
-            for (argument, _, table) in tables.iter().chain(&own) {
-                let forms: Vec<ComposedForm> = table.iter().map(|of| of.shape.form()).collect();
-                let mut each = forms.clone();
-                each.sort_by_key(|form| form.name());
-                each.dedup();
-                let ln_form = ln_argument - elementary::ln(each.len().max(1) as f64);
-                for of in table {
-                    let form = of.shape.form();
-                    let variants = forms.iter().filter(|other| **other == form).count();
-                    let ln_prior = ln_form - elementary::ln(variants as f64);
-                    add(*argument, &of.shape, &of.grid, ln_prior);
+                found
+            })
+            .collect();
+        candidates
+            .sort_by(|a, b| (b.found.gain + b.ln_prior).total_cmp(&(a.found.gain + a.ln_prior)));
+        candidates.truncate(refined);
+        candidates
+            .into_par_iter()
+            .map(|Candidate { way, argument, shape, found, ln_prior }| {
+                let way = &ways[way];
+                let nothing = vec![0.0; setup.data.points.len()];
+                let at = match argument {
+                    Argument::Nothing => &nothing,
+                    Argument::Value => way.value.as_ref().map_or(&nothing, |values| &values.at),
+                    Argument::Condition(_) => conditions
+                        .iter()
+                        .find(|(of, _)| *of == argument)
+                        .map_or(&nothing, |(_, values)| &values.at),
+                };
+                let found = way.frame.refined(&shape, at, found);
+                let term = Term {
+                    target: targets[way.target].clone(),
+                    kind: way.kind,
+                    argument,
+                    shape,
+                    shares: found.shares,
+                    widths: found.widths,
+                };
+                Composition {
+                    terms: vec![term],
+                    product: false,
+                    beside: Vec::new(),
+                    ln_weight: ln_prior + found.ln_evidence,
+                    best: ln_prior + found.best,
+                    share: 0.0,
                 }
-            }
-            found
-        })
-        .collect();
-    candidates.sort_by(|a, b| (b.found.gain + b.ln_prior).total_cmp(&(a.found.gain + a.ln_prior)));
-    candidates.truncate(REFINED);
-    candidates
-        .into_par_iter()
-        .map(|Candidate { way, argument, shape, found, ln_prior }| {
-            let way = &ways[way];
-            let nothing = vec![0.0; setup.data.points.len()];
-            let at = match argument {
-                Argument::Nothing => &nothing,
-                Argument::Value => way.value.as_ref().map_or(&nothing, |values| &values.at),
-                Argument::Condition(_) => conditions
-                    .iter()
-                    .find(|(of, _)| *of == argument)
-                    .map_or(&nothing, |(_, values)| &values.at),
-            };
-            let found = way.frame.refined(&shape, at, found);
-            let term = Term {
-                target: targets[way.target].clone(),
-                kind: way.kind,
-                argument,
-                shape,
-                shares: found.shares,
-                widths: found.widths,
-            };
-            Composition {
-                terms: vec![term],
-                product: false,
-                ln_weight: ln_prior + found.ln_evidence,
-                share: 0.0,
-            }
-        })
-        .collect()
-}
-
-/// The ways in which the targets can depart, without those that do the same as one before.
-fn ways<'m>(
-    setup: &'m Setup<'m>,
-    metric: &'m Metric<'m>,
-    white: &'m White,
-    targets: &[Target],
-    responses: &[Response],
-) -> Vec<Way<'m>> {
-    let mut ways: Vec<Way<'m>> = Vec::new();
-    let mut known: Vec<Vec<f64>> = Vec::new();
-    for (number, (target, response)) in targets.iter().zip(responses).enumerate() {
-        for kind in [DepartureKind::Additive, DepartureKind::Proportional] {
-            if kind == DepartureKind::Additive && !target.addable {
-                continue;
-            }
-            let own = response.of(kind);
-            let Some(frame) = Frame::new(metric, setup, own, white) else { continue };
-            let own = metric.whiten(own);
-            let same = |other: &Vec<f64>| {
-                let cosine = dot(&own, other) / (dot(&own, &own) * dot(other, other)).sqrt();
-                1.0 - cosine.abs() < SAME
-            };
-            if known.iter().any(same) {
-                continue;
-            }
-            known.push(own);
-            let value = response.value.clone().and_then(Values::new);
-            ways.push(Way { target: number, kind, frame, value });
-        }
+            })
+            .collect()
     }
-    ways
+
+    /// The ways in which the targets can depart, without those that do the same as one before.
+    fn ways<'m>(&'m self, metric: &'m Metric<'m>, white: &'m White) -> Vec<Way<'m>> {
+        let Self { setup, targets, responses } = *self;
+        let mut ways: Vec<Way<'m>> = Vec::new();
+        let mut known: Vec<Vec<f64>> = Vec::new();
+        for (number, (target, response)) in targets.iter().zip(responses).enumerate() {
+            for kind in [DepartureKind::Additive, DepartureKind::Proportional] {
+                if kind == DepartureKind::Additive && !target.addable {
+                    continue;
+                }
+                let own = response.of(kind);
+                let Some(frame) = Frame::new(metric, setup, own, white) else { continue };
+                let own = metric.whiten(own);
+                let same = |other: &Vec<f64>| {
+                    let cosine = dot(&own, other) / (dot(&own, &own) * dot(other, other)).sqrt();
+                    1.0 - cosine.abs() < SAME
+                };
+                if known.iter().any(same) {
+                    continue;
+                }
+                known.push(own);
+                let value = response.value.clone().and_then(Values::new);
+                ways.push(Way { target: number, kind, frame, value });
+            }
+        }
+        ways
+    }
 }
 
 /// Probabilities from the weights; `of_process` is the evidence of what they compete with.
@@ -310,5 +341,5 @@ fn weighed(
     }
     let most = all.first().map_or(0.0, |first| first.share);
     all.retain(|composition| composition.share >= LEAST * most);
-    Compositions { all, share: elementary::exp(together - total), variances }
+    Compositions { all, variances }
 }

@@ -23,12 +23,25 @@ impl Compositions {
     /// by what the data say of shared inputs and of the departure; the uncertainties are those of
     /// these, with the parameters of the functions a standard deviation up and down.
     pub(crate) fn predictions(&self, setup: &Setup<'_>, rows: &[Row]) -> Vec<(f64, Normals)> {
-        let leading = self.all.iter().take(MOST);
+        // what acts beside effects of the list depends on those as well
+        let leading = self.all.iter().filter(|of| of.beside.is_empty()).take(MOST);
         let of = |composition: &Composition| {
             let normals = self.prediction(setup, composition, rows)?;
             Some((composition.share, normals))
         };
         leading.filter_map(of).collect()
+    }
+
+    /// The same for a part of the data.
+    pub(crate) fn for_part(&self, whole: &Setup<'_>, part: &Setup<'_>) -> Self {
+        let outputs = whole.data.outputs.len();
+        let of_part = |variances: &Vec<f64>| {
+            let place = |id: &usize| whole.data.ids.iter().position(|of| of == id).unwrap_or(0);
+            let rows = part.data.ids.iter().map(place);
+            rows.flat_map(|row| variances[row * outputs..(row + 1) * outputs].iter().copied())
+                .collect()
+        };
+        Self { variances: self.variances.as_ref().map(of_part), ..self.clone() }
     }
 
     /// Variances of the noise by value.

@@ -54,8 +54,6 @@ pub(super) struct Fit {
     pub(super) factors: Vec<f64>,
     /// The covariance matrix of these.
     pub(super) covariance: DMatrix<f64>,
-    /// The standard deviation of the prior of each factor at the most probable amplitude.
-    pub(super) priors: Vec<f64>,
 }
 
 impl<'m> Frame<'m> {
@@ -321,5 +319,5 @@ pub(super) fn solved(gram: &DMatrix<f64>, products: &DVector<f64>, scales: &[f64
         let sum: f64 = (0..d).map(|n| vectors[(i, n)] * part(n) * vectors[(j, n)]).sum();
         sum / (scales[i] * scales[j])
     });
-    Some(Fit { gain, factors, covariance, priors: scales.iter().map(|s| best.1 / s).collect() })
+    Some(Fit { gain, factors, covariance })
 }

@@ -22,7 +22,7 @@ pub enum ComposedForm {
     Reciprocal,
     /// An exponential rise or decay.
     Exponential,
-    /// A jump at one place.
+    /// A jump at one place, sharp or smooth.
     Step,
     /// A maximum or minimum of some width.
     Bump,
@@ -73,6 +73,7 @@ pub(super) enum Function {
     Decay,
     Growth,
     Step,
+    SmoothStep,
     Bump,
     LogarithmicBump,
     Wave,
@@ -86,7 +87,7 @@ pub(super) enum Function {
 }
 
 /// All functions of something.
-const ALL: [Function; 22] = [
+const ALL: [Function; 23] = [
     Function::Linear,
     Function::Square,
     Function::Cube,
@@ -99,6 +100,7 @@ const ALL: [Function; 22] = [
     Function::Decay,
     Function::Growth,
     Function::Step,
+    Function::SmoothStep,
     Function::Bump,
     Function::LogarithmicBump,
     Function::Wave,
@@ -271,7 +273,7 @@ impl Shape {
             }
             Function::Decay | Function::Growth | Function::Onset => levels >= FEW_LEVELS,
             Function::Step => levels > 2,
-            Function::Bump => levels >= LEVELS,
+            Function::Bump | Function::SmoothStep => levels >= LEVELS,
             Function::LogarithmicBump => levels >= LEVELS && wide,
             Function::Wave => levels > LEVELS,
             Function::Saturation => levels >= FEW_LEVELS && not_negative,
@@ -289,6 +291,7 @@ impl Shape {
             Function::Parabola => vec![place(16)],
             Function::Decay | Function::Growth => vec![width("L", [0.03, 3.0], 10)],
             Function::Step => vec![place(0)],
+            Function::SmoothStep => vec![place(16), width("w", [0.01, 0.15], 5)],
             Function::Bump => vec![place(20), width("w", [0.03, 0.5], 6)],
             Function::LogarithmicBump => {
                 let span = elementary::ln(high / low);
@@ -333,6 +336,7 @@ impl Shape {
             Function::One
                 | Function::Parabola
                 | Function::Step
+                | Function::SmoothStep
                 | Function::Bump
                 | Function::LogarithmicBump
                 | Function::Wave
@@ -354,7 +358,7 @@ impl Shape {
             Function::Logarithm => ComposedForm::Logarithm,
             Function::Reciprocal | Function::ReciprocalSquare => ComposedForm::Reciprocal,
             Function::Decay | Function::Growth => ComposedForm::Exponential,
-            Function::Step => ComposedForm::Step,
+            Function::Step | Function::SmoothStep => ComposedForm::Step,
             Function::Bump | Function::LogarithmicBump => ComposedForm::Bump,
             Function::Wave => ComposedForm::Wave,
             Function::Saturation | Function::Onset => ComposedForm::Saturation,
@@ -435,6 +439,7 @@ impl Shape {
             Function::Decay => column(&|x| elementary::exp(-(x - low) / a)),
             Function::Growth => column(&|x| elementary::exp((x - high) / a)),
             Function::Step => column(&|x| f64::from(u8::from(x > a))),
+            Function::SmoothStep => column(&|x| 1.0 / (1.0 + elementary::exp(-(x - a) / b))),
             Function::Bump => column(&|x| elementary::exp(-squared((x - a) / b))),
             Function::LogarithmicBump => column(&|x| {
                 elementary::exp(-squared(elementary::ln(x.max(f64::MIN_POSITIVE) / a) / b))
@@ -487,6 +492,7 @@ impl Shape {
             Function::Decay => format!("exp(-{}/({a}))", less(low)),
             Function::Growth => format!("exp({}/({a}))", less(high)),
             Function::Step => format!("({x} > {a})"),
+            Function::SmoothStep => format!("(1/(1 + exp(-({x} - {a})/({b}))))"),
             Function::Bump => format!("exp(-(({x} - {a})/({b}))^2)"),
             Function::LogarithmicBump => format!("exp(-(ln({x}/({a}))/({b}))^2)"),
             Function::Wave => format!("sin(2*pi*{a}*{} + {phase})", less(low)),

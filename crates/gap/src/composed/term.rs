@@ -61,7 +61,12 @@ pub(super) struct Term {
 
 impl Term {
     /// The functions in rows, of which `values` are the target's own values there.
-    fn functions(&self, rows: &[Row], values: Option<&[f64]>, shares: &[f64]) -> Vec<Vec<f64>> {
+    pub(super) fn functions(
+        &self,
+        rows: &[Row],
+        values: Option<&[f64]>,
+        shares: &[f64],
+    ) -> Vec<Vec<f64>> {
         let at: Vec<f64> = match self.argument {
             Argument::Nothing => vec![0.0; rows.len()],
             Argument::Condition(c) => rows.iter().map(|row| row.conditions[c]).collect(),
@@ -70,16 +75,23 @@ impl Term {
         self.shape.columns(&at, &self.shape.parameters(shares))
     }
 
-    /// What each of its functions does in rows: by value.
+    /// What each of its functions, multiplied by those of the `others`, does in rows: by value.
     pub(super) fn columns(
         &self,
         setup: &Setup<'_>,
         rows: &[Row],
         nominal: &[Vec<f64>],
         shares: &[f64],
+        others: &[(&Self, &[f64])],
     ) -> Vec<Vec<f64>> {
         let response = self.target.response(setup, rows, nominal);
-        let functions = self.functions(rows, response.value.as_deref(), shares);
+        let mut functions = self.functions(rows, response.value.as_deref(), shares);
+        for (other, shares) in others {
+            let factors = other.functions(rows, response.value.as_deref(), shares);
+            for (own, factor) in functions.iter_mut().flatten().zip(factors.iter().flatten()) {
+                *own *= factor;
+            }
+        }
         let outputs = setup.data.outputs.len();
         let of = |function: &Vec<f64>| {
             let own = response.of(self.kind).iter().enumerate();
