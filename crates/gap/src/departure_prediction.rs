@@ -3,7 +3,7 @@
 //!
 //! Within the box of the data's conditions each has the weight that the data give it. Outside of it
 //! the data say little of which function goes on how: there weights are the square roots of those (as
-//! if of half of the data), composed departures count by one half at most, and the uncertainty of
+//! if of half of the data), composed departures have at most a weight of 0.7, and the uncertainty of
 //! smooth ones grows with the distance. The change is gradual over a tenth of the range.
 
 use super::composed::Compositions;
@@ -17,7 +17,11 @@ use gumption_engine::task::Row;
 const GRADUAL: f64 = 0.1;
 
 /// The standard uncertainty of a smooth departure grows by so many times itself for each range.
-const GROWTH: f64 = 3.0;
+const GROWTH: f64 = 2.0;
+
+/// Composed departures have at most this weight outside of the box: where a smooth one is right, its
+/// prediction is then within two standard uncertainties of the mixture's.
+const MOST_COMPOSED: f64 = 0.7;
 
 /// Kinds of smooth departures that count outside of the box, at most.
 const MOST_KINDS: usize = 40;
@@ -97,7 +101,7 @@ fn joined(process: Normals, composed: &[(f64, Normals)], distances: &[f64]) -> N
             let out = (distances[row] / GRADUAL).min(1.0);
             // what is not composed is smooth
             let rest = (1.0 - together).max(0.0);
-            let half = (together.sqrt() / (together.sqrt() + rest.sqrt())).min(0.5);
+            let half = (together.sqrt() / (together.sqrt() + rest.sqrt())).min(MOST_COMPOSED);
             let smooth = (1.0 - out) * rest + out * (1.0 - half);
             process[row]
                 .iter()
