@@ -12,6 +12,7 @@ mod evaluation;
 pub mod gum;
 pub mod monte_carlo;
 mod origins;
+pub mod parts;
 mod replay;
 mod second_order;
 pub mod validate;

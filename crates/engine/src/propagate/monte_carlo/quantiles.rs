@@ -6,7 +6,7 @@
 
 use super::block::RowTrials;
 use super::partition::Leaf;
-use super::passes::{first_partitions, kept_budget, narrow, pass};
+use super::passes::{Look, first_partitions, kept_budget, narrow, pass};
 use super::pilot::plans;
 use super::repeat::repeat;
 use super::request::Request;
@@ -82,7 +82,8 @@ fn of_cells(
     let budget = kept_budget(&plans, control);
     let mut found: Vec<Option<Vec<f64>>> = vec![None; plans.len()];
     for number in 1..=MOST_PASSES {
-        let made = pass(trials, count, control, &plans, &partitions, false);
+        let look = Look { count, plans: &plans, partitions: &partitions, with_sums: false };
+        let made = pass(trials, look, control);
         if made.stopped {
             return None;
         }
