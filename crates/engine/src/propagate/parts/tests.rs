@@ -68,9 +68,12 @@ fn text(evaluation: &Evaluation) -> String {
 /// In memory and in cells, of few and of many chunks.
 #[test]
 fn parts_have_the_bits_of_the_whole() {
-    for (trials, memory, passes) in
-        [(5000, 64 << 20, 1), (300_001, 64 << 20, 1), (300_001, 100 << 10, 3), (3_000_000, 1 << 20, 3)]
-    {
+    for (trials, memory, passes) in [
+        (5000, 64 << 20, 1),
+        (300_001, 64 << 20, 1),
+        (300_001, 100 << 10, 3),
+        (3_000_000, 1 << 20, 3),
+    ] {
         let task = task(trials);
         let control = Control::default().with_memory(memory);
         let whole = text(&evaluate(&task, &control).unwrap());
@@ -167,7 +170,8 @@ fn blocks_are_there_once() {
 fn damaged_bytes_are_refused_or_taken() {
     let mut state = 1u64;
     let mut random = move |most: usize| {
-        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        state =
+            state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (state >> 33) as usize % most.max(1)
     };
     let task = task(66_000);
