@@ -32,6 +32,7 @@ mod one_number;
 mod other_distributions;
 mod outputs;
 mod own_program;
+mod parts;
 mod phases;
 mod recordings;
 mod reports;

@@ -41,6 +41,9 @@ pub(super) struct Evaluated {
     fail: bool,
 }
 
+/// What was evaluated, and what came of it.
+type Answered<'a> = (&'a ModelFile, &'a Task, &'a Evaluation, Option<Vec<Vec<f64>>>);
+
 /// Rows of conditions whose distributions are drawn in a terminal, at most.
 const MOST_DRAWN_ROWS: usize = 100;
 
@@ -64,6 +67,11 @@ impl Evaluated {
         Ok(())
     }
 
+    /// Whether a result file is to be written.
+    pub(super) fn saves(&self) -> bool {
+        self.save.is_some()
+    }
+
     /// Opens the files; `read` are those that the answer is made from.
     pub(super) fn open(&self, read: &[PathBuf]) -> Result<Places, Failure> {
         let asked = [
@@ -75,11 +83,11 @@ impl Evaluated {
         Ok(Places { answer, saved, samples })
     }
 
-    /// Gives the answer. `replaced` are the values that were put in place of the file's, as they were
-    /// given.
+    /// Gives the answer; the quantiles for a result file are there where they are known already.
+    /// `replaced` are the values that were put in place of the file's, as they were given.
     pub(super) fn give(
         &self,
-        (file, task, evaluation): (&ModelFile, &Task, &Evaluation),
+        (file, task, evaluation, quantiles): Answered<'_>,
         replaced: &[String],
         places: Places,
         (control, stop): (&Control<'_>, &AtomicBool),
@@ -95,7 +103,7 @@ impl Evaluated {
         let shown =
             Shown { columns: &self.columns, histograms: &histograms, replaced, model: text };
         // what fails is told when all that can be written is
-        let saver = save::Saver { report: &report, control };
+        let saver = save::Saver { report: &report, control, quantiles: quantiles.as_deref() };
         let Places { answer, saved, samples } = places;
         let left = [
             saved.map(|file| (file.path().to_owned(), saver.result(file))),

@@ -56,10 +56,10 @@ impl Merge {
         let places = self.evaluated.open(&read)?;
         let stop = signals::stop_flag();
         let control = self.threads.control(&stop).with_memory(run.memory);
-        match folder.merge(&file, &task, &run, &control)? {
-            Together::Evaluation(evaluation) => {
+        match folder.merge(&file, &task, &run, self.evaluated.saves(), &control)? {
+            Together::Evaluation(evaluation, quantiles) => {
                 let SharedRun { set, .. } = &run;
-                let found = (&file, &task, &*evaluation);
+                let found = (&file, &task, &*evaluation, quantiles);
                 self.evaluated.give(found, set, places, (&control, &stop))
             }
             Together::Again(next) => {

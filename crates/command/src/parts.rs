@@ -170,9 +170,13 @@ pub(super) struct Folder {
     others: usize,
 }
 
+/// An evaluation with the quantiles that a result file holds, where they took passes.
+pub(super) type WithQuantiles = (Box<Evaluation>, Option<Vec<Vec<f64>>>);
+
 /// What was made of the parts.
 pub(super) enum Together {
-    Evaluation(Box<Evaluation>),
+    /// With the quantiles that a result file holds, where they took passes.
+    Evaluation(Box<Evaluation>, Option<Vec<Vec<f64>>>),
     /// The next pass.
     Again(SharedPass),
 }
@@ -305,6 +309,7 @@ impl Folder {
         file: &ModelFile,
         task: &Task,
         run: &SharedRun,
+        with_quantiles: bool,
         control: &Control<'_>,
     ) -> Result<Together, Failure> {
         let all = shared_blocks(task)?;
@@ -321,8 +326,10 @@ impl Folder {
             let (_, content) = shared_file(&bytes).map_err(|error| refused(path, &error))?;
             merging.add(range, content).map_err(|error| refused(path, &error))?;
         }
-        Ok(match merging.finish().map_err(evaluated)? {
-            Merged::Evaluation(evaluation) => Together::Evaluation(evaluation),
+        Ok(match merging.finish(with_quantiles).map_err(evaluated)? {
+            Merged::Evaluation(evaluation, quantiles) => {
+                Together::Evaluation(evaluation, quantiles)
+            }
             Merged::Again(next) => Together::Again(next),
             other => {
                 return Err(Failure::System(format!("parts gave what is not known: {other:?}")));
@@ -391,10 +398,10 @@ pub(super) fn resume(
     file: &ModelFile,
     task: &Task,
     run: SharedRun,
-    path: &Path,
+    (path, with_quantiles): (&Path, bool),
     control: &Control<'_>,
     quiet: bool,
-) -> Result<Option<Box<Evaluation>>, Failure> {
+) -> Result<Option<WithQuantiles>, Failure> {
     let all = shared_blocks(task)?;
     fs::create_dir_all(path).map_err(|error| {
         let path = plain(&path.display().to_string());
@@ -423,8 +430,10 @@ pub(super) fn resume(
             bar.inc(1);
         }
         bar.finish_and_clear();
-        match Folder::open(path)?.merge(file, task, &run, control)? {
-            Together::Evaluation(evaluation) => return Ok(Some(evaluation)),
+        match Folder::open(path)?.merge(file, task, &run, with_quantiles, control)? {
+            Together::Evaluation(evaluation, quantiles) => {
+                return Ok(Some((evaluation, quantiles)));
+            }
             Together::Again(next) => {
                 let folder = Folder::open(path)?;
                 folder.write_next(run.clone(), next)?;

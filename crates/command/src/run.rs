@@ -97,17 +97,18 @@ impl Run {
         }
         self.evaluated.check(&task)?;
         let places = self.evaluated.open(&self.model.paths(&file))?;
-        let evaluation = match &self.resume {
+        let (evaluation, quantiles) = match &self.resume {
             Some(folder) => {
-                let found = parts::resume(&file, &task, shared(), folder, &control, quiet)?;
-                let Some(evaluation) = found else { return Ok(Exit::Interrupted) };
-                *evaluation
+                let asked = (folder.as_path(), self.evaluated.saves());
+                let found = parts::resume(&file, &task, shared(), asked, &control, quiet)?;
+                let Some((evaluation, quantiles)) = found else { return Ok(Exit::Interrupted) };
+                (*evaluation, quantiles)
             }
-            None => self.evaluate(&file, &task, &control)?,
+            None => (self.evaluate(&file, &task, &control)?, None),
         };
         let replaced: Vec<String> =
             self.model.replacements.iter().map(|set| set.text.clone()).collect();
-        let found = (&file, &task, &evaluation);
+        let found = (&file, &task, &evaluation, quantiles);
         self.evaluated.give(found, &replaced, places, (&control, &stop))
     }
 

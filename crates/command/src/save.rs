@@ -63,6 +63,8 @@ pub(super) fn check(
 pub(super) struct Saver<'a> {
     pub(super) report: &'a EvaluationReport<'a>,
     pub(super) control: &'a Control<'a>,
+    /// The quantiles of the outputs, where they are known.
+    pub(super) quantiles: Option<&'a [Vec<f64>]>,
 }
 
 impl From<EvaluationError> for Failure {
@@ -100,9 +102,11 @@ impl Saver<'_> {
                 )));
             }
         }
-        let Some(quantiles) = quantiles(task, evaluation, 0, &scores, self.control)? else {
-            return Ok(false);
+        let quantiles = match self.quantiles {
+            Some(known) => Some(known.to_vec()),
+            None => quantiles(task, evaluation, 0, &scores, self.control)?,
         };
+        let Some(quantiles) = quantiles else { return Ok(false) };
         let Some(ranks) = joint_ranks(task, evaluation, 0, self.control)? else {
             return Ok(false);
         };

@@ -30,9 +30,10 @@
 //!         let part = pass.part(&task, range.clone(), &control)?.expect("it is not stopped");
 //!         merging.add(range, &part)?;
 //!     }
-//!     match merging.finish()? {
-//!         Merged::Evaluation(evaluation) => break evaluation,
+//!     match merging.finish(false)? {
+//!         Merged::Evaluation(evaluation, _) => break evaluation,
 //!         Merged::Again(next) => pass = next,
+//!         _ => unreachable!("there is nothing else"),
 //!     }
 //! };
 //! let whole = evaluate(&task, &control)?;
@@ -55,11 +56,11 @@ use super::evaluation::{
 };
 use super::gum::{self, Gum, GumRow};
 use super::monte_carlo::{
-    Finished, Gathered, Prepared, Reader, Request, RowPass, RowTrials, Writer, share,
+    Finished, Gathered, Prepared, Reader, Request, RowOutcome, RowPass, RowTrials, Writer, share,
 };
-use crate::distribution::BLOCK;
+use crate::distribution::{BLOCK, Scores};
 use crate::number::COLUMN;
-use crate::task::{Task, Trials};
+use crate::task::{Row, Task, Trials};
 
 pub use super::monte_carlo::Damaged;
 
@@ -164,8 +165,9 @@ impl SharedPass {
     pub fn from_bytes(bytes: &[u8], task: &Task) -> Result<Self, Damaged> {
         let mut from = Reader::new(bytes);
         let number = from.number()?;
-        let outputs = task.model.outputs.len();
-        let pass = from.option(|from| RowPass::read(from, outputs))?;
+        let counts = (task.model.outputs.len(), task.rows.first().map_or(0, varying));
+        let scores = Scores::WRITTEN.values().count();
+        let pass = from.option(|from| RowPass::read(from, counts, scores))?;
         from.end()?;
         Damaged::unless(pass.is_some() == (task.rows.len() == 1), "a pass over other rows")?;
         if let (Some(pass), Trials::Fixed(asked)) = (&pass, task.settings.trials) {
@@ -233,6 +235,11 @@ impl OnlyRow {
     }
 }
 
+/// How many inputs vary in a row.
+fn varying(row: &Row) -> usize {
+    row.distributions.iter().filter(|distribution| distribution.constant().is_none()).count()
+}
+
 /// The figures of some whole rows.
 fn rows(
     task: &Task,
@@ -262,8 +269,10 @@ fn rows(
 #[derive(Debug)]
 #[non_exhaustive]
 pub enum Merged {
-    /// The evaluation, the same as that of a run on one machine.
-    Evaluation(Box<Evaluation>),
+    /// The evaluation, the same as that of a run on one machine, and the quantiles, if they were
+    /// asked for and took passes: those of [`quantiles`](super::quantiles) at
+    /// [`Scores::WRITTEN`].
+    Evaluation(Box<Evaluation>, Option<Vec<Vec<f64>>>),
     /// Another pass is needed.
     Again(SharedPass),
 }
@@ -359,10 +368,8 @@ impl<'a> Merging<'a> {
                 let own = share(&blocks, self.all, found.len() as u64);
                 let own = own.start as usize..own.end as usize;
                 let outputs = self.task.model.outputs.len();
-                let rows = self.task.rows[own.clone()].iter().map(|row| {
-                    let varying = row.distributions.iter().filter(|d| d.constant().is_none());
-                    Finished::read(&mut from, outputs, varying.count())
-                });
+                let rows = self.task.rows[own.clone()].iter();
+                let rows = rows.map(|row| Finished::read(&mut from, outputs, varying(row)));
                 let rows = rows.collect::<Result<Vec<_>, _>>()?;
                 from.end()?;
                 for (slot, row) in found[own].iter_mut().zip(rows) {
@@ -410,24 +417,26 @@ impl<'a> Merging<'a> {
         missing
     }
 
-    /// The evaluation, or the next pass. All blocks must be there; of others that are missing the
-    /// figures are not those of the run.
+    /// The evaluation, or the next pass. All blocks must be there; where some are missing the figures
+    /// are not those of the run. `with_quantiles` asks for what a result file holds; where it takes
+    /// no passes ([`quantiles`](super::quantiles)) there is none of it.
     ///
     /// # Errors
     /// As [`evaluate`](super::evaluate).
-    pub fn finish(self) -> Result<Merged, EvaluationError> {
+    pub fn finish(self, with_quantiles: bool) -> Result<Merged, EvaluationError> {
         let Self { task, control, number, state, .. } = self;
         in_pool(task, &control, || {
             let again = |pass: Box<RowPass>| {
                 let work = Work::Row(pass);
                 Ok(Merged::Again(SharedPass { number: number + 1, work }))
             };
-            let found = match state {
-                State::Rows { found } => found,
+            let (found, quantiles) = match state {
+                State::Rows { found } => (found, None),
                 State::Row { mut prepared, gums, trials, gathered } => {
-                    let finished = match prepared.finish(gathered) {
-                        Ok(finished) => finished,
-                        Err(next) => return again(next),
+                    let scores: Vec<f64> = Scores::WRITTEN.values().collect();
+                    let (finished, quantiles) = match prepared.finish(gathered, &scores) {
+                        RowOutcome::Finished(finished, quantiles) => (finished, quantiles),
+                        RowOutcome::Next(next) => return again(next),
                     };
                     if let Some(further) = goes_on(task, &gums, &finished, trials) {
                         let probability = task.settings.coverage.probability();
@@ -436,14 +445,18 @@ impl<'a> Merging<'a> {
                         let first = RowPass::first(prepared.trials(), request, &control);
                         return again(Box::new(first));
                     }
-                    vec![Some(finished)]
+                    let wanted = with_quantiles && quantiles.is_none();
+                    if let Some(next) = wanted.then(|| prepared.quantiles(&finished)).flatten() {
+                        return again(Box::new(next));
+                    }
+                    (vec![Some(*finished)], quantiles)
                 }
             };
             let found: Vec<Mutex<Option<Finished>>> = found.into_iter().map(Mutex::new).collect();
             let known =
                 |row: usize| found.get(row)?.lock().unwrap_or_else(PoisonError::into_inner).take();
             let evaluation = evaluate_rows(task, &control, &known)?;
-            Ok(Merged::Evaluation(Box::new(evaluation)))
+            Ok(Merged::Evaluation(Box::new(evaluation), quantiles))
         })?
     }
 }

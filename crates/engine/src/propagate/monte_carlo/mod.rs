@@ -54,7 +54,7 @@ pub(crate) use histogram::histograms;
 pub use interval::Ranks;
 pub(crate) use joint_ranks::joint_ranks;
 pub use parts::Damaged;
-pub(crate) use parts::{Gathered, Prepared, Reader, RowPass, Writer, share};
+pub(crate) use parts::{Gathered, Prepared, Reader, RowOutcome, RowPass, Writer, share};
 pub(crate) use quantiles::quantiles;
 pub(crate) use repeat::repeat;
 pub(crate) use request::Request;

@@ -169,6 +169,9 @@ fn stretch_of(
     let found = chunks.into_par_iter().with_min_len(16).fold(
         || (look.empty(), trials.workspace()),
         |(mut found, mut workspace), chunk| {
+            if control.is_stopped() {
+                return (found, workspace);
+            }
             let chunk = chunk as u64;
             let mut sums = vec![Sums::default(); plans.len()];
             let before = found.trials;

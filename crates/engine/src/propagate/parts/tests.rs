@@ -3,7 +3,7 @@
 
 use super::*;
 use crate::distribution::Input;
-use crate::propagate::evaluate;
+use crate::propagate::{evaluate, quantiles};
 use crate::task::Settings;
 
 /// Several outputs, correlated inputs, undefined trials, a tolerance, few degrees of freedom, an
@@ -51,8 +51,8 @@ fn shared(task: &Task, control: &Control<'_>, parts: u64) -> (Evaluation, u64) {
             merging.add(range.clone(), &part).unwrap();
         }
         assert_eq!(merging.missing(), []);
-        match merging.finish().unwrap() {
-            Merged::Evaluation(evaluation) => return (*evaluation, pass.number()),
+        match merging.finish(false).unwrap() {
+            Merged::Evaluation(evaluation, _) => return (*evaluation, pass.number()),
             Merged::Again(next) => {
                 assert_eq!(next.number(), pass.number() + 1);
                 pass = next;
@@ -83,6 +83,35 @@ fn parts_have_the_bits_of_the_whole() {
             assert!(made >= passes, "{made} passes");
         }
     }
+}
+
+/// Quantiles for a result file take passes of their own, and are those of the run.
+#[test]
+fn quantiles_are_those_of_the_run() {
+    let task = task(400_000);
+    let control = Control::default().with_memory(1 << 20);
+    let whole = evaluate(&task, &control).unwrap();
+    let scores: Vec<f64> = Scores::WRITTEN.values().collect();
+    let wanted = quantiles(&task, &whole, 0, &scores, &control).unwrap().unwrap();
+    let ranges = ranges(blocks(&task).unwrap(), 5);
+    let mut pass = SharedPass::first(&task, &control).unwrap();
+    loop {
+        pass = SharedPass::from_bytes(&pass.to_bytes(), &task).unwrap();
+        let mut merging = Merging::new(&task, &pass, control).unwrap();
+        for range in &ranges {
+            let part = pass.part(&task, range.clone(), &control).unwrap().unwrap();
+            merging.add(range.clone(), &part).unwrap();
+        }
+        match merging.finish(true).unwrap() {
+            Merged::Evaluation(evaluation, found) => {
+                assert!(text(&evaluation) == text(&whole));
+                assert!(found.unwrap() == wanted);
+                break;
+            }
+            Merged::Again(next) => pass = next,
+        }
+    }
+    assert!(pass.number() > 1);
 }
 
 /// Rows of conditions are not cut, also where their number of trials is found as they are made.
@@ -160,7 +189,7 @@ fn blocks_are_there_once() {
     merging.add(5..10, &part(5..10)).unwrap();
     merging.add(0..3, &part(0..3)).unwrap();
     assert_eq!(merging.missing(), []);
-    assert!(matches!(merging.finish(), Ok(Merged::Evaluation(_))));
+    assert!(matches!(merging.finish(false), Ok(Merged::Evaluation(..))));
 }
 
 /// Damaged parts and passes: cut short, with bytes changed, with numbers that are far too large. Each
@@ -209,16 +238,16 @@ fn damaged_bytes_are_refused_or_taken() {
                 };
                 let mut merging = Merging::new(&task, &pass, control).unwrap();
                 match merging.add(0..all, part) {
-                    Ok(()) => drop(merging.finish()),
+                    Ok(()) => drop(merging.finish(true)),
                     Err(_) => refused += 1,
                 }
             }
             assert!(refused > 50, "only {refused} of 150 are refused");
             let mut merging = Merging::new(&task, &pass, control).unwrap();
             merging.add(0..all, &part).unwrap();
-            match merging.finish().unwrap() {
+            match merging.finish(true).unwrap() {
                 Merged::Again(next) => pass = next,
-                Merged::Evaluation(_) => break,
+                Merged::Evaluation(..) => break,
             }
         }
     }

@@ -21,6 +21,7 @@ use super::figures::Finished;
 use super::passes::{Look, Pass, Stretch, kept_budget, stretch};
 use super::pilot::{KEEP_ALL_MARGIN, plans};
 use super::plan::Plan;
+use super::quantiles::{QuantilePasses, are_held, quantile_plans};
 use super::request::Request;
 use super::run::{accumulate_chunks, chunks_of, finish, kept_bytes, scatters, sums_of};
 use super::several_pass::Passes;
@@ -37,8 +38,27 @@ pub(crate) struct RowPass {
     margin: f64,
     /// How the shortest intervals scatter, where narrower windows told it already.
     scatters: Vec<Option<ShortestScatter>>,
-    /// `None` for a run that holds its tails.
-    cells: Option<Passes>,
+    step: RowStep,
+}
+
+/// What a pass is for.
+#[derive(Clone, Debug)]
+enum RowStep {
+    /// The figures of a run that holds its tails.
+    Tails,
+    /// The figures of one that counts in cells.
+    Cells(Box<Passes>),
+    /// The quantiles of a run whose figures are there.
+    Quantiles(Box<Finished>, Box<QuantilePasses>),
+}
+
+/// What a pass gave in the end.
+#[derive(Debug)]
+pub(crate) enum RowOutcome {
+    /// The figures, and the quantiles if they were looked for.
+    Finished(Box<Finished>, Option<Vec<Vec<f64>>>),
+    /// The next pass.
+    Next(Box<RowPass>),
 }
 
 /// What a part of a pass found.
@@ -78,9 +98,12 @@ impl RowPass {
         scatters: Vec<Option<ShortestScatter>>,
     ) -> Self {
         let plans = plans(trials, request, control, margin);
-        let in_cells = kept_bytes(&plans, request) > control.memory;
-        let cells = in_cells.then(|| Passes::new(request, &plans));
-        Self { trials: request.trials, margin, scatters, cells }
+        let step = if kept_bytes(&plans, request) > control.memory {
+            RowStep::Cells(Box::new(Passes::new(request, &plans)))
+        } else {
+            RowStep::Tails
+        };
+        Self { trials: request.trials, margin, scatters, step }
     }
 
     /// The pass as bytes.
@@ -90,22 +113,46 @@ impl RowPass {
         for scatter in &self.scatters {
             out.option(scatter.as_ref(), |out, scatter| scatter.write(out));
         }
-        out.option(self.cells.as_ref(), |out, cells| cells.write(out));
+        match &self.step {
+            RowStep::Tails => out.number(0),
+            RowStep::Cells(passes) => {
+                out.number(1);
+                passes.write(out);
+            }
+            RowStep::Quantiles(finished, passes) => {
+                out.number(2);
+                finished.write(out);
+                passes.write(out);
+            }
+        }
     }
 
-    /// A pass over a row with so many outputs.
+    /// A pass over a row with so many outputs and varying inputs, with the scores of the quantiles
+    /// that may be looked for.
     ///
     /// # Errors
     /// Bytes that are no such pass.
-    pub(crate) fn read(from: &mut Reader<'_>, outputs: usize) -> Result<Self, Damaged> {
+    pub(crate) fn read(
+        from: &mut Reader<'_>,
+        (outputs, inputs): (usize, usize),
+        scores: usize,
+    ) -> Result<Self, Damaged> {
         let trials = from.number()?;
         let margin = from.real()?;
         let usual = (1.0..=4.0 * KEEP_ALL_MARGIN).contains(&margin);
         Damaged::unless(usual && trials > 0, "windows that no run has")?;
         let scatters = (0..outputs).map(|_| from.option(ShortestScatter::read));
         let scatters = scatters.collect::<Result<_, _>>()?;
-        let cells = from.option(|from| Passes::read(from, outputs, trials))?;
-        Ok(Self { trials, margin, scatters, cells })
+        let step = match from.at_most(2, "there is no such pass")? {
+            0 => RowStep::Tails,
+            1 => RowStep::Cells(Box::new(Passes::read(from, outputs, trials)?)),
+            _ => {
+                let finished = Finished::read(from, outputs, inputs)?;
+                let passes = QuantilePasses::read(from, outputs, scores)?;
+                RowStep::Quantiles(Box::new(finished), Box::new(passes))
+            }
+        };
+        Ok(Self { trials, margin, scatters, step })
     }
 }
 
@@ -130,7 +177,11 @@ impl<'a> Prepared<'a> {
 
     /// What a pass in cells looks at.
     fn look(&self) -> Option<Look<'_>> {
-        Some(self.pass.cells.as_ref()?.look(self.request(), &self.plans))
+        match &self.pass.step {
+            RowStep::Tails => None,
+            RowStep::Cells(passes) => Some(passes.look(self.request(), &self.plans)),
+            RowStep::Quantiles(_, passes) => Some(passes.look(self.pass.trials, &self.plans)),
+        }
     }
 
     /// How many chunks the pass has.
@@ -186,20 +237,28 @@ impl<'a> Prepared<'a> {
         })
     }
 
-    /// The figures, or the next pass.
-    pub(crate) fn finish(&mut self, gathered: Gathered) -> Result<Finished, Box<RowPass>> {
+    /// The figures, or the next pass. Quantiles are at these scores.
+    pub(crate) fn finish(&mut self, gathered: Gathered, scores: &[f64]) -> RowOutcome {
         let Self { trials, probability, drawn_dof, control, pass, plans } = self;
         let request = Request { trials: pass.trials, probability: *probability, drawn_dof };
-        match (gathered.0, pass.cells.take()) {
-            (Together::Cells(mut made), Some(mut passes)) => {
+        let budget = kept_budget(plans, control);
+        let next =
+            |pass: &RowPass, step| RowOutcome::Next(Box::new(RowPass { step, ..pass.clone() }));
+        match (gathered.0, std::mem::replace(&mut pass.step, RowStep::Tails)) {
+            (Together::Cells(mut made), RowStep::Cells(mut passes)) => {
                 made.totals.close();
-                let budget = kept_budget(plans, control);
                 if !passes.take(*made, request, plans, budget) {
-                    return Err(Box::new(RowPass { cells: Some(passes), ..pass.clone() }));
+                    return next(pass, RowStep::Cells(passes));
                 }
                 let scatters = scatters(trials, request, control, plans);
                 let finished = passes.finish(trials, request, control, plans, &scatters);
-                Ok(finished.unwrap_or_default())
+                RowOutcome::Finished(Box::new(finished.unwrap_or_default()), None)
+            }
+            (Together::Cells(made), RowStep::Quantiles(finished, mut passes)) => {
+                if !passes.take(*made, scores, plans, budget) {
+                    return next(pass, RowStep::Quantiles(finished, passes));
+                }
+                RowOutcome::Finished(finished, passes.quantiles())
             }
             (Together::Tails(parts), _) => {
                 let mut chunks: Vec<Accumulated> = parts.into_values().flatten().collect();
@@ -209,17 +268,32 @@ impl<'a> Prepared<'a> {
                 }
                 totals.close();
                 let (made, scatters) = ((chunks, &totals), &mut pass.scatters);
-                let finished = finish(trials, request, control, plans, made, scatters);
-                // a tail came out short: wider windows
-                finished.ok_or_else(|| {
-                    let scatters = pass.scatters.clone();
-                    let margin = 4.0 * pass.margin;
-                    Box::new(RowPass::with_margin(trials, request, control, margin, scatters))
-                })
+                match finish(trials, request, control, plans, made, scatters) {
+                    Some(finished) => RowOutcome::Finished(Box::new(finished), None),
+                    // a tail came out short: wider windows
+                    None => {
+                        let (margin, scatters) = (4.0 * pass.margin, pass.scatters.clone());
+                        let wider =
+                            RowPass::with_margin(trials, request, control, margin, scatters);
+                        RowOutcome::Next(Box::new(wider))
+                    }
+                }
             }
             // there are no parts of another pass among these
-            (Together::Cells(_), None) => Ok(Finished::default()),
+            (Together::Cells(_), RowStep::Tails) => RowOutcome::Finished(Box::default(), None),
         }
+    }
+
+    /// The passes for the quantiles of all trials, where these are not held to take them.
+    pub(crate) fn quantiles(&self, finished: &Finished) -> Option<RowPass> {
+        let Self { trials, control, pass, .. } = self;
+        let count = pass.trials;
+        if finished.trials == 0 || are_held(count, trials.outputs(), control.memory) {
+            return None;
+        }
+        let passes = QuantilePasses::new(&quantile_plans(trials, count, control));
+        let step = RowStep::Quantiles(Box::new(finished.clone()), Box::new(passes));
+        Some(RowPass { step, ..pass.clone() })
     }
 
     /// The trials.

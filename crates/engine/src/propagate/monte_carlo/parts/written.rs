@@ -11,6 +11,7 @@ use crate::propagate::monte_carlo::figures::{Finished, MonteCarlo, NumericalErro
 use crate::propagate::monte_carlo::partition::{Partition, Tally};
 use crate::propagate::monte_carlo::passes::{Look, Stretch};
 use crate::propagate::monte_carlo::plan::Plan;
+use crate::propagate::monte_carlo::quantiles::{self, QuantilePasses};
 use crate::propagate::monte_carlo::request::trials_in;
 use crate::propagate::monte_carlo::several_pass::{Found, MOST_PASSES, Passes, Phase, Whole};
 use crate::propagate::monte_carlo::shortest_scatter::{BATCHES, ShortestScatter, batch_blocks};
@@ -356,6 +357,34 @@ impl Passes {
         Damaged::unless(whole.is_some() == later, "it does not say what was found")?;
         let found = read_each(outputs as u64, || from.option(Found::read))?;
         Ok(Self::at(phase, partitions, whole, found))
+    }
+}
+
+impl QuantilePasses {
+    pub(super) fn write(&self, out: &mut Writer) {
+        out.number(u64::from(self.before));
+        self.partitions.iter().for_each(|partition| partition.write(out));
+        for found in &self.found {
+            out.option(found.as_ref(), |out, found| out.list(found));
+        }
+    }
+
+    /// Of so many outputs, and quantiles of each.
+    pub(super) fn read(
+        from: &mut Reader<'_>,
+        outputs: usize,
+        scores: usize,
+    ) -> Result<Self, Damaged> {
+        let before = from.at_most(u64::from(quantiles::MOST_PASSES), "too many passes")? as u32;
+        let partitions = read_each(outputs as u64, || Partition::read(from))?;
+        let found = read_each(outputs as u64, || {
+            from.option(|from| {
+                let found = from.list(scores as u64)?;
+                Damaged::unless(found.len() == scores, "quantiles are missing")?;
+                Ok(found)
+            })
+        })?;
+        Ok(Self { before, partitions, found })
     }
 }
 
