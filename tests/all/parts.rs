@@ -99,7 +99,7 @@ const FORMATS: [&str; 7] = ["json", "csv", "table", "markdown", "latex", "html",
 fn parts_give_the_bytes_of_one_run() {
     let place = Place::new(MANY);
     let options = ["--trials", "300001", "--seed", "7", "--coverage", "0.9"];
-    let run = |more: &[&str]| [&["run", "m.json"][..], &options, more].concat();
+    let run = |more: &[&'static str]| [&["run", "m.json"][..], &options, more].concat();
     let whole: Vec<Vec<u8>> = FORMATS
         .iter()
         .map(|format| place.done(&run(&["--format", format, "--output", "/dev/stdout"])))

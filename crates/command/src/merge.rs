@@ -1,6 +1,7 @@
 //! `gumption merge`
 
 use std::path::PathBuf;
+use std::sync::atomic::AtomicBool;
 
 use clap::Args;
 
@@ -54,12 +55,15 @@ impl Merge {
         read.extend(self.model.clone());
         read.extend(run.model_path.as_ref().map(PathBuf::from));
         let places = self.evaluated.open(&read)?;
-        let stop = signals::stop_flag();
-        let control = self.threads.control(&stop).with_memory(run.memory);
+        // a signal ends it at once: the parts are there
+        let never = AtomicBool::new(false);
+        let control = self.threads.control(&never).with_memory(run.memory);
         match folder.merge(&file, &task, &run, self.evaluated.saves(), &control)? {
             Together::Evaluation(evaluation, quantiles) => {
                 let SharedRun { set, .. } = &run;
                 let found = (&file, &task, &*evaluation, quantiles);
+                let stop = signals::stop_flag();
+                let control = control.with_stop(&stop);
                 self.evaluated.give(found, set, places, (&control, &stop))
             }
             Together::Again(next) => {

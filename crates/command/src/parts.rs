@@ -320,7 +320,10 @@ impl Folder {
             return Err(self.incomplete(&missing, all, current.pass.number()));
         }
         let evaluated = |error: EvaluationError| run::failure(file, error);
-        let mut merging = Merging::new(task, &current.pass, *control).map_err(evaluated)?;
+        // half an answer would be none
+        let mut whole = *control;
+        whole.stop = None;
+        let mut merging = Merging::new(task, &current.pass, whole).map_err(evaluated)?;
         for (path, range) in parts {
             let bytes = shared_file_bytes(path).map_err(|error| refused(path, &error))?;
             let (_, content) = shared_file(&bytes).map_err(|error| refused(path, &error))?;

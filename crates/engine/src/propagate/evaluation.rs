@@ -265,7 +265,7 @@ pub fn in_pool<R: Send>(
 }
 
 /// Among how many rows at most the memory for kept values is divided.
-const ROWS_AT_A_TIME: usize = 16;
+pub(super) const ROWS_AT_A_TIME: usize = 16;
 
 /// How the rows of a task share the memory; how is a matter of the task alone, so that no figure
 /// depends on the number of threads.

@@ -51,8 +51,8 @@ use rayon::prelude::*;
 
 use super::Control;
 use super::evaluation::{
-    Evaluation, EvaluationError, decided, drawn_dof, evaluate_rows, goes_on, in_pool, joint,
-    of_one_row, reach,
+    Evaluation, EvaluationError, ROWS_AT_A_TIME, decided, drawn_dof, evaluate_rows, goes_on,
+    in_pool, joint, of_one_row, reach,
 };
 use super::gum::{self, Gum, GumRow};
 use super::monte_carlo::{
@@ -88,9 +88,18 @@ impl fmt::Display for NotShared {
 
 impl std::error::Error for NotShared {}
 
+/// Up to so many rows of conditions are cut as one is; of more, each is made whole by one part. The
+/// same number shares the memory.
+const MOST_CUT_ROWS: usize = ROWS_AT_A_TIME;
+
+/// Whether the rows of a task are cut into parts.
+fn is_cut(task: &Task) -> bool {
+    matches!(task.settings.trials, Trials::Fixed(_)) && task.rows.len() <= MOST_CUT_ROWS
+}
+
 /// Into how many blocks the trials of a task are cut: ranges of them are the parts of each of its
-/// passes. A block is 1024 trials of what was asked for; of several rows of conditions those of the
-/// first row come first, and a row is made by the part in which it begins.
+/// passes. A block is 1024 trials of what was asked for; the blocks of several rows of conditions are
+/// counted together.
 ///
 /// # Errors
 /// A run that cannot be shared.
@@ -115,8 +124,15 @@ pub struct SharedPass {
 enum Work {
     /// Whole rows of conditions.
     Rows,
-    /// The trials of the only row.
-    Row(Box<RowPass>),
+    /// The trials of every row, as far as its figures are not there yet.
+    Cut(Vec<RowState>),
+}
+
+/// How far a row that is cut has come.
+#[derive(Clone, Debug)]
+enum RowState {
+    Finished(Box<Finished>),
+    Open(Box<RowPass>),
 }
 
 impl SharedPass {
@@ -128,15 +144,19 @@ impl SharedPass {
         let Trials::Fixed(trials) = task.settings.trials else {
             return Ok(Self { number: 1, work: Work::Rows });
         };
-        if task.rows.len() > 1 {
+        if !is_cut(task) {
             return Ok(Self { number: 1, work: Work::Rows });
         }
-        let work = in_pool(task, control, || {
-            let row = OnlyRow::of(task, control)?;
-            let pass = RowPass::first(&row.trials, row.request(task, trials), control);
-            Ok(Work::Row(Box::new(pass)))
+        let control = &of_one_row(task, control);
+        let rows = in_pool(task, control, || {
+            let first = |row: CutRow| {
+                let request = row.request(task, trials);
+                RowState::Open(Box::new(RowPass::first(&row.trials, request, control)))
+            };
+            let rows = CutRow::all(task, control)?;
+            Ok::<_, EvaluationError>(rows.into_iter().map(first).collect())
         })??;
-        Ok(Self { number: 1, work })
+        Ok(Self { number: 1, work: Work::Cut(rows) })
     }
 
     /// How many passes there were with it.
@@ -148,13 +168,22 @@ impl SharedPass {
     pub fn to_bytes(&self) -> Vec<u8> {
         let mut out = Writer::default();
         out.number(self.number);
-        out.option(
-            match &self.work {
-                Work::Rows => None,
-                Work::Row(pass) => Some(pass),
-            },
-            |out, pass| pass.write(out),
-        );
+        let rows = match &self.work {
+            Work::Rows => &[][..],
+            Work::Cut(rows) => rows,
+        };
+        for row in rows {
+            match row {
+                RowState::Finished(finished) => {
+                    out.flag(true);
+                    finished.write(&mut out);
+                }
+                RowState::Open(pass) => {
+                    out.flag(false);
+                    pass.write(&mut out);
+                }
+            }
+        }
         out.into_bytes()
     }
 
@@ -164,17 +193,27 @@ impl SharedPass {
     /// Bytes that are none.
     pub fn from_bytes(bytes: &[u8], task: &Task) -> Result<Self, Damaged> {
         let mut from = Reader::new(bytes);
-        let number = from.number()?;
-        let counts = (task.model.outputs.len(), task.rows.first().map_or(0, varying));
+        let number = from.at_most(u64::from(u32::MAX), "too many passes")?;
+        let Trials::Fixed(asked) = task.settings.trials else {
+            from.end()?;
+            return Ok(Self { number, work: Work::Rows });
+        };
+        let most = task.settings.decide_up_to.max(asked);
         let scores = Scores::WRITTEN.values().count();
-        let pass = from.option(|from| RowPass::read(from, counts, scores))?;
+        let outputs = task.model.outputs.len();
+        let rows = task.rows.iter().take(if is_cut(task) { MOST_CUT_ROWS } else { 0 }).map(|row| {
+            let counts = (outputs, varying(row));
+            if from.flag()? {
+                let finished = Finished::read(&mut from, counts.0, counts.1)?;
+                return Ok(RowState::Finished(Box::new(finished)));
+            }
+            let pass = RowPass::read(&mut from, counts, scores)?;
+            Damaged::unless((asked..=most).contains(&pass.trials), "a pass over other trials")?;
+            Ok(RowState::Open(Box::new(pass)))
+        });
+        let rows = rows.collect::<Result<Vec<_>, Damaged>>()?;
         from.end()?;
-        Damaged::unless(pass.is_some() == (task.rows.len() == 1), "a pass over other rows")?;
-        if let (Some(pass), Trials::Fixed(asked)) = (&pass, task.settings.trials) {
-            let right = (asked..=task.settings.decide_up_to.max(asked)).contains(&pass.trials);
-            Damaged::unless(right, "a pass over other trials")?;
-        }
-        let work = pass.map_or(Work::Rows, |pass| Work::Row(Box::new(pass)));
+        let work = if is_cut(task) { Work::Cut(rows) } else { Work::Rows };
         Ok(Self { number, work })
     }
 
@@ -192,36 +231,41 @@ impl SharedPass {
         let of = self::blocks(task).unwrap_or(0);
         in_pool(task, control, || match &self.work {
             Work::Rows => rows(task, share(&blocks, of, task.rows.len() as u64), control),
-            Work::Row(pass) => {
-                let prepared = OnlyRow::of(task, control)?.prepared(task, control, pass);
-                let part = prepared.part(share(&blocks, of, prepared.chunks()));
-                Ok(part.map(|part| {
-                    let mut out = Writer::default();
+            Work::Cut(states) => {
+                let control = &of_one_row(task, control);
+                let mut out = Writer::default();
+                for (row, state) in CutRow::all(task, control)?.into_iter().zip(states) {
+                    let RowState::Open(pass) = state else { continue };
+                    let prepared = row.prepared(task, control, pass);
+                    let Some(part) = prepared.part(share(&blocks, of, prepared.chunks())) else {
+                        return Ok(None);
+                    };
                     prepared.write(&part, &mut out);
-                    out.into_bytes()
-                }))
+                }
+                Ok(Some(out.into_bytes()))
             }
         })?
     }
 }
 
-/// What is known of a task's only row before its trials.
-struct OnlyRow {
+/// What is known of a row before its trials.
+struct CutRow {
     trials: RowTrials,
     gums: Vec<Option<Gum>>,
     drawn_dof: Vec<f64>,
 }
 
-impl OnlyRow {
-    /// The first row.
-    fn of(task: &Task, control: &Control<'_>) -> Result<Self, EvaluationError> {
-        let row = &task.rows[0];
-        let mut linear = gum::Rows::of(task).evaluate_all(&task.rows[..1], control.path);
-        let linear = linear.swap_remove(0);
-        let joint = joint(task, row)?;
-        let trials = RowTrials::new(task, row, &linear.estimates, &joint);
+impl CutRow {
+    /// Every row of a task.
+    fn all(task: &Task, control: &Control<'_>) -> Result<Vec<Self>, EvaluationError> {
         let reaches = reach(&task.model.program, task.variables.len());
-        Ok(Self { trials, gums: linear.outputs, drawn_dof: drawn_dof(&reaches, row) })
+        let linear = gum::Rows::of(task).evaluate_all(&task.rows, control.path);
+        let of_row = |(row, linear): (&Row, GumRow)| {
+            let joint = joint(task, row)?;
+            let trials = RowTrials::new(task, row, &linear.estimates, &joint);
+            Ok(Self { trials, gums: linear.outputs, drawn_dof: drawn_dof(&reaches, row) })
+        };
+        task.rows.iter().zip(linear).map(of_row).collect()
     }
 
     fn request(&self, task: &Task, trials: u64) -> Request<'_> {
@@ -322,8 +366,15 @@ pub struct Merging<'a> {
 
 #[derive(Debug)]
 enum State<'a> {
-    Rows { found: Vec<Option<Finished>> },
-    Row { prepared: Box<Prepared<'a>>, gums: Vec<Option<Gum>>, trials: u64, gathered: Gathered },
+    Rows(Vec<Option<Finished>>),
+    Cut(Vec<Gathering<'a>>),
+}
+
+/// What is put together of a row that is cut.
+#[derive(Debug)]
+enum Gathering<'a> {
+    Finished(Box<Finished>),
+    Open { prepared: Box<Prepared<'a>>, gums: Vec<Option<Gum>>, trials: u64, gathered: Gathered },
 }
 
 impl<'a> Merging<'a> {
@@ -337,16 +388,22 @@ impl<'a> Merging<'a> {
         control: Control<'a>,
     ) -> Result<Self, EvaluationError> {
         let state = in_pool(task, &control, || -> Result<State<'a>, EvaluationError> {
-            Ok(match &pass.work {
-                Work::Rows => State::Rows { found: vec![None; task.rows.len()] },
-                Work::Row(pass) => {
-                    let mut row = OnlyRow::of(task, &control)?;
+            let Work::Cut(states) = &pass.work else {
+                return Ok(State::Rows(vec![None; task.rows.len()]));
+            };
+            let control = of_one_row(task, &control);
+            let rows = CutRow::all(task, &control)?.into_iter().zip(states);
+            let rows = rows.map(|(mut row, state)| match state {
+                RowState::Finished(finished) => Gathering::Finished(finished.clone()),
+                RowState::Open(pass) => {
                     let gums = std::mem::take(&mut row.gums);
                     let prepared = row.prepared(task, &control, pass);
                     let gathered = prepared.gather();
-                    State::Row { prepared: Box::new(prepared), gums, trials: pass.trials, gathered }
+                    let (prepared, trials) = (Box::new(prepared), pass.trials);
+                    Gathering::Open { prepared, gums, trials, gathered }
                 }
-            })
+            });
+            Ok(State::Cut(rows.collect()))
         })??;
         let (number, all) = (pass.number, blocks(task).unwrap_or(0));
         Ok(Self { task, control, number, covered: BTreeMap::new(), all, state })
@@ -364,7 +421,7 @@ impl<'a> Merging<'a> {
         }
         let mut from = Reader::new(part);
         match &mut self.state {
-            State::Rows { found } => {
+            State::Rows(found) => {
                 let own = share(&blocks, self.all, found.len() as u64);
                 let own = own.start as usize..own.end as usize;
                 let outputs = self.task.model.outputs.len();
@@ -376,11 +433,21 @@ impl<'a> Merging<'a> {
                     *slot = Some(row);
                 }
             }
-            State::Row { prepared, gathered, .. } => {
-                let own = share(&blocks, self.all, prepared.chunks());
-                let part = prepared.read(&mut from, own.clone())?;
+            State::Cut(rows) => {
+                let mut read = Vec::new();
+                for row in rows.iter() {
+                    let Gathering::Open { prepared, .. } = row else { continue };
+                    let own = share(&blocks, self.all, prepared.chunks());
+                    read.push((own.start, prepared.read(&mut from, own)?));
+                }
                 from.end()?;
-                gathered.add(own.start, part);
+                // nothing is taken before all is read
+                let mut read = read.into_iter();
+                for row in rows {
+                    let Gathering::Open { gathered, .. } = row else { continue };
+                    let Some((first, part)) = read.next() else { break };
+                    gathered.add(first, part);
+                }
             }
         }
         self.cover(blocks);
@@ -426,30 +493,23 @@ impl<'a> Merging<'a> {
     pub fn finish(self, with_quantiles: bool) -> Result<Merged, EvaluationError> {
         let Self { task, control, number, state, .. } = self;
         in_pool(task, &control, || {
-            let again = |pass: Box<RowPass>| {
-                let work = Work::Row(pass);
-                Ok(Merged::Again(SharedPass { number: number + 1, work }))
-            };
-            let (found, quantiles) = match state {
-                State::Rows { found } => (found, None),
-                State::Row { mut prepared, gums, trials, gathered } => {
-                    let scores: Vec<f64> = Scores::WRITTEN.values().collect();
-                    let (finished, quantiles) = match prepared.finish(gathered, &scores) {
-                        RowOutcome::Finished(finished, quantiles) => (finished, quantiles),
-                        RowOutcome::Next(next) => return again(next),
-                    };
-                    if let Some(further) = goes_on(task, &gums, &finished, trials) {
-                        let probability = task.settings.coverage.probability();
-                        let drawn_dof = prepared.drawn_dof();
-                        let request = Request { trials: further, probability, drawn_dof };
-                        let first = RowPass::first(prepared.trials(), request, &control);
-                        return again(Box::new(first));
+            let mut quantiles = None;
+            let found = match state {
+                State::Rows(found) => found,
+                State::Cut(rows) => {
+                    let with_quantiles = with_quantiles && rows.len() == 1;
+                    let of_one = of_one_row(task, &control);
+                    let step = |row| finish_row(task, row, with_quantiles, &of_one, &mut quantiles);
+                    let rows: Vec<RowState> = rows.into_iter().map(step).collect();
+                    if rows.iter().any(|row| matches!(row, RowState::Open(_))) {
+                        let work = Work::Cut(rows);
+                        return Ok(Merged::Again(SharedPass { number: number + 1, work }));
                     }
-                    let wanted = with_quantiles && quantiles.is_none();
-                    if let Some(next) = wanted.then(|| prepared.quantiles(&finished)).flatten() {
-                        return again(Box::new(next));
-                    }
-                    (vec![Some(*finished)], quantiles)
+                    let finished = rows.into_iter().map(|row| match row {
+                        RowState::Finished(finished) => Some(*finished),
+                        RowState::Open(_) => None,
+                    });
+                    finished.collect()
                 }
             };
             let found: Vec<Mutex<Option<Finished>>> = found.into_iter().map(Mutex::new).collect();
@@ -458,6 +518,39 @@ impl<'a> Merging<'a> {
             let evaluation = evaluate_rows(task, &control, &known)?;
             Ok(Merged::Evaluation(Box::new(evaluation), quantiles))
         })?
+    }
+}
+
+/// What comes after a pass over a row: its figures, or another pass.
+fn finish_row(
+    task: &Task,
+    row: Gathering<'_>,
+    with_quantiles: bool,
+    control: &Control<'_>,
+    quantiles: &mut Option<Vec<Vec<f64>>>,
+) -> RowState {
+    let (mut prepared, gums, trials, gathered) = match row {
+        Gathering::Finished(finished) => return RowState::Finished(finished),
+        Gathering::Open { prepared, gums, trials, gathered } => (prepared, gums, trials, gathered),
+    };
+    let scores: Vec<f64> = Scores::WRITTEN.values().collect();
+    let finished = match prepared.finish(gathered, &scores) {
+        RowOutcome::Finished(finished, found) => {
+            *quantiles = found;
+            finished
+        }
+        RowOutcome::Next(next) => return RowState::Open(next),
+    };
+    if let Some(further) = goes_on(task, &gums, &finished, trials) {
+        let probability = task.settings.coverage.probability();
+        let request = Request { trials: further, probability, drawn_dof: prepared.drawn_dof() };
+        let first = RowPass::first(prepared.trials(), request, control);
+        return RowState::Open(Box::new(first));
+    }
+    let wanted = with_quantiles && quantiles.is_none();
+    match wanted.then(|| prepared.quantiles(&finished)).flatten() {
+        Some(next) => RowState::Open(Box::new(next)),
+        None => RowState::Finished(finished),
     }
 }
 

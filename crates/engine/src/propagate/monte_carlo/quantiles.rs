@@ -130,6 +130,9 @@ impl QuantilePasses {
         budget: usize,
     ) -> bool {
         self.before += 1;
+        if made.trials == 0 {
+            return true;
+        }
         for (output, tally) in made.tallies.into_iter().enumerate() {
             if self.found[output].is_some() {
                 continue;

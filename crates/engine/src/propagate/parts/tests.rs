@@ -114,28 +114,34 @@ fn quantiles_are_those_of_the_run() {
     assert!(pass.number() > 1);
 }
 
-/// Rows of conditions are not cut, also where their number of trials is found as they are made.
+/// Few rows of conditions are cut, many are not, nor those whose number of trials is found as they are
+/// made.
 #[test]
-fn rows_are_shared_whole() {
-    let line = |trials: u64| {
+fn rows_are_shared() {
+    let line = |rows: i32, trials: u64| {
         let builder = Task::builder("line")
             .input("a", Input::normal(2.0, 0.01, "1").unwrap())
             .input("b", Input::t(0.5, 0.02, 5.0, "1").unwrap())
             .equation("y", "a*x + b")
             .output("y", "1")
-            .conditions(&[("x", "1")], (0..11).map(|x| [f64::from(x)]));
+            .conditions(&[("x", "1")], (0..rows).map(|x| [f64::from(x)]));
         builder.trials(trials).build().unwrap()
     };
-    let mut adaptive = line(0);
+    let mut adaptive = line(11, 0);
     adaptive.settings.trials = Trials::Adaptive;
     adaptive.settings.max_trials = 60_000;
-    let control = Control::default();
-    for task in [line(20_000), adaptive] {
+    for (task, memory, most) in [
+        (line(19, 20_000), 64 << 20, 1),
+        (line(3, 200_000), 64 << 20, 1),
+        (line(3, 200_000), 1 << 20, 9),
+        (adaptive, 64 << 20, 1),
+    ] {
+        let control = Control::default().with_memory(memory);
         let whole = text(&evaluate(&task, &control).unwrap());
         for parts in [1, 3, 7] {
             let (found, passes) = shared(&task, &control, parts);
             assert!(text(&found) == whole, "{parts} parts");
-            assert_eq!(passes, 1);
+            assert!(passes == 1 || (3..=most).contains(&passes), "{passes}");
         }
     }
 }
