@@ -8,10 +8,9 @@ use clap::{Args, ValueEnum};
 use super::evaluated::Evaluated;
 use super::options::{self, CoverageOption, Model, Seed, Threads};
 use super::{CommandLine, Exit, Failure, parts, progress, signals};
-use gumption_analysis::integrity;
 use gumption_engine::propagate::{Control, Evaluation, EvaluationError, evaluate};
 use gumption_engine::task::{StoppingRule, Task, Trials};
-use gumption_files::{Diagnostic, DiagnosticKind, Diagnostics, ModelFile, SharedRun};
+use gumption_files::{ModelFile, SharedRun};
 use gumption_report::Provenance;
 
 /// Evaluate a model file.
@@ -162,18 +161,11 @@ pub(super) fn failure(file: &ModelFile, error: EvaluationError) -> Failure {
     match error {
         EvaluationError::Threads(_) => Failure::System(message),
         // everything else follows from what the file says
-        _ => {
-            let (source, span) = file.output_place(0);
-            let kind = DiagnosticKind::Evaluation { message };
-            Failure::Diagnostics(Diagnostics(vec![Diagnostic { source, span, kind }]))
-        }
+        _ => Failure::Diagnostics(file.evaluation_failed(message)),
     }
 }
 
 /// The digests of a file and of the tables that it reads.
 pub(super) fn provenance(text: &str, files: &[(String, Vec<u8>)]) -> Provenance {
-    Provenance {
-        model_sha256: integrity::sha256(text.as_bytes()),
-        files: files.iter().map(|(name, bytes)| (name.clone(), integrity::sha256(bytes))).collect(),
-    }
+    Provenance::of(text, files)
 }
