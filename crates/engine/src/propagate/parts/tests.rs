@@ -68,16 +68,17 @@ fn text(evaluation: &Evaluation) -> String {
 /// In memory and in cells, of few and of many chunks.
 #[test]
 fn parts_have_the_bits_of_the_whole() {
-    for (trials, memory, passes) in [
-        (5000, 64 << 20, 1),
-        (300_001, 64 << 20, 1),
-        (300_001, 100 << 10, 3),
-        (3_000_000, 1 << 20, 3),
+    for (trials, memory, passes, cuts) in [
+        (5000, 64 << 20, 1, &[1, 3, 7, 40][..]),
+        (300_001, 64 << 20, 1, &[1, 7, 40]),
+        (300_001, 400 << 10, 3, &[1, 3, 40]),
+        (2_200_000, 64 << 20, 1, &[5]),
+        (2_200_000, 4 << 20, 3, &[5]),
     ] {
         let task = task(trials);
         let control = Control::default().with_memory(memory);
         let whole = text(&evaluate(&task, &control).unwrap());
-        for parts in [1, 3, 7, 40] {
+        for &parts in cuts {
             let (found, made) = shared(&task, &control, parts);
             assert!(text(&found) == whole, "{trials} trials, {memory} bytes, {parts} parts");
             assert!(made >= passes, "{made} passes");
@@ -133,7 +134,7 @@ fn rows_are_shared() {
     for (task, memory, most) in [
         (line(19, 20_000), 64 << 20, 1),
         (line(3, 200_000), 64 << 20, 1),
-        (line(3, 200_000), 1 << 20, 9),
+        (line(3, 200_000), 400 << 10, 20),
         (adaptive, 64 << 20, 1),
     ] {
         let control = Control::default().with_memory(memory);
@@ -147,25 +148,26 @@ fn rows_are_shared() {
 }
 
 /// A run of the usual number of trials whose comparison with the law of propagation is undecided goes
-/// on with more.
+/// on with more: of a normal quantity of u = 1 the tolerance of three digits is 0.005, and the ends of
+/// a million trials are known to 0.0027, so that half of all seeds and more are undecided.
 #[test]
 fn an_undecided_run_goes_on() {
-    let mut task = Task::builder("square")
+    let mut task = Task::builder("line")
         .input("x", Input::normal(8.0, 1.0, "1").unwrap())
-        .equation("y", "x^2")
+        .equation("y", "x + 1")
         .output("y", "1")
         .build()
         .unwrap();
-    task.settings = Settings { decide_up_to: 16_000_000, ..Settings::default() };
+    task.settings = Settings { decide_up_to: 4_000_000, digits: 3, ..Settings::default() };
     let control = Control::default();
-    // the digits at which the ends are as far off as they may be, to the scatter of a million trials
-    let open = (1..=4).find_map(|digits| {
-        task.settings.digits = digits;
+    let open = (1..=20).find_map(|seed| {
+        task.settings.seed = seed;
         let whole = evaluate(&task, &control).unwrap();
         let further = whole.rows[0].outputs[0].monte_carlo.as_ref().unwrap().trials > 1_000_000;
         further.then_some(whole)
     });
-    let Some(whole) = open else { panic!("no such digits") };
+    // false in one of a million runs at most, were the seeds not fixed
+    let whole = open.expect("a seed that leaves it undecided");
     let (found, passes) = shared(&task, &control, 3);
     assert!(text(&found) == text(&whole));
     assert!(passes > 1);
