@@ -35,6 +35,7 @@ mod outputs;
 mod own_program;
 mod parts;
 mod phases;
+mod planning;
 mod recordings;
 mod reports;
 mod reproducible;

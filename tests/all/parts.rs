@@ -232,8 +232,9 @@ fn what_does_not_belong_together_is_refused() {
     let model = fs::read_to_string(place.path().join("m.json")).unwrap();
     fs::write(place.path().join("m.json"), model.replace("t^2", "t^3/(1 [V])")).unwrap();
     assert_eq!(part("20..49", "b", &usual).0, 0);
-    refused(&["parts/b", "another model"]);
+    refused(&["m.json", "not the one"]);
     fs::write(place.path().join("m.json"), &model).unwrap();
+    refused(&["parts/b", "another model"]);
     // damaged
     assert_eq!(part("20..49", "b", &usual).0, 0);
     let whole = fs::read(place.path().join("parts/b")).unwrap();
