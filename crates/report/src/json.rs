@@ -6,6 +6,8 @@ use serde::{Serialize, Serializer};
 
 use super::EvaluationReport;
 use super::answer::{in_order, pretty, write_pretty};
+use super::fits::FitSide;
+use super::regions::RegionSide;
 use super::subtotals::Subtotals;
 use gumption_engine::propagate::gum::{BudgetLine, CorrelationLine, Dof, Gum};
 use gumption_engine::propagate::monte_carlo::{MonteCarlo, NumericalError};
@@ -41,6 +43,8 @@ struct Answer<'a> {
     stopped: bool,
     #[serde(flatten)]
     results: Results<'a>,
+    #[serde(serialize_with = "in_order", skip_serializing_if = "Vec::is_empty")]
+    fits: Vec<(&'a str, FitSide<'a>)>,
     warnings: Vec<Remark<'a>>,
     provenance: Origin<'a>,
 }
@@ -85,6 +89,8 @@ struct Figures<'a> {
     /// Those of the coefficients; not there without trials.
     #[serde(skip_serializing_if = "Pairs::is_empty")]
     output_correlations_standard_error: Pairs<'a, Option<f64>>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    regions: Vec<RegionSide<'a>>,
 }
 
 /// The outputs of a row, made one by one.
@@ -401,6 +407,7 @@ impl<'a> Answer<'a> {
             coverage_probability: evaluation.coverage_probability,
             stopped: evaluation.stopped,
             results,
+            fits: task.curves.iter().map(|c| (c.fit.name.as_str(), FitSide::of(c))).collect(),
             warnings: warnings.iter().map(Remark::of).collect(),
             provenance: Origin {
                 model_sha256: &provenance.model_sha256,
@@ -419,6 +426,7 @@ impl<'a> Figures<'a> {
             outputs,
             output_correlations: Pairs { task, figures: &row.correlations },
             output_correlations_standard_error: Pairs { task, figures: &row.correlation_errors },
+            regions: row.regions.iter().map(|region| RegionSide::of(task, region)).collect(),
         }
     }
 }

@@ -12,6 +12,7 @@ mod evaluation;
 pub mod gum;
 pub mod monte_carlo;
 mod origins;
+mod regions;
 mod replay;
 mod second_order;
 pub mod validate;
@@ -26,6 +27,9 @@ pub use evaluation::{
     RowEvaluation, evaluate, trial_hash,
 };
 pub use origins::{Origins, linear, origins};
+pub use regions::{
+    JointRegion, Region, RegionEvaluation, RegionValidation, SampledRegion, SmallestRegion,
+};
 pub use replay::{for_each_block, histograms, joint_ranks, quantiles};
 pub use second_order::SecondOrder;
 pub use warnings::{second_order_text, warnings};

@@ -24,6 +24,8 @@ use std::sync::Arc;
 use crate::distribution::{Correlation, Distribution, EvaluationType, Fits, Input};
 use crate::model::Model;
 use crate::model::typed::Measurement;
+use crate::propagate::Region;
+use crate::regression::CurveFunction;
 use gumption_units::Unit;
 
 /// One random variable of the model: an input quantity, or a component of one.
@@ -75,6 +77,10 @@ pub struct Task {
     pub settings: Settings,
     /// The joint draws found so far.
     pub fits: Fits,
+    /// The calibration functions that its formulas call.
+    pub curves: Vec<Arc<CurveFunction>>,
+    /// The outputs that are covered together.
+    pub regions: Vec<Region>,
 }
 
 impl Variable {
@@ -106,6 +112,8 @@ impl Task {
             rows,
             settings: Settings::default(),
             fits: Fits::default(),
+            curves: Vec::new(),
+            regions: Vec::new(),
         }
     }
 
