@@ -17,6 +17,7 @@ mod json;
 pub mod number;
 pub mod observe;
 mod plot;
+pub mod reference;
 mod regions;
 mod samples;
 mod saved;
