@@ -213,7 +213,7 @@ fn from_trials(
     let order = region.outputs.len();
     let root = root(&covariance, order);
     let scales: Vec<f64> = (0..order).map(|i| covariance[i * order + i].sqrt()).collect();
-    if scales.iter().any(|scale| *scale == 0.0) {
+    if scales.contains(&0.0) {
         return Ok(None);
     }
     let count = made.min(MOST_TRIALS);

@@ -27,6 +27,7 @@ use gumption_engine::regression::{
 };
 use gumption_engine::task::{Variable, Warning};
 use gumption_units::Unit;
+use points::Tables;
 
 /// At most so many calibration functions.
 const MOST_FITS: usize = 1000;
@@ -223,8 +224,9 @@ impl Reader<'_, '_> {
     fn points(&mut self) -> Option<(Points, Unit, Unit)> {
         let (x, y) = (self.object.required("x"), self.object.required("y"));
         let (x, y) = (x?, y?);
-        let x = points::read(self.object.log, x, "x", self.folder, &mut self.set.files);
-        let y = points::read(self.object.log, y, "y", self.folder, &mut self.set.files);
+        let (mut tables, folder, files) = (Tables::default(), self.folder, &mut self.set.files);
+        let x = points::read(self.object.log, x, "x", (folder, &mut tables), files);
+        let y = points::read(self.object.log, y, "y", (folder, &mut tables), files);
         let (x, y) = (x?, y?);
         if x.values.len() != y.values.len() {
             let reason = format!(

@@ -1,5 +1,7 @@
 //! A coordinate of the points of a calibration function.
 
+use std::rc::Rc;
+
 use super::super::DiagnosticKind;
 use super::super::conditions::unit;
 use super::super::diagnostics::Collector;
@@ -21,12 +23,38 @@ pub(super) struct Side {
     pub(super) spread: Spread,
 }
 
+/// The tables of a fit, each read once: both coordinates mostly are columns of one.
+#[derive(Default)]
+pub(super) struct Tables(Vec<(String, Rc<Table>)>);
+
+impl Tables {
+    fn read(
+        &mut self,
+        log: &Collector,
+        name: &str,
+        place: &std::ops::Range<usize>,
+        folder: Folder<'_>,
+        files: &mut Vec<(String, Vec<u8>)>,
+    ) -> Option<Rc<Table>> {
+        if let Some((_, known)) = self.0.iter().find(|(known, _)| known == name) {
+            return Some(Rc::clone(known));
+        }
+        let (table, bytes) = table::read(log, folder, name, place)?;
+        if files.iter().all(|(known, _)| known != name) {
+            files.push((name.to_owned(), bytes));
+        }
+        let table = Rc::new(table);
+        self.0.push((name.to_owned(), Rc::clone(&table)));
+        Some(table)
+    }
+}
+
 /// Reads the coordinate `name`; tables that were read are added to `files`.
 pub(super) fn read(
     log: &Collector,
     member: &Member,
     name: &'static str,
-    folder: Folder<'_>,
+    (folder, tables): (Folder<'_>, &mut Tables),
     files: &mut Vec<(String, Vec<u8>)>,
 ) -> Option<Side> {
     let what = if name == "x" { "`x` of a fit" } else { "`y` of a fit" };
@@ -39,12 +67,7 @@ pub(super) fn read(
     let table = match object.get("file") {
         None => None,
         Some(member) => {
-            let file = object.text("file")?;
-            let (table, bytes) = table::read(log, folder, file, &member.value.span)?;
-            if files.iter().all(|(known, _)| known != file) {
-                files.push((file.to_owned(), bytes));
-            }
-            Some(table)
+            Some(tables.read(log, object.text("file")?, &member.value.span, folder, files)?)
         }
     };
     let values = match (&table, object.get("values")) {
@@ -73,7 +96,7 @@ pub(super) fn read(
         object.report(DiagnosticKind::NoValues { name: name.to_owned() });
         return None;
     }
-    let spread = spread(&object, name, &values, &unit, table.as_ref(), (folder, files))?;
+    let spread = spread(&object, name, &values, &unit, table.as_deref(), (folder, files))?;
     Some(Side { values, unit, spread })
 }
 

@@ -19,7 +19,7 @@ pub(super) fn coefficients(curve: &CurveFunction, digits: u32) -> Sheet {
         .map(|k| with_uncertainty(fit.estimate(k), fit.standard_uncertainty(k), digits))
         .collect();
     let figures = |of: &dyn Fn(usize) -> (f64, String)| -> Vec<Figure> {
-        (0..fit.count()).map(|k| of(k)).map(|(value, text)| Figure::of(value, text)).collect()
+        (0..fit.count()).map(of).map(|(value, text)| Figure::of(value, text)).collect()
     };
     let mut sheet = Sheet::default();
     sheet.text("coefficient", curve.parameters.iter().map(|(name, _)| plain(name)));
