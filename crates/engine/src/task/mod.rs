@@ -5,6 +5,7 @@ mod builder;
 mod coverage;
 mod error;
 mod evidence;
+mod function;
 mod settings;
 mod sharing;
 #[cfg(test)]
@@ -15,6 +16,8 @@ pub use builder::TaskBuilder;
 pub use coverage::Coverage;
 pub use error::TaskError;
 pub use evidence::Evidence;
+pub use function::ColumnFunction;
+pub(crate) use function::differences;
 pub use settings::{Settings, StoppingRule, Trials};
 pub use sharing::Sharing;
 pub use warning::Warning;
@@ -81,6 +84,8 @@ pub struct Task {
     pub curves: Vec<Arc<CurveFunction>>,
     /// The outputs that are covered together.
     pub regions: Vec<Region>,
+    /// What computes the outputs in place of the model's program, where it cannot be recorded.
+    pub function: Option<Arc<dyn ColumnFunction>>,
 }
 
 impl Variable {
@@ -114,6 +119,7 @@ impl Task {
             fits: Fits::default(),
             curves: Vec::new(),
             regions: Vec::new(),
+            function: None,
         }
     }
 

@@ -164,18 +164,7 @@ fn of_file(
     folder: Folder<'_>,
     files: &mut Vec<(String, Vec<u8>)>,
 ) -> Option<Matrix> {
-    let path = match folder.file(name) {
-        Ok(path) => path,
-        Err(outside) => {
-            log.report(&place, outside);
-            return None;
-        }
-    };
-    let unreadable = |message: String| {
-        let message = format!("`{name}`: {message}");
-        log.report(&place, DiagnosticKind::Unreadable { message });
-    };
-    let content = bytes::of_file(&path, MOST_BYTES).map_err(unreadable).ok()?;
+    let content = log.value(&place, folder.content(name, MOST_BYTES))?;
     let found = if name.ends_with(".npy") {
         npy_matrix(&content)
     } else {
