@@ -248,8 +248,8 @@ fn strength_is_told_along_conditions() {
     assert!(before < 0.1, "{before}");
 }
 
-/// Without an effect nothing is named. Of 400 such data sets of the whole study at most one was, so
-/// that 16 have one with a probability below 0.04.
+/// Without an effect nothing is named. Of 80 such data sets of the study none was, so the rate is not
+/// well known: at 1 % this test would fail with a probability of 0.15 for other seeds.
 #[test]
 fn nothing_is_named_without_a_gap() {
     for (number, bench) in BENCHES.iter().chain(&BENCHES).enumerate() {
