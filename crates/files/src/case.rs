@@ -96,11 +96,19 @@ impl ModelReader<'_> {
             soundness::check(self.root.log, &read, &placed, data);
         }
         shipped.filter(|()| complete)?;
+        let unlisted = catalogue::unlisted(&read, &results, &placed);
         let Found { file, sim, observed, simulated, .. } = found?;
         warnings.splice(0..0, file.warnings);
         let candidates = placed.into_iter().map(|placed| placed.candidate).collect();
-        let case =
-            Case { task: file.task, model: sim, observed, simulated, candidates, prior: prior? };
+        let case = Case {
+            task: file.task,
+            model: sim,
+            observed,
+            simulated,
+            candidates,
+            shipped: unlisted,
+            prior: prior?,
+        };
         Some(CaseFile { case, warnings, source: file.source, files: file.files })
     }
 }

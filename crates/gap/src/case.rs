@@ -20,6 +20,9 @@ pub struct Case {
     pub simulated: usize,
     /// The candidate effects.
     pub candidates: Vec<Candidate>,
+    /// Effects that ship with the program, can act on the model and are not among the candidates; they
+    /// are tried where no candidate explains the data.
+    pub shipped: Vec<Candidate>,
     /// The prior probabilities.
     pub prior: Prior,
 }

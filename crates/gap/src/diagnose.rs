@@ -1,10 +1,11 @@
 //! The whole diagnosis, step by step.
 
 use super::composed::Compositions;
+use super::departure;
 use super::departure_prediction;
 use super::diagnosis::{
-    Diagnosis, DiagnosisNote, EstimatedNoise, Hypothesis, NamedQuantity, NoiseEstimate, Predicted,
-    RowGap, SerialCorrelation, SuspectValue, UncertaintyFactor,
+    Diagnosis, DiagnosisNote, EstimatedNoise, Hypothesis, HypothesisKind, NamedQuantity,
+    NoiseEstimate, Predicted, RowGap, SerialCorrelation, SuspectValue, UncertaintyFactor,
 };
 use super::discrepancy::Discrepancy;
 use super::goodness_of_fit::{gap, plus_rows};
@@ -16,7 +17,7 @@ use super::posterior::{Effort, Posterior};
 use super::setup::Setup;
 use super::weighed::{Weighed, names, rival};
 use super::weighed_noise::WeighedNoise;
-use super::{next, predict, prior_conflict, scan, shrink};
+use super::{next, predict, prior_conflict, scan, shrink, strength};
 use crate::{Case, OverrideError};
 use gumption_engine::number::elementary;
 use gumption_engine::task::{Coverage, Row};
@@ -69,6 +70,7 @@ pub fn diagnose(
         departure,
         composed,
         compositions,
+        unlisted,
         noise: weighed_noise,
         setup,
         discrepancy,
@@ -98,6 +100,10 @@ pub fn diagnose(
         .and_then(|rival| next::best(&setup, &posterior, best, rival, &variances, seed));
     progress(0.95);
     let noise = noise(&setup, &variances, &posterior, best, (&weighed_noise, probability), &rows);
+    let strength = match verdict.kind {
+        HypothesisKind::None => Vec::new(),
+        _ => strength::along(&setup, &rows),
+    };
     let step = rows.len().div_ceil(MOST_ROWS).max(1);
     let rows = rows.into_iter().step_by(step).collect();
     let hypotheses = hypotheses(&setup, &posterior, probability);
@@ -113,6 +119,9 @@ pub fn diagnose(
         code: "prior-conflict",
         text: prior_conflict::note(conflict),
     }));
+    if let Some(note) = at.and_then(|at| extrapolated(&setup, &posterior, at)) {
+        notes.push(note);
+    }
     let present = present(&setup, &posterior, probability);
     progress(1.0);
     let named = |name: &str, unit: &gumption_units::Unit| NamedQuantity {
@@ -131,6 +140,7 @@ pub fn diagnose(
         conditions: case.model.conditions.iter().map(|c| named(&c.name, &c.unit)).collect(),
         gap,
         regions,
+        strength,
         most_probable: verdict,
         hypotheses,
         shrinkage,
@@ -142,9 +152,27 @@ pub fn diagnose(
         prior_conflicts,
         departure,
         composed,
+        unlisted,
         notes,
         probability,
         seed,
+    })
+}
+
+/// What is to be said of predictions outside of the conditions of the data, where a departure that
+/// nothing of the list explains goes on in a way that they do not tell.
+fn extrapolated(setup: &Setup<'_>, posterior: &Posterior, at: &[Row]) -> Option<DiagnosisNote> {
+    let outside = departure_prediction::outside(setup, at);
+    let matters = posterior.probability > departure::WORTH_TELLING;
+    (matters && outside > 0).then(|| DiagnosisNote {
+        code: "extrapolation",
+        text: format!(
+            "{outside} of {} rows of the prediction lie outside of the conditions of the data. No \
+             effect of the list says how the departure goes on there: smooth and composed departures \
+             are averaged with less regard to their probabilities, and the standard uncertainty is \
+             enlarged with the distance.",
+            at.len()
+        ),
     })
 }
 

@@ -15,6 +15,8 @@ pub struct Diagnosis {
     pub gap: GapTest,
     /// Where it lies, most surprising region first.
     pub regions: Vec<GapRegion>,
+    /// How strong it is along each condition, for each output; empty without a gap.
+    pub strength: Vec<GapStrength>,
     /// The hypothesis of highest posterior probability.
     pub most_probable: MostProbable,
     /// All hypotheses, most probable first.
@@ -39,6 +41,9 @@ pub struct Diagnosis {
     /// Effects that would explain it, composed and not from the list, most probable first; empty where
     /// "unexplained" has at most the probability 0.05.
     pub composed: Vec<ComposedEffect>,
+    /// Effects that ship with the program and are not listed, and that would explain it, most probable
+    /// first.
+    pub unlisted: Vec<UnlistedEffect>,
     /// What to bear in mind.
     pub notes: Vec<DiagnosisNote>,
     /// Coverage probability of all intervals.
@@ -83,6 +88,40 @@ pub struct GapRegion {
     pub share_of_gap: f64,
     /// Mean of the residuals over their standard uncertainties.
     pub mean_z: f64,
+}
+
+/// How strong the gap of an output is along a condition.
+#[derive(Clone, Debug, PartialEq)]
+pub struct GapStrength {
+    /// Place of the output.
+    pub output: usize,
+    /// Place of the condition.
+    pub condition: usize,
+    /// Parts of the condition's values, in order.
+    pub parts: Vec<StrengthPart>,
+}
+
+/// A part of a condition's values.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StrengthPart {
+    /// Its least and largest value, in the condition's unit.
+    pub range: [f64; 2],
+    /// Share of the excess of the output's squared residuals that lies here.
+    pub share_of_gap: f64,
+    /// Mean of the residuals over their standard uncertainties.
+    pub mean_z: f64,
+}
+
+/// An effect of the shipped catalogue that the case does not list.
+#[derive(Clone, Debug)]
+pub struct UnlistedEffect {
+    /// Its name in the catalogue.
+    pub effect: String,
+    /// Posterior probability beside what "unexplained" is otherwise, all of the catalogue together
+    /// being as probable beforehand.
+    pub probability: f64,
+    /// Its parameters.
+    pub parameters: Vec<EffectParameter>,
 }
 
 /// What kind of answer the verdict is.

@@ -39,6 +39,8 @@ mod search;
 mod selection;
 mod setup;
 mod shrink;
+mod strength;
+mod unlisted;
 mod weighed;
 mod weighed_noise;
 mod whitened;
@@ -48,9 +50,10 @@ pub use composed::{ComposedEffect, ComposedForm, ComposedParameter, ComposedPrio
 pub use diagnose::{DiagnosisOptions, diagnose};
 pub use diagnosis::{
     DepartureForm, DepartureKind, DepartureOver, DepartureShape, Diagnosis, DiagnosisNote,
-    EffectParameter, EstimatedNoise, GapRegion, GapTest, Hypothesis, HypothesisKind, MostProbable,
-    NamedQuantity, NextMeasurement, NoiseEstimate, Predicted, PresentEffect, PriorConflict, RowGap,
-    SerialCorrelation, Shrinkage, Shrunk, SuspectValue, UncertaintyFactor, ValueGap,
+    EffectParameter, EstimatedNoise, GapRegion, GapStrength, GapTest, Hypothesis, HypothesisKind,
+    MostProbable, NamedQuantity, NextMeasurement, NoiseEstimate, Predicted, PresentEffect,
+    PriorConflict, RowGap, SerialCorrelation, Shrinkage, Shrunk, StrengthPart, SuspectValue,
+    UncertaintyFactor, UnlistedEffect, ValueGap,
 };
 pub use model::{Effect, ModelForm, OverridableModel, OverrideError};
 pub use selection::{ModelSelection, noise, nominal, select_model};

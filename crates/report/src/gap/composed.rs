@@ -155,6 +155,21 @@ fn sentence(of: &ComposedEffect) -> String {
     )
 }
 
+/// What of the catalogue that ships with the program would explain the gap; `None` where nothing would.
+pub(super) fn unlisted(diagnosis: &Diagnosis) -> Option<String> {
+    let worth = diagnosis.unlisted.iter().filter(|of| of.probability >= WORTH_TELLING);
+    let named: Vec<String> = worth
+        .map(|of| format!("{} (probability {})", plain(&of.effect), probability(of.probability)))
+        .collect();
+    (!named.is_empty()).then(|| {
+        format!(
+            "Of the effects that ship with gumption and are not in the list, these would explain it \
+             alone: {}. `\"catalogue\": [\"NAME\"]` in the case adds one.",
+            named.join(", ")
+        )
+    })
+}
+
 /// What can be done with the composed effects.
 pub(super) const HOW_TO_USE: &str = "A composed effect can be pasted into the case's `effects` as it \
      stands in the JSON answer (`composed`); the next diagnosis then weighs it with the others. It is \

@@ -2,10 +2,11 @@
 
 use serde_json::{Value, json};
 
-use super::{composed, departure};
+use super::{composed, departure, strength};
 use crate::answer::{list, object, pretty};
 use gumption_gap::{
     Diagnosis, EffectParameter, Hypothesis, NamedQuantity, PresentEffect, PriorConflict,
+    UnlistedEffect,
 };
 
 /// The diagnosis as JSON, keys in a fixed order; `null` for what is not defined. It ends in a
@@ -24,6 +25,7 @@ pub fn json(diagnosis: &Diagnosis) -> String {
             }),
         ),
         ("where", regions(diagnosis)),
+        ("strength", strength::strength(diagnosis)),
         (
             "verdict",
             json!({
@@ -42,6 +44,7 @@ pub fn json(diagnosis: &Diagnosis) -> String {
     if !diagnosis.departure.is_empty() {
         entries.push(("departure", departure::departure(diagnosis)));
         entries.push(("composed", composed::composed(diagnosis)));
+        entries.push(("unlisted", list(diagnosis.unlisted.iter().map(unlisted))));
     }
     entries.extend([("shrinks", shrinks(diagnosis)), ("next_measurement", next(diagnosis))]);
     entries.extend(prediction(diagnosis).map(|prediction| ("prediction", prediction)));
@@ -89,6 +92,15 @@ fn parameters(of: &[EffectParameter]) -> Value {
         })
     };
     object(of.iter().map(|of| (of.name.as_str(), parameter(of))))
+}
+
+/// An effect of the shipped catalogue that would explain the gap.
+fn unlisted(of: &UnlistedEffect) -> Value {
+    json!({
+        "effect": of.effect,
+        "probability": of.probability,
+        "parameters": parameters(&of.parameters),
+    })
 }
 
 /// By effect, most probable first.

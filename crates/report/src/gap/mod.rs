@@ -9,6 +9,7 @@ mod html;
 mod json;
 mod residuals;
 mod sheets;
+mod strength;
 mod table;
 mod terminal;
 mod words;

@@ -1,6 +1,6 @@
 //! The page for a terminal.
 
-use super::{composed, departure, sheets, terminal, words};
+use super::{composed, departure, sheets, strength, terminal, words};
 use crate::{Grid, WIDTH, wrapped};
 use gumption_gap::{Diagnosis, Predicted};
 
@@ -26,7 +26,9 @@ pub fn table(diagnosis: &Diagnosis) -> String {
     let composed = paragraphs(composed::sentences(diagnosis));
     if !composed.is_empty() {
         let title = section("What would explain it: composed, not from your list");
-        page.push(title + &composed + &wrapped(composed::HOW_TO_USE));
+        let unlisted = composed::unlisted(diagnosis).map(|said| wrapped(&said));
+        let unlisted = unlisted.unwrap_or_default();
+        page.push(title + &composed + &wrapped(composed::HOW_TO_USE) + &unlisted);
     }
     page.push(section("How far does it shrink?") + &shrinkage(diagnosis));
     page.push(section("What to measure next") + &wrapped(&words::next(diagnosis)));
@@ -70,7 +72,10 @@ fn paragraphs(sentences: Vec<String>) -> String {
 
 fn regions(diagnosis: &Diagnosis) -> String {
     match sheets::regions(diagnosis) {
-        Some(sheet) => Grid::of(&sheet).render(WIDTH) + &wrapped(words::REGIONS),
+        Some(sheet) => {
+            let along = paragraphs(strength::sentences(diagnosis));
+            Grid::of(&sheet).render(WIDTH) + &wrapped(words::REGIONS) + &along
+        }
         None => wrapped(words::NO_REGION),
     }
 }

@@ -9,7 +9,7 @@ mod where_map;
 
 use maud::{Markup, html};
 
-use super::{composed, departure, digits, sheets, words};
+use super::{composed, departure, digits, sheets, strength, words};
 pub(crate) use crate::html::Drawing;
 pub(super) use crate::html::WIDTH;
 use crate::html::{figure, page, table};
@@ -44,7 +44,11 @@ pub fn html(diagnosis: &Diagnosis, provenance: &Provenance) -> String {
         p { (words::gap(diagnosis)) }
         h2 { "Where?" }
         @match sheets::regions(diagnosis) {
-            Some(sheet) => { (table(&sheet)) p { (words::REGIONS) } }
+            Some(sheet) => {
+                (table(&sheet))
+                p { (words::REGIONS) }
+                @for said in strength::sentences(diagnosis) { p { (said) } }
+            }
             None => p { (words::NO_REGION) }
         }
         @if let Some(drawing) = where_map::draw(diagnosis) { (drawn(drawing)) }
@@ -71,6 +75,7 @@ pub fn html(diagnosis: &Diagnosis, provenance: &Provenance) -> String {
             h2 { "What would explain it: composed, not from your list" }
             ul { @for said in composed { li { (said) } } }
             p { (composed::HOW_TO_USE) }
+            @if let Some(said) = composed::unlisted(diagnosis) { p { (said) } }
         }
         h2 { "How far does it shrink?" }
         (table(&sheets::shrinkage(diagnosis)))

@@ -178,6 +178,8 @@ fn diagnosis() -> Diagnosis {
         }],
         departure: Vec::new(),
         composed: Vec::new(),
+        unlisted: Vec::new(),
+        strength: Vec::new(),
         prior_conflicts: vec![PriorConflict {
             effect: "low-pass".into(),
             parameter: low_pass(),
