@@ -1,8 +1,11 @@
 //! The whole diagnosis, step by step.
 
+use std::sync::atomic::AtomicBool;
+
 use super::diagnosis::{
-    Diagnosis, DiagnosisNote, EstimatedNoise, Hypothesis, NamedQuantity, NoiseEstimate, Predicted,
-    RowGap, SerialCorrelation, SuspectValue, UncertaintyFactor,
+    DescribedEffect, Diagnosis, DiagnosisNote, EstimatedNoise, Hypothesis, NamedQuantity,
+    NextMeasurements, NoiseEstimate, Predicted, RowGap, SerialCorrelation, SuspectValue,
+    UncertaintyFactor,
 };
 use super::discrepancy::Discrepancy;
 use super::goodness_of_fit::{gap, plus_rows};
@@ -14,8 +17,10 @@ use super::posterior::{Effort, Posterior};
 use super::setup::Setup;
 use super::weighed::{Weighed, names, rival};
 use super::weighed_noise::WeighedNoise;
-use super::{next, predict, prior_conflict, scan, shrink};
-use crate::{Case, OverrideError};
+use super::{next, predict, prior_conflict, replication, scan, shrink};
+use crate::{Candidate, Case, OverrideError};
+use gumption_engine::model::Quantity;
+use gumption_engine::model::formula::Formula;
 use gumption_engine::number::elementary;
 use gumption_engine::task::{Coverage, Row};
 
@@ -56,10 +61,37 @@ pub fn diagnose(
     options: DiagnosisOptions,
     progress: &(dyn Fn(f64) + Sync),
 ) -> Result<Diagnosis, OverrideError> {
+    diagnosed(case, at, options, progress, None)
+}
+
+/// As [`diagnose`], until `stop` is set: then it hands back what is known so far, marked as
+/// interrupted. Hypotheses that were not yet begun are missing, other noises and regions are not
+/// looked for, and nothing is proposed.
+///
+/// # Errors
+/// Effects that cannot act on the model.
+pub fn diagnose_until(
+    case: &Case,
+    at: Option<&[Row]>,
+    options: DiagnosisOptions,
+    progress: &(dyn Fn(f64) + Sync),
+    stop: &AtomicBool,
+) -> Result<Diagnosis, OverrideError> {
+    diagnosed(case, at, options, progress, Some(stop))
+}
+
+fn diagnosed(
+    case: &Case,
+    at: Option<&[Row]>,
+    options: DiagnosisOptions,
+    progress: &(dyn Fn(f64) + Sync),
+    stop: Option<&AtomicBool>,
+) -> Result<Diagnosis, OverrideError> {
     case.check()?;
     let seed = options.seed;
     let wide = case.with_wide_priors();
-    let weighed = Weighed::new(case, &wide, seed, Effort::FULL, &|share| progress(0.6 * share));
+    let effort = Effort { stop, ..Effort::FULL };
+    let weighed = Weighed::new(case, &wide, seed, effort, &|share| progress(0.6 * share));
     let group = weighed.indistinguishable();
     let verdict = weighed.most_probable(&group);
     let Weighed {
@@ -75,7 +107,8 @@ pub fn diagnose(
         ..
     } = weighed;
     let with_rows = plus_rows(&setup, &variances);
-    let regions = scan::regions(&setup, &with_rows, seed);
+    let regions =
+        if effort.is_stopped() { Vec::new() } else { scan::regions(&setup, &with_rows, seed) };
     progress(0.7);
     let probability = coverage(case);
     let (shrinkage, rows) = shrink::shrinkage(
@@ -85,12 +118,20 @@ pub fn diagnose(
         &correction,
         &variances,
         probability,
-        seed,
+        (seed, stop),
     );
     progress(0.85);
-    let next = rival(&posterior, best, &group)
-        .filter(|_| explained)
-        .and_then(|rival| next::best(&setup, &posterior, best, rival, &variances, seed));
+    let rivals = if explained {
+        rival(&posterior, best, &group).map(|rival| [Some(best), Some(rival)])
+    } else {
+        Some([None, Some(best)])
+    };
+    let next = if effort.is_stopped() {
+        NextMeasurements { entropy: next::entropy_of(&posterior), ..NextMeasurements::default() }
+    } else {
+        next::next(&setup, &discrepancy, &posterior, rivals, &variances, seed)
+    };
+    let interrupted = effort.is_stopped();
     progress(0.95);
     let noise = noise(&setup, &variances, &posterior, best, (&weighed_noise, probability), &rows);
     let step = rows.len().div_ceil(MOST_ROWS).max(1);
@@ -108,7 +149,11 @@ pub fn diagnose(
         code: "prior-conflict",
         text: prior_conflict::note(conflict),
     }));
+    if interrupted {
+        notes.insert(0, DiagnosisNote { code: "interrupted", text: INTERRUPTED.to_owned() });
+    }
     let present = present(&setup, &posterior, probability);
+    let replication = replication::report(&setup, &posterior, probability);
     progress(1.0);
     let named = |name: &str, unit: &gumption_units::Unit| NamedQuantity {
         name: name.to_owned(),
@@ -125,6 +170,8 @@ pub fn diagnose(
             .collect(),
         conditions: case.model.conditions.iter().map(|c| named(&c.name, &c.unit)).collect(),
         gap,
+        candidates: case.candidates.iter().map(described).collect(),
+        interrupted,
         regions,
         most_probable: verdict,
         hypotheses,
@@ -134,11 +181,31 @@ pub fn diagnose(
         rows,
         noise,
         present,
+        replication,
         prior_conflicts,
         notes,
         probability,
         seed,
     })
+}
+
+/// The note of a diagnosis that was interrupted.
+const INTERRUPTED: &str = "The diagnosis was interrupted; this is what was known then. Hypotheses may \
+     be missing, their probabilities are rough, and what had not been begun (other noises, regions, \
+     cross-validation, what to measure next) is left out.";
+
+/// A candidate in words.
+fn described(candidate: &Candidate) -> DescribedEffect {
+    let effect = &candidate.effect;
+    let text = |(name, formula): &(String, Formula)| (name.clone(), formula.text().to_owned());
+    let parameter = |of: &Quantity| [of.name.clone(), of.unit.text().to_owned(), of.about.clone()];
+    DescribedEffect {
+        name: effect.name.clone(),
+        about: candidate.about.clone(),
+        source: candidate.source.clone(),
+        overrides: effect.overrides.iter().map(text).collect(),
+        parameters: effect.parameters.iter().map(parameter).collect(),
+    }
 }
 
 /// All hypotheses, most probable first.
@@ -221,7 +288,9 @@ pub(crate) fn prediction(
                 let variance = (square / total - mean * mean).max(0.0) + linear;
                 (mean, variance.sqrt())
             });
-            Predicted { conditions: row.conditions.clone(), outputs: outputs.collect() }
+            let model = predict::nominal(setup, row);
+            let outputs = outputs.collect();
+            Predicted { conditions: row.conditions.clone(), outputs, model }
         })
         .collect()
 }

@@ -68,7 +68,16 @@ fn case(
     let rows = (0..observed[0].values.len()).map(row).collect();
     let task = Task::new(sim.model().unwrap(), vec![variable], rows);
     let observed = observed.into_iter().map(Some).collect();
-    Case { task, model: sim, observed, simulated: 0, candidates, prior: Prior::DEFAULT }
+    Case {
+        task,
+        model: sim,
+        observed,
+        simulated: 0,
+        reachable: Vec::new(),
+        candidates,
+        replication: None,
+        prior: Prior::DEFAULT,
+    }
 }
 
 /// Measured values with their standard uncertainties, if these are known.

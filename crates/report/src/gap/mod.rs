@@ -3,8 +3,11 @@ pub mod check;
 mod check_json;
 mod csv;
 mod digits;
+mod groups;
 mod html;
 mod json;
+mod markdown;
+mod page;
 mod residuals;
 mod sheets;
 mod table;
@@ -15,6 +18,7 @@ pub use check_json::check_json;
 pub use csv::csv;
 pub use html::html;
 pub use json::json;
+pub use markdown::markdown;
 pub use table::table;
 
 #[cfg(test)]
