@@ -5,12 +5,12 @@ use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use clap::{Args, ValueEnum};
-use sha2::{Digest, Sha256};
 
 use super::exit::say;
 use super::options::{self, Answer, CoverageOption, Model, Page, Seed, Threads};
 use super::output::Place;
 use super::{CommandLine, Exit, Failure, output, progress, save, signals};
+use gumption_analysis::integrity;
 use gumption_engine::propagate::monte_carlo::Histogram;
 use gumption_engine::propagate::{
     Control, Evaluation, EvaluationError, evaluate, histograms, warnings,
@@ -316,12 +316,9 @@ pub(super) fn failure(file: &ModelFile, error: EvaluationError) -> Failure {
 
 /// The digests of a file and of the tables that it reads.
 pub(super) fn provenance(text: &str, files: &[(String, Vec<u8>)]) -> Provenance {
-    let digest = |bytes: &[u8]| {
-        Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect::<String>()
-    };
     Provenance {
-        model_sha256: digest(text.as_bytes()),
-        files: files.iter().map(|(name, bytes)| (name.clone(), digest(bytes))).collect(),
+        model_sha256: integrity::sha256(text.as_bytes()),
+        files: files.iter().map(|(name, bytes)| (name.clone(), integrity::sha256(bytes))).collect(),
     }
 }
 

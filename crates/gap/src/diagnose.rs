@@ -96,6 +96,7 @@ fn diagnosed(
     let verdict = weighed.most_probable(&group);
     let Weighed {
         prior_conflicts,
+        departure,
         noise: weighed_noise,
         setup,
         discrepancy,
@@ -183,6 +184,7 @@ fn diagnosed(
         present,
         replication,
         prior_conflicts,
+        departure,
         notes,
         probability,
         seed,

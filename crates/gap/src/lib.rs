@@ -9,6 +9,7 @@ pub mod check;
 mod correlated;
 mod covariance;
 mod data;
+mod departure;
 mod diagnose;
 mod diagnosis;
 mod differential_evolution;
@@ -47,11 +48,11 @@ mod whitened;
 pub use case::{Candidate, Case, ObservedOutput, Prior};
 pub use diagnose::{DiagnosisOptions, diagnose, diagnose_until};
 pub use diagnosis::{
-    DescribedEffect, Diagnosis, DiagnosisNote, EffectParameter, EstimatedNoise, GapRegion, GapTest,
-    Hypothesis, HypothesisKind, MostProbable, NamedQuantity, NextMeasurements, NoiseEstimate,
-    Predicted, PresentEffect, PriorConflict, ProposalKind, ProposedMeasurement, ReplicatedEffect,
-    ReplicatedEffects, RowGap, SerialCorrelation, Shrinkage, Shrunk, SuspectValue,
-    UncertaintyFactor, ValueGap,
+    DepartureForm, DepartureKind, DepartureOver, DepartureShape, DescribedEffect, Diagnosis,
+    DiagnosisNote, EffectParameter, EstimatedNoise, GapRegion, GapTest, Hypothesis, HypothesisKind,
+    MostProbable, NamedQuantity, NextMeasurements, NoiseEstimate, Predicted, PresentEffect,
+    PriorConflict, ProposalKind, ProposedMeasurement, ReplicatedEffect, ReplicatedEffects, RowGap,
+    SerialCorrelation, Shrinkage, Shrunk, SuspectValue, UncertaintyFactor, ValueGap,
 };
 pub use model::{Effect, ModelForm, OverridableModel, OverrideError};
 pub use replication::{MOST_GROUPS, OwnSizes, Replication};

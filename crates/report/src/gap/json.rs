@@ -2,6 +2,7 @@
 
 use serde_json::{Value, json};
 
+use super::departure;
 use crate::answer::{list, object, pretty};
 use crate::number::exact;
 use gumption_gap::{
@@ -40,11 +41,16 @@ pub fn json(diagnosis: &Diagnosis) -> String {
         ("replication", replication(diagnosis)),
         ("prior_conflicts", list(diagnosis.prior_conflicts.iter().map(prior_conflict))),
         ("hypotheses", list(diagnosis.hypotheses.iter().map(hypothesis))),
+    ];
+    if !diagnosis.departure.is_empty() {
+        entries.push(("departure", departure::departure(diagnosis)));
+    }
+    entries.extend([
         ("shrinks", shrinks(diagnosis)),
         ("next_measurement", next(diagnosis)),
         ("equivalent", json!(diagnosis.next.equivalent)),
         ("entropy", json!(diagnosis.next.entropy)),
-    ];
+    ]);
     entries.extend(prediction(diagnosis).map(|prediction| ("prediction", prediction)));
     entries.push(("noise", noise(diagnosis)));
     let notes = diagnosis.notes.iter();

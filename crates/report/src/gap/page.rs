@@ -1,6 +1,6 @@
 //! The page of a diagnosis as a document, which HTML and Markdown draw.
 
-use super::{digits, html, sheets, words};
+use super::{departure, digits, html, sheets, words};
 use crate::Provenance;
 use crate::document::{Block, Document};
 use crate::plain;
@@ -54,6 +54,11 @@ pub(super) fn document(diagnosis: &Diagnosis, provenance: &Provenance) -> Docume
     }
     page.figure(Some(html::bars(diagnosis)));
     page.figure(html::intervals(diagnosis));
+    let departure = departure::sentences(diagnosis);
+    if !departure.is_empty() {
+        page.section("What the departure looks like");
+        page.blocks.push(Block::List(departure));
+    }
     page.section("How far does it shrink?");
     page.table(sheets::shrinkage(diagnosis));
     words::shrinkage(diagnosis).into_iter().for_each(|said| page.text(said));

@@ -1,6 +1,6 @@
 //! The page for a terminal.
 
-use super::{sheets, terminal, words};
+use super::{departure, sheets, terminal, words};
 use crate::{Grid, WIDTH, plain, wrapped};
 use gumption_gap::{Diagnosis, Predicted};
 
@@ -34,6 +34,10 @@ pub fn table(diagnosis: &Diagnosis) -> String {
     if !diagnosis.candidates.is_empty() {
         let names: Vec<String> = diagnosis.candidates.iter().map(|of| plain(&of.name)).collect();
         page.push(section("What was looked for") + &wrapped(&(names.join(", ") + ".")));
+    }
+    let departure = paragraphs(departure::sentences(diagnosis));
+    if !departure.is_empty() {
+        page.push(section("What the departure looks like") + &departure);
     }
     page.push(section("How far does it shrink?") + &shrinkage(diagnosis));
     page.push(section("What to measure next") + &next(diagnosis));
