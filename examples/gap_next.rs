@@ -8,7 +8,7 @@
 //! effects drawn from their lists. Where the diagnosis leaves the effect open, rows are added, once as
 //! the first proposal of the diagnosis says and once spread evenly over the whole reachable range (a
 //! Halton sequence), with the same truth and the same noise, and the entropy of the answers is
-//! compared. SETS is the number of undecided data sets of each bench (8 unless told).
+//! compared. SETS is the number of undecided data sets of each bench (3 unless told).
 #![allow(clippy::disallowed_methods)] // nothing of this is printed as a result
 #![allow(clippy::print_stdout)] // rows as they come
 
@@ -220,7 +220,7 @@ fn proposed(diagnosis: &Diagnosis) -> Option<Vec<f64>> {
 type Entropies = [f64; ADDED.len()];
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let sets: usize = std::env::args().nth(1).map_or(Ok(8), |text| text.parse())?;
+    let sets: usize = std::env::args().nth(1).map_or(Ok(3), |text| text.parse())?;
     let mut report = String::from(
         "# What the next measurement is worth\n\n\
          Entropy of the probabilities of all hypotheses in nats (mean over the undecided data sets of \

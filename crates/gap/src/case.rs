@@ -91,8 +91,11 @@ impl Case {
     pub(crate) fn with_wide_priors(&self) -> Self {
         let mut wide = self.clone();
         wide.prior = Prior { two: 0.0, three: 0.0, ..wide.prior };
-        for prior in wide.candidates.iter_mut().flat_map(|candidate| &mut candidate.priors) {
-            *prior = widened(prior);
+        for place in 0..wide.candidates.len() {
+            let listed = self.listed_parameters(place);
+            for prior in wide.candidates[place].priors.iter_mut().take(listed) {
+                *prior = widened(prior);
+            }
         }
         wide
     }

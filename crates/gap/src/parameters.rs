@@ -22,7 +22,10 @@ pub(crate) fn present(
                 posterior.hypotheses.iter().filter(|h| h.effects.contains(&effect)).collect();
             let probability = holding.iter().map(|h| h.probability).sum();
             let candidate = &setup.case.candidates[effect];
-            let parameters = candidate.effect.parameters.iter().zip(&candidate.priors).enumerate();
+            // what differs between devices is reported by itself
+            let listed = setup.case.listed_parameters(effect);
+            let parameters = candidate.effect.parameters.iter().zip(&candidate.priors);
+            let parameters = parameters.take(listed).enumerate();
             let parameters = parameters.filter_map(|(n, (quantity, prior))| {
                 let map = Map::of(prior);
                 let mut draws: Vec<(f64, f64)> = Vec::new();

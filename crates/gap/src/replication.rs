@@ -80,6 +80,22 @@ impl Case {
         self
     }
 
+    /// The name that the list has for a candidate: that of the shared effect for one of each group's
+    /// own size.
+    pub fn listed_name<'n>(&'n self, name: &'n str) -> &'n str {
+        let own = self.replication.as_ref().map_or(&[][..], |of| &of.effects);
+        let named = |place: usize| self.candidates.get(place).map(|of| of.effect.name.as_str());
+        let found = own.iter().find(|of| named(of.own) == Some(name));
+        found.and_then(|of| named(of.shared)).unwrap_or(name)
+    }
+
+    /// How many of a candidate's parameters the list has: not what differs between groups.
+    pub(crate) fn listed_parameters(&self, place: usize) -> usize {
+        let own = self.replication.as_ref().map_or(&[][..], |of| &of.effects);
+        let shared = own.iter().find(|of| of.own == place).map_or(place, |of| of.shared);
+        self.candidates.get(shared).map_or(0, |candidate| candidate.priors.len())
+    }
+
     /// The pairs of candidates that may act together: at most one of each group's own size, and not
     /// beside the same effect that all groups share.
     pub(crate) fn pairs(&self) -> Vec<Vec<usize>> {
@@ -149,13 +165,16 @@ fn of_each(candidate: &Candidate, group: &str, values: &[f64]) -> Option<(Candid
             Some((name.clone(), Formula::parse(&changed).ok()?))
         })
         .collect();
-    let one =
-        |name: &String| Quantity { name: name.clone(), unit: Unit::one(), about: String::new() };
+    let one = |(name, value): (&String, &f64)| Quantity {
+        name: name.clone(),
+        unit: Unit::one(),
+        about: format!("departure where {group} is {value}, in spreads"),
+    };
     let unit = if by_ratios { Unit::one() } else { parameter.unit.clone() };
     let about = format!("standard deviation of {own} between the values of {group}");
     let mut parameters = candidate.effect.parameters.clone();
     parameters.push(Quantity { name: spread_name, unit, about });
-    parameters.extend(names.iter().map(one));
+    parameters.extend(names.iter().zip(values).map(one));
     let mut priors = candidate.priors.clone();
     priors.push(spread.into());
     priors.extend(names.iter().map(|_| Distribution::from(unit_normal)));

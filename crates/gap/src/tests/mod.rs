@@ -2,10 +2,12 @@
 
 mod discrepancy;
 mod evidence;
+mod interrupted;
 mod likelihood;
 mod next;
 mod noise;
 mod regions;
+mod replication;
 
 use std::sync::Arc;
 

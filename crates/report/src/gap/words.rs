@@ -431,7 +431,19 @@ pub(super) fn next(diagnosis: &Diagnosis) -> Vec<String> {
         );
     }
     if let Some([own, other]) = next.separates.as_ref() {
+        let probability = |effects: &Option<Vec<String>>| {
+            let found = diagnosis.hypotheses.iter().find(|of| of.effects == *effects);
+            found.map_or(f64::NAN, |of| of.probability)
+        };
+        let now = probability(own) / probability(other);
         let [own, other] = [own.as_ref(), other.as_ref()].map(rival);
+        if now >= 20.0 {
+            said.push(format!(
+                "The odds of {own} against its strongest rival, {other}, are {} to 1 already.",
+                significant(now, 2)
+            ));
+            return said;
+        }
         let fewest = next.proposals.iter().filter_map(|p| Some((p.count_for_20_to_1?, p)));
         said.push(match fewest.min_by_key(|(count, _)| *count) {
             Some((count, p)) => format!(
