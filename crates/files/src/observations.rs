@@ -86,8 +86,8 @@ fn replication(object: &Object<'_>, table: &Table) -> Option<String> {
     groups.dedup();
     if !(2..=MOST_GROUPS).contains(&groups.len()) {
         report(format!(
-            "the column `{name}` has {} different values, but units of replication are 2 to \
-             {MOST_GROUPS} numbers, the same one in each row of a device or day",
+            "different values in the column `{name}`: {}; units of replication are 2 to {MOST_GROUPS} \
+             numbers, the same one in each row of a device or day",
             groups.len()
         ));
         return None;

@@ -45,6 +45,20 @@ impl Groups {
         Self { labels, condition, ends }
     }
 
+    /// The sentences for all panels of a figure.
+    pub(super) fn captions<'g>(
+        diagnosis: &Diagnosis,
+        panels: impl Iterator<Item = (residuals::Over, &'g Self)>,
+    ) -> String {
+        let caption = |(over, groups): (residuals::Over, &Self)| match over {
+            residuals::Over::Condition(place) => {
+                groups.caption(&crate::plain(&diagnosis.conditions[place].name))
+            }
+            residuals::Over::Row => groups.caption("the number of the row"),
+        };
+        panels.map(caption).collect()
+    }
+
     /// The group of a row with these conditions.
     pub(super) fn of(&self, conditions: &[f64]) -> usize {
         let value = conditions.get(self.condition).copied().unwrap_or(f64::NAN);
@@ -52,13 +66,13 @@ impl Groups {
         self.ends.partition_point(|end| *end < value).min(last)
     }
 
-    /// What the marks mean, as a part of a caption.
-    pub(super) fn caption(&self) -> String {
+    /// What the marks over a condition mean, as a sentence of a caption.
+    pub(super) fn caption(&self, over: &str) -> String {
         if self.labels.is_empty() {
             return String::new();
         }
         let names = ["circle", "square", "triangle", "diamond", "cross"];
         let parts = self.labels.iter().zip(names).map(|(label, name)| format!("{name}: {label}"));
-        format!(" Marks tell a second condition apart: {}.", parts.collect::<Vec<_>>().join(", "))
+        format!(" Marks over {over}: {}.", parts.collect::<Vec<_>>().join(", "))
     }
 }

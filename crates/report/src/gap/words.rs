@@ -472,7 +472,7 @@ pub(super) fn fraction(removed: f64, of: &Shrunk, values: usize) -> String {
     }
     // one digit of what is left open, so that the bound is not rounded to 1
     let digits = position(chance, 1).unwrap_or(-3).min(-2);
-    format!("> {}", rounded(most, digits))
+    format!(">{}", rounded(most, digits))
 }
 
 /// More entropy than this, in nats, is not decided.

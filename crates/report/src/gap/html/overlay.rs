@@ -18,8 +18,8 @@ use gumption_gap::{Diagnosis, ValueGap};
 /// Height of a panel in pixels.
 const HEIGHT: f64 = 230.0;
 
-/// More values than this are drawn without marks of their own for the sims.
-const POINTS: usize = 1500;
+/// Of more rows than this every so many-th is drawn.
+const POINTS: usize = 200;
 
 /// Lines join what differs in one condition only, in so many lines at most.
 const LINES: usize = 24;
@@ -66,7 +66,9 @@ pub(in crate::gap) fn draw(diagnosis: &Diagnosis, output: usize) -> Option<Drawi
             panels.push((over, groups, points));
         }
     }
-    let (_, first, _) = panels.first()?;
+    panels.first()?;
+    let marks = panels.iter().map(|(over, groups, _)| (*over, groups));
+    let marks = Groups::captions(diagnosis, marks);
     let caption = format!(
         "{}: measured (dark marks{}), what the sim says (red) and what the corrected sim says \
          (blue); lines join what differs in this condition alone.{}",
@@ -76,7 +78,7 @@ pub(in crate::gap) fn draw(diagnosis: &Diagnosis, output: usize) -> Option<Drawi
         } else {
             ""
         },
-        first.caption()
+        marks
     );
     let ends = panels
         .iter()

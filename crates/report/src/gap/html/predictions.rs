@@ -98,7 +98,7 @@ pub(in crate::gap) fn draw(
          averaged over the hypotheses by their probability; what the sim says as it was (dashes, red) \
          and what was measured (open marks).{}",
         crate::plain(&named.name),
-        groups.caption()
+        groups.caption(&crate::plain(&diagnosis.conditions[finest].name))
     );
     Some(Drawing { svg: drawn, caption })
 }

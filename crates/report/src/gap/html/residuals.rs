@@ -80,7 +80,11 @@ pub(in crate::gap) fn draw(diagnosis: &Diagnosis, output: usize) -> Option<Drawi
         }
         Ok(())
     });
-    let told_apart = if many { String::new() } else { groups[0].caption() };
+    let told_apart = if many {
+        String::new()
+    } else {
+        { Groups::captions(diagnosis, over.iter().copied().zip(&groups)) }
+    };
     let marks = if many {
         "Each stroke spans the residuals of neighbouring values."
     } else {
