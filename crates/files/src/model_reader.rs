@@ -49,7 +49,7 @@ use gumption_engine::distribution::{Correlation, Fits};
 use gumption_engine::model::formula::Formula;
 use gumption_engine::model::typed::{Catalogue, CatalogueEntry};
 use gumption_engine::model::{Model, Output, typed};
-use gumption_engine::task::{Row, Settings, Task, Warning};
+use gumption_engine::task::{ModelStatement, Row, Settings, Task, Warning};
 use gumption_gap::{ModelForm, ObservedOutput, OverridableModel};
 use gumption_units::Unit;
 use gumption_units::nearest;
@@ -108,6 +108,21 @@ pub(super) enum ModelBody<'a> {
     Equations(Vec<Equation<'a>>),
 }
 
+impl ModelBody<'_> {
+    /// What the pages state of it. An output that is a column of the data has no equation.
+    fn statement(&self) -> ModelStatement {
+        match self {
+            Self::Typed(entry, _) => ModelStatement::of_declaration(&entry.typed.declaration),
+            Self::Equations(equations) => {
+                let written = equations.iter().filter(|(_, member, _)| member.is_some());
+                ModelStatement::of_formulas(written.filter_map(|(name, _, formula)| {
+                    Some((name.clone(), formula.as_ref()?.text().to_owned()))
+                }))
+            }
+        }
+    }
+}
+
 /// Observations, conditions, and which outputs are columns of the data.
 struct Data {
     observations: Option<Observations>,
@@ -142,7 +157,7 @@ impl<'a> ModelReader<'a> {
         check_format(root, 2.0);
         own_units(root);
         let title = root.text("title").unwrap_or("").to_owned();
-        root.text("source");
+        let source = root.text("source").unwrap_or("").to_owned();
         let check_units = root.truth("check_units").unwrap_or(true);
         let settings = settings::read(root);
 
@@ -162,7 +177,9 @@ impl<'a> ModelReader<'a> {
         let mut warnings = of.inputs.warnings.clone();
         warnings.extend(notes);
         warnings.extend(results.warnings.take());
-        let sim = self.sim(body?, &mut of, &mut warnings)?;
+        let body = body?;
+        let statement = body.statement();
+        let sim = self.sim(body, &mut of, &mut warnings)?;
         let observed = self.observed(observations.as_ref(), &sim)?;
 
         let reachable = std::mem::take(&mut of.conditions.reachable);
@@ -172,7 +189,8 @@ impl<'a> ModelReader<'a> {
         let model = sim.model().map_err(|error| {
             root.report(DiagnosticKind::Evaluation { message: error.to_string() });
         });
-        let task = task(Parts { title, settings, fits, swept, correlations }, model.ok()?, of)?;
+        let parts = Parts { title, source, statement, settings, fits, swept, correlations };
+        let task = task(parts, model.ok()?, of)?;
         let source = root.log.source.clone();
         let file = ModelFile { task, warnings, source, files, output_places, evidence };
         let simulated = simulated.len();
@@ -444,6 +462,8 @@ fn replication_column(
 /// What a task has beside model and quantities.
 struct Parts {
     title: String,
+    source: String,
+    statement: ModelStatement,
     settings: Settings,
     fits: Fits,
     swept: bool,
@@ -452,7 +472,7 @@ struct Parts {
 
 /// The task; none where something is not known about a variable, which has been reported.
 fn task(parts: Parts, model: Model, of: Quantities) -> Option<Task> {
-    let Parts { title, settings, fits, swept, correlations } = parts;
+    let Parts { title, source, statement, settings, fits, swept, correlations } = parts;
     let Quantities { inputs, conditions, .. } = of;
     if !inputs.known.is_complete(inputs.variables.len()) {
         return None;
@@ -462,6 +482,7 @@ fn task(parts: Parts, model: Model, of: Quantities) -> Option<Task> {
     let rows = rows.map(|(conditions, distributions)| Row { conditions, distributions }).collect();
     let mut task = Task::new(model, inputs.variables, rows);
     (task.title, task.swept, task.settings) = (title, swept, settings);
+    (task.source, task.statement) = (source, statement);
     (task.correlations, task.fits) = (correlations, fits);
     Some(task)
 }

@@ -2,6 +2,8 @@
 
 use std::sync::atomic::AtomicBool;
 
+use super::composed::Compositions;
+use super::departure_prediction;
 use super::diagnosis::{
     DescribedEffect, Diagnosis, DiagnosisNote, EstimatedNoise, Hypothesis, NamedQuantity,
     NextMeasurements, NoiseEstimate, Predicted, RowGap, SerialCorrelation, SuspectValue,
@@ -97,6 +99,8 @@ fn diagnosed(
     let Weighed {
         prior_conflicts,
         departure,
+        composed,
+        compositions,
         noise: weighed_noise,
         setup,
         discrepancy,
@@ -138,7 +142,7 @@ fn diagnosed(
     let step = rows.len().div_ceil(MOST_ROWS).max(1);
     let rows = rows.into_iter().step_by(step).collect();
     let hypotheses = hypotheses(&setup, &posterior, probability);
-    let prediction = at.map(|at| prediction(&setup, &discrepancy, &posterior, at));
+    let prediction = at.map(|at| prediction(&setup, &discrepancy, &posterior, &compositions, at));
     // the test is of the uncertainties as they are stated
     let gap = if setup.data.noise == NoiseModel::default() {
         gap(&setup, verdict.kind)
@@ -185,6 +189,7 @@ fn diagnosed(
         replication,
         prior_conflicts,
         departure,
+        composed,
         notes,
         probability,
         seed,
@@ -256,6 +261,7 @@ pub(crate) fn prediction(
     setup: &Setup<'_>,
     discrepancy: &Discrepancy,
     posterior: &Posterior,
+    compositions: &Compositions,
     rows: &[Row],
 ) -> Vec<Predicted> {
     let outputs = setup.data.outputs.len();
@@ -278,8 +284,10 @@ pub(crate) fn prediction(
         add(hypothesis.probability, &shrink::moments(&values));
     }
     if posterior.probability > 1e-3 {
-        let kinds = shrink::top(&posterior.unexplained.kinds);
-        add(posterior.probability, &discrepancy.predict(setup, kinds, rows));
+        let kinds = &posterior.unexplained.kinds;
+        let normals =
+            departure_prediction::unexplained(setup, discrepancy, kinds, compositions, rows);
+        add(posterior.probability, &normals);
     }
     rows.iter()
         .zip(sums)

@@ -10,6 +10,7 @@ mod control;
 mod density;
 mod evaluation;
 pub mod gum;
+mod input_figures;
 pub mod monte_carlo;
 mod origins;
 mod replay;
@@ -25,6 +26,7 @@ pub use evaluation::{
     CapabilityStatement, Evaluation, EvaluationError, JointlyDrawn, OutputEvaluation,
     RowEvaluation, evaluate, trial_hash,
 };
+pub use input_figures::InputFigures;
 pub use origins::{Origins, linear, origins};
 pub use replay::{for_each_block, histograms, joint_ranks, quantiles};
 pub use second_order::SecondOrder;

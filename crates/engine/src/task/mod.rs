@@ -8,6 +8,7 @@ mod evidence;
 mod function;
 mod settings;
 mod sharing;
+mod statement;
 #[cfg(test)]
 mod tests;
 mod warning;
@@ -20,6 +21,7 @@ pub use function::ColumnFunction;
 pub(crate) use function::differences;
 pub use settings::{Settings, StoppingRule, Trials};
 pub use sharing::Sharing;
+pub use statement::ModelStatement;
 pub use warning::Warning;
 
 use std::sync::Arc;
@@ -64,6 +66,10 @@ pub struct Row {
 pub struct Task {
     /// Title, for reports.
     pub title: String,
+    /// The document that the measurement follows, for reports.
+    pub source: String,
+    /// The equations in words, for reports.
+    pub statement: ModelStatement,
     /// The model. Its program's variables are [`Task::variables`], then the conditions.
     pub model: Model,
     /// The random variables.
@@ -104,6 +110,8 @@ impl Task {
     pub fn new(model: Model, variables: Vec<Variable>, rows: Vec<Row>) -> Self {
         Self {
             title: String::new(),
+            source: String::new(),
+            statement: ModelStatement::default(),
             swept: !model.conditions.is_empty(),
             model,
             variables,

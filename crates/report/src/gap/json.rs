@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use super::departure;
+use super::{composed, departure};
 use crate::answer::{list, object, pretty};
 use crate::number::exact;
 use gumption_gap::{
@@ -44,6 +44,7 @@ pub fn json(diagnosis: &Diagnosis) -> String {
     ];
     if !diagnosis.departure.is_empty() {
         entries.push(("departure", departure::departure(diagnosis)));
+        entries.push(("composed", composed::composed(diagnosis)));
     }
     entries.extend([
         ("shrinks", shrinks(diagnosis)),

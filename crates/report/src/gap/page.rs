@@ -1,6 +1,6 @@
 //! The page of a diagnosis as a document, which HTML and Markdown draw.
 
-use super::{departure, digits, html, sheets, words};
+use super::{composed, departure, digits, html, sheets, words};
 use crate::Provenance;
 use crate::document::{Block, Document};
 use crate::plain;
@@ -58,6 +58,12 @@ pub(super) fn document(diagnosis: &Diagnosis, provenance: &Provenance) -> Docume
     if !departure.is_empty() {
         page.section("What the departure looks like");
         page.blocks.push(Block::List(departure));
+    }
+    let composed = composed::sentences(diagnosis);
+    if !composed.is_empty() {
+        page.section("What would explain it: composed, not from your list");
+        page.blocks.push(Block::List(composed));
+        page.text(composed::HOW_TO_USE);
     }
     page.section("How far does it shrink?");
     page.table(sheets::shrinkage(diagnosis));

@@ -83,7 +83,7 @@ pub(in crate::gap) fn draw(diagnosis: &Diagnosis, output: usize) -> Option<Drawi
     let told_apart = if many {
         String::new()
     } else {
-        { Groups::captions(diagnosis, over.iter().copied().zip(&groups)) }
+        Groups::captions(diagnosis, over.iter().copied().zip(&groups))
     };
     let marks = if many {
         "Each stroke spans the residuals of neighbouring values."

@@ -249,6 +249,7 @@ fn diagnosis() -> Diagnosis {
             }],
         }),
         departure: Vec::new(),
+        composed: Vec::new(),
         prior_conflicts: vec![PriorConflict {
             effect: "low-pass".into(),
             parameter: low_pass(),
