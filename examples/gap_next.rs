@@ -11,6 +11,7 @@
 //! compared. SETS is the number of undecided data sets of each bench (3 unless told).
 #![allow(clippy::disallowed_methods)] // nothing of this is printed as a result
 #![allow(clippy::print_stdout)] // rows as they come
+#![allow(clippy::needless_range_loop)] // several sums go side by side
 
 use std::error::Error;
 use std::fmt::Write as _;
