@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 
 use super::options::{self, Answer, Seed, Threads, Trust};
-use super::{CommandLine, Exit, Failure, progress, run};
+use super::{CommandLine, Exit, Failure, progress, run, signals};
 use gumption_engine::task::Row;
 use gumption_files::CaseFile;
 use gumption_gap as gap;
@@ -38,6 +38,8 @@ enum Format {
     Table,
     /// A page with figures for a browser and for print, in one file
     Html,
+    /// The page for GitHub and editors, without figures
+    Markdown,
     /// The whole answer for programs
     Json,
     /// One line for each hypothesis: prior, posterior probability, evidence
@@ -60,6 +62,7 @@ impl Gap {
         let answer = match self.answer.format {
             Format::Table => report::gap::table(&diagnosis),
             Format::Html => report::gap::html(&diagnosis, &self.provenance(&file)?),
+            Format::Markdown => report::gap::markdown(&diagnosis, &self.provenance(&file)?),
             Format::Json => report::gap::json(&diagnosis),
             Format::Csv => report::gap::csv(&diagnosis),
         };
@@ -68,7 +71,7 @@ impl Gap {
             self.answer.note(diagnosis.notes.iter().map(|note| note.text.as_str()));
         }
         place.write(&answer)?;
-        Ok(Exit::Done)
+        Ok(if diagnosis.interrupted { Exit::Interrupted } else { Exit::Done })
     }
 
     /// The digests of all files that the answer rests on.
@@ -87,7 +90,9 @@ impl Gap {
         let seed = self.seed.or(file.case.task.settings.seed);
         let bar = progress::share(self.answer.quiet);
         let told = |share: f64| progress::tell(&bar, share);
-        let diagnose = || gap::diagnose(&file.case, at, gap::DiagnosisOptions::new(seed), &told);
+        let stop = signals::stop_flag();
+        let options = gap::DiagnosisOptions::new(seed);
+        let diagnose = || gap::diagnose_until(&file.case, at, options, &told, &stop);
         let diagnosis = self.threads.install(diagnose)?;
         bar.finish_and_clear();
         diagnosis.map_err(|error| Failure::System(error.to_string()))

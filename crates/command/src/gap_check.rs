@@ -139,7 +139,7 @@ impl GapCheck {
             let own = folder.join(format!("{number:05}"));
             make(&own)?;
             let withheld = (truth.kind == gap::check::TruthKind::Withheld)
-                .then(|| truth.effects.first().map(String::as_str))
+                .then(|| truth.effects.first().map(|name| file.case.listed_name(name)))
                 .flatten();
             let files = file.variant(&measured, withheld);
             for (name, bytes) in files.map_err(|error| Failure::Argument(error.0))? {

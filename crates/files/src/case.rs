@@ -97,7 +97,9 @@ impl ModelReader<'_> {
         }
         shipped.filter(|()| complete)?;
         let unlisted = catalogue::unlisted(&read, &results, &placed);
-        let Found { file, sim, observed, simulated, .. } = found?;
+        let Found { file, sim, observed, simulated, reachable, replication, .. } = found?;
+        let of = |name: String| sim.conditions.iter().position(|condition| condition.name == name);
+        let groups = replication.and_then(of);
         warnings.splice(0..0, file.warnings);
         let candidates = placed.into_iter().map(|placed| placed.candidate).collect();
         let case = Case {
@@ -105,9 +107,15 @@ impl ModelReader<'_> {
             model: sim,
             observed,
             simulated,
+            reachable,
             candidates,
             shipped: unlisted,
+            replication: None,
             prior: prior?,
+        };
+        let case = match groups {
+            Some(condition) => case.replicated(condition),
+            None => case,
         };
         Some(CaseFile { case, warnings, source: file.source, files: file.files })
     }

@@ -83,6 +83,10 @@ pub(super) struct Found {
     pub(super) observed: Vec<Option<ObservedOutput>>,
     /// How many of the last conditions are columns of somebody else's simulation.
     pub(super) simulated: usize,
+    /// Between which values each condition can be set, where the file says so.
+    pub(super) reachable: Vec<Option<[f64; 2]>>,
+    /// The condition that tells devices or days apart.
+    pub(super) replication: Option<String>,
     /// The table of the data.
     pub(super) data: Option<Table>,
 }
@@ -187,6 +191,7 @@ impl<'a> ModelReader<'a> {
         }
         let observed = self.observed(observations.as_ref(), &sim)?;
 
+        let reachable = std::mem::take(&mut of.conditions.reachable);
         let swept = root.get("conditions").is_some() || observations.is_some();
         let output_places = std::mem::take(&mut of.outputs.places);
         let evidence = std::mem::take(&mut of.inputs.evidence);
@@ -200,8 +205,12 @@ impl<'a> ModelReader<'a> {
         task.regions = regions;
         let source = root.log.source.clone();
         let file = ModelFile { task, warnings, source, files, output_places, evidence };
-        let data = observations.map(|observations| observations.table);
-        Some(Found { file, sim, observed, simulated: simulated.len(), data })
+        let simulated = simulated.len();
+        let (data, replication) = match observations {
+            Some(of) => (Some(of.table), of.replication.map(|(name, _)| name)),
+            None => (None, None),
+        };
+        Some(Found { file, sim, observed, simulated, reachable, replication, data })
     }
 
     /// The calibration functions; `None` after a mistake in one, without which formulas mean nothing.
@@ -240,6 +249,10 @@ impl<'a> ModelReader<'a> {
             (None, Some(table)) => Conditions::rows_of(table),
             (None, None) => Conditions::none(),
         };
+        let of_rows = table.zip(observations.as_ref().and_then(|of| of.replication.as_ref()));
+        if let Some((table, (name, place))) = of_rows {
+            replication_column(log, &mut conditions, table, name, place);
+        }
         let simulated = match &observations {
             Some(of) => simulated(root, of, table.unwrap_or(&of.table), &mut conditions),
             None => Vec::new(),
@@ -456,6 +469,28 @@ fn fill_from_declaration(output: &mut Output, declared: &typed::DeclaredOutput) 
     {
         let factor = Unit::conversion_factor(&unit, &output.quantity.unit);
         output.period = factor.ok().map(|factor| period * factor);
+    }
+}
+
+/// The column that tells devices or days apart as a condition, unless it is one already.
+fn replication_column(
+    log: &Collector,
+    conditions: &mut Conditions,
+    table: &Table,
+    name: &str,
+    place: &Range<usize>,
+) {
+    match conditions.quantities.iter().find(|condition| condition.name == name) {
+        None => conditions.add_column(table, name, Unit::one(), place),
+        Some(condition) if condition.unit == Unit::one() => {}
+        Some(condition) => {
+            let reason = format!(
+                "the condition `{name}` has the unit `{}`, but what tells devices or days apart is a \
+                 plain number; leave its unit out",
+                condition.unit.text()
+            );
+            log.report(place, DiagnosticKind::Observation { reason });
+        }
     }
 }
 

@@ -68,7 +68,7 @@ impl<'c> Weighed<'c> {
         case: &'c Case,
         wide: &'c Case,
         seed: u64,
-        effort: Effort,
+        effort: Effort<'_>,
         progress: &(dyn Fn(f64) + Sync),
     ) -> Self {
         let weighings = noise_model::weighings(case, wide, seed, effort, progress);

@@ -189,8 +189,20 @@ fn conditions() -> Value {
 pub(crate) const CONDITION: &[Key] = keys![
     "unit" => reference("unit"),
     "values" => referenced("values", "The values; without them, a column of the observations."),
+    "range" => range(),
     "about" => text_of("What it is, in words."),
 ];
+
+fn range() -> Value {
+    referenced(
+        "values",
+        "The least and the greatest value that it can be set to: where a gap diagnosis may propose to \
+         measure.",
+    )
+    .with("minItems", 2)
+    .with("maxItems", 2)
+    .with("examples", vec![Value::from(vec![1, 500])])
+}
 
 fn condition() -> Value {
     closed("A quantity that is set and known.", CONDITION, &[])

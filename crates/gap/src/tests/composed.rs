@@ -87,6 +87,8 @@ fn case_of(bench: &Bench, simulated: &Simulated) -> Case {
         task,
         simulated: 0,
         shipped: Vec::new(),
+        reachable: Vec::new(),
+        replication: None,
         prior: Prior::DEFAULT,
     }
 }

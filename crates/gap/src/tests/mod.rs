@@ -7,10 +7,12 @@ mod discrepancy;
 mod evidence;
 #[path = "../../../../examples/generator/mod.rs"]
 mod generator;
+mod interrupted;
 mod likelihood;
 mod next;
 mod noise;
 mod regions;
+mod replication;
 
 use std::sync::Arc;
 
@@ -78,8 +80,10 @@ fn case(
         model: sim,
         observed,
         simulated: 0,
+        reachable: Vec::new(),
         candidates,
         shipped: Vec::new(),
+        replication: None,
         prior: Prior::DEFAULT,
     }
 }

@@ -5,6 +5,8 @@ use gumption_gap::{Diagnosis, ValueGap};
 /// One residual before and after the correction, each with its standard uncertainty.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Residual {
+    /// Number of the row, from 0.
+    pub(super) row: usize,
     /// Value of the condition.
     pub(super) x: f64,
     /// Before: residual and standard uncertainty.
@@ -55,8 +57,33 @@ pub(super) fn of(diagnosis: &Diagnosis, output: usize, over: Over) -> Vec<Residu
         };
         let ValueGap { before, u_before, after, u_after, .. } = *row.outputs.get(output)?;
         let numbers = [x, before, u_before, after, u_after];
-        let found = Residual { x, before: (before, u_before), after: (after, u_after) };
+        let found =
+            Residual { row: number, x, before: (before, u_before), after: (after, u_after) };
         numbers.iter().all(|number| number.is_finite()).then_some(found)
+    })
+    .collect()
+}
+
+/// The mean of what was measured of an output at some conditions; `None` where nothing was.
+pub(super) fn measured_at(diagnosis: &Diagnosis, output: usize, conditions: &[f64]) -> Option<f64> {
+    let rows = diagnosis.rows.iter().filter(|row| row.conditions == conditions);
+    let values: Vec<f64> =
+        rows.filter_map(|row| row.outputs.get(output)).map(|value| value.measured).collect();
+    (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
+}
+
+/// What was measured of an output, what the sim says and what the corrected sim says, over a condition.
+pub(super) fn overlaid(diagnosis: &Diagnosis, output: usize, over: Over) -> Vec<(f64, [f64; 3])> {
+    let rows = diagnosis.rows.iter().enumerate();
+    rows.filter_map(|(number, row)| {
+        let x = match over {
+            Over::Condition(place) => *row.conditions.get(place)?,
+            Over::Row => (number + 1) as f64,
+        };
+        let ValueGap { measured, before, left, .. } = *row.outputs.get(output)?;
+        let values = [measured, measured - before, measured - left];
+        let finite = x.is_finite() && values.iter().all(|value| value.is_finite());
+        finite.then_some((x, values))
     })
     .collect()
 }
