@@ -13,6 +13,7 @@ use super::keys::{self, Shape};
 use super::object::Object;
 use super::overrides::Override;
 use super::paired;
+use super::readings::{self, FileReadings};
 use super::results::Results;
 use super::samples;
 use super::shapes::{self, Estimate, Fields};
@@ -180,6 +181,8 @@ impl<'a> Reader<'a, '_> {
             return;
         };
         let samples = self.samples(&object, self.name, kind);
+        let read = self.readings_of_file(&object, self.name, kind);
+        let Some(read) = read else { return };
         let (results, conditions) = (self.results, self.conditions);
         let fields = |estimate, row| Fields {
             object,
@@ -188,6 +191,8 @@ impl<'a> Reader<'a, '_> {
             estimate,
             share_of: None,
             samples: samples.as_ref(),
+            read: read.as_ref(),
+            beside_others: false,
             results,
             at: Some((conditions, row)),
         };
@@ -206,6 +211,8 @@ impl<'a> Reader<'a, '_> {
             }
             drawn.push(distribution);
         }
+        let shared = if differs { None } else { drawn.first() };
+        self.note_of_readings(self.name, kind, shared, read.as_ref());
         let same_elsewhere = !differs && self.conditions.rows() > 1;
         if let Some(first) = zero_width.first() {
             let text = format!(
@@ -257,16 +264,82 @@ impl<'a> Reader<'a, '_> {
         samples::read(object, name, self.folder, &mut self.inputs.files)
     }
 
+    /// The readings of a file, if that is where they are; outside `None` after a mistake.
+    #[allow(clippy::option_option)]
+    fn readings_of_file(
+        &mut self,
+        object: &Object<'_>,
+        name: &str,
+        kind: &Shape,
+    ) -> Option<Option<FileReadings>> {
+        if kind.name != "readings" {
+            return Some(None);
+        }
+        match readings::of_file(object, name, self.folder, &mut self.inputs.files) {
+            Some(read) => read.map(Some),
+            None => {
+                for key in ["column", "groups"] {
+                    if let Some(member) = object.get(key) {
+                        let diagnostic = DiagnosticKind::OnlyWith { key, with: "file" };
+                        object.log.report(&member.key_span, diagnostic);
+                        return None;
+                    }
+                }
+                Some(None)
+            }
+        }
+    }
+
+    /// What is to be said of readings: groups, a drift, no scatter.
+    fn note_of_readings(
+        &mut self,
+        name: &str,
+        kind: &Shape,
+        drawn: Option<&Distribution>,
+        read: Option<&FileReadings>,
+    ) {
+        if kind.name != "readings" {
+            return;
+        }
+        let mut notes: Vec<(&'static str, String)> = Vec::new();
+        notes.extend(read.and_then(|read| read.note.clone()).map(|note| ("nested-readings", note)));
+        match drawn {
+            Some(Distribution::Readings(readings)) => {
+                let note = readings::dependence(name, readings.values());
+                notes.extend(note.map(|note| ("dependent-readings", note)));
+            }
+            Some(Distribution::Rectangular(_)) => {
+                let note = format!(
+                    "`{name}`: the scatter of the readings is below what the resolution leaves \
+                     unknown, which is taken in its place as a rectangular distribution (JCGM 100, \
+                     F.2.2.1)"
+                );
+                notes.push(("resolution-taken", note));
+            }
+            Some(Distribution::Constant(_)) => {
+                let note = format!(
+                    "`{name}`: all readings are equal and show no scatter; it is a constant beside \
+                     the other components, one of which has to be the resolution"
+                );
+                notes.push(("no-scatter", note));
+            }
+            _ => {}
+        }
+        for (code, note) in notes {
+            self.inputs.warnings.push(Warning::new(code, name, note));
+        }
+    }
+
     /// Adds a variable of the budget.
     fn variable(&mut self, name: String, object: &Object<'_>, kind: Option<&Shape>, unit: &Unit) {
-        let readings = kind.is_some_and(|kind| kind.name == "readings");
-        if readings && object.truth("paired") == Some(true) {
+        let is_type_a = kind.is_some_and(|kind| kind.name == "readings");
+        if is_type_a && object.truth("paired") == Some(true) {
             self.inputs.paired.push(self.inputs.variables.len());
         }
         let evaluation = match object.text("type") {
             Some("A") => EvaluationType::A,
             Some("B") => EvaluationType::B,
-            None if readings => EvaluationType::A,
+            None if is_type_a => EvaluationType::A,
             None => EvaluationType::B,
             Some(other) => {
                 let diagnostic = DiagnosticKind::NotOneOf {
@@ -280,7 +353,9 @@ impl<'a> Reader<'a, '_> {
             }
         };
         let about = object.text("about").or_else(|| self.object.text("about")).unwrap_or("");
-        let sharing = self.sharing();
+        let own_rows = is_type_a && readings::are_of_rows(object) && self.object.get("per").is_none();
+        // every row has been read on its own
+        let sharing = if own_rows { Sharing::Row } else { self.sharing() };
         let mut variable = Variable::new(name, unit.clone());
         variable.evaluation = evaluation;
         let group = object.text("group").or_else(|| self.object.text("group"));
@@ -330,8 +405,9 @@ impl<'a> Reader<'a, '_> {
         let (Some(parts), Some(source)) = (parts, source) else {
             return;
         };
-        let readings: Vec<&Part<'_>> = parts.iter().filter(|p| p.kind.name == "readings").collect();
-        if readings.len() > 1 {
+        let of_type_a: Vec<&Part<'_>> =
+            parts.iter().filter(|p| p.kind.name == "readings").collect();
+        if of_type_a.len() > 1 {
             let reason = "is a second one of `readings`; at most one can be".to_owned();
             object.report(DiagnosticKind::Component { name: self.name.to_owned(), reason });
             return;
@@ -341,7 +417,7 @@ impl<'a> Reader<'a, '_> {
                 Some(mean) => Some(mean),
                 None => return,
             },
-            (EstimateSource::Own, None) if readings.is_empty() => {
+            (EstimateSource::Own, None) if of_type_a.is_empty() => {
                 object.report(DiagnosticKind::MissingKey {
                     key: "mean",
                     what: "an input with components",
@@ -353,7 +429,7 @@ impl<'a> Reader<'a, '_> {
         let conditions = self.conditions;
         let at = |row| (conditions, row);
         let of_readings =
-            match readings.first().map(|part| part.distribution(unit, 0.0, self.results, at(0))) {
+            match of_type_a.first().map(|part| part.distribution(unit, 0.0, self.results, at(0))) {
                 Some(Some(distribution)) => distribution.mean(),
                 Some(None) => return,
                 None => 0.0,
@@ -362,6 +438,15 @@ impl<'a> Reader<'a, '_> {
             || parts.iter().any(|part| shapes::has_width_of_row(&part.object, part.kind, unit));
         let mut drawn: Vec<Vec<Distribution>> = vec![Vec::new(); 1 + parts.len()];
         for row in 0..if differs { self.conditions.rows() } else { 1 } {
+            let of_readings = match of_type_a.first() {
+                Some(part) if row > 0 && readings::are_of_rows(&part.object) => {
+                    match part.distribution(unit, 0.0, self.results, at(row)) {
+                        Some(distribution) => distribution.mean(),
+                        None => return,
+                    }
+                }
+                _ => of_readings,
+            };
             let total = match self.estimate(&source, unit, row) {
                 Some(Estimate::Own) => own_mean.unwrap_or(of_readings),
                 Some(Estimate::Given(value)) => value,
@@ -380,6 +465,10 @@ impl<'a> Reader<'a, '_> {
             };
             let row = std::iter::once(base.into()).chain(of_parts);
             drawn.iter_mut().zip(row).for_each(|(drawn, distribution)| drawn.push(distribution));
+        }
+        for (part, drawn) in parts.iter().zip(drawn.iter().skip(1)) {
+            let shared = if differs { None } else { drawn.first() };
+            self.note_of_readings(&part.full, part.kind, shared, part.read.as_ref());
         }
         for (part, mut drawn) in drawn.into_iter().enumerate() {
             match drawn.pop() {
@@ -434,7 +523,9 @@ impl<'a> Reader<'a, '_> {
                     keys::COMPONENT.into_iter().chain(kind.fields.iter().copied()).collect();
                 component.check_names(&known);
                 let samples = self.samples(&component, &full, kind);
-                parts.push(Part { object: component, full, kind, samples });
+                let Some(read) = self.readings_of_file(&component, &full, kind) else { continue };
+                let beside_others = list.len() > 1;
+                parts.push(Part { object: component, full, kind, samples, read, beside_others });
             }
         }
         for part in &parts {
@@ -450,6 +541,8 @@ struct Part<'a> {
     full: String,
     kind: &'static Shape,
     samples: Option<Samples>,
+    read: Option<FileReadings>,
+    beside_others: bool,
 }
 
 impl Part<'_> {
@@ -468,7 +561,8 @@ impl Part<'_> {
         let (object, name) = (self.object, self.full.as_str());
         let samples = self.samples.as_ref();
         let (share_of, at) = (Some(total), Some(at));
-        Fields { object, name, unit, estimate, share_of, samples, results, at }
+        let (read, beside_others) = (self.read.as_ref(), self.beside_others);
+        Fields { object, name, unit, estimate, share_of, samples, read, beside_others, results, at }
             .distribution(self.kind)
     }
 }

@@ -27,6 +27,7 @@ use super::conditions::{self, Conditions};
 use super::diagnostics::{Collector, Diagnostics};
 use super::folder::Folder;
 use super::input_set::InputSet;
+use super::interpolated;
 use super::json::{Json, Member, Node};
 use super::model_checks::{
     Quantities, celsius_as_kelvin, check_equations, check_formula_outputs, check_names,
@@ -44,7 +45,7 @@ use super::scopes::{ConditionSet, number_form, report_formula, typed_scope};
 use super::simulated::{names_simulation, simulated};
 use super::size::Size;
 use super::table::{self, Table};
-use super::{DiagnosticKind, correlations, inputs, keys, settings};
+use super::{DiagnosticKind, correlations, inputs, keys, notation, settings};
 use gumption_engine::distribution::{Correlation, Fits};
 use gumption_engine::model::formula::Formula;
 use gumption_engine::model::typed::{Catalogue, CatalogueEntry};
@@ -120,7 +121,10 @@ pub(super) fn read_with<T>(
     options: ModelOptions<'_>,
     read: impl FnOnce(&ModelReader<'_>) -> Option<T>,
 ) -> Result<T, Diagnostics> {
-    let change = |log: &Collector, root: &mut Node| overrides::apply(log, root, options.overrides);
+    let change = |log: &Collector, root: &mut Node| {
+        notation::apply(log, root);
+        overrides::apply(log, root, options.overrides);
+    };
     read_changed_root(name, text, "a model file", change, |root| {
         let folder = options.files.folder(folder);
         read(&ModelReader { root, folder, options })
@@ -158,7 +162,7 @@ impl<'a> ModelReader<'a> {
         let mut warnings = of.inputs.warnings.clone();
         warnings.extend(notes);
         warnings.extend(results.warnings.take());
-        let sim = self.sim(body?, &mut of, &mut warnings)?;
+        let sim = self.sim(body?, &mut of, &mut warnings, &mut files)?;
         let observed = self.observed(observations.as_ref(), &sim)?;
 
         let swept = root.get("conditions").is_some() || observations.is_some();
@@ -257,6 +261,7 @@ impl<'a> ModelReader<'a> {
         body: ModelBody<'a>,
         of: &mut Quantities,
         warnings: &mut Vec<Warning>,
+        files: &mut Vec<(String, Vec<u8>)>,
     ) -> Option<OverridableModel> {
         let log = self.root.log;
         let (scope, maker) = match body {
@@ -271,7 +276,10 @@ impl<'a> ModelReader<'a> {
                 (scope, ModelForm::Typed(entry.typed))
             }
             ModelBody::Equations(equations) => {
-                let scope = check_equations(log, &equations, of);
+                let form = number_form(of.check_units);
+                let tables = interpolated::read(log, self.folder, &equations, form, files);
+                warnings.extend(tables.notes);
+                let scope = check_equations(log, &equations, of, tables.tables);
                 check_formula_outputs(log, &scope, of);
                 if of.check_units {
                     warnings.extend(celsius_as_kelvin(&scope, &of.outputs.outputs));

@@ -147,7 +147,9 @@ fn prior(tolerance: &Object<'_>, unit: &Unit, results: &Results<'_>) -> Option<D
     known.extend(kind.fields);
     object.check_names(&known);
     let (estimate, name) = (Estimate::Own, "prior");
-    Fields { object, name, unit, estimate, share_of: None, samples: None, results, at: None }
+    let (read, beside_others) = (None, false);
+    let (share_of, samples, at) = (None, None, None);
+    Fields { object, name, unit, estimate, share_of, samples, read, beside_others, results, at }
         .distribution(kind)
 }
 

@@ -107,6 +107,10 @@ pub(super) fn fractions(text: &str, tree: &Tree) -> Vec<Option<Fraction>> {
             | Kind::Unit(_)
             | Kind::Constant(_)
             | Kind::InUnit { .. }
+            | Kind::Table { .. }
+            | Kind::Solve { .. }
+            | Kind::Joined { .. }
+            | Kind::Not { .. }
             | Kind::Call { .. } => None,
         };
         found.push(fraction);

@@ -39,6 +39,9 @@
 //! * A temperature in degrees Celsius keeps its number and has a zero: it is a summand, and
 //!   `kelvin(t)` adds 273.15, unless `t` is known to be in kelvin. Levels in decibels are made by
 //!   `10*log10(x)` or `20*log10(x)` and are summands as well.
+//! * `if(c, a, b)` is a where c is not 0, else b; what is not taken may be undefined. `and`, `or` and
+//!   `not` join comparisons. `solve(f, x, from, to)` is the x at which f is 0, `table(x, 'file.csv')`
+//!   a value between the points of a table, whose file whoever checks the formula has read.
 //! * No text makes reading or checking panic, recurse deeply or take long.
 
 #![warn(clippy::indexing_slicing)]
@@ -70,7 +73,8 @@ pub use error::{Arity, FormulaError, NumberFault, Operand};
 pub use misfit::ScaleMisfit;
 pub use name::{NameError, check_name, is_name};
 pub use scale_fault::{ScaleFault, ScaledPlace};
-pub use typing::{KelvinKind, Scope, Typing};
+pub use syntax::TableCall;
+pub use typing::{KelvinKind, Scope, TableData, Typing};
 
 use super::Traced;
 use crate::number::Number;
@@ -106,11 +110,16 @@ impl Formula {
     /// The names of quantities that the formula uses, in the order of the text and as often as they
     /// occur, each with its place.
     pub fn names(&self) -> impl Iterator<Item = (&str, Range<usize>)> {
-        let names = self.tree.nodes.iter().filter(|node| node.kind == Kind::Name);
-        names.filter_map(|node| {
-            let name = self.text.get(node.span.clone())?;
-            Some((name, node.span.clone()))
-        })
+        let mut places = Vec::new();
+        self.tree.names(&self.text, &mut places);
+        places.into_iter().filter_map(|span| Some((self.text.get(span.clone())?, span)))
+    }
+
+    /// The tables that the formula uses, in the order of the text and as often as they occur.
+    pub fn tables(&self) -> Vec<&TableCall> {
+        let mut calls = Vec::new();
+        self.tree.tables(&mut calls);
+        calls
     }
 
     /// Checks names, calls and dimensions, and tells what the result is.

@@ -1,7 +1,10 @@
 //! Reading a formula.
 //!
 //! ```text
-//! formula    = comparison
+//! formula    = truth
+//! truth      = both { "or" both }
+//! both       = not { "and" not }
+//! not        = [ "not" ] comparison
 //! comparison = sum [ ( "<" | "<=" | "≤" | ">" | ">=" | "≥" | "==" | "!=" | "≠" ) sum ]
 //! sum        = product { ( "+" | "-" ) product }               from left to right
 //! product    = signed { ( "*" | "/" ) signed }                 from left to right
@@ -9,9 +12,10 @@
 //! power      = operand [ ( "^" | "**" ) exponent ]             from right to left: 2^3^2 is 2^9
 //! exponent   = ( "-" | "+" ) signed | power
 //! operand    = primary [ unit ] | unit                         1.5 [mm]
-//! primary    = number | "pi" | "π" | name | call | "(" comparison ")"
+//! primary    = number | "pi" | "π" | name | call | "(" truth ")"
 //! unit       = "[" a unit, or a defining constant "]"
-//! call       = name "(" [ comparison { "," comparison } ] ")"
+//! call       = name "(" [ argument { "," argument } ] ")"
+//! argument   = truth | text                                of `table` alone
 //! number     = ( digits [ "." [ digits ] ] | "." digits ) [ ( "e" | "E" ) [ "+" | "-" ] digits ]
 //! name       = a letter or "_", then letters, digits and "_"
 //! ```
@@ -27,7 +31,8 @@ use super::error::{FormulaError, NumberFault};
 use super::function::Function;
 use super::lexer::{Lexer, Token, TokenKind};
 use super::message::excerpt;
-use super::syntax::{Kind, Node, Operator, Tree};
+use super::syntax::{Joint, Kind, Node, Operator, TableCall, Tree};
+use crate::model::InterpolationMethod;
 use gumption_units::Unit;
 
 /// The longest formula, in bytes.
@@ -43,21 +48,38 @@ const HOUR: &str = "[hour]";
 const AFTER_WHOLE: &str = "an operator or the end of the formula";
 const AFTER_PART: &str = "an operator or `)`";
 const AFTER_ARGUMENT: &str = "an operator, `,` or `)`";
+const TEXT: &str = "a text in quotes: table(x, 'file.csv', 'x column', 'y column', 'linear')";
+const SOLVE: &str = "`,`, as in solve(formula, unknown, from, to)";
+const UNKNOWN: &str = "the name of the unknown, as in solve(formula, unknown, from, to)";
 
 /// The rank of what an operand is part of.
 type Rank = u8;
 
 const LOOSEST: Rank = 0;
 /// Above `*` and `/`, below `^`.
-const SIGN: Rank = 7;
+const SIGN: Rank = 13;
+/// Above `and`, below comparisons.
+const NOT: Rank = 6;
+
+/// The ranks of a joint to its left and to its right.
+fn joint_ranks(joint: Joint) -> (Rank, Rank) {
+    match joint {
+        Joint::And => (3, 4),
+        Joint::Or => (1, 2),
+    }
+}
+
+/// How deep equations to solve may be inside each other: the inner one is solved at every step of the
+/// outer one.
+const MAX_SOLVES: usize = 2;
 
 /// The ranks of an operator to its left and to its right.
 fn ranks(operator: Operator) -> (Rank, Rank) {
     match operator {
-        Operator::Add | Operator::Subtract => (3, 4),
-        Operator::Multiply | Operator::Divide => (5, 6),
-        Operator::Power => (9, 8),
-        _ => (1, 2),
+        Operator::Add | Operator::Subtract => (9, 10),
+        Operator::Multiply | Operator::Divide => (11, 12),
+        Operator::Power => (15, 14),
+        _ => (7, 8),
     }
 }
 
@@ -72,7 +94,7 @@ pub(super) fn parse(text: &str) -> Result<Tree, FormulaError> {
         return Err(FormulaError::Empty);
     }
     let mut parser =
-        Parser { text, lexer, token, last: None, depth: 0, opened: Vec::new(), nodes: Vec::new() };
+        Parser { text, lexer, token, last: None, depth: 0, solves: 0, opened: Vec::new(), nodes: Vec::new() };
     parser.expression(LOOSEST)?;
     if parser.token.kind != TokenKind::End {
         return Err(parser.unexpected(AFTER_WHOLE));
@@ -88,6 +110,8 @@ struct Parser<'t> {
     /// The token before it.
     last: Option<Token>,
     depth: usize,
+    /// Equations to solve around this place.
+    solves: usize,
     /// The parentheses that are open.
     opened: Vec<Range<usize>>,
     nodes: Vec<Node>,
@@ -104,7 +128,21 @@ impl Parser<'_> {
     fn expression(&mut self, least: Rank) -> Result<Part, FormulaError> {
         let mut left = self.operand()?;
         let mut compared: Option<Range<usize>> = None;
-        while let TokenKind::Operator(operator) = self.token.kind {
+        loop {
+            if let Some(joint) = self.joint() {
+                let (rank, rank_right) = joint_ranks(joint);
+                if rank < least {
+                    break;
+                }
+                let span = self.token.span.clone();
+                self.advance()?;
+                let right = self.expression(rank_right)?;
+                let outer = left.outer.start..right.outer.end;
+                let kind = Kind::Joined { joint, span, left: left.node, right: right.node };
+                left = self.push(kind, outer);
+                continue;
+            }
+            let TokenKind::Operator(operator) = self.token.kind else { break };
             let (rank, rank_right) = ranks(operator);
             if rank < least {
                 break;
@@ -128,6 +166,15 @@ impl Parser<'_> {
             left = self.push(kind, span);
         }
         Ok(left)
+    }
+
+    /// The joint that is next: `and` or `or`, which are names where an operand stands.
+    fn joint(&self) -> Option<Joint> {
+        match (self.token.kind, self.slice(&self.token.span)) {
+            (TokenKind::Name, "and") => Some(Joint::And),
+            (TokenKind::Name, "or") => Some(Joint::Or),
+            _ => None,
+        }
     }
 
     /// Reads an operand with its signs and the unit behind it.
@@ -246,6 +293,15 @@ impl Parser<'_> {
         let name_span = self.token.span.clone();
         let function = Function::named(self.slice(&name_span));
         self.advance()?;
+        let truth_follows = matches!(
+            self.token.kind,
+            TokenKind::Name | TokenKind::Number(_) | TokenKind::Open | TokenKind::Pi
+        );
+        if self.slice(&name_span) == "not" && truth_follows && self.joint().is_none() {
+            let of = self.nested(&name_span, |parser| parser.expression(NOT))?;
+            let outer = name_span.start..of.outer.end;
+            return Ok(self.push(Kind::Not { span: name_span, of: of.node }, outer));
+        }
         if self.token.kind != TokenKind::Open {
             return match function {
                 Some(function) if function.is_reserved() => {
@@ -255,6 +311,11 @@ impl Parser<'_> {
             };
         }
         self.open()?;
+        match function {
+            Some(Function::Table) => return self.nested(&name_span, |p| p.table(&name_span)),
+            Some(Function::Solve) => return self.nested(&name_span, |p| p.solve(&name_span)),
+            _ => {}
+        }
         let arguments = self.nested(&name_span, Self::arguments)?;
         let span = name_span.start..self.token.span.end;
         self.close(AFTER_ARGUMENT)?;
@@ -264,6 +325,85 @@ impl Parser<'_> {
             return Ok(self.summed(function, &arguments, (name_span, span)));
         }
         Ok(self.push(Kind::Call { function, name_span, arguments }, span))
+    }
+
+    /// Reads the arguments of `table`: the abscissa, then texts.
+    #[inline(never)]
+    fn table(&mut self, name_span: &Range<usize>) -> Result<Part, FormulaError> {
+        let x = self.expression(LOOSEST)?.node;
+        let mut texts: Vec<(String, Range<usize>)> = Vec::new();
+        while self.token.kind == TokenKind::Comma {
+            self.advance()?;
+            if self.token.kind != TokenKind::Text {
+                return Err(self.unexpected(TEXT));
+            }
+            let span = self.token.span.clone();
+            let text = self.slice(&(span.start + 1..span.end - 1)).to_owned();
+            texts.push((text, span));
+            self.advance()?;
+        }
+        let span = name_span.start..self.token.span.end;
+        self.close(AFTER_ARGUMENT)?;
+        let count = |found: usize| FormulaError::ArgumentCount {
+            function: Function::Table.name(),
+            span: name_span.clone(),
+            expected: Function::Table.arity(),
+            found,
+            suggestion: None,
+        };
+        let mut texts = texts.into_iter();
+        let Some((file, _)) = texts.next() else { return Err(count(1)) };
+        let columns = match (texts.next(), texts.next()) {
+            (None, _) => None,
+            (Some(_), None) => return Err(FormulaError::TableColumns { span }),
+            (Some((x, _)), Some((y, _))) => Some([x, y]),
+        };
+        let method = match texts.next() {
+            None => InterpolationMethod::default(),
+            Some((text, span)) => {
+                let named = InterpolationMethod::ALL.into_iter().find(|m| m.name() == text);
+                named.ok_or(FormulaError::TableMethod { found: text, span })?
+            }
+        };
+        if texts.next().is_some() {
+            return Err(count(6));
+        }
+        let call = Box::new(TableCall { file, columns, method, span: span.clone() });
+        Ok(self.push(Kind::Table { x, call }, span))
+    }
+
+    /// Reads the arguments of `solve`: a formula, the name of the unknown, two ends.
+    #[inline(never)]
+    fn solve(&mut self, name_span: &Range<usize>) -> Result<Part, FormulaError> {
+        if self.solves == MAX_SOLVES {
+            let (span, limit) = (name_span.clone(), MAX_SOLVES);
+            return Err(FormulaError::TooManySolves { span, limit });
+        }
+        self.solves += 1;
+        let outer = std::mem::take(&mut self.nodes);
+        self.expression(LOOSEST)?;
+        let body = Box::new(Tree { nodes: std::mem::replace(&mut self.nodes, outer) });
+        self.solves -= 1;
+        self.comma(SOLVE)?;
+        if self.token.kind != TokenKind::Name {
+            return Err(self.unexpected(UNKNOWN));
+        }
+        let unknown = self.token.span.clone();
+        self.advance()?;
+        self.comma(SOLVE)?;
+        let from = self.expression(LOOSEST)?.node;
+        self.comma(SOLVE)?;
+        let to = self.expression(LOOSEST)?.node;
+        let span = name_span.start..self.token.span.end;
+        self.close(AFTER_ARGUMENT)?;
+        Ok(self.push(Kind::Solve { body, unknown, from, to }, span))
+    }
+
+    fn comma(&mut self, expected: &'static str) -> Result<(), FormulaError> {
+        if self.token.kind != TokenKind::Comma {
+            return Err(self.unexpected(expected));
+        }
+        self.advance()
     }
 
     /// `sum(a, b, c)` as `a + b + c`, and `mean` of them as that over 3.
@@ -360,6 +500,7 @@ impl Parser<'_> {
         }
         let (hint, suggestion) = match kind {
             _ if expected == OPERAND => self.missing_operand(),
+            _ if matches!(expected, TEXT | UNKNOWN | SOLVE) => (None, None),
             TokenKind::Close => {
                 (Some("this parenthesis closes nothing; remove it or add `(`"), None)
             }

@@ -22,6 +22,17 @@ fn show(tree: &Tree, text: &str, place: usize) -> String {
             let (left, right) = (show(tree, text, *left), show(tree, text, *right));
             format!("({left}{}{right})", operator.name())
         }
+        Kind::Joined { joint, left, right, .. } => {
+            let (left, right) = (show(tree, text, *left), show(tree, text, *right));
+            format!("({left} {} {right})", joint.name())
+        }
+        Kind::Not { of, .. } => format!("(not {})", show(tree, text, *of)),
+        Kind::Table { x, call } => format!("table({},{})", show(tree, text, *x), call.file),
+        Kind::Solve { body, unknown, from, to } => {
+            let whole = show(body, text, body.nodes.len() - 1);
+            let [from, to] = [from, to].map(|end| show(tree, text, *end));
+            format!("solve({whole},{},{from},{to})", &text[unknown.clone()])
+        }
         Kind::Call { name_span, arguments, .. } => {
             let arguments: Vec<_> = arguments.iter().map(|a| show(tree, text, *a)).collect();
             format!("{}({})", &text[name_span.clone()], arguments.join(","))
@@ -40,6 +51,11 @@ fn ranks_of_operators() {
         ("a/b*c", "((a/b)*c)"),
         ("a*b/c", "((a*b)/c)"),
         ("2^3^2", "(2^(3^2))"),
+        ("a<b and c or not d<e and -f", "(((a<b) and c) or ((not (d<e)) and (-f)))"),
+        ("not a and b", "((not a) and b)"),
+        ("and*or + not", "((and*or)+not)"),
+        ("1 + solve(2*x - 3, x, 0, 1+1)^2", "(1+(solve(((2*x)-3),x,0,(1+1))^2))"),
+        ("table(a+b, 'f.csv', \"x\", 'y')/2", "(table((a+b),f.csv)/2)"),
         ("-2^2", "(-(2^2))"),
         ("2^-1", "(2^(-1))"),
         ("2^-1*3", "((2^(-1))*3)"),
