@@ -11,6 +11,7 @@ mod diff;
 mod exit;
 mod gap;
 mod gap_check;
+mod import;
 mod models;
 mod observe;
 mod options;
@@ -52,6 +53,8 @@ enum Command {
     Check(check::Check),
     /// Compare results two by two (normalized errors), or those of many laboratories
     Compare(compare::Compare),
+    /// Make a model file of a budget in a spreadsheet
+    Import(import::Import),
     /// List the typed measurement models, or describe one
     Models(models::Models),
     /// Recompute the published examples on this machine, or compare its code paths
@@ -105,6 +108,7 @@ impl CommandLine {
             Command::Certificate(command) => command.execute(self),
             Command::Check(command) => command.execute(self),
             Command::Compare(command) => command.execute(),
+            Command::Import(command) => command.execute(),
             Command::Models(command) => command.execute(self),
             Command::Verify(command) => command.execute(self),
             Command::Diff(command) => command.execute(self),

@@ -5,6 +5,7 @@ use std::collections::HashSet;
 use super::DiagnosticKind;
 use super::condition_values::ConditionValues;
 use super::conditions::unit;
+use super::dcc::FromCertificate;
 use super::diagnostics::Collector;
 use super::folder::Folder;
 use super::input_set::InputSet;
@@ -58,7 +59,8 @@ pub(super) fn read(
         };
         let moved = overrides.iter().rev().find(|o| o.input == member.key && o.field.is_none());
         let (name, folder) = (&member.key, results.folder);
-        Reader { object, name, conditions, moved, folder, results, inputs: &mut inputs }.input();
+        let (certificate, inputs) = (None, &mut inputs);
+        Reader { object, name, conditions, moved, folder, results, certificate, inputs }.input();
     }
     let found = inputs.variables.len();
     if found > MOST_VARIABLES {
@@ -77,12 +79,20 @@ struct Reader<'a, 'i> {
     moved: Option<&'a Override>,
     folder: Folder<'a>,
     results: &'a Results<'a>,
+    /// What the input takes from a certificate.
+    certificate: Option<FromCertificate>,
     inputs: &'i mut InputSet,
 }
 
 impl<'a> Reader<'a, '_> {
     fn input(&mut self) {
         let object = self.object;
+        let is_certificate = object.get("distribution").is_some_and(
+            |member| matches!(&member.value.value, Json::Text(name) if name == "dcc"),
+        );
+        if is_certificate && object.get("components").is_none() {
+            self.certificate = self.results.of_certificate(&object);
+        }
         let unit = self.unit().unwrap_or_else(|| {
             self.inputs.without_unit.push(self.name.to_owned());
             Unit::one()
@@ -109,8 +119,12 @@ impl<'a> Reader<'a, '_> {
         let is_result = object.get("distribution").is_some_and(
             |member| matches!(&member.value.value, Json::Text(name) if name == "result"),
         );
+        let is_certificate = object.get("distribution").is_some_and(
+            |member| matches!(&member.value.value, Json::Text(name) if name == "dcc"),
+        );
         match object.get("unit") {
             None if is_result => self.results.unit(object),
+            None if is_certificate => Some(self.certificate.as_ref()?.unit.clone()),
             _ => unit(object, "unit"),
         }
     }
@@ -183,6 +197,10 @@ impl<'a> Reader<'a, '_> {
         let samples = self.samples(&object, self.name, kind);
         let read = self.readings_of_file(&object, self.name, kind);
         let Some(read) = read else { return };
+        if kind.name == "dcc" && self.certificate.is_none() {
+            return;
+        }
+        let certificate = self.certificate.clone();
         let (results, conditions) = (self.results, self.conditions);
         let fields = |estimate, row| Fields {
             object,
@@ -192,6 +210,7 @@ impl<'a> Reader<'a, '_> {
             share_of: None,
             samples: samples.as_ref(),
             read: read.as_ref(),
+            certificate: certificate.as_ref(),
             beside_others: false,
             results,
             at: Some((conditions, row)),
@@ -206,7 +225,7 @@ impl<'a> Reader<'a, '_> {
             else {
                 return;
             };
-            if !["constant", "result"].contains(&kind.name) && distribution.constant().is_some() {
+            if !["constant", "result", "dcc"].contains(&kind.name) && distribution.constant().is_some() {
                 zero_width.push(row + 1);
             }
             drawn.push(distribution);
@@ -468,7 +487,7 @@ impl<'a> Reader<'a, '_> {
         }
         for (part, drawn) in parts.iter().zip(drawn.iter().skip(1)) {
             let shared = if differs { None } else { drawn.first() };
-            self.note_of_readings(&part.full, part.kind, shared, part.read.as_ref());
+            self.note_of_readings(&part.full, part.kind, shared, part.read.0.as_ref());
         }
         for (part, mut drawn) in drawn.into_iter().enumerate() {
             match drawn.pop() {
@@ -525,7 +544,16 @@ impl<'a> Reader<'a, '_> {
                 let samples = self.samples(&component, &full, kind);
                 let Some(read) = self.readings_of_file(&component, &full, kind) else { continue };
                 let beside_others = list.len() > 1;
-                parts.push(Part { object: component, full, kind, samples, read, beside_others });
+                let mut certificate = None;
+                if kind.name == "dcc" {
+                    certificate = self.results.of_certificate(&component);
+                    if certificate.is_none() {
+                        continue;
+                    }
+                }
+                let object = component;
+                let read = (read, certificate);
+                parts.push(Part { object, full, kind, samples, read, beside_others });
             }
         }
         for part in &parts {
@@ -541,7 +569,8 @@ struct Part<'a> {
     full: String,
     kind: &'static Shape,
     samples: Option<Samples>,
-    read: Option<FileReadings>,
+    /// Readings of a file, and what is taken from a certificate.
+    read: (Option<FileReadings>, Option<FromCertificate>),
     beside_others: bool,
 }
 
@@ -561,8 +590,20 @@ impl Part<'_> {
         let (object, name) = (self.object, self.full.as_str());
         let samples = self.samples.as_ref();
         let (share_of, at) = (Some(total), Some(at));
-        let (read, beside_others) = (self.read.as_ref(), self.beside_others);
-        Fields { object, name, unit, estimate, share_of, samples, read, beside_others, results, at }
-            .distribution(self.kind)
+        let (read, certificate) = (self.read.0.as_ref(), self.read.1.as_ref());
+        Fields {
+            object,
+            name,
+            unit,
+            estimate,
+            share_of,
+            samples,
+            read,
+            certificate,
+            beside_others: self.beside_others,
+            results,
+            at,
+        }
+        .distribution(self.kind)
     }
 }

@@ -157,6 +157,7 @@ impl<'a> ModelReader<'a> {
         }
         files.extend(of.inputs.files.iter().cloned());
         files.extend(results.files.take());
+        files.append(&mut results.certificates.borrow_mut().files);
         let fits = Fits::default();
         let (correlations, notes) = self.correlations(&of, &mut files, &fits);
         let mut warnings = of.inputs.warnings.clone();

@@ -147,9 +147,21 @@ fn prior(tolerance: &Object<'_>, unit: &Unit, results: &Results<'_>) -> Option<D
     known.extend(kind.fields);
     object.check_names(&known);
     let (estimate, name) = (Estimate::Own, "prior");
-    let (read, beside_others) = (None, false);
+    let (read, certificate, beside_others) = (None, None, false);
     let (share_of, samples, at) = (None, None, None);
-    Fields { object, name, unit, estimate, share_of, samples, read, beside_others, results, at }
+    Fields {
+        object,
+        name,
+        unit,
+        estimate,
+        share_of,
+        samples,
+        read,
+        certificate,
+        beside_others,
+        results,
+        at,
+    }
         .distribution(kind)
 }
 

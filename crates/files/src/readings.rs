@@ -273,9 +273,9 @@ mod tests {
         assert!((mean - 10.000_097).abs() < 0.5e-6, "{mean}");
         assert!((u - 18e-6).abs() < 0.5e-6 && dof == 9.0, "{u} {dof}");
         let note = file.warnings[0].text.as_str();
-        // the standard deviation within days is 85 uV, F is 2.25 by the rounded ones
-        assert!(note.contains("within groups 0.0000851"), "{note}");
-        assert!(note.contains("F = 2.2"), "{note}");
+        // published: 85 uV within days, 43 uV between them, F = 2.25 by rounded numbers
+        assert!(note.contains("within groups 0.0000849, between groups 0.0000426"), "{note}");
+        assert!(note.contains("F = 2.26"), "{note}");
     }
 
     /// Columns of the conditions' table, and degrees of freedom by a formula.

@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use super::DiagnosticKind;
 use super::condition_values::ConditionValues;
+use super::dcc::FromCertificate;
 use super::json::{Json, Node};
 use super::keys::{SHAPES, Shape};
 use super::object::Object;
@@ -101,6 +102,8 @@ pub(super) struct Fields<'a> {
     pub(super) samples: Option<&'a Samples>,
     /// The readings of a file, read once for all rows.
     pub(super) read: Option<&'a FileReadings>,
+    /// What is taken from a certificate, read once for all rows.
+    pub(super) certificate: Option<&'a FromCertificate>,
     /// Whether other components stand beside it, so that readings may be equal.
     pub(super) beside_others: bool,
     /// The saved results that inputs name.
@@ -134,6 +137,7 @@ pub(super) fn has_width_of_row(object: &Object<'_>, kind: &Shape, unit: &Unit) -
     };
     if kind.name == "readings" && readings::are_of_rows(object)
         || kind.fields.contains(&"dof") && is_text("dof")
+        || kind.name == "dcc" && object.get("at").is_some()
     {
         return true;
     }
@@ -251,6 +255,12 @@ impl<'a> Fields<'a> {
                 let results = self.results;
                 let saved = results.distribution(&self.object, self.name, self.unit, component)?;
                 self.moved(Ok(saved))
+            }
+            "dcc" => {
+                let taken = self.certificate?;
+                let shape =
+                    taken.distribution(&self.object, self.name, self.unit, self.at)?;
+                self.moved(Ok(shape))
             }
             "split-normal" => {
                 self.object.required("mode")?;

@@ -32,7 +32,7 @@ enum Rule {
 }
 
 /// The distributions in the order of JCGM 101, Table 1, then the others.
-pub(crate) const SHAPES: [Shape; 19] = [
+pub(crate) const SHAPES: [Shape; 20] = [
     Shape {
         name: "constant",
         aliases: &[],
@@ -176,6 +176,14 @@ pub(crate) const SHAPES: [Shape; 19] = [
         rule: Rule::All(&["probabilities", "values"]),
     },
     Shape {
+        name: "dcc",
+        aliases: &[],
+        about: "A quantity of a Digital Calibration Certificate (2.4 to 3.3): value, uncertainty, k, \
+                p, distribution and unit.",
+        fields: &["file", "id", "ref_type", "index", "at"],
+        rule: Rule::All(&["file"]),
+    },
+    Shape {
         name: "result",
         aliases: &[],
         about: "An output of a saved result.",
@@ -273,6 +281,16 @@ fn field(shape: &str, key: &str) -> Value {
         }
         ("samples", "file") => referenced("file", "A file with one number in each line."),
         ("result", "file") => referenced("file", "A result that `gumption run --save` wrote."),
+        ("dcc", "file") => referenced("file", "A Digital Calibration Certificate (XML)."),
+        (_, "id") => text_of("The `id` of the quantity."),
+        (_, "ref_type") => text_of("The `refType` of the quantity, such as `basic_measuredValue`."),
+        (_, "index") => {
+            described("integer", "Which of several values, counted from 0.").with("minimum", 0)
+        }
+        (_, "at") => text_of(
+            "The condition over which the quantity is a table, interpolated by straight lines: the \
+             quantity of that name beside it, or its reference or nominal value.",
+        ),
         (_, "output") => text_of("Name of the output in the saved result."),
         (_, key) => text_of(key),
     }

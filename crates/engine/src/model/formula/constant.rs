@@ -1,9 +1,8 @@
-//! The defining constants of the SI and the standard acceleration of free fall, which formulas name
-//! in brackets.
+//! The defining constants of the SI, which formulas name in brackets.
 
 use gumption_units::Dimension;
 
-/// A constant that is exact by definition: of the SI, its value is exact (SI Brochure, 9th ed., table 1).
+/// A defining constant of the SI; its value is exact (SI Brochure, 9th ed., table 1).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum DefiningConstant {
     /// The speed of light in vacuum.
@@ -16,19 +15,11 @@ pub(super) enum DefiningConstant {
     Boltzmann,
     /// The Avogadro constant.
     Avogadro,
-    /// The standard acceleration of free fall, by convention (CGPM 1901).
-    StandardGravity,
 }
 
 impl DefiningConstant {
-    const ALL: [Self; 6] = [
-        Self::LightSpeed,
-        Self::Planck,
-        Self::ElementaryCharge,
-        Self::Boltzmann,
-        Self::Avogadro,
-        Self::StandardGravity,
-    ];
+    const ALL: [Self; 5] =
+        [Self::LightSpeed, Self::Planck, Self::ElementaryCharge, Self::Boltzmann, Self::Avogadro];
 
     /// The constant with that symbol.
     pub(super) fn named(symbol: &str) -> Option<Self> {
@@ -43,7 +34,6 @@ impl DefiningConstant {
             Self::ElementaryCharge => "e",
             Self::Boltzmann => "k_B",
             Self::Avogadro => "N_A",
-            Self::StandardGravity => "g_n",
         }
     }
 
@@ -55,7 +45,6 @@ impl DefiningConstant {
             Self::ElementaryCharge => 1.602_176_634e-19,
             Self::Boltzmann => 1.380_649e-23,
             Self::Avogadro => 6.022_140_76e23,
-            Self::StandardGravity => 9.806_65,
         }
     }
 
@@ -67,7 +56,6 @@ impl DefiningConstant {
             Self::ElementaryCharge => [0, 0, 1, 1, 0, 0, 0],
             Self::Boltzmann => [1, 2, -2, 0, -1, 0, 0],
             Self::Avogadro => [0, 0, 0, 0, 0, -1, 0],
-            Self::StandardGravity => [0, 1, -2, 0, 0, 0, 0],
         })
     }
 }

@@ -130,16 +130,10 @@ impl Parser<'_> {
         let mut compared: Option<Range<usize>> = None;
         loop {
             if let Some(joint) = self.joint() {
-                let (rank, rank_right) = joint_ranks(joint);
-                if rank < least {
+                if joint_ranks(joint).0 < least {
                     break;
                 }
-                let span = self.token.span.clone();
-                self.advance()?;
-                let right = self.expression(rank_right)?;
-                let outer = left.outer.start..right.outer.end;
-                let kind = Kind::Joined { joint, span, left: left.node, right: right.node };
-                left = self.push(kind, outer);
+                left = self.joined(joint, left)?;
                 continue;
             }
             let TokenKind::Operator(operator) = self.token.kind else { break };
@@ -166,6 +160,18 @@ impl Parser<'_> {
             left = self.push(kind, span);
         }
         Ok(left)
+    }
+
+    /// Reads what stands behind `and` or `or`; apart, to leave room on the stack.
+    #[inline(never)]
+    fn joined(&mut self, joint: Joint, left: Part) -> Result<Part, FormulaError> {
+        let (_, rank) = joint_ranks(joint);
+        let span = self.token.span.clone();
+        self.advance()?;
+        let right = self.nested(&span, |parser| parser.expression(rank))?;
+        let outer = left.outer.start..right.outer.end;
+        let kind = Kind::Joined { joint, span, left: left.node, right: right.node };
+        Ok(self.push(kind, outer))
     }
 
     /// The joint that is next: `and` or `or`, which are names where an operand stands.
@@ -293,14 +299,8 @@ impl Parser<'_> {
         let name_span = self.token.span.clone();
         let function = Function::named(self.slice(&name_span));
         self.advance()?;
-        let truth_follows = matches!(
-            self.token.kind,
-            TokenKind::Name | TokenKind::Number(_) | TokenKind::Open | TokenKind::Pi
-        );
-        if self.slice(&name_span) == "not" && truth_follows && self.joint().is_none() {
-            let of = self.nested(&name_span, |parser| parser.expression(NOT))?;
-            let outer = name_span.start..of.outer.end;
-            return Ok(self.push(Kind::Not { span: name_span, of: of.node }, outer));
+        if self.slice(&name_span) == "not" && self.truth_follows() {
+            return self.negated(name_span);
         }
         if self.token.kind != TokenKind::Open {
             return match function {
@@ -311,10 +311,8 @@ impl Parser<'_> {
             };
         }
         self.open()?;
-        match function {
-            Some(Function::Table) => return self.nested(&name_span, |p| p.table(&name_span)),
-            Some(Function::Solve) => return self.nested(&name_span, |p| p.solve(&name_span)),
-            _ => {}
+        if let Some(function @ (Function::Table | Function::Solve)) = function {
+            return self.special(function, name_span);
         }
         let arguments = self.nested(&name_span, Self::arguments)?;
         let span = name_span.start..self.token.span.end;
@@ -325,6 +323,32 @@ impl Parser<'_> {
             return Ok(self.summed(function, &arguments, (name_span, span)));
         }
         Ok(self.push(Kind::Call { function, name_span, arguments }, span))
+    }
+
+    /// Whether something follows that can be a truth, so that `not` is no name.
+    fn truth_follows(&self) -> bool {
+        let begins = matches!(
+            self.token.kind,
+            TokenKind::Name | TokenKind::Number(_) | TokenKind::Open | TokenKind::Pi
+        );
+        begins && self.joint().is_none()
+    }
+
+    /// Reads what stands behind `not`.
+    #[inline(never)]
+    fn negated(&mut self, span: Range<usize>) -> Result<Part, FormulaError> {
+        let of = self.nested(&span, |parser| parser.expression(NOT))?;
+        let outer = span.start..of.outer.end;
+        Ok(self.push(Kind::Not { span, of: of.node }, outer))
+    }
+
+    /// Reads a call whose arguments are not all formulas.
+    #[inline(never)]
+    fn special(&mut self, function: Function, name: Range<usize>) -> Result<Part, FormulaError> {
+        self.nested(&name, |parser| match function {
+            Function::Table => parser.table(&name),
+            _ => parser.solve(&name),
+        })
     }
 
     /// Reads the arguments of `table`: the abscissa, then texts.

@@ -255,9 +255,9 @@ const TABLE: &[(&str, &str, &str, Option<&str>)] = &[
     ("Sin(n)", "Sin", "there is no function `Sin`; did you mean `sin`?", Some("sin")),
     ("sqrrt(n)", "sqrrt", "there is no function `sqrrt`; did you mean `sqrt`?", Some("sqrt")),
     (
-        "erf(n)",
-        "erf",
-        "there is no function `erf`; the functions are sin, cos, tan, asin, acos, atan, atan2, sinh, cosh, tanh, exp, ln, log10, sqrt, cbrt, abs, min, max, hypot, sum, mean, kelvin, celsius",
+        "bessel(n)",
+        "bessel",
+        "there is no function `bessel`; the functions are sin, cos, tan, asin, acos, atan, atan2, sinh, cosh, tanh, exp, ln, log10, sqrt, cbrt, abs, min, max, hypot, sum, mean, kelvin, celsius, floor, ceil, round, mod, expm1, log1p, asinh, acosh, atanh, erf, gamma, if, table, solve",
         None,
     ),
     (
