@@ -19,6 +19,7 @@ use std::path::Path;
 
 use gumption::file::FileReader;
 use gumption::gap::{Case, Diagnosis, DiagnosisOptions, HypothesisKind, diagnose};
+use gumption::task::Row;
 use serde_json::{Map, Value, json};
 
 mod generator;
@@ -207,7 +208,7 @@ const BENCHES: [Bench; 3] = [
 ];
 
 /// What is wrong, with the words of the table.
-const FAULTS: [(&str, &str); 14] = [
+const FAULTS: [(&str, &str); 15] = [
     ("nothing", "nothing"),
     ("under1.5", "stated u too small by 1.5"),
     ("under2", "stated u too small by 2"),
@@ -222,6 +223,7 @@ const FAULTS: [(&str, &str); 14] = [
     ("wide", "priors 20 times too wide"),
     ("narrow", "priors 3 times too narrow"),
     ("few", "8 rows"),
+    ("many", "2000 rows"),
 ];
 
 impl Prior {
@@ -254,24 +256,30 @@ impl Prior {
 }
 
 /// A simulated data set: its case file, the effects that made it with the values of their
-/// parameters, and the rows that are off, from 1.
+/// parameters, the rows that are off, from 1, and conditions between those of the data with what is
+/// true there.
 struct Sealed {
     case: Value,
     table: String,
     effects: Vec<String>,
     parameters: Vec<(String, f64)>,
     off: Vec<usize>,
+    ahead: Vec<(Vec<f64>, f64)>,
 }
 
 fn sealed(bench: &Bench, fault: &str, number: usize) -> Sealed {
     let seed = bench.name.bytes().fold(number as u64, |h, b| h.wrapping_mul(31) + u64::from(b));
     let mut random = SplitMix64(seed);
     random.next();
-    let rows = if fault == "few" { 8 } else { [16, 24, 32, 40][number % 4] };
+    let rows = match fault {
+        "few" => 8,
+        "many" => 2000,
+        _ => [16, 24, 32, 40][number % 4],
+    };
     let conditions: Vec<Vec<f64>> = (0..rows).map(|n| (bench.row)(n, rows)).collect();
     let input = bench.input.1 + random.normal(bench.input.2);
     let plain: Vec<f64> = conditions.iter().map(|c| (bench.sim)(input, c)).collect();
-    let acting = [0, 1, 1, 1, 2, 1][number % 6];
+    let acting = [0, 1, 1, 0, 2, 1][number % 6];
     let mut chosen: Vec<usize> = Vec::new();
     while chosen.len() < acting {
         let one = (random.uniform() * bench.effects.len() as f64) as usize;
@@ -301,6 +309,18 @@ fn sealed(bench: &Bench, fault: &str, number: usize) -> Sealed {
             break;
         }
     }
+    let truth = |c: &[f64]| {
+        let acting = chosen.iter().zip(&drawn);
+        acting.fold((bench.sim)(input, c), |y, (&e, p)| (bench.effects[e].act)(y, c, p))
+    };
+    let between = |n: usize| {
+        let share = random.uniform();
+        let (from, to) = (&conditions[n], &conditions[n + 1]);
+        let at: Vec<f64> = from.iter().zip(to).map(|(a, b)| a + share * (b - a)).collect();
+        let y = truth(&at);
+        (at, y)
+    };
+    let ahead = (0..rows - 1).step_by((rows / 6).max(1)).map(between).collect();
     let (mut noise, mut before) = (Vec::new(), random.normal(1.0));
     for _ in 0..rows {
         let z = random.normal(1.0);
@@ -385,17 +405,32 @@ fn sealed(bench: &Bench, fault: &str, number: usize) -> Sealed {
         parameters: parameters.collect(),
         effects: chosen.iter().map(|&e| bench.effects[e].name.to_owned()).collect(),
         off,
+        ahead,
     }
 }
 
-fn read(sealed: &Sealed, folder: &Path) -> Result<Case, Box<dyn Error>> {
+fn read(sealed: &Sealed, folder: &Path) -> Result<(Case, Vec<Row>), Box<dyn Error>> {
+    let names: Vec<&str> = sealed.case["conditions"]
+        .as_object()
+        .ok_or("no conditions")?
+        .keys()
+        .map(String::as_str)
+        .collect();
+    let mut ahead = names.join(",") + "\n";
+    for (conditions, _) in &sealed.ahead {
+        let cells: Vec<String> = conditions.iter().map(f64::to_string).collect();
+        ahead += &(cells.join(",") + "\n");
+    }
+    let (case, at) = (folder.join("case.json"), folder.join("at.csv"));
     std::fs::write(folder.join("data.csv"), &sealed.table)?;
-    std::fs::write(folder.join("case.json"), sealed.case.to_string())?;
-    Ok(FileReader::default().case(&folder.join("case.json"))?.case)
+    std::fs::write(&case, sealed.case.to_string())?;
+    std::fs::write(&at, ahead)?;
+    let reader = FileReader::default();
+    Ok((reader.case(&case)?.case, reader.case_at(&case, &at)?))
 }
 
-fn diagnosed(case: &Case, seed: u64) -> Result<Diagnosis, Box<dyn Error>> {
-    Ok(diagnose(case, None, DiagnosisOptions::new(seed), &|_| {})?)
+fn diagnosed(case: &Case, at: Option<&[Row]>, seed: u64) -> Result<Diagnosis, Box<dyn Error>> {
+    Ok(diagnose(case, at, DiagnosisOptions::new(seed), &|_| {})?)
 }
 
 fn sorted(effects: &[String]) -> Vec<String> {
@@ -418,6 +453,36 @@ struct Tally {
     held: usize,
     off: usize,
     found: usize,
+    predicted: usize,
+    predicted_within: usize,
+}
+
+/// Probabilities that effects are present, and whether they were, in ten equal classes: the sum of
+/// the probabilities, how many were present, how many there are.
+#[derive(Default)]
+struct Presence([(f64, usize, usize); 10]);
+
+impl Presence {
+    fn add(&mut self, sealed: &Sealed, diagnosis: &Diagnosis) {
+        for effect in &diagnosis.present {
+            let class = &mut self.0[((effect.probability * 10.0) as usize).min(9)];
+            class.0 += effect.probability;
+            class.1 += usize::from(sealed.effects.contains(&effect.effect));
+            class.2 += 1;
+        }
+    }
+
+    /// The expected calibration error, with what it would be on average by chance alone.
+    fn errors(&self) -> (f64, f64, usize) {
+        let all: usize = self.0.iter().map(|class| class.2).sum();
+        let of = |part: f64| part / all as f64;
+        let seen = self.0.iter().map(|(sum, present, _)| of((sum - *present as f64).abs())).sum();
+        let chance = self.0.iter().filter(|class| class.2 > 0).map(|(sum, _, n)| {
+            let p = sum / *n as f64;
+            of((2.0 / std::f64::consts::PI * *n as f64 * p * (1.0 - p)).sqrt())
+        });
+        (seen, chance.sum(), all)
+    }
 }
 
 impl Tally {
@@ -455,6 +520,11 @@ impl Tally {
                 self.held += usize::from((low..=high).contains(value));
             }
         }
+        for (predicted, (_, truth)) in diagnosis.prediction.iter().flatten().zip(&sealed.ahead) {
+            let (value, u) = predicted.outputs[0];
+            self.predicted += 1;
+            self.predicted_within += usize::from((value - truth).abs() < 2.0 * u);
+        }
         for row in &sealed.off {
             self.off += 1;
             let suspects = diagnosis.noise.iter().flat_map(|noise| &noise.suspects);
@@ -465,7 +535,7 @@ impl Tally {
 
     fn row(&self, words: &str) -> String {
         format!(
-            "| {words} | {} | {:.2} | {:.2} | {} of {} | {} of {} | {} of {} | {} |\n",
+            "| {words} | {} | {:.2} | {:.2} | {} of {} | {} of {} | {:.2} | {} of {} | {} |\n",
             self.sets,
             self.right as f64 / self.sets as f64,
             self.in_group as f64 / self.sets as f64,
@@ -473,6 +543,7 @@ impl Tally {
             self.sure,
             self.held,
             self.intervals,
+            self.predicted_within as f64 / self.predicted.max(1) as f64,
             self.alarms,
             self.free,
             if self.off > 0 { format!("{} of {}", self.found, self.off) } else { String::new() },
@@ -535,7 +606,7 @@ fn over_seeds(case: &Case, seeds: u64) -> Result<(String, f64), Box<dyn Error>> 
     let mut ranges: Vec<(Option<Vec<String>>, f64, f64)> = Vec::new();
     let mut verdicts: Vec<String> = Vec::new();
     for seed in 1..=seeds {
-        let diagnosis = diagnosed(case, seed)?;
+        let diagnosis = diagnosed(case, None, seed)?;
         let verdict = &diagnosis.most_probable;
         let said = match verdict.kind {
             HypothesisKind::Unexplained => "unexplained".to_owned(),
@@ -570,11 +641,13 @@ fn main() -> Result<(), Box<dyn Error>> {
          Written by `cargo run --release --example gap_robust`. Three simulated benches that no test \
          has; effects drawn from the priors of their lists, truths opened after the verdicts. Sure: \
          verdicts with a probability above 0.9. Intervals: 95 % intervals of the parameters of right \
-         verdicts that hold the truth. Alarms: sets without a gap that were called one. Rows found: \
+         verdicts that hold the truth. Predicted: what is true between the conditions of the data, \
+         within two standard uncertainties of the corrected prediction. Alarms: sets without a gap that were called one. Rows found: \
          rows that are off and named with a probability above 0.5.\n\n\
-         | what is wrong | sets | right | truth in the group | sure and wrong | intervals | alarms | \
-         rows found |\n|---|---|---|---|---|---|---|---|\n",
+         | what is wrong | sets | right | truth in the group | sure and wrong | intervals | predicted | alarms | \
+         rows found |\n|---|---|---|---|---|---|---|---|---|\n",
     );
+    let (mut presence, mut everywhere) = (Presence::default(), Presence::default());
     for (fault, words) in FAULTS {
         if !wanted.is_empty() && !wanted.iter().any(|of| of == fault) {
             continue;
@@ -583,11 +656,23 @@ fn main() -> Result<(), Box<dyn Error>> {
         for bench in &BENCHES {
             for set in 0..sets {
                 let sealed = sealed(bench, fault, set);
-                let diagnosis = diagnosed(&read(&sealed, &folder)?, 1)?;
+                let (case, at) = read(&sealed, &folder)?;
+                let diagnosis = diagnosed(&case, Some(&at), 1)?;
                 tally.add(&sealed, &diagnosis);
+                if *fault == *"nothing" {
+                    presence.add(&sealed, &diagnosis);
+                }
+                everywhere.add(&sealed, &diagnosis);
             }
         }
         let row = tally.row(words);
+        print!("{row}");
+        page.push_str(&row);
+    }
+    page.push_str("\n## Present\n\nProbabilities that an effect is present, in ten classes: expected calibration error.\n\n| sets | effects | error | by chance alone |\n|---|---|---|---|\n");
+    for (of, tally) in [("nothing is wrong", &presence), ("all", &everywhere)] {
+        let (seen, chance, all) = tally.errors();
+        let row = format!("| {of} | {all} | {seen:.3} | {chance:.3} |\n");
         print!("{row}");
         page.push_str(&row);
     }

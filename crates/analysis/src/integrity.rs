@@ -21,7 +21,7 @@ const SHORT: usize = 16;
 pub fn digest(content: &Map<String, Value>) -> String {
     let mut canonical = String::new();
     object(content.iter().filter(|(key, _)| *key != DIGEST), &mut canonical);
-    hexadecimal(&canonical)
+    sha256(canonical.as_bytes())
 }
 
 /// The parts of a saved result, each by the keys that lead to it with `/` between them, and their
@@ -31,7 +31,7 @@ pub fn parts(content: &Map<String, Value>) -> Vec<(String, String)> {
     let mut add = |name: String, value: &Value| {
         let mut canonical = String::new();
         write(value, &mut canonical);
-        let mut digest = hexadecimal(&canonical);
+        let mut digest = sha256(canonical.as_bytes());
         digest.truncate(SHORT);
         all.push((name, digest));
     };
@@ -72,8 +72,9 @@ pub fn changed(content: &Map<String, Value>) -> Vec<String> {
     names
 }
 
-fn hexadecimal(text: &str) -> String {
-    Sha256::digest(text.as_bytes()).iter().map(|byte| format!("{byte:02x}")).collect()
+/// The SHA-256 digest of bytes (FIPS 180-4), 64 hexadecimal digits.
+pub fn sha256(bytes: &[u8]) -> String {
+    Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
 /// A value as canonical text: keys in the order of their characters, numbers by what they are.

@@ -5,7 +5,6 @@ use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use clap::{Args, ValueEnum};
-use sha2::{Digest, Sha256};
 
 use super::exit::say;
 use super::options::{self, Answer, CoverageOption, Model, Page, Seed, Threads};
@@ -16,7 +15,7 @@ use gumption_engine::propagate::{
     Control, Evaluation, EvaluationError, evaluate, histograms, warnings,
 };
 use gumption_engine::task::{StoppingRule, Task, Trials, Warning};
-use gumption_files::{Diagnostic, DiagnosticKind, Diagnostics, ModelFile};
+use gumption_files::ModelFile;
 use gumption_report as report;
 use gumption_report::{BudgetColumn, EvaluationReport, Provenance, Shown, TableStyle};
 
@@ -306,23 +305,13 @@ pub(super) fn failure(file: &ModelFile, error: EvaluationError) -> Failure {
     match error {
         EvaluationError::Threads(_) => Failure::System(message),
         // everything else follows from what the file says
-        _ => {
-            let (source, span) = file.output_place(0);
-            let kind = DiagnosticKind::Evaluation { message };
-            Failure::Diagnostics(Diagnostics(vec![Diagnostic { source, span, kind }]))
-        }
+        _ => Failure::Diagnostics(file.evaluation_failed(message)),
     }
 }
 
 /// The digests of a file and of the tables that it reads.
 pub(super) fn provenance(text: &str, files: &[(String, Vec<u8>)]) -> Provenance {
-    let digest = |bytes: &[u8]| {
-        Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect::<String>()
-    };
-    Provenance {
-        model_sha256: digest(text.as_bytes()),
-        files: files.iter().map(|(name, bytes)| (name.clone(), digest(bytes))).collect(),
-    }
+    Provenance::of(text, files)
 }
 
 /// What `--fail` asks of an output, and the answer.

@@ -4,7 +4,6 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use serde_json::{Map, Value};
-use sha2::{Digest, Sha256};
 
 use super::DiagnosticKind;
 use super::conditions::unit;
@@ -71,10 +70,6 @@ pub struct SavedOutput {
     pub sensitivities: Option<Vec<f64>>,
 }
 
-fn sha256(bytes: &[u8]) -> String {
-    Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
-}
-
 /// Reads and checks the text of a result file; `name` is used in messages.
 pub(super) fn read_text(
     files: FileReader<'_>,
@@ -82,7 +77,7 @@ pub(super) fn read_text(
     text: &str,
 ) -> Result<ResultFile, Diagnostics> {
     // results are told apart by their content
-    let hash = sha256(text.as_bytes());
+    let hash = integrity::sha256(text.as_bytes());
     read_root(name, text, "a result file", |root| {
         let accepted = files.accepts_changed_results();
         Reader { log: root.log, root, hash: &hash, accepted }.read()

@@ -6,9 +6,12 @@
 
 mod case;
 pub mod check;
+mod composed;
 mod correlated;
 mod covariance;
 mod data;
+mod departure;
+mod departure_prediction;
 mod diagnose;
 mod diagnosis;
 mod differential_evolution;
@@ -41,12 +44,13 @@ mod weighed_noise;
 mod whitened;
 
 pub use case::{Candidate, Case, ObservedOutput, Prior};
+pub use composed::{ComposedEffect, ComposedForm, ComposedParameter, ComposedPrior, ComposedTerm};
 pub use diagnose::{DiagnosisOptions, diagnose};
 pub use diagnosis::{
-    Diagnosis, DiagnosisNote, EffectParameter, EstimatedNoise, GapRegion, GapTest, Hypothesis,
-    HypothesisKind, MostProbable, NamedQuantity, NextMeasurement, NoiseEstimate, Predicted,
-    PresentEffect, PriorConflict, RowGap, SerialCorrelation, Shrinkage, Shrunk, SuspectValue,
-    UncertaintyFactor, ValueGap,
+    DepartureForm, DepartureKind, DepartureOver, DepartureShape, Diagnosis, DiagnosisNote,
+    EffectParameter, EstimatedNoise, GapRegion, GapTest, Hypothesis, HypothesisKind, MostProbable,
+    NamedQuantity, NextMeasurement, NoiseEstimate, Predicted, PresentEffect, PriorConflict, RowGap,
+    SerialCorrelation, Shrinkage, Shrunk, SuspectValue, UncertaintyFactor, ValueGap,
 };
 pub use model::{Effect, ModelForm, OverridableModel, OverrideError};
 pub use selection::{ModelSelection, noise, nominal, select_model};

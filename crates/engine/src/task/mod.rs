@@ -5,6 +5,7 @@ mod builder;
 mod coverage;
 mod error;
 mod evidence;
+mod function;
 mod settings;
 mod sharing;
 #[cfg(test)]
@@ -15,6 +16,8 @@ pub use builder::TaskBuilder;
 pub use coverage::Coverage;
 pub use error::TaskError;
 pub use evidence::Evidence;
+pub use function::ColumnFunction;
+pub(crate) use function::differences;
 pub use settings::{Settings, StoppingRule, Trials};
 pub use sharing::Sharing;
 pub use warning::Warning;
@@ -75,6 +78,8 @@ pub struct Task {
     pub settings: Settings,
     /// The joint draws found so far.
     pub fits: Fits,
+    /// What computes the outputs in place of the model's program, where it cannot be recorded.
+    pub function: Option<Arc<dyn ColumnFunction>>,
 }
 
 impl Variable {
@@ -106,6 +111,7 @@ impl Task {
             rows,
             settings: Settings::default(),
             fits: Fits::default(),
+            function: None,
         }
     }
 
