@@ -361,11 +361,6 @@ pub enum DiagnosticKind {
         /// What is known there.
         known: Vec<String>,
     },
-    /// Something in a Digital Calibration Certificate, or what an input takes from one.
-    DigitalCertificate {
-        /// What is wrong, as a sentence.
-        reason: String,
-    },
     /// A list of a result file whose entries do not fit.
     SavedEntry {
         /// Why, as a part of the sentence.
@@ -514,7 +509,6 @@ impl DiagnosticKind {
             Self::NotResult { .. } => "not-a-result",
             Self::NoSuchResult { .. } => "no-such-result",
             Self::SavedEntry { .. } => "bad-result",
-            Self::DigitalCertificate { .. } => "bad-dcc",
             Self::SavedCelsius { .. } => "celsius-result",
             Self::SavedCorrelation { .. } => "correlated-results",
             Self::SeveralRows { .. } => "several-rows",
@@ -761,7 +755,6 @@ impl fmt::Display for DiagnosticKind {
                 write!(f, "the saved result `{file}` has no output `{name}`{hint}")
             }
             Self::SavedEntry { reason } => f.write_str(reason),
-            Self::DigitalCertificate { reason } => f.write_str(reason),
             Self::SavedCelsius { name, found, saved } => write!(
                 f,
                 "the saved result `{name}` is in `{saved}`, the input in `{found}`, and degrees \

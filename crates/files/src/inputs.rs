@@ -87,9 +87,9 @@ struct Reader<'a, 'i> {
 impl<'a> Reader<'a, '_> {
     fn input(&mut self) {
         let object = self.object;
-        let is_certificate = object.get("distribution").is_some_and(
-            |member| matches!(&member.value.value, Json::Text(name) if name == "dcc"),
-        );
+        let is_certificate = object
+            .get("distribution")
+            .is_some_and(|member| matches!(&member.value.value, Json::Text(name) if name == "dcc"));
         if is_certificate && object.get("components").is_none() {
             self.certificate = self.results.of_certificate(&object);
         }
@@ -119,9 +119,9 @@ impl<'a> Reader<'a, '_> {
         let is_result = object.get("distribution").is_some_and(
             |member| matches!(&member.value.value, Json::Text(name) if name == "result"),
         );
-        let is_certificate = object.get("distribution").is_some_and(
-            |member| matches!(&member.value.value, Json::Text(name) if name == "dcc"),
-        );
+        let is_certificate = object
+            .get("distribution")
+            .is_some_and(|member| matches!(&member.value.value, Json::Text(name) if name == "dcc"));
         match object.get("unit") {
             None if is_result => self.results.unit(object),
             None if is_certificate => Some(self.certificate.as_ref()?.unit.clone()),
@@ -225,7 +225,9 @@ impl<'a> Reader<'a, '_> {
             else {
                 return;
             };
-            if !["constant", "result", "dcc"].contains(&kind.name) && distribution.constant().is_some() {
+            if !["constant", "result", "dcc"].contains(&kind.name)
+                && distribution.constant().is_some()
+            {
                 zero_width.push(row + 1);
             }
             drawn.push(distribution);
@@ -372,7 +374,8 @@ impl<'a> Reader<'a, '_> {
             }
         };
         let about = object.text("about").or_else(|| self.object.text("about")).unwrap_or("");
-        let own_rows = is_type_a && readings::are_of_rows(object) && self.object.get("per").is_none();
+        let own_rows =
+            is_type_a && readings::are_of_rows(object) && self.object.get("per").is_none();
         // every row has been read on its own
         let sharing = if own_rows { Sharing::Row } else { self.sharing() };
         let mut variable = Variable::new(name, unit.clone());

@@ -185,9 +185,5 @@ fn note(quantity: &str, call: &TableCall, data: &TableData, form: NumberForm) ->
 }
 
 fn spaced(unit: &Unit) -> String {
-    if unit.text().is_empty() || unit.text() == "1" {
-        String::new()
-    } else {
-        format!(" {unit}")
-    }
+    if unit.text().is_empty() || unit.text() == "1" { String::new() } else { format!(" {unit}") }
 }

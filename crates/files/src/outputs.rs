@@ -162,7 +162,7 @@ fn prior(tolerance: &Object<'_>, unit: &Unit, results: &Results<'_>) -> Option<D
         results,
         at,
     }
-        .distribution(kind)
+    .distribution(kind)
 }
 
 /// The tolerance limits of an output.

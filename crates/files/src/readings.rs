@@ -341,10 +341,9 @@ mod tests {
             r#"{"unit": "V", "distribution": "normal", "mean": 0, "std": 1, "limits": [0, null]}"#,
         );
         assert!((half[0] - (2.0 / std::f64::consts::PI).sqrt()).abs() < 1e-10);
-        let quantiles = of(
-            r#"{"unit": "V", "distribution": "quantiles", "probabilities": [0.025, 0.5, 0.975],
-            "values": ["8.040036015459947 V", 10, 11.959963984540053]}"#,
-        );
+        let quantiles =
+            of(r#"{"unit": "V", "distribution": "quantiles", "probabilities": [0.025, 0.5, 0.975],
+            "values": ["8.040036015459947 V", 10, 11.959963984540053]}"#);
         assert!((quantiles[0] - 10.0).abs() < 1e-9 && (quantiles[1] - 1.0).abs() < 1e-9);
         let error = model("\"5.0112 V ± 0.0046 V\"", "", &[]).unwrap_err().to_string();
         assert!(error.contains("must be said"), "{error}");

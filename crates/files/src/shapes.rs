@@ -258,8 +258,7 @@ impl<'a> Fields<'a> {
             }
             "dcc" => {
                 let taken = self.certificate?;
-                let shape =
-                    taken.distribution(&self.object, self.name, self.unit, self.at)?;
+                let shape = taken.distribution(&self.object, self.name, self.unit, self.at)?;
                 self.moved(Ok(shape))
             }
             "split-normal" => {
@@ -326,7 +325,9 @@ impl<'a> Fields<'a> {
             _ => Readings::new(values).map(Into::into),
         };
         match (of_scatter, half) {
-            (Ok(scatter), Some(half)) if half / 3.0_f64.sqrt() <= scatter.standard_uncertainty() => {
+            (Ok(scatter), Some(half))
+                if half / 3.0_f64.sqrt() <= scatter.standard_uncertainty() =>
+            {
                 self.moved(Ok(scatter))
             }
             (Ok(_) | Err(Invalid::NoScatter { .. }), Some(half)) => {

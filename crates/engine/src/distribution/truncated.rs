@@ -68,16 +68,8 @@ impl Truncated {
         if left < LEAST {
             return out_of_range(lower);
         }
-        let mut made = Self {
-            base: Box::new(base),
-            lower,
-            upper,
-            below,
-            above,
-            left,
-            mean: 0.0,
-            std: 0.0,
-        };
+        let mut made =
+            Self { base: Box::new(base), lower, upper, below, above, left, mean: 0.0, std: 0.0 };
         let centre = made.quantile(0.5);
         let (mean, variance) =
             moments(|p| made.quantile(p) - centre, |q| made.quantile_upper(q) - centre);

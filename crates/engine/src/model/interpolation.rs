@@ -137,9 +137,7 @@ impl Interpolation {
         let cubic = Self { slopes: Some(not_a_knot(&self.xs, &self.ys)), ..self.clone() };
         let straight = Self { slopes: None, ..self.clone() };
         let middles = self.xs.windows(2).map(|pair| 0.5 * (pair[0] + pair[1]));
-        middles
-            .map(|x| (cubic.value(&[x]) - straight.value(&[x])).abs())
-            .fold(0.0, f64::max)
+        middles.map(|x| (cubic.value(&[x]) - straight.value(&[x])).abs()).fold(0.0, f64::max)
     }
 
     /// The piece that an abscissa lies in, and the abscissa within the range; none outside.

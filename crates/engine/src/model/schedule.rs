@@ -14,7 +14,11 @@ use crate::number::{
 enum Step {
     Unary(Unary, usize, usize),
     Binary(Binary, Operand, Operand, usize),
-    SinCos { angle: usize, sin: usize, cos: usize },
+    SinCos {
+        angle: usize,
+        sin: usize,
+        cos: usize,
+    },
     /// The routine of this number.
     Routine(usize),
 }

@@ -25,8 +25,8 @@ pub(crate) use column::{Operand, apply_binary, apply_sin_cos, apply_unary};
 pub use dual::Dual;
 pub use operation::{Binary, Unary};
 pub(crate) use path::Instructions;
-pub use routine::Routine;
 pub use path::{CodePath, Kernel, UnavailablePath};
+pub use routine::Routine;
 pub use shortest::Shortest;
 
 use std::fmt::Debug;

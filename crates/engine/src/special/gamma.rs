@@ -2,10 +2,10 @@
 //! Q(a, x), and their inverse.
 
 use super::normal;
-use crate::number::elementary;
 use super::quadrature::decaying;
 use super::root::{Point, Trend, find};
 use super::weight::{exp_m1_minus, gamma_weight, ln_gamma_1p};
+use crate::number::elementary;
 
 /// Shapes from here on take the quadrature on both sides of the mean.
 const LARGE: f64 = 8.0;

@@ -36,8 +36,11 @@ pub(super) struct Stated {
 pub(super) fn parse(text: &str) -> Result<Document<'_>, Fault> {
     let document = Document::parse(text).map_err(|error| {
         let at = error.pos();
-        let line: usize =
-            text.split_inclusive('\n').take((at.row as usize).saturating_sub(1)).map(str::len).sum();
+        let line: usize = text
+            .split_inclusive('\n')
+            .take((at.row as usize).saturating_sub(1))
+            .map(str::len)
+            .sum();
         let rest = text.get(line..).unwrap_or_default();
         let column = rest.char_indices().nth((at.col as usize).saturating_sub(1));
         let at = line + column.map_or(0, |(at, _)| at);

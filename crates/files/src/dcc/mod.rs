@@ -98,7 +98,7 @@ pub(super) fn read(
         Ok(found) => found,
         Err((span, reason)) => {
             let span = span.start..span.end.max(span.start);
-            object.log.report_at(Place { source, span }, DiagnosticKind::DigitalCertificate { reason });
+            object.log.report_at(Place { source, span }, DiagnosticKind::Certificate { reason });
             None
         }
     }
@@ -130,7 +130,7 @@ fn parsed(object: &Object<'_>, source: &Arc<SourceText>) -> Result<Option<FromCe
                 "it has {count} values; say which by `index` (from 0), or `at` which condition the \
                  table is to be interpolated"
             );
-            object.report(DiagnosticKind::DigitalCertificate { reason });
+            object.report(DiagnosticKind::Certificate { reason });
             return Ok(None);
         }
         Some(member) => {
@@ -141,7 +141,7 @@ fn parsed(object: &Object<'_>, source: &Arc<SourceText>) -> Result<Option<FromCe
                     "there are {count} values, so that the index is from 0 to {}",
                     count - 1
                 );
-                object.log.report(&member.value.span, DiagnosticKind::DigitalCertificate { reason });
+                object.log.report(&member.value.span, DiagnosticKind::Certificate { reason });
                 return Ok(None);
             }
             index
@@ -163,7 +163,7 @@ fn parsed(object: &Object<'_>, source: &Arc<SourceText>) -> Result<Option<FromCe
 fn chosen<'d>(object: &Object<'_>, all: &[Node<'d, 'd>]) -> Option<Vec<Node<'d, 'd>>> {
     let report = |key: &str, reason: String| {
         let place = object.get(key).map_or(object.place(), |member| &member.value.span);
-        object.log.report(place, DiagnosticKind::DigitalCertificate { reason });
+        object.log.report(place, DiagnosticKind::Certificate { reason });
         None
     };
     if let (Some(_), Some(second)) = (object.get("id"), object.get("ref_type")) {
@@ -287,7 +287,7 @@ fn abscissa<'d>(
             document::called(node)
         );
         let place = object.get("at").map_or(object.place(), |member| &member.value.span);
-        object.log.report(place, DiagnosticKind::DigitalCertificate { reason });
+        object.log.report(place, DiagnosticKind::Certificate { reason });
         return Ok(None);
     };
     let read = document::measured(*found)?;
@@ -408,7 +408,7 @@ impl FromCertificate {
                         row + 1
                     );
                     let place = object.get("at").map_or(object.place(), |m| &m.value.span);
-                    object.log.report(place, DiagnosticKind::DigitalCertificate { reason });
+                    object.log.report(place, DiagnosticKind::Certificate { reason });
                     return None;
                 };
                 let y = in_unit(y);
@@ -427,7 +427,7 @@ impl FromCertificate {
     fn fault(&self, object: &Object<'_>, reason: String) -> Option<Distribution> {
         let reason = format!("this quantity {reason}");
         let place = Place { source: Arc::clone(&self.source), span: self.span.clone() };
-        object.log.report_at(place, DiagnosticKind::DigitalCertificate { reason });
+        object.log.report_at(place, DiagnosticKind::Certificate { reason });
         None
     }
 

@@ -248,10 +248,9 @@ fn field(shape: &str, key: &str) -> Value {
             )]),
         )
         .with("minItems", 1),
-        ("readings", "file") => referenced(
-            "file",
-            "A file with one reading in each line, or a table with `column`.",
-        ),
+        ("readings", "file") => {
+            referenced("file", "A file with one reading in each line, or a table with `column`.")
+        }
         (_, "column") => text_of("The column of the file that has the readings."),
         (_, "groups") => text_of(
             "The column of the file that numbers the groups of a nested design (days, set-ups): the \
@@ -435,7 +434,11 @@ fn stated_in(holder: Holder) -> Value {
         Holder::Input => &["value"],
         Holder::Component => &["name", "value"],
     };
-    closed_of("A quantity as people write it, with its unit or a word about it.", properties, required)
+    closed_of(
+        "A quantity as people write it, with its unit or a word about it.",
+        properties,
+        required,
+    )
 }
 
 /// The definition by the distribution that is named.
@@ -459,15 +462,14 @@ fn choice(holder: Holder) -> Value {
     };
     let choice = described("object", about);
     match holder {
-        Holder::Component => choice
-            .with("if", is_stated())
-            .with("then", reference("stated-component"))
-            .with(
+        Holder::Component => {
+            choice.with("if", is_stated()).with("then", reference("stated-component")).with(
                 "else",
                 object([("required", texts(["name", "distribution"]))])
                     .with("properties", object([("distribution", reference("distribution"))]))
                     .with("allOf", chosen),
-            ),
+            )
+        }
         Holder::Input => choice
             .with("if", object([("required", texts(["components"]))]))
             .with("then", reference("input-of-components"))

@@ -165,7 +165,8 @@ impl<'c> Checker<'c> {
                 call.file,
                 match unit.text() {
                     "" => "a column of plain numbers; write its unit into the header, such as \
-                           `t [degC]`, or divide by one".to_owned(),
+                           `t [degC]`, or divide by one"
+                        .to_owned(),
                     _ => unit.describe(),
                 }
             );
@@ -194,9 +195,8 @@ impl<'c> Checker<'c> {
             self.report(FormulaError::UnknownIsDefined { name, span });
             return typing;
         }
-        let is_unknown = |node: &Node| {
-            node.kind == Kind::Name && self.text.get(node.span.clone()) == Some(name)
-        };
+        let is_unknown =
+            |node: &Node| node.kind == Kind::Name && self.text.get(node.span.clone()) == Some(name);
         if !body.nodes.iter().any(is_unknown) && !body.has_solve() {
             let (name, span) = (name.to_owned(), unknown.clone());
             self.report(FormulaError::UnknownNotUsed { name, span });

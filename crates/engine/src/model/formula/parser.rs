@@ -93,8 +93,16 @@ pub(super) fn parse(text: &str) -> Result<Tree, FormulaError> {
     if token.kind == TokenKind::End {
         return Err(FormulaError::Empty);
     }
-    let mut parser =
-        Parser { text, lexer, token, last: None, depth: 0, solves: 0, opened: Vec::new(), nodes: Vec::new() };
+    let mut parser = Parser {
+        text,
+        lexer,
+        token,
+        last: None,
+        depth: 0,
+        solves: 0,
+        opened: Vec::new(),
+        nodes: Vec::new(),
+    };
     parser.expression(LOOSEST)?;
     if parser.token.kind != TokenKind::End {
         return Err(parser.unexpected(AFTER_WHOLE));
@@ -224,6 +232,7 @@ impl Parser<'_> {
     }
 
     /// What stands between brackets.
+    #[inline(never)]
     fn bracket(&self, place: &Range<usize>) -> Result<Kind, FormulaError> {
         let inside = self.slice(place);
         let inside = inside.strip_prefix('[').and_then(|text| text.strip_suffix(']'));
@@ -295,6 +304,7 @@ impl Parser<'_> {
         }
     }
 
+    #[inline(never)]
     fn name_or_call(&mut self) -> Result<Part, FormulaError> {
         let name_span = self.token.span.clone();
         let function = Function::named(self.slice(&name_span));
@@ -455,6 +465,7 @@ impl Parser<'_> {
     }
 
     /// Reads the arguments of a call up to its closing parenthesis.
+    #[inline(never)]
     fn arguments(&mut self) -> Result<Vec<usize>, FormulaError> {
         let mut arguments = Vec::new();
         if self.token.kind == TokenKind::Close {
@@ -513,6 +524,7 @@ impl Parser<'_> {
     }
 
     /// The error for a next token that cannot stand where it does.
+    #[inline(never)]
     fn unexpected(&self, expected: &'static str) -> FormulaError {
         let Token { kind, span } = &self.token;
         if *kind == TokenKind::End {
@@ -571,6 +583,7 @@ impl Parser<'_> {
     }
 
     /// The error for a comma between digits, where no comma can stand.
+    #[inline(never)]
     fn decimal_comma(&self) -> Option<FormulaError> {
         let last = self.last.as_ref().filter(|_| self.last_is_number())?;
         let comma = &self.token;
@@ -587,6 +600,7 @@ impl Parser<'_> {
     }
 
     /// The error for a function's name without parentheses behind it.
+    #[inline(never)]
     fn without_arguments(&self, function: Function, span: Range<usize>) -> FormulaError {
         let name = function.name().to_owned();
         let argument = match self.token.kind {

@@ -155,7 +155,8 @@ impl Tree {
                 Kind::Solve { body, unknown, .. } => {
                     let before = places.len();
                     body.names(text, places);
-                    let is_other = |span: &Range<usize>| text.get(span.clone()) != text.get(unknown.clone());
+                    let is_other =
+                        |span: &Range<usize>| text.get(span.clone()) != text.get(unknown.clone());
                     let inner: Vec<_> = places.drain(before..).filter(is_other).collect();
                     places.extend(inner);
                 }
