@@ -39,7 +39,7 @@ use gumption_units::Unit;
 pub(super) const MAX_LENGTH: usize = 100_000;
 
 /// The deepest nesting of parentheses, calls, signs and exponents.
-pub(super) const MAX_DEPTH: usize = 200;
+pub(super) const MAX_DEPTH: usize = 100;
 
 const OPERAND: &str = "a number, a name, a function or `(`";
 
