@@ -18,6 +18,7 @@ mod new;
 mod observe;
 mod options;
 mod output;
+mod plan;
 mod progress;
 mod replacement;
 mod run;
@@ -71,6 +72,8 @@ enum Command {
     Verify(verify::Verify),
     /// Say what changed between two model files or saved results, and what it did to U
     Diff(diff::Diff),
+    /// Say what inputs would have to become for a wanted uncertainty, and which way is the cheapest
+    Plan(plan::Planning),
     /// Diagnose where measured data depart from a model, and which effect is missing
     Gap(gap::Gap),
     /// Check that diagnosis blindly at a case's own design: how far its answers can be trusted
@@ -177,6 +180,7 @@ impl CommandLine {
             Command::Models(command) => command.execute(self),
             Command::Verify(command) => command.execute(self),
             Command::Diff(command) => command.execute(self),
+            Command::Plan(command) => command.execute(self),
             Command::Gap(command) => command.execute(self),
             Command::GapCheck(command) => command.execute(self),
             Command::Observe(command) => command.execute(self),

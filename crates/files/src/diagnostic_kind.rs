@@ -331,6 +331,25 @@ pub enum DiagnosticKind {
         /// Why, as a part of the sentence.
         reason: String,
     },
+    /// A calibration function that cannot be fitted, or points that cannot be read.
+    Fit {
+        /// The function, or the coordinate.
+        name: String,
+        /// Why, as a sentence without a capital.
+        reason: String,
+    },
+    /// A complex quantity that is not written as one, or is not taken as one.
+    Complex {
+        /// The quantity.
+        name: String,
+        /// Why, as the rest of the sentence.
+        reason: String,
+    },
+    /// A coverage region that cannot be.
+    Region {
+        /// Why, as a sentence without a capital.
+        reason: String,
+    },
     /// Too many rows, inputs, nodes.
     TooMany {
         /// What is concerned, in words.
@@ -414,6 +433,11 @@ pub enum DiagnosticKind {
     /// Observations that say nothing about the sim, or contradict themselves.
     Observation {
         /// Why, as a part of the sentence.
+        reason: String,
+    },
+    /// What the improvement of an input costs, in a form that it cannot have.
+    Cost {
+        /// Why, as a sentence without a capital.
         reason: String,
     },
     /// Prior probabilities that do not sum to one.
@@ -503,6 +527,9 @@ impl DiagnosticKind {
             Self::Sample { .. } => "bad-sample",
             Self::Table { .. } => "bad-table",
             Self::Correlation { .. } => "bad-correlation",
+            Self::Complex { .. } => "bad-complex",
+            Self::Fit { .. } => "bad-fit",
+            Self::Region { .. } => "bad-region",
             Self::TooMany { .. } => "too-many",
             Self::MoreMistakes { .. } => "more-mistakes",
             Self::SavedChanged { .. } => "changed-result",
@@ -516,6 +543,7 @@ impl DiagnosticKind {
             Self::UnknownEffect { .. } => "unknown-effect",
             Self::Effect { .. } => "bad-effect",
             Self::Observation { .. } => "bad-observations",
+            Self::Cost { .. } => "bad-cost",
             Self::Prior { .. } => "bad-prior",
             Self::Certificate { .. } => "bad-certificate",
             Self::NotDate { .. } => "not-a-date",
@@ -726,14 +754,18 @@ impl fmt::Display for DiagnosticKind {
                 "`{found}` is not a finite number; a file of samples has one on each line, and `#` \
                  before words"
             ),
-            Self::Table { reason } | Self::Observation { reason } | Self::Prior { reason } => {
-                f.write_str(reason)
-            }
+            Self::Table { reason }
+            | Self::Cost { reason }
+            | Self::Observation { reason }
+            | Self::Prior { reason } => f.write_str(reason),
             Self::UnknownEffect { name, nearest } => {
                 write!(f, "the catalogue has no effect `{name}`{}", meant(nearest.as_ref()))
             }
             Self::Effect { name, reason } => write!(f, "the effect `{name}` {reason}"),
             Self::Correlation { reason } => f.write_str(reason),
+            Self::Fit { name, reason } => write!(f, "`{name}`: {reason}"),
+            Self::Region { reason } => f.write_str(reason),
+            Self::Complex { name, reason } => write!(f, "`{name}` {reason}"),
             // more than can be counted, or than was looked at
             Self::TooMany { what, found: usize::MAX, most } => {
                 write!(f, "there are more than {most} {what}, which this version takes at most")

@@ -6,6 +6,9 @@ use serde::{Serialize, Serializer};
 
 use super::EvaluationReport;
 use super::answer::{in_order, pretty, write_pretty};
+use super::fits::FitSide;
+use super::json_inputs::{Inputs, RowInputs, varying};
+use super::regions::RegionSide;
 use super::subtotals::Subtotals;
 use gumption_engine::propagate::gum::{BudgetLine, CorrelationLine, Dof, Gum};
 use gumption_engine::propagate::monte_carlo::{MonteCarlo, NumericalError};
@@ -39,10 +42,29 @@ struct Answer<'a> {
     coverage_probability: f64,
     #[serde(skip_serializing_if = "is_false")]
     stopped: bool,
+    source: Option<&'a str>,
+    model: Option<ModelSide<'a>>,
+    #[serde(serialize_with = "in_order")]
+    equations: &'a [(String, String)],
+    inputs: Inputs<'a>,
     #[serde(flatten)]
     results: Results<'a>,
+    #[serde(serialize_with = "in_order", skip_serializing_if = "Vec::is_empty")]
+    fits: Vec<(&'a str, FitSide<'a>)>,
     warnings: Vec<Remark<'a>>,
     provenance: Origin<'a>,
+}
+
+/// The typed model that was evaluated.
+#[derive(Serialize)]
+struct ModelSide<'a> {
+    name: &'a str,
+    source: Option<&'a str>,
+}
+
+/// A text that is not empty.
+fn given(text: &str) -> Option<&str> {
+    Some(text.trim()).filter(|text| !text.is_empty())
 }
 
 #[derive(Serialize)]
@@ -61,11 +83,13 @@ struct Rows<'a> {
 impl Serialize for Rows<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let Self { task, evaluation } = *self;
-        serializer.collect_seq(evaluation.rows.iter().map(|row| {
+        let varying = varying(task);
+        serializer.collect_seq(evaluation.rows.iter().enumerate().map(|(number, row)| {
             let names = task.model.conditions.iter().map(|condition| condition.name.as_str());
             let conditions = names.zip(row.conditions.iter().copied()).collect();
             let figures = Figures::of(task, row, evaluation.stopped);
-            Row { conditions, figures }
+            let inputs = RowInputs { task, row: number, varying: &varying };
+            Row { conditions, inputs, figures }
         }))
     }
 }
@@ -74,6 +98,8 @@ impl Serialize for Rows<'_> {
 struct Row<'a> {
     #[serde(serialize_with = "in_order")]
     conditions: Vec<(&'a str, f64)>,
+    #[serde(skip_serializing_if = "RowInputs::is_empty")]
+    inputs: RowInputs<'a>,
     #[serde(flatten)]
     figures: Figures<'a>,
 }
@@ -85,6 +111,8 @@ struct Figures<'a> {
     /// Those of the coefficients; not there without trials.
     #[serde(skip_serializing_if = "Pairs::is_empty")]
     output_correlations_standard_error: Pairs<'a, Option<f64>>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    regions: Vec<RegionSide<'a>>,
 }
 
 /// The outputs of a row, made one by one.
@@ -400,7 +428,16 @@ impl<'a> Answer<'a> {
             title: &task.title,
             coverage_probability: evaluation.coverage_probability,
             stopped: evaluation.stopped,
+            source: given(&task.source),
+            model: task
+                .statement
+                .name
+                .as_deref()
+                .map(|name| ModelSide { name, source: given(&task.statement.source) }),
+            equations: &task.statement.equations,
+            inputs: Inputs { task },
             results,
+            fits: task.curves.iter().map(|c| (c.fit.name.as_str(), FitSide::of(c))).collect(),
             warnings: warnings.iter().map(Remark::of).collect(),
             provenance: Origin {
                 model_sha256: &provenance.model_sha256,
@@ -419,6 +456,7 @@ impl<'a> Figures<'a> {
             outputs,
             output_correlations: Pairs { task, figures: &row.correlations },
             output_correlations_standard_error: Pairs { task, figures: &row.correlation_errors },
+            regions: row.regions.iter().map(|region| RegionSide::of(task, region)).collect(),
         }
     }
 }

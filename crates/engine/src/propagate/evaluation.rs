@@ -10,6 +10,7 @@ use super::Control;
 use super::conformity::Conformity;
 use super::gum::{self, Gum, GumRow};
 use super::monte_carlo::{self, MonteCarlo, Request, Search, Undefined};
+use super::regions::{RegionEvaluation, regions};
 use super::second_order::{SecondOrder, second_order};
 use super::validate::{Validation, validate};
 use crate::distribution::{BLOCK, Correlation, CorrelationError, Joint};
@@ -52,6 +53,8 @@ pub struct RowEvaluation {
     /// Numerical standard errors of those from the trials; `None` where an output's trials do not
     /// tell them. Empty by the law of propagation, which has none.
     pub correlation_errors: Vec<Option<f64>>,
+    /// The coverage regions of several outputs together, as many as the task asks for.
+    pub regions: Vec<RegionEvaluation>,
     /// Trials that were left out because an output was not finite.
     pub undefined: Option<Undefined>,
     /// The variables that are outputs of saved results, drawn as they varied together there.
@@ -339,6 +342,7 @@ fn evaluate_row(
         outputs: Vec::with_capacity(gums.len()),
         correlations: Vec::new(),
         correlation_errors: Vec::new(),
+        regions: Vec::new(),
         undefined: None,
         jointly_drawn: joint
             .rank_samples()
@@ -365,6 +369,7 @@ fn evaluate_row(
             result.correlation_errors = finished.correlation_errors;
         }
     }
+    let of_law = if task.regions.is_empty() { Vec::new() } else { linear.correlations() };
     if figures.iter().all(Option::is_none) {
         result.correlations = linear.correlations();
     }
@@ -411,6 +416,10 @@ fn evaluate_row(
             conformity,
             drawn_dof,
         });
+    }
+    if !task.regions.is_empty() {
+        let trials = monte_carlo::RowTrials::new(task, row, &linear.estimates, &joint);
+        result.regions = regions(task, &result, &of_law, &trials, control)?;
     }
     Ok(result)
 }

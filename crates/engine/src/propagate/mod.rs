@@ -10,8 +10,10 @@ mod control;
 mod density;
 mod evaluation;
 pub mod gum;
+mod input_figures;
 pub mod monte_carlo;
 mod origins;
+mod regions;
 mod replay;
 mod second_order;
 pub mod validate;
@@ -25,7 +27,11 @@ pub use evaluation::{
     CapabilityStatement, Evaluation, EvaluationError, JointlyDrawn, OutputEvaluation,
     RowEvaluation, evaluate, trial_hash,
 };
+pub use input_figures::InputFigures;
 pub use origins::{Origins, linear, origins};
+pub use regions::{
+    JointRegion, Region, RegionEvaluation, RegionValidation, SampledRegion, SmallestRegion,
+};
 pub use replay::{for_each_block, histograms, joint_ranks, quantiles};
 pub use second_order::SecondOrder;
 pub use warnings::{second_order_text, warnings};

@@ -8,6 +8,7 @@ mod evidence;
 mod function;
 mod settings;
 mod sharing;
+mod statement;
 #[cfg(test)]
 mod tests;
 mod warning;
@@ -20,6 +21,7 @@ pub use function::ColumnFunction;
 pub(crate) use function::differences;
 pub use settings::{Settings, StoppingRule, Trials};
 pub use sharing::Sharing;
+pub use statement::ModelStatement;
 pub use warning::Warning;
 
 use std::sync::Arc;
@@ -27,6 +29,8 @@ use std::sync::Arc;
 use crate::distribution::{Correlation, Distribution, EvaluationType, Fits, Input};
 use crate::model::Model;
 use crate::model::typed::Measurement;
+use crate::propagate::Region;
+use crate::regression::CurveFunction;
 use gumption_units::Unit;
 
 /// One random variable of the model: an input quantity, or a component of one.
@@ -64,6 +68,10 @@ pub struct Row {
 pub struct Task {
     /// Title, for reports.
     pub title: String,
+    /// The document that the measurement follows, for reports.
+    pub source: String,
+    /// The equations in words, for reports.
+    pub statement: ModelStatement,
     /// The model. Its program's variables are [`Task::variables`], then the conditions.
     pub model: Model,
     /// The random variables.
@@ -78,6 +86,10 @@ pub struct Task {
     pub settings: Settings,
     /// The joint draws found so far.
     pub fits: Fits,
+    /// The calibration functions that its formulas call.
+    pub curves: Vec<Arc<CurveFunction>>,
+    /// The outputs that are covered together.
+    pub regions: Vec<Region>,
     /// What computes the outputs in place of the model's program, where it cannot be recorded.
     pub function: Option<Arc<dyn ColumnFunction>>,
 }
@@ -104,6 +116,8 @@ impl Task {
     pub fn new(model: Model, variables: Vec<Variable>, rows: Vec<Row>) -> Self {
         Self {
             title: String::new(),
+            source: String::new(),
+            statement: ModelStatement::default(),
             swept: !model.conditions.is_empty(),
             model,
             variables,
@@ -111,6 +125,8 @@ impl Task {
             rows,
             settings: Settings::default(),
             fits: Fits::default(),
+            curves: Vec::new(),
+            regions: Vec::new(),
             function: None,
         }
     }

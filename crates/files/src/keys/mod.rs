@@ -3,6 +3,8 @@
 
 mod case;
 mod certificate;
+mod costs;
+mod fits;
 mod model_file;
 mod node;
 mod recipe;
@@ -16,15 +18,20 @@ use serde_json::Value;
 
 pub(crate) use case::{EFFECT, OBSERVATIONS, OBSERVED, PRIOR};
 pub(crate) use certificate::{CERTIFICATE, CERTIFICATE_KEYS, CERTIFICATE_ROW, DEVICE, PARTY};
+pub(crate) use costs::{COST, COSTS, COSTS_KEY, OFFER};
+pub(crate) use fits::{COVARIANCE_FILE, FIT, POINTS};
 pub(crate) use model_file::{
-    CONDITION, CORRELATION_MATRIX, MODEL, MONTE_CARLO, OUTPUT, TABLE_OF_CONDITIONS, TOLERANCE,
+    CONDITION, CORRELATION_MATRIX, MODEL, MONTE_CARLO, OUTPUT, REGION, TABLE_OF_CONDITIONS,
+    TOLERANCE,
 };
 use node::{With, object, reference};
 pub(crate) use recipe::{
     CHANNEL, FREQUENCY, POINT, QUANTITY, RECIPE, RECIPE_CONDITION, RECIPE_KEY, RECIPE_ROW,
     RECORDING, SEARCH, SEARCHED, STEPS,
 };
-pub(crate) use shapes::{COMPONENT, COMPOSED, INPUT, POOLED, SHAPES, Shape};
+pub(crate) use shapes::{
+    COMPLEX, COMPLEX_INPUT, COMPONENT, COMPOSED, INPUT, POOLED, SHAPES, Shape,
+};
 pub(crate) use values::READINGS;
 
 /// A key that an object of a file may have.
@@ -48,6 +55,8 @@ pub(crate) fn schema(effects: &BTreeSet<String>) -> Value {
     let mut definitions = model_file::definitions();
     definitions.extend(case::definitions(effects));
     definitions.extend(certificate::definitions());
+    definitions.extend(costs::definitions());
+    definitions.extend(fits::definitions());
     definitions.extend(recipe::definitions());
     definitions.extend(result_file::definitions());
     definitions.extend(shapes::definitions());
@@ -61,7 +70,7 @@ pub(crate) fn schema(effects: &BTreeSet<String>) -> Value {
                 "Files of gumption, format 1. Model files: a measurement with what is known about \
                  its inputs, to be evaluated by the GUM and by Monte Carlo; with observations a case \
                  of the gap diagnosis. Certificate files: which results of which models are stated. \
-                 Recipes: what is taken from which recordings. Result files: what an evaluation found, to be the input of another one.",
+                 Recipes: what is taken from which recordings. Files of costs: what improvements of inputs cost. Result files: what an evaluation found, to be the input of another one.",
             ),
         ),
         ("if", with_key("result")),
@@ -74,9 +83,16 @@ pub(crate) fn schema(effects: &BTreeSet<String>) -> Value {
                 (
                     "else",
                     object([
-                        ("if", certificate::meant()),
-                        ("then", reference("certificate")),
-                        ("else", reference("model")),
+                        ("if", costs::meant()),
+                        ("then", reference("costs")),
+                        (
+                            "else",
+                            object([
+                                ("if", certificate::meant()),
+                                ("then", reference("certificate")),
+                                ("else", reference("model")),
+                            ]),
+                        ),
                     ]),
                 ),
             ]),

@@ -313,6 +313,24 @@ pub(crate) const POOLED: &[Key] = keys![
 pub(crate) const COMPOSED: [&str; 7] =
     ["unit", "mean", "components", "about", "type", "group", "per"];
 
+/// Keys of a complex input.
+pub(crate) const COMPLEX_INPUT: &[Key] = keys![
+    "unit" => reference("unit"),
+    "complex" => closed("The two parts, each with its distribution.", COMPLEX, &[]),
+    "about" => text_of("What it is, in words."),
+];
+
+/// Keys of the parts of a complex input.
+pub(crate) const COMPLEX: &[Key] = keys![
+    "re" => referenced("input", "The real part, in the quantity's unit unless it says its own."),
+    "im" => referenced("input", "The imaginary part."),
+    "modulus" => referenced("input", "The modulus, in the quantity's unit unless it says its own."),
+    "phase" => referenced("input", "The phase, in radians unless it says its own unit."),
+    "correlation" => described("number", "The correlation coefficient of the two parts.")
+                .with("minimum", -1)
+                .with("maximum", 1),
+];
+
 fn common(key: &str) -> Value {
     match key {
         "unit" => reference("unit"),
@@ -401,6 +419,10 @@ pub(super) fn definitions() -> Vec<(String, Value)> {
         ("stated".to_owned(), stated()),
         ("stated-input".to_owned(), stated_in(Holder::Input)),
         ("stated-component".to_owned(), stated_in(Holder::Component)),
+        (
+            "complex-input".to_owned(),
+            closed("A complex input quantity.", COMPLEX_INPUT, &["complex"]),
+        ),
     ];
     for holder in [Holder::Input, Holder::Component] {
         for shape in &SHAPES {
@@ -476,9 +498,16 @@ fn choice(holder: Holder) -> Value {
             .with(
                 "else",
                 object([
-                    ("if", is_stated()),
-                    ("then", reference("stated-input")),
-                    ("else", needed.with("allOf", chosen)),
+                    ("if", object([("required", texts(["complex"]))])),
+                    ("then", reference("complex-input")),
+                    (
+                        "else",
+                        object([
+                            ("if", is_stated()),
+                            ("then", reference("stated-input")),
+                            ("else", needed.with("allOf", chosen)),
+                        ]),
+                    ),
                 ]),
             ),
     }

@@ -6,13 +6,14 @@ use std::ops::Range;
 use super::error::{FormulaError, Operand};
 use super::evaluate::constants;
 use super::fraction::{Fraction, fractions};
-use super::function::Function;
+use super::function::{Function, Part};
 use super::message::excerpt;
 use super::suggest;
 use super::syntax::{Kind, Node, Operator, TableCall, Tree};
 use super::tie::Tie;
 use super::typing::{Scope, TableData, Typing};
 use crate::number::{Binary, Unary};
+use crate::regression::CurveFunction;
 use gumption_units::{Dimension, Exponent, Unit};
 
 /// The most mistakes reported of one formula.
@@ -103,6 +104,9 @@ impl<'c> Checker<'c> {
             Kind::Table { x, call } => free(self.table(*x, call)),
             Kind::Solve { body, unknown, from, to } => {
                 free(self.solve(&node.span, body, unknown, [*from, *to]))
+            }
+            Kind::Curve { curve, inverse, argument } => {
+                free(self.curve(curve, *inverse, *argument))
             }
             Kind::Call { function: None, name_span, .. } => {
                 self.no_function(name_span);
@@ -224,6 +228,32 @@ impl<'c> Checker<'c> {
             });
         }
         Typing::ANY
+    }
+
+    /// A calibration function: its argument has to be a quantity of that side.
+    fn curve(&mut self, curve: &CurveFunction, inverse: bool, argument: usize) -> Typing {
+        let (from, to) = if inverse { (&curve.y, &curve.x) } else { (&curve.x, &curve.y) };
+        let side = if inverse { "y" } else { "x" };
+        let typing = self.settled(argument);
+        let span = self.tree.span(argument);
+        let expected = Typing::in_unit(from);
+        if let Some(dimension) = typing.dimension
+            && Some(dimension) != expected.dimension
+        {
+            let operand = self.operand(argument, dimension);
+            let reason = format!(
+                "{operand}, but {side} of `{}` is {} (in {from})",
+                curve.fit.name,
+                from.describe()
+            );
+            self.report_dimension(FormulaError::Curve { reason, span });
+        } else if let Err(misfit) = typing.reported_in(from) {
+            let text = self.quoted(argument);
+            let reason =
+                format!("`{text}` cannot be {side} of `{}` in {from}: {misfit}", curve.fit.name);
+            self.report_dimension(FormulaError::Curve { reason, span });
+        }
+        Typing::in_unit(to)
     }
 
     fn no_function(&mut self, span: &Range<usize>) {
@@ -398,6 +428,11 @@ impl<'c> Checker<'c> {
             }
             // the parser reads them as sums, and as nodes of their own
             Function::Sum | Function::Mean | Function::Table | Function::Solve => Typing::ANY,
+            Function::Part(Part::Argument) => {
+                self.without_zero(name, first);
+                Typing::NUMBER
+            }
+            Function::Part(_) => self.without_zero(name, first),
             Function::Kelvin | Function::Celsius => {
                 self.temperature(name, name_span, first);
                 self.scaled_temperature(function)

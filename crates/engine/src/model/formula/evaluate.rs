@@ -5,12 +5,13 @@ use std::sync::Arc;
 
 use super::dimension::check;
 use super::error::FormulaError;
-use super::function::Function;
+use super::function::{Function, Part};
 use super::suggest;
 use super::syntax::{Joint, Kind, Operator, Tree};
 use super::typing::{Scope, Typing};
-use crate::model::{Recorder, Root, Traced};
+use crate::model::{NumberForm, Recorder, Root, Traced};
 use crate::number::{Binary, Number, Routine, Unary};
+use gumption_units::{Unit, Zero};
 
 /// The zero of the Celsius scale in K.
 const CELSIUS_ZERO: f64 = 273.15;
@@ -68,6 +69,20 @@ pub(super) fn evaluate<T: Number>(
                 let value = if offset == 0.0 { value } else { value - offset };
                 value / at(&results, *right)
             }
+            Kind::Curve { curve, inverse, argument } => {
+                let typing = typings.get(*argument).copied().unwrap_or(Typing::ANY);
+                let from = if *inverse { &curve.y } else { &curve.x };
+                let argument = in_own_unit(at(&results, *argument), from, typing, curve.form);
+                let parameters: Option<Vec<T>> =
+                    curve.parameters.iter().map(|(name, _)| values.get(name).copied()).collect();
+                let parameters = parameters.ok_or_else(|| FormulaError::UnknownName {
+                    name: curve.fit.name.clone(),
+                    span: node.span.clone(),
+                    nearest: Vec::new(),
+                    known: Vec::new(),
+                })?;
+                curve.value(argument, &parameters, *inverse)
+            }
             Kind::InUnit { number, unit } => match tree.nodes.get(*number).map(|node| &node.kind) {
                 Some(Kind::Number(number)) => T::constant(unit.value_to_si(*number)),
                 _ if unit.offset() == 0.0 => at(&results, *number) * unit.factor(),
@@ -116,7 +131,7 @@ pub(super) fn constants(tree: &Tree) -> Vec<Option<f64>> {
         let is_constant = match &node.kind {
             Kind::Number(_) | Kind::Pi => true,
             Kind::Name | Kind::Unit(_) | Kind::Constant(_) | Kind::InUnit { .. } => false,
-            Kind::Table { .. } | Kind::Solve { .. } => false,
+            Kind::Table { .. } | Kind::Solve { .. } | Kind::Curve { .. } => false,
             Kind::Joined { left, right, .. } => known(left) && known(right),
             Kind::Not { of, .. } => known(of),
             Kind::Negate(x) => known(x),
@@ -136,7 +151,11 @@ fn apply<T: Number>(kind: &Kind, results: &[T], constants: &[Option<f64>]) -> Op
     Some(match kind {
         Kind::Number(value) => T::constant(*value),
         Kind::Pi => T::constant(std::f64::consts::PI),
-        Kind::Name | Kind::InUnit { .. } | Kind::Table { .. } | Kind::Solve { .. } => return None,
+        Kind::Name
+        | Kind::InUnit { .. }
+        | Kind::Table { .. }
+        | Kind::Solve { .. }
+        | Kind::Curve { .. } => return None,
         Kind::Joined { joint, left, right, .. } => {
             let [x, y] = [left, right].map(|part| truth(at(results, *part)));
             match joint {
@@ -167,6 +186,10 @@ fn apply<T: Number>(kind: &Kind, results: &[T], constants: &[Option<f64>]) -> Op
                 Function::Two(operation) | Function::Fold(operation) => {
                     arguments.fold(first, |result, argument| result.binary(operation, argument))
                 }
+                Function::Part(Part::Real) => first.real_part(),
+                Function::Part(Part::Imaginary) => first.imaginary_part(),
+                Function::Part(Part::Argument) => first.argument(),
+                Function::Part(Part::Conjugate) => first.conjugate(),
                 Function::If => {
                     let (yes, no) = (arguments.next()?, arguments.next()?);
                     first.binary(Binary::When, yes) + first.binary(Binary::Unless, no)
@@ -213,6 +236,19 @@ fn root(
     let result = evaluate(text, body, scope, &values)?;
     let program = recorder.program(names.len() + 1, &[result]);
     Ok((Root::new(unknown, program), names))
+}
+
+/// A formula's number of that kind as one in a unit. A difference knows no zero.
+fn in_own_unit<T: Number>(value: T, unit: &Unit, typing: Typing, form: NumberForm) -> T {
+    if form == NumberForm::Declared {
+        return value;
+    }
+    let shift = match typing.zero {
+        Some(_) => Zero::shift(typing.zero, unit.zero()).unwrap_or(0.0) - unit.offset(),
+        None => 0.0,
+    };
+    let value = if shift == 0.0 { value } else { value + shift };
+    if unit.factor() == 1.0 { value } else { value / unit.factor() }
 }
 
 fn infix<T: Number>(operator: Operator, x: T, y: T) -> T {

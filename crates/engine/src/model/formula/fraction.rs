@@ -111,6 +111,7 @@ pub(super) fn fractions(text: &str, tree: &Tree) -> Vec<Option<Fraction>> {
             | Kind::Solve { .. }
             | Kind::Joined { .. }
             | Kind::Not { .. }
+            | Kind::Curve { .. }
             | Kind::Call { .. } => None,
         };
         found.push(fraction);

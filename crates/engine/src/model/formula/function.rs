@@ -25,10 +25,21 @@ pub(super) enum Function {
     Kelvin,
     /// The Celsius temperature of a thermodynamic one.
     Celsius,
+    /// A part of a complex number.
+    Part(Part),
+}
+
+/// What is taken of a complex number.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Part {
+    Real,
+    Imaginary,
+    Argument,
+    Conjugate,
 }
 
 /// All functions, in the order in which messages list them.
-const FUNCTIONS: [Function; 37] = [
+const FUNCTIONS: [Function; 41] = [
     Function::One(Unary::Sin),
     Function::One(Unary::Cos),
     Function::One(Unary::Tan),
@@ -52,6 +63,10 @@ const FUNCTIONS: [Function; 37] = [
     Function::Mean,
     Function::Kelvin,
     Function::Celsius,
+    Function::Part(Part::Real),
+    Function::Part(Part::Imaginary),
+    Function::Part(Part::Argument),
+    Function::Part(Part::Conjugate),
     Function::One(Unary::Floor),
     Function::One(Unary::Ceil),
     Function::One(Unary::Round),
@@ -134,6 +149,10 @@ impl Function {
             Self::Solve => "solve",
             Self::Kelvin => "kelvin",
             Self::Celsius => "celsius",
+            Self::Part(Part::Real) => "re",
+            Self::Part(Part::Imaginary) => "im",
+            Self::Part(Part::Argument) => "arg",
+            Self::Part(Part::Conjugate) => "conj",
         }
     }
 
@@ -161,6 +180,7 @@ impl Function {
             ),
             Self::Two(operation) => operation != Binary::Modulo,
             Self::Fold(_) | Self::Kelvin => true,
+            Self::Part(_) => false,
             Self::Sum | Self::Mean | Self::Celsius | Self::If | Self::Table | Self::Solve => false,
         }
     }
@@ -168,7 +188,7 @@ impl Function {
     /// How many arguments it takes.
     pub(super) fn arity(self) -> Arity {
         match self {
-            Self::One(_) | Self::Kelvin | Self::Celsius => Arity::One,
+            Self::One(_) | Self::Kelvin | Self::Celsius | Self::Part(_) => Arity::One,
             Self::Two(_) => Arity::Two,
             Self::Fold(_) | Self::Sum | Self::Mean => Arity::TwoOrMore,
             Self::If => Arity::Three,

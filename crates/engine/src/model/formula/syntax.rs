@@ -4,10 +4,12 @@
 //! walks the tree is a loop: a sum of thirty thousand terms needs no deep stack.
 
 use std::ops::Range;
+use std::sync::Arc;
 
 use super::constant::DefiningConstant;
 use super::function::Function;
 use crate::model::InterpolationMethod;
+use crate::regression::CurveFunction;
 use gumption_units::Unit;
 
 /// A formula as a tree; the last node is the whole.
@@ -67,6 +69,8 @@ pub(super) enum Kind {
     /// A call. A name that is no function's is kept, because only the names in scope tell what is
     /// wrong with it.
     Call { function: Option<Function>, name_span: Range<usize>, arguments: Vec<usize> },
+    /// A calibration function at an argument, or with `inverse` the x that belongs to a value.
+    Curve { curve: Arc<CurveFunction>, inverse: bool, argument: usize },
 }
 
 /// A table that a formula names.
@@ -183,7 +187,7 @@ impl Tree {
             Kind::Call { function: Some(Function::Kelvin | Function::Celsius), .. } => true,
             Kind::Unit(unit) => unit.offset() != 0.0,
             // the range tells what the unknown is
-            Kind::Solve { .. } => true,
+            Kind::Solve { .. } | Kind::Curve { .. } => true,
             _ => false,
         })
     }

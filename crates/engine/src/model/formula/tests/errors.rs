@@ -312,7 +312,7 @@ const TABLE: &[(&str, &str, &str, Option<&str>)] = &[
     (
         "bessel(n)",
         "bessel",
-        "there is no function `bessel`; the functions are sin, cos, tan, asin, acos, atan, atan2, sinh, cosh, tanh, exp, ln, log10, sqrt, cbrt, abs, min, max, hypot, sum, mean, kelvin, celsius, floor, ceil, round, mod, expm1, log1p, asinh, acosh, atanh, erf, gamma, if, table, solve",
+        "there is no function `bessel`; the functions are sin, cos, tan, asin, acos, atan, atan2, sinh, cosh, tanh, exp, ln, log10, sqrt, cbrt, abs, min, max, hypot, sum, mean, kelvin, celsius, re, im, arg, conj, floor, ceil, round, mod, expm1, log1p, asinh, acosh, atanh, erf, gamma, if, table, solve",
         None,
     ),
     (

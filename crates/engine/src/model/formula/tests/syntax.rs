@@ -33,6 +33,9 @@ fn show(tree: &Tree, text: &str, place: usize) -> String {
             let [from, to] = [from, to].map(|end| show(tree, text, *end));
             format!("solve({whole},{},{from},{to})", &text[unknown.clone()])
         }
+        Kind::Curve { curve, argument, .. } => {
+            format!("{}({})", curve.fit.name, show(tree, text, *argument))
+        }
         Kind::Call { name_span, arguments, .. } => {
             let arguments: Vec<_> = arguments.iter().map(|a| show(tree, text, *a)).collect();
             format!("{}({})", &text[name_span.clone()], arguments.join(","))
