@@ -164,6 +164,7 @@ impl<'a> Reader<'a, '_> {
             let known = inputs.quantities.len();
             let name = name.as_str();
             let mut reader = Reader {
+                certificate: None,
                 object: part,
                 name,
                 conditions,
