@@ -13,6 +13,7 @@ pub mod gum;
 mod input_figures;
 pub mod monte_carlo;
 mod origins;
+pub mod parts;
 mod regions;
 mod replay;
 mod second_order;
