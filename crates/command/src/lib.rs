@@ -13,11 +13,8 @@ mod exit;
 mod gap;
 mod gap_check;
 mod help;
-<<<<<<< HEAD
 mod import;
-=======
 mod merge;
->>>>>>> main
 mod models;
 mod new;
 mod observe;
