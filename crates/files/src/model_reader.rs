@@ -28,6 +28,7 @@ use super::diagnostics::{Collector, Diagnostics};
 use super::fits::{self, FitSet};
 use super::folder::Folder;
 use super::input_set::InputSet;
+use super::interpolated;
 use super::json::{Json, Member, Node};
 use super::model_checks::{
     Quantities, celsius_as_kelvin, check_equations, check_formula_outputs, check_names,
@@ -45,7 +46,7 @@ use super::scopes::{ConditionSet, number_form, report_formula, typed_scope};
 use super::simulated::{names_simulation, simulated};
 use super::size::Size;
 use super::table::{self, Table};
-use super::{DiagnosticKind, correlations, inputs, keys, regions, settings};
+use super::{DiagnosticKind, correlations, inputs, keys, notation, regions, settings};
 use gumption_engine::distribution::{Correlation, Fits};
 use gumption_engine::model::formula::Formula;
 use gumption_engine::model::typed::{Catalogue, CatalogueEntry};
@@ -141,7 +142,10 @@ pub(super) fn read_with<T>(
     options: ModelOptions<'_>,
     read: impl FnOnce(&ModelReader<'_>) -> Option<T>,
 ) -> Result<T, Diagnostics> {
-    let change = |log: &Collector, root: &mut Node| overrides::apply(log, root, options.overrides);
+    let change = |log: &Collector, root: &mut Node| {
+        notation::apply(log, root);
+        overrides::apply(log, root, options.overrides);
+    };
     read_changed_root(name, text, "a model file", change, |root| {
         let folder = options.files.folder(folder);
         read(&ModelReader { root, folder, options })
@@ -175,6 +179,7 @@ impl<'a> ModelReader<'a> {
         }
         files.extend(of.inputs.files.iter().cloned());
         files.extend(results.files.take());
+        files.append(&mut results.certificates.borrow_mut().files);
         files.extend(fits.files);
         let joint = Fits::default();
         let (correlations, notes) = self.correlations(&of, &mut files, &joint);
@@ -184,7 +189,7 @@ impl<'a> ModelReader<'a> {
         warnings.extend(results.warnings.take());
         let body = body?;
         let statement = body.statement();
-        let sim = self.sim(body, &mut of, &mut warnings)?;
+        let sim = self.sim(body, &mut of, &mut warnings, &mut files)?;
         let regions = regions::read(root, &sim.outputs);
         if !root.log.is_clean() {
             return None;
@@ -314,6 +319,7 @@ impl<'a> ModelReader<'a> {
         body: ModelBody<'a>,
         of: &mut Quantities,
         warnings: &mut Vec<Warning>,
+        files: &mut Vec<(String, Vec<u8>)>,
     ) -> Option<OverridableModel> {
         let log = self.root.log;
         let (scope, maker) = match body {
@@ -328,7 +334,10 @@ impl<'a> ModelReader<'a> {
                 (scope, ModelForm::Typed(entry.typed))
             }
             ModelBody::Equations(equations) => {
-                let scope = check_equations(log, &equations, of);
+                let form = number_form(of.check_units);
+                let tables = interpolated::read(log, self.folder, &equations, form, files);
+                warnings.extend(tables.notes);
+                let scope = check_equations(log, &equations, of, tables.tables);
                 check_formula_outputs(log, &scope, of);
                 if of.check_units {
                     warnings.extend(celsius_as_kelvin(&scope, &of.outputs.outputs));

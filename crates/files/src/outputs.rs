@@ -216,8 +216,22 @@ fn prior(tolerance: &Object<'_>, unit: &Unit, results: &Results<'_>) -> Option<D
     known.extend(kind.fields);
     object.check_names(&known);
     let (estimate, name) = (Estimate::Own, "prior");
-    Fields { object, name, unit, estimate, share_of: None, samples: None, results, at: None }
-        .distribution(kind)
+    let (read, certificate, beside_others) = (None, None, false);
+    let (share_of, samples, at) = (None, None, None);
+    Fields {
+        object,
+        name,
+        unit,
+        estimate,
+        share_of,
+        samples,
+        read,
+        certificate,
+        beside_others,
+        results,
+        at,
+    }
+    .distribution(kind)
 }
 
 /// The tolerance limits of an output.

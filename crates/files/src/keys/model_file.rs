@@ -39,7 +39,7 @@ pub(crate) const MODEL: &[Key] = keys![
         .with("additionalProperties", object([("type", Value::from("string"))])),
     "inputs" => named(
                 "What is known about the input quantities; their order is that of every table.",
-                reference("input"),
+                object([("anyOf", Value::from(vec![reference("input"), reference("stated")]))]),
             ),
     "fits" => reference("fits"),
     "correlations" => described("array", "Correlation coefficients of inputs or components.")
