@@ -12,7 +12,7 @@ impl Unit {
     /// use gumption_units::Unit;
     ///
     /// let unit = Unit::parse_dsi(r"\milli\volt\second\tothe{-2}").expect("a unit of D-SI");
-    /// assert_eq!(unit, Unit::parse("mV/s^2").unwrap());
+    /// assert_eq!(unit, Unit::parse("mV*s^-2").unwrap());
     /// assert!(Unit::parse_dsi(r"\furlong").is_none());
     /// ```
     ///
