@@ -346,7 +346,7 @@ pub mod propagate {
 /// the settings of the evaluation.
 pub mod task {
     pub use gumption_engine::task::{
-        ColumnFunction, Coverage, Evidence, Row, Settings, Sharing, StoppingRule, Task,
-        TaskBuilder, TaskError, Trials, Variable, Warning,
+        ColumnFunction, Coverage, Evidence, Row, Settings, SettingsChanges, Sharing, StoppingRule,
+        Task, TaskBuilder, TaskError, Trials, Variable, Warning,
     };
 }

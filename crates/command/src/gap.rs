@@ -1,6 +1,7 @@
 //! `gumption gap`
 
 use std::path::PathBuf;
+use std::sync::atomic::AtomicBool;
 
 use clap::{Args, ValueEnum};
 
@@ -57,8 +58,10 @@ impl Gap {
         let mut read = options::with_named(&self.case, file.files.iter().map(|(name, _)| name));
         read.extend(self.predict.clone());
         let place = self.answer.open(&read)?;
+        // from the first word on, who interrupts gets what there is
+        let stop = signals::stop_flag();
         self.answer.say(&file.warnings);
-        let diagnosis = self.diagnose(&file, at.as_deref())?;
+        let diagnosis = self.diagnose(&file, at.as_deref(), &stop)?;
         let answer = match self.answer.format {
             Format::Table => report::gap::table(&diagnosis),
             Format::Html => report::gap::html(&diagnosis, &self.provenance(&file)?),
@@ -86,13 +89,17 @@ impl Gap {
         Ok(run::provenance(&file.source.text, &files))
     }
 
-    fn diagnose(&self, file: &CaseFile, at: Option<&[Row]>) -> Result<Diagnosis, Failure> {
+    fn diagnose(
+        &self,
+        file: &CaseFile,
+        at: Option<&[Row]>,
+        stop: &AtomicBool,
+    ) -> Result<Diagnosis, Failure> {
         let seed = self.seed.or(file.case.task.settings.seed);
         let bar = progress::share(self.answer.quiet);
         let told = |share: f64| progress::tell(&bar, share);
-        let stop = signals::stop_flag();
         let options = gap::DiagnosisOptions::new(seed);
-        let diagnose = || gap::diagnose_until(&file.case, at, options, &told, &stop);
+        let diagnose = || gap::diagnose_until(&file.case, at, options, &told, stop);
         let diagnosis = self.threads.install(diagnose)?;
         bar.finish_and_clear();
         diagnosis.map_err(|error| Failure::System(error.to_string()))

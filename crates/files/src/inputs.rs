@@ -294,17 +294,11 @@ impl<'a> Reader<'a, '_> {
         let certificate = self.certificate.clone();
         let (results, conditions) = (self.results, self.conditions);
         let fields = |estimate, row| Fields {
-            object,
-            name: self.name,
-            unit,
-            estimate,
-            share_of: None,
             samples: samples.as_ref(),
             read: read.as_ref(),
             certificate: certificate.as_ref(),
-            beside_others: false,
-            results,
             at: Some((conditions, row)),
+            ..Fields::new(object, self.name, unit, estimate, results)
         };
         let mut zero_width = Vec::new();
         let mut drawn: Vec<Distribution> = Vec::new();
@@ -681,22 +675,14 @@ impl Part<'_> {
         let own = !self.kind.is_about_zero()
             || ["mean", "value", "lower"].iter().any(|key| self.object.get(key).is_some());
         let estimate = if own { Estimate::Own } else { Estimate::Given(0.0) };
-        let (object, name) = (self.object, self.full.as_str());
-        let samples = self.samples.as_ref();
-        let (share_of, at) = (Some(total), Some(at));
-        let (read, certificate) = (self.read.0.as_ref(), self.read.1.as_ref());
         Fields {
-            object,
-            name,
-            unit,
-            estimate,
-            share_of,
-            samples,
-            read,
-            certificate,
+            share_of: Some(total),
+            samples: self.samples.as_ref(),
+            read: self.read.0.as_ref(),
+            certificate: self.read.1.as_ref(),
             beside_others: self.beside_others,
-            results,
-            at,
+            at: Some(at),
+            ..Fields::new(self.object, &self.full, unit, estimate, results)
         }
         .distribution(self.kind)
     }

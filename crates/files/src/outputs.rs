@@ -215,23 +215,7 @@ fn prior(tolerance: &Object<'_>, unit: &Unit, results: &Results<'_>) -> Option<D
     let mut known = vec!["distribution", "about"];
     known.extend(kind.fields);
     object.check_names(&known);
-    let (estimate, name) = (Estimate::Own, "prior");
-    let (read, certificate, beside_others) = (None, None, false);
-    let (share_of, samples, at) = (None, None, None);
-    Fields {
-        object,
-        name,
-        unit,
-        estimate,
-        share_of,
-        samples,
-        read,
-        certificate,
-        beside_others,
-        results,
-        at,
-    }
-    .distribution(kind)
+    Fields::new(object, "prior", unit, Estimate::Own, results).distribution(kind)
 }
 
 /// The tolerance limits of an output.

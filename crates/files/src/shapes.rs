@@ -146,6 +146,29 @@ pub(super) fn has_width_of_row(object: &Object<'_>, kind: &Shape, unit: &Unit) -
 }
 
 impl<'a> Fields<'a> {
+    /// The fields of a quantity that has nothing beside them: no file read for it, no conditions.
+    pub(super) fn new(
+        object: Object<'a>,
+        name: &'a str,
+        unit: &'a Unit,
+        estimate: Estimate,
+        results: &'a Results<'a>,
+    ) -> Self {
+        Self {
+            object,
+            name,
+            unit,
+            estimate,
+            share_of: None,
+            samples: None,
+            read: None,
+            certificate: None,
+            beside_others: false,
+            results,
+            at: None,
+        }
+    }
+
     /// The distribution, with what cannot be reported.
     pub(super) fn distribution(&self, kind: &Shape) -> Option<Distribution> {
         let shape = self.whole(kind)?;

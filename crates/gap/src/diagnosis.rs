@@ -411,6 +411,19 @@ pub struct ValueGap {
     pub u_corrected: f64,
 }
 
+impl ValueGap {
+    /// What the sim says.
+    pub fn sim(&self) -> f64 {
+        self.measured - self.before
+    }
+
+    /// What the corrected sim says; where data were wrapped into a turn, on the side of the measured
+    /// value.
+    pub fn corrected(&self) -> f64 {
+        self.measured - self.left
+    }
+}
+
 /// What the data say of the noise of an output.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
@@ -604,6 +617,18 @@ pub enum DepartureOver {
     Value,
     /// All conditions together.
     AllConditions,
+}
+
+impl DepartureOver {
+    /// It in one word: the condition's name, `value` or `conditions`; `None` where it is constant.
+    pub fn name(&self) -> Option<&str> {
+        match self {
+            Self::Nothing => None,
+            Self::Condition(name) => Some(name),
+            Self::Value => Some("value"),
+            Self::AllConditions => Some("conditions"),
+        }
+    }
 }
 
 /// What a departure looks like over what it is a function of.

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::departures::{BENCHES, Bench, Simulated, Withheld, simulated};
+use super::departures::{BENCHES, Bench, Simulated, said, simulated};
 use super::normal;
 use crate::{
     Candidate, Case, ComposedEffect, ComposedPrior, DepartureOver, Diagnosis, DiagnosisOptions,
@@ -103,27 +103,6 @@ fn diagnosed(bench: &Bench, simulated: &Simulated) -> Diagnosis {
     diagnose(&case, Some(&rows), DiagnosisOptions::new(1), &|_| {}).unwrap()
 }
 
-/// What a composed effect says: its quantities, what it is a function of, its form.
-fn said(of: &ComposedEffect) -> (String, String, String) {
-    let first = &of.terms[0];
-    let over = match &first.over {
-        DepartureOver::Nothing => "",
-        DepartureOver::Condition(name) => name,
-        DepartureOver::Value => "value",
-        DepartureOver::AllConditions => "conditions",
-    };
-    (first.quantities.join("+"), over.to_owned(), first.form.name().to_owned())
-}
-
-/// Whether quantity and argument are right, and the form as well.
-fn right(of: &ComposedEffect, withheld: &Withheld) -> (bool, bool) {
-    let (quantity, over, form) = said(of);
-    let place = of.terms.len() == 1
-        && withheld.quantities.contains(&quantity.as_str())
-        && withheld.over.contains(&over.as_str());
-    (place, place && withheld.forms.contains(&form.as_str()))
-}
-
 /// A composed effect as a candidate, with the priors that it is handed over with.
 fn pasted(of: &ComposedEffect) -> Candidate {
     let formulas = of.overrides.iter();
@@ -162,9 +141,20 @@ fn what_is_withheld_is_named_and_explains_once_it_is_listed() {
         let simulated = simulated(bench, place, 1);
         let found = diagnosed(bench, &simulated);
         let first = found.composed.first().unwrap();
-        assert!(right(first, withheld).0, "{} {}: {:?}", bench.name, withheld.name, said(first));
+        assert!(
+            withheld.is_named_by(first).0,
+            "{} {}: {:?}",
+            bench.name,
+            withheld.name,
+            said(first)
+        );
         let three = found.composed.iter().take(3);
-        assert!(three.clone().any(|of| right(of, withheld).1), "{} {}", bench.name, withheld.name);
+        assert!(
+            three.clone().any(|of| withheld.is_named_by(of).1),
+            "{} {}",
+            bench.name,
+            withheld.name
+        );
         let mut case = case_of(bench, &simulated);
         case.candidates.push(pasted(first));
         let again = diagnose(&case, None, DiagnosisOptions::new(1), &|_| {}).unwrap();
@@ -216,7 +206,7 @@ fn a_term_beside_a_listed_effect_is_composed() {
     let beside = beside.unwrap_or_else(|| {
         panic!("{:?}", found.composed.iter().map(|of| (&of.name, &of.beside)).collect::<Vec<_>>())
     });
-    assert_eq!(said(beside), ("y".to_owned(), "th".to_owned(), "wave".to_owned()));
+    assert_eq!(said(beside), ["y", "th", "wave"]);
 }
 
 /// An effect that ships with the program explains what the list does not.
@@ -275,7 +265,7 @@ fn study() {
             let simulated = simulated(bench, Some(number), seed);
             let found = diagnosed(bench, &simulated);
             let rights: Vec<(bool, bool)> =
-                found.composed.iter().take(3).map(|of| right(of, withheld)).collect();
+                found.composed.iter().take(3).map(|of| withheld.is_named_by(of)).collect();
             let marks = [
                 rights.first().is_some_and(|of| of.0),
                 rights.first().is_some_and(|of| of.1),

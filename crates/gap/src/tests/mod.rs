@@ -18,7 +18,9 @@ use std::sync::Arc;
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::{Candidate, Case, Effect, ModelForm, ObservedOutput, OverridableModel, Prior};
+use crate::{
+    Candidate, Case, ComposedEffect, Effect, ModelForm, ObservedOutput, OverridableModel, Prior,
+};
 use gumption_engine::distribution::{Distribution, Normal};
 use gumption_engine::model::formula::{Formula, Scope, Typing};
 use gumption_engine::model::{InputQuantity, NumberForm, Output, Quantity};

@@ -54,7 +54,7 @@ impl Groups {
             residuals::Over::Condition(place) => {
                 groups.caption(&crate::plain(&diagnosis.conditions[place].name))
             }
-            residuals::Over::Row => groups.caption("the number of the row"),
+            residuals::Over::Row => groups.caption(&over.in_sentence(diagnosis)),
         };
         panels.map(caption).collect()
     }

@@ -287,8 +287,8 @@ fn rows(diagnosis: &Diagnosis) -> Value {
                 "u_before": value.u_before,
                 "after": value.after,
                 "u_after": value.u_after,
-                "sim": value.measured - value.before,
-                "corrected": value.measured - value.left,
+                "sim": value.sim(),
+                "corrected": value.corrected(),
                 "u_corrected": value.u_corrected,
             })
         });

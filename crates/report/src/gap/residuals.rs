@@ -1,6 +1,7 @@
 //! The residuals of one output over one condition, as figures show them.
 
-use gumption_gap::{Diagnosis, ValueGap};
+use super::words;
+use gumption_gap::{Diagnosis, RowGap, ValueGap};
 
 /// One residual before and after the correction, each with its standard uncertainty.
 #[derive(Clone, Copy, Debug)]
@@ -23,6 +24,32 @@ pub(super) enum Over {
     Row,
 }
 
+impl Over {
+    /// Where a row stands, the first having the number 0.
+    pub(super) fn of(self, number: usize, row: &RowGap) -> Option<f64> {
+        match self {
+            Self::Condition(place) => row.conditions.get(place).copied(),
+            Self::Row => Some((number + 1) as f64),
+        }
+    }
+
+    /// What stands at the axis: the condition with its unit, or what the numbers are.
+    pub(super) fn axis(self, diagnosis: &Diagnosis) -> String {
+        match self {
+            Self::Condition(place) => words::axis(&diagnosis.conditions[place]),
+            Self::Row => "number of the row".to_owned(),
+        }
+    }
+
+    /// The same within a sentence.
+    pub(super) fn in_sentence(self, diagnosis: &Diagnosis) -> String {
+        match self {
+            Self::Condition(_) => self.axis(diagnosis),
+            Self::Row => format!("the {}", self.axis(diagnosis)),
+        }
+    }
+}
+
 /// The distinct values of a condition in the data, in order.
 pub(super) fn levels(diagnosis: &Diagnosis, condition: usize) -> Vec<f64> {
     let rows = diagnosis.rows.iter();
@@ -39,6 +66,16 @@ pub(super) fn varying(diagnosis: &Diagnosis) -> Vec<usize> {
     conditions.filter(|&condition| levels(diagnosis, condition).len() > 1).collect()
 }
 
+/// What the panels of a figure are drawn over: each condition that varies, or the number of the row.
+pub(super) fn panels(diagnosis: &Diagnosis) -> Vec<Over> {
+    let varying = varying(diagnosis);
+    if varying.is_empty() {
+        vec![Over::Row]
+    } else {
+        varying.into_iter().map(Over::Condition).collect()
+    }
+}
+
 /// The condition with most levels.
 pub(super) fn finest(diagnosis: &Diagnosis) -> Over {
     let varying = varying(diagnosis).into_iter();
@@ -51,10 +88,7 @@ pub(super) fn finest(diagnosis: &Diagnosis) -> Over {
 pub(super) fn of(diagnosis: &Diagnosis, output: usize, over: Over) -> Vec<Residual> {
     let rows = diagnosis.rows.iter().enumerate();
     rows.filter_map(|(number, row)| {
-        let x = match over {
-            Over::Condition(place) => *row.conditions.get(place)?,
-            Over::Row => (number + 1) as f64,
-        };
+        let x = over.of(number, row)?;
         let ValueGap { before, u_before, after, u_after, .. } = *row.outputs.get(output)?;
         let numbers = [x, before, u_before, after, u_after];
         let found =
@@ -76,12 +110,9 @@ pub(super) fn measured_at(diagnosis: &Diagnosis, output: usize, conditions: &[f6
 pub(super) fn overlaid(diagnosis: &Diagnosis, output: usize, over: Over) -> Vec<(f64, [f64; 3])> {
     let rows = diagnosis.rows.iter().enumerate();
     rows.filter_map(|(number, row)| {
-        let x = match over {
-            Over::Condition(place) => *row.conditions.get(place)?,
-            Over::Row => (number + 1) as f64,
-        };
-        let ValueGap { measured, before, left, .. } = *row.outputs.get(output)?;
-        let values = [measured, measured - before, measured - left];
+        let x = over.of(number, row)?;
+        let value = row.outputs.get(output)?;
+        let values = [value.measured, value.sim(), value.corrected()];
         let finite = x.is_finite() && values.iter().all(|value| value.is_finite());
         finite.then_some((x, values))
     })

@@ -1,6 +1,6 @@
 //! Plots of the residuals in a terminal, without colours.
 
-use super::residuals::{self, Over, Residual};
+use super::residuals::{self, Residual};
 use super::words;
 use crate::number::exact;
 use crate::plot::{Axis, CharacterGrid, cell_at};
@@ -27,11 +27,7 @@ const BAND: f64 = 2.0;
 /// condition with most levels.
 pub(super) fn plots(diagnosis: &Diagnosis) -> Vec<String> {
     let over = residuals::finest(diagnosis);
-    let along = match over {
-        Over::Condition(place) => diagnosis.conditions.get(place).map(words::axis),
-        Over::Row => None,
-    };
-    let along = along.unwrap_or_else(|| "the number of the row".to_owned());
+    let along = over.in_sentence(diagnosis);
     let outputs = diagnosis.outputs.iter().enumerate();
     outputs
         .filter_map(|(output, named)| {
@@ -60,11 +56,7 @@ const CORRECTED: char = '+';
 /// most levels.
 pub(super) fn overlays(diagnosis: &Diagnosis) -> Vec<String> {
     let over = residuals::finest(diagnosis);
-    let along = match over {
-        Over::Condition(place) => diagnosis.conditions.get(place).map(words::axis),
-        Over::Row => None,
-    };
-    let along = along.unwrap_or_else(|| "the number of the row".to_owned());
+    let along = over.in_sentence(diagnosis);
     let outputs = diagnosis.outputs.iter().enumerate();
     outputs
         .filter_map(|(output, named)| {

@@ -38,28 +38,11 @@ struct Point {
 /// Which value of a row is meant.
 type Of = fn(&Point) -> f64;
 
-impl Point {
-    fn sim(&self) -> f64 {
-        self.value.measured - self.value.before
-    }
-
-    /// The corrected sim; where data were wrapped into a turn, on the side of the measured value.
-    fn corrected(&self) -> f64 {
-        self.value.measured - self.value.left
-    }
-}
-
 /// A panel for each condition that varies; `None` without values.
 pub(in crate::gap) fn draw(diagnosis: &Diagnosis, output: usize) -> Option<Drawing> {
     let named = diagnosis.outputs.get(output)?;
-    let varying = residuals::varying(diagnosis);
-    let over: Vec<Over> = if varying.is_empty() {
-        vec![Over::Row]
-    } else {
-        varying.into_iter().map(Over::Condition).collect()
-    };
     let mut panels = Vec::new();
-    for over in over {
+    for over in residuals::panels(diagnosis) {
         let groups = Groups::new(diagnosis, over);
         let points = points(diagnosis, output, over, &groups);
         if !points.is_empty() {
@@ -83,16 +66,12 @@ pub(in crate::gap) fn draw(diagnosis: &Diagnosis, output: usize) -> Option<Drawi
     let ends = panels
         .iter()
         .flat_map(|(_, _, points)| points)
-        .flat_map(|point| [point.value.measured, point.sim(), point.corrected()]);
+        .flat_map(|point| [point.value.measured, point.value.sim(), point.value.corrected()]);
     let y = super::linear_over(ends)?;
     let drawn = svg(WIDTH, HEIGHT * panels.len() as f64, |area| {
         let rows = area.split_evenly((panels.len(), 1));
         for (row, (over, _, points)) in rows.iter().zip(&panels) {
-            let along = match over {
-                Over::Condition(place) => words::axis(&diagnosis.conditions[*place]),
-                Over::Row => "number of the row".to_owned(),
-            };
-            panel(row, points, (along, words::axis(named)), &y)?;
+            panel(row, points, (over.axis(diagnosis), words::axis(named)), &y)?;
         }
         Ok(())
     });
@@ -104,14 +83,12 @@ fn points(diagnosis: &Diagnosis, output: usize, over: Over, groups: &Groups) -> 
     let rows = diagnosis.rows.iter().enumerate().step_by(step);
     rows.filter_map(|(number, row)| {
         let value = *row.outputs.get(output)?;
-        let (x, own) = match over {
-            Over::Condition(place) => (*row.conditions.get(place)?, Some(place)),
-            Over::Row => ((number + 1) as f64, None),
-        };
-        let others = row.conditions.iter().enumerate().filter(|(place, _)| Some(*place) != own);
+        let x = over.of(number, row)?;
+        let others = row.conditions.iter().enumerate();
+        let others = others.filter(|(place, _)| over != Over::Condition(*place));
         let line = others.map(|(_, value)| value.to_bits()).collect();
         let point = Point { x, group: groups.of(&row.conditions), line, value };
-        let numbers = [x, value.measured, point.sim(), point.corrected()];
+        let numbers = [x, value.measured, point.value.sim(), point.value.corrected()];
         numbers.iter().all(|number| number.is_finite()).then_some(point)
     })
     .collect()
@@ -153,7 +130,7 @@ fn sims(chart: &Chart<'_>, x: &Axis, points: &[Point]) -> Drawn {
     }
     let joined = lines.len() <= LINES && lines.values().any(|line| line.len() > 1);
     let of: [(RGBColor, f64, Of); 2] =
-        [(BEFORE, 1.25, Point::sim), (AFTER, 1.75, Point::corrected)];
+        [(BEFORE, 1.25, |point| point.value.sim()), (AFTER, 1.75, |point| point.value.corrected())];
     for (colour, width, value) in of {
         for line in lines.values_mut().filter(|_| joined) {
             line.sort_by(|a, b| a.x.total_cmp(&b.x));

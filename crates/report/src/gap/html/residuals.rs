@@ -4,7 +4,7 @@ use plotters::element::{PathElement, Polygon};
 use plotters::style::{Color, RGBColor};
 
 use super::super::groups::Groups;
-use super::super::residuals::{self, Over, Residual};
+use super::super::residuals::{self, Residual};
 use super::super::words;
 use super::marks::{Fill, mark};
 use super::{Drawing, WIDTH};
@@ -34,12 +34,7 @@ type Of = fn(&Residual) -> (f64, f64);
 /// Two panels for each condition that varies; `None` without values.
 pub(in crate::gap) fn draw(diagnosis: &Diagnosis, output: usize) -> Option<Drawing> {
     let named = diagnosis.outputs.get(output)?;
-    let varying = residuals::varying(diagnosis);
-    let over: Vec<Over> = if varying.is_empty() {
-        vec![Over::Row]
-    } else {
-        varying.into_iter().map(Over::Condition).collect()
-    };
+    let over = residuals::panels(diagnosis);
     let own = residuals::of(diagnosis, output, *over.first()?);
     if own.is_empty() {
         return None;
@@ -62,10 +57,7 @@ pub(in crate::gap) fn draw(diagnosis: &Diagnosis, output: usize) -> Option<Drawi
         let panels = area.split_evenly((over.len(), 1));
         for (rows, (over, groups)) in panels.iter().zip(over.iter().zip(&groups)) {
             let points = residuals::of(diagnosis, output, *over);
-            let along = match over {
-                Over::Condition(place) => words::axis(&diagnosis.conditions[*place]),
-                Over::Row => "number of the row".to_owned(),
-            };
+            let along = over.axis(diagnosis);
             let sides = rows.split_evenly((1, 2));
             for (side, (title, colour, of)) in sides.iter().zip(both) {
                 let points: Vec<Point> = points
