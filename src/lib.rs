@@ -265,8 +265,8 @@ pub use application::Application;
 #[cfg(feature = "cli")]
 pub mod command {
     pub use gumption_command::{
-        Answered, Exit, Failure, GivenFile, MergedRun, Mistake, PartedMerging, PartedRun, PartsFolder,
-        PassOfRun,
+        Answered, Exit, Failure, GivenFile, MergedRun, Mistake, PartedMerging, PartedRun,
+        PartsFolder, PassOfRun,
     };
 }
 pub use templates::catalogue;
