@@ -36,6 +36,9 @@ struct Part {
     checked: Vec<BlindDraw>,
 }
 
+/// A range of the draws, and what came of them.
+type DrawsOfRange = (Range<u64>, Vec<BlindDraw>);
+
 impl SharedCheck {
     pub(super) fn new(file: &CaseFile, seed: u64, draws: u64) -> Self {
         let digest = |(name, bytes): &(String, Vec<u8>)| (name.clone(), sha256(bytes));
@@ -86,7 +89,7 @@ impl SharedCheck {
     }
 
     /// The draws of a file, with their range; `None` of another kind of file.
-    fn read(&self, path: &Path) -> Result<Option<(Range<u64>, Vec<BlindDraw>)>, Failure> {
+    fn read(&self, path: &Path) -> Result<Option<DrawsOfRange>, Failure> {
         let refuse = |reason: &dyn std::fmt::Display| refused(&path.display(), reason);
         let file = File::open(path).map_err(|error| refuse(&error))?;
         let content = bytes::of(file, bytes::MOST).map_err(|error| refuse(&error))?;
