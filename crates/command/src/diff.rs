@@ -30,6 +30,10 @@ enum Format {
     Table,
     /// The whole answer for programs
     Json,
+    /// A page as GitHub shows it
+    Markdown,
+    /// A page for a browser and for print, in one file
+    Html,
 }
 
 impl Diff {
@@ -61,6 +65,8 @@ impl Diff {
         let answer = match self.answer.format {
             Format::Table => report::diff::table(names, &difference),
             Format::Json => report::diff::json(names, &difference),
+            Format::Markdown => report::diff::markdown(names, &difference),
+            Format::Html => report::diff::html(names, &difference),
         };
         place.write(&answer)?;
         Ok(Exit::Done)

@@ -111,8 +111,9 @@ impl Evaluated {
                 .zip(self.samples.as_ref())
                 .map(|(file, asked)| (file.path().to_owned(), saver.samples(asked, file))),
         ];
-        let place = answer.map_or(Place::StandardOutput, Place::File);
         let format = self.answer.format;
+        let page = if format == Page::Table { Place::Page } else { Place::StandardOutput };
+        let place = answer.map_or(page, Place::File);
         let written = place.write_with(|out| write(format, &report, &shown, out));
         let mut failures: Vec<Failure> = written.err().into_iter().collect();
         for (path, left) in left.into_iter().flatten() {

@@ -20,6 +20,7 @@ mod new;
 mod observe;
 mod options;
 mod output;
+mod paint;
 mod parted_run;
 mod parts;
 mod plan;
@@ -55,6 +56,15 @@ pub use verify::PublishedExamples;
 struct Arguments {
     #[command(subcommand)]
     command: Command,
+    /// Colours: on a terminal, always or never; NO_COLOR is heeded unless this says otherwise
+    #[arg(
+        long,
+        global = true,
+        value_name = "WHEN",
+        hide_possible_values = true,
+        default_value = "auto"
+    )]
+    color: paint::When,
 }
 
 #[derive(Debug, Subcommand)]
@@ -143,7 +153,8 @@ impl CommandLine {
     pub fn main_of(&self, arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         signals::watch();
         let arguments = Arguments::parse_from(arguments);
-        match self.execute(arguments.command) {
+        arguments.color.choose();
+        match gumption_report::within_width(paint::width(), || self.execute(arguments.command)) {
             Ok(exit) => exit.code(),
             Err(failure) => failure.report(),
         }

@@ -2,9 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use clap::Args;
+use clap::{Args, ValueEnum};
 
-use super::options::{self, AllowedFolders, Answer, Format, Seed};
+use super::options::{self, AllowedFolders, Answer, Seed};
 use super::{CommandLine, Exit, Failure, run};
 use gumption_engine::task::Warning;
 use gumption_files::RecipeFile;
@@ -22,6 +22,21 @@ pub(super) struct Observe {
     seed: Seed,
     #[command(flatten)]
     answer: Answer<Format>,
+}
+
+/// The format of the answer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Format {
+    /// A page of text for people
+    Table,
+    /// The whole answer for programs
+    Json,
+    /// One line for each row and frequency
+    Csv,
+    /// A page as GitHub shows it
+    Markdown,
+    /// A page for a browser and for print, in one file
+    Html,
 }
 
 impl Observe {
@@ -61,6 +76,8 @@ impl Observe {
             Format::Table => report::table(&found),
             Format::Json => report::json(&found),
             Format::Csv => report::csv(&found),
+            Format::Markdown => report::markdown(&found),
+            Format::Html => report::html(&found),
         };
         // a page on standard output has the notes itself
         if self.answer.format != Format::Table || self.answer.output.is_some() {

@@ -66,7 +66,9 @@ impl<F: ValueEnum + Send + Sync + 'static> Answer<F> {
     /// Opens the place of the answer; `read` are the files that it is made from.
     pub(super) fn open(&self, read: &[PathBuf]) -> Result<Place, Failure> {
         let [file] = output::open([("--output", self.output.as_deref())], read)?;
-        Ok(file.map_or(Place::StandardOutput, Place::File))
+        let is_page = self.format.to_possible_value().is_some_and(|of| of.get_name() == "table");
+        let page = if is_page { Place::Page } else { Place::StandardOutput };
+        Ok(file.map_or(page, Place::File))
     }
 
     /// Warnings and notes on standard error, unless nothing is to be said.

@@ -11,13 +11,15 @@ use std::path::{Path, PathBuf};
 
 use super::replacement::{Replacement, target};
 use super::surroundings::in_call;
-use super::{Failure, signals};
+use super::{Failure, paint, signals};
 
 /// Where an answer goes.
 #[derive(Debug)]
 pub(super) enum Place {
     /// To standard output.
     StandardOutput,
+    /// To standard output as a page of text, which looks its best on a terminal.
+    Page,
     /// To a file.
     File(Destination),
 }
@@ -35,7 +37,13 @@ impl Place {
     ) -> Result<(), Failure> {
         match self {
             Self::File(file) => file.write_with(|out| write(out).map(|()| true)),
-            Self::StandardOutput => {
+            Self::Page if in_call(|_| ()).is_none() && paint::is_wanted() => {
+                let mut bytes = Vec::new();
+                write(&mut bytes)
+                    .and_then(|()| io::stdout().lock().write_all(painted(bytes).as_bytes()))
+                    .or_else(unless_closed)
+            }
+            Self::StandardOutput | Self::Page => {
                 // not within a borrow: what is written may say something
                 let mut bytes = Vec::new();
                 if in_call(|_| ()).is_some() {
@@ -46,14 +54,25 @@ impl Place {
                     return Ok(());
                 }
                 let mut out = BufWriter::new(io::stdout().lock());
-                match write(&mut out).and_then(|()| out.flush()) {
-                    Err(error) if error.kind() != ErrorKind::BrokenPipe => {
-                        Err(Failure::System(format!("cannot write the answer: {error}")))
-                    }
-                    _ => Ok(()),
-                }
+                write(&mut out).and_then(|()| out.flush()).or_else(unless_closed)
             }
         }
+    }
+}
+
+/// The page with its colours; what is no text stays as it is.
+fn painted(bytes: Vec<u8>) -> String {
+    match String::from_utf8(bytes) {
+        Ok(page) => paint::painted(&page),
+        Err(error) => String::from_utf8_lossy(error.as_bytes()).into_owned(),
+    }
+}
+
+/// A reader that closed the pipe has had enough.
+fn unless_closed(error: io::Error) -> Result<(), Failure> {
+    match error.kind() {
+        ErrorKind::BrokenPipe => Ok(()),
+        _ => Err(Failure::System(format!("cannot write the answer: {error}"))),
     }
 }
 

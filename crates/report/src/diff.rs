@@ -3,8 +3,10 @@
 use serde::Serialize;
 
 use crate::answer::{in_order, pretty};
+use crate::document::{self, Document};
 use crate::number::{MISSING, exact, position, rounded, significant, to, with_uncertainty};
-use crate::{Grid, WIDTH, wrapped};
+use crate::sheet::Sheet;
+use crate::{Grid, plain, table::width, wrapped};
 use gumption_analysis::diff::{
     ChangeCause, ChangePart, Difference, InputState, OutputDifference, RowDifference,
 };
@@ -134,6 +136,56 @@ pub fn json([a, b]: [&str; 2], difference: &Difference) -> String {
     pretty(&answer)
 }
 
+/// The same in GitHub Flavored Markdown.
+pub fn markdown(names: [&str; 2], difference: &Difference) -> String {
+    document::markdown(&paper(names, difference))
+}
+
+/// The same as one HTML file that needs nothing else.
+pub fn html(names: [&str; 2], difference: &Difference) -> String {
+    document::html(&paper(names, difference))
+}
+
+/// What changed as a document.
+fn paper([a, b]: [&str; 2], difference: &Difference) -> Document {
+    let mut paper = Document {
+        title: plain(&format!("From {a} to {b}")),
+        subtitle: difference.changes.iter().map(|change| plain(change)).collect(),
+        ..Document::default()
+    };
+    for row in &difference.rows {
+        for output in &row.outputs {
+            paper.section(plain(&heading(output, &place(difference, row))));
+            match changes(output) {
+                Some(sheet) => paper.table(sheet),
+                None => paper.text(NONE_CHANGED),
+            }
+            if is_not_shared_out(output) {
+                paper.text(NOT_SHARED_OUT);
+            }
+        }
+    }
+    if difference.rows.iter().all(|row| row.outputs.is_empty()) {
+        paper.text(NOTHING_IN_COMMON);
+    }
+    paper
+}
+
+const NONE_CHANGED: &str = "No input changed.";
+const NOTHING_IN_COMMON: &str = "The files have no output in common, or no row of conditions.";
+const NOT_SHARED_OUT: &str =
+    "The change cannot be shared out: between the two files U is not defined everywhere.";
+
+/// " at f = 80 Hz"
+fn place(difference: &Difference, row: &RowDifference) -> String {
+    let at: Vec<String> = row
+        .conditions
+        .iter()
+        .map(|(name, value, unit)| format!("{name} = {} {unit}", exact(*value)))
+        .collect();
+    if difference.swept { format!(" at {}", at.join(", ")) } else { String::new() }
+}
+
 /// The page for a terminal. Inputs that did not change are left out.
 pub fn table([a, b]: [&str; 2], difference: &Difference) -> String {
     let mut page = vec![wrapped(&format!("from {a} to {b}"))];
@@ -141,51 +193,52 @@ pub fn table([a, b]: [&str; 2], difference: &Difference) -> String {
         page.push(difference.changes.iter().map(|change| wrapped(change)).collect());
     }
     for row in &difference.rows {
-        let at: Vec<String> = row
-            .conditions
-            .iter()
-            .map(|(name, value, unit)| format!("{name} = {} {unit}", exact(*value)))
-            .collect();
-        let at = if difference.swept { format!(" at {}", at.join(", ")) } else { String::new() };
+        let at = place(difference, row);
         page.extend(row.outputs.iter().map(|output| section(output, &at)));
     }
     if difference.rows.iter().all(|row| row.outputs.is_empty()) {
-        page.push(wrapped("The files have no output in common, or no row of conditions."));
+        page.push(wrapped(NOTHING_IN_COMMON));
     }
     page.join("\n")
 }
 
 fn section(output: &OutputDifference, at: &str) -> String {
     let mut text = wrapped(&heading(output, at));
-    let changed = || output.parts.iter().filter(|part| part.is_changed());
-    if changed().next().is_none() {
-        return text + &wrapped("No input changed.");
+    let Some(sheet) = changes(output) else { return text + &wrapped(NONE_CHANGED) };
+    text += &Grid::of(&sheet).render(width());
+    if is_not_shared_out(output) {
+        text += &wrapped(NOT_SHARED_OUT);
     }
+    text
+}
+
+fn is_not_shared_out(output: &OutputDifference) -> bool {
+    output.parts.iter().any(|part| part.is_changed() && part.change.is_none())
+}
+
+/// The inputs that changed; `None` if none did.
+fn changes(output: &OutputDifference) -> Option<Sheet> {
+    let changed = || output.parts.iter().filter(|part| part.is_changed());
+    changed().next()?;
     // all to the position that the largest change deserves
     let largest = changed().filter_map(|part| part.change).map(f64::abs).fold(0.0, f64::max);
     let last = position(largest, DIGITS + 1);
     let change = |part: &ChangePart| part.change.map_or_else(missing, |change| to(change, last));
     let share =
         |part: &ChangePart| part.share.map_or_else(missing, |share| rounded(100.0 * share, -1));
-    let mut grid = Grid::default();
-    grid.text(
+    let mut sheet = Sheet::default();
+    sheet.text(
         "what changed",
         changed().map(|part| match due(part) {
             (Some(name), _) => name.to_owned(),
             (None, what) => what.unwrap_or("").to_owned(),
         }),
     );
-    grid.text("from", changed().map(|part| known(part, 0)));
-    grid.text("to", changed().map(|part| known(part, 1)));
-    grid.numbers("change\nof U", changed().map(change));
-    grid.numbers("share\nin %", changed().map(share));
-    text += &grid.render(WIDTH);
-    if changed().any(|part| part.change.is_none()) {
-        text += &wrapped(
-            "The change cannot be shared out: between the two files U is not defined everywhere.",
-        );
-    }
-    text
+    sheet.text("from", changed().map(|part| known(part, 0)));
+    sheet.text("to", changed().map(|part| known(part, 1)));
+    sheet.numbers("change\nof U", changed().map(change));
+    sheet.numbers("share\nin %", changed().map(share));
+    Some(sheet)
 }
 
 /// Degrees of freedom to three digits.

@@ -37,10 +37,9 @@ pub use json::{json, write_json};
 pub use samples::TrialsForm;
 pub use saved::{SaveError, saved, saved_result};
 pub use table::Grid;
-pub use table::WIDTH;
 pub(crate) use table::conditions_text;
 pub use table::{BudgetColumn, TableStyle, table, write_table};
-pub use table::{grouped, plain, wrapped};
+pub use table::{grouped, plain, within_width, wrapped};
 
 use gumption_analysis::integrity::sha256;
 use gumption_engine::propagate::Evaluation;

@@ -21,6 +21,9 @@ const LONGEST_TEXT: usize = 32_000;
 /// Width of a column, in letters: the least, the most.
 const WIDTHS: (usize, usize) = (9, 60);
 
+/// Height of a line of text, in points.
+const LINE_HEIGHT: f64 = 15.0;
+
 /// Decimals that are shown at most without an exponent.
 const MOST_DECIMALS: i32 = 9;
 
@@ -56,6 +59,8 @@ pub(crate) struct Leaf {
     name: String,
     /// The widest text of each column.
     widths: Vec<usize>,
+    /// Rows of headers, whose height follows from the widths.
+    headers: Vec<(u32, Vec<String>)>,
 }
 
 /// An error of the library as one of the writer.
@@ -85,7 +90,7 @@ impl Book {
         worksheet.set_name(&name)?.set_paper_size(9).set_landscape();
         worksheet.set_print_fit_to_pages(1, 0);
         self.names.push(name.to_lowercase());
-        Ok(Leaf { worksheet, name, widths: Vec::new() })
+        Ok(Leaf { worksheet, name, widths: Vec::new(), headers: Vec::new() })
     }
 
     /// A name that is allowed and not yet taken; case makes no difference.
@@ -109,6 +114,14 @@ impl Book {
         for (column, width) in (0_u16..).zip(&leaf.widths) {
             let width = (width + 2).clamp(WIDTHS.0, WIDTHS.1);
             leaf.worksheet.set_column_width(column, width as f64)?;
+        }
+        // some programs do not fit the height of a row to its text
+        for (row, headers) in &leaf.headers {
+            let lines = headers.iter().zip(&leaf.widths).map(|(header, width)| {
+                lines(header, (width + 2).clamp(WIDTHS.0, WIDTHS.1).saturating_sub(1))
+            });
+            let lines = lines.max().unwrap_or(1).max(1);
+            leaf.worksheet.set_row_height(*row, LINE_HEIGHT * lines as f64)?;
         }
         self.workbook.push_worksheet(leaf.worksheet);
         Ok(())
@@ -158,6 +171,8 @@ impl Leaf {
             .set_align(FormatAlign::Bottom)
             .set_border_bottom(FormatBorder::Thin);
         let centred = plain.clone().set_align(FormatAlign::Center);
+        let headers: Vec<&str> = headers.into_iter().collect();
+        self.headers.push((row, headers.iter().map(|header| (*header).to_owned()).collect()));
         for (column, header) in (0_u16..).zip(headers) {
             let format = if column > 0 { &centred } else { &plain };
             self.worksheet.write_string_with_format(row, column, cut(header), format)?;
@@ -305,6 +320,20 @@ fn format(place: Option<i32>, look: Look) -> Format {
     }
 }
 
+/// Lines that a text takes in a column of so many letters.
+fn lines(text: &str, width: usize) -> usize {
+    let mut lines = 1;
+    let mut used = 0;
+    for word in text.split_whitespace().map(|word| word.chars().count()) {
+        let with = if used == 0 { word } else { used + 1 + word };
+        // bold letters are wider
+        let fits = with + with / 8 <= width;
+        lines += usize::from(!fits && used > 0);
+        used = if fits { with } else { word };
+    }
+    lines
+}
+
 /// As much of a text as a cell holds, without what no cell may hold.
 fn cut(text: &str) -> String {
     let allowed = |c: &char| !c.is_control() || matches!(c, '\t' | '\n');
@@ -326,6 +355,13 @@ mod tests {
         let long = "x".repeat(50);
         assert_eq!(name(&long).len(), 31);
         assert_eq!(name(&long), "x".repeat(25) + " 2");
+    }
+
+    #[test]
+    fn headers_wrap_at_words() {
+        assert_eq!(lines("standard uncertainty", 12), 2);
+        assert_eq!(lines("Monte Carlo interval, from", 12), 3);
+        assert_eq!(lines("k", 8), 1);
     }
 
     #[test]

@@ -12,6 +12,7 @@ mod evaluation;
 pub mod gum;
 mod input_figures;
 pub mod monte_carlo;
+mod naming;
 mod origins;
 pub mod parts;
 mod regions;
@@ -29,6 +30,7 @@ pub use evaluation::{
     RowEvaluation, evaluate, trial_hash,
 };
 pub use input_figures::InputFigures;
+pub use naming::naming;
 pub use origins::{Origins, linear, origins};
 pub use regions::{
     JointRegion, Region, RegionEvaluation, RegionValidation, SampledRegion, SmallestRegion,

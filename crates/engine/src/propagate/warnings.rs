@@ -10,6 +10,7 @@ use super::gum::{BudgetLine, Dof, Gum};
 use super::monte_carlo::{Adaptive, MonteCarlo};
 use super::second_order::SecondOrder;
 use crate::decimal;
+use crate::decimal::to_digits;
 use crate::model::Output;
 use crate::number::Shortest;
 use crate::task::{Task, Trials, Warning};
@@ -47,6 +48,7 @@ pub fn warnings(task: &Task, evaluation: &Evaluation) -> Vec<Warning> {
         ));
     }
     copula(task, evaluation, &mut found);
+    let named = named(task, &evaluation.rows);
     for row in &evaluation.rows {
         if let Some(undefined) = &row.undefined {
             let (count, all) = (undefined.count, undefined.trials);
@@ -59,11 +61,24 @@ pub fn warnings(task: &Task, evaluation: &Evaluation) -> Vec<Warning> {
                 let note = branch::note(&task.model.program, (number, output), gum, trials);
                 note.into_iter().for_each(|note| push(&mut found, note));
             }
-            of_output(task, &output.quantity.name, row, evaluated, &mut found);
+            of_output((task, &named), &output.quantity.name, row, evaluated, &mut found);
             of_capability(output, evaluated, &mut found);
         }
     }
     found
+}
+
+/// Conditions up to which a note names all of them.
+const MOST_NAMED: usize = 3;
+
+/// Significant digits of conditions in a note.
+const NAMED_DIGITS: u32 = 6;
+
+/// The conditions that notes name a row by.
+fn named(task: &Task, rows: &[RowEvaluation]) -> Vec<usize> {
+    let count = task.model.conditions.len();
+    let naming = if count > MOST_NAMED { super::naming(rows) } else { Vec::new() };
+    if naming.is_empty() { (0..count).collect() } else { naming }
 }
 
 /// Which inputs were drawn by a copula, and where that could not be exact.
@@ -141,7 +156,7 @@ fn of_capability(output: &Output, evaluated: &OutputEvaluation, found: &mut Vec<
 }
 
 fn of_output(
-    task: &Task,
+    (task, named): (&Task, &[usize]),
     name: &str,
     row: &RowEvaluation,
     output: &OutputEvaluation,
@@ -155,8 +170,11 @@ fn of_output(
             .conditions
             .iter()
             .zip(&row.conditions)
-            .map(|(c, &value)| {
-                let text = format!("{} = {} {}", c.name, Shortest(value), c.unit);
+            .enumerate()
+            .filter(|(place, _)| named.contains(place))
+            .map(|(_, (c, &value))| {
+                let value = Shortest(to_digits(value, NAMED_DIGITS));
+                let text = format!("{} = {value} {}", c.name, c.unit);
                 text.trim_end().to_owned()
             })
             .collect();

@@ -1,7 +1,7 @@
 //! The page for a terminal.
 
 use super::{AuditReport, sheets, words};
-use crate::{Grid, WIDTH, wrapped};
+use crate::{Grid, table::width, wrapped};
 
 /// The audit as a page: for each output the figures as stated, what every assumption does, and what
 /// other shapes do; then what the readings say.
@@ -14,15 +14,15 @@ pub fn table(report: &AuditReport<'_>) -> String {
             let mut text = section(&words::heading(report, number, output));
             text += &wrapped(&words::baseline(report, output, of));
             text += &wrapped(&words::verdict(report, of));
-            text += &format!("\n{}", Grid::of(&sheets::widths(report, of)).render(WIDTH));
+            text += &format!("\n{}", Grid::of(&sheets::widths(report, of)).render(width()));
             if let Some(shapes) = sheets::shapes(report, of) {
-                text += &format!("\nwith another shape\n{}", Grid::of(&shapes).render(WIDTH));
+                text += &format!("\nwith another shape\n{}", Grid::of(&shapes).render(width()));
             }
             page.push(text);
         }
     }
     if let Some(evidence) = sheets::evidence(report) {
-        let table = Grid::of(&evidence).render(WIDTH);
+        let table = Grid::of(&evidence).render(width());
         page.push(section("Readings") + &table + &wrapped(words::EVIDENCE));
     }
     page.push(wrapped(words::MOVES) + &wrapped(words::SHAPES) + &wrapped(words::SOBOL));

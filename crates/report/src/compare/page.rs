@@ -6,7 +6,7 @@ use super::{Compare, figure, sheets, words};
 use crate::document::{self, Block, Document};
 use crate::html::{figure as numbered, page, table as html_table};
 use crate::sheet::Sheet;
-use crate::{Grid, WIDTH, wrapped};
+use crate::{Grid, table::width, wrapped};
 
 fn sheet(compare: &Compare) -> Sheet {
     match compare {
@@ -38,10 +38,10 @@ pub fn table(compare: &Compare) -> String {
     let paragraphs = |of: &[&str]| of.iter().map(|text| wrapped(text)).collect::<String>();
     let verdict = words::verdict(compare);
     let verdict: Vec<&str> = verdict.iter().map(String::as_str).collect();
-    let table = Grid::of(&sheet(compare)).render(WIDTH);
+    let table = Grid::of(&sheet(compare)).render(width());
     let mut parts = vec![paragraphs(&verdict), table];
     if let Some((sheet, said)) = estimators(compare) {
-        parts.push(Grid::of(&sheet).render(WIDTH) + &wrapped(&said));
+        parts.push(Grid::of(&sheet).render(width()) + &wrapped(&said));
     }
     parts.push(paragraphs(&notes(compare)));
     parts.join("\n")

@@ -32,6 +32,12 @@ fn block(block: &Block, comma: bool, figures: &mut usize) -> Markup {
         Block::List(items) => html! { ul { @for item in items { li { (raised(item)) } } } },
         Block::Table(sheet) if comma => table(&sheet.clone().with_commas()),
         Block::Table(sheet) => table(sheet),
+        Block::Folded(title, blocks) => html! {
+            details {
+                summary { (raised(title)) }
+                @for part in blocks { (self::block(part, comma, figures)) }
+            }
+        },
         Block::Figure(drawing) => {
             *figures += 1;
             figure(*figures, drawing.svg.clone(), &drawing.caption)

@@ -51,6 +51,12 @@ fn block(block: &Block, comma: bool, escape: Escape) -> String {
         }
         Block::Table(sheet) => table(sheet, escape),
         Block::Figure(_) => String::new(),
+        Block::Folded(title, blocks) => {
+            let blocks = blocks.iter().map(|part| self::block(part, comma, escape));
+            let parts: Vec<String> =
+                std::iter::once(format!("{}:", escape(title))).chain(blocks).collect();
+            parts.join("\n\n")
+        }
         Block::Signature(places) => {
             let line = |place: &String| format!("{}: {RULE}", escape(place));
             places.iter().map(line).collect::<Vec<_>>().join("\n\n")

@@ -90,6 +90,8 @@ pub(crate) enum Block {
     Table(Sheet),
     /// A figure, which only pages of a browser show.
     Figure(Drawing),
+    /// Parts that a page of a browser shows when asked to, below their title.
+    Folded(String, Vec<Block>),
     /// Places to be filled in by hand, each with what goes there.
     Signature(Vec<String>),
     /// The mark behind which nothing more belongs to the document.

@@ -2,7 +2,7 @@
 
 use super::{Block, Document};
 use crate::sheet::{Kind, Sheet};
-use crate::{Grid, WIDTH, plain, wrapped};
+use crate::{Grid, plain, table::width, wrapped};
 
 /// Where somebody signs.
 const RULE: &str = "________________________________";
@@ -29,7 +29,7 @@ pub(crate) fn below(document: &Document) -> String {
 
 fn heading(title: &str, rule: char) -> String {
     let title = plain(title);
-    let rule: String = std::iter::repeat_n(rule, title.chars().count().min(WIDTH)).collect();
+    let rule: String = std::iter::repeat_n(rule, title.chars().count().min(width())).collect();
     format!("{}{rule}\n", wrapped(&title))
 }
 
@@ -42,9 +42,13 @@ fn block(block: &Block, comma: bool) -> String {
         Block::Text(text) => wrapped(text),
         Block::Verdict(sentences) => sentences.iter().map(|said| wrapped(said)).collect(),
         Block::List(items) => items.iter().map(|item| wrapped(&format!("- {item}"))).collect(),
-        Block::Table(sheet) if !sheet.has_headers() => Grid::of(sheet).bare(WIDTH),
-        Block::Table(sheet) => grid(sheet).render(WIDTH),
+        Block::Table(sheet) if !sheet.has_headers() => Grid::of(sheet).bare(width()),
+        Block::Table(sheet) => grid(sheet).render(width()),
         Block::Figure(_) => String::new(),
+        Block::Folded(title, blocks) => {
+            let blocks: String = blocks.iter().map(|part| self::block(part, comma)).collect();
+            heading(title, '─') + &blocks
+        }
         Block::Signature(places) => {
             let line = |place: &String| format!("\n{RULE}\n{}", wrapped(place));
             places.iter().map(line).collect()

@@ -10,6 +10,9 @@ use crate::{EvaluationReport, plain};
 use gumption_engine::propagate::RowEvaluation;
 use gumption_engine::task::Task;
 
+/// Outputs up to which a page needs no table of all of them above their sections.
+const MOST_UNSUMMED: usize = 3;
+
 /// The document of an evaluation: for one row of conditions everything about each output, for a
 /// sweep a table and a figure for each.
 pub(super) fn of(report: &EvaluationReport<'_>, shown: &Shown<'_>) -> Document {
@@ -25,6 +28,10 @@ pub(super) fn of(report: &EvaluationReport<'_>, shown: &Shown<'_>) -> Document {
     stated(&mut document, task);
     match evaluation.rows.as_slice() {
         [row] => {
+            if row.outputs.len() > MOST_UNSUMMED {
+                document.section("Results");
+                document.table(table::sweep::summary(task, row, evaluation.settings.digits));
+            }
             for output in 0..row.outputs.len() {
                 results::section(&mut document, report, shown, output);
             }

@@ -2,7 +2,7 @@
 
 use super::figures;
 use crate::EvaluationReport;
-use crate::document::Document;
+use crate::document::{Block, Document};
 use crate::table;
 use crate::table::sweep;
 
@@ -26,6 +26,11 @@ pub(super) fn sections(document: &mut Document, report: &EvaluationReport<'_>) {
             document.text("Shares of the variance in %:");
             document.table(sheet);
         }
+    }
+    let apart = sweep::apart(task, rows);
+    if !apart.is_empty() {
+        let tables = apart.into_iter().map(Block::Table).collect();
+        document.blocks.push(Block::Folded("All conditions of the rows".to_owned(), tables));
     }
     document.text(sweep::MORE);
 }

@@ -2,7 +2,7 @@
 
 use super::Shown;
 use crate::plot::{Axis, CharacterGrid};
-use crate::table::{conditions_text, grouped, title_text};
+use crate::table::{conditions_text, grouped, text_width, title_text};
 use crate::{EvaluationReport, wrapped};
 use gumption_engine::model::Quantity;
 use gumption_engine::propagate::OutputEvaluation;
@@ -25,11 +25,23 @@ pub fn histograms(report: &EvaluationReport<'_>, shown: &Shown<'_>) -> String {
         for (place, output) in task.model.outputs.iter().enumerate() {
             let counts = shown.histogram(row, place);
             if let Some((counts, found)) = counts.zip(found.outputs.get(place)) {
-                page += &format!("\n{}", histogram(&output.quantity, found, counts));
+                let counts = narrowed(counts);
+                page += &format!("\n{}", histogram(&output.quantity, found, &counts));
             }
         }
     }
     page
+}
+
+/// The same with as many bins in one as the page asks for.
+fn narrowed(counts: &Histogram) -> Histogram {
+    let room = text_width().saturating_sub(LEFT).max(1);
+    let together = counts.counts.len().div_ceil(room).max(1);
+    Histogram {
+        width: counts.width * together as f64,
+        counts: counts.counts.chunks(together).map(|bins| bins.iter().sum()).collect(),
+        ..counts.clone()
+    }
 }
 
 /// The histogram of an output as lines of at most 100 columns: bars, an axis with its marks, and the

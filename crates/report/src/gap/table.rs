@@ -1,7 +1,7 @@
 //! The page for a terminal.
 
 use super::{composed, departure, sheets, strength, terminal, words};
-use crate::{Grid, WIDTH, plain, wrapped};
+use crate::{Grid, plain, table::width, wrapped};
 use gumption_gap::{Diagnosis, Predicted};
 
 /// The diagnosis as a page of at most 100 columns: the verdict, whether there is a gap, where, which
@@ -21,15 +21,15 @@ pub fn table(diagnosis: &Diagnosis) -> String {
     page.push(section("Is there a gap?") + &wrapped(&words::gap(diagnosis)));
     page.push(section("Where?") + &regions(diagnosis));
     if let Some(present) = sheets::present(diagnosis) {
-        page.push(section("Which effects are there?") + &Grid::of(&present).render(WIDTH));
+        page.push(section("Which effects are there?") + &Grid::of(&present).render(width()));
     }
     if let Some(sheet) = sheets::replication(diagnosis) {
-        let table = Grid::of(&sheet).render(WIDTH);
+        let table = Grid::of(&sheet).render(width());
         page.push(section("Is it the same for all?") + &wrapped(words::REPLICATION) + &table);
     }
     page.push(section("Which together?") + &hypotheses(diagnosis));
     if let Some(parameters) = sheets::parameters(diagnosis) {
-        page.push(section("Parameters of the verdict") + &Grid::of(&parameters).render(WIDTH));
+        page.push(section("Parameters of the verdict") + &Grid::of(&parameters).render(width()));
     }
     if !diagnosis.candidates.is_empty() {
         let names: Vec<String> = diagnosis.candidates.iter().map(|of| plain(&of.name)).collect();
@@ -104,28 +104,28 @@ fn regions(diagnosis: &Diagnosis) -> String {
     match sheets::regions(diagnosis) {
         Some(sheet) => {
             let along = paragraphs(strength::sentences(diagnosis));
-            Grid::of(&sheet).render(WIDTH) + &wrapped(words::REGIONS) + &along
+            Grid::of(&sheet).render(width()) + &wrapped(words::REGIONS) + &along
         }
         None => wrapped(words::NO_REGION),
     }
 }
 
 fn hypotheses(diagnosis: &Diagnosis) -> String {
-    let mut text = Grid::of(&sheets::hypotheses(diagnosis)).render(WIDTH);
+    let mut text = Grid::of(&sheets::hypotheses(diagnosis)).render(width());
     text += &wrapped(words::ODDS);
     text += &sheets::left_out(diagnosis).map(|said| wrapped(&said)).unwrap_or_default();
     text
 }
 
 fn shrinkage(diagnosis: &Diagnosis) -> String {
-    let mut text = Grid::of(&sheets::shrinkage(diagnosis)).render(WIDTH);
+    let mut text = Grid::of(&sheets::shrinkage(diagnosis)).render(width());
     text += &paragraphs(words::shrinkage(diagnosis));
     text += &paragraphs(words::noise(diagnosis));
     text
 }
 
 fn next(diagnosis: &Diagnosis) -> String {
-    let proposals = sheets::next(diagnosis).map(|sheet| Grid::of(&sheet).render(WIDTH));
+    let proposals = sheets::next(diagnosis).map(|sheet| Grid::of(&sheet).render(width()));
     paragraphs(words::next(diagnosis)) + &proposals.unwrap_or_default()
 }
 
@@ -134,10 +134,10 @@ fn predictions(diagnosis: &Diagnosis, rows: &[Predicted]) -> String {
     let one = |output: usize| {
         let title = wrapped(&words::axis(&diagnosis.outputs[output]));
         let mut table = Grid::of(&sheets::prediction(diagnosis, rows, output, false));
-        if table.natural_width() > WIDTH {
+        if table.natural_width() > width() {
             table = Grid::of(&sheets::prediction(diagnosis, rows, output, true));
         }
-        title + &table.render(WIDTH)
+        title + &table.render(width())
     };
     let tables: Vec<String> = (0..diagnosis.outputs.len()).map(one).collect();
     tables.join("\n")

@@ -4,12 +4,15 @@ use super::residuals::{self, Residual};
 use super::words;
 use crate::number::exact;
 use crate::plot::{Axis, CharacterGrid, cell_at};
+use crate::table::text_width;
 use crate::wrapped;
 use gumption_gap::Diagnosis;
 
-/// Columns left of the plot, of the plot, and its rows.
+/// Columns left of the plot, and on both sides of it together.
 const LEFT: usize = 8;
-const WIDTH: usize = 86;
+const BESIDE: usize = 14;
+
+/// Rows of the plot.
 const HEIGHT: usize = 13;
 
 /// Characters of residuals before and after the correction, and of both in one place.
@@ -22,6 +25,11 @@ const LINEAR: f64 = 12.0;
 
 /// Half-width of the band in standard uncertainties.
 const BAND: f64 = 2.0;
+
+/// Columns of a plot.
+fn columns() -> usize {
+    text_width().saturating_sub(BESIDE)
+}
 
 /// A plot for each output: residuals over their standard uncertainties before and after against the
 /// condition with most levels.
@@ -79,7 +87,7 @@ pub(super) fn overlays(diagnosis: &Diagnosis) -> Vec<String> {
 
 fn overlay(points: &[(f64, [f64; 3])], [low, high]: [f64; 2]) -> String {
     let axis = Axis::over(points.iter().map(|(x, _)| *x));
-    let mut grid = CharacterGrid::new(LEFT + WIDTH, HEIGHT + 2);
+    let mut grid = CharacterGrid::new(LEFT + columns(), HEIGHT + 2);
     let margin = 0.02 * (high - low);
     let row = |value: f64| cell_at((high + margin - value) / (high - low + 2.0 * margin), HEIGHT);
     for (place, marker) in [SIM, CORRECTED, MEASURED].into_iter().enumerate() {
@@ -146,9 +154,9 @@ fn z((residual, u): (f64, f64)) -> f64 {
 
 fn plot(residuals: &[Residual], scale: Scale) -> String {
     let axis = Axis::over(residuals.iter().map(|residual| residual.x));
-    let mut grid = CharacterGrid::new(LEFT + WIDTH, HEIGHT + 2);
+    let mut grid = CharacterGrid::new(LEFT + columns(), HEIGHT + 2);
     for row in [BAND, -BAND].into_iter().filter_map(|level| scale.row(level)) {
-        grid.write(LEFT, row, &"┄".repeat(WIDTH));
+        grid.write(LEFT, row, &"┄".repeat(columns()));
     }
     for (marker, other, of) in [
         (BEFORE, AFTER, (|r| z(r.before)) as fn(&Residual) -> f64),
@@ -172,7 +180,7 @@ fn plot(residuals: &[Residual], scale: Scale) -> String {
 /// The column in which a position of the axis stands; `None` beyond its ends.
 fn column(axis: &Axis, position: f64) -> Option<usize> {
     let [left, right] = axis.ends();
-    cell_at((position - left) / (right - left), WIDTH).map(|column| LEFT + column)
+    cell_at((position - left) / (right - left), columns()).map(|column| LEFT + column)
 }
 
 /// The axes.
@@ -181,7 +189,7 @@ fn frame(grid: &mut CharacterGrid) {
         grid.put(LEFT - 1, row, '│');
     }
     grid.put(LEFT - 1, HEIGHT, '└');
-    grid.write(LEFT, HEIGHT, &"─".repeat(WIDTH));
+    grid.write(LEFT, HEIGHT, &"─".repeat(columns()));
 }
 
 /// Marks on the vertical axis, as many as do not crowd each other.
@@ -206,7 +214,7 @@ fn mark_levels(grid: &mut CharacterGrid, axis: &Axis) {
         let Some(column) = column(axis, position) else { continue };
         let width = text.chars().count();
         let from = column.saturating_sub(width / 2);
-        if from < free || from + width > LEFT + WIDTH {
+        if from < free || from + width > LEFT + columns() {
             continue;
         }
         free = from + width + 1;

@@ -34,7 +34,7 @@ pub(super) fn page_in(language: &str, title: &str, foot: &Foot, body: &Markup) -
                 title { (title) }
                 style { (PreEscaped(STYLE)) (PreEscaped(foot::rule(foot))) }
             }
-            body { (body) }
+            body { main { (body) } }
         }
     };
     page.into_string() + "\n"
@@ -52,10 +52,58 @@ pub(super) struct Drawing {
 
 /// A figure with its number and caption; the drawing is an `svg` element.
 pub(super) fn figure(number: usize, drawing: String, caption: &str) -> Markup {
+    let id = format!("figure-{number}");
+    // one picture with its caption, not a heap of tick labels that are read out one by one
+    let drawing =
+        drawing.replacen("<svg ", &format!("<svg role=\"img\" aria-labelledby=\"{id}\" "), 1);
     html! {
         figure {
             (PreEscaped(drawing))
-            figcaption { b { "Figure " (number) "." } " " (caption) }
+            figcaption id=(id) { b { "Figure " (number) "." } " " (caption) }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::STYLE;
+
+    /// The colours of the light and of the dark page.
+    fn colours(name: &str) -> Vec<[f64; 3]> {
+        let values = STYLE.lines().filter_map(|line| {
+            line.trim().strip_prefix(&format!("--{name}: #"))?.strip_suffix(';')
+        });
+        let channel = |hex: &str, place: usize| {
+            let value = f64::from(u8::from_str_radix(&hex[2 * place..2 * place + 2], 16).unwrap());
+            let value = value / 255.0;
+            if value <= 0.04045 { value / 12.92 } else { ((value + 0.055) / 1.055).powf(2.4) }
+        };
+        values.map(|hex| [0, 1, 2].map(|place| channel(hex, place))).collect()
+    }
+
+    /// The contrast ratio of WCAG 2.2.
+    fn contrast(a: [f64; 3], b: [f64; 3]) -> f64 {
+        let light = |[r, g, b]: [f64; 3]| 0.2126 * r + 0.7152 * g + 0.0722 * b;
+        let [a, b] = [light(a), light(b)];
+        (a.max(b) + 0.05) / (a.min(b) + 0.05)
+    }
+
+    /// WCAG 2.2: 1.4.3 asks 4.5 of text, 1.4.11 asks 3 of what is needed to read a figure.
+    #[test]
+    fn text_and_lines_stand_out() {
+        for scheme in [0, 1] {
+            let colour = |name: &str| colours(name)[scheme];
+            for text in ["ink", "weak"] {
+                let found = contrast(colour(text), colour("paper"));
+                assert!(found >= 4.5, "{text}, scheme {scheme}: {found}");
+            }
+            for line in ["before", "after", "edge"] {
+                let found = contrast(colour(line), colour("paper"));
+                assert!(found >= 3.0, "{line}, scheme {scheme}: {found}");
+            }
+            // intervals are drawn across bars
+            let found = contrast(colour("after"), colour("even"));
+            assert!(found >= 3.0, "after on even, scheme {scheme}: {found}");
         }
     }
 }

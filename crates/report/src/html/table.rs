@@ -22,13 +22,19 @@ pub(crate) fn table(sheet: &Sheet) -> Markup {
     let is_total = |row: usize| sheet.footer && row + 1 == sheet.rows();
     let class_of_table = if sheet.rows() > UNBROKEN { "table long" } else { "table" };
     html! {
-        div class=(class_of_table) {
+        // a table that is wider than the screen is scrolled by keys as well
+        div class=(class_of_table) tabindex="0" {
             table {
                 @if sheet.has_headers() {
                     thead {
                         tr {
                             @for column in &sheet.columns {
-                                th class=[class(column)] { (column.title()) }
+                                @let title = column.title();
+                                @if title.is_empty() {
+                                    td {}
+                                } @else {
+                                    th scope="col" class=[class(column)] { (title) }
+                                }
                             }
                         }
                     }
@@ -36,11 +42,16 @@ pub(crate) fn table(sheet: &Sheet) -> Markup {
                 tbody {
                     @for row in 0..sheet.rows() {
                         tr class=[is_total(row).then_some("total")] {
-                            @for (column, cells) in sheet.columns.iter().zip(&columns) {
+                            @for (place, (column, cells)) in sheet.columns.iter().zip(&columns).enumerate() {
                                 @let cell = cells.get(row).map_or("", String::as_str);
-                                td class=[class(column)] {
-                                    @if column.kind == Kind::Units { (raised(cell)) }
-                                    @else { (cell) }
+                                @let text = match column.kind {
+                                    Kind::Units => raised(cell),
+                                    Kind::Text | Kind::Numbers => html! { (cell) },
+                                };
+                                @if place == 0 && sheet.columns.len() > 1 {
+                                    th scope="row" class=[class(column)] { (text) }
+                                } @else {
+                                    td class=[class(column)] { (text) }
                                 }
                             }
                         }

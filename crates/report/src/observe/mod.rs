@@ -1,6 +1,7 @@
 //! What was found in recordings, as a page of text, JSON and CSV.
 
 mod csv;
+mod document;
 mod json;
 mod sheets;
 mod table;
@@ -9,7 +10,17 @@ pub use self::csv::csv;
 pub use json::json;
 pub use table::table;
 
-use super::Provenance;
+/// The observations in GitHub Flavored Markdown.
+pub fn markdown(observed: &ObservationReport<'_>) -> String {
+    look::markdown(&document::of(observed))
+}
+
+/// The observations as one HTML file that needs nothing else.
+pub fn html(observed: &ObservationReport<'_>) -> String {
+    look::html(&document::of(observed))
+}
+
+use super::{Provenance, document as look};
 use gumption_engine::task::Warning;
 use gumption_files::RecipeCondition;
 use gumption_signal::{BudgetedValue, ChannelObservation, Observation, RecipeSettings};

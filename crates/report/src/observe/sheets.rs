@@ -45,11 +45,19 @@ pub(super) fn channels(observed: &ObservationReport<'_>, channels: &[ChannelObse
     let all = channels.iter();
     sheet.text("channel", all.clone().map(name));
     pair(&mut sheet, ["offset", "u"], all.clone().map(|of| Some(of.offset.measured)));
+    // harmonics above the fundamental are those of a channel that is meant at another frequency
+    let is_of_fundamental = |of: &ChannelObservation| {
+        of.distortion.as_ref().is_none_or(|share| share.measured.value <= 1.0)
+    };
     let distortion = |of: &ChannelObservation| {
-        of.distortion.as_ref().map(|value| value.clone().times(100.0).measured)
+        let share = of.distortion.as_ref().filter(|_| is_of_fundamental(of));
+        share.map(|value| value.clone().times(100.0).measured)
+    };
+    let noise = |of: &ChannelObservation| {
+        Some(of.signal_to_noise.measured).filter(|_| is_of_fundamental(of))
     };
     pair(&mut sheet, ["THD\n(%)", "u"], all.clone().map(distortion));
-    pair(&mut sheet, ["SNR\n(dB)", "u"], all.clone().map(|of| Some(of.signal_to_noise.measured)));
+    pair(&mut sheet, ["SNR\n(dB)", "u"], all.clone().map(noise));
     let periods =
         |of: &ChannelObservation| Figure::of(of.periods.value, significant(of.periods.value, 5));
     sheet.figures("periods", all.clone().map(periods));

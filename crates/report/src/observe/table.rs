@@ -2,17 +2,40 @@
 
 use super::{ObservationReport, sheets};
 use crate::number::{exact, significant, with_uncertainty};
-use crate::{Grid, WIDTH, wrapped};
-use gumption_signal::Amplitude;
+use crate::{Grid, table::width, wrapped};
+use gumption_signal::{Amplitude, ChannelObservation};
 
 /// The observations as a page of text: for each row and frequency the components of every channel, and
 /// what is said of the channels as a whole.
 pub fn table(observed: &ObservationReport<'_>) -> String {
-    let settings = observed.settings;
     let mut page = String::new();
     if let Some(title) = observed.title {
         page += &wrapped(title);
     }
+    page += &wrapped(&method(observed));
+    for (values, channels) in observed.lines() {
+        page += &format!("\n{}\n\n", at(observed, values, channels));
+        page += &Grid::of(&sheets::components(observed, channels)).render(width());
+        page.push('\n');
+        page += &Grid::of(&sheets::channels(observed, channels)).render(width());
+        let made_of = sheets::made_of(observed, channels);
+        if !made_of.is_empty() {
+            page += &wrapped(&format!("u^2 of the amplitudes: {made_of}"));
+        }
+        page += &findings(observed, channels).iter().map(|said| wrapped(said)).collect::<String>();
+    }
+    if !observed.warnings.is_empty() {
+        page.push('\n');
+        for warning in observed.warnings {
+            page += &wrapped(&format!("Note: {}.", warning.text.trim_end_matches('.')));
+        }
+    }
+    page
+}
+
+/// How the figures were found, and what they are.
+pub(super) fn method(observed: &ObservationReport<'_>) -> String {
+    let settings = observed.settings;
     let root = settings.reference.and_then(|place| settings.channels.get(place));
     let phases = match root {
         Some(channel) => format!("phases and delays against `{}`", channel.name),
@@ -22,51 +45,50 @@ pub fn table(observed: &ObservationReport<'_>) -> String {
         gumption_signal::Method::SineFit => "sine fit",
         gumption_signal::Method::Fft => "Fourier transform of whole periods",
     };
-    page += &wrapped(&format!(
-        "{method}, {}, {phases}; u: standard uncertainty",
-        amplitude_words(settings.amplitude)
-    ));
-    for (values, channels) in observed.lines() {
-        let conditions = observed.conditions.iter().zip(values);
-        let mut at: Vec<String> = conditions
-            .map(|(of, value)| {
-                let unit = if of.unit.text() == "1" { "" } else { of.unit.text() };
-                format!("{} = {} {unit}", of.name, exact(*value)).trim_end().to_owned()
-            })
-            .collect();
-        let hertz = observed.hertz(channels).0;
-        at.push(format!("{} = {} Hz", observed.frequency, exact(hertz)));
-        page += &format!("\n{}\n\n", at.join(", "));
-        page += &Grid::of(&sheets::components(observed, channels)).render(WIDTH);
-        page.push('\n');
-        page += &Grid::of(&sheets::channels(observed, channels)).render(WIDTH);
-        let made_of = sheets::made_of(observed, channels);
-        if !made_of.is_empty() {
-            page += &wrapped(&format!("u^2 of the amplitudes: {made_of}"));
-        }
-        for of in channels {
-            for finding in &of.findings {
-                let name = settings.channels.get(of.channel).map_or("", |c| c.name.as_str());
-                let (estimate, u) = (finding.value.value, finding.value.standard_uncertainty);
-                let unit = if finding.unit == "1" { "" } else { &finding.unit };
-                let said = if u > 0.0 {
-                    let (value, u) = with_uncertainty(estimate, u, 2);
-                    format!("{value} {unit}, u = {u}")
-                } else {
-                    format!("{} {unit}", significant(estimate, 6))
-                };
-                let said = said.replace(" ,", ",");
-                page += &wrapped(&format!("`{name}`: {} {}", finding.name, said.trim_end()));
-            }
+    let amplitudes = amplitude_words(settings.amplitude);
+    format!("{method}, {amplitudes}, {phases}; u: standard uncertainty")
+}
+
+/// Conditions and frequency of a line.
+pub(super) fn at(
+    observed: &ObservationReport<'_>,
+    values: &[f64],
+    channels: &[ChannelObservation],
+) -> String {
+    let conditions = observed.conditions.iter().zip(values);
+    let mut at: Vec<String> = conditions
+        .map(|(of, value)| {
+            let unit = if of.unit.text() == "1" { "" } else { of.unit.text() };
+            format!("{} = {} {unit}", of.name, exact(*value)).trim_end().to_owned()
+        })
+        .collect();
+    at.push(format!("{} = {} Hz", observed.frequency, exact(observed.hertz(channels).0)));
+    at.join(", ")
+}
+
+/// What else was found in the channels.
+pub(super) fn findings(
+    observed: &ObservationReport<'_>,
+    channels: &[ChannelObservation],
+) -> Vec<String> {
+    let mut said = Vec::new();
+    for of in channels {
+        let channel = observed.settings.channels.get(of.channel);
+        let name = channel.map_or("", |channel| channel.name.as_str());
+        for finding in &of.findings {
+            let (estimate, u) = (finding.value.value, finding.value.standard_uncertainty);
+            let unit = if finding.unit == "1" { "" } else { &finding.unit };
+            let value = if u > 0.0 {
+                let (value, u) = with_uncertainty(estimate, u, 2);
+                format!("{value} {unit}, u = {u}")
+            } else {
+                format!("{} {unit}", significant(estimate, 6))
+            };
+            let value = value.replace(" ,", ",");
+            said.push(format!("`{name}`: {} {}", finding.name, value.trim_end()));
         }
     }
-    if !observed.warnings.is_empty() {
-        page.push('\n');
-        for warning in observed.warnings {
-            page += &wrapped(&format!("Note: {}.", warning.text.trim_end_matches('.')));
-        }
-    }
-    page
+    said
 }
 
 /// What amplitudes are, in words.

@@ -2,17 +2,17 @@
 
 use super::{PlanReport, figure, sheets, words};
 use crate::document::{self, Block, Document};
-use crate::{Grid, WIDTH, plain, statement, wrapped};
+use crate::{Grid, plain, statement, table::width, wrapped};
 
 /// The plan as a page of text.
 pub fn table(report: &PlanReport<'_>) -> String {
     let plan = report.plan;
     let head = wrapped(&words::title(report)) + &wrapped(&words::target(report));
     let mut parts = vec![head];
-    parts.push(Grid::of(&sheets::inputs(report)).render(WIDTH) + &wrapped(words::ALONE));
+    parts.push(Grid::of(&sheets::inputs(report)).render(width()) + &wrapped(words::ALONE));
     if let Some(cheapest) = &plan.cheapest {
         let heading = wrapped("Cheapest plan");
-        parts.push(heading + &Grid::of(&sheets::cheapest(report, cheapest)).render(WIDTH));
+        parts.push(heading + &Grid::of(&sheets::cheapest(report, cheapest)).render(width()));
     }
     let notes: String = words::notes(report).iter().map(|said| wrapped(said)).collect();
     parts.push(notes);

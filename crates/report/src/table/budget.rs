@@ -2,7 +2,7 @@
 
 use super::columns::{self, BudgetColumn};
 use super::grid::Grid;
-use super::{WIDTH, coverage_text, has_name, in_unit, text};
+use super::{coverage_text, has_name, in_unit, text, width};
 use crate::number::{exact, position, rounded, significant, with_uncertainty};
 use crate::sheet::{Figure, Kind, Sheet};
 use crate::subtotals::Subtotals;
@@ -86,15 +86,15 @@ impl Budget<'_> {
     fn grids(&self, columns: &[BudgetColumn]) -> String {
         let usual = self.usual_fields();
         let further = columns::fields(self, columns);
-        let fits = |grid: &Grid| grid.least_width() <= WIDTH;
+        let fits = |grid: &Grid| grid.least_width() <= width();
         let whole = grid(&arranged(&usual, &further));
         if further.is_empty() || fits(&whole) {
-            return whole.render(WIDTH);
+            return whole.render(width());
         }
         let names = usual.first().cloned();
         let apart: Vec<Field> =
             names.into_iter().chain(further.into_iter().map(|(_, field)| field)).collect();
-        grid(&usual).render(WIDTH) + "\n" + &grid(&apart).render(WIDTH)
+        grid(&usual).render(width()) + "\n" + &grid(&apart).render(width())
     }
 
     /// The same table without a look, with the further columns in their places.
@@ -153,7 +153,7 @@ fn grid(fields: &[Field]) -> Grid {
         }
         grid
     });
-    if words.natural_width() <= WIDTH { words } else { broken }
+    if words.natural_width() <= width() { words } else { broken }
 }
 
 /// The cells of a line.
@@ -388,6 +388,10 @@ fn conclusion(settings: &Settings, output: &Quantity, gum: &Gum, digits: u32) ->
     text::definitions(&entries)
 }
 
+/// Effective degrees of freedom above this are not told apart: they are an estimate, and k is that of
+/// a normal distribution.
+const MOST_DOF: f64 = 10_000.0;
+
 /// The effective degrees of freedom: their integer part, with which the coverage factor is taken,
 /// unless that is asked for at the real number or is zero.
 fn effective(value: Dof, real: bool) -> String {
@@ -396,6 +400,9 @@ fn effective(value: Dof, real: bool) -> String {
         Dof::Infinite => dof(f64::INFINITY),
         Dof::Finite(value) => {
             let whole = (value * (1.0 + 1e-9)).floor();
+            if whole > MOST_DOF && !real {
+                return "more than 10 000".to_owned();
+            }
             if real || whole < 1.0 { significant(value, 4) } else { dof(whole) }
         }
     }

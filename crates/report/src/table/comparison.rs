@@ -1,7 +1,7 @@
 //! The two methods side by side, and the verdict of JCGM 101, clause 8.
 
 use super::grid::Grid;
-use super::{WIDTH, coverage_text, in_unit, text};
+use super::{coverage_text, in_unit, text, width};
 use crate::EvaluationReport;
 use crate::document::sentence;
 use crate::number::{
@@ -40,7 +40,7 @@ pub(super) fn table(output: &Quantity, figures: &OutputEvaluation, digits: u32) 
     grid.numbers("GUM", lines.iter().map(|line| line.gum.clone()));
     grid.numbers("Monte Carlo", lines.iter().map(|line| line.monte_carlo.clone()));
     grid.numbers("numerical\nstandard error", lines.iter().map(|line| line.error.clone()));
-    let mut page = grid.render(WIDTH);
+    let mut page = grid.render(width());
     if !monte_carlo.shortest_exact {
         page += &text::wrapped(NEARLY_SHORTEST);
     }

@@ -1,7 +1,7 @@
 //! Correlation coefficients between the outputs.
 
 use super::grid::Grid;
-use super::{WIDTH, text};
+use super::{text, width};
 use crate::number::justified;
 use crate::sheet::{Figure, Sheet};
 use gumption_engine::propagate::RowEvaluation;
@@ -22,8 +22,8 @@ pub(super) fn table(task: &Task, row: &RowEvaluation) -> Option<String> {
     match found(task, row)? {
         Coefficients::Matrix { sheet, listed } => {
             let grid = Grid::of(&sheet);
-            let fits = grid.natural_width() <= WIDTH;
-            Some(if fits { grid.render(WIDTH) } else { text::wrapped(&listed) })
+            let fits = grid.natural_width() <= width();
+            Some(if fits { grid.render(width()) } else { text::wrapped(&listed) })
         }
         Coefficients::TooMany(said) => Some(text::wrapped(&said)),
     }

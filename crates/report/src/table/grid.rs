@@ -7,6 +7,7 @@ use comfy_table::{
     Table, TableStyle, Width,
 };
 
+use super::USUAL;
 use crate::number::align;
 use crate::sheet::{Kind, Sheet};
 
@@ -14,6 +15,9 @@ use crate::sheet::{Kind, Sheet};
 const GAP: u16 = 2;
 
 const LINE: char = '─';
+
+/// Letters of a word that a narrow column keeps together, at most.
+const LONGEST_WORD: usize = 40;
 
 /// Rows below one header. Longer tables begin again with it, so that it stays in sight, and so that
 /// no more than this is laid out at a time.
@@ -27,7 +31,7 @@ pub struct Grid {
     footer: bool,
 }
 
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 struct Column {
     header: String,
     cells: Vec<String>,
@@ -44,6 +48,16 @@ impl Column {
             }
             _ => self.width(),
         }
+    }
+
+    /// The width below which words would break.
+    fn word_width(&self) -> usize {
+        if matches!(self.constraint, Some(ColumnConstraint::ContentWidth)) {
+            return self.width();
+        }
+        let texts = self.header.lines().chain(self.cells.iter().map(String::as_str));
+        let words = texts.flat_map(str::split_whitespace);
+        words.map(|word| word.chars().count()).max().unwrap_or(0).min(LONGEST_WORD)
     }
 
     fn width(&self) -> usize {
@@ -141,10 +155,37 @@ impl Grid {
 
     /// The table with its header, ending in a newline.
     pub fn render(&self, width: usize) -> String {
+        if self.word_width() > width && self.columns.len() > 2 {
+            return self.folded(width);
+        }
         let rows = self.rows();
         let pages = (0..rows.max(1)).step_by(PAGE).map(|first| first..(first + PAGE).min(rows));
         let pages: Vec<String> = pages.map(|page| self.page(width, page)).collect();
         pages.join("\n")
+    }
+
+    /// The width below which words would break.
+    fn word_width(&self) -> usize {
+        let gaps = self.columns.len().saturating_sub(1) * usize::from(GAP);
+        self.columns.iter().map(Column::word_width).sum::<usize>() + gaps
+    }
+
+    /// Tables one below the other that begin with the same column, where one would be too wide.
+    fn folded(&self, width: usize) -> String {
+        let Some((first, rest)) = self.columns.split_first() else { return String::new() };
+        let of = |columns: Vec<Column>| Self { columns, footer: self.footer };
+        let mut grids = vec![of(vec![first.clone()])];
+        for column in rest {
+            let gap = usize::from(GAP) + column.word_width();
+            match grids.last_mut() {
+                Some(last) if last.columns.len() == 1 || last.word_width() + gap <= width => {
+                    last.columns.push(column.clone());
+                }
+                _ => grids.push(of(vec![first.clone(), column.clone()])),
+            }
+        }
+        let tables: Vec<String> = grids.iter().map(|grid| grid.render(width)).collect();
+        tables.join("\n")
     }
 
     fn rows(&self) -> usize {
@@ -208,8 +249,21 @@ impl Grid {
         let last = self.columns.len().saturating_sub(1);
         for (place, (column, wanted)) in table.column_iter_mut().zip(&self.columns).enumerate() {
             column.set_padding((0, if place == last { 0 } else { GAP }));
-            if let Some(constraint) = wanted.constraint {
-                column.set_constraint(constraint);
+            // words are kept together where columns are squeezed
+            let squeezed = usize::from(width) < USUAL && self.natural_width() > usize::from(width);
+            let word = u16::try_from(wanted.word_width()).unwrap_or(u16::MAX) + GAP;
+            match wanted.constraint {
+                Some(ColumnConstraint::ContentWidth) => {
+                    column.set_constraint(ColumnConstraint::ContentWidth);
+                }
+                _ if squeezed => {
+                    let least = Width::Fixed(word);
+                    column.set_constraint(ColumnConstraint::LowerBoundary(least));
+                }
+                Some(constraint) => {
+                    column.set_constraint(constraint);
+                }
+                None => {}
             }
         }
         table.lines().map(|line| line.trim_end().to_owned()).collect()

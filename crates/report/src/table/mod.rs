@@ -7,11 +7,15 @@ pub(super) mod correlations;
 mod grid;
 pub(super) mod sweep;
 mod text;
+mod width;
 
 pub use columns::BudgetColumn;
 pub use grid::Grid;
 pub use text::{grouped, plain, wrapped};
 pub(crate) use text::{is_obeyed, one_line, printable};
+use width::USUAL;
+pub use width::within_width;
+pub(crate) use width::{text_width, width};
 
 use std::io::{self, Write};
 
@@ -26,9 +30,6 @@ use gumption_engine::model::{InputQuantity, Output, Quantity};
 use gumption_engine::propagate::{Evaluation, OutputEvaluation, RowEvaluation};
 use gumption_engine::task::{Coverage, Settings, Task, Trials, Variable};
 use gumption_units::Unit;
-
-/// Characters in a line, at most.
-pub const WIDTH: usize = 100;
 
 /// How the page looks.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -192,8 +193,8 @@ fn section(
 /// Name, unit and words of an output, underlined.
 fn title(quantity: &Quantity) -> String {
     let line = wrapped(&title_text(quantity));
-    let width = line.lines().map(|line| line.chars().count()).max().unwrap_or(0);
-    format!("{line}{}\n", "═".repeat(width.min(WIDTH)))
+    let longest = line.lines().map(|line| line.chars().count()).max().unwrap_or(0);
+    format!("{line}{}\n", "═".repeat(longest.min(width())))
 }
 
 /// Name, unit and words of an output.

@@ -1,14 +1,14 @@
 //! A sweep over conditions: one table for each output, one line for each row.
 
 use super::grid::{Grid, PAGE};
-use super::{WIDTH, conditions_text, has_name, text, title};
+use super::{USUAL, conditions_text, has_name, text, title, width};
 use crate::number::{
     MISSING, align, exact, justified, place_of_ends, position, rounded, significant, to,
 };
 use crate::sheet::{Figure, Sheet};
 use gumption_engine::model::{Output, Quantity};
 use gumption_engine::propagate::gum::Gum;
-use gumption_engine::propagate::{OutputEvaluation, RowEvaluation};
+use gumption_engine::propagate::{OutputEvaluation, RowEvaluation, naming};
 use gumption_engine::task::Task;
 
 /// The tables of all outputs, part by part, an empty line apart.
@@ -20,16 +20,31 @@ pub(super) fn tables<'a>(
     let conditions = &task.model.conditions;
     let varying: Vec<usize> =
         (0..conditions.len()).filter(|&position| varies(rows, position)).collect();
+    let unvaried = fixed(conditions, rows, &varying);
     let sweep = Sweep { task, rows, digits, has_trials: rows.iter().any(has_trials) };
     let [wide, narrow] =
         [WIDE, NARROW].map(|uncertainty| Layout { labels: Labels::Conditions, uncertainty });
     let numbers = Layout { labels: Labels::Numbers, uncertainty: WIDE };
     let layouts = [wide, narrow];
-    let layout =
-        layouts.into_iter().find(|layout| sweep.fits(*layout, &varying)).unwrap_or(numbers);
+    // what was measured in every row may stand among the conditions: where all of them leave no room
+    // for the answer, those that tell the rows apart name them
+    let named = naming(rows);
+    let choices = [&varying, &named].into_iter().flat_map(|of| layouts.map(|layout| (layout, of)));
+    let chosen = choices.into_iter().find(|(layout, of)| sweep.fits(*layout, of));
+    // a narrow page folds its tables behind the one condition that names the rows
+    let folded = || match (named.as_slice(), width() < USUAL) {
+        ([_], true) => (layouts[1], named.clone()),
+        _ => (numbers, varying.clone()),
+    };
+    let (layout, varying) = chosen.map_or_else(folded, |(layout, of)| (layout, of.clone()));
+    let hidden = if matches!(layout.labels, Labels::Numbers) {
+        None
+    } else {
+        let count = (0..conditions.len()).filter(|&place| varies(rows, place)).count();
+        others(count - varying.len())
+    };
     let by_number = matches!(layout.labels, Labels::Numbers).then(|| varying.clone());
     let by_number = by_number.into_iter().flat_map(|varying| numbered(conditions, rows, varying));
-    let fixed = fixed(conditions, rows, &varying);
     let outputs = task.model.outputs.iter().enumerate();
     let tables = outputs.flat_map(move |(output, Output { quantity, .. })| {
         let mut above = title(quantity) + "\n";
@@ -37,11 +52,11 @@ pub(super) fn tables<'a>(
         let pages = (0..rows.len()).step_by(PAGE);
         pages.map(move |first| {
             let grid = sweep.grid(output, layout, &varying, first);
-            std::mem::take(&mut above) + &grid.render(WIDTH)
+            std::mem::take(&mut above) + &grid.render(width())
         })
     });
     let last = text::wrapped(MORE);
-    fixed.into_iter().chain(by_number).chain(tables).chain([last])
+    unvaried.into_iter().chain(hidden).chain(by_number).chain(tables).chain([last])
 }
 
 /// What else there is of a sweep.
@@ -70,10 +85,7 @@ pub(crate) fn shares(task: &Task, rows: &[RowEvaluation], output: usize) -> Opti
         return None;
     }
     let mut sheet = Sheet::default();
-    for (position, condition) in task.model.conditions.iter().enumerate() {
-        let values = rows.iter().map(|row| row.conditions.get(position).copied());
-        sheet.figures(&header(condition), values.map(|value| Figure::rounded(value, exact)));
-    }
+    conditions(&mut sheet, task, rows, &shown(task, rows));
     for variable in chosen {
         let share = |gum: &Option<&Gum>| {
             let mut lines = gum.as_ref()?.budget();
@@ -86,25 +98,80 @@ pub(crate) fn shares(task: &Task, rows: &[RowEvaluation], output: usize) -> Opti
     Some(sheet)
 }
 
-/// The table of an output over the first rows of a sweep, without a look.
-pub(crate) fn sheet(task: &Task, rows: &[RowEvaluation], output: usize, digits: u32) -> Sheet {
-    let mut sheet = Sheet::default();
-    for (position, condition) in task.model.conditions.iter().enumerate() {
-        let values = rows.iter().map(|row| row.conditions.get(position).copied());
-        sheet.figures(&header(condition), values.map(|value| Figure::rounded(value, exact)));
-    }
+/// All outputs of one row of conditions, a line each.
+pub(crate) fn summary(task: &Task, row: &RowEvaluation, digits: u32) -> Sheet {
+    let outputs = &task.model.outputs;
     let lines: Vec<[String; 7]> =
-        rows.iter().map(|row| line(row.outputs.get(output), digits)).collect();
+        (0..outputs.len()).map(|place| line(row.outputs.get(place), digits)).collect();
     let column = |position: usize| lines.iter().map(move |line| line[position].clone());
+    let mut sheet = Sheet::default();
+    sheet.text("output", outputs.iter().map(|output| text::plain(&output.quantity.name)));
+    answer(&mut sheet, column, has_trials(row));
+    let unit = |output: &Output| text::plain(output.quantity.unit.text());
+    sheet.units("unit", outputs.iter().map(unit));
+    sheet
+}
+
+/// The columns of the answer.
+fn answer<C: Iterator<Item = String>>(
+    sheet: &mut Sheet,
+    column: impl Fn(usize) -> C,
+    has_trials: bool,
+) {
     sheet.numbers("estimate", column(0));
     sheet.numbers("standard\nuncertainty", column(1));
     sheet.numbers("expanded\nuncertainty", column(2));
     sheet.numbers("k", column(3));
-    if rows.iter().any(has_trials) {
+    if has_trials {
         sheet.numbers("Monte Carlo\nfrom", column(4));
         sheet.numbers("to", column(5));
         sheet.text("GUM\ninterval", column(6));
     }
+}
+
+/// Conditions up to which all of them stand beside the answer.
+const MOST_SHOWN: usize = 3;
+
+/// Further conditions in one table, at most, so that it is no wider than a sheet of paper.
+const MOST_APART: usize = 7;
+
+/// The conditions that stand beside the answer, by their places.
+fn shown(task: &Task, rows: &[RowEvaluation]) -> Vec<usize> {
+    let count = task.model.conditions.len();
+    let naming = if count > MOST_SHOWN { naming(rows) } else { Vec::new() };
+    if naming.is_empty() { (0..count).collect() } else { naming }
+}
+
+/// The conditions that do not stand beside the answer, each table with those that do.
+pub(crate) fn apart(task: &Task, rows: &[RowEvaluation]) -> Vec<Sheet> {
+    let shown = shown(task, rows);
+    let count = task.model.conditions.len();
+    let others: Vec<usize> = (0..count).filter(|place| !shown.contains(place)).collect();
+    let table = |others: &[usize]| {
+        let mut sheet = Sheet::default();
+        conditions(&mut sheet, task, rows, &[&shown, others].concat());
+        sheet
+    };
+    others.chunks(MOST_APART).map(table).collect()
+}
+
+/// A column for each of these conditions.
+fn conditions(sheet: &mut Sheet, task: &Task, rows: &[RowEvaluation], places: &[usize]) {
+    for &place in places {
+        let Some(condition) = task.model.conditions.get(place) else { continue };
+        let values = rows.iter().map(|row| row.conditions.get(place).copied());
+        sheet.figures(&header(condition), values.map(|value| Figure::rounded(value, exact)));
+    }
+}
+
+/// The table of an output over the first rows of a sweep, without a look.
+pub(crate) fn sheet(task: &Task, rows: &[RowEvaluation], output: usize, digits: u32) -> Sheet {
+    let mut sheet = Sheet::default();
+    conditions(&mut sheet, task, rows, &shown(task, rows));
+    let lines: Vec<[String; 7]> =
+        rows.iter().map(|row| line(row.outputs.get(output), digits)).collect();
+    let column = |position: usize| lines.iter().map(move |line| line[position].clone());
+    answer(&mut sheet, column, rows.iter().any(has_trials));
     sheet
 }
 
@@ -143,6 +210,13 @@ enum Labels {
     Numbers,
 }
 
+/// That conditions do not stand in the table.
+fn others(count: usize) -> Option<String> {
+    let plural = if count == 1 { "condition" } else { "conditions" };
+    (count > 0)
+        .then(|| text::wrapped(&format!("{count} more {plural} of every row: --format csv.")))
+}
+
 fn varies(rows: &[RowEvaluation], position: usize) -> bool {
     let mut values = rows.iter().map(|row| row.conditions.get(position));
     let first = values.next();
@@ -174,7 +248,7 @@ fn numbered<'a>(
                 conditions_text(&quantities, &values)
             }),
         );
-        grid.render(WIDTH)
+        grid.render(width())
     })
 }
 
@@ -197,7 +271,7 @@ impl Sweep<'_> {
     fn fits(&self, layout: Layout, varying: &[usize]) -> bool {
         (0..self.task.model.outputs.len()).all(|output| {
             let mut pages = (0..self.rows.len()).step_by(PAGE);
-            pages.all(|first| self.grid(output, layout, varying, first).natural_width() <= WIDTH)
+            pages.all(|first| self.grid(output, layout, varying, first).natural_width() <= width())
         })
     }
 

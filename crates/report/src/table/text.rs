@@ -1,7 +1,7 @@
 //! Running text on the page: wrapped, and without characters that a terminal would obey.
 
-use super::WIDTH;
 use super::grid::Grid;
+use super::text_width;
 
 /// Names in a list of definitions get this many characters before they wrap.
 const NAME_WIDTH: usize = 32;
@@ -48,7 +48,7 @@ pub fn wrapped(text: &str) -> String {
     }
     let mut grid = Grid::default();
     grid.text("", [text]);
-    grid.bare(WIDTH)
+    grid.bare(text_width())
 }
 
 /// Names with what they are.
@@ -56,7 +56,7 @@ pub(super) fn definitions(entries: &[(&str, &str)]) -> String {
     let mut grid = Grid::default();
     grid.text_within("", NAME_WIDTH, entries.iter().map(|(name, _)| plain(name)));
     grid.text("", entries.iter().map(|(_, about)| plain(about)));
-    grid.bare(WIDTH)
+    grid.bare(text_width())
 }
 
 /// A count with its digits in groups of three: 1 000 000.

@@ -534,16 +534,67 @@ fn endless_texts_are_cut() {
     }
 }
 
-#[test]
-fn many_conditions_are_numbered() {
-    let mut case = sweep(&[0.0, 15.0], 2000);
+/// A sweep with twelve conditions beside the tilt.
+fn many_conditions(tilts: &[f64]) -> Case {
+    let mut case = sweep(tilts, 2000);
     let condition = case.task.model.conditions[1].clone();
     for number in 0..12 {
         let name = format!("condition_{number}");
         case.task.model.conditions.push(Quantity { name, ..condition.clone() });
-        case.evaluation.rows[0].conditions.push(0.25);
-        case.evaluation.rows[1].conditions.push(0.5);
+        for (row, tilt) in case.evaluation.rows.iter_mut().zip(tilts) {
+            row.conditions.push(0.25 + tilt);
+        }
     }
+    case
+}
+
+/// What was measured in every row stands among the conditions: the tilt names the rows.
+#[test]
+fn rows_are_named_by_what_tells_them_apart() {
+    let case = many_conditions(&[0.0, 15.0]);
+    let page = page(&case);
+    assert!(page.contains("12 more conditions of every row: --format csv."), "{page}");
+    assert!(page.contains("\n  tilt  estimate ") && !page.contains("condition_3"), "{page}");
+    let found = gumption_engine::propagate::naming(&case.evaluation.rows);
+    assert_eq!(found, [1]);
+}
+
+#[test]
+fn many_conditions_are_numbered() {
+    // two rows are alike, so that nothing tells all apart
+    let case = many_conditions(&[0.0, 15.0, 0.0]);
     let page = page(&case);
     assert!(page.contains("row  conditions"), "{page}");
+}
+
+/// Pages for terminals: no line is longer than the terminal is wide, and every word is one of those
+/// that a page has on which nothing is narrow.
+#[test]
+fn nothing_breaks_in_mid_word_from_60_columns_up() {
+    let cases = [
+        Case::new(grouped(2000)),
+        Case::new(correlated(2000)),
+        sweep(&[15.0, 35.0, 55.0, 75.0], 2000),
+    ];
+    for case in &cases {
+        let page = |columns: usize| {
+            crate::within_width(columns, || table(&case.report(), &TableStyle::default()))
+        };
+        let words = |page: &str| -> std::collections::BTreeSet<String> {
+            let words = page.split_whitespace().filter(|word| !word.contains(['─', '═']));
+            words.map(str::to_owned).collect()
+        };
+        // headers of narrow columns are written with hyphens
+        let hyphens = "sensi- tivity contri- bution distri- uncer- tainty";
+        let wide = [page(100), page(200), hyphens.to_owned()].join(" ");
+        let known = words(&wide);
+        for columns in [60, 64, 72, 80, 90, 99, 100, 120, 140, 200] {
+            let page = page(columns);
+            for line in page.lines() {
+                assert!(line.chars().count() <= columns, "{columns}: {line}\n{page}");
+            }
+            let broken: Vec<String> = words(&page).difference(&known).cloned().collect();
+            assert!(broken.is_empty(), "{columns}: {broken:?}\n{page}");
+        }
+    }
 }

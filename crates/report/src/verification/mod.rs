@@ -11,13 +11,11 @@ pub use words::words;
 use crate::answer::pretty;
 use crate::csv::of_records;
 use crate::number::{MISSING, align, exact, position, rounded, significant};
+use crate::table::text_width;
 use gumption_analysis::verification::{PublishedVerdict, RecomputedExample, RecomputedValue};
 use gumption_engine::task::Trials;
 
 const VERSION: &str = env!("CARGO_PKG_VERSION");
-
-/// Characters in a line, at most.
-const WIDTH: usize = 100;
 
 /// Significant digits of a tolerance; recomputed values are rounded to match.
 const TOLERANCE_DIGITS: u32 = 2;
@@ -147,7 +145,7 @@ fn wrapped(text: &str, indent: &str) -> String {
     let mut line = indent.to_owned();
     for word in text.split_whitespace() {
         let begun = line.len() > indent.len();
-        if begun && line.chars().count() + 1 + word.chars().count() > WIDTH {
+        if begun && line.chars().count() + 1 + word.chars().count() > text_width() {
             page += &line;
             page.push('\n');
             line = format!("{indent}  ");

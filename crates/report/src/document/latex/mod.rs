@@ -103,6 +103,10 @@ fn block(block: &Block, units: &mut unit::Declared) -> String {
         }
         Block::Table(sheet) => table(sheet, units),
         Block::Figure(_) => String::new(),
+        Block::Folded(title, blocks) => {
+            let blocks: Vec<String> = blocks.iter().map(|part| self::block(part, units)).collect();
+            format!("{}:\n\n{}", escaped(title), blocks.join("\n\n"))
+        }
         Block::Signature(places) => {
             let line = |place: &String| {
                 format!("\\parbox[t]{{70mm}}{{\\rule{{70mm}}{{0.4pt}}\\\\{}}}", escaped(place))

@@ -3,7 +3,7 @@
 use super::super::table::section;
 use super::design::CheckedDesign;
 use super::{confusion, sheets, words};
-use crate::{Grid, WIDTH, wrapped};
+use crate::{Grid, table::width, wrapped};
 use gumption_gap::check::BlindCheckScores;
 
 /// The scores of a blind check as a page of at most 100 columns: what was done, the scores, whether
@@ -12,9 +12,9 @@ use gumption_gap::check::BlindCheckScores;
 pub fn table(design: &CheckedDesign, report: &BlindCheckScores) -> String {
     let mut page = vec![heading(design, report)];
     page.push(section("What was done") + &wrapped(&words::done(design, report)));
-    let scores = Grid::of(&sheets::scores(report)).render(WIDTH);
+    let scores = Grid::of(&sheets::scores(report)).render(width());
     page.push(section("Scores") + &scores + &wrapped(words::RIGHT) + &wrapped(words::SCORES));
-    let reliability = Grid::of(&sheets::reliability(report)).render(WIDTH);
+    let reliability = Grid::of(&sheets::reliability(report)).render(width());
     page.push(
         section("Do probabilities mean what they say?")
             + &reliability
@@ -22,7 +22,7 @@ pub fn table(design: &CheckedDesign, report: &BlindCheckScores) -> String {
     );
     page.push(section("Wrong verdicts") + &wrong(report));
     if let Some(sheet) = sheets::smallest(report) {
-        let smallest = Grid::of(&sheet).render(WIDTH);
+        let smallest = Grid::of(&sheet).render(width());
         page.push(section("Smallest effects found") + &smallest + &wrapped(words::SMALLEST));
     }
     page.join("\n")
@@ -39,7 +39,7 @@ fn wrong(report: &BlindCheckScores) -> String {
     match sheets::wrong(&wrong) {
         Some(sheet) => {
             let rest = words::left_out(&wrong).map(|said| wrapped(&said));
-            Grid::of(&sheet).render(WIDTH) + &rest.unwrap_or_default()
+            Grid::of(&sheet).render(width()) + &rest.unwrap_or_default()
         }
         None => wrapped(words::NONE_WRONG),
     }

@@ -1,0 +1,114 @@
+//! What a terminal shows beside the text: its width, bold titles, coloured verdicts.
+
+use std::io::{self, IsTerminal};
+
+use anstream::{AutoStream, ColorChoice};
+use clap::ValueEnum;
+
+/// Columns of an answer that goes to no terminal.
+const PIPED: usize = 100;
+
+/// When there are colours.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum When {
+    /// On a terminal, unless NO_COLOR is set.
+    Auto,
+    /// Always.
+    Always,
+    /// Never.
+    Never,
+}
+
+impl When {
+    /// Decides for the whole process.
+    pub(super) fn choose(self) {
+        let choice = match self {
+            Self::Auto => return,
+            Self::Always => ColorChoice::Always,
+            Self::Never => ColorChoice::Never,
+        };
+        choice.write_global();
+    }
+}
+
+/// Columns of the page: those of the terminal.
+pub(super) fn width() -> usize {
+    if !io::stdout().is_terminal() {
+        return PIPED;
+    }
+    terminal_size::terminal_size().map_or(PIPED, |(width, _)| usize::from(width.0))
+}
+
+/// Whether standard output takes colours.
+pub(super) fn is_wanted() -> bool {
+    AutoStream::choice(&io::stdout()) != ColorChoice::Never
+}
+
+const BOLD: &str = "\u{1b}[1m";
+const GREEN: &str = "\u{1b}[32m";
+const YELLOW: &str = "\u{1b}[33m";
+const RED: &str = "\u{1b}[31m";
+const PLAIN: &str = "\u{1b}[0m";
+
+/// What is said of a result, and how it looks. Longer words stand before those that they contain.
+const VERDICTS: [(&str, &str); 8] = [
+    ("GUM interval is not valid here", YELLOW),
+    ("GUM interval is valid here", GREEN),
+    ("Decision: accepted", GREEN),
+    ("Decision: rejected", RED),
+    ("undecided whether the GUM interval is valid", YELLOW),
+    ("  not valid", YELLOW),
+    (" not compatible", RED),
+    ("There is a gap", BOLD),
+];
+
+/// A page of text with bold titles and coloured verdicts.
+pub(super) fn painted(page: &str) -> String {
+    let lines: Vec<&str> = page.split('\n').collect();
+    let is_rule = |line: &str| !line.is_empty() && line.chars().all(|c| matches!(c, '═' | '─'));
+    let is_title = |place: usize| {
+        let below = lines.iter().skip(place + 1).find(|line| line.is_empty() || is_rule(line));
+        // a title may have several lines above its double rule
+        if below.is_some_and(|rule| rule.starts_with('═')) {
+            return !is_rule(lines[place]) && !lines[place].is_empty();
+        }
+        let next = lines.get(place + 1).is_some_and(|next| {
+            is_rule(next) && next.chars().count() == lines[place].chars().count()
+        });
+        // a line with gaps heads a table
+        next && !lines[place].contains("  ")
+    };
+    let painted = lines.iter().enumerate().map(|(place, line)| {
+        if place == 0 || is_title(place) {
+            return if line.is_empty() { String::new() } else { format!("{BOLD}{line}{PLAIN}") };
+        }
+        VERDICTS.iter().fold((*line).to_owned(), |line, (words, look)| match line.contains(words) {
+            true => line.replace(words, &format!("{look}{words}{PLAIN}")),
+            false => line,
+        })
+    });
+    painted.collect::<Vec<_>>().join("\n")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn titles_are_bold_and_verdicts_coloured() {
+        let page = "Title\nsettings\n\na_x in m\n════════\n\ninput  u\n────────\na      1\n\nThe GUM interval is not valid here: so.\n";
+        insta::assert_snapshot!(painted(page).replace('\u{1b}', "^"), @r"
+        ^[1mTitle^[0m
+        settings
+
+        ^[1ma_x in m^[0m
+        ════════
+
+        input  u
+        ────────
+        a      1
+
+        The ^[33mGUM interval is not valid here^[0m: so.
+        ");
+    }
+}

@@ -1,0 +1,52 @@
+#!/usr/bin/env bash
+# Pictures of every kind of page for reports/pages/, what axe-core says of them, and terminal pages at
+# 60, 80, 100 and 140 columns.
+#
+# usage: tests/pages.sh [FOLDER]          FOLDER is reports/pages unless given
+#
+# Needs Chromium, poppler-utils, tmux, and Node with npm, which fetches puppeteer-core and axe-core into
+# target/pages. GUMPTION is the program; unless given it is built.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+folder=$(realpath -m "${1:-reports/pages}")
+work=$(realpath -m target/pages)
+mkdir -p "$folder" "$work"
+
+if [ -z "${GUMPTION:-}" ]; then
+  cargo build --quiet
+  GUMPTION="${CARGO_TARGET_DIR:-target}/debug/gumption"
+fi
+GUMPTION=$(realpath "$GUMPTION")
+[ -d "$work/node_modules/axe-core" ] ||
+  (cd "$work" && npm install --silent --no-package-lock puppeteer-core axe-core)
+
+page() { # NAME COMMAND...
+  local name=$1
+  shift
+  "$GUMPTION" "$@" --format html --quiet --output "$work/$name.html"
+}
+page run run models/inclined_plane.json --trials 200000
+page sweep run models/three_axis_sensitivity.json --trials 20000
+page outputs run models/sensitivity_matrix.json --trials 20000
+page conformity run tests/cases/feat-tolerance-normal/model.json --trials 200000
+page gap gap models/gap/lateral_motion/case.json
+page observe observe models/recordings/rotating_table/recipe.json
+page certificate certificate models/certificates/three_axis_accelerometer.json
+
+for columns in 60 80 100 140; do
+  session="pages-$$-$columns"
+  tmux new-session -d -s "$session" -x "$columns" -y 120 \
+    "$GUMPTION run models/inclined_plane.json --trials 100000 --quiet; sleep 60"
+  for _ in $(seq 50); do
+    sleep 0.2
+    tmux capture-pane -p -t "$session" > "$folder/terminal-$columns.txt"
+    ! grep -q 'a_z' "$folder/terminal-$columns.txt" || break
+  done
+  sleep 1
+  tmux capture-pane -p -S -300 -t "$session" | sed -e :a -e '/^\n*$/{$d;N;ba' -e '}' \
+    > "$folder/terminal-$columns.txt"
+  tmux kill-session -t "$session"
+done
+
+cd "$work"
+node "$OLDPWD/tests/pages/pages.mjs" "$folder" "$work"/{run,sweep,outputs,conformity,gap,observe,certificate}.html
