@@ -5,7 +5,7 @@ use std::collections::HashSet;
 use super::DiagnosticKind;
 use super::condition_values::ConditionValues;
 use super::conditions::unit;
-use super::dcc::FromCertificate;
+use super::dcc::{Certified, FromCertificate};
 use super::diagnostics::Collector;
 use super::folder::Folder;
 use super::input_set::InputSet;
@@ -100,6 +100,8 @@ impl<'a> Reader<'a, '_> {
             .is_some_and(|member| matches!(&member.value.value, Json::Text(name) if name == "dcc"));
         if is_certificate && object.get("components").is_none() {
             self.certificate = self.results.of_certificate(&object);
+            let certified = self.certificate.as_ref().and_then(|of| of.certified.clone());
+            self.certified(self.name.to_owned(), &object, certified);
         }
         let unit = self.unit().unwrap_or_else(|| {
             self.inputs.without_unit.push(self.name.to_owned());
@@ -436,6 +438,12 @@ impl<'a> Reader<'a, '_> {
         }
     }
 
+    /// Notes that a variable is a result of a certificate of our own.
+    fn certified(&mut self, name: String, object: &Object<'_>, of: Option<Certified>) {
+        let file = object.text("file").unwrap_or("").to_owned();
+        self.inputs.certified.extend(of.map(|of| (name, of, file)));
+    }
+
     /// Adds a variable of the budget.
     fn variable(&mut self, name: String, object: &Object<'_>, kind: Option<&Shape>, unit: &Unit) {
         let is_type_a = kind.is_some_and(|kind| kind.name == "readings");
@@ -635,9 +643,8 @@ impl<'a> Reader<'a, '_> {
                 let mut certificate = None;
                 if kind.name == "dcc" {
                     certificate = self.results.of_certificate(&component);
-                    if certificate.is_none() {
-                        continue;
-                    }
+                    let Some(of) = &certificate else { continue };
+                    self.certified(full.clone(), &component, of.certified.clone());
                 }
                 let object = component;
                 let read = (read, certificate);

@@ -37,7 +37,7 @@ type Cells = BTreeMap<u32, BTreeMap<u32, String>>;
 /// What is wrong with the workbook, as a sentence about it.
 pub(super) fn first_sheet(bytes: Vec<u8>) -> Result<String, String> {
     check_parts(&bytes)?;
-    csv(&cells(bytes)?)
+    csv(&cells(bytes, None)?)
 }
 
 /// All cells of the first sheet, row by row from its first one, empty where nothing stands.
@@ -45,12 +45,24 @@ pub(super) fn first_sheet(bytes: Vec<u8>) -> Result<String, String> {
 /// # Errors
 /// What is wrong with the workbook, as a sentence about it.
 pub(super) fn rows(bytes: Vec<u8>) -> Result<Vec<Vec<String>>, String> {
+    rows_of(bytes, None)
+}
+
+/// All cells of the sheet of that name; empty where there is none.
+///
+/// # Errors
+/// What is wrong with the workbook, as a sentence about it.
+pub(super) fn sheet(bytes: Vec<u8>, name: &str) -> Result<Vec<Vec<String>>, String> {
+    rows_of(bytes, Some(name))
+}
+
+fn rows_of(bytes: Vec<u8>, sheet: Option<&str>) -> Result<Vec<Vec<String>>, String> {
     /// Beyond it nobody keeps a budget.
     const MOST_ROWS: u32 = 10_000;
     const MOST_COLUMNS: u32 = 256;
     check_parts(&bytes)?;
     let mut rows: Vec<Vec<String>> = Vec::new();
-    for (row, cells) in cells(bytes)?.range(..MOST_ROWS) {
+    for (row, cells) in cells(bytes, sheet)?.range(..MOST_ROWS) {
         rows.resize(*row as usize, Vec::new());
         let mut line: Vec<String> = Vec::new();
         for (column, text) in cells.range(..MOST_COLUMNS) {
@@ -179,10 +191,15 @@ fn letters(column: u32) -> String {
     name
 }
 
-fn cells(bytes: Vec<u8>) -> Result<Cells, String> {
+/// The cells of the sheet of that name, or of the first one.
+fn cells(bytes: Vec<u8>, name: Option<&str>) -> Result<Cells, String> {
     let mut workbook: Xlsx<_> = Xlsx::new(Cursor::new(bytes)).map_err(is_none)?;
-    let sheet = workbook.sheet_names().first().cloned();
-    let sheet = sheet.ok_or_else(|| "the workbook has no sheet".to_owned())?;
+    let sheets = workbook.sheet_names();
+    let sheet = match name {
+        None => sheets.first().cloned().ok_or_else(|| "the workbook has no sheet".to_owned())?,
+        Some(name) if sheets.iter().any(|sheet| sheet == name) => name.to_owned(),
+        Some(_) => return Ok(Cells::new()),
+    };
     let mut reader = workbook.worksheet_cells_reader(&sheet).map_err(is_none)?;
     let (mut cells, mut size) = (Cells::new(), 0);
     while let Some(cell) = reader.next_cell().map_err(is_none)? {

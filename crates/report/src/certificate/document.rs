@@ -2,7 +2,7 @@
 
 use super::stated;
 use super::words::{self, beside};
-use super::{CertificateReport, administrative, sentences, sheets};
+use super::{CertificateReport, administrative, functions, sentences, sheets};
 use crate::document::{Block, Document};
 use crate::plain;
 use crate::sheet::Sheet;
@@ -28,6 +28,7 @@ pub(super) fn of(report: &CertificateReport<'_>) -> Document {
     for language in languages {
         document.text(sentences::coverage(report, *language).join(" "));
     }
+    functions::sections(&mut document, report);
     if sheets::are_correlated(report) {
         document.section(beside(languages, |w| w.correlation));
         if certificate.lines.len() <= sheets::MOST_CORRELATED {

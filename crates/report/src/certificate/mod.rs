@@ -4,6 +4,7 @@ mod administrative;
 mod csv;
 mod dcc;
 mod document;
+mod functions;
 mod json;
 mod sentences;
 mod sheets;
