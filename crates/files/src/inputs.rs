@@ -65,7 +65,7 @@ pub(super) fn read(
             Reader { object, name, conditions, moved, folder, results, certificate, inputs, whole };
         match object.get("complex") {
             None => reader.input(),
-            Some(complex) => reader.complex(complex),
+            Some(complex) => reader.complex(complex, overrides),
         }
     }
     let found = inputs.variables.len();
@@ -124,12 +124,15 @@ impl<'a> Reader<'a, '_> {
     }
 
     /// A complex quantity: two real ones, its real and imaginary part, or its modulus and phase.
-    fn complex(&mut self, member: &'a Member) {
+    fn complex(&mut self, member: &'a Member, overrides: &'a [Override]) {
         let log = self.object.log;
         self.object.check_keys(keys::COMPLEX_INPUT);
         if let Some(moved) = self.moved {
             let (text, name) = (moved.text.clone(), self.name);
-            let reason = format!("`{name}` is complex and has no estimate of its own");
+            let reason = format!(
+                "`{name}` is complex and has no estimate of its own; set one of its parts, as in \
+                 `{name}.re=1`"
+            );
             log.report(self.object.place(), DiagnosticKind::Override { text, reason });
         }
         let unit = unit(&self.object, "unit").unwrap_or_else(|| {
@@ -161,6 +164,11 @@ impl<'a> Reader<'a, '_> {
             let radian = || Unit::parse("rad").unwrap_or_else(|_| Unit::one());
             let whole = Some(if key == "phase" { radian() } else { unit.clone() });
             let name = format!("{}.{suffix}", self.name);
+            let is_part = |o: &&Override| {
+                let field = o.field.as_deref();
+                o.input == self.name && field.is_some_and(|of| of == key || of == suffix)
+            };
+            let moved = overrides.iter().rev().find(is_part);
             let (conditions, folder, results) = (self.conditions, self.folder, self.results);
             let inputs = &mut *self.inputs;
             let known = inputs.quantities.len();
@@ -170,7 +178,7 @@ impl<'a> Reader<'a, '_> {
                 object: part,
                 name,
                 conditions,
-                moved: None,
+                moved,
                 folder,
                 results,
                 inputs,

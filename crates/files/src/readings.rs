@@ -339,6 +339,9 @@ mod tests {
         let wrong = r#"{"unit": "V", "distribution": "readings", "values": ["r1", "r9"]}"#;
         let error = model(wrong, conditions, &[("c.csv", table)]).unwrap_err().to_string();
         assert!(error.contains("`r9` is not defined"), "{error}");
+        let wrong = r#"{"unit": "V", "distribution": "readings", "values": ["r1", "f"]}"#;
+        let error = model(wrong, conditions, &[("c.csv", table)]).unwrap_err().to_string();
+        assert!(error.contains("`values` has the unit `Hz`"), "{error}");
     }
 
     /// Three equal readings of a digital instrument: half a step over sqrt(3) (JCGM 100, F.2.2.1).

@@ -408,7 +408,12 @@ impl<'a> Fields<'a> {
             if row == 0
                 && let Err(kinds) = conditions.check(&formula, self.unit, self.of())
             {
-                kinds.into_iter().for_each(|kind| object.log.report(&node.span, kind));
+                for mut kind in kinds {
+                    if let DiagnosticKind::WrongDimension { name, .. } = &mut kind {
+                        "values".clone_into(name);
+                    }
+                    object.log.report(&node.span, kind);
+                }
                 return None;
             }
             values.push(conditions.value(&formula, row, self.unit, self.of()));

@@ -55,7 +55,7 @@ def number(name, output, path, value, tolerance, why):
 NAME = "gum-h1-end-gauge"
 published(NAME, "JCGM 100:2008, H.1",
           ("l", "gum.estimate", 50.000838, 5e-7), ("l", "gum.standard_uncertainty", 32e-6, 0.5e-6),
-          ("l", "gum.dof", 16.7, 0.8, "printed as 16; the printed contributions are rounded"),
+          ("l", "gum.dof", 16.7, 0.06, "printed 16.7, of rounded contributions; k is taken at 16"),
           ("l", "gum.coverage_factor", 2.92, 0.005), ("l", "gum.expanded_uncertainty", 93e-6, 0.6e-6, "printed is 2.92 times the rounded 32 nm"),
           notes="The GUM gives 34 nm with terms of second order (H.1.7), which the Monte Carlo evaluation has.")
 l_S = ureal(50.000623, 25e-6, 18)

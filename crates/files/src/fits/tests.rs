@@ -220,3 +220,60 @@ fn an_equation_of_its_own_name() {
     near(gum(&evaluation, 0).standard_uncertainty, 0.125, 1e-12);
     near(gum(&evaluation, 1).estimate, 4.0, 1e-14);
 }
+
+/// Parts of a complex quantity in place of their own: estimates and fields.
+#[test]
+fn parts_of_complex_inputs_are_replaced() {
+    let text = r#"{"inputs": {"Z": {"unit": "ohm", "complex": {
+        "re": {"distribution": "normal", "mean": 50, "std": 0.1},
+        "im": {"distribution": "normal", "mean": 2, "std": 0.1}}},
+        "S": {"complex": {"modulus": {"distribution": "normal", "mean": 1, "std": 0.1},
+        "phase": {"unit": "deg", "distribution": "normal", "mean": 10, "std": 1}}}},
+        "equations": {"r": "re(Z)", "p": "arg(S)"}, "outputs": {"r": {"unit": "ohm"},
+        "p": {"unit": "deg"}}, "monte_carlo": {"trials": 0}}"#;
+    let of = |set: &[&str]| {
+        let set: Vec<_> = set.iter().map(|text| crate::Override::parse(text).unwrap()).collect();
+        read_text("test", text, Path::new(""), &set)
+    };
+    let task = of(&["Z.re=0.055 kohm", "Z.re.std=0.3", "S.arg=20"]).unwrap().task;
+    let evaluation = evaluate(&task, &Control::default()).unwrap();
+    near(gum(&evaluation, 0).estimate, 55.0, 1e-14);
+    near(gum(&evaluation, 0).standard_uncertainty, 0.3, 1e-14);
+    near(gum(&evaluation, 1).estimate, 20.0, 1e-13);
+    for (set, said) in [
+        ("Z=55", "as in `Z.re=1`"),
+        ("Z.rr=55", "has no part `rr`"),
+        ("Z.modulus=55", "has no part `modulus`"),
+        ("Z.rr.std=55", "has no part `rr`"),
+    ] {
+        let error = of(&[set]).unwrap_err().to_string();
+        assert!(error.contains(said), "{set}: {error}");
+    }
+}
+
+/// JCGM 102, 9.3, polar coordinates of x1 = 0.010 and x2 = 0, both with u = 0.010: by the law of
+/// propagation u(y1) = 0.010 and u(y2) = 1 rad, uncorrelated, k_p = 2.45 and k_q = 2.24; by the trials
+/// y1 follows Rice's distribution, whose moments 0.015486 and 0.007758 (from Bessel functions) hold to
+/// five standard errors of 100,000 trials.
+#[test]
+fn polar_coordinates_of_the_supplement() {
+    let evaluation =
+        run(r#"{"inputs": {"x1": {"distribution": "normal", "mean": 0.010, "std": 0.010},
+        "x2": {"distribution": "normal", "mean": 0, "std": 0.010}},
+        "equations": {"y1": "hypot(x1, x2)", "y2": "atan2(x2, x1)"},
+        "outputs": {"y1": {}, "y2": {"unit": "rad"}},
+        "regions": [{"outputs": ["y1", "y2"], "probability": 0.95}],
+        "monte_carlo": {"trials": 100000}}"#);
+    near(gum(&evaluation, 0).standard_uncertainty, 0.010, 1e-12);
+    near(gum(&evaluation, 1).standard_uncertainty, 1.0, 1e-12);
+    let trials = evaluation.rows[0].outputs[0].monte_carlo.as_ref().unwrap();
+    let mean = trials.estimate.unwrap();
+    assert!((mean - 0.015_486).abs() < 1.3e-4, "{mean}");
+    let u = trials.standard_uncertainty.unwrap();
+    assert!((u - 0.007_758).abs() < 1e-4, "{u}");
+    let region = &evaluation.rows[0].regions[0];
+    let linear = region.gum.as_ref().unwrap();
+    // the root of the chi-squared quantile with two degrees of freedom, -2 ln 0.05; Bonferroni
+    near(linear.ellipsoid_k.unwrap(), 2.447_746_830_680_816, 1e-12);
+    near(linear.box_k, 2.241_402_727_604_947, 1e-9);
+}
