@@ -44,12 +44,11 @@ impl Certificates {
             return known.clone();
         }
         let read = || {
-            let path = folder.file(name)?;
             let unreadable = |message: String| {
                 let message = format!("`{name}`: {message}");
                 DiagnosticKind::Unreadable { message }
             };
-            let bytes = bytes::of_file(&path, bytes::MOST).map_err(unreadable)?;
+            let bytes = folder.content(name, bytes::MOST)?;
             let text = bytes::text(&bytes).map_err(unreadable)?.into_owned();
             if !text.trim_start().starts_with('<') {
                 return Err(unreadable("it is no XML".to_owned()));
