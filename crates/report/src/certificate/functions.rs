@@ -1,6 +1,7 @@
 //! Calibration functions as a certificate states them: parameters, and values with U over the range.
 
 use super::CertificateReport;
+use super::sentences::in_marks;
 use super::words::{self, beside, stacked};
 use crate::document::{Block, Document};
 use crate::fits::{self, STATED};
@@ -57,13 +58,17 @@ pub(super) fn title(of: &StatedFunction, languages: &[Language]) -> String {
 }
 
 /// The equation with its range, and what U is.
-pub(super) fn sentences(of: &StatedFunction, language: Language) -> [String; 2] {
+pub(super) fn sentences(
+    report: &CertificateReport<'_>,
+    of: &StatedFunction,
+    language: Language,
+) -> [String; 2] {
     let words = words::of(language);
-    let [low, high] = of.curve.fit.points.range().map(exact);
+    let [low, high] = of.curve.fit.points.range().map(|end| in_marks(report, &exact(end)));
     let equation = fits::equation(&of.curve);
     let range = words.in_range.replace("{equation}", &equation).replace("{low}", &low);
     let range = range.replace("{high}", &high).replace("{name}", &plain(&of.curve.fit.name));
-    [range, words.band.replace("{k}", &factor(of))]
+    [range, words.band.replace("{k}", &in_marks(report, &factor(of)))]
 }
 
 /// Parameters with their standard uncertainties, to one digit more than a certificate has, so that the
@@ -113,7 +118,7 @@ pub(super) fn sections(document: &mut Document, report: &CertificateReport<'_>) 
     for of in &report.certificate.functions {
         document.section(title(of, languages));
         for language in languages {
-            document.text(sentences(of, *language).join(" "));
+            document.text(sentences(report, of, *language).join(" "));
         }
         document.table(values(report, of));
         document.table(parameters(report, of));

@@ -2,7 +2,9 @@
 
 use std::io;
 
-use super::{CertificateReport, administrative, functions, sentences, sheets};
+use super::{
+    CertificateReport, administrative, conformity, file_name, functions, sentences, sheets,
+};
 use crate::fits;
 use crate::workbook::{Book, failed};
 
@@ -29,13 +31,18 @@ pub fn xlsx(report: &CertificateReport<'_>) -> io::Result<Vec<u8>> {
                 leaf.line(row, &said)?;
                 row += 1;
             }
+            for said in conformity::statements(report, *language) {
+                leaf.line(row, &said)?;
+                row += 1;
+            }
             row += 1;
         }
         leaf.line(row, &format!("gumption {}", env!("CARGO_PKG_VERSION")))?;
         leaf.line(row + 1, &format!("certificate file, SHA-256: {}", report.digest))?;
         row += 2;
         for model in report.models {
-            leaf.line(row, &format!("{}, SHA-256: {}", model.name, model.digest))?;
+            let name = file_name(model.name);
+            leaf.line(row, &format!("{name}, SHA-256: {}", model.digest))?;
             row += 1;
         }
         book.push(leaf)?;
@@ -43,7 +50,9 @@ pub fn xlsx(report: &CertificateReport<'_>) -> io::Result<Vec<u8>> {
             let mut leaf = book.leaf(&format!("Function {}", number + 1))?;
             leaf.title(0, &functions::title(of, languages))?;
             let mut row = 2;
-            for said in languages.iter().flat_map(|language| functions::sentences(of, *language)) {
+            for said in
+                languages.iter().flat_map(|language| functions::sentences(report, of, *language))
+            {
                 leaf.line(row, &said)?;
                 row += 1;
             }
