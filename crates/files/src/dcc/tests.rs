@@ -133,7 +133,7 @@ fn certificates_of_others() {
             continue;
         }
         let text = std::fs::read_to_string(&file).unwrap();
-        let document = document::parse(&text).unwrap();
+        let document = parse(&text).unwrap();
         let all = document::quantities(&document);
         assert!(!all.is_empty(), "{}", file.display());
         let read = all.iter().filter(|node| document::measured(**node).is_ok()).count();
