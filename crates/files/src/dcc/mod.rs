@@ -3,6 +3,7 @@
 
 mod document;
 mod own;
+mod quantities;
 
 use std::collections::HashMap;
 use std::ops::Range;
@@ -14,7 +15,8 @@ use super::object::Object;
 use super::source::{Place, SourceText};
 use super::value_text::ValueOf;
 use super::{DiagnosticKind, bytes};
-use document::{Fault, Measured, Stated};
+pub(super) use document::{Fault, parse, tag};
+use document::{Measured, Stated};
 use gumption_engine::distribution::{
     Constant, Distribution, Invalid, Normal, Rectangular, Triangular,
 };
@@ -23,6 +25,7 @@ use gumption_engine::special;
 use gumption_units::{Unit, nearest};
 pub(super) use own::Certified;
 use own::OwnCertificate;
+pub(super) use quantities::inputs;
 use roxmltree::Node;
 
 /// The certificates that a model file names: name, text if it could be read, content.
@@ -116,7 +119,7 @@ fn parsed(
     source: &Arc<SourceText>,
     own: &mut HashMap<String, Option<Arc<OwnCertificate>>>,
 ) -> Result<Option<FromCertificate>, Fault> {
-    let document = document::parse(&source.text)?;
+    let document = parse(&source.text)?;
     let all = document::quantities(&document);
     let Some(chosen) = chosen(object, &all) else { return Ok(None) };
     let measured: Vec<Measured> =
@@ -189,6 +192,20 @@ fn chosen<'d>(object: &Object<'_>, all: &[Node<'d, 'd>]) -> Option<Vec<Node<'d, 
         None if known.is_empty() => String::new(),
         None => format!("; there are {}", known[..known.len().min(12)].join(", ")),
     };
+    if let Some(member) = object.get("quantity") {
+        let others = ["id", "ref_type"].into_iter().find(|key| object.get(key).is_some());
+        if let Some(first) = others {
+            let diagnostic = DiagnosticKind::Exclusive { first, second: "quantity" };
+            object.log.report(&member.key_span, diagnostic);
+            return None;
+        }
+        let place = object.whole("quantity", 0, 1 << 32)? as usize;
+        let Some(one) = all.get(place) else {
+            let reason = format!("the certificate has {} quantities, counted from 0", all.len());
+            return report("quantity", reason);
+        };
+        return Some(vec![*one]);
+    }
     if object.get("id").is_some() {
         let wanted = object.text("id")?;
         let has = |node: &&Node<'d, 'd>| {
@@ -224,7 +241,8 @@ fn chosen<'d>(object: &Object<'_>, all: &[Node<'d, 'd>]) -> Option<Vec<Node<'d, 
         _ => {
             let shown: Vec<String> = all.iter().take(8).map(|of| document::called(*of)).collect();
             let reason = format!(
-                "the certificate has {} quantities; name one by its `id` or `ref_type`: {}{}",
+                "the certificate has {} quantities; name one by its `id` or `ref_type`, or by its place as \
+                 `quantity`, from 0: {}{}",
                 all.len(),
                 shown.join(", "),
                 if all.len() > 8 { ", ..." } else { "" }

@@ -3,10 +3,10 @@
 
 use std::sync::Arc;
 
-use base64::Engine;
-use base64::engine::general_purpose::STANDARD;
 use roxmltree::{Document, Node};
 use serde_json::Value;
+
+use crate::carried;
 
 /// How the results of a certificate vary together.
 #[derive(Debug)]
@@ -56,17 +56,10 @@ impl OwnCertificate {
     /// What the attached answer says; `None` for certificates of others.
     pub(super) fn of(document: &Document<'_>) -> Option<Self> {
         let name = |node: &Node<'_, '_>| node.tag_name().name() == "byteData";
-        let inside = |node: Node<'_, '_>, wanted: &str| {
-            let found = node.children().find(|child| child.tag_name().name() == wanted);
-            found.and_then(|child| child.text()).map(|text| text.trim().to_owned())
-        };
-        let attached = document.descendants().filter(name);
+        let attached = document.descendants().filter(name).filter_map(carried::attachment);
         let answer = attached
-            .filter(|node| inside(*node, "fileName").as_deref() == Some("result.json"))
-            .find_map(|node| {
-                let bytes = STANDARD.decode(inside(node, "dataBase64")?).ok()?;
-                serde_json::from_slice::<Value>(&bytes).ok()
-            })?;
+            .filter(|(name, _)| name == "result.json")
+            .find_map(|(_, bytes)| serde_json::from_slice::<Value>(&bytes).ok())?;
         answer.get("gumption")?;
         let mut groups: Vec<([&str; 2], Vec<usize>)> = Vec::new();
         for (number, row) in answer.get("rows")?.as_array()?.iter().enumerate() {

@@ -11,13 +11,10 @@ use crate::DiagnosticKind;
 use crate::diagnostics::{Collector, Diagnostics};
 use crate::reader::read_text;
 use crate::source::SourceText;
-use crate::{bytes, workbook};
+use crate::{bytes, carried, workbook};
 use gumption_engine::distribution::Distribution;
 use gumption_engine::number::Shortest;
 use gumption_engine::task::Task;
-
-/// Where the model file begins on the sheet `About`.
-const MODEL: &str = "The model file";
 
 /// Cells differ where they differ by more than a spreadsheet's rounding.
 const ROUNDING: f64 = 1e-12;
@@ -34,15 +31,12 @@ pub(super) fn of_file(path: &Path) -> Result<Option<Result<ImportedBudget, Diagn
         return Ok(None);
     }
     let content = bytes::of_file(path, bytes::MOST)?;
-    let about = workbook::sheet(content.clone(), "About")?;
-    let begins = about.iter().position(|row| row.first().is_some_and(|cell| cell == MODEL));
-    let Some(begins) = begins else { return Ok(None) };
-    let inputs = workbook::sheet(content, "Inputs")?;
+    // a workbook of somebody else carries no model
+    let Ok(text) = carried::of_workbook(content.clone()) else { return Ok(None) };
+    let inputs = workbook::rows_of(content, workbook::Sheet::Named("Inputs"))?;
     if inputs.is_empty() {
         return Ok(None);
     }
-    let lines = about.iter().skip(begins + 1).map(|row| row.first().map_or("", String::as_str));
-    let text = lines.collect::<Vec<_>>().join("\n") + "\n";
     let folder = path.parent().unwrap_or(Path::new(""));
     let name = format!("{}, the model file on sheet About", path.display());
     let task = match read_text(&name, &text, folder, &[]) {
