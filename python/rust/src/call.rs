@@ -64,6 +64,23 @@ pub(crate) fn case_source(
     Ok((file.source.text.clone(), named.collect()))
 }
 
+/// The models that a workbook or a Digital Calibration Certificate carries: name, text, and the files
+/// that they name.
+#[pyfunction]
+#[allow(clippy::type_complexity)] // what stands in the line above
+pub(crate) fn carried_models(
+    py: Python<'_>,
+    path: PathBuf,
+) -> PyResult<Vec<(String, String, Vec<(String, Py<PyBytes>)>)>> {
+    let found = py.detach(|| gumption::file::carried_models(&path));
+    let found = found.map_err(|found| failed(py, &Failure::Diagnostics(found)))?;
+    let file = |(name, bytes): (String, Vec<u8>)| (name, PyBytes::new(py, &bytes).unbind());
+    let model = |of: gumption::file::CarriedModel| {
+        (of.name, of.text, of.files.into_iter().map(file).collect())
+    };
+    Ok(found.into_iter().map(model).collect())
+}
+
 /// The factor and the offset with which a value in a unit becomes its number in coherent SI units (of
 /// a Celsius temperature the number of degrees Celsius): `value * factor + offset`.
 #[pyfunction]

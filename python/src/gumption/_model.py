@@ -326,16 +326,23 @@ def _json(file: Mapping[str, Any]) -> str:
 def load(
     path: str | os.PathLike[str],
     *,
+    model: str | None = None,
     set: Mapping[str, Any] | Sequence[str] = (),  # noqa: A002 - the name that the command line has
     allow_path: Sequence[str | os.PathLike[str]] = (),
     accept_changed: bool = False,
 ) -> Model:
-    """Read a model file.
+    """Read a model file, or the model that another file carries.
+
+    A workbook of a run (``--format xlsx``) carries its model file, and a Digital Calibration
+    Certificate of gumption those of its results; what people changed in cells or values is not taken.
+    Of any other certificate (2.4 to 3.3) every stated value is an input and an output.
 
     Parameters
     ----------
     path : path-like
         The file. What it names is looked for in its folder.
+    model : str, optional
+        Which one of several models that a certificate carries.
     set : mapping or sequence of str, optional
         Other estimates or fields of inputs, as ``--set`` has them: ``{"tilt": "36 deg"}`` or
         ``["tilt.half_width=0.2"]``.
@@ -355,7 +362,36 @@ def load(
     """
     items = [f"{name}={value}" for name, value in set.items()] if isinstance(set, Mapping) else set
     allowed = [os.fspath(folder) for folder in allow_path]
+    if _carries(path):
+        name, text, held = _carried(os.fspath(path), model)
+        folder = os.path.dirname(os.fspath(path))
+        of = (f"{os.fspath(path)} ({name})", text, folder, held)
+        return Model._of(_gumption.Model(*of, allowed, list(items), accept_changed))
+    if model is not None:
+        raise _gumption.ModelError("`model` is about a certificate that carries several")
     return Model._of(_gumption.Model.load(os.fspath(path), allowed, list(items), accept_changed))
+
+
+def _carries(path: str | os.PathLike[str]) -> bool:
+    """Whether a file is a workbook or XML."""
+    try:
+        with open(path, "rb") as file:
+            start = file.read(64)
+    except OSError:
+        return False
+    return start.startswith(b"PK") or start.removeprefix(b"\xef\xbb\xbf").lstrip().startswith(b"<")
+
+
+def _carried(path: str, wanted: str | None) -> tuple[str, str, list[tuple[str, bytes]]]:
+    """The model that a file carries."""
+    found = _gumption.carried_models(path)
+    if wanted is None and len(found) == 1:
+        return found[0]
+    for one in found:
+        if wanted in (one[0], os.path.splitext(os.path.basename(one[0]))[0]):
+            return one
+    names = ", ".join(f"`{name}`" for name, _, _ in found)
+    raise _gumption.ModelError(f"{path}: it carries {names}; say which with `model=`")
 
 
 def from_json(text: str, *, name: str = "<json>", folder: str | os.PathLike[str] = "") -> Model:
