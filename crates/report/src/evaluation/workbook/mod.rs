@@ -120,7 +120,12 @@ fn worksheet(book: &mut Book, name: &str, document: &Document) -> Result<(), Xls
                 }
             }
             Block::Table(sheet) => row = leaf.table(row + 1, sheet)? + 1,
-            Block::Figure(_) | Block::Listing { .. } | Block::Signature(_) | Block::End(_) => {}
+            // what is folded on a page stands on other worksheets
+            Block::Figure(_)
+            | Block::Folded(..)
+            | Block::Listing { .. }
+            | Block::Signature(_)
+            | Block::End(_) => {}
         }
     }
     book.push(leaf)
