@@ -12,7 +12,7 @@ use super::exit::say;
 use super::output::Place;
 use super::{CommandLine, Failure, output};
 use gumption_engine::propagate::Control;
-use gumption_engine::task::{Coverage, StoppingRule, Trials, Warning};
+use gumption_engine::task::{Coverage, MethodChoice, StoppingRule, Trials, Warning};
 use gumption_files::{FileReader, ModelFile, Override, bytes};
 use gumption_report::{BudgetColumn, plain};
 
@@ -306,6 +306,12 @@ pub(super) fn columns() -> impl TypedValueParser<Value = BudgetColumn> {
 pub(super) fn rule() -> impl TypedValueParser<Value = StoppingRule> {
     PossibleValuesParser::new(StoppingRule::ALL.map(StoppingRule::name))
         .try_map(|name| StoppingRule::named(&name).ok_or("there is no such rule"))
+}
+
+/// Which figures without noise are wanted.
+pub(super) fn method() -> impl TypedValueParser<Value = MethodChoice> {
+    PossibleValuesParser::new(MethodChoice::ALL.map(MethodChoice::name))
+        .try_map(|name| MethodChoice::named(&name).ok_or("there is no such method"))
 }
 
 /// A coverage probability.

@@ -15,7 +15,7 @@ use gumption_engine::propagate::monte_carlo::Histogram;
 use gumption_engine::propagate::{
     Control, Evaluation, EvaluationError, evaluate, histograms, warnings,
 };
-use gumption_engine::task::{StoppingRule, Task, Trials, Warning};
+use gumption_engine::task::{MethodChoice, StoppingRule, Task, Trials, Warning};
 use gumption_files::{Diagnostic, DiagnosticKind, Diagnostics, ModelFile};
 use gumption_report as report;
 use gumption_report::{BudgetColumn, EvaluationReport, Provenance, Shown, TableStyle};
@@ -37,6 +37,11 @@ pub(super) struct Run {
     /// tolerance more often; 7.9 unless the file says otherwise
     #[arg(long, value_name = "7.9|stein", value_parser = options::rule())]
     rule: Option<StoppingRule>,
+    /// Figures without the noise of trials beside those of the trials: exact ones of sums and products
+    /// of independent contributions, or those of quasi-random points; auto takes exact ones where
+    /// there are any
+    #[arg(long, value_name = "METHOD", value_parser = options::method())]
+    method: Option<MethodChoice>,
     /// Make as many trials as the validation of the GUM interval needs (JCGM 101, 8.2)
     #[arg(long, conflicts_with = "trials")]
     validate: bool,
@@ -243,6 +248,7 @@ impl Run {
             settings.for_validation = true;
         }
         settings.rule = self.rule.unwrap_or(settings.rule);
+        settings.method = self.method.or(settings.method).or(Some(MethodChoice::Auto));
         settings.max_trials = self.max_trials.unwrap_or(settings.max_trials);
         settings.seed = self.seed.or(settings.seed);
         if let Some(digits) = self.digits {

@@ -77,7 +77,7 @@ impl Readings {
 
     /// The scale of the t distribution that trials are drawn from: s/sqrt(n), and of paired
     /// readings the same with the divisor n - N in s.
-    pub(super) fn drawn_scale(&self) -> f64 {
+    pub(crate) fn drawn_scale(&self) -> f64 {
         self.scale * (self.dof() / self.drawn_dof()).sqrt()
     }
 

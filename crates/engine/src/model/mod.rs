@@ -11,6 +11,7 @@ mod trace;
 pub mod typed;
 pub use program::Node;
 pub use program::Program;
+pub(crate) use schedule::fold;
 pub use schedule::{Schedule, ScheduledOutput};
 pub(crate) use slopes::{Columns, Slope, Slopes};
 pub use trace::{Recorder, Traced};

@@ -8,14 +8,16 @@ use rayon::prelude::*;
 
 use super::Control;
 use super::conformity::Conformity;
+use super::exact::{self, Noiseless};
 use super::gum::{self, Gum, GumRow};
 use super::monte_carlo::{self, MonteCarlo, Request, Search, Undefined};
+use super::quasi;
 use super::second_order::{SecondOrder, second_order};
 use super::validate::{Validation, validate};
 use crate::distribution::{BLOCK, Correlation, CorrelationError, Joint};
 use crate::model::{Output, Program};
 use crate::number::{COLUMN, Column, Shortest};
-use crate::task::{Row, Settings, Task, Trials};
+use crate::task::{MethodChoice, Row, Settings, Task, Trials};
 
 /// The evaluation of a whole task.
 #[derive(Clone, Debug)]
@@ -80,6 +82,8 @@ pub struct OutputEvaluation {
     /// The law of propagation with its terms of second order, where they tell why the two differ, or
     /// what the law leaves out.
     pub second_order: Option<Box<SecondOrder>>,
+    /// Figures without the noise of trials, or why there are none; `None` where none were asked for.
+    pub noiseless: Option<Result<Box<Noiseless>, String>>,
     /// Their comparison.
     pub validation: Option<Validation>,
     /// The probability that the output conforms to its tolerance; `None` without a tolerance or
@@ -382,8 +386,10 @@ fn evaluate_row(
         second = second_order(task, row, &linear);
         gums = std::mem::take(&mut linear.outputs);
     }
+    let noiseless = noiseless(task, row, &joint, &drawn_dof);
     let evaluated = gums.into_iter().zip(figures).zip(drawn_dof).zip(&task.model.outputs);
-    for ((((gum, monte_carlo), drawn_dof), output), second_order) in evaluated.zip(second) {
+    let evaluated = evaluated.zip(second).zip(noiseless);
+    for (((((gum, monte_carlo), drawn_dof), output), second_order), noiseless) in evaluated {
         // only where there is something to say
         let second_order = second_order.filter(|second| {
             gum.as_ref().is_some_and(|gum| {
@@ -407,12 +413,55 @@ fn evaluate_row(
             gum,
             monte_carlo,
             second_order: second_order.map(Box::new),
+            noiseless,
             validation,
             conformity,
             drawn_dof,
         });
     }
     Ok(result)
+}
+
+/// Trials of a row from which on exact figures cost next to nothing beside them, and rows up to which
+/// they cost little in any case.
+const MANY_TRIALS: u64 = 100_000;
+const FEW_EXACT_ROWS: usize = 100;
+
+/// The figures of all outputs without the noise of trials, as far as they are asked for.
+fn noiseless(
+    task: &Task,
+    row: &Row,
+    joint: &Joint,
+    drawn_dof: &[f64],
+) -> Vec<Option<Result<Box<Noiseless>, String>>> {
+    let settings = &task.settings;
+    let wanted = match settings.method {
+        None | Some(MethodChoice::MonteCarlo) => None,
+        Some(MethodChoice::Auto) => {
+            let dear = match settings.trials {
+                Trials::Fixed(0) => true,
+                Trials::Fixed(trials) => trials < MANY_TRIALS && task.rows.len() > FEW_EXACT_ROWS,
+                Trials::Adaptive => false,
+            };
+            (!dear).then_some(MethodChoice::Auto)
+        }
+        some => some,
+    };
+    let Some(wanted) = wanted else {
+        return vec![None; drawn_dof.len()];
+    };
+    let each = drawn_dof.iter().enumerate().map(|(output, &drawn_dof)| {
+        let problem = exact::Problem { task, row, joint, output, drawn_dof };
+        let found = match wanted {
+            MethodChoice::Quasi => quasi::evaluate(&problem),
+            MethodChoice::Auto if settings.quasi_otherwise => {
+                exact::evaluate(&problem).or_else(|_| quasi::evaluate(&problem))
+            }
+            _ => exact::evaluate(&problem),
+        };
+        Some(found.map(Box::new))
+    });
+    each.collect()
 }
 
 /// A difference of two standard uncertainties below this share is not worth a word.

@@ -9,9 +9,11 @@ mod conformity;
 mod control;
 mod density;
 mod evaluation;
+mod exact;
 pub mod gum;
 pub mod monte_carlo;
 mod origins;
+mod quasi;
 mod replay;
 mod second_order;
 pub mod validate;
@@ -25,6 +27,7 @@ pub use evaluation::{
     CapabilityStatement, Evaluation, EvaluationError, JointlyDrawn, OutputEvaluation,
     RowEvaluation, evaluate, trial_hash,
 };
+pub use exact::{Accuracy, Noiseless, Scatter};
 pub use origins::{Origins, linear, origins};
 pub use replay::{for_each_block, histograms, joint_ranks, quantiles};
 pub use second_order::SecondOrder;

@@ -15,7 +15,7 @@ pub use builder::TaskBuilder;
 pub use coverage::Coverage;
 pub use error::TaskError;
 pub use evidence::Evidence;
-pub use settings::{Settings, StoppingRule, Trials};
+pub use settings::{MethodChoice, Settings, StoppingRule, Trials};
 pub use sharing::Sharing;
 pub use warning::Warning;
 

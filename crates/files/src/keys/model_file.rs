@@ -59,6 +59,17 @@ pub(crate) const MODEL: &[Key] = keys![
                 .with("maximum", 8),
     "coverage_factor_fixed" => described("boolean", "Keep the coverage factor whatever the degrees of freedom."),
     "monte_carlo" => reference("monte-carlo"),
+    "method" => object([
+        (
+            "description",
+            Value::from(
+                "Which figures stand beside those of the trials: `exact` ones of sums and products \
+                 of independent contributions, those of `quasi`-random points, none with \
+                 `monte-carlo`; `auto`, which is the default, takes exact ones where there are any.",
+            ),
+        ),
+        ("enum", texts(["auto", "monte-carlo", "exact", "quasi"])),
+    ]),
     "check_units" => described(
         "boolean",
         "Whether dimensions are checked through the formulas; true. If false, formulas compute \

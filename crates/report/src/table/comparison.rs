@@ -12,7 +12,7 @@ use gumption_engine::model::{Output, Quantity, Tolerance};
 use gumption_engine::propagate::gum::{Dof, Gum};
 use gumption_engine::propagate::monte_carlo::{Adaptive, FIRST_STAGE, MonteCarlo};
 use gumption_engine::propagate::validate::Validation;
-use gumption_engine::propagate::{Conformity, OutputEvaluation};
+use gumption_engine::propagate::{Accuracy, Conformity, Noiseless, OutputEvaluation};
 use gumption_engine::task::{Coverage, StoppingRule};
 
 /// What is said of a shortest interval that is not exact.
@@ -34,13 +34,20 @@ pub(super) fn table(output: &Quantity, figures: &OutputEvaluation, digits: u32) 
         let said = gum.and_then(|gum| interval_text(output, gum, digits));
         return said.map(|said| text::wrapped(&said));
     };
-    let lines = lines(gum, monte_carlo, digits);
+    let noiseless = figures.noiseless.as_ref().and_then(|found| found.as_deref().ok());
+    let lines = lines(gum, monte_carlo, noiseless, digits);
     let mut grid = Grid::default();
     grid.text("", lines.iter().map(|line| line.names[0].to_owned()));
     grid.numbers("GUM", lines.iter().map(|line| line.gum.clone()));
     grid.numbers("Monte Carlo", lines.iter().map(|line| line.monte_carlo.clone()));
     grid.numbers("numerical\nstandard error", lines.iter().map(|line| line.error.clone()));
+    if let Some(noiseless) = noiseless {
+        grid.numbers(heading(noiseless), lines.iter().map(|line| line.noiseless.clone()));
+    }
     let mut page = grid.render(WIDTH);
+    if let Some(noiseless) = noiseless {
+        page += &text::wrapped(&accuracy(output, noiseless));
+    }
     if !monte_carlo.shortest_exact {
         page += &text::wrapped(NEARLY_SHORTEST);
     }
@@ -57,6 +64,41 @@ pub(super) fn table(output: &Quantity, figures: &OutputEvaluation, digits: u32) 
     }
     Some(page)
 }
+
+/// The heading of the column of figures without noise.
+fn heading(noiseless: &Noiseless) -> &'static str {
+    match noiseless.accuracy {
+        Accuracy::Bound(_) => "exact",
+        Accuracy::Scatter(_) => "quasi-random",
+    }
+}
+
+/// How far the figures without noise may be off, and how they were found.
+pub(crate) fn accuracy(output: &Quantity, noiseless: &Noiseless) -> String {
+    let number = |value: f64| in_unit(&significant(value, 1), &output.unit);
+    match &noiseless.accuracy {
+        Accuracy::Bound(bound) => format!(
+            "exact: from the distributions of independent contributions, without trials; no figure \
+             is off by more than {}",
+            number(*bound)
+        ),
+        Accuracy::Scatter(scatter) => {
+            let [low, high] = scatter.symmetric_interval;
+            format!(
+                "quasi-random: `{}` integrated exactly, the other inputs over {} scrambled nets of {} \
+                 points; numerical standard errors of the ends of the symmetric interval {} and {}",
+                crate::plain(&scatter.integrated),
+                scatter.randomizations,
+                text::grouped(scatter.points),
+                significant(low, 1),
+                number(high)
+            )
+        }
+    }
+}
+
+/// Digits of the standard uncertainty that figures without noise are shown to, at most.
+const NOISELESS_DIGITS: u32 = 6;
 
 /// Notes that say why the two methods differ, or what one of them leaves out.
 const DIFFERENCES: [&str; 5] =
@@ -231,6 +273,7 @@ pub(crate) struct Line {
     gum: String,
     monte_carlo: String,
     error: String,
+    noiseless: String,
 }
 
 const SYMMETRIC_LOW: [&str; 2] =
@@ -244,16 +287,66 @@ const SHORTEST_HIGH: [&str; 2] =
 
 /// The figures of both methods side by side; `None` without trials.
 pub(crate) fn sheet(figures: &OutputEvaluation, digits: u32) -> Option<Sheet> {
-    let lines = lines(figures.gum.as_ref(), figures.monte_carlo.as_ref()?, digits);
+    let noiseless = figures.noiseless.as_ref().and_then(|found| found.as_deref().ok());
+    let lines = lines(figures.gum.as_ref(), figures.monte_carlo.as_ref()?, noiseless, digits);
     let mut sheet = Sheet::default();
     sheet.text("figure", lines.iter().map(|line| line.names[1].to_owned()));
     sheet.numbers("GUM", lines.iter().map(|line| line.gum.clone()));
     sheet.numbers("Monte Carlo", lines.iter().map(|line| line.monte_carlo.clone()));
     sheet.numbers("numerical\nstandard error", lines.iter().map(|line| line.error.clone()));
+    if let Some(noiseless) = noiseless {
+        sheet.numbers(heading(noiseless), lines.iter().map(|line| line.noiseless.clone()));
+    }
     Some(sheet)
 }
 
-fn lines(gum: Option<&Gum>, figures: &MonteCarlo, digits: u32) -> Vec<Line> {
+/// The figures without noise, in the order of the lines.
+fn noiseless_texts(of: Option<&Noiseless>, u: Option<f64>) -> [String; 9] {
+    let missing = || std::array::from_fn(|_| MISSING.to_owned());
+    let Some(of) = of else {
+        return missing();
+    };
+    let place = of.standard_uncertainty.or(u).and_then(|u| position(u, NOISELESS_DIGITS));
+    let short = of.shortest_interval;
+    let values = [
+        of.estimate,
+        of.standard_uncertainty,
+        Some(of.median),
+        Some(of.symmetric_interval[0]),
+        Some(of.symmetric_interval[1]),
+        short.map(|ends| ends[0]),
+        short.map(|ends| ends[1]),
+    ];
+    let errors = match &of.accuracy {
+        Accuracy::Bound(bound) => [Some(*bound); 7],
+        Accuracy::Scatter(scatter) => {
+            let short = scatter.shortest_interval;
+            [
+                scatter.estimate,
+                scatter.standard_uncertainty,
+                Some(scatter.median),
+                Some(scatter.symmetric_interval[0]),
+                Some(scatter.symmetric_interval[1]),
+                short.map(|ends| ends[0]),
+                short.map(|ends| ends[1]),
+            ]
+        }
+    };
+    let mut texts = missing();
+    for ((text, value), error) in texts.iter_mut().zip(values).zip(errors) {
+        if let Some(value) = value {
+            *text = justified(value, place, error.unwrap_or(f64::NAN));
+        }
+    }
+    texts
+}
+
+fn lines(
+    gum: Option<&Gum>,
+    figures: &MonteCarlo,
+    noiseless: Option<&Noiseless>,
+    digits: u32,
+) -> Vec<Line> {
     let uncertainty = gum.map(|gum| gum.standard_uncertainty);
     let own = figures.standard_uncertainty.or(uncertainty);
     let gum_position = uncertainty.and_then(|u| position(u, digits));
@@ -274,6 +367,7 @@ fn lines(gum: Option<&Gum>, figures: &MonteCarlo, digits: u32) -> Vec<Line> {
         error: error
             .filter(|error| !error.is_nan())
             .map_or_else(|| MISSING.to_owned(), |error| significant(error, 1)),
+        noiseless: MISSING.to_owned(),
     };
     let line = |names, gum, value, error| figure(own_position, names, gum, value, error);
     let end = |names, gum, value, error| figure(end_position, names, gum, value, error);
@@ -284,7 +378,7 @@ fn lines(gum: Option<&Gum>, figures: &MonteCarlo, digits: u32) -> Vec<Line> {
     let (short_low, short_high) = ends(figures.shortest_interval);
     let (short_low_error, short_high_error) = ends(errors.shortest_interval);
     let spread = figures.standard_uncertainty;
-    vec![
+    let mut lines = vec![
         line(["estimate"; 2], gum.map(|gum| gum.estimate), figures.estimate, errors.estimate),
         line(["standard uncertainty"; 2], uncertainty, spread, errors.standard_uncertainty),
         end(["median"; 2], None, Some(figures.median), Some(errors.median)),
@@ -294,7 +388,11 @@ fn lines(gum: Option<&Gum>, figures: &MonteCarlo, digits: u32) -> Vec<Line> {
         end(SHORTEST_HIGH, None, short_high, short_high_error),
         shape("skewness", figures.skewness, errors.skewness, figures),
         shape("excess kurtosis", figures.excess_kurtosis, errors.excess_kurtosis, figures),
-    ]
+    ];
+    for (line, text) in lines.iter_mut().zip(noiseless_texts(noiseless, own)) {
+        line.noiseless = text;
+    }
+    lines
 }
 
 /// Skewness and kurtosis: two decimals, fewer where the numerical standard error says so, and one
@@ -310,6 +408,7 @@ fn shape(name: &'static str, value: Option<f64>, error: Option<f64>, of: &MonteC
         gum: missing(),
         monte_carlo: value.map_or_else(missing, figure),
         error: error.map_or_else(missing, |error| significant(error, 1)),
+        noiseless: missing(),
     }
 }
 
