@@ -26,6 +26,7 @@ mod gap_examples;
 mod integrity;
 mod interrupt;
 mod intervals;
+mod manual;
 mod observe;
 mod observe_steps;
 mod one_number;

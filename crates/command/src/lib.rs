@@ -11,7 +11,9 @@ mod diff;
 mod exit;
 mod gap;
 mod gap_check;
+mod help;
 mod models;
+mod new;
 mod observe;
 mod options;
 mod output;
@@ -34,7 +36,7 @@ pub use verify::PublishedExamples;
 
 /// Measurement uncertainty by the GUM and by Monte Carlo, side by side.
 #[derive(Debug, Parser)]
-#[command(name = "gumption", version, max_term_width = 100)]
+#[command(name = "gumption", version, max_term_width = 100, disable_help_subcommand = true)]
 struct Arguments {
     #[command(subcommand)]
     command: Command,
@@ -52,6 +54,8 @@ enum Command {
     Check(check::Check),
     /// Compare results two by two (normalized errors), or those of many laboratories
     Compare(compare::Compare),
+    /// Write a model file to start from: from options, or from answers to questions
+    New(new::New),
     /// List the typed measurement models, or describe one
     Models(models::Models),
     /// Recompute the published examples on this machine, or compare its code paths
@@ -66,6 +70,8 @@ enum Command {
     Observe(observe::Observe),
     /// Print the JSON Schema of the files, for editors
     Schema(schema::Schema),
+    /// Tell how a command is called, or what may stand in files and formulas
+    Help(help::Help),
 }
 
 /// The command line with what it knows: typed measurements and published examples.
@@ -112,6 +118,8 @@ impl CommandLine {
             Command::GapCheck(command) => command.execute(self),
             Command::Observe(command) => command.execute(self),
             Command::Schema(command) => command.execute(),
+            Command::Help(command) => command.execute(),
+            Command::New(command) => command.execute(self),
         };
         match result {
             Ok(exit) => exit.code(),

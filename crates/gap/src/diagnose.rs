@@ -64,6 +64,7 @@ pub fn diagnose(
     let verdict = weighed.most_probable(&group);
     let Weighed {
         prior_conflicts,
+        departure,
         noise: weighed_noise,
         setup,
         discrepancy,
@@ -135,6 +136,7 @@ pub fn diagnose(
         noise,
         present,
         prior_conflicts,
+        departure,
         notes,
         probability,
         seed,

@@ -31,6 +31,9 @@ pub struct Diagnosis {
     pub present: Vec<PresentEffect>,
     /// Effects whose priors the data contradict, most probable first.
     pub prior_conflicts: Vec<PriorConflict>,
+    /// What is known of a departure that no candidate makes, most probable form first; empty where
+    /// "unexplained" has at most the probability 0.05.
+    pub departure: Vec<DepartureForm>,
     /// What to bear in mind.
     pub notes: Vec<DiagnosisNote>,
     /// Coverage probability of all intervals.
@@ -338,6 +341,117 @@ pub struct PresentEffect {
     pub probability: f64,
     /// Its parameters over all of these.
     pub parameters: Vec<EffectParameter>,
+}
+
+/// A form of the departure that "unexplained" stands for.
+#[derive(Clone, Debug)]
+pub struct DepartureForm {
+    /// The outputs that it acts on.
+    pub outputs: Vec<String>,
+    /// Whether it is added or a share of the sim.
+    pub kind: DepartureKind,
+    /// Whether all of these outputs have the same function.
+    pub common: bool,
+    /// What it is a function of.
+    pub over: DepartureOver,
+    /// What it looks like, for the first of the outputs.
+    pub shape: DepartureShape,
+    /// The length over which it varies, in the unit of what it is a function of; where that is placed
+    /// by its logarithm, the factor. `None` where there is none.
+    pub scale: Option<f64>,
+    /// Whether the scale is a factor.
+    pub logarithmic: bool,
+    /// Unit of the scale.
+    pub scale_unit: String,
+    /// Root mean square of the departure over the conditions of the data, in `unit`; a share of the
+    /// sim where it is proportional.
+    pub size: f64,
+    /// Unit of the size; empty for a share.
+    pub unit: String,
+    /// The effects of the list that act beside it.
+    pub beside: Vec<String>,
+    /// Posterior probability; over all forms they sum to that of "unexplained".
+    pub probability: f64,
+}
+
+/// Whether a departure is added to a quantity or proportional to it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum DepartureKind {
+    /// Added.
+    Additive,
+    /// A share of the quantity.
+    Proportional,
+}
+
+impl DepartureKind {
+    /// The word that files have.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Additive => "additive",
+            Self::Proportional => "proportional",
+        }
+    }
+}
+
+/// What a departure is a function of.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub enum DepartureOver {
+    /// Nothing: it is constant.
+    Nothing,
+    /// The condition of that name.
+    Condition(String),
+    /// The sim's own value of the quantity.
+    Value,
+    /// All conditions together.
+    AllConditions,
+}
+
+/// What a departure looks like over what it is a function of.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum DepartureShape {
+    /// The same everywhere.
+    Constant,
+    /// A value of its own at each level of the condition.
+    Levels,
+    /// It rises from end to end.
+    Rising,
+    /// It falls from end to end.
+    Falling,
+    /// Nearly all of its change lies at one place.
+    Step {
+        /// The place.
+        at: f64,
+        /// Whether it rises there.
+        up: bool,
+    },
+    /// It has one maximum within.
+    Peak {
+        /// The place.
+        at: f64,
+    },
+    /// It has one minimum within.
+    Dip {
+        /// The place.
+        at: f64,
+    },
+    /// Anything else.
+    Varying,
+}
+
+impl DepartureShape {
+    /// The word that files have.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Constant => "constant",
+            Self::Levels => "levels",
+            Self::Rising => "rising",
+            Self::Falling => "falling",
+            Self::Step { .. } => "step",
+            Self::Peak { .. } => "peak",
+            Self::Dip { .. } => "dip",
+            Self::Varying => "varying",
+        }
+    }
 }
 
 /// Something to bear in mind when the answer is read.

@@ -9,6 +9,7 @@ pub mod check;
 mod correlated;
 mod covariance;
 mod data;
+mod departure;
 mod diagnose;
 mod diagnosis;
 mod differential_evolution;
@@ -43,10 +44,10 @@ mod whitened;
 pub use case::{Candidate, Case, ObservedOutput, Prior};
 pub use diagnose::{DiagnosisOptions, diagnose};
 pub use diagnosis::{
-    Diagnosis, DiagnosisNote, EffectParameter, EstimatedNoise, GapRegion, GapTest, Hypothesis,
-    HypothesisKind, MostProbable, NamedQuantity, NextMeasurement, NoiseEstimate, Predicted,
-    PresentEffect, PriorConflict, RowGap, SerialCorrelation, Shrinkage, Shrunk, SuspectValue,
-    UncertaintyFactor, ValueGap,
+    DepartureForm, DepartureKind, DepartureOver, DepartureShape, Diagnosis, DiagnosisNote,
+    EffectParameter, EstimatedNoise, GapRegion, GapTest, Hypothesis, HypothesisKind, MostProbable,
+    NamedQuantity, NextMeasurement, NoiseEstimate, Predicted, PresentEffect, PriorConflict, RowGap,
+    SerialCorrelation, Shrinkage, Shrunk, SuspectValue, UncertaintyFactor, ValueGap,
 };
 pub use model::{Effect, ModelForm, OverridableModel, OverrideError};
 pub use selection::{ModelSelection, noise, nominal, select_model};

@@ -1,7 +1,8 @@
 //! The hypotheses of a case weighed against its data: the most probable one, and those that the data
 //! cannot tell from it.
 
-use super::diagnosis::{HypothesisKind, MostProbable, PriorConflict};
+use super::departure;
+use super::diagnosis::{DepartureForm, HypothesisKind, MostProbable, PriorConflict};
 use super::discrepancy::Discrepancy;
 use super::latent::Role;
 use super::noise_model;
@@ -32,6 +33,8 @@ pub(crate) struct Weighed<'c> {
     pub(crate) prior_conflict: bool,
     /// Effects whose priors the data contradict.
     pub(crate) prior_conflicts: Vec<PriorConflict>,
+    /// What is known of a departure that no candidate makes.
+    pub(crate) departure: Vec<DepartureForm>,
     /// What the noise may be.
     pub(crate) noise: WeighedNoise,
     /// With the noise that is most probable.
@@ -62,6 +65,7 @@ impl<'c> Weighed<'c> {
         let prior_conflicts =
             prior_conflict::conflicts(case, &weighings, super::diagnose::coverage(case));
         let noise = WeighedNoise::of(&weighings);
+        let departure = departure::forms(&weighings);
         let (setup, discrepancy, posterior) = noise_model::summed(weighings);
         let best = (0..posterior.hypotheses.len())
             .max_by(|&a, &b| {
@@ -78,6 +82,7 @@ impl<'c> Weighed<'c> {
         Self {
             prior_conflict,
             prior_conflicts,
+            departure,
             noise,
             setup,
             discrepancy,

@@ -16,6 +16,7 @@ mod json;
 pub mod number;
 pub mod observe;
 mod plot;
+pub mod reference;
 mod samples;
 mod saved;
 mod sheet;

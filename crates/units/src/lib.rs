@@ -40,7 +40,7 @@ pub use dimension::Dimension;
 pub use error::{IncompatibleUnits, MissingSide, UnitError};
 pub use exponent::Exponent;
 pub use factor::{Factor, FactorBase};
-pub use names::{Prefix, Symbol};
+pub use names::{Prefix, Symbol, prefixes, symbols};
 pub use nearest::{all_nearest, nearest};
 pub use zero::{Turn, Zero};
 

@@ -63,8 +63,13 @@ impl Symbol {
         Scale::new(self.fraction.0, self.fraction.1, self.decimal, self.pi)
     }
 
+    /// Whether an SI prefix may stand before it.
+    pub const fn takes_prefixes(&self) -> bool {
+        self.prefixes
+    }
+
     /// Every spelling, [`Symbol::name`] first.
-    pub(super) fn spellings(&self) -> impl Iterator<Item = &'static str> {
+    pub fn spellings(&self) -> impl Iterator<Item = &'static str> {
         std::iter::once(self.name).chain(self.also.iter().copied())
     }
 
@@ -366,6 +371,16 @@ pub(super) static PREFIXES: &[Prefix] = &[
     prefix("r", "ronto", -27),
     prefix("q", "quecto", -30),
 ];
+
+/// Every unit symbol, base units first.
+pub fn symbols() -> impl Iterator<Item = &'static Symbol> {
+    SYMBOLS.iter()
+}
+
+/// Every SI prefix, the commonest first.
+pub fn prefixes() -> impl Iterator<Item = &'static Prefix> {
+    PREFIXES.iter()
+}
 
 /// The symbol with exactly this spelling.
 pub(super) fn symbol(name: &str) -> Option<&'static Symbol> {

@@ -1,22 +1,24 @@
 //! `gumption models`
 
 mod effects;
+mod examples;
 
 use std::fmt::Write;
+use std::path::PathBuf;
 
 use clap::Args;
 use comfy_table::{ContentArrangement, Table, presets};
 
 use super::options::Format;
 use super::output::Place;
-use super::{CommandLine, Exit, Failure};
+use super::{CommandLine, Exit, Failure, output};
 use gumption_engine::model::typed::{Catalogue, CatalogueEntry};
 use gumption_units::nearest;
 
 /// List the typed models or describe one, or list the ready-made effects of the gap diagnosis.
 #[derive(Debug, Args)]
 pub(super) struct Models {
-    /// A model to describe; with --effects the effect
+    /// A model to describe; with --effects the effect, with --examples the example
     name: Option<String>,
     /// Print a model file of it, ready to fill in
     #[arg(long, requires = "name")]
@@ -24,13 +26,20 @@ pub(super) struct Models {
     /// List the effects that a gap case can name in its `catalogue`
     #[arg(long, conflicts_with = "template")]
     effects: bool,
+    /// List the published measurements that the program carries, or print the model file of one
+    #[arg(long, conflicts_with_all = ["template", "effects"])]
+    examples: bool,
     /// Format of the answer; json with --effects only
     #[arg(long, value_enum, default_value = "table")]
     format: Format,
+    /// Write the answer to this file instead of standard output
+    #[arg(long, value_name = "FILE")]
+    output: Option<PathBuf>,
 }
 
 impl Models {
     pub(super) fn execute(&self, program: &CommandLine) -> Result<Exit, Failure> {
+        let [file] = output::open([("--output", self.output.as_deref())], &[])?;
         let text = match &self.name {
             name if self.effects => {
                 let listing = effects::named(name.as_deref())?;
@@ -47,6 +56,7 @@ impl Models {
                 let message = "`models` answers as table; in json with --effects only";
                 return Err(Failure::Argument(message.into()));
             }
+            name if self.examples => examples::named(&program.published, name.as_deref())?,
             None => list(&program.catalogue),
             Some(name) => match program.catalogue.find(name) {
                 Some(entry) if self.template => match entry.template {
@@ -60,7 +70,7 @@ impl Models {
                 None => return Err(unknown(&program.catalogue, name)),
             },
         };
-        Place::StandardOutput.write(&text)?;
+        file.map_or(Place::StandardOutput, Place::File).write(&text)?;
         Ok(Exit::Done)
     }
 }

@@ -32,7 +32,7 @@ enum Rule {
 }
 
 /// The distributions in the order of JCGM 101, Table 1, then the others.
-pub(crate) const SHAPES: [Shape; 17] = [
+pub(crate) static SHAPES: [Shape; 17] = [
     Shape {
         name: "constant",
         aliases: &[],

@@ -6,6 +6,8 @@
 #[cfg(test)]
 mod tests;
 
+use serde_json::Value;
+
 use super::{catalogue, keys};
 
 /// The schema (draft 2020-12) as text that ends in a newline.
@@ -15,6 +17,34 @@ use super::{catalogue, keys};
 /// assert!(schema.contains("\"$schema\": \"https://json-schema.org/draft/2020-12/schema\""));
 /// ```
 pub fn text() -> String {
+    format!("{:#}\n", value())
+}
+
+/// The schema as a JSON value.
+pub fn value() -> Value {
     let effects = catalogue().effects.into_iter().map(|effect| effect.name).collect();
-    format!("{:#}\n", keys::schema(&effects))
+    keys::schema(&effects)
+}
+
+/// A distribution as files name it.
+#[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
+pub struct NamedDistribution {
+    /// Its name.
+    pub name: &'static str,
+    /// Its other names.
+    pub aliases: &'static [&'static str],
+    /// Its own keys, beside those that every input has.
+    pub keys: &'static [&'static str],
+}
+
+/// The distributions in the order of JCGM 101, Table 1, then the others; `input-NAME` is the
+/// definition of an input that has it in the schema.
+pub fn distributions() -> Vec<NamedDistribution> {
+    let named = |shape: &'static keys::Shape| NamedDistribution {
+        name: shape.name,
+        aliases: shape.aliases,
+        keys: shape.fields,
+    };
+    keys::SHAPES.iter().map(named).collect()
 }

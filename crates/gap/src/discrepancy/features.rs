@@ -113,6 +113,19 @@ impl Axes {
         });
         Self { conditions: conditions.collect(), sims: sims.collect() }
     }
+
+    /// A length over a condition in its unit, or the factor where the condition is placed by its
+    /// logarithm; and whether it is.
+    pub(crate) fn length(&self, condition: usize, length: f64) -> (f64, bool) {
+        let axis = &self.conditions[condition];
+        let own = length * axis.range;
+        (if axis.logarithmic { elementary::exp(own) } else { own }, axis.logarithmic)
+    }
+
+    /// A length over the model's own value, in the unit of the outputs.
+    pub(crate) fn sim_length(&self, outputs: &[usize], length: f64) -> f64 {
+        length * outputs.iter().map(|&output| self.sims[output].range).fold(0.0, f64::max)
+    }
 }
 
 /// The sites of a data set, a row each.

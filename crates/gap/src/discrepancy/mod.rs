@@ -12,7 +12,7 @@ mod prediction;
 
 pub(crate) use features::Axes;
 pub(crate) use form::{Form, forms};
-use grammar::Term;
+pub(crate) use grammar::{Of, Term};
 
 use std::sync::Arc;
 

@@ -7,22 +7,34 @@ use crate::table::one_line;
 
 /// The whole document, ending in a newline.
 pub(crate) fn markdown(document: &Document) -> String {
-    let mut parts = vec![format!("# {}", escaped(&document.title))];
+    written(document, escaped)
+}
+
+/// The same for a document whose texts are this program's own and have code between backticks.
+pub(crate) fn markdown_with_code(document: &Document) -> String {
+    written(document, with_code)
+}
+
+/// How texts are written so that they say what they are.
+type Escape = fn(&str) -> String;
+
+fn written(document: &Document, escape: Escape) -> String {
+    let mut parts = vec![format!("# {}", escape(&document.title))];
     // two spaces at the end of a line break it
-    let lines: Vec<String> = document.subtitle.iter().map(|line| escaped(line)).collect();
+    let lines: Vec<String> = document.subtitle.iter().map(|line| escape(line)).collect();
     parts.push(lines.join("  \n"));
-    parts.extend(document.blocks.iter().map(block));
+    parts.extend(document.blocks.iter().map(|of| block(of, escape)));
     parts.retain(|part| !part.is_empty());
     parts.join("\n\n") + "\n"
 }
 
-fn block(block: &Block) -> String {
+fn block(block: &Block, escape: Escape) -> String {
     match block {
-        Block::Section(title) => format!("## {}", escaped(title)),
-        Block::Text(text) => escaped(text),
+        Block::Section(title) => format!("## {}", escape(title)),
+        Block::Text(text) => escape(text),
         Block::Verdict(sentences) => {
             let stressed = |(place, sentence): (usize, &String)| {
-                let sentence = escaped(sentence);
+                let sentence = escape(sentence);
                 if place == 0 { format!("> **{sentence}**") } else { format!("> {sentence}") }
             };
             let lines: Vec<String> = sentences.iter().enumerate().map(stressed).collect();
@@ -30,18 +42,19 @@ fn block(block: &Block) -> String {
         }
         Block::List(items) => {
             let items: Vec<String> =
-                items.iter().map(|item| format!("- {}", escaped(item))).collect();
+                items.iter().map(|item| format!("- {}", escape(item))).collect();
             items.join("\n")
         }
-        Block::Table(sheet) => table(sheet),
+        Block::Table(sheet) => table(sheet, escape),
         Block::Figure(_) => String::new(),
-        Block::Listing { about, text } => listing(about, text),
+        Block::Listing { about, text } => listing(about, text, escape),
     }
 }
 
 /// A table whose source is aligned as well.
-fn table(sheet: &Sheet) -> String {
-    let columns: Vec<Vec<String>> = sheet.columns.iter().map(cells).collect();
+fn table(sheet: &Sheet, escape: Escape) -> String {
+    let columns: Vec<Vec<String>> =
+        sheet.columns.iter().map(|column| cells(column, escape)).collect();
     let rows = sheet.rows();
     let line = |cells: Vec<String>| format!("| {} |", cells.join(" | "));
     let mut lines = Vec::with_capacity(rows + 2);
@@ -58,11 +71,11 @@ fn table(sheet: &Sheet) -> String {
 }
 
 /// The header and the cells of a column, all of one width.
-fn cells(column: &Column) -> Vec<String> {
+fn cells(column: &Column, escape: Escape) -> Vec<String> {
     let numeric = column.is_numeric();
-    let body: Vec<String> = column.cells.iter().map(|cell| escaped(cell)).collect();
+    let body: Vec<String> = column.cells.iter().map(|cell| escape(cell)).collect();
     let body = if numeric { align(&body) } else { body };
-    let cells: Vec<String> = std::iter::once(escaped(&column.title())).chain(body).collect();
+    let cells: Vec<String> = std::iter::once(escape(&column.title())).chain(body).collect();
     let width = cells.iter().map(|cell| cell.chars().count()).max().unwrap_or(0).max(3);
     cells
         .into_iter()
@@ -71,10 +84,10 @@ fn cells(column: &Column) -> Vec<String> {
 }
 
 /// A text as it is, between fences that are longer than any in it.
-fn listing(about: &str, text: &str) -> String {
+fn listing(about: &str, text: &str, escape: Escape) -> String {
     let longest = text.split(|c| c != '`').map(str::len).max().unwrap_or(0);
     let fence = "`".repeat(longest.max(2) + 1);
-    format!("{}\n\n{fence}\n{}\n{fence}", escaped(about), text.trim_end())
+    format!("{}\n\n{fence}\n{}\n{fence}", escape(about), text.trim_end())
 }
 
 /// A text of which no character means anything: on one line, what would be markup behind a
@@ -103,6 +116,23 @@ fn escaped(text: &str) -> String {
     out
 }
 
+/// A text with code between backticks, which stays as it is but for the bars that part cells.
+fn with_code(text: &str) -> String {
+    let piece = |(place, piece): (usize, &str)| {
+        if place % 2 == 0 { escaped(piece) } else { format!("`{}`", piece.replace('|', "\\|")) }
+    };
+    // what stands around code is escaped piece by piece, so its blanks are kept here
+    let pieces = text.split('`').enumerate().map(|(place, text)| {
+        let blank = |has: bool| if has && place % 2 == 0 { " " } else { "" };
+        let inner = piece((place, text));
+        let lone = text.chars().all(char::is_whitespace);
+        let (before, after) =
+            (text.starts_with(char::is_whitespace), text.ends_with(char::is_whitespace));
+        format!("{}{}{}", blank(before && place > 0), inner.trim(), blank(after && !lone))
+    });
+    pieces.collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -119,11 +149,18 @@ mod tests {
     }
 
     #[test]
+    fn code_stays_as_it_is() {
+        assert_eq!(with_code("`a_b` or `x*y`, not <b>"), r"`a_b` or `x*y`, not \<b\>");
+        assert_eq!(with_code("half `a|b`  `c` of it"), r"half `a\|b` `c` of it");
+        assert_eq!(with_code("no code"), "no code");
+    }
+
+    #[test]
     fn tables_have_a_rule_and_cells_of_one_width() {
         let mut sheet = Sheet::default();
         sheet.text("name", ["x".to_owned(), "long | name".to_owned()]);
         sheet.numbers("standard\nuncertainty", ["1.5".to_owned(), "-".to_owned()]);
-        insta::assert_snapshot!(table(&sheet), @r"
+        insta::assert_snapshot!(table(&sheet, escaped), @r"
         | name         | standard uncertainty |
         | ------------ | -------------------: |
         | x            |                  1.5 |
@@ -133,6 +170,6 @@ mod tests {
 
     #[test]
     fn a_listing_cannot_be_ended_from_inside() {
-        assert!(listing("text", "a\n````\nb").ends_with("\n`````\na\n````\nb\n`````"));
+        assert!(listing("text", "a\n````\nb", escaped).ends_with("\n`````\na\n````\nb\n`````"));
     }
 }

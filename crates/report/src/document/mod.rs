@@ -10,7 +10,7 @@ pub(super) use html::html;
 pub(super) use latex::latex;
 #[cfg(test)]
 pub(crate) use latex::unit::Declared;
-pub(super) use markdown::markdown;
+pub(super) use markdown::{markdown, markdown_with_code};
 pub(crate) use text::text;
 
 use super::html::Drawing;

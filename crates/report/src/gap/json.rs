@@ -2,6 +2,7 @@
 
 use serde_json::{Value, json};
 
+use super::departure;
 use crate::answer::{list, object, pretty};
 use gumption_gap::{
     Diagnosis, EffectParameter, Hypothesis, NamedQuantity, PresentEffect, PriorConflict,
@@ -37,9 +38,11 @@ pub fn json(diagnosis: &Diagnosis) -> String {
         ("present", present(diagnosis)),
         ("prior_conflicts", list(diagnosis.prior_conflicts.iter().map(prior_conflict))),
         ("hypotheses", list(diagnosis.hypotheses.iter().map(hypothesis))),
-        ("shrinks", shrinks(diagnosis)),
-        ("next_measurement", next(diagnosis)),
     ];
+    if !diagnosis.departure.is_empty() {
+        entries.push(("departure", departure::departure(diagnosis)));
+    }
+    entries.extend([("shrinks", shrinks(diagnosis)), ("next_measurement", next(diagnosis))]);
     entries.extend(prediction(diagnosis).map(|prediction| ("prediction", prediction)));
     entries.push(("noise", noise(diagnosis)));
     let notes = diagnosis.notes.iter();

@@ -2,6 +2,7 @@
 pub mod check;
 mod check_json;
 mod csv;
+mod departure;
 mod digits;
 mod html;
 mod json;

@@ -1,6 +1,6 @@
 //! The page for a terminal.
 
-use super::{sheets, terminal, words};
+use super::{departure, sheets, terminal, words};
 use crate::{Grid, WIDTH, wrapped};
 use gumption_gap::{Diagnosis, Predicted};
 
@@ -18,6 +18,10 @@ pub fn table(diagnosis: &Diagnosis) -> String {
     page.push(section("Which together?") + &hypotheses(diagnosis));
     if let Some(parameters) = sheets::parameters(diagnosis) {
         page.push(section("Parameters of the verdict") + &Grid::of(&parameters).render(WIDTH));
+    }
+    let departure = paragraphs(departure::sentences(diagnosis));
+    if !departure.is_empty() {
+        page.push(section("What the departure looks like") + &departure);
     }
     page.push(section("How far does it shrink?") + &shrinkage(diagnosis));
     page.push(section("What to measure next") + &wrapped(&words::next(diagnosis)));

@@ -59,3 +59,33 @@ impl DefiningConstant {
         })
     }
 }
+
+/// A constant that formulas name in brackets.
+#[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
+pub struct ExactConstant {
+    /// Its symbol, without the brackets.
+    pub symbol: &'static str,
+    /// Its exact value in the coherent SI unit of its dimension.
+    pub value: f64,
+    /// Its dimension.
+    pub dimension: Dimension,
+    /// What it is.
+    pub about: &'static str,
+}
+
+/// The defining constants of the SI (SI Brochure, 9th ed., table 1).
+pub fn constants() -> impl Iterator<Item = ExactConstant> {
+    DefiningConstant::ALL.into_iter().map(|constant| ExactConstant {
+        symbol: constant.symbol(),
+        value: constant.value(),
+        dimension: constant.dimension(),
+        about: match constant {
+            DefiningConstant::LightSpeed => "the speed of light in vacuum",
+            DefiningConstant::Planck => "the Planck constant",
+            DefiningConstant::ElementaryCharge => "the elementary charge",
+            DefiningConstant::Boltzmann => "the Boltzmann constant",
+            DefiningConstant::Avogadro => "the Avogadro constant",
+        },
+    })
+}

@@ -122,3 +122,8 @@ impl Function {
         }
     }
 }
+
+/// The names of the functions that a formula may call, and how many arguments each takes.
+pub fn functions() -> impl Iterator<Item = (&'static str, Arity)> {
+    Function::all().map(|function| (function.name(), function.arity()))
+}

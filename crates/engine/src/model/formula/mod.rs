@@ -66,7 +66,9 @@ mod typing;
 use std::collections::HashMap;
 use std::ops::Range;
 
+pub use constant::{ExactConstant, constants};
 pub use error::{Arity, FormulaError, NumberFault, Operand};
+pub use function::functions;
 pub use misfit::ScaleMisfit;
 pub use name::{NameError, check_name, is_name};
 pub use scale_fault::{ScaleFault, ScaledPlace};

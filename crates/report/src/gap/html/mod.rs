@@ -9,7 +9,7 @@ mod where_map;
 
 use maud::{Markup, html};
 
-use super::{digits, sheets, words};
+use super::{departure, digits, sheets, words};
 pub(crate) use crate::html::Drawing;
 pub(super) use crate::html::WIDTH;
 use crate::html::{figure, page, table};
@@ -60,6 +60,11 @@ pub fn html(diagnosis: &Diagnosis, provenance: &Provenance) -> String {
             h2 { "Parameters of the verdict" }
             (table(&sheet))
             @if let Some(drawing) = intervals::draw(diagnosis) { (drawn(drawing)) }
+        }
+        @let departure = departure::sentences(diagnosis);
+        @if !departure.is_empty() {
+            h2 { "What the departure looks like" }
+            ul { @for said in departure { li { (said) } } }
         }
         h2 { "How far does it shrink?" }
         (table(&sheets::shrinkage(diagnosis)))

@@ -2,6 +2,7 @@
 
 mod check;
 mod csv;
+mod departure;
 mod html;
 mod table;
 
@@ -9,10 +10,10 @@ use serde_json::Value;
 
 use crate::Provenance;
 use gumption_gap::{
-    Diagnosis, DiagnosisNote, EffectParameter, EstimatedNoise, GapRegion, GapTest, Hypothesis,
-    HypothesisKind, MostProbable, NamedQuantity, NextMeasurement, NoiseEstimate, Predicted,
-    PresentEffect, PriorConflict, RowGap, SerialCorrelation, Shrinkage, Shrunk, SuspectValue,
-    UncertaintyFactor, ValueGap,
+    DepartureForm, DepartureKind, DepartureOver, DepartureShape, Diagnosis, DiagnosisNote,
+    EffectParameter, EstimatedNoise, GapRegion, GapTest, Hypothesis, HypothesisKind, MostProbable,
+    NamedQuantity, NextMeasurement, NoiseEstimate, Predicted, PresentEffect, PriorConflict, RowGap,
+    SerialCorrelation, Shrinkage, Shrunk, SuspectValue, UncertaintyFactor, ValueGap,
 };
 
 fn named(name: &str, unit: &str) -> NamedQuantity {
@@ -175,6 +176,7 @@ fn diagnosis() -> Diagnosis {
             probability: 0.987_777_86,
             parameters: vec![low_pass()],
         }],
+        departure: Vec::new(),
         prior_conflicts: vec![PriorConflict {
             effect: "low-pass".into(),
             parameter: low_pass(),
@@ -274,6 +276,36 @@ fn unexplained() -> Diagnosis {
         indistinguishable_probability: 0.99,
     };
     unexplained.next = None;
+    unexplained.departure = vec![
+        DepartureForm {
+            outputs: strings(&["a_x"]),
+            kind: DepartureKind::Proportional,
+            common: true,
+            over: DepartureOver::Condition("f".to_owned()),
+            shape: DepartureShape::Step { at: 71.5, up: false },
+            scale: Some(3.456),
+            logarithmic: true,
+            scale_unit: "Hz".to_owned(),
+            size: 0.012_345,
+            unit: String::new(),
+            beside: strings(&["delay"]),
+            probability: 0.912_345,
+        },
+        DepartureForm {
+            outputs: strings(&["a_x", "ratio"]),
+            kind: DepartureKind::Additive,
+            common: false,
+            over: DepartureOver::Value,
+            shape: DepartureShape::Rising,
+            scale: Some(4.567),
+            logarithmic: false,
+            scale_unit: "m/s^2".to_owned(),
+            size: 0.123_45,
+            unit: "m/s^2".to_owned(),
+            beside: Vec::new(),
+            probability: 0.067_89,
+        },
+    ];
     unexplained
 }
 

@@ -1,0 +1,69 @@
+//! `gumption help`
+
+use clap::{Args, CommandFactory, ValueEnum};
+
+use super::output::Place;
+use super::{Arguments, Exit, Failure};
+use gumption_report::reference::{self, Topic};
+use gumption_units::nearest;
+
+/// Tell how a command is called, or what may stand in files and formulas.
+#[derive(Debug, Args)]
+pub(super) struct Help {
+    /// A command, or one of model, distributions, functions, units, case, certificate-file, recipe,
+    /// saved-result
+    topic: Option<String>,
+    /// Format of what is told about files and formulas
+    #[arg(long, value_enum, default_value = "table")]
+    format: Form,
+}
+
+/// A format of the reference.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Form {
+    /// A page of text for people
+    Table,
+    /// A page as GitHub shows it
+    Markdown,
+}
+
+impl Help {
+    pub(super) fn execute(&self) -> Result<Exit, Failure> {
+        let text = match &self.topic {
+            None => overview(),
+            Some(name) => match Topic::ALL.into_iter().find(|topic| topic.name() == name) {
+                Some(topic) if self.format == Form::Markdown => reference::markdown(topic),
+                Some(topic) => reference::table(topic),
+                None => of_command(name)?,
+            },
+        };
+        Place::StandardOutput.write(&text)?;
+        Ok(Exit::Done)
+    }
+}
+
+/// The commands, and the topics below them.
+fn overview() -> String {
+    let mut text = Arguments::command().render_long_help().to_string();
+    text += "\nHelp on files and formulas, by `gumption help TOPIC`:\n";
+    for topic in Topic::ALL {
+        text += &format!("  {:<16}  {}\n", topic.name(), topic.about());
+    }
+    text
+}
+
+fn of_command(name: &str) -> Result<String, Failure> {
+    let mut program = Arguments::command();
+    program.build();
+    if let Some(command) = program.find_subcommand_mut(name) {
+        return Ok(command.render_long_help().to_string());
+    }
+    let topics = Topic::ALL.iter().map(|topic| topic.name());
+    let commands = program.get_subcommands().map(clap::Command::get_name);
+    let near = nearest(name, commands.chain(topics));
+    let hint = match near {
+        Some(near) => format!("did you mean `{near}`?"),
+        None => "`gumption help` lists what there is".to_owned(),
+    };
+    Err(Failure::Argument(format!("there is no help on `{name}`; {hint}")))
+}

@@ -1,0 +1,344 @@
+//! `gumption new`: a model file to start from, from options or from answers to questions.
+
+use std::io::{self, BufRead, Write};
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use serde_json::{Map, Value, json};
+
+use super::exit::say;
+use super::output::Place;
+use super::{CommandLine, Exit, Failure, output};
+use gumption_engine::model::formula::Formula;
+use gumption_files::schema;
+use gumption_report::plain;
+use gumption_units::{Unit, nearest};
+
+/// Write a model file to start from. Without --equation the measurement is asked for.
+#[derive(Debug, Args)]
+pub(super) struct New {
+    /// What is measured, in a line
+    #[arg(long)]
+    title: Option<String>,
+    /// An equation, NAME=FORMULA; in order, the last one is reported unless --unit names others
+    #[arg(long, value_name = "NAME=FORMULA")]
+    equation: Vec<String>,
+    /// An input, NAME=UNIT,DISTRIBUTION,KEY=VALUE,...: `R=ohm,normal,mean=100,std=0.2`; readings
+    /// as values=9.8 9.9 10.1
+    #[arg(long, value_name = "NAME=...")]
+    input: Vec<String>,
+    /// An output and its unit, NAME=UNIT
+    #[arg(long, value_name = "NAME=UNIT")]
+    unit: Vec<String>,
+    /// Write the file here instead of to standard output
+    #[arg(long, value_name = "FILE")]
+    output: Option<PathBuf>,
+}
+
+/// What a file is made of.
+#[derive(Debug, Default)]
+struct Draft {
+    title: Option<String>,
+    equations: Vec<(String, String)>,
+    inputs: Vec<(String, Map<String, Value>)>,
+    outputs: Vec<(String, String)>,
+}
+
+impl New {
+    pub(super) fn execute(&self, program: &CommandLine) -> Result<Exit, Failure> {
+        let [file] = output::open([("--output", self.output.as_deref())], &[])?;
+        let draft = if self.equation.is_empty() { self.asked()? } else { self.told()? };
+        let missing = draft.missing();
+        let text = draft.text();
+        // what is there must be right; what is missing is told
+        if missing.is_empty()
+            && let Err(found) = program.files().check_text("the new file", &text, Path::new(""))
+        {
+            return Err(Failure::Diagnostics(found));
+        }
+        let name = self.output.as_ref().map_or_else(String::new, |path| path.display().to_string());
+        file.map_or(Place::StandardOutput, Place::File).write(&text)?;
+        if !name.is_empty() {
+            let name = plain(&name);
+            let next = if missing.is_empty() {
+                format!("`gumption run {name}` evaluates it")
+            } else {
+                format!("fill in {}, then `gumption check {name}`", missing.join(", "))
+            };
+            say(&format!("note: {next}\n"));
+        }
+        Ok(Exit::Done)
+    }
+
+    /// The draft that the options tell.
+    fn told(&self) -> Result<Draft, Failure> {
+        let mut draft = Draft { title: self.title.clone(), ..Draft::default() };
+        for equation in &self.equation {
+            draft.equation(equation).map_err(Failure::Argument)?;
+        }
+        for unit in &self.unit {
+            let (name, unit) = halves(unit, "--unit", "NAME=UNIT")?;
+            if !draft.equations.iter().any(|(of, _)| of == name) {
+                let names: Vec<&str> = draft.equations.iter().map(|(of, _)| of.as_str()).collect();
+                let near = nearest(name, names.iter().copied());
+                let hint =
+                    near.map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
+                return Err(Failure::Argument(format!("no equation gives `{name}`{hint}")));
+            }
+            unit_of(unit).map_err(Failure::Argument)?;
+            draft.outputs.push((name.to_owned(), unit.to_owned()));
+        }
+        if draft.outputs.is_empty()
+            && let Some((last, _)) = draft.equations.last()
+        {
+            draft.outputs.push((last.clone(), "1".to_owned()));
+        }
+        let needed = draft.quantities();
+        for input in &self.input {
+            let (name, said) = halves(input, "--input", "NAME=UNIT,DISTRIBUTION,KEY=VALUE")?;
+            if !needed.iter().any(|of| of == name) {
+                let near = nearest(name, needed.iter().map(String::as_str));
+                let hint =
+                    near.map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
+                return Err(Failure::Argument(format!("no equation uses `{name}`{hint}")));
+            }
+            let input = described(said)
+                .map_err(|why| Failure::Argument(format!("--input {name}: {why}")))?;
+            if draft.inputs.iter().any(|(of, _)| of == name) {
+                return Err(Failure::Argument(format!("--input {name} is given twice")));
+            }
+            draft.inputs.push((name.to_owned(), input));
+        }
+        draft.complete(&needed);
+        Ok(draft)
+    }
+
+    /// The draft that is told on standard input, question by question.
+    fn asked(&self) -> Result<Draft, Failure> {
+        if !(self.input.is_empty() && self.unit.is_empty()) {
+            let message =
+                "--input and --unit go with --equation; without it everything is asked for";
+            return Err(Failure::Argument(message.to_owned()));
+        }
+        let mut ask = Questions { answers: io::stdin().lock() };
+        let title = match &self.title {
+            Some(title) => title.clone(),
+            None => ask.line("What is measured, in a line?")?,
+        };
+        let mut draft = Draft { title: Some(title), ..Draft::default() };
+        say("Equations, NAME = FORMULA, each on a line; an empty line ends them.\n");
+        loop {
+            let line = ask.line("equation:")?;
+            if line.is_empty() && !draft.equations.is_empty() {
+                break;
+            }
+            if let Err(why) = draft.equation(&line) {
+                say(&format!("{why}\n"));
+            }
+        }
+        if let Some((last, _)) = draft.equations.last().cloned() {
+            let unit = ask
+                .until(&format!("unit of {last}, which is reported (1 for a number):"), |text| {
+                    unit_of(text).map(|()| text.to_owned())
+                })?;
+            draft.outputs.push((last, unit));
+        }
+        for name in draft.quantities() {
+            let unit = ask.until(&format!("unit of {name}:"), |text| {
+                unit_of(text).map(|()| text.to_owned())
+            })?;
+            let question = format!(
+                "{name}: DISTRIBUTION,KEY=VALUE,... such as `normal,mean=5,std=0.1`, \
+                 `rectangular,mean=5,half_width=0.1`, `readings,values=4.9 5.1 5.0`:"
+            );
+            let input = ask.until(&question, |text| described(&format!("{unit},{text}")))?;
+            draft.inputs.push((name, input));
+        }
+        Ok(draft)
+    }
+}
+
+/// Questions on standard error, answers on standard input.
+struct Questions<R> {
+    answers: R,
+}
+
+impl<R: BufRead> Questions<R> {
+    fn line(&mut self, question: &str) -> Result<String, Failure> {
+        say(&format!("{question} "));
+        let _ = io::stderr().flush();
+        let mut line = String::new();
+        let read = self.answers.read_line(&mut line);
+        match read {
+            Ok(0) => Err(Failure::Argument(format!(
+                "the answers ended at \"{question}\"; `gumption new --equation ...` takes them as options"
+            ))),
+            Ok(_) => Ok(line.trim().to_owned()),
+            Err(error) => Err(Failure::System(format!("cannot read the answers: {error}"))),
+        }
+    }
+
+    /// Asks until the answer can be read.
+    fn until<T>(
+        &mut self,
+        question: &str,
+        read: impl Fn(&str) -> Result<T, String>,
+    ) -> Result<T, Failure> {
+        loop {
+            match read(&self.line(question)?) {
+                Ok(answer) => return Ok(answer),
+                Err(why) => say(&format!("{why}\n")),
+            }
+        }
+    }
+}
+
+impl Draft {
+    /// Adds an equation.
+    fn equation(&mut self, text: &str) -> Result<(), String> {
+        let form = || {
+            format!(
+                "`{text}` is no equation; write NAME = FORMULA, such as `power = voltage^2/resistance`"
+            )
+        };
+        let (name, formula) = text.split_once('=').ok_or_else(form)?;
+        let (name, formula) = (name.trim(), formula.trim());
+        gumption_engine::model::formula::check_name(name)
+            .map_err(|why| format!("`{name}`: {why}"))?;
+        Formula::parse(formula).map_err(|why| format!("{name}: {why}"))?;
+        if self.equations.iter().any(|(of, _)| of == name) {
+            return Err(format!("there are two equations for `{name}`"));
+        }
+        self.equations.push((name.to_owned(), formula.to_owned()));
+        Ok(())
+    }
+
+    /// The names that equations use and no equation gives, in the order in which they occur.
+    fn quantities(&self) -> Vec<String> {
+        let mut names: Vec<String> = Vec::new();
+        for (place, (_, text)) in self.equations.iter().enumerate() {
+            let Ok(formula) = Formula::parse(text) else { continue };
+            for (name, _) in formula.names() {
+                let given = self.equations.iter().take(place).any(|(of, _)| of == name);
+                if !given && !names.iter().any(|of| of == name) {
+                    names.push(name.to_owned());
+                }
+            }
+        }
+        names
+    }
+
+    /// Puts the inputs in the order of the equations, with blanks for those that were not told.
+    fn complete(&mut self, needed: &[String]) {
+        let mut told = std::mem::take(&mut self.inputs);
+        for name in needed {
+            let at = told.iter().position(|(of, _)| of == name);
+            let input = at.map_or_else(blank, |at| told.swap_remove(at).1);
+            self.inputs.push((name.clone(), input));
+        }
+    }
+
+    /// What has no value yet: `mean and std of voltage`.
+    fn missing(&self) -> Vec<String> {
+        let of = |(name, keys): &(String, Map<String, Value>)| {
+            let missing = keys.iter().filter(|(_, value)| value.is_null());
+            let missing: Vec<String> = missing.map(|(key, _)| format!("`{key}`")).collect();
+            (!missing.is_empty()).then(|| format!("{} of `{name}`", missing.join(" and ")))
+        };
+        self.inputs.iter().filter_map(of).collect()
+    }
+
+    /// The file, with remarks at keys that programs skip.
+    fn text(&self) -> String {
+        let mut file = Map::new();
+        file.insert("$comment".into(), json!("Keys that begin with $ are remarks. `gumption help model` lists all keys, `gumption help distributions` what an input may be."));
+        file.insert("format".into(), json!(1));
+        if let Some(title) = self.title.as_ref().filter(|title| !title.is_empty()) {
+            file.insert("title".into(), json!(title));
+        }
+        let inputs =
+            self.inputs.iter().map(|(name, keys)| (name.clone(), Value::Object(keys.clone())));
+        file.insert("inputs".into(), Value::Object(inputs.collect()));
+        let equations = self.equations.iter().map(|(name, text)| (name.clone(), json!(text)));
+        file.insert("equations".into(), Value::Object(equations.collect()));
+        let outputs = self.outputs.iter().map(|(name, unit)| (name.clone(), json!({"unit": unit})));
+        file.insert("outputs".into(), Value::Object(outputs.collect()));
+        format!("{:#}\n", Value::Object(file))
+    }
+}
+
+/// An input of which nothing is known yet.
+fn blank() -> Map<String, Value> {
+    let keys = [
+        ("unit", json!("1")),
+        ("distribution", json!("normal")),
+        ("mean", Value::Null),
+        ("std", Value::Null),
+        ("about", json!("where this is known from")),
+    ];
+    keys.into_iter().map(|(key, value)| (key.to_owned(), value)).collect()
+}
+
+/// An input as told: `ohm,normal,mean=100,std=0.2`.
+fn described(said: &str) -> Result<Map<String, Value>, String> {
+    let mut parts = said.split(',').map(str::trim);
+    let unit = parts.next().unwrap_or_default();
+    unit_of(unit)?;
+    let shapes = schema::distributions();
+    let name = parts.next().unwrap_or_default();
+    let known = |name: &str| shapes.iter().find(|of| of.name == name || of.aliases.contains(&name));
+    let Some(shape) = known(name) else {
+        let names = shapes.iter().flat_map(|of| std::iter::once(&of.name).chain(of.aliases));
+        let hint = match nearest(name, names.copied()) {
+            Some(near) => format!("did you mean `{near}`?"),
+            None => "`gumption help distributions` lists them".to_owned(),
+        };
+        return Err(format!("there is no distribution `{name}`; {hint}"));
+    };
+    let mut keys = Map::new();
+    keys.insert("unit".into(), json!(unit));
+    keys.insert("distribution".into(), json!(shape.name));
+    for part in parts {
+        let Some((key, value)) = part.split_once('=') else {
+            return Err(format!("`{part}` is no KEY=VALUE"));
+        };
+        let (key, value) = (key.trim(), value.trim());
+        if !shape.keys.contains(&key) && key != "about" {
+            let near = nearest(key, shape.keys.iter().copied());
+            let hint = near.map_or_else(
+                || format!("it has {}", shape.keys.join(", ")),
+                |near| format!("did you mean `{near}`?"),
+            );
+            return Err(format!("`{}` has no key `{key}`; {hint}", shape.name));
+        }
+        if keys.insert(key.to_owned(), read(key, value)).is_some() {
+            return Err(format!("`{key}` is given twice"));
+        }
+    }
+    if !keys.contains_key("about") {
+        keys.insert("about".into(), json!("where this is known from"));
+    }
+    Ok(keys)
+}
+
+/// A value as JSON: a number, a list of numbers where the key is one of lists, else a text.
+fn read(key: &str, value: &str) -> Value {
+    let number = |text: &str| serde_json::from_str::<serde_json::Number>(text).map(Value::Number);
+    if key == "values" {
+        let list: Result<Vec<Value>, _> = value.split_whitespace().map(number).collect();
+        return list.map_or_else(|_| json!(value), Value::Array);
+    }
+    number(value).unwrap_or_else(|_| json!(value))
+}
+
+fn unit_of(text: &str) -> Result<(), String> {
+    Unit::parse(text).map(|_| ()).map_err(|why| why.to_string())
+}
+
+/// A name and what is said of it.
+fn halves<'a>(text: &'a str, option: &str, form: &str) -> Result<(&'a str, &'a str), Failure> {
+    let (name, said) = text
+        .split_once('=')
+        .ok_or_else(|| Failure::Argument(format!("{option} {text}: it has the form {form}")))?;
+    Ok((name.trim(), said.trim()))
+}

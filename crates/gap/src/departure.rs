@@ -1,0 +1,240 @@
+//! What "unexplained" knows of the departure: the posterior over the forms of the discrepancy, and
+//! what the discrepancy looks like.
+
+use super::diagnosis::{DepartureForm, DepartureKind, DepartureOver, DepartureShape};
+use super::discrepancy::{Of, Term, Weighted};
+use super::noise_model::Weighing;
+use super::shrink;
+use super::weighed::names;
+use gumption_engine::number::elementary;
+use gumption_engine::task::Row;
+
+/// Forms are told where "unexplained" has more than this probability.
+pub(crate) const WORTH_TELLING: f64 = 0.05;
+
+/// Forms below this share of "unexplained" are left out.
+const LEAST_SHARE: f64 = 0.01;
+
+/// A turn of the departure of less than this share of its range is a wiggle.
+const WIGGLE: f64 = 0.2;
+
+/// The departure jumps where so much of its change lies within so much of the range.
+const JUMP: [f64; 2] = [0.75, 0.12];
+
+/// The probability of "unexplained" over all noises.
+pub(crate) fn probability(weighings: &[Weighing<'_>]) -> f64 {
+    weighings.iter().map(share).sum()
+}
+
+/// The probability of a noise with "unexplained".
+fn share(weighing: &Weighing<'_>) -> f64 {
+    weighing.probability * weighing.posterior.probability
+}
+
+/// The place of the noise with which "unexplained" is most probable.
+pub(crate) fn leading(weighings: &[Weighing<'_>]) -> usize {
+    let all = 0..weighings.len();
+    all.max_by(|&a, &b| share(&weighings[a]).total_cmp(&share(&weighings[b]))).unwrap_or(0)
+}
+
+/// The forms, most probable first; their probabilities sum to that of "unexplained", apart from what
+/// is left out.
+pub(crate) fn forms(weighings: &[Weighing<'_>]) -> Vec<DepartureForm> {
+    let unexplained = probability(weighings);
+    let Some(weighing) = weighings.get(leading(weighings)) else { return Vec::new() };
+    if unexplained <= WORTH_TELLING {
+        return Vec::new();
+    }
+    let kinds = &weighing.posterior.unexplained.kinds;
+    let total: f64 = kinds.iter().map(|kind| kind.weight).sum();
+    let mut groups: Vec<Vec<&Weighted>> = Vec::new();
+    for kind in kinds {
+        let same = |group: &&mut Vec<&Weighted>| {
+            group.first().is_some_and(|first| {
+                term(weighing, first) == term(weighing, kind) && beside(first) == beside(kind)
+            })
+        };
+        match groups.iter_mut().find(same) {
+            Some(group) => group.push(kind),
+            None => groups.push(vec![kind]),
+        }
+    }
+    let weight = |group: &[&Weighted]| group.iter().map(|kind| kind.weight).sum::<f64>() / total;
+    groups.retain(|group| weight(group) >= LEAST_SHARE);
+    groups.sort_by(|a, b| weight(b).total_cmp(&weight(a)));
+    groups.iter().map(|group| form(weighing, group, unexplained * weight(group))).collect()
+}
+
+fn term<'w>(weighing: &'w Weighing<'_>, kind: &Weighted) -> &'w Term {
+    &weighing.discrepancy.forms[kind.form].term
+}
+
+fn beside(kind: &Weighted) -> &[usize] {
+    kind.base.as_ref().map_or(&[], |base| &base.effects)
+}
+
+fn form(weighing: &Weighing<'_>, group: &[&Weighted], probability: f64) -> DepartureForm {
+    let Weighing { setup, discrepancy, .. } = weighing;
+    let case = setup.case;
+    let first = group[0];
+    let term = term(weighing, first);
+    let output = |place: usize| &case.model.outputs[setup.data.outputs[place]].quantity;
+    let over = match term.of {
+        Of::Constant => DepartureOver::Nothing,
+        Of::Condition(c) | Of::Level(c) => {
+            DepartureOver::Condition(case.model.conditions[c].name.clone())
+        }
+        Of::Sim => DepartureOver::Value,
+        Of::Together => DepartureOver::AllConditions,
+    };
+    let weight: f64 = group.iter().map(|kind| kind.weight).sum();
+    let length = group
+        .iter()
+        .map(|kind| kind.weight * elementary::ln(discrepancy.forms[kind.form].length))
+        .sum::<f64>()
+        / weight;
+    let length = elementary::exp(length);
+    let scale = match term.of {
+        Of::Condition(c) => Some(discrepancy.axes.length(c, length)),
+        Of::Sim => Some((discrepancy.axes.sim_length(&term.outputs, length), false)),
+        Of::Constant | Of::Level(_) | Of::Together => None,
+    };
+    let departures = departures(weighing, group, term);
+    let squares = departures.iter().map(|(_, d)| d * d);
+    let size = (squares.sum::<f64>() / departures.len().max(1) as f64).sqrt();
+    let (size, unit) = if term.relative {
+        (size, String::new())
+    } else {
+        (size, output(term.outputs[0]).unit.text().to_owned())
+    };
+    let scale_unit = match term.of {
+        Of::Condition(c) => case.model.conditions[c].unit.text().to_owned(),
+        Of::Sim => output(term.outputs[0]).unit.text().to_owned(),
+        _ => String::new(),
+    };
+    DepartureForm {
+        outputs: term.outputs.iter().map(|&place| output(place).name.clone()).collect(),
+        kind: if term.relative { DepartureKind::Proportional } else { DepartureKind::Additive },
+        common: term.common,
+        over,
+        shape: match term.of {
+            Of::Constant => DepartureShape::Constant,
+            Of::Level(_) => DepartureShape::Levels,
+            Of::Together => DepartureShape::Varying,
+            Of::Condition(_) | Of::Sim => shape(&departures),
+        },
+        scale: scale.map(|(scale, _)| scale),
+        logarithmic: scale.is_some_and(|(_, logarithmic)| logarithmic),
+        scale_unit,
+        size,
+        unit,
+        beside: names(setup, beside(first)),
+        probability,
+    }
+}
+
+/// The departure of the first output that it acts on: coordinates in order with what the data say of
+/// it there, as a share of the sim where it is proportional.
+fn departures(weighing: &Weighing<'_>, group: &[&Weighted], term: &Term) -> Vec<(f64, f64)> {
+    let Weighing { setup, discrepancy, .. } = weighing;
+    let output = term.outputs[0];
+    let outputs = setup.data.outputs.len();
+    let ids: Vec<usize> =
+        setup.data.points.iter().filter_map(|point| point.rows.first().copied()).collect();
+    let rows: Vec<Row> =
+        ids.iter().map(|&row| setup.case.task.rows[setup.data.ids[row]].clone()).collect();
+    let mut kinds: Vec<Weighted> = group.iter().map(|kind| (*kind).clone()).collect();
+    kinds.sort_by(|a, b| b.weight.total_cmp(&a.weight));
+    let predicted = discrepancy.predict(setup, shrink::top(&kinds), &rows);
+    let mut found: Vec<(f64, f64)> = Vec::new();
+    for ((row, of), &id) in rows.iter().zip(&predicted).zip(&ids) {
+        let nominal = setup.data.points[setup.data.point_of[id]].nominal[output];
+        let sim = match &group[0].base {
+            Some(base) => base.values[id * outputs + output],
+            None => nominal,
+        };
+        let departure = of[output].0 - sim;
+        let departure = if term.relative { departure / sim } else { departure };
+        let coordinate = match term.of {
+            Of::Condition(c) | Of::Level(c) => row.conditions[c],
+            _ => nominal,
+        };
+        if departure.is_finite() {
+            found.push((coordinate, departure));
+        }
+    }
+    found.sort_by(|a, b| a.0.total_cmp(&b.0));
+    // the mean of what shares a coordinate
+    let mut means: Vec<(f64, f64, f64)> = Vec::new();
+    for (coordinate, departure) in found {
+        match means.last_mut().filter(|(x, ..)| *x == coordinate) {
+            Some((_, sum, count)) => {
+                *sum += departure;
+                *count += 1.0;
+            }
+            None => means.push((coordinate, departure, 1.0)),
+        }
+    }
+    means.into_iter().map(|(x, sum, count)| (x, sum / count)).collect()
+}
+
+/// What a function looks like.
+fn shape(departures: &[(f64, f64)]) -> DepartureShape {
+    let values: Vec<f64> = departures.iter().map(|(_, d)| *d).collect();
+    let (low, high) = ends(&values);
+    let range = high - low;
+    let (Some(first), Some(last)) = (departures.first(), departures.last()) else {
+        return DepartureShape::Varying;
+    };
+    // turning points, those of wiggles left out
+    let mut turns: Vec<(f64, bool)> = Vec::new();
+    let mut extreme = *first;
+    let mut rising: Option<bool> = None;
+    for &(x, d) in departures {
+        let up = match rising {
+            None if (d - first.1).abs() > WIGGLE * range => {
+                rising = Some(d > first.1);
+                extreme = (x, d);
+                continue;
+            }
+            None => continue,
+            Some(up) => up,
+        };
+        if (d > extreme.1) == up || d == extreme.1 {
+            extreme = (x, d);
+        } else if (d - extreme.1).abs() > WIGGLE * range {
+            turns.push((extreme.0, up));
+            rising = Some(!up);
+            extreme = (x, d);
+        }
+    }
+    match turns.as_slice() {
+        [] => {
+            let up = last.1 > first.1;
+            match jump(departures, range) {
+                Some(at) => DepartureShape::Step { at, up },
+                None if up => DepartureShape::Rising,
+                None => DepartureShape::Falling,
+            }
+        }
+        [(at, true)] => DepartureShape::Peak { at: *at },
+        [(at, false)] => DepartureShape::Dip { at: *at },
+        _ => DepartureShape::Varying,
+    }
+}
+
+/// Where nearly all of the change lies within a small part of the range.
+fn jump(departures: &[(f64, f64)], range: f64) -> Option<f64> {
+    let pairs = departures.windows(2);
+    let widest =
+        pairs.max_by(|a, b| (a[1].1 - a[0].1).abs().total_cmp(&(b[1].1 - b[0].1).abs()))?;
+    let whole = departures.last()?.0 - departures.first()?.0;
+    let [change, within] = JUMP;
+    let near = widest[1].0 - widest[0].0 <= within * whole;
+    (near && (widest[1].1 - widest[0].1).abs() > change * range)
+        .then(|| 0.5 * (widest[0].0 + widest[1].0))
+}
+
+fn ends(values: &[f64]) -> (f64, f64) {
+    values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), &v| (a.min(v), b.max(v)))
+}

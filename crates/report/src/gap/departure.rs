@@ -1,0 +1,141 @@
+//! What is known of a departure that no candidate effect makes.
+
+use serde_json::{Value, json};
+
+use super::digits::{condition, probability};
+use super::words::unit;
+use crate::answer::list;
+use crate::number::significant;
+use crate::plain;
+use gumption_gap::{
+    DepartureForm, DepartureKind, DepartureOver, DepartureShape, Diagnosis, NamedQuantity,
+};
+
+/// Forms that the page tells, at most.
+const TOLD: usize = 5;
+
+/// Forms below this probability are not told on the page.
+const WORTH_TELLING: f64 = 0.02;
+
+/// The forms, most probable first.
+pub(super) fn departure(diagnosis: &Diagnosis) -> Value {
+    list(diagnosis.departure.iter().map(|form| {
+        json!({
+            "outputs": form.outputs,
+            "kind": form.kind.name(),
+            "common": form.common,
+            "over": over(&form.over),
+            "shape": form.shape.name(),
+            "at": at(form.shape),
+            "scale": form.scale,
+            "scale_is_factor": form.logarithmic,
+            "scale_unit": form.scale_unit,
+            "size": form.size,
+            "size_unit": form.unit,
+            "beside": form.beside,
+            "probability": form.probability,
+            "words": words(form, &diagnosis.conditions),
+        })
+    }))
+}
+
+/// What a departure is a function of, in one word; `None` where it is constant.
+fn over(of: &DepartureOver) -> Option<&str> {
+    match of {
+        DepartureOver::Nothing => None,
+        DepartureOver::Condition(name) => Some(name),
+        DepartureOver::Value => Some("value"),
+        DepartureOver::AllConditions => Some("conditions"),
+    }
+}
+
+fn at(shape: DepartureShape) -> Option<f64> {
+    match shape {
+        DepartureShape::Step { at, .. }
+        | DepartureShape::Peak { at }
+        | DepartureShape::Dip { at } => Some(at),
+        _ => None,
+    }
+}
+
+/// The forms in sentences, those that are worth a line.
+pub(super) fn sentences(diagnosis: &Diagnosis) -> Vec<String> {
+    let worth = |form: &&DepartureForm| form.probability >= WORTH_TELLING;
+    let told = diagnosis.departure.iter().filter(worth).take(TOLD);
+    told.map(|form| {
+        format!(
+            "With probability {}: {}.",
+            probability(form.probability),
+            words(form, &diagnosis.conditions)
+        )
+    })
+    .collect()
+}
+
+/// A form in words: which outputs, added or a share of the sim, of what, how large.
+fn words(form: &DepartureForm, conditions: &[NamedQuantity]) -> String {
+    let outputs: Vec<String> = form.outputs.iter().map(|name| plain(name)).collect();
+    let (all, own) = match outputs.split_last() {
+        Some((last, [])) => (last.clone(), "its sim"),
+        Some((last, others)) => (format!("{} and {last}", others.join(", ")), "their sim"),
+        None => (String::new(), "its sim"),
+    };
+    let with_unit = |number: String, text: &str| match unit(text) {
+        Some(unit) => format!("{number} {unit}"),
+        None => number,
+    };
+    let kind = match form.kind {
+        DepartureKind::Additive => "added to the sim".to_owned(),
+        DepartureKind::Proportional => format!("a share of {own}"),
+    };
+    let (what, place_unit) = match &form.over {
+        DepartureOver::Condition(name) => {
+            let known = conditions.iter().find(|condition| condition.name == *name);
+            (plain(name), known.map_or("", |condition| condition.unit.as_str()))
+        }
+        _ => ("the sim's own value".to_owned(), form.scale_unit.as_str()),
+    };
+    let place = |at: f64| with_unit(condition(at), place_unit);
+    let function = match (&form.over, form.shape) {
+        (DepartureOver::Nothing, _) => "the same in all conditions".to_owned(),
+        (DepartureOver::AllConditions, _) => "varying with several conditions together".to_owned(),
+        (_, DepartureShape::Levels | DepartureShape::Constant) => {
+            format!("with a value of its own at each level of {what}")
+        }
+        (_, DepartureShape::Rising) => format!("rising with {what}"),
+        (_, DepartureShape::Falling) => format!("falling with {what}"),
+        (_, DepartureShape::Step { at, up }) => {
+            let turn = if up { "up" } else { "down" };
+            format!("stepping {turn} over {what} near {}", place(at))
+        }
+        (_, DepartureShape::Peak { at }) => {
+            format!("with a maximum over {what} near {}", place(at))
+        }
+        (_, DepartureShape::Dip { at }) => format!("with a minimum over {what} near {}", place(at)),
+        (_, DepartureShape::Varying) => format!("varying with {what} more than once up or down"),
+    };
+    let mut said = format!("{all} departs by what is {kind}, {function}");
+    if outputs.len() > 1 {
+        said = said.replacen("departs", "depart", 1);
+        said.push_str(if form.common { ", alike in all of them" } else { ", each in its own way" });
+    }
+    if let Some(scale) = form.scale {
+        let number = significant(scale, 2);
+        if form.logarithmic {
+            said.push_str(&format!(", over a factor of {number} of it"));
+        } else {
+            let scale = with_unit(number, &form.scale_unit);
+            said.push_str(&format!(", over a length of {scale}"));
+        }
+    }
+    let size = match form.kind {
+        DepartureKind::Additive => with_unit(significant(form.size, 2), &form.unit),
+        DepartureKind::Proportional => format!("{} %", significant(100.0 * form.size, 2)),
+    };
+    said.push_str(&format!("; root mean square {size}"));
+    if !form.beside.is_empty() {
+        let names: Vec<String> = form.beside.iter().map(|name| plain(name)).collect();
+        said.push_str(&format!(", beside {}", names.join(" and ")));
+    }
+    said
+}

@@ -1,0 +1,214 @@
+//! The manual in `docs/`: its commands run, its files are valid, its tables are the program's, its
+//! links lead somewhere.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use crate::support::{output, root};
+
+/// Pages whose commands are run in an empty folder, top to bottom.
+const WALKED: [&str; 2] = ["tutorial.md", "model-files.md"];
+
+fn page(name: &str) -> String {
+    fs::read_to_string(root().join("docs").join(name)).expect("a page of the manual")
+}
+
+/// The blocks of code of a page: what stands behind the fence, and the code.
+fn blocks(page: &str) -> Vec<(&str, &str)> {
+    let inside = page.split("```").skip(1).step_by(2);
+    inside.map(|block| block.split_once('\n').expect("a line behind the fence")).collect()
+}
+
+/// The pages of the table of contents.
+fn contents() -> Vec<String> {
+    let summary = page("SUMMARY.md");
+    let links = summary.split("](").skip(1).filter_map(|rest| rest.split_once(')'));
+    links.map(|(link, _)| link.to_owned()).collect()
+}
+
+/// A command as a shell runs it, with the program on the path.
+fn shell(folder: &Path, line: &str) -> std::process::Output {
+    let program = Path::new(env!("CARGO_BIN_EXE_gumption"));
+    let mut paths = vec![program.parent().expect("its folder").to_path_buf()];
+    paths.extend(std::env::split_paths(&std::env::var_os("PATH").unwrap_or_default()));
+    let path = std::env::join_paths(paths).expect("a path");
+    let mut command = Command::new("sh");
+    command.args(["-c", line]).current_dir(folder).env("PATH", path);
+    command.output().expect("a shell")
+}
+
+#[test]
+fn commands_of_the_tutorial_run() {
+    for name in WALKED {
+        let folder = tempfile::tempdir().expect("a folder");
+        let page = page(name);
+        let mut run = 0;
+        for (fence, code) in blocks(&page) {
+            if let Some((_, file)) = fence.split_once("file=") {
+                fs::write(folder.path().join(file.trim()), code).expect("written");
+            }
+            for line in code.lines().filter(|_| fence == "sh") {
+                let said = shell(folder.path(), line);
+                let error = String::from_utf8_lossy(&said.stderr);
+                assert!(said.status.success(), "{name}: {line}\n{error}");
+                run += 1;
+            }
+        }
+        assert!(run >= 4, "{name}: {run} commands");
+    }
+}
+
+/// The file that the tutorial shows is the one that its first command writes.
+#[test]
+fn the_tutorial_shows_what_it_writes() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let page = page("tutorial.md");
+    let (_, code) = blocks(&page).into_iter().find(|(fence, _)| *fence == "sh").expect("commands");
+    assert!(shell(folder.path(), code.lines().next().expect("a line")).status.success());
+    let written = fs::read_to_string(folder.path().join("resistor.json")).expect("the file");
+    let written: serde_json::Value = serde_json::from_str(&written).expect("JSON");
+    let (_, shown) = blocks(&page).into_iter().find(|(fence, _)| *fence == "json").expect("shown");
+    let shown: serde_json::Value = serde_json::from_str(&format!("{{{shown}}}")).expect("JSON");
+    for (name, keys) in shown["inputs"].as_object().expect("inputs") {
+        for (key, value) in keys.as_object().expect("keys") {
+            assert_eq!(&written["inputs"][name][key], value, "{name}: {key}");
+        }
+    }
+    assert_eq!(written["equations"], shown["equations"]);
+    assert_eq!(written["outputs"], shown["outputs"]);
+}
+
+/// `GUMPTION_UPDATE=1 cargo test --test all manual` writes the pages of the reference anew.
+#[test]
+fn tables_are_made_by_the_program() {
+    let pages = contents();
+    let mut made = 0;
+    for name in pages.iter().filter_map(|page| page.strip_prefix("reference/")) {
+        let topic = name.strip_suffix(".md").expect("a page");
+        let told = output(&["help", topic, "--format", "markdown"]);
+        let note = format!("<!-- made by: gumption help {topic} --format markdown -->\n\n");
+        let path = root().join("docs/reference").join(name);
+        if std::env::var_os("GUMPTION_UPDATE").is_some() {
+            fs::create_dir_all(root().join("docs/reference")).expect("a folder");
+            fs::write(&path, note.clone() + &told).expect("written");
+        }
+        let committed = fs::read_to_string(&path).expect("a page of the reference");
+        assert!(committed == note + &told, "{name} is of another version: GUMPTION_UPDATE=1");
+        made += 1;
+    }
+    assert_eq!(made, 8);
+}
+
+/// Every page is in the table of contents, and every link within the manual leads to a file.
+#[test]
+fn pages_and_links_are_there() {
+    let docs = root().join("docs");
+    let contents = contents();
+    let mut found = vec![PathBuf::new()];
+    let mut pages = Vec::new();
+    while let Some(folder) = found.pop() {
+        for entry in fs::read_dir(docs.join(&folder)).expect("a folder") {
+            let path = entry.expect("an entry").path();
+            let name = path.strip_prefix(&docs).expect("below").to_path_buf();
+            match path.extension().and_then(|e| e.to_str()) {
+                _ if path.is_dir() => found.push(name),
+                Some("md") => pages.push(name),
+                _ => {}
+            }
+        }
+    }
+    for name in &pages {
+        let text = name.to_string_lossy().replace('\\', "/");
+        assert!(text == "SUMMARY.md" || contents.contains(&text), "{text} is not in SUMMARY.md");
+        let content = page(&text);
+        for link in content.split("](").skip(1).filter_map(|rest| rest.split_once(')')) {
+            let target = link.0.split('#').next().unwrap_or_default();
+            if target.is_empty() || target.starts_with("http") {
+                continue;
+            }
+            let from = docs.join(name);
+            let path = from.parent().expect("a folder").join(target);
+            assert!(path.exists(), "{text}: {target}");
+        }
+    }
+    for name in contents {
+        assert!(docs.join(&name).exists(), "{name}");
+    }
+}
+
+/// Every command that a page shows is one that the program has.
+#[test]
+fn commands_exist() {
+    let help = output(&["help"]);
+    for name in contents() {
+        let page = page(&name);
+        for (fence, code) in blocks(&page) {
+            let commands = code.lines().filter(|_| fence == "sh");
+            for line in commands.filter_map(|line| line.strip_prefix("gumption ")) {
+                let command = line.split_whitespace().next().expect("a command");
+                assert!(help.contains(&format!("\n  {command} ")), "{name}: {command}");
+            }
+        }
+    }
+}
+
+/// `new` without options asks, and takes the answers of a file as well.
+#[test]
+fn new_asks() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let answers = "Power\npower = voltage^2/resistance\n\nmW\nV\nnormal,mean=5.01,expanded=0.02,k=2\n\
+                   furlong\nohm\nnormall,mean=1\nreadings,values=99.8 100.1 100.0 99.9\n";
+    fs::write(folder.path().join("answers"), answers).expect("written");
+    let said = shell(folder.path(), "gumption new --output power.json < answers");
+    let error = String::from_utf8_lossy(&said.stderr);
+    assert!(said.status.success(), "{error}");
+    assert!(error.contains("furlong") && error.contains("did you mean `normal`?"), "{error}");
+    let page = shell(folder.path(), "gumption run power.json --trials 0");
+    let page = String::from_utf8_lossy(&page.stdout);
+    // 5.01^2/99.95 W
+    assert!(page.contains("251."), "{page}");
+
+    // what is not known stays blank and is told; nothing is made up
+    let line = "gumption new --equation 'y = a*b' --input 'a=m,rectangular,mean=1,half_width=0.1' --output y.json";
+    let said = shell(folder.path(), line);
+    let error = String::from_utf8_lossy(&said.stderr);
+    assert!(said.status.success() && error.contains("fill in `mean` and `std` of `b`"), "{error}");
+    assert_eq!(shell(folder.path(), "gumption check y.json").status.code(), Some(2));
+
+    for (line, said) in [
+        ("gumption new --equation 'y = a*'", "y: "),
+        ("gumption new --equation 'y'", "is no equation"),
+        ("gumption new --equation 'y = width' --input 'widht=m,normal'", "did you mean `width`?"),
+        (
+            "gumption new --equation 'y = a' --input 'a=m,normal,mean=1,sdt=2'",
+            "did you mean `std`?",
+        ),
+        ("gumption new --equation 'y = a' --input 'a=m,normal,mean=1,std=-2'", "std"),
+        ("gumption new < /dev/null", "the answers ended"),
+    ] {
+        let found = shell(folder.path(), line);
+        let error = String::from_utf8_lossy(&found.stderr);
+        assert_eq!(found.status.code(), Some(2), "{line}");
+        assert!(error.contains(said), "{line}: {error}");
+    }
+}
+
+#[test]
+fn examples_are_printed_and_run() {
+    let list = output(&["models", "--examples"]);
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut run = 0;
+    for name in list.lines().filter_map(|line| line.split_whitespace().next()) {
+        if name.contains('-') && !name.starts_with("Print") && list.contains(&format!("\n{name} "))
+        {
+            let line = format!(
+                "gumption models --examples {name} --output e.json && gumption check e.json"
+            );
+            let said = shell(folder.path(), &line);
+            assert!(said.status.success(), "{name}: {}", String::from_utf8_lossy(&said.stderr));
+            run += 1;
+        }
+    }
+    assert!(run >= 25, "{run} of\n{list}");
+}
