@@ -312,27 +312,27 @@ fn of_net(
         for step in 0..STEPS {
             let mut moved: f64 = 0.0;
             let mut next = [0.0; COLUMN];
-            for i in 0..COLUMN {
+            for (i, next) in next.iter_mut().enumerate() {
                 let newton = (y - output.0[i]) / slope.0[i];
                 // far steps would leave the range where the slope says anything
                 let limit = 8.0 * width;
                 let to = (at.0[i] + newton.clamp(-limit, limit)).clamp(least, most);
                 moved = moved.max((to - at.0[i]).abs());
-                next[i] = to;
+                *next = to;
             }
             if moved <= 1e-13 * width {
                 break;
             }
             registers[place].0 = next;
             setup.run(registers, &mut out);
-            for i in 0..COLUMN {
-                let dx = next[i] - at.0[i];
+            for (i, next) in next.into_iter().enumerate() {
+                let dx = next - at.0[i];
                 let dy = out.0[i] - output.0[i];
                 let secant = dy / dx;
                 if dx.abs() > 1e-9 * width && secant.is_finite() && secant != 0.0 {
                     slope.0[i] = secant;
                 }
-                at.0[i] = next[i];
+                at.0[i] = next;
                 output.0[i] = out.0[i];
             }
             if moved <= ENDED * width && step > 0 {
