@@ -49,11 +49,11 @@ pub(super) struct Inversion {
 
 /// Errors of the distribution function that are tried, the least first, and for how many arguments.
 const WANTED: [(f64, usize); 6] = [
-    (1e-16, 16_000),
-    (1e-15, 16_000),
-    (1e-14, 16_000),
-    (1e-13, 32_000),
-    (1e-12, 65_536),
+    (1e-16, 12_000),
+    (1e-15, 8_000),
+    (1e-14, 8_000),
+    (1e-13, 8_000),
+    (1e-12, 24_000),
     (1e-11, 131_072),
 ];
 

@@ -1,6 +1,7 @@
 //! Quantiles, coverage intervals and probabilities of a distribution whose distribution function, or
 //! whose quantile function, is known.
 
+use std::cell::Cell;
 use std::sync::Arc;
 
 use super::invert::{At, Inversion};
@@ -10,7 +11,14 @@ use crate::distribution::Distribution;
 /// The distribution of an output.
 pub(super) enum Law {
     /// A sum of several groups about `mean`, and what the output is of it.
-    Sum { inversion: Inversion, mean: f64, outer: Outer, symmetric: bool },
+    Sum {
+        inversion: Inversion,
+        mean: f64,
+        outer: Outer,
+        symmetric: bool,
+        /// Where the last quantiles were found, below and above the median.
+        last: Cell<[f64; 2]>,
+    },
     /// A monotone function of one quantity.
     One { distribution: Arc<Distribution>, rising: bool, function: Box<dyn Fn(f64) -> f64> },
 }
@@ -38,9 +46,9 @@ impl Law {
                 let bound = SPECIAL * (value - middle).abs() + 8.0 * f64::EPSILON * value.abs();
                 value.is_finite().then_some(Found { value, bound })
             }
-            Self::Sum { inversion, mean, outer, .. } => {
+            Self::Sum { inversion, mean, outer, last, .. } => {
                 let p = if rises(outer) { p } else { q };
-                let (x, at) = solve(inversion, p)?;
+                let (x, at) = solved(inversion, p, last)?;
                 let value = transformed(outer, mean + x);
                 let sum = mean + x;
                 let slope = slope(outer, sum);
@@ -91,9 +99,9 @@ impl Law {
     /// there.
     fn density(&self, p: f64) -> Option<[f64; 2]> {
         match self {
-            Self::Sum { inversion, mean, outer, .. } => {
+            Self::Sum { inversion, mean, outer, last, .. } => {
                 let p = if rises(outer) { p } else { 1.0 - p };
-                let (x, at) = solve(inversion, p)?;
+                let (x, at) = solved(inversion, p, last)?;
                 let slope = slope(outer, mean + x);
                 Some([at.density / slope, inversion.density_error / slope])
             }
@@ -128,7 +136,7 @@ impl Law {
             |low: f64| Some([self.quantile(low, 1.0 - low)?, self.quantile(low + p, tail - low)?]);
         let length = |low: f64| ends(low).map(|[a, b]| b.value - a.value);
         // coarse places, and the edges themselves
-        const PARTS: usize = 16;
+        const PARTS: usize = 8;
         let edge = 1e-12 * tail;
         let place = |k: usize| (tail * k as f64 / PARTS as f64).clamp(edge, tail - edge);
         let lengths: Vec<f64> =
@@ -191,6 +199,16 @@ impl Law {
     }
 }
 
+/// The quantile of `p`, from the last one on the same side.
+fn solved(inversion: &Inversion, p: f64, last: &Cell<[f64; 2]>) -> Option<(f64, At)> {
+    let mut places = last.get();
+    let side = usize::from(p > 0.5);
+    let found = solve(inversion, p, places[side])?;
+    places[side] = found.0;
+    last.set(places);
+    Some(found)
+}
+
 fn rises(outer: &Outer) -> bool {
     match outer {
         Outer::Sum => true,
@@ -213,22 +231,13 @@ fn slope(outer: &Outer, sum: f64) -> f64 {
     }
 }
 
-/// The place at which the distribution function is `p`: Newton's steps within a bracket.
-fn solve(inversion: &Inversion, p: f64) -> Option<(f64, At)> {
-    let mut high = inversion.width;
-    let mut low = -high;
-    for (end, above) in [(&mut low, true), (&mut high, false)] {
-        let mut tries = 0;
-        while (inversion.at(*end).cdf > p) == above {
-            *end *= 2.0;
-            tries += 1;
-            if tries > 200 {
-                return None;
-            }
-        }
-    }
-    let mut x = 0.5 * (low + high);
-    for _ in 0..100 {
+/// The place at which the distribution function is `p`: Newton's steps from `start`, halvings where they
+/// leave what is known to hold it.
+fn solve(inversion: &Inversion, p: f64, start: f64) -> Option<(f64, At)> {
+    let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
+    let mut x = start;
+    let mut far = inversion.width;
+    for _ in 0..300 {
         let at = inversion.at(x);
         let short = p - at.cdf;
         if short > 0.0 {
@@ -236,15 +245,23 @@ fn solve(inversion: &Inversion, p: f64) -> Option<(f64, At)> {
         } else {
             high = x;
         }
-        let newton = x + short / at.density;
-        let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
+        let step = (short / at.density).clamp(-far, far);
+        let newton = x + step;
+        let next = if newton > low && newton < high {
+            newton
+        } else if low.is_finite() && high.is_finite() {
+            0.5 * (low + high)
+        } else {
+            // beyond everything there was, farther each time
+            far *= 2.0;
+            x + far.copysign(short)
+        };
         let moved = (next - x).abs();
         if moved <= 4e-16 * (x.abs() + inversion.width) || high - low <= 4e-16 * x.abs() {
             return (at.density > 0.0).then_some((x, at));
         }
         // what Newton's last step leaves is its square
-        if moved <= 1e-9 * inversion.width && next == newton {
-            let at = inversion.at(next);
+        if moved <= 1e-8 * inversion.width && next == newton {
             return (at.density > 0.0).then_some((next, at));
         }
         x = next;

@@ -208,7 +208,8 @@ fn distribution(
         }
     };
     let outer = separated.outer;
-    Ok((Law::Sum { inversion, mean, outer, symmetric }, moments))
+    let last = std::cell::Cell::new([0.0; 2]);
+    Ok((Law::Sum { inversion, mean, outer, symmetric, last }, moments))
 }
 
 /// The distribution of a function of one quantity.

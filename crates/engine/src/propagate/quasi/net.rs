@@ -115,16 +115,17 @@ fn sobol(directions: &[u32; 32], point: u32) -> u32 {
 mod tests {
     use super::*;
 
-    /// The first points of the second and the third dimension (Joe and Kuo's own program).
+    /// The first points that Joe and Kuo's own program prints, which are in the order of Gray's code.
     #[test]
     fn first_points() {
         let at = |dimension: usize| {
             let directions = directions(dimension);
-            (0..8).map(|i| f64::from(sobol(&directions, i)) / 4_294_967_296.0).collect::<Vec<_>>()
+            let gray = (0..8u32).map(|i| i ^ (i >> 1));
+            gray.map(|i| f64::from(sobol(&directions, i)) / 4_294_967_296.0).collect::<Vec<_>>()
         };
-        assert_eq!(at(0), [0.0, 0.5, 0.25, 0.75, 0.125, 0.625, 0.375, 0.875]);
-        assert_eq!(at(1), [0.0, 0.5, 0.75, 0.25, 0.625, 0.125, 0.375, 0.875]);
-        assert_eq!(at(2), [0.0, 0.5, 0.25, 0.75, 0.375, 0.875, 0.625, 0.125]);
+        assert_eq!(at(0), [0.0, 0.5, 0.75, 0.25, 0.375, 0.875, 0.625, 0.125]);
+        assert_eq!(at(1), [0.0, 0.5, 0.25, 0.75, 0.375, 0.875, 0.125, 0.625]);
+        assert_eq!(at(2), [0.0, 0.5, 0.25, 0.75, 0.625, 0.125, 0.875, 0.375]);
     }
 
     /// Scrambling keeps a net a net: each of 2^m intervals of every coordinate has one point, and of the
