@@ -1,8 +1,13 @@
 //! The command line as a value.
 
+use std::ffi::OsString;
 use std::process::ExitCode;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 
+use gumption_command::{Answered, Failure, GivenFile};
 use gumption_engine::model::typed::{CatalogueEntry, Measurement};
+use gumption_files::FileReader;
 
 use crate::{published, templates};
 
@@ -40,6 +45,44 @@ impl Application {
     #[must_use]
     pub fn with(self, entry: CatalogueEntry) -> Self {
         Self(self.0.with(entry))
+    }
+
+    /// The readers of files that may name its measurements.
+    pub fn files(&self) -> FileReader<'_> {
+        self.0.files()
+    }
+
+    /// Runs a command as a function, without the process's streams and signals; see
+    /// [`CommandLine::call`](gumption_command::CommandLine::call). `input` stands for `-`, and `stop`
+    /// does what a signal does.
+    ///
+    /// ```
+    /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+    /// use gumption::Application;
+    ///
+    /// let arguments = ["run", "models/inclined_plane.json", "--trials", "0", "--format", "csv"];
+    /// let answered = Application::new()
+    ///     .call(arguments.map(Into::into), None, Default::default())
+    ///     .map_err(|failure| failure.to_string())?;
+    /// assert_eq!(String::from_utf8(answered.answer)?.lines().count(), 4);
+    /// # Ok(())
+    /// # }
+    /// ```
+    ///
+    /// # Errors
+    /// What the program would say on standard error with the exit codes 1 and 2.
+    pub fn call(
+        &self,
+        arguments: impl IntoIterator<Item = OsString>,
+        input: Option<GivenFile>,
+        stop: Arc<AtomicBool>,
+    ) -> Result<Answered, Failure> {
+        self.0.call(arguments, input, stop)
+    }
+
+    /// As [`Application::main`] with these arguments, the first of which is the program's name.
+    pub fn main_of(&self, arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
+        self.0.main_of(arguments)
     }
 
     /// Runs with the arguments of the process; what it prints goes to standard output and standard

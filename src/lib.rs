@@ -261,6 +261,11 @@ mod templates;
 
 #[cfg(feature = "cli")]
 pub use application::Application;
+/// The command line as a function ([`Application::call`]): what it takes and gives.
+#[cfg(feature = "cli")]
+pub mod command {
+    pub use gumption_command::{Answered, Exit, Failure, GivenFile, Mistake};
+}
 pub use templates::catalogue;
 
 pub use gumption_analysis::{assumptions, certificate, compare, diff};
@@ -308,6 +313,13 @@ pub mod propagate {
         pub use gumption_engine::propagate::gum::{
             BudgetLine, CorrelationLine, Dof, Gum, coverage_factor,
         };
+
+        /// Budgets of many measurements of one model at once, as columns of numbers.
+        pub mod bulk {
+            pub use gumption_engine::propagate::gum::bulk::{
+                Budgets, BulkError, BulkInput, BulkOptions, BulkValue, budgets,
+            };
+        }
     }
 
     /// The Monte Carlo method (JCGM 101).
@@ -327,7 +339,7 @@ pub mod propagate {
 /// the settings of the evaluation.
 pub mod task {
     pub use gumption_engine::task::{
-        Coverage, Evidence, Row, Settings, Sharing, StoppingRule, Task, TaskBuilder, TaskError,
-        Trials, Variable, Warning,
+        ColumnFunction, Coverage, Evidence, Row, Settings, Sharing, StoppingRule, Task,
+        TaskBuilder, TaskError, Trials, Variable, Warning,
     };
 }

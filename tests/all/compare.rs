@@ -139,6 +139,46 @@ fn laboratories_and_their_reference_value() {
     }
 }
 
+/// By hand: 0, 3, 6 with u = 1 have chi-squared 18 and R = 3; tau^2 = 8 by both random-effects
+/// models; every estimate is 3 with u = sqrt(3), and u(d)^2 = 9 - 3.
+#[test]
+fn estimators_of_laboratories_that_disagree() {
+    let (folder, _) = with("labs.csv", "label,x,U\nA,0,2\nB,3,2\nC,6,2\n");
+    let plain = answer(folder.path(), &["labs.csv"]);
+    assert_eq!(plain["estimator"], "largest-consistent-subset");
+    assert_eq!(plain["recommended"]["estimator"], "mandel-paule");
+    assert_eq!(plain["estimators"].as_array().expect("a list").len(), 5);
+    for name in ["birge", "dersimonian-laird", "mandel-paule"] {
+        let found = answer(folder.path(), &["labs.csv", "--estimator", name]);
+        assert_eq!(found["estimator"], name);
+        assert!((number(&found["reference"]["value"]) - 3.0).abs() < 1e-12);
+        let u = number(&found["reference"]["standard_uncertainty"]);
+        assert!((u - 3f64.sqrt()).abs() < 1e-12);
+        assert!((number(&found["rows"][0]["U"]) - 2.0 * 6f64.sqrt()).abs() < 1e-12);
+        let own = |of: &&Value| of["estimator"] == name;
+        let values = found["estimators"].as_array().expect("a list");
+        let own = values.iter().find(own).expect("its entry");
+        if name == "birge" {
+            assert!((number(&own["birge_ratio"]) - 3.0).abs() < 1e-12 && own["tau"].is_null());
+        } else {
+            assert!((number(&own["tau"]) - 8f64.sqrt()).abs() < 1e-12);
+            assert_eq!(own["hartung_knapp"]["dof"], 2);
+        }
+    }
+    let weighted = answer(folder.path(), &["labs.csv", "--estimator", "weighted"]);
+    assert_eq!(weighted["estimator"], "weighted-mean");
+    assert_eq!(weighted["reference"]["consistent"], false);
+    let page = run(folder.path(), &["labs.csv", "--estimator", "mandel-paule"]);
+    let page = String::from_utf8_lossy(&page.stdout).into_owned();
+    assert!(page.contains("Reference value 3.0 with U = 3.5 (k = 2)"), "{page}");
+    let wrong = run(folder.path(), &["labs.csv", "--estimator", "mandel-paul"]);
+    assert_eq!(wrong.status.code(), Some(2));
+    assert!(String::from_utf8_lossy(&wrong.stderr).contains("did you mean mandel-paule?"));
+    fs::write(folder.path().join("t.csv"), "label,x1,U1,x2,U2\na,1,1,2,1\n").expect("written");
+    let wrong = run(folder.path(), &["t.csv", "--estimator", "birge"]);
+    assert_eq!(wrong.status.code(), Some(2));
+}
+
 /// The second results come from a run: its GUM side, with its coverage factor.
 #[test]
 fn against_a_run() {

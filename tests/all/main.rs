@@ -34,6 +34,7 @@ mod other_distributions;
 mod outputs;
 mod own_program;
 mod phases;
+mod planning;
 mod recordings;
 mod reports;
 mod reproducible;

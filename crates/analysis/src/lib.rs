@@ -1,5 +1,6 @@
 //! What is made of evaluations: the audit of assumptions, comparisons of results, what changed
-//! between two evaluations, calibration certificates, and published values recomputed.
+//! between two evaluations, plans towards a wanted uncertainty, calibration certificates, and
+//! published values recomputed.
 
 #![cfg_attr(test, allow(clippy::disallowed_methods))] // tests compare within tolerances
 #![deny(unsafe_code)]
@@ -9,4 +10,5 @@ pub mod certificate;
 pub mod compare;
 pub mod diff;
 pub mod integrity;
+pub mod plan;
 pub mod verification;

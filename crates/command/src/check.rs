@@ -29,14 +29,21 @@ struct Verdict {
     errors: Vec<Mistake>,
 }
 
-#[derive(Debug, Serialize)]
-struct Mistake {
-    file: String,
-    line: usize,
-    column: usize,
-    code: &'static str,
-    message: String,
-    suggestion: Option<String>,
+/// A mistake in a file as `check --format json` tells it.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Mistake {
+    /// The file's name.
+    pub file: String,
+    /// The line, counted from 1.
+    pub line: usize,
+    /// The column in characters, counted from 1.
+    pub column: usize,
+    /// A short name of the kind of mistake.
+    pub code: &'static str,
+    /// What is wrong, in a sentence.
+    pub message: String,
+    /// What was probably meant.
+    pub suggestion: Option<String>,
 }
 
 impl From<&Diagnostic> for Mistake {

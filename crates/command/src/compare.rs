@@ -6,10 +6,11 @@ use clap::{Args, ValueEnum};
 
 use super::options::{self, Answer};
 use super::{Exit, Failure};
-use gumption_analysis::compare::{ResultPair, laboratories};
+use gumption_analysis::compare::{Estimator, ResultPair, laboratories};
 use gumption_files as file;
 use gumption_files::{ComparisonOptions, ComparisonTable};
 use gumption_report::compare::{self as report, Compare as ComparedPair};
+use gumption_units::nearest;
 
 /// Compare results two by two, or those of many laboratories.
 #[derive(Debug, Args)]
@@ -24,6 +25,10 @@ pub(super) struct Compare {
     /// order
     #[arg(long, value_name = "FILE")]
     correlations: Option<PathBuf>,
+    /// How the reference value of laboratories is made; without it the weighted mean, or that of the
+    /// largest consistent subset where they are not consistent
+    #[arg(long, value_name = "NAME", value_parser = estimator)]
+    estimator: Option<Estimator>,
     /// Show the normalized errors that the printed digits allow
     #[arg(long)]
     rounding: bool,
@@ -49,6 +54,21 @@ enum Format {
     Csv,
 }
 
+/// The estimators by name, and by the short forms of two of them.
+fn estimator(text: &str) -> Result<Estimator, String> {
+    let short = match text {
+        "weighted" => Some(Estimator::WeightedMean),
+        "lcs" => Some(Estimator::LargestConsistentSubset),
+        _ => None,
+    };
+    let named = || Estimator::ALL.into_iter().find(|estimator| estimator.name() == text);
+    short.or_else(named).ok_or_else(|| {
+        let names = Estimator::ALL.map(Estimator::name);
+        let near = nearest(text, names).map(|name| format!("; did you mean {name}?"));
+        format!("one of {} is needed{}", names.join(", "), near.unwrap_or_default())
+    })
+}
+
 impl Compare {
     pub(super) fn execute(&self) -> Result<Exit, Failure> {
         let options = ComparisonOptions {
@@ -62,13 +82,18 @@ impl Compare {
         let read: Vec<PathBuf> = read.into_iter().flatten().cloned().collect();
         let place = self.answer.open(&read)?;
         let found = match table {
+            ComparisonTable::Pairs(_) if self.estimator.is_some() => {
+                let message = "`--estimator` is of laboratories: a table with columns label, x, U; this \
+                               one has results two by two";
+                return Err(Failure::Argument(message.to_owned()));
+            }
             ComparisonTable::Pairs(pairs) => {
                 // pairs without an uncertainty are mistakes of the table
                 let compared = pairs.iter().filter_map(ResultPair::compare).collect();
                 ComparedPair::Pairs { pairs, compared, rounding: self.rounding }
             }
             ComparisonTable::Laboratories { laboratories, correlations } => {
-                let found = laboratories::compare(&laboratories, &correlations);
+                let found = laboratories::compare_by(&laboratories, &correlations, self.estimator);
                 ComparedPair::Laboratories(
                     found.map_err(|error| Failure::Argument(error.to_string()))?,
                 )

@@ -4,6 +4,7 @@ use std::fmt;
 use std::io::Write;
 use std::process::ExitCode;
 
+use super::surroundings::in_call;
 use super::{diagnostics, signals};
 use gumption_files::Diagnostics;
 use gumption_report::plain;
@@ -74,6 +75,9 @@ impl Failure {
 /// Says something on standard error. Where that cannot be written, as on a full disk, it is not
 /// said: what was computed counts more.
 pub(super) fn say(text: &str) {
+    if in_call(|call| call.notes.push_str(text)).is_some() {
+        return;
+    }
     let mut out = anstream::stderr().lock();
     let _ = out.write_all(text.as_bytes()).and_then(|()| out.flush());
 }

@@ -17,21 +17,28 @@ mod new;
 mod observe;
 mod options;
 mod output;
+mod plan;
 mod progress;
 mod replacement;
 mod run;
 mod save;
 mod schema;
 mod signals;
+mod surroundings;
 mod verify;
 
+use std::ffi::OsString;
 use std::process::ExitCode;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 
 use clap::{Parser, Subcommand};
 use gumption_engine::model::typed::{Catalogue, CatalogueEntry};
 use gumption_files::FileReader;
 
+pub use check::Mistake;
 pub use exit::{Exit, Failure};
+pub use surroundings::GivenFile;
 pub use verify::PublishedExamples;
 
 /// Measurement uncertainty by the GUM and by Monte Carlo, side by side.
@@ -62,6 +69,8 @@ enum Command {
     Verify(verify::Verify),
     /// Say what changed between two model files or saved results, and what it did to U
     Diff(diff::Diff),
+    /// Say what inputs would have to become for a wanted uncertainty, and which way is the cheapest
+    Plan(plan::Planning),
     /// Diagnose where measured data depart from a model, and which effect is missing
     Gap(gap::Gap),
     /// Check that diagnosis blindly at a case's own design: how far its answers can be trusted
@@ -72,6 +81,17 @@ enum Command {
     Schema(schema::Schema),
     /// Tell how a command is called, or what may stand in files and formulas
     Help(help::Help),
+}
+
+/// What a command gave that was called as a function.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Answered {
+    /// What it would have printed on standard output.
+    pub answer: Vec<u8>,
+    /// What it would have said on standard error.
+    pub notes: String,
+    /// How it ended.
+    pub exit: Exit,
 }
 
 /// The command line with what it knows: typed measurements and published examples.
@@ -95,7 +115,7 @@ impl CommandLine {
     }
 
     /// The readers of files that may name the measurements.
-    fn files(&self) -> FileReader<'_> {
+    pub fn files(&self) -> FileReader<'_> {
         FileReader::new(&self.catalogue)
     }
 
@@ -103,9 +123,51 @@ impl CommandLine {
     /// 0 (done), 1 (the system is at fault), 2 (the arguments or files are), 3 (done, and the answer
     /// is "no" where `--fail` was given), or 130, 143 or 129 (interrupted, terminated, hung up).
     pub fn main(&self) -> ExitCode {
+        self.main_of(std::env::args_os())
+    }
+
+    /// The same with these arguments, the first of which is the name of the program.
+    pub fn main_of(&self, arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         signals::watch();
-        let arguments = Arguments::parse();
-        let result = match arguments.command {
+        let arguments = Arguments::parse_from(arguments);
+        match self.execute(arguments.command) {
+            Ok(exit) => exit.code(),
+            Err(failure) => failure.report(),
+        }
+    }
+
+    /// Runs a command as a function: what would go to standard output and standard error is handed
+    /// back, and nothing of the process is touched. `arguments` are those behind the name of the
+    /// program; `input` is what `-` stands for where a command reads a model file, and its text
+    /// wherever else `-` may stand. `stop` does what a signal does.
+    ///
+    /// # Errors
+    /// What the program says on standard error with the exit codes 1 and 2; its `Display` is the
+    /// same text, without colours.
+    pub fn call(
+        &self,
+        arguments: impl IntoIterator<Item = OsString>,
+        input: Option<GivenFile>,
+        stop: Arc<AtomicBool>,
+    ) -> Result<Answered, Failure> {
+        let name = std::iter::once(OsString::from("gumption"));
+        let arguments = match Arguments::try_parse_from(name.chain(arguments)) {
+            Ok(arguments) => arguments,
+            // help and version are answers
+            Err(told) if !told.use_stderr() => {
+                let answer = told.to_string().into_bytes();
+                return Ok(Answered { answer, notes: String::new(), exit: Exit::Done });
+            }
+            Err(error) => return Err(Failure::Argument(error.to_string().trim_end().to_owned())),
+        };
+        let input = input.map(Arc::new);
+        let given = surroundings::Surroundings { stop, input, ..Default::default() };
+        let (exit, left) = surroundings::within(given, || self.execute(arguments.command));
+        Ok(Answered { answer: left.answer, notes: left.notes, exit: exit? })
+    }
+
+    fn execute(&self, command: Command) -> Result<Exit, Failure> {
+        match command {
             Command::Run(command) => command.execute(self),
             Command::Assumptions(command) => command.execute(self),
             Command::Certificate(command) => command.execute(self),
@@ -114,16 +176,65 @@ impl CommandLine {
             Command::Models(command) => command.execute(self),
             Command::Verify(command) => command.execute(self),
             Command::Diff(command) => command.execute(self),
+            Command::Plan(command) => command.execute(self),
             Command::Gap(command) => command.execute(self),
             Command::GapCheck(command) => command.execute(self),
             Command::Observe(command) => command.execute(self),
             Command::Schema(command) => command.execute(),
             Command::Help(command) => command.execute(),
             Command::New(command) => command.execute(self),
-        };
-        match result {
-            Ok(exit) => exit.code(),
-            Err(failure) => failure.report(),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn call(arguments: &[&str], input: Option<GivenFile>) -> Result<Answered, Failure> {
+        let arguments = arguments.iter().map(OsString::from);
+        CommandLine::default().call(arguments, input, Arc::default())
+    }
+
+    fn given(text: &str) -> Option<GivenFile> {
+        let held = vec![("f.csv".to_owned(), b"f\n1\n2\n".to_vec())];
+        let (name, text) = ("mine".to_owned(), text.to_owned());
+        Some(GivenFile { name, text, held, ..GivenFile::default() })
+    }
+
+    #[test]
+    fn a_command_called_as_a_function_gives_back_what_it_prints() {
+        let model = r#"{"format": 1,
+            "inputs": {"a": {"unit": "m", "distribution": "normal", "mean": 1, "std": 0.1}},
+            "conditions": {"file": "f.csv", "units": {"f": "Hz"}},
+            "equations": {"y": "a*f"}, "outputs": {"y": {"unit": "m/s"}}}"#;
+        let arguments = ["run", "-", "--format", "csv", "--trials", "1000"];
+        let answered = call(&arguments, given(model)).unwrap();
+        assert_eq!(String::from_utf8(answered.answer).unwrap().lines().count(), 3);
+        assert!(answered.notes.contains("few"), "{}", answered.notes);
+        assert_eq!(answered.exit, Exit::Done);
+        // the surroundings of one call are not those of the next
+        let schema = call(&["schema"], None).unwrap();
+        assert!(schema.answer.starts_with(b"{") && schema.notes.is_empty());
+    }
+
+    #[test]
+    fn its_failures_have_the_text_of_the_program() {
+        let wrong = call(&["run", "-"], given("{\n \"inputs\": 1}")).unwrap_err().to_string();
+        assert!(wrong.contains("mine:2:12: "), "{wrong}");
+        let wrong = call(&["run", "--nothing"], None).unwrap_err().to_string();
+        assert!(wrong.contains("unexpected argument '--nothing'"), "{wrong}");
+        assert!(call(&["--version"], None).unwrap().answer.starts_with(b"gumption "));
+    }
+
+    #[test]
+    fn a_call_is_stopped_by_its_own_flag() {
+        let model = r#"{"format": 1,
+            "inputs": {"a": {"unit": "m", "distribution": "normal", "mean": 1, "std": 0.1}},
+            "equations": {"y": "a*a"}, "outputs": {"y": {"unit": "m^2"}}}"#;
+        let arguments = ["run", "-", "--format", "json", "--trials", "1e11"].map(OsString::from);
+        let stop = Arc::new(AtomicBool::new(true));
+        let answered = CommandLine::default().call(arguments, given(model), stop).unwrap();
+        assert_eq!(answered.exit, Exit::Interrupted);
     }
 }

@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 use std::io::{self, IsTerminal};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
@@ -10,6 +11,7 @@ use clap::{Args, ValueEnum};
 
 use super::exit::say;
 use super::output::Place;
+use super::surroundings::{GivenFile, in_call};
 use super::{CommandLine, Failure, output};
 use gumption_engine::propagate::Control;
 use gumption_engine::task::{Coverage, MethodChoice, StoppingRule, Trials, Warning};
@@ -81,7 +83,7 @@ impl<F: ValueEnum + Send + Sync + 'static> Answer<F> {
 
     /// Whether the answer would go to a terminal.
     pub(super) fn is_terminal(&self) -> bool {
-        self.output.is_none() && io::stdout().is_terminal()
+        self.output.is_none() && in_call(|_| ()).is_none() && io::stdout().is_terminal()
     }
 }
 
@@ -223,6 +225,10 @@ impl Model {
                 )));
             }
         }
+        if let Some(of) = given_file(&self.model) {
+            let files = files.holding(&of.held);
+            return Ok(files.model_text(&of.name, &of.text, &of.folder, replaced)?);
+        }
         let text = |text: &str| files.model_text("<stdin>", text, Path::new(""), replaced);
         Ok(given(&self.model, text, |path| files.model(path, replaced))??)
     }
@@ -231,6 +237,11 @@ impl Model {
     pub(super) fn paths(&self, file: &ModelFile) -> Vec<PathBuf> {
         with_named(&self.model, file.files.iter().map(|(name, _)| name))
     }
+}
+
+/// The file that stands in place of standard input where a program calls a command.
+fn given_file(path: &Path) -> Option<Arc<GivenFile>> {
+    in_call(|call| call.input.clone()).flatten().filter(|_| path == Path::new("-"))
 }
 
 /// What a file argument names: standard input for `-`, else a file.
@@ -338,6 +349,9 @@ fn replacement(text: &str) -> Result<Override, String> {
 
 /// The text of standard input.
 fn standard_input() -> Result<String, Failure> {
+    if let Some(of) = given_file(Path::new("-")) {
+        return Ok(of.text.clone());
+    }
     let bytes = bytes::of(io::stdin(), bytes::MOST)
         .map_err(|message| Failure::Argument(format!("cannot read standard input: {message}")))?;
     let text = bytes::text(&bytes).map(Cow::into_owned);

@@ -3,6 +3,7 @@
 use std::fmt::Write;
 use std::io::IsTerminal;
 
+use super::surroundings::in_call;
 use gumption_report::grouped;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 
@@ -15,7 +16,7 @@ pub(super) fn counted(count: u64, things: &str, quiet: bool) -> ProgressBar {
 /// A bar on standard error, hidden where that is no terminal or nothing is to be shown; a count
 /// where it is not known how many trials there will be.
 pub(super) fn bar(trials: Option<u64>, quiet: bool) -> ProgressBar {
-    let hidden = quiet || !std::io::stderr().is_terminal();
+    let hidden = quiet || in_call(|_| ()).is_some() || !std::io::stderr().is_terminal();
     let target =
         if hidden { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr_with_hz(10) };
     let bar = ProgressBar::with_draw_target(trials, target);

@@ -10,13 +10,12 @@ use super::exit::say;
 use super::options::{self, Answer, CoverageOption, Model, Page, Seed, Threads};
 use super::output::Place;
 use super::{CommandLine, Exit, Failure, output, progress, save, signals};
-use gumption_analysis::integrity;
 use gumption_engine::propagate::monte_carlo::Histogram;
 use gumption_engine::propagate::{
     Control, Evaluation, EvaluationError, evaluate, histograms, warnings,
 };
 use gumption_engine::task::{MethodChoice, StoppingRule, Task, Trials, Warning};
-use gumption_files::{Diagnostic, DiagnosticKind, Diagnostics, ModelFile};
+use gumption_files::ModelFile;
 use gumption_report as report;
 use gumption_report::{BudgetColumn, EvaluationReport, Provenance, Shown, TableStyle};
 
@@ -39,7 +38,7 @@ pub(super) struct Run {
     rule: Option<StoppingRule>,
     /// Figures without the noise of trials beside those of the trials: exact ones of sums and products
     /// of independent contributions, or those of quasi-random points; auto takes exact ones where
-    /// there are any
+    /// there are any; none unless asked for
     #[arg(long, value_name = "METHOD", value_parser = options::method())]
     method: Option<MethodChoice>,
     /// Make as many trials as the validation of the GUM interval needs (JCGM 101, 8.2)
@@ -248,7 +247,7 @@ impl Run {
             settings.for_validation = true;
         }
         settings.rule = self.rule.unwrap_or(settings.rule);
-        settings.method = self.method.or(settings.method).or(Some(MethodChoice::Auto));
+        settings.method = self.method.or(settings.method);
         settings.max_trials = self.max_trials.unwrap_or(settings.max_trials);
         settings.seed = self.seed.or(settings.seed);
         if let Some(digits) = self.digits {
@@ -312,20 +311,13 @@ pub(super) fn failure(file: &ModelFile, error: EvaluationError) -> Failure {
     match error {
         EvaluationError::Threads(_) => Failure::System(message),
         // everything else follows from what the file says
-        _ => {
-            let (source, span) = file.output_place(0);
-            let kind = DiagnosticKind::Evaluation { message };
-            Failure::Diagnostics(Diagnostics(vec![Diagnostic { source, span, kind }]))
-        }
+        _ => Failure::Diagnostics(file.evaluation_failed(message)),
     }
 }
 
 /// The digests of a file and of the tables that it reads.
 pub(super) fn provenance(text: &str, files: &[(String, Vec<u8>)]) -> Provenance {
-    Provenance {
-        model_sha256: integrity::sha256(text.as_bytes()),
-        files: files.iter().map(|(name, bytes)| (name.clone(), integrity::sha256(bytes))).collect(),
-    }
+    Provenance::of(text, files)
 }
 
 /// What `--fail` asks of an output, and the answer.

@@ -5,13 +5,10 @@ use std::path::{Path, PathBuf};
 
 use super::Failure;
 use super::output::Destination;
-use gumption_engine::distribution::Scores;
-use gumption_engine::propagate::{
-    Control, EvaluationError, for_each_block, joint_ranks, linear, origins, quantiles,
-};
+use gumption_engine::propagate::{Control, EvaluationError, for_each_block};
 use gumption_engine::task::{Task, Trials};
 use gumption_report as report;
-use gumption_report::{EvaluationReport, TrialsForm};
+use gumption_report::{EvaluationReport, SaveError, TrialsForm};
 
 /// Where to write trials, and in which form.
 #[derive(Clone, Debug)]
@@ -86,29 +83,13 @@ impl From<EvaluationError> for BlockError {
 impl Saver<'_> {
     /// The result file; `false` if the run was stopped, and the file is as it was.
     pub(super) fn result(&self, file: Destination) -> Result<bool, Failure> {
-        let EvaluationReport { task, evaluation, provenance, .. } = *self.report;
-        let scores: Vec<f64> = Scores::WRITTEN.values().collect();
-        let (Some(row), Some(evaluated)) = (task.rows.first(), evaluation.rows.first()) else {
-            return Ok(false);
+        let text = match report::saved_result(self.report, self.control) {
+            Ok(Some(text)) => text,
+            // the trials of a run that was stopped before the first one
+            Ok(None) | Err(SaveError::NoTrials | SaveError::Rows) => return Ok(false),
+            Err(SaveError::Evaluation(error)) => return Err(error.into()),
+            Err(error) => return Err(Failure::Argument(format!("`--save`: {error}"))),
         };
-        for (output, found) in task.model.outputs.iter().zip(&evaluated.outputs) {
-            let spread = found.monte_carlo.as_ref().and_then(|m| m.standard_uncertainty);
-            if linear(found).is_none() && spread.is_none() {
-                let name = &output.quantity.name;
-                return Err(Failure::Argument(format!(
-                    "`--save`: `{name}` has no standard uncertainty by either method"
-                )));
-            }
-        }
-        let Some(quantiles) = quantiles(task, evaluation, 0, &scores, self.control)? else {
-            return Ok(false);
-        };
-        let Some(ranks) = joint_ranks(task, evaluation, 0, self.control)? else {
-            return Ok(false);
-        };
-        let gums: Vec<_> = evaluated.outputs.iter().map(linear).collect();
-        let origins = origins(task, row, &gums, &provenance.model_sha256);
-        let text = report::saved(self.report, &origins, &quantiles, &ranks);
         file.write_with(|out| out.write_all(text.as_bytes()).map(|()| true))?;
         Ok(true)
     }

@@ -9,6 +9,8 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicU8, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
+use super::surroundings::in_call;
+
 /// What a shell adds to the number of the signal that ended a program.
 const BY_SIGNAL: u8 = 128;
 
@@ -33,6 +35,9 @@ fn lock<T>(mutex: &'static Mutex<T>) -> MutexGuard<'static, T> {
 
 /// A flag that the first signal sets; a second one ends the process.
 pub(super) fn stop_flag() -> Arc<AtomicBool> {
+    if let Some(flag) = in_call(|call| Arc::clone(&call.stop)) {
+        return flag;
+    }
     let flag = Arc::new(AtomicBool::new(false));
     *lock(&FLAG) = Some(Arc::clone(&flag));
     flag

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use super::certificate;
+use super::costs;
 use super::diagnostics::Diagnostics;
 use super::json;
 use super::model_reader::{ModelOptions, read_with};
@@ -10,7 +11,7 @@ use super::reader::FileReader;
 use super::recipe;
 use super::source::SourceText;
 
-/// Checks a text: as a certificate, a recipe or a case of the gap diagnosis where it has a key that
+/// Checks a text: as a certificate, a recipe, a file of costs or a case of the gap diagnosis where it has a key that
 /// only those have, else as a model.
 pub(super) fn check_text(
     files: FileReader<'_>,
@@ -21,6 +22,9 @@ pub(super) fn check_text(
     if let Ok(root) = json::parse(&SourceText::new(name, text)) {
         if recipe::is_meant(&root) {
             return recipe::check_text(name, text, files.folder(folder));
+        }
+        if costs::is_meant(&root) {
+            return costs::check_text(name, text);
         }
         if certificate::is_meant(&root) {
             return files.certificate_text(name, text, folder).map(|_| ());

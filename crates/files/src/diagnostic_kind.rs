@@ -416,6 +416,11 @@ pub enum DiagnosticKind {
         /// Why, as a part of the sentence.
         reason: String,
     },
+    /// What the improvement of an input costs, in a form that it cannot have.
+    Cost {
+        /// Why, as a sentence without a capital.
+        reason: String,
+    },
     /// Prior probabilities that do not sum to one.
     Prior {
         /// Why, as a part of the sentence.
@@ -516,6 +521,7 @@ impl DiagnosticKind {
             Self::UnknownEffect { .. } => "unknown-effect",
             Self::Effect { .. } => "bad-effect",
             Self::Observation { .. } => "bad-observations",
+            Self::Cost { .. } => "bad-cost",
             Self::Prior { .. } => "bad-prior",
             Self::Certificate { .. } => "bad-certificate",
             Self::NotDate { .. } => "not-a-date",
@@ -726,9 +732,10 @@ impl fmt::Display for DiagnosticKind {
                 "`{found}` is not a finite number; a file of samples has one on each line, and `#` \
                  before words"
             ),
-            Self::Table { reason } | Self::Observation { reason } | Self::Prior { reason } => {
-                f.write_str(reason)
-            }
+            Self::Table { reason }
+            | Self::Cost { reason }
+            | Self::Observation { reason }
+            | Self::Prior { reason } => f.write_str(reason),
             Self::UnknownEffect { name, nearest } => {
                 write!(f, "the catalogue has no effect `{name}`{}", meant(nearest.as_ref()))
             }

@@ -7,7 +7,7 @@
 
 use std::path::{Component, Path, PathBuf};
 
-use super::DiagnosticKind;
+use super::{DiagnosticKind, bytes};
 
 /// A file of this name makes its folder one below which files may name each other.
 pub(super) const ROOT: &str = ".gumption-root";
@@ -18,17 +18,37 @@ pub(super) struct Folder<'a> {
     path: &'a Path,
     /// `None` for all.
     allowed: Option<&'a [PathBuf]>,
+    /// Files that are in memory, by their names.
+    held: &'a [(String, Vec<u8>)],
 }
 
 impl<'a> Folder<'a> {
     /// A folder whose files may name others below it and below these.
     pub(super) fn new(path: &'a Path, allowed: &'a [PathBuf]) -> Self {
-        Self { path, allowed: Some(allowed) }
+        Self { path, allowed: Some(allowed), held: &[] }
+    }
+
+    /// The same with files that are in memory.
+    pub(super) fn holding(self, held: &'a [(String, Vec<u8>)]) -> Self {
+        Self { held, ..self }
+    }
+
+    /// The content of the file of that name, from memory or from the disk, of at most so many bytes.
+    ///
+    /// # Errors
+    /// As [`Folder::file`], or that it cannot be read.
+    pub(super) fn content(self, name: &str, most: u64) -> Result<Vec<u8>, DiagnosticKind> {
+        if let Some((_, bytes)) = self.held.iter().find(|(held, _)| held == name) {
+            return Ok(bytes.clone());
+        }
+        bytes::of_file(&self.file(name)?, most).map_err(|message| DiagnosticKind::Unreadable {
+            message: format!("`{name}`: {message}"),
+        })
     }
 
     /// The current folder, for files that the user names himself.
     pub(super) fn of_the_user() -> Self {
-        Self { path: Path::new(""), allowed: None }
+        Self { path: Path::new(""), allowed: None, held: &[] }
     }
 
     /// Its path.

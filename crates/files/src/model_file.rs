@@ -4,7 +4,8 @@ use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
 
-use super::diagnostics::Diagnostics;
+use super::DiagnosticKind;
+use super::diagnostics::{Diagnostic, Diagnostics};
 use super::model_reader::{ModelOptions, read_with};
 use super::overrides::Override;
 use super::reader::FileReader;
@@ -41,6 +42,13 @@ pub(super) fn read_text(
 }
 
 impl ModelFile {
+    /// What went wrong in the evaluation, as a mistake of the file: everything but a failing system
+    /// follows from what it says.
+    pub fn evaluation_failed(&self, message: String) -> Diagnostics {
+        let (source, span) = self.output_place(0);
+        Diagnostics(vec![Diagnostic { source, span, kind: DiagnosticKind::Evaluation { message } }])
+    }
+
     /// The place of an output in the file, for messages of the evaluation.
     pub fn output_place(&self, output: usize) -> (Arc<SourceText>, Range<usize>) {
         let span = self.output_places.get(output).cloned().unwrap_or(0..0);

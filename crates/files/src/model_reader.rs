@@ -49,7 +49,7 @@ use gumption_engine::distribution::{Correlation, Fits};
 use gumption_engine::model::formula::Formula;
 use gumption_engine::model::typed::{Catalogue, CatalogueEntry};
 use gumption_engine::model::{Model, Output, typed};
-use gumption_engine::task::{Row, Settings, Task, Warning};
+use gumption_engine::task::{ModelStatement, Row, Settings, Task, Warning};
 use gumption_gap::{ModelForm, ObservedOutput, OverridableModel};
 use gumption_units::Unit;
 use gumption_units::nearest;
@@ -104,6 +104,21 @@ pub(super) enum ModelBody<'a> {
     Equations(Vec<Equation<'a>>),
 }
 
+impl ModelBody<'_> {
+    /// What the pages state of it. An output that is a column of the data has no equation.
+    fn statement(&self) -> ModelStatement {
+        match self {
+            Self::Typed(entry, _) => ModelStatement::of_declaration(&entry.typed.declaration),
+            Self::Equations(equations) => {
+                let written = equations.iter().filter(|(_, member, _)| member.is_some());
+                ModelStatement::of_formulas(written.filter_map(|(name, _, formula)| {
+                    Some((name.clone(), formula.as_ref()?.text().to_owned()))
+                }))
+            }
+        }
+    }
+}
+
 /// Observations, conditions, and which outputs are columns of the data.
 struct Data {
     observations: Option<Observations>,
@@ -138,7 +153,7 @@ impl<'a> ModelReader<'a> {
         check_format(root, 2.0);
         own_units(root);
         let title = root.text("title").unwrap_or("").to_owned();
-        root.text("source");
+        let source = root.text("source").unwrap_or("").to_owned();
         let check_units = root.truth("check_units").unwrap_or(true);
         let settings = settings::read(root);
 
@@ -158,7 +173,9 @@ impl<'a> ModelReader<'a> {
         let mut warnings = of.inputs.warnings.clone();
         warnings.extend(notes);
         warnings.extend(results.warnings.take());
-        let sim = self.sim(body?, &mut of, &mut warnings)?;
+        let body = body?;
+        let statement = body.statement();
+        let sim = self.sim(body, &mut of, &mut warnings)?;
         let observed = self.observed(observations.as_ref(), &sim)?;
 
         let swept = root.get("conditions").is_some() || observations.is_some();
@@ -167,7 +184,8 @@ impl<'a> ModelReader<'a> {
         let model = sim.model().map_err(|error| {
             root.report(DiagnosticKind::Evaluation { message: error.to_string() });
         });
-        let task = task(Parts { title, settings, fits, swept, correlations }, model.ok()?, of)?;
+        let parts = Parts { title, source, statement, settings, fits, swept, correlations };
+        let task = task(parts, model.ok()?, of)?;
         let source = root.log.source.clone();
         let file = ModelFile { task, warnings, source, files, output_places, evidence };
         let data = observations.map(|observations| observations.table);
@@ -409,6 +427,8 @@ fn fill_from_declaration(output: &mut Output, declared: &typed::DeclaredOutput) 
 /// What a task has beside model and quantities.
 struct Parts {
     title: String,
+    source: String,
+    statement: ModelStatement,
     settings: Settings,
     fits: Fits,
     swept: bool,
@@ -417,7 +437,7 @@ struct Parts {
 
 /// The task; none where something is not known about a variable, which has been reported.
 fn task(parts: Parts, model: Model, of: Quantities) -> Option<Task> {
-    let Parts { title, settings, fits, swept, correlations } = parts;
+    let Parts { title, source, statement, settings, fits, swept, correlations } = parts;
     let Quantities { inputs, conditions, .. } = of;
     if !inputs.known.is_complete(inputs.variables.len()) {
         return None;
@@ -427,6 +447,7 @@ fn task(parts: Parts, model: Model, of: Quantities) -> Option<Task> {
     let rows = rows.map(|(conditions, distributions)| Row { conditions, distributions }).collect();
     let mut task = Task::new(model, inputs.variables, rows);
     (task.title, task.swept, task.settings) = (title, swept, settings);
+    (task.source, task.statement) = (source, statement);
     (task.correlations, task.fits) = (correlations, fits);
     Some(task)
 }

@@ -29,6 +29,7 @@ use gumption_engine::task::Row;
 pub struct FileReader<'c> {
     catalogue: &'c Catalogue,
     allowed: &'c [PathBuf],
+    held: &'c [(String, Vec<u8>)],
     changed_results: bool,
 }
 
@@ -42,7 +43,7 @@ impl Default for FileReader<'static> {
 impl<'c> FileReader<'c> {
     /// Readers of files that may name these measurements.
     pub fn new(catalogue: &'c Catalogue) -> Self {
-        Self { catalogue, allowed: &[], changed_results: false }
+        Self { catalogue, allowed: &[], held: &[], changed_results: false }
     }
 
     /// The same for files that may name others below these folders too. Without them a file names
@@ -51,6 +52,27 @@ impl<'c> FileReader<'c> {
     #[must_use]
     pub fn allowing(self, folders: &'c [PathBuf]) -> Self {
         Self { allowed: folders, ..self }
+    }
+
+    /// The same with files in memory: where a file names one of these names, it is this content, and
+    /// nothing is looked for on the disk. So a program hands over tables, samples and saved results
+    /// that it has made itself.
+    ///
+    /// ```
+    /// use std::path::Path;
+    /// use gumption_files::FileReader;
+    ///
+    /// let held = [("lengths.csv".to_owned(), b"L\n1\n2\n".to_vec())];
+    /// let model = r#"{"format": 1, "inputs": {"a": {"unit": "mm", "distribution": "constant", "value": 3}},
+    ///     "conditions": {"file": "lengths.csv", "units": {"L": "mm"}},
+    ///     "equations": {"y": "a + L"}, "outputs": {"y": {"unit": "mm"}}}"#;
+    /// let file = FileReader::default().holding(&held).model_text("m", model, Path::new(""), &[])?;
+    /// assert_eq!(file.task.rows.len(), 2);
+    /// # Ok::<(), gumption_files::Diagnostics>(())
+    /// ```
+    #[must_use]
+    pub fn holding(self, files: &'c [(String, Vec<u8>)]) -> Self {
+        Self { held: files, ..self }
     }
 
     /// The same, taking saved results that were changed since they were written, with a note, where
@@ -70,7 +92,7 @@ impl<'c> FileReader<'c> {
     where
         'c: 'f,
     {
-        Folder::new(path, self.allowed)
+        Folder::new(path, self.allowed).holding(self.held)
     }
 
     /// The measurements that files may name.

@@ -119,16 +119,12 @@ impl<'a> Results<'a> {
             log.report(&place.span, DiagnosticKind::Unreadable { message });
             None
         };
-        let path = match self.folder.file(name) {
-            Ok(path) => path,
-            Err(outside) => {
-                log.report(&place.span, outside);
+        let bytes = match self.folder.content(name, bytes::MOST) {
+            Ok(bytes) => bytes,
+            Err(kind) => {
+                log.report(&place.span, kind);
                 return None;
             }
-        };
-        let bytes = match bytes::of_file(&path, bytes::MOST) {
-            Ok(bytes) => bytes,
-            Err(message) => return unreadable(message),
         };
         let text = match bytes::text(&bytes) {
             Ok(text) => text,

@@ -65,15 +65,8 @@ fn from_file(
         let message = format!("`{file}`: {message}");
         object.log.report(place(object), DiagnosticKind::Unreadable { message });
     };
-    let path = match folder.file(file) {
-        Ok(path) => path,
-        Err(outside) => {
-            object.log.report(place(object), outside);
-            return None;
-        }
-    };
-    let bytes = bytes::of_file(&path, bytes::MOST_OF_SAMPLES);
-    let bytes = bytes.map_err(&unreadable).ok()?;
+    let content = folder.content(file, bytes::MOST_OF_SAMPLES);
+    let bytes = content.map_err(|kind| object.log.report(place(object), kind)).ok()?;
     let text = bytes::text(&bytes).map_err(&unreadable).ok()?;
     let source = SourceText::new(file, &text);
     drop(text);

@@ -1,7 +1,6 @@
 //! Tables of numbers from CSV files, with the place of every cell.
 
 use std::ops::Range;
-use std::path::Path;
 use std::sync::Arc;
 
 use super::diagnostics::Collector;
@@ -46,14 +45,14 @@ pub(super) fn read(
     name: &str,
     named: &Range<usize>,
 ) -> Option<(Table, Vec<u8>)> {
-    let path = match folder.file(name) {
-        Ok(path) => path,
-        Err(outside) => {
-            log.report(named, outside);
+    let bytes = match folder.content(name, bytes::MOST) {
+        Ok(bytes) => bytes,
+        Err(kind) => {
+            log.report(named, kind);
             return None;
         }
     };
-    let kinds = match read_file(&path, name) {
+    let kinds = match read_bytes(bytes, name) {
         Ok(read) => return Some(read),
         Err(kinds) => kinds,
     };
@@ -71,11 +70,7 @@ pub(super) fn read(
 
 /// Reads a table: a header row of names, `,` or `;` (then with decimal commas), lines that begin
 /// with `#` skipped. All faulty cells are returned.
-fn read_file(path: &Path, name: &str) -> Result<(Table, Vec<u8>), PlacedKinds> {
-    let bytes = bytes::of_file(path, bytes::MOST).map_err(|message| {
-        let place = Place { source: SourceText::new(name, ""), span: 0..0 };
-        vec![(place, DiagnosticKind::Unreadable { message })]
-    })?;
+fn read_bytes(bytes: Vec<u8>, name: &str) -> Result<(Table, Vec<u8>), PlacedKinds> {
     let unreadable = |message: String| {
         let place = Place { source: SourceText::new(name, ""), span: 0..0 };
         vec![(place, DiagnosticKind::Unreadable { message })]

@@ -1,5 +1,7 @@
 //! The whole diagnosis, step by step.
 
+use super::composed::Compositions;
+use super::departure_prediction;
 use super::diagnosis::{
     Diagnosis, DiagnosisNote, EstimatedNoise, Hypothesis, NamedQuantity, NoiseEstimate, Predicted,
     RowGap, SerialCorrelation, SuspectValue, UncertaintyFactor,
@@ -65,6 +67,8 @@ pub fn diagnose(
     let Weighed {
         prior_conflicts,
         departure,
+        composed,
+        compositions,
         noise: weighed_noise,
         setup,
         discrepancy,
@@ -97,7 +101,7 @@ pub fn diagnose(
     let step = rows.len().div_ceil(MOST_ROWS).max(1);
     let rows = rows.into_iter().step_by(step).collect();
     let hypotheses = hypotheses(&setup, &posterior, probability);
-    let prediction = at.map(|at| prediction(&setup, &discrepancy, &posterior, at));
+    let prediction = at.map(|at| prediction(&setup, &discrepancy, &posterior, &compositions, at));
     // the test is of the uncertainties as they are stated
     let gap = if setup.data.noise == NoiseModel::default() {
         gap(&setup, verdict.kind)
@@ -137,6 +141,7 @@ pub fn diagnose(
         present,
         prior_conflicts,
         departure,
+        composed,
         notes,
         probability,
         seed,
@@ -189,6 +194,7 @@ pub(crate) fn prediction(
     setup: &Setup<'_>,
     discrepancy: &Discrepancy,
     posterior: &Posterior,
+    compositions: &Compositions,
     rows: &[Row],
 ) -> Vec<Predicted> {
     let outputs = setup.data.outputs.len();
@@ -211,8 +217,10 @@ pub(crate) fn prediction(
         add(hypothesis.probability, &shrink::moments(&values));
     }
     if posterior.probability > 1e-3 {
-        let kinds = shrink::top(&posterior.unexplained.kinds);
-        add(posterior.probability, &discrepancy.predict(setup, kinds, rows));
+        let kinds = &posterior.unexplained.kinds;
+        let normals =
+            departure_prediction::unexplained(setup, discrepancy, kinds, compositions, rows);
+        add(posterior.probability, &normals);
     }
     rows.iter()
         .zip(sums)

@@ -1,5 +1,7 @@
 //! What a diagnosis says.
 
+use super::composed::ComposedEffect;
+
 /// The answer of the gap diagnosis.
 #[derive(Clone, Debug)]
 pub struct Diagnosis {
@@ -34,6 +36,9 @@ pub struct Diagnosis {
     /// What is known of a departure that no candidate makes, most probable form first; empty where
     /// "unexplained" has at most the probability 0.05.
     pub departure: Vec<DepartureForm>,
+    /// Effects that would explain it, composed and not from the list, most probable first; empty where
+    /// "unexplained" has at most the probability 0.05.
+    pub composed: Vec<ComposedEffect>,
     /// What to bear in mind.
     pub notes: Vec<DiagnosisNote>,
     /// Coverage probability of all intervals.

@@ -6,10 +6,12 @@
 
 mod case;
 pub mod check;
+mod composed;
 mod correlated;
 mod covariance;
 mod data;
 mod departure;
+mod departure_prediction;
 mod diagnose;
 mod diagnosis;
 mod differential_evolution;
@@ -42,6 +44,7 @@ mod weighed_noise;
 mod whitened;
 
 pub use case::{Candidate, Case, ObservedOutput, Prior};
+pub use composed::{ComposedEffect, ComposedForm, ComposedParameter, ComposedPrior, ComposedTerm};
 pub use diagnose::{DiagnosisOptions, diagnose};
 pub use diagnosis::{
     DepartureForm, DepartureKind, DepartureOver, DepartureShape, Diagnosis, DiagnosisNote,

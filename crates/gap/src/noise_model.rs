@@ -308,7 +308,7 @@ fn weigh(weighings: &mut [Weighing<'_>]) {
 }
 
 /// The place of the most probable weighing.
-fn most_probable(weighings: &[Weighing<'_>]) -> usize {
+pub(crate) fn most_probable(weighings: &[Weighing<'_>]) -> usize {
     (0..weighings.len())
         .max_by(|&a, &b| weighings[a].probability.total_cmp(&weighings[b].probability))
         .unwrap_or(0)

@@ -64,7 +64,13 @@ pub fn select_model(case: &Case, seed: u64) -> Result<ModelSelection, OverrideEr
     Ok(ModelSelection {
         most_probable: weighed.most_probable(&group),
         hypotheses: hypotheses(&weighed.setup, &weighed.posterior, super::diagnose::coverage(case)),
-        predicted: prediction(&weighed.setup, &weighed.discrepancy, &weighed.posterior, &rows),
+        predicted: prediction(
+            &weighed.setup,
+            &weighed.discrepancy,
+            &weighed.posterior,
+            &weighed.compositions,
+            &rows,
+        ),
         claimed_fraction: shrink::claim(
             &weighed.setup,
             &weighed.discrepancy,

@@ -2,8 +2,10 @@
 
 use rayon::prelude::*;
 
+use super::composed::Compositions;
 use super::data::Data;
 use super::data::by_rows;
+use super::departure_prediction;
 use super::diagnosis::{RowGap, Shrinkage, Shrunk, ValueGap};
 use super::discrepancy::{Base, Discrepancy, Weighted};
 use super::evidence::EvidenceEstimate;
@@ -29,8 +31,8 @@ const MEANINGFUL: f64 = 3.0;
 pub(crate) enum Correction {
     /// Effects, or none of them.
     Effects(Vec<usize>),
-    /// A discrepancy.
-    Unexplained,
+    /// A discrepancy, smooth or composed.
+    Unexplained(Compositions),
 }
 
 /// Shrinkage, and the data row by row. `variances` are those of the noise by value.
@@ -235,8 +237,9 @@ fn in_sample(
                 moments(&predict::values(setup, effects, &draws, rows))
             })
         }
-        Correction::Unexplained => {
-            discrepancy.predict(setup, top(&posterior.unexplained.kinds), rows)
+        Correction::Unexplained(compositions) => {
+            let kinds = &posterior.unexplained.kinds;
+            departure_prediction::unexplained(setup, discrepancy, kinds, compositions, rows)
         }
     }
 }
@@ -365,7 +368,7 @@ fn fold(
                 base: Density::of(&none),
             }
         }
-        Correction::Unexplained => {
+        Correction::Unexplained(compositions) => {
             let discrepancy = discrepancy.for_part(&part, &posterior.unexplained);
             // an effect that acts beside the discrepancy is fitted anew as well
             let base = posterior.unexplained.kinds.first().and_then(|kind| kind.base.as_ref());
@@ -389,7 +392,15 @@ fn fold(
             if let Some(base) = base {
                 found = found.beside(base);
             }
-            let predicted = discrepancy.predict(&part, top(&found.kinds), &rows);
+            // the composed functions and their weights are those of all data; their sizes are not
+            let compositions = compositions.for_part(setup, &part);
+            let predicted = departure_prediction::within(
+                &part,
+                &discrepancy,
+                &found.kinds,
+                &compositions,
+                &rows,
+            );
             let density = Density::Normal(predicted.iter().flatten().copied().collect());
             Fold { predicted, density, base: Density::of(&none) }
         }

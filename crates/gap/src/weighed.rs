@@ -1,11 +1,12 @@
 //! The hypotheses of a case weighed against its data: the most probable one, and those that the data
 //! cannot tell from it.
 
+use super::composed::{self, ComposedEffect, Compositions};
 use super::departure;
 use super::diagnosis::{DepartureForm, HypothesisKind, MostProbable, PriorConflict};
 use super::discrepancy::Discrepancy;
 use super::latent::Role;
-use super::noise_model;
+use super::noise_model::{self, Weighing};
 use super::posterior::{Effort, Posterior};
 use super::predict;
 use super::prior_conflict;
@@ -35,6 +36,11 @@ pub(crate) struct Weighed<'c> {
     pub(crate) prior_conflicts: Vec<PriorConflict>,
     /// What is known of a departure that no candidate makes.
     pub(crate) departure: Vec<DepartureForm>,
+    /// Effects that would make it.
+    pub(crate) composed: Vec<ComposedEffect>,
+    /// The same as far as they count in predictions: those that were composed with the noise that is
+    /// most probable.
+    pub(crate) compositions: Compositions,
     /// What the noise may be.
     pub(crate) noise: WeighedNoise,
     /// With the noise that is most probable.
@@ -66,6 +72,7 @@ impl<'c> Weighed<'c> {
             prior_conflict::conflicts(case, &weighings, super::diagnose::coverage(case));
         let noise = WeighedNoise::of(&weighings);
         let departure = departure::forms(&weighings);
+        let (composed, compositions) = composed(&weighings);
         let (setup, discrepancy, posterior) = noise_model::summed(weighings);
         let best = (0..posterior.hypotheses.len())
             .max_by(|&a, &b| {
@@ -76,13 +83,15 @@ impl<'c> Weighed<'c> {
         let correction = if explained {
             Correction::Effects(posterior.hypotheses[best].effects.clone())
         } else {
-            Correction::Unexplained
+            Correction::Unexplained(compositions.clone())
         };
         let variances = noise_variances(&setup, &posterior, best, explained);
         Self {
             prior_conflict,
             prior_conflicts,
             departure,
+            composed,
+            compositions,
             noise,
             setup,
             discrepancy,
@@ -114,6 +123,22 @@ impl<'c> Weighed<'c> {
             && self.prior_conflicts.iter().any(|of| verdict.effects == [of.effect.as_str()]);
         verdict
     }
+}
+
+/// Departures that are composed where "unexplained" is probable; those for predictions as well, where
+/// the noise that it is probable with is the most probable one.
+fn composed(weighings: &[Weighing<'_>]) -> (Vec<ComposedEffect>, Compositions) {
+    let unexplained = departure::probability(weighings);
+    let leading = departure::leading(weighings);
+    let Some(weighing) = weighings.get(leading).filter(|_| unexplained > departure::WORTH_TELLING)
+    else {
+        return (Vec::new(), Compositions::default());
+    };
+    let Weighing { setup, discrepancy, posterior, .. } = weighing;
+    let found = composed::compose(setup, discrepancy, posterior);
+    let effects = found.effects(setup, unexplained);
+    let same = noise_model::most_probable(weighings) == leading;
+    (effects, if same { found } else { Compositions::default() })
 }
 
 /// Variance of the noise by value: stated, or estimated with the best hypothesis.

@@ -10,7 +10,7 @@ use gumption_engine::propagate::gum::Dof;
 use gumption_engine::propagate::{OutputEvaluation, RowEvaluation};
 use gumption_engine::task::Task;
 
-const COLUMNS: [&str; 18] = [
+const COLUMNS: [&str; 19] = [
     "output",
     "unit",
     "gum_estimate",
@@ -29,6 +29,7 @@ const COLUMNS: [&str; 18] = [
     "mc_shortest_low",
     "mc_shortest_high",
     "gum_valid",
+    "equation",
 ];
 
 /// The results as comma-separated values: a header, then one line for each output in each row of
@@ -75,8 +76,16 @@ fn records<'a>(task: &'a Task, row: &'a RowEvaluation) -> impl Iterator<Item = V
         record.push(text(&output.quantity.name));
         record.push(text(output.quantity.unit.text()));
         record.extend(cells(figures));
+        record.push(equation(task, &output.quantity.name));
         record
     })
+}
+
+/// The equation of an output, if it has one.
+fn equation(task: &Task, output: &str) -> String {
+    let mut equations = task.statement.equations.iter();
+    let own = equations.find(|(name, _)| name == output);
+    own.map_or_else(String::new, |(_, equation)| text(equation))
 }
 
 fn cells(output: &OutputEvaluation) -> [String; 16] {

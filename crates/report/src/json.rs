@@ -6,6 +6,7 @@ use serde::{Serialize, Serializer};
 
 use super::EvaluationReport;
 use super::answer::{in_order, pretty, write_pretty};
+use super::json_inputs::{Inputs, RowInputs, varying};
 use super::subtotals::Subtotals;
 use gumption_engine::propagate::gum::{BudgetLine, CorrelationLine, Dof, Gum};
 use gumption_engine::propagate::monte_carlo::{MonteCarlo, NumericalError};
@@ -39,10 +40,27 @@ struct Answer<'a> {
     coverage_probability: f64,
     #[serde(skip_serializing_if = "is_false")]
     stopped: bool,
+    source: Option<&'a str>,
+    model: Option<ModelSide<'a>>,
+    #[serde(serialize_with = "in_order")]
+    equations: &'a [(String, String)],
+    inputs: Inputs<'a>,
     #[serde(flatten)]
     results: Results<'a>,
     warnings: Vec<Remark<'a>>,
     provenance: Origin<'a>,
+}
+
+/// The typed model that was evaluated.
+#[derive(Serialize)]
+struct ModelSide<'a> {
+    name: &'a str,
+    source: Option<&'a str>,
+}
+
+/// A text that is not empty.
+fn given(text: &str) -> Option<&str> {
+    Some(text.trim()).filter(|text| !text.is_empty())
 }
 
 #[derive(Serialize)]
@@ -61,11 +79,13 @@ struct Rows<'a> {
 impl Serialize for Rows<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let Self { task, evaluation } = *self;
-        serializer.collect_seq(evaluation.rows.iter().map(|row| {
+        let varying = varying(task);
+        serializer.collect_seq(evaluation.rows.iter().enumerate().map(|(number, row)| {
             let names = task.model.conditions.iter().map(|condition| condition.name.as_str());
             let conditions = names.zip(row.conditions.iter().copied()).collect();
             let figures = Figures::of(task, row, evaluation.stopped);
-            Row { conditions, figures }
+            let inputs = RowInputs { task, row: number, varying: &varying };
+            Row { conditions, inputs, figures }
         }))
     }
 }
@@ -74,6 +94,8 @@ impl Serialize for Rows<'_> {
 struct Row<'a> {
     #[serde(serialize_with = "in_order")]
     conditions: Vec<(&'a str, f64)>,
+    #[serde(skip_serializing_if = "RowInputs::is_empty")]
+    inputs: RowInputs<'a>,
     #[serde(flatten)]
     figures: Figures<'a>,
 }
@@ -485,6 +507,14 @@ impl<'a> Answer<'a> {
             title: &task.title,
             coverage_probability: evaluation.coverage_probability,
             stopped: evaluation.stopped,
+            source: given(&task.source),
+            model: task
+                .statement
+                .name
+                .as_deref()
+                .map(|name| ModelSide { name, source: given(&task.statement.source) }),
+            equations: &task.statement.equations,
+            inputs: Inputs { task },
             results,
             warnings: warnings.iter().map(Remark::of).collect(),
             provenance: Origin {

@@ -13,13 +13,16 @@ mod evaluation;
 pub mod gap;
 mod html;
 mod json;
+mod json_inputs;
 pub mod number;
 pub mod observe;
+pub mod plan;
 mod plot;
 pub mod reference;
 mod samples;
 mod saved;
 mod sheet;
+mod statement;
 mod subtotals;
 mod table;
 pub mod verification;
@@ -30,13 +33,14 @@ pub use csv::{csv, write_csv};
 pub use evaluation::{MOST_RESULTS, Shown, histograms, html, latex, markdown, xlsx};
 pub use json::{json, write_json};
 pub use samples::TrialsForm;
-pub use saved::saved;
+pub use saved::{SaveError, saved, saved_result};
 pub use table::Grid;
 pub use table::WIDTH;
 pub(crate) use table::conditions_text;
 pub use table::{BudgetColumn, TableStyle, table, write_table};
 pub use table::{grouped, plain, wrapped};
 
+use gumption_analysis::integrity::sha256;
 use gumption_engine::propagate::Evaluation;
 use gumption_engine::task::{Task, Warning};
 
@@ -47,6 +51,14 @@ pub struct Provenance {
     pub model_sha256: String,
     /// SHA-256 of every other file that was read, by its name as the model file has it.
     pub files: Vec<(String, String)>,
+}
+
+impl Provenance {
+    /// The digests of a model file's text and of the files that it names, each with its content.
+    pub fn of(text: &str, files: &[(String, Vec<u8>)]) -> Self {
+        let digests = files.iter().map(|(name, bytes)| (name.clone(), sha256(bytes)));
+        Self { model_sha256: sha256(text.as_bytes()), files: digests.collect() }
+    }
 }
 
 /// Everything that a report may show.

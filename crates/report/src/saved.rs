@@ -1,5 +1,6 @@
 //! Result files: what a later evaluation needs to take an output for an input.
 
+use std::fmt;
 use std::io;
 
 use serde::Serialize;
@@ -12,7 +13,10 @@ use gumption_analysis::integrity;
 use gumption_engine::distribution::{RootName, Scores};
 use gumption_engine::propagate::gum::Dof;
 use gumption_engine::propagate::monte_carlo::MonteCarlo;
-use gumption_engine::propagate::{Origins, OutputEvaluation, RowEvaluation};
+use gumption_engine::propagate::{
+    Control, EvaluationError, Origins, OutputEvaluation, RowEvaluation, joint_ranks, linear,
+    origins, quantiles,
+};
 use gumption_engine::task::Task;
 
 /// The result file of an evaluation's first row. `quantiles` are those of each output's trials over
@@ -42,6 +46,83 @@ pub fn saved(
         file.serialize(&mut Serializer::with_formatter(bytes, Layout::default()))
     };
     in_memory(written) + "\n"
+}
+
+/// Why there is no result file.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum SaveError {
+    /// The task has several rows of conditions, or none.
+    Rows,
+    /// There are no trials.
+    NoTrials,
+    /// An output has no standard uncertainty by either method.
+    NoUncertainty {
+        /// Its name.
+        output: String,
+    },
+    /// The trials cannot be made again.
+    Evaluation(EvaluationError),
+}
+
+impl fmt::Display for SaveError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Rows => f.write_str(
+                "a saved result has one result for each output, but the model has several rows of \
+                 conditions; evaluate one row at a time",
+            ),
+            Self::NoTrials => {
+                f.write_str("a saved result needs Monte Carlo trials, but their number is 0")
+            }
+            Self::NoUncertainty { output } => {
+                write!(f, "`{output}` has no standard uncertainty by either method")
+            }
+            Self::Evaluation(error) => error.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for SaveError {}
+
+impl From<EvaluationError> for SaveError {
+    fn from(error: EvaluationError) -> Self {
+        Self::Evaluation(error)
+    }
+}
+
+/// The result file of a finished run, whose trials are made again for it ([`saved`]); `None` if that
+/// is stopped.
+///
+/// # Errors
+/// [`SaveError`].
+pub fn saved_result(
+    report: &EvaluationReport<'_>,
+    control: &Control<'_>,
+) -> Result<Option<String>, SaveError> {
+    let EvaluationReport { task, evaluation, provenance, .. } = *report;
+    let ([row], [evaluated]) = (&*task.rows, &*evaluation.rows) else {
+        return Err(SaveError::Rows);
+    };
+    if evaluated.outputs.iter().any(|output| output.monte_carlo.is_none()) {
+        return Err(SaveError::NoTrials);
+    }
+    for (output, found) in task.model.outputs.iter().zip(&evaluated.outputs) {
+        let spread = found.monte_carlo.as_ref().and_then(|m| m.standard_uncertainty);
+        if linear(found).is_none() && spread.is_none() {
+            return Err(SaveError::NoUncertainty { output: output.quantity.name.clone() });
+        }
+    }
+    let scores: Vec<f64> = Scores::WRITTEN.values().collect();
+    let Some(quantiles) = quantiles(task, evaluation, 0, &scores, control)? else {
+        return Ok(None);
+    };
+    let Some(ranks) = joint_ranks(task, evaluation, 0, control)? else {
+        return Ok(None);
+    };
+    let gums: Vec<_> = evaluated.outputs.iter().map(linear).collect();
+    let origins = origins(task, row, &gums, &provenance.model_sha256);
+    Ok(Some(saved(report, &origins, &quantiles, &ranks)))
 }
 
 #[derive(Serialize)]

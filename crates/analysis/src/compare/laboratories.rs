@@ -10,6 +10,7 @@ use std::fmt;
 
 use nalgebra::{DMatrix, DVector};
 
+use super::consensus::{self, ConsensusValue, Estimator};
 use super::pair::StatedResult;
 use super::subset::{self, SubsetSearch};
 use super::{FACTOR, probability};
@@ -80,8 +81,13 @@ pub struct DegreeOfEquivalence {
 pub struct Comparison {
     /// The weighted mean of all.
     pub all: ReferenceValue,
-    /// The reference value: that mean, or that of the largest consistent subset.
+    /// The reference value: unless another estimator is asked for that mean, or that of the largest
+    /// consistent subset.
     pub reference: ReferenceValue,
+    /// How the reference value was made.
+    pub estimator: Estimator,
+    /// What every estimator gives; without the largest consistent subset where all are consistent.
+    pub estimators: Vec<ConsensusValue>,
     /// How the subset was found; `None` where all are consistent.
     pub search: Option<SubsetSearch>,
     /// One entry for each laboratory.
@@ -112,10 +118,10 @@ impl fmt::Display for Impossible {
 impl std::error::Error for Impossible {}
 
 /// Values with their covariance matrix.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Results {
-    values: Vec<f64>,
-    covariance: DMatrix<f64>,
+    pub(super) values: Vec<f64>,
+    pub(super) covariance: DMatrix<f64>,
 }
 
 impl Results {
@@ -218,6 +224,19 @@ pub fn compare(
     laboratories: &[Laboratory],
     correlations: &[Vec<f64>],
 ) -> Result<Comparison, Impossible> {
+    compare_by(laboratories, correlations, None)
+}
+
+/// The same with the reference value of an estimator, and degrees of equivalence from that. Those of
+/// Birge and of the random-effects models take the uncertainties as the estimator widens them.
+///
+/// # Errors
+/// As [`compare`].
+pub fn compare_by(
+    laboratories: &[Laboratory],
+    correlations: &[Vec<f64>],
+    wanted: Option<Estimator>,
+) -> Result<Comparison, Impossible> {
     if laboratories.len() < 2 {
         return Err(Impossible::TooFew);
     }
@@ -233,12 +252,36 @@ pub fn compare(
     };
     let everybody: Vec<usize> = (0..n).collect();
     let all = results.reference(&everybody).ok_or(Impossible::NotDefinite)?;
-    let (reference, search) = if all.is_consistent() {
-        (all.clone(), None)
+    let subset = if all.is_consistent() {
+        None
     } else {
-        let (found, search) = subset::largest(&results, n).ok_or(Impossible::NotDefinite)?;
-        (found, Some(search))
+        Some(subset::largest(&results, n).ok_or(Impossible::NotDefinite)?)
     };
+    let (subset, search) = subset.unzip();
+    let estimator = match wanted {
+        Some(Estimator::LargestConsistentSubset) | None if subset.is_some() => {
+            Estimator::LargestConsistentSubset
+        }
+        Some(Estimator::LargestConsistentSubset) | None => Estimator::WeightedMean,
+        Some(wanted) => wanted,
+    };
+    let mut estimators = Vec::new();
+    // the results with the uncertainties that the reference value was made with
+    let mut taken = None;
+    for candidate in Estimator::ALL {
+        let (value, results) = match (candidate, &subset) {
+            (Estimator::LargestConsistentSubset, None) => continue,
+            (Estimator::LargestConsistentSubset, Some(found)) => {
+                (ConsensusValue::plain(candidate, found.clone()), results.clone())
+            }
+            _ => consensus::estimated(&results, candidate)?,
+        };
+        if candidate == estimator {
+            taken = Some((value.reference.clone(), results));
+        }
+        estimators.push(value);
+    }
+    let (reference, results) = taken.ok_or(Impossible::NotDefinite)?;
     let rows = laboratories.iter().enumerate().map(|(number, laboratory)| {
         let difference = laboratory.result.value - reference.value;
         let u = results.of_difference(number, &reference.members)?;
@@ -255,7 +298,7 @@ pub fn compare(
         })
     });
     let rows = rows.collect::<Option<Vec<DegreeOfEquivalence>>>().ok_or(Impossible::NotDefinite)?;
-    Ok(Comparison { all, reference, search, rows })
+    Ok(Comparison { all, reference, estimator, estimators, search, rows })
 }
 
 #[cfg(test)]

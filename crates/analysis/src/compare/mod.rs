@@ -1,10 +1,12 @@
 //! Results of one quantity compared: two by two ([`pair`]), and those of many laboratories with a
-//! reference value ([`laboratories`]).
+//! reference value ([`laboratories`]; where they disagree [`consensus`]).
 
+pub mod consensus;
 pub mod laboratories;
 pub mod pair;
 mod subset;
 
+pub use consensus::{ConsensusValue, Estimator, HartungKnapp};
 pub use laboratories::{Comparison, DegreeOfEquivalence, Impossible, Laboratory};
 pub use pair::{ComparedPair, ResultPair, StatedResult};
 

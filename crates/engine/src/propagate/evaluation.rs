@@ -386,10 +386,9 @@ fn evaluate_row(
         second = second_order(task, row, &linear);
         gums = std::mem::take(&mut linear.outputs);
     }
-    let noiseless = noiseless(task, row, &joint, &drawn_dof);
     let evaluated = gums.into_iter().zip(figures).zip(drawn_dof).zip(&task.model.outputs);
-    let evaluated = evaluated.zip(second).zip(noiseless);
-    for (((((gum, monte_carlo), drawn_dof), output), second_order), noiseless) in evaluated {
+    let evaluated = evaluated.zip(second).enumerate();
+    for (number, ((((gum, monte_carlo), drawn_dof), output), second_order)) in evaluated {
         // only where there is something to say
         let second_order = second_order.filter(|second| {
             gum.as_ref().is_some_and(|gum| {
@@ -402,6 +401,10 @@ fn evaluate_row(
             (Some(gum), Some(figures)) => validate(gum, figures, task.settings.digits),
             _ => None,
         };
+        // where the law of propagation holds, nobody states other figures
+        let needed = gum.is_none() || validation.is_none_or(|v| v.gum_valid != Some(true));
+        let problem = exact::Problem { task, row, joint: &joint, output: number, drawn_dof };
+        let noiseless = noiseless(&problem, needed);
         let conformity = monte_carlo.as_ref().and_then(|figures| {
             let u = gum.as_ref().map(|gum| gum.standard_uncertainty);
             let trusted = validation.is_some_and(|v| v.gum_valid != Some(false));
@@ -427,41 +430,33 @@ fn evaluate_row(
 const MANY_TRIALS: u64 = 100_000;
 const FEW_EXACT_ROWS: usize = 100;
 
-/// The figures of all outputs without the noise of trials, as far as they are asked for.
-fn noiseless(
-    task: &Task,
-    row: &Row,
-    joint: &Joint,
-    drawn_dof: &[f64],
-) -> Vec<Option<Result<Box<Noiseless>, String>>> {
+/// The figures of an output without the noise of trials, as far as they are asked for; `needed` is
+/// whether dear ones are worth it where nobody asked for them alone.
+fn noiseless(problem: &exact::Problem<'_>, needed: bool) -> Option<Result<Box<Noiseless>, String>> {
+    let task = problem.task;
     let settings = &task.settings;
-    let wanted = match settings.method {
-        None | Some(MethodChoice::MonteCarlo) => None,
-        Some(MethodChoice::Auto) => {
-            let dear = match settings.trials {
-                Trials::Fixed(0) => true,
-                Trials::Fixed(trials) => trials < MANY_TRIALS && task.rows.len() > FEW_EXACT_ROWS,
-                Trials::Adaptive => false,
-            };
-            (!dear).then_some(MethodChoice::Auto)
-        }
-        some => some,
-    };
-    let Some(wanted) = wanted else {
-        return vec![None; drawn_dof.len()];
-    };
-    let each = drawn_dof.iter().enumerate().map(|(output, &drawn_dof)| {
-        let problem = exact::Problem { task, row, joint, output, drawn_dof };
-        let found = match wanted {
-            MethodChoice::Quasi => quasi::evaluate(&problem),
-            MethodChoice::Auto if settings.quasi_otherwise => {
-                exact::evaluate(&problem).or_else(|_| quasi::evaluate(&problem))
-            }
-            _ => exact::evaluate(&problem),
+    let wanted = settings.method.filter(|wanted| *wanted != MethodChoice::MonteCarlo)?;
+    if wanted == MethodChoice::Auto {
+        let dear = match settings.trials {
+            Trials::Fixed(0) => true,
+            Trials::Fixed(trials) => trials < MANY_TRIALS && task.rows.len() > FEW_EXACT_ROWS,
+            Trials::Adaptive => false,
         };
-        Some(found.map(Box::new))
-    });
-    each.collect()
+        if dear {
+            return None;
+        }
+    }
+    if task.function.is_some() {
+        return Some(Err("the model's function is not recorded".to_owned()));
+    }
+    let found = match wanted {
+        MethodChoice::Quasi => quasi::evaluate(problem),
+        MethodChoice::Auto if settings.quasi_otherwise && needed => {
+            exact::evaluate(problem).or_else(|_| quasi::evaluate(problem))
+        }
+        _ => exact::evaluate(problem),
+    };
+    Some(found.map(Box::new))
 }
 
 /// A difference of two standard uncertainties below this share is not worth a word.

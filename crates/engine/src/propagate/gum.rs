@@ -172,6 +172,31 @@ impl<'a> Rows<'a> {
     }
 }
 
+/// The law of propagation at the estimates of a row, for other uncertainties of the inputs: the
+/// sensitivity coefficients are computed once.
+#[derive(Debug)]
+pub struct AtEstimates<'a> {
+    rows: Rows<'a>,
+    row: &'a Row,
+    linear: Linear,
+}
+
+impl<'a> AtEstimates<'a> {
+    /// At the estimates of a row of a task.
+    pub fn of(task: &'a Task, row: &'a Row) -> Self {
+        let rows = Rows::of(task);
+        let linear = rows.gradients.one(row);
+        Self { rows, row, linear }
+    }
+
+    /// The outputs with other distributions of the same estimates, as many as the task has variables;
+    /// `None` as for [`GumRow::outputs`].
+    pub fn with(&self, distributions: Arc<[Arc<Distribution>]>) -> Vec<Option<Gum>> {
+        let row = Row { conditions: self.row.conditions.clone(), distributions };
+        self.rows.evaluate_from(&row, self.linear.clone()).outputs
+    }
+}
+
 impl GumRow {
     /// The sensitivity coefficients of an output.
     pub(crate) fn gradient(&self, output: usize) -> Option<&[f64]> {
@@ -209,7 +234,7 @@ impl GumRow {
 /// The coefficients that say something: not zero, between quantities that vary. Between saved
 /// results it is that of the law of propagation, so that what is computed from them is as if
 /// computed at once.
-fn effective(
+pub(super) fn effective(
     correlations: &[Correlation],
     distributions: &[Arc<Distribution>],
 ) -> Vec<Correlation> {

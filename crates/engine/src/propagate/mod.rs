@@ -11,6 +11,7 @@ mod density;
 mod evaluation;
 mod exact;
 pub mod gum;
+mod input_figures;
 pub mod monte_carlo;
 mod origins;
 mod quasi;
@@ -28,6 +29,7 @@ pub use evaluation::{
     RowEvaluation, evaluate, trial_hash,
 };
 pub use exact::{Accuracy, Noiseless, Scatter};
+pub use input_figures::InputFigures;
 pub use origins::{Origins, linear, origins};
 pub use replay::{for_each_block, histograms, joint_ranks, quantiles};
 pub use second_order::SecondOrder;

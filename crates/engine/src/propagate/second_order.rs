@@ -38,7 +38,8 @@ pub(super) fn second_order(task: &Task, row: &Row, first: &GumRow) -> Vec<Option
         .enumerate()
         .filter(|(_, u)| *u > 0.0)
         .collect();
-    if first.is_correlated() || varying.len() > MOST_INPUTS {
+    // differences of differences would tell little
+    if first.is_correlated() || varying.len() > MOST_INPUTS || task.function.is_some() {
         return vec![None; count];
     }
     let coarse = at_step(task, row, first, &varying, STEP);

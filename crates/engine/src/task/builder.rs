@@ -4,7 +4,7 @@ use std::collections::{HashMap, HashSet};
 use std::fmt;
 use std::sync::Arc;
 
-use super::{Coverage, Row, Settings, Sharing, Task, TaskError, Trials, Variable};
+use super::{Coverage, ModelStatement, Row, Settings, Sharing, Task, TaskError, Trials, Variable};
 use crate::distribution::{Correlation, Distribution, Input, Invalid};
 use crate::model::formula::{Formula, ScaleMisfit, Scope, Typing, check_name};
 use crate::model::typed::{Measurement, Typed};
@@ -273,8 +273,13 @@ impl TaskBuilder {
         let variables = self.variables(&model)?;
         let correlations = self.correlations(&variables)?;
         let rows = self.known_rows(&model, &variables)?;
+        let statement = match &self.typed {
+            Some(typed) => ModelStatement::of_declaration(&typed.declaration),
+            None => ModelStatement::of_formulas(self.equations),
+        };
         let task = Task {
             title: self.title,
+            statement,
             correlations,
             settings: self.settings,
             ..Task::new(model, variables, rows)

@@ -5,8 +5,10 @@ mod builder;
 mod coverage;
 mod error;
 mod evidence;
+mod function;
 mod settings;
 mod sharing;
+mod statement;
 #[cfg(test)]
 mod tests;
 mod warning;
@@ -15,8 +17,11 @@ pub use builder::TaskBuilder;
 pub use coverage::Coverage;
 pub use error::TaskError;
 pub use evidence::Evidence;
+pub use function::ColumnFunction;
+pub(crate) use function::differences;
 pub use settings::{MethodChoice, Settings, StoppingRule, Trials};
 pub use sharing::Sharing;
+pub use statement::ModelStatement;
 pub use warning::Warning;
 
 use std::sync::Arc;
@@ -61,6 +66,10 @@ pub struct Row {
 pub struct Task {
     /// Title, for reports.
     pub title: String,
+    /// The document that the measurement follows, for reports.
+    pub source: String,
+    /// The equations in words, for reports.
+    pub statement: ModelStatement,
     /// The model. Its program's variables are [`Task::variables`], then the conditions.
     pub model: Model,
     /// The random variables.
@@ -75,6 +84,8 @@ pub struct Task {
     pub settings: Settings,
     /// The joint draws found so far.
     pub fits: Fits,
+    /// What computes the outputs in place of the model's program, where it cannot be recorded.
+    pub function: Option<Arc<dyn ColumnFunction>>,
 }
 
 impl Variable {
@@ -99,6 +110,8 @@ impl Task {
     pub fn new(model: Model, variables: Vec<Variable>, rows: Vec<Row>) -> Self {
         Self {
             title: String::new(),
+            source: String::new(),
+            statement: ModelStatement::default(),
             swept: !model.conditions.is_empty(),
             model,
             variables,
@@ -106,6 +119,7 @@ impl Task {
             rows,
             settings: Settings::default(),
             fits: Fits::default(),
+            function: None,
         }
     }
 

@@ -124,7 +124,26 @@ pub(crate) const EFFECT: &[Key] = keys![
     "overrides" => overrides(),
     "about" => text_of("What it is, in words."),
     "source" => text_of("Where it comes from."),
+    // what `gumption gap` says of an effect that it composed, so that the entry of the answer can
+    // stand here as it is
+    "name" => of_composed(),
+    "quantity" => of_composed(),
+    "kind" => of_composed(),
+    "over" => of_composed(),
+    "form" => of_composed(),
+    "terms" => of_composed(),
+    "beside" => of_composed(),
+    "estimates" => of_composed(),
+    "probability" => of_composed(),
+    "shrinks" => of_composed(),
 ];
+
+fn of_composed() -> Value {
+    object([(
+        "description",
+        Value::from("From the answer of `gumption gap`, of an effect that was composed; not read."),
+    )])
+}
 
 fn effect() -> Value {
     let offset = object([

@@ -3,6 +3,7 @@
 
 mod case;
 mod certificate;
+mod costs;
 mod model_file;
 mod node;
 mod recipe;
@@ -16,6 +17,7 @@ use serde_json::Value;
 
 pub(crate) use case::{EFFECT, OBSERVATIONS, OBSERVED, PRIOR};
 pub(crate) use certificate::{CERTIFICATE, CERTIFICATE_KEYS, CERTIFICATE_ROW, DEVICE, PARTY};
+pub(crate) use costs::{COST, COSTS, COSTS_KEY, OFFER};
 pub(crate) use model_file::{
     CONDITION, CORRELATION_MATRIX, MODEL, MONTE_CARLO, OUTPUT, TABLE_OF_CONDITIONS, TOLERANCE,
 };
@@ -48,6 +50,7 @@ pub(crate) fn schema(effects: &BTreeSet<String>) -> Value {
     let mut definitions = model_file::definitions();
     definitions.extend(case::definitions(effects));
     definitions.extend(certificate::definitions());
+    definitions.extend(costs::definitions());
     definitions.extend(recipe::definitions());
     definitions.extend(result_file::definitions());
     definitions.extend(shapes::definitions());
@@ -61,7 +64,7 @@ pub(crate) fn schema(effects: &BTreeSet<String>) -> Value {
                 "Files of gumption, format 1. Model files: a measurement with what is known about \
                  its inputs, to be evaluated by the GUM and by Monte Carlo; with observations a case \
                  of the gap diagnosis. Certificate files: which results of which models are stated. \
-                 Recipes: what is taken from which recordings. Result files: what an evaluation found, to be the input of another one.",
+                 Recipes: what is taken from which recordings. Files of costs: what improvements of inputs cost. Result files: what an evaluation found, to be the input of another one.",
             ),
         ),
         ("if", with_key("result")),
@@ -74,9 +77,16 @@ pub(crate) fn schema(effects: &BTreeSet<String>) -> Value {
                 (
                     "else",
                     object([
-                        ("if", certificate::meant()),
-                        ("then", reference("certificate")),
-                        ("else", reference("model")),
+                        ("if", costs::meant()),
+                        ("then", reference("costs")),
+                        (
+                            "else",
+                            object([
+                                ("if", certificate::meant()),
+                                ("then", reference("certificate")),
+                                ("else", reference("model")),
+                            ]),
+                        ),
                     ]),
                 ),
             ]),

@@ -65,7 +65,7 @@ pub(crate) const MODEL: &[Key] = keys![
             Value::from(
                 "Which figures stand beside those of the trials: `exact` ones of sums and products \
                  of independent contributions, those of `quasi`-random points, none with \
-                 `monte-carlo`; `auto`, which is the default, takes exact ones where there are any.",
+                 `monte-carlo`, which is the default; `auto` takes exact ones where there are any.",
             ),
         ),
         ("enum", texts(["auto", "monte-carlo", "exact", "quasi"])),

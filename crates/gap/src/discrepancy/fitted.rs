@@ -29,7 +29,7 @@ use gumption_engine::linalg::packed::{self, triangle};
 use gumption_engine::number::elementary;
 
 /// Points of the integral over the logarithm of the amplitude.
-const STEPS: usize = 14;
+pub(super) const STEPS: usize = 14;
 
 /// Half the step of differences in the scores, by which a quantity's map is differentiated.
 const STEP: f64 = 1e-4;

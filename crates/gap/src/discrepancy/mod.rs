@@ -13,6 +13,7 @@ mod prediction;
 pub(crate) use features::Axes;
 pub(crate) use form::{Form, forms};
 pub(crate) use grammar::{Of, Term};
+pub(crate) use prediction::{conditioned, nominal};
 
 use std::sync::Arc;
 
@@ -43,6 +44,11 @@ pub(crate) fn amplitudes() -> impl Iterator<Item = f64> {
         let share = (step as f64 + 0.5) / AMPLITUDE_STEPS as f64;
         lower * elementary::pow(upper / lower, share)
     })
+}
+
+/// How many amplitudes the integral has, with the noise estimated or known.
+pub(crate) fn amplitude_steps(fitted: bool) -> usize {
+    if fitted { fitted::STEPS } else { AMPLITUDE_STEPS }
 }
 
 /// The forms of a discrepancy for a design, ready for any data of it.

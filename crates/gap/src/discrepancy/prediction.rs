@@ -25,9 +25,8 @@ impl Discrepancy {
                 nominal: nominal.clone(),
             })
             .collect();
-        let shared: Vec<usize> = (0..setup.case.task.variables.len())
-            .filter(|&v| setup.spread.shared[v].is_none())
-            .collect();
+        let gradients: Vec<Vec<Vec<f64>>> =
+            nominals.iter().map(|(_, gradients)| gradients.clone()).collect();
         let total: f64 = kinds.iter().map(|kind| kind.weight).sum();
         let mut sums = vec![vec![(0.0, 0.0); outputs]; rows.len()];
         for kind in kinds {
@@ -54,55 +53,24 @@ impl Discrepancy {
             let coordinates = Coordinates::new(&form.term, &self.axes, &sites, outputs);
             let roots = coordinates.roots(&form.term, form.length, &form.nodes);
             let there = coordinates.features(&roots, rows.len() * outputs) * form.scale;
-            // coefficients: one for each shared input, then those of the discrepancy
             let features = form.features(setup, &self.axes);
-            let m = features.ncols();
-            let order = shared.len() + m;
-            let effect = |gradients: &[Vec<f64>], row: &Row, output: usize, v: usize| {
-                let deviation = row.distributions[v].standard_deviation();
-                gradients[output][v] * if deviation.is_finite() { deviation } else { 0.0 }
+            let Some(found) = conditioned(
+                setup,
+                variances,
+                &residuals,
+                &(kind.multiplier * features.as_ref()),
+                rows,
+                &gradients,
+                &(kind.multiplier * there),
+            ) else {
+                continue;
             };
-            let mut design = DMatrix::zeros(plain.len(), order);
-            for (row, &id) in setup.data.ids.iter().enumerate() {
-                let point = &setup.data.points[setup.data.point_of[row]];
-                for output in 0..outputs {
-                    let value = row * outputs + output;
-                    let weight = variances[value].sqrt().recip();
-                    for (j, &v) in shared.iter().enumerate() {
-                        let own = effect(&point.gradients, &setup.case.task.rows[id], output, v);
-                        design[(value, j)] = own * weight;
-                    }
-                    for j in 0..m {
-                        design[(value, shared.len() + j)] =
-                            kind.multiplier * features[(value, j)] * weight;
-                    }
-                }
-            }
-            let white = DVector::from_iterator(
-                residuals.len(),
-                residuals.iter().zip(variances.iter()).map(|(r, v)| r / v.sqrt()),
-            );
-            let precision = design.tr_mul(&design) + DMatrix::identity(order, order);
-            let Some(root) = precision.cholesky() else { continue };
-            let coefficients = root.solve(&design.tr_mul(&white));
-            let lower = root.l();
-            for (row, (_, gradients)) in nominals.iter().enumerate() {
-                for output in 0..outputs {
-                    let value = row * outputs + output;
-                    let mut features = DVector::zeros(order);
-                    for (j, &v) in shared.iter().enumerate() {
-                        features[j] = effect(gradients, &rows[row], output, v);
-                    }
-                    for j in 0..m {
-                        features[shared.len() + j] = kind.multiplier * there[(value, j)];
-                    }
-                    let mean = sims[value] + features.dot(&coefficients);
-                    let half = lower.solve_lower_triangular(&features);
-                    // what the nodes do not determine of the function is left at its prior variance
-                    let variance = half.map_or(0.0, |half| half.norm_squared());
-                    sums[row][output].0 += share * mean;
-                    sums[row][output].1 += share * (variance + mean * mean);
-                }
+            for (value, (shift, variance)) in found.into_iter().enumerate() {
+                // what the nodes do not determine of the function is left at its prior variance
+                let mean = sims[value] + shift;
+                let sum = &mut sums[value / outputs][value % outputs];
+                sum.0 += share * mean;
+                sum.1 += share * (variance + mean * mean);
             }
         }
         for of_row in &mut sums {
@@ -114,8 +82,73 @@ impl Discrepancy {
     }
 }
 
+/// What shared inputs and functions, whose factors are standard normal, add to the model in rows after
+/// residuals of the data: means and variances by value. `features` are the functions at the data,
+/// `there` in the rows, `gradients` the model's derivatives there, `variances` those of the noise.
+pub(crate) fn conditioned(
+    setup: &Setup<'_>,
+    variances: &[f64],
+    residuals: &[f64],
+    features: &DMatrix<f64>,
+    rows: &[Row],
+    gradients: &[Vec<Vec<f64>>],
+    there: &DMatrix<f64>,
+) -> Option<Vec<(f64, f64)>> {
+    let outputs = setup.data.outputs.len();
+    let shared: Vec<usize> = (0..setup.case.task.variables.len())
+        .filter(|&v| setup.spread.shared[v].is_none())
+        .collect();
+    // coefficients: one for each shared input, then those of the functions
+    let m = features.ncols();
+    let order = shared.len() + m;
+    let effect = |gradients: &[Vec<f64>], row: &Row, output: usize, v: usize| {
+        let deviation = row.distributions[v].standard_deviation();
+        gradients[output][v] * if deviation.is_finite() { deviation } else { 0.0 }
+    };
+    let mut design = DMatrix::zeros(residuals.len(), order);
+    for (row, &id) in setup.data.ids.iter().enumerate() {
+        let point = &setup.data.points[setup.data.point_of[row]];
+        for output in 0..outputs {
+            let value = row * outputs + output;
+            let weight = variances[value].sqrt().recip();
+            for (j, &v) in shared.iter().enumerate() {
+                let own = effect(&point.gradients, &setup.case.task.rows[id], output, v);
+                design[(value, j)] = own * weight;
+            }
+            for j in 0..m {
+                design[(value, shared.len() + j)] = features[(value, j)] * weight;
+            }
+        }
+    }
+    let white = DVector::from_iterator(
+        residuals.len(),
+        residuals.iter().zip(variances.iter()).map(|(r, v)| r / v.sqrt()),
+    );
+    let precision = design.tr_mul(&design) + DMatrix::identity(order, order);
+    let root = precision.cholesky()?;
+    let coefficients = root.solve(&design.tr_mul(&white));
+    let lower = root.l();
+    let mut found = Vec::with_capacity(rows.len() * outputs);
+    for (row, gradients) in gradients.iter().enumerate() {
+        for output in 0..outputs {
+            let value = row * outputs + output;
+            let mut features = DVector::zeros(order);
+            for (j, &v) in shared.iter().enumerate() {
+                features[j] = effect(gradients, &rows[row], output, v);
+            }
+            for j in 0..m {
+                features[shared.len() + j] = there[(value, j)];
+            }
+            let half = lower.solve_lower_triangular(&features);
+            let variance = half.map_or(0.0, |half| half.norm_squared());
+            found.push((features.dot(&coefficients), variance));
+        }
+    }
+    Some(found)
+}
+
 /// What the model says in a row at the inputs' estimates, with its derivatives.
-fn nominal(setup: &Setup<'_>, row: &Row) -> (Vec<f64>, Vec<Vec<f64>>) {
+pub(crate) fn nominal(setup: &Setup<'_>, row: &Row) -> (Vec<f64>, Vec<Vec<f64>>) {
     let mut variables: Vec<f64> = row.distributions.iter().map(|d| d.mean()).collect();
     variables.extend(&row.conditions);
     let (values, gradients) = setup.case.task.model.program.gradients(&variables);

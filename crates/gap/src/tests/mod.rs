@@ -1,7 +1,12 @@
 //! The statistics of the diagnosis against exact values and independent computations.
 
+mod composed;
+#[path = "../../../../examples/departures/mod.rs"]
+mod departures;
 mod discrepancy;
 mod evidence;
+#[path = "../../../../examples/generator/mod.rs"]
+mod generator;
 mod likelihood;
 mod next;
 mod noise;

@@ -3,7 +3,9 @@
 use super::Compare;
 use crate::answer::{list, object, pretty};
 use gumption_analysis::compare::laboratories::ReferenceValue;
-use gumption_analysis::compare::{ComparedPair, Comparison, DegreeOfEquivalence, FACTOR};
+use gumption_analysis::compare::{
+    ComparedPair, Comparison, DegreeOfEquivalence, FACTOR, HartungKnapp, consensus,
+};
 use serde_json::Value;
 
 /// The comparison as JSON, ending in a newline.
@@ -52,13 +54,37 @@ fn laboratories(comparison: &Comparison) -> Vec<(&'static str, Value)> {
             ("consistent", of.is_consistent().into()),
         ])
     };
+    let estimators = comparison.estimators.iter().map(|of| {
+        object([
+            ("estimator", Value::from(of.estimator.name())),
+            ("value", of.reference.value.into()),
+            ("standard_uncertainty", of.reference.standard_uncertainty.into()),
+            ("U", (FACTOR * of.reference.standard_uncertainty).into()),
+            ("birge_ratio", of.birge_ratio.into()),
+            ("tau", of.tau.into()),
+            ("hartung_knapp", of.hartung_knapp.as_ref().map(hartung_knapp).into()),
+        ])
+    });
+    let (recommended, why) = consensus::recommended(&comparison.all);
     let search = comparison.search.map_or(Value::Null, |search| search.name().into());
     vec![
         ("reference", reference(&comparison.reference)),
+        ("estimator", comparison.estimator.name().into()),
+        ("estimators", list(estimators)),
+        ("recommended", object([("estimator", recommended.name()), ("why", why)])),
         ("weighted_mean", reference(&comparison.all)),
         ("largest_consistent_subset", search),
         ("rows", list(comparison.rows.iter().map(row))),
     ]
+}
+
+fn hartung_knapp(of: &HartungKnapp) -> Value {
+    object([
+        ("standard_uncertainty", Value::from(of.standard_uncertainty)),
+        ("dof", (of.dof as u64).into()),
+        ("coverage_factor", of.coverage_factor.into()),
+        ("U", of.expanded().into()),
+    ])
 }
 
 fn row(row: &DegreeOfEquivalence) -> Value {

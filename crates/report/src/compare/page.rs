@@ -15,11 +15,21 @@ fn sheet(compare: &Compare) -> Sheet {
     }
 }
 
+/// What every estimator gives, of laboratories.
+fn estimators(compare: &Compare) -> Option<(Sheet, String)> {
+    match compare {
+        Compare::Pairs { .. } => None,
+        Compare::Laboratories(comparison) => {
+            Some((sheets::estimators(comparison), words::recommended(comparison)))
+        }
+    }
+}
+
 fn notes(compare: &Compare) -> Vec<&'static str> {
     match compare {
         Compare::Pairs { rounding: true, .. } => vec![words::PAIRS, words::ROUNDING],
         Compare::Pairs { .. } => vec![words::PAIRS],
-        Compare::Laboratories(_) => vec![words::LABORATORIES],
+        Compare::Laboratories(_) => vec![words::LABORATORIES, words::ESTIMATORS],
     }
 }
 
@@ -29,7 +39,12 @@ pub fn table(compare: &Compare) -> String {
     let verdict = words::verdict(compare);
     let verdict: Vec<&str> = verdict.iter().map(String::as_str).collect();
     let table = Grid::of(&sheet(compare)).render(WIDTH);
-    [paragraphs(&verdict), table, paragraphs(&notes(compare))].join("\n")
+    let mut parts = vec![paragraphs(&verdict), table];
+    if let Some((sheet, said)) = estimators(compare) {
+        parts.push(Grid::of(&sheet).render(WIDTH) + &wrapped(&said));
+    }
+    parts.push(paragraphs(&notes(compare)));
+    parts.join("\n")
 }
 
 /// The comparison as one HTML file that needs nothing else.
@@ -41,6 +56,7 @@ pub fn html(compare: &Compare) -> String {
         div.verdict { @for said in words::verdict(compare) { p { (said) } } }
         (html_table(&sheet(compare)))
         (numbered(1, drawing.svg, &drawing.caption))
+        @if let Some((sheet, said)) = estimators(compare) { (html_table(&sheet)) p { (said) } }
         @for note in notes(compare) { p { (note) } }
         p.settings { "gumption " (env!("CARGO_PKG_VERSION")) }
     };
@@ -53,6 +69,10 @@ pub fn markdown(compare: &Compare) -> String {
     let verdict = words::verdict(compare);
     document.blocks.push(Block::Text(verdict.join(" ")));
     document.blocks.push(Block::Table(sheet(compare)));
+    if let Some((sheet, said)) = estimators(compare) {
+        document.table(sheet);
+        document.text(said);
+    }
     document.blocks.extend(notes(compare).into_iter().map(|note| Block::Text(note.to_owned())));
     document::markdown(&document)
 }

@@ -4,7 +4,7 @@ use crate::number::{MISSING, exact, position, rounded, significant, to, with_unc
 use crate::plain;
 use crate::sheet::Sheet;
 use gumption_analysis::compare::{
-    ComparedPair, Comparison, DegreeOfEquivalence, ResultPair, StatedResult,
+    ComparedPair, Comparison, ConsensusValue, DegreeOfEquivalence, FACTOR, ResultPair, StatedResult,
 };
 
 /// Decimal places of scores.
@@ -53,6 +53,33 @@ pub(super) fn laboratories(comparison: &Comparison) -> Sheet {
     sheet.numbers("probability", rows.iter().map(|row| probability(row.probability)));
     sheet.text("compatible", rows.iter().map(|row| yes(row.normalized_error <= 1.0)));
     sheet.text("in the\nreference", rows.iter().map(|row| yes(row.member)));
+    sheet
+}
+
+/// What every estimator gives.
+pub(super) fn estimators(comparison: &Comparison) -> Sheet {
+    let values = &comparison.estimators;
+    let mut sheet = Sheet::default();
+    sheet.text("reference value by", values.iter().map(|of| of.estimator.name().to_owned()));
+    let stated = |of: &ConsensusValue| {
+        with_uncertainty(of.reference.value, FACTOR * of.reference.standard_uncertainty, DIGITS)
+    };
+    sheet.numbers("value", values.iter().map(|of| stated(of).0));
+    sheet.numbers("U (k = 2)", values.iter().map(|of| stated(of).1));
+    let added = |of: &ConsensusValue| match (of.birge_ratio, of.tau) {
+        (Some(ratio), _) => format!("factor {}", rounded(ratio, SCORE)),
+        (None, Some(tau)) => format!("tau = {}", significant(tau, DIGITS)),
+        (None, None) => MISSING.to_owned(),
+    };
+    sheet.text("added to stated\nuncertainties", values.iter().map(added));
+    let observed = |of: &ConsensusValue| {
+        of.hartung_knapp.map_or_else(|| MISSING.to_owned(), |of| significant(of.expanded(), DIGITS))
+    };
+    sheet.numbers("U by\nHartung-Knapp", values.iter().map(observed));
+    let factor = |of: &ConsensusValue| {
+        of.hartung_knapp.map_or_else(|| MISSING.to_owned(), |of| rounded(of.coverage_factor, SCORE))
+    };
+    sheet.numbers("k of\nthat", values.iter().map(factor));
     sheet
 }
 

@@ -2,10 +2,11 @@
 
 use super::Compare;
 use super::sheets::probability;
-use crate::number::{rounded, with_uncertainty};
+use crate::document::sentence;
+use crate::number::{rounded, significant, with_uncertainty};
 use crate::plain;
 use gumption_analysis::compare::laboratories::ReferenceValue;
-use gumption_analysis::compare::{Comparison, FACTOR};
+use gumption_analysis::compare::{Comparison, Estimator, FACTOR, consensus};
 
 pub(super) const PAIRS: &str = "En is the modulus of the difference over its expanded uncertainty U \
     (k = 2; results stated with other factors are brought to that); results are compatible where it \
@@ -20,6 +21,44 @@ pub(super) const LABORATORIES: &str = "The reference value is the mean weighted 
     at least 5 %. U of a difference (k = 2) takes into account that the reference value is made from \
     the results. Where all are not consistent, it is made from the largest consistent subset (Cox \
     2007).";
+
+pub(super) const ESTIMATORS: &str = "Birge multiplies all stated uncertainties by one factor; \
+    DerSimonian-Laird and Mandel-Paule add one standard deviation tau between laboratories to each. \
+    Hartung and Knapp take the uncertainty of such a mean from the observed dispersion, with the t \
+    factor for as many degrees of freedom as there are other laboratories (95.45 %): state that U of \
+    the random-effects models where there are few laboratories. --estimator NAME gives degrees of \
+    equivalence from the reference value of that name.";
+
+/// Which one to take.
+pub(super) fn recommended(comparison: &Comparison) -> String {
+    sentence(consensus::recommended(&comparison.all).1)
+}
+
+/// What was done to the stated uncertainties.
+fn added(comparison: &Comparison) -> Option<String> {
+    let own = comparison.estimators.iter().find(|of| of.estimator == comparison.estimator)?;
+    match own.estimator {
+        Estimator::WeightedMean | Estimator::LargestConsistentSubset => None,
+        Estimator::Birge => {
+            let ratio = rounded(own.birge_ratio?, -2);
+            Some(format!("Birge: stated uncertainties multiplied by {ratio}"))
+        }
+        Estimator::DerSimonianLaird | Estimator::MandelPaule => {
+            let name = match own.estimator {
+                Estimator::DerSimonianLaird => "DerSimonian-Laird",
+                _ => "Mandel-Paule",
+            };
+            let (tau, of) = (significant(own.tau?, 2), own.hartung_knapp?);
+            Some(format!(
+                "{name}: a standard deviation of {tau} between laboratories; by Hartung and Knapp U = \
+                 {} (k = {}, {} degrees of freedom)",
+                significant(of.expanded(), 2),
+                rounded(of.coverage_factor, -2),
+                of.dof
+            ))
+        }
+    }
+}
 
 pub(super) fn title(compare: &Compare) -> String {
     match compare {
@@ -62,18 +101,22 @@ fn of_laboratories(comparison: &Comparison) -> Vec<String> {
         format!("{y} with U = {u} (k = 2)")
     };
     let (all, reference) = (&comparison.all, &comparison.reference);
-    let Some(search) = comparison.search else {
-        return vec![
-            format!("The {} laboratories are consistent: {}.", all.members.len(), chi(all)),
-            format!("ReferenceValue value {}.", value(all)),
-        ];
+    let are = if all.is_consistent() { "are" } else { "are not" };
+    let consistency =
+        format!("The {} laboratories {are} consistent: {}.", all.members.len(), chi(all));
+    let search = comparison.search;
+    let Some(search) =
+        search.filter(|_| comparison.estimator == Estimator::LargestConsistentSubset)
+    else {
+        let how = added(comparison).map_or_else(String::new, |said| format!(" ({said})"));
+        return vec![consistency, format!("Reference value {}{how}.", value(reference))];
     };
     let out: Vec<String> =
         comparison.rows.iter().filter(|row| !row.member).map(|row| plain(&row.label)).collect();
     vec![
-        format!("The {} laboratories are not consistent: {}.", all.members.len(), chi(all)),
+        consistency,
         format!(
-            "ReferenceValue value {} from the largest consistent subset, {} laboratories without {} \
+            "Reference value {} from the largest consistent subset, {} laboratories without {} \
              ({}; sought among {}).",
             value(reference),
             reference.members.len(),

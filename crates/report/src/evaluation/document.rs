@@ -3,6 +3,7 @@
 use super::{Shown, figures, repeat, results, sweep};
 use crate::document::{Block, Document};
 use crate::sheet::Sheet;
+use crate::statement;
 use crate::table;
 use crate::table::correlations;
 use crate::{EvaluationReport, plain};
@@ -21,6 +22,7 @@ pub(super) fn of(report: &EvaluationReport<'_>, shown: &Shown<'_>) -> Document {
     document.subtitle.push(table::settings_text(evaluation));
     document.subtitle.extend(table::at(task, evaluation));
     document.subtitle.extend(table::stopped(evaluation));
+    stated(&mut document, task);
     match evaluation.rows.as_slice() {
         [row] => {
             for output in 0..row.outputs.len() {
@@ -45,6 +47,21 @@ pub(super) fn of(report: &EvaluationReport<'_>, shown: &Shown<'_>) -> Document {
     }
     repeat::section(&mut document, report, shown);
     document
+}
+
+/// The measurement: its sources and equations.
+fn stated(document: &mut Document, task: &Task) {
+    let sources = statement::sources(task);
+    let equations = statement::sheet(task);
+    if sources.is_empty() && equations.is_none() {
+        return;
+    }
+    document.section("Measurement model");
+    for said in sources {
+        document.sentence(&said);
+    }
+    equations.into_iter().for_each(|sheet| document.table(sheet));
+    statement::left_out(task).into_iter().for_each(|said| document.sentence(&said));
 }
 
 /// How the outputs vary together, and the trials that were left out.

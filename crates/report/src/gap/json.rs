@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use super::departure;
+use super::{composed, departure};
 use crate::answer::{list, object, pretty};
 use gumption_gap::{
     Diagnosis, EffectParameter, Hypothesis, NamedQuantity, PresentEffect, PriorConflict,
@@ -41,6 +41,7 @@ pub fn json(diagnosis: &Diagnosis) -> String {
     ];
     if !diagnosis.departure.is_empty() {
         entries.push(("departure", departure::departure(diagnosis)));
+        entries.push(("composed", composed::composed(diagnosis)));
     }
     entries.extend([("shrinks", shrinks(diagnosis)), ("next_measurement", next(diagnosis))]);
     entries.extend(prediction(diagnosis).map(|prediction| ("prediction", prediction)));

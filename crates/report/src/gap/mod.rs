@@ -1,6 +1,7 @@
 //! Reports of the gap diagnosis, one file for each format.
 pub mod check;
 mod check_json;
+mod composed;
 mod csv;
 mod departure;
 mod digits;

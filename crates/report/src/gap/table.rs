@@ -1,6 +1,6 @@
 //! The page for a terminal.
 
-use super::{departure, sheets, terminal, words};
+use super::{composed, departure, sheets, terminal, words};
 use crate::{Grid, WIDTH, wrapped};
 use gumption_gap::{Diagnosis, Predicted};
 
@@ -22,6 +22,11 @@ pub fn table(diagnosis: &Diagnosis) -> String {
     let departure = paragraphs(departure::sentences(diagnosis));
     if !departure.is_empty() {
         page.push(section("What the departure looks like") + &departure);
+    }
+    let composed = paragraphs(composed::sentences(diagnosis));
+    if !composed.is_empty() {
+        let title = section("What would explain it: composed, not from your list");
+        page.push(title + &composed + &wrapped(composed::HOW_TO_USE));
     }
     page.push(section("How far does it shrink?") + &shrinkage(diagnosis));
     page.push(section("What to measure next") + &wrapped(&words::next(diagnosis)));

@@ -7,8 +7,9 @@ use crate::number::{exact, position, rounded, significant, with_uncertainty};
 use crate::sheet::{Figure, Kind, Sheet};
 use crate::subtotals::Subtotals;
 use gumption_engine::model::Quantity;
+use gumption_engine::propagate::InputFigures;
 use gumption_engine::propagate::gum::{BudgetLine, CorrelationLine, Dof, Gum};
-use gumption_engine::task::{Settings, Task};
+use gumption_engine::task::{Settings, Task, Variable};
 use gumption_units::Unit;
 
 /// Significant digits of sensitivity coefficients.
@@ -158,12 +159,61 @@ fn grid(fields: &[Field]) -> Grid {
 /// The cells of a line.
 type Line = [String; 9];
 
+/// A line of the budget that belongs to an input.
+pub(crate) enum InputRow<'a> {
+    /// A quantity that is made of components, above their lines. What it contributes stands there.
+    Composed(&'a Quantity, InputFigures),
+    /// A variable: an input, or a component of one.
+    Variable(&'a Variable, BudgetLine),
+}
+
+/// The lines of all inputs, in order.
+pub(crate) fn input_rows<'a>(task: &'a Task, gum: &Gum) -> Vec<InputRow<'a>> {
+    let mut composed =
+        task.model.inputs.iter().zip(InputFigures::of_gum(task, gum)).filter(|(_, f)| f.composed);
+    let mut next = composed.next();
+    let mut rows = Vec::new();
+    for line in gum.budget() {
+        let Some(variable) = task.variables.get(line.variable) else { continue };
+        while let Some((input, figures)) = next.take() {
+            if figures.variables.start > line.variable {
+                next = Some((input, figures));
+                break;
+            }
+            rows.push(InputRow::Composed(&input.quantity, figures));
+            next = composed.next();
+        }
+        rows.push(InputRow::Variable(variable, line));
+    }
+    rows
+}
+
+/// What stands for the distribution of a quantity that is made of components.
+pub(crate) const COMPOSED: &str = "components";
+
+/// The line of a quantity that is made of components.
+fn composed(quantity: &Quantity, figures: &InputFigures, digits: u32) -> Line {
+    let (estimate, uncertainty) =
+        with_uncertainty(figures.estimate, figures.standard_uncertainty, digits);
+    let mut line = Line::default();
+    line[0] = text::plain(&quantity.name);
+    line[1] = estimate;
+    line[2] = uncertainty;
+    line[3] = text::plain(quantity.unit.text());
+    line[4] = COMPOSED.to_owned();
+    line[5] = effective(figures.dof, true);
+    line
+}
+
 fn lines(task: &Task, output: &Quantity, gum: &Gum, digits: u32) -> Vec<Line> {
-    let inputs = gum.budget().filter_map(|line| {
-        let variable = task.variables.get(line.variable)?;
+    let inputs = input_rows(task, gum).into_iter().map(|row| {
+        let (variable, line) = match row {
+            InputRow::Composed(quantity, figures) => return composed(quantity, &figures, digits),
+            InputRow::Variable(variable, line) => (variable, line),
+        };
         let (estimate, uncertainty) =
             with_uncertainty(line.estimate, line.standard_uncertainty, digits);
-        Some([
+        [
             text::plain(&variable.name),
             estimate,
             uncertainty,
@@ -173,7 +223,7 @@ fn lines(task: &Task, output: &Quantity, gum: &Gum, digits: u32) -> Vec<Line> {
             significant(line.sensitivity, SENSITIVITY_DIGITS),
             significant(line.contribution, digits),
             percent(line.share),
-        ])
+        ]
     });
     let mut lines: Vec<Line> = inputs.chain(coefficients(task, gum)).collect();
     let (estimate, combined) = with_uncertainty(gum.estimate, gum.standard_uncertainty, digits);

@@ -1,9 +1,11 @@
 //! Columns of the budget that are shown on request.
 
-use super::budget::{Budget, Field, Layout, coefficient_lines};
+use super::budget::{Budget, Field, InputRow, Layout, coefficient_lines, input_rows};
 use super::text;
 use crate::number::{MISSING, exact, significant};
 use gumption_engine::decimal::to_digits;
+use gumption_engine::model::Quantity;
+use gumption_engine::propagate::InputFigures;
 use gumption_engine::propagate::gum::BudgetLine;
 use gumption_engine::task::Variable;
 use gumption_units::Unit;
@@ -101,11 +103,14 @@ fn of(budget: &Budget<'_>, column: BudgetColumn) -> Vec<(usize, Field)> {
             let own = |line: &BudgetLine, variable: &Variable| {
                 relative(line.standard_uncertainty, line.estimate, &variable.unit, digits)
             };
+            let of_sum = |quantity: &Quantity, sum: &InputFigures| {
+                relative(sum.standard_uncertainty, sum.estimate, &quantity.unit, digits)
+            };
             let share = |value: f64| relative(value, gum.estimate, &output.unit, digits);
             let contribution = |line: &BudgetLine, _: &Variable| share(line.contribution);
             let total = share(gum.standard_uncertainty);
             vec![
-                (UNCERTAINTY, numbers(of_estimate, cells(budget, own, total.clone()))),
+                (UNCERTAINTY, numbers(of_estimate, all_cells(budget, own, of_sum, total.clone()))),
                 (CONTRIBUTION, numbers(of_y, cells(budget, contribution, total))),
             ]
         }
@@ -124,22 +129,36 @@ fn of(budget: &Budget<'_>, column: BudgetColumn) -> Vec<(usize, Field)> {
         }
         BudgetColumn::About => {
             let about = |_: &BudgetLine, variable: &Variable| text::plain(&variable.about);
-            let (cells, layout) = (cells(budget, about, blank()), Layout::TextFrom(ABOUT_WIDTH));
+            let of_sum = |quantity: &Quantity, _: &InputFigures| text::plain(&quantity.about);
+            let cells = all_cells(budget, about, of_sum, blank());
+            let layout = Layout::TextFrom(ABOUT_WIDTH);
             vec![(SHARE, Field { headers: ["source of\nuncertainty"; 2], layout, cells })]
         }
     }
 }
 
-/// The cells of all inputs, none for the correlation coefficients, that of the output.
+/// The cells of all variables, none for sums of components and correlation coefficients, that of the
+/// output.
 fn cells(
     budget: &Budget<'_>,
     of_input: impl Fn(&BudgetLine, &Variable) -> String,
     total: String,
 ) -> Vec<String> {
+    all_cells(budget, of_input, |_, _| String::new(), total)
+}
+
+/// The cells of all variables and sums of components, none for the correlation coefficients, that of
+/// the output.
+fn all_cells(
+    budget: &Budget<'_>,
+    of_input: impl Fn(&BudgetLine, &Variable) -> String,
+    of_sum: impl Fn(&Quantity, &InputFigures) -> String,
+    total: String,
+) -> Vec<String> {
     let Budget { task, gum, .. } = *budget;
-    let inputs = gum.budget().filter_map(|line| {
-        let variable = task.variables.get(line.variable)?;
-        Some(of_input(&line, variable))
+    let inputs = input_rows(task, gum).into_iter().map(|row| match row {
+        InputRow::Composed(quantity, figures) => of_sum(quantity, &figures),
+        InputRow::Variable(variable, line) => of_input(&line, variable),
     });
     let coefficients = std::iter::repeat_n(String::new(), coefficient_lines(gum));
     inputs.chain(coefficients).chain([total]).collect()

@@ -19,10 +19,11 @@ use self::budget::Budget;
 use super::EvaluationReport;
 use super::answer::in_memory;
 use super::number::exact;
+use super::statement;
 use gumption_engine::decimal::to_position;
 use gumption_engine::model::{InputQuantity, Output, Quantity};
 use gumption_engine::propagate::{Evaluation, OutputEvaluation, RowEvaluation};
-use gumption_engine::task::{Coverage, Settings, Task, Trials};
+use gumption_engine::task::{Coverage, Settings, Task, Trials, Variable};
 use gumption_units::Unit;
 
 /// Characters in a line, at most.
@@ -63,7 +64,7 @@ pub fn write_table(
         out.write_all(b"\n")?;
         out.write_all(part.as_bytes())
     };
-    legend(task).into_iter().try_for_each(&mut below)?;
+    equations(task).into_iter().chain(legend(task)).try_for_each(&mut below)?;
     match evaluation.rows.as_slice() {
         [row] => {
             for (output, figures) in task.model.outputs.iter().zip(&row.outputs) {
@@ -112,6 +113,16 @@ pub(super) fn at(task: &Task, evaluation: &Evaluation) -> Option<String> {
     task.swept.then(|| format!("at {}", conditions_text(&task.model.conditions, &row.conditions)))
 }
 
+/// The sources and the equations.
+fn equations(task: &Task) -> Option<String> {
+    let sources = statement::sources(task).into_iter();
+    let equations = statement::equations(task).into_iter();
+    let equations = equations.map(|(name, text)| format!("{name} = {text}"));
+    let lines = sources.chain(equations).chain(statement::left_out(task));
+    let page: String = lines.map(|line| wrapped(&line)).collect();
+    (!page.is_empty()).then_some(page)
+}
+
 /// What the quantities are, in words: inputs, their components where those say more, conditions.
 fn legend(task: &Task) -> Option<String> {
     let entries = quantities(task);
@@ -127,7 +138,9 @@ pub(super) fn quantities(task: &Task) -> Vec<(&str, &str)> {
             entries.push((&quantity.name, &quantity.about));
         }
         let parts = variables.by_ref().take(*parts);
-        let own = parts.filter(|part| part.name == quantity.name || part.about != quantity.about);
+        let says_more =
+            |part: &&Variable| part.name == quantity.name || part.about != quantity.about;
+        let own = parts.filter(|part| part.shown).filter(says_more);
         entries.extend(own.map(|part| (part.name.as_str(), part.about.as_str())));
     }
     let conditions = task.model.conditions.iter();

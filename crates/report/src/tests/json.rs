@@ -17,6 +17,51 @@ fn whole_answer_in_the_order_of_the_contract() {
           "gumption": "[version]",
           "title": "inclined-plane",
           "coverage_probability": 0.95,
+          "source": null,
+          "model": {
+            "name": "inclined-plane",
+            "source": "Prato, Mazzoleni, Schiavi (2020), equations (1)-(3); Chiominto et al. (2024), equation (1)"
+          },
+          "equations": {
+            "a_x": "|a_ref sin(tilt) cos(rotation)|",
+            "a_y": "|a_ref sin(tilt) sin(rotation)|",
+            "a_z": "|a_ref cos(tilt)|"
+          },
+          "inputs": [
+            {
+              "name": "a_ref",
+              "unit": "m/s^2",
+              "estimate": 10.0,
+              "standard_uncertainty": 0.01,
+              "dof": null,
+              "distribution": "normal",
+              "type": "B",
+              "group": null,
+              "source": "Reference acceleration along the vertical, RMS."
+            },
+            {
+              "name": "tilt",
+              "unit": "deg",
+              "estimate": 35.0,
+              "standard_uncertainty": [number],
+              "dof": null,
+              "distribution": "rectangular",
+              "type": "B",
+              "group": null,
+              "source": "Tilt angle of the plane against the horizontal."
+            },
+            {
+              "name": "rotation",
+              "unit": "deg",
+              "estimate": 0.0,
+              "standard_uncertainty": 0.0,
+              "dof": null,
+              "distribution": "constant",
+              "type": "B",
+              "group": null,
+              "source": "Rotation angle of the sensor on the plane."
+            }
+          ],
           "outputs": {
             "a_z": {
               "unit": "m/s^2",
@@ -219,4 +264,79 @@ fn a_stopped_run_says_so() {
     let answer = case.json();
     assert_eq!(answer["stopped"], true);
     assert_eq!(answer["outputs"]["a_x"]["monte_carlo"]["stopped"], true);
+}
+
+/// A temperature of two components: u^2 = 0.04^2 + (0.05/sqrt(3))^2.
+fn composed() -> Case {
+    let task = Task::builder("humidity")
+        .input("t", Input::constant(23.0, "degC").unwrap().about("air temperature"))
+        .component("t", "cal", Input::normal(0.0, 0.04, "degC").unwrap().about("calibration"))
+        .component("t", "res", Input::rectangular(0.0, 0.05, "degC").unwrap())
+        .input("gain", Input::normal(2.0, 0.01, "1").unwrap())
+        .equation("count", "t/[degC]")
+        .equation("y", "gain*count")
+        .output("y", "1")
+        .trials(0)
+        .build()
+        .unwrap();
+    Case::new(task)
+}
+
+#[test]
+fn inputs_of_the_answer_have_their_components() {
+    let answer = composed().json();
+    assert_eq!(answer["equations"]["y"], "gain*count");
+    assert_eq!(answer["equations"].as_object().unwrap().keys().next().unwrap(), "count");
+    let [t, gain] = answer["inputs"].as_array().unwrap().as_slice() else { panic!("{answer}") };
+    assert_eq!((&t["estimate"], &t["source"]), (&23.0.into(), &"air temperature".into()));
+    let u = (0.0016_f64 + 0.0025 / 3.0).sqrt();
+    assert!((t["standard_uncertainty"].as_f64().unwrap() - u).abs() < 1e-15);
+    assert!(t["distribution"].is_null() && t["dof"].is_null());
+    let parts = t["components"].as_array().unwrap();
+    assert_eq!(parts.len(), 2, "the constant that they are added to is none");
+    assert_eq!((&parts[0]["name"], &parts[0]["source"]), (&"t/cal".into(), &"calibration".into()));
+    assert!(gain.get("components").is_none());
+    assert_eq!(gain["distribution"], "normal");
+}
+
+#[test]
+fn a_budget_states_the_estimate_of_a_sum_of_components() {
+    let case = composed();
+    for page in [
+        report::table(&case.report(), &Default::default()),
+        report::markdown(&case.report(), &Default::default()),
+        report::latex(&case.report(), &Default::default()),
+        report::html(&case.report(), &Default::default()),
+    ] {
+        let words: Vec<&str> =
+            page.split([' ', '\n', '|', '<', '>', '&']).filter(|w| !w.is_empty()).collect();
+        let place = |word: &str| words.iter().position(|found| *found == word);
+        let (estimate, first) = (place("23.000").unwrap(), place("t/cal").unwrap());
+        assert!(estimate < first, "{page}");
+        assert!(page.contains("0.049") && page.contains("components"), "{page}");
+        assert!(page.contains("gain*count") || page.contains(r"gain\*count"), "{page}");
+    }
+}
+
+/// What is the same in all rows stands once, what differs stands in the rows.
+#[test]
+fn inputs_that_differ_between_rows_stand_there() {
+    let task = Task::builder("sweep")
+        .input("x", Input::normal(1.0, 0.1, "1").unwrap())
+        .input("b", Input::normal(0.0, 0.2, "1").unwrap())
+        .equation("y", "x + b")
+        .output("y", "1")
+        .conditions(&[("f", "1")], [[2.0], [3.0]])
+        .estimate("x", "f")
+        .trials(0)
+        .build()
+        .unwrap();
+    let answer = Case::new(task).json();
+    assert!(answer["inputs"][0]["estimate"].is_null());
+    assert_eq!(answer["inputs"][1]["standard_uncertainty"], 0.2);
+    for (row, estimate) in [(0, 2.0), (1, 3.0)] {
+        let inputs = answer["rows"][row]["inputs"].as_array().unwrap();
+        assert_eq!(inputs.len(), 1);
+        assert_eq!((&inputs[0]["name"], &inputs[0]["estimate"]), (&"x".into(), &estimate.into()));
+    }
 }

@@ -22,6 +22,12 @@ fn inclined_plane() {
     inclined-plane
     coverage probability 95 %; 100 000 Monte Carlo trials, seed 1
 
+    model inclined-plane: Prato, Mazzoleni, Schiavi (2020), equations (1)-(3); Chiominto et al. (2024),
+    equation (1)
+    a_x = |a_ref sin(tilt) cos(rotation)|
+    a_y = |a_ref sin(tilt) sin(rotation)|
+    a_z = |a_ref cos(tilt)|
+
     a_ref     Reference acceleration along the vertical, RMS.
     tilt      Tilt angle of the plane against the horizontal.
     rotation  Rotation angle of the sensor on the plane.
@@ -67,6 +73,12 @@ fn readings_groups_and_degrees_of_freedom() {
     insta::assert_snapshot!(page(&Case::new(grouped(20_000))), @r"
         inclined-plane
         coverage probability 95 %; 20 000 Monte Carlo trials, seed 1
+
+        model inclined-plane: Prato, Mazzoleni, Schiavi (2020), equations (1)-(3); Chiominto et al. (2024),
+        equation (1)
+        a_x = |a_ref sin(tilt) cos(rotation)|
+        a_y = |a_ref sin(tilt) sin(rotation)|
+        a_z = |a_ref cos(tilt)|
 
         a_ref     repeatability
         tilt      Tilt angle of the plane against the horizontal.
@@ -193,6 +205,12 @@ fn correlated_inputs() {
     inclined-plane
     coverage probability 95 %; 20 000 Monte Carlo trials, seed 1
 
+    model inclined-plane: Prato, Mazzoleni, Schiavi (2020), equations (1)-(3); Chiominto et al. (2024),
+    equation (1)
+    a_x = |a_ref sin(tilt) cos(rotation)|
+    a_y = |a_ref sin(tilt) sin(rotation)|
+    a_z = |a_ref cos(tilt)|
+
     a_ref     Reference acceleration along the vertical, RMS.
     tilt      Tilt angle of the plane against the horizontal.
     rotation  Rotation angle of the sensor on the plane.
@@ -241,6 +259,12 @@ fn by_gum_alone() {
         inclined-plane
         coverage probability 95 %
 
+        model inclined-plane: Prato, Mazzoleni, Schiavi (2020), equations (1)-(3); Chiominto et al. (2024),
+        equation (1)
+        a_x = |a_ref sin(tilt) cos(rotation)|
+        a_y = |a_ref sin(tilt) sin(rotation)|
+        a_z = |a_ref cos(tilt)|
+
         a_ref     Reference acceleration along the vertical, RMS.
         tilt      Tilt angle of the plane against the horizontal.
         rotation  Rotation angle of the sensor on the plane.
@@ -278,6 +302,12 @@ fn where_gum_is_not_valid() {
     insta::assert_snapshot!(page(&case), @"
     inclined-plane
     coverage probability 95 %; 100 000 Monte Carlo trials, seed 1
+
+    model inclined-plane: Prato, Mazzoleni, Schiavi (2020), equations (1)-(3); Chiominto et al. (2024),
+    equation (1)
+    a_x = |a_ref sin(tilt) cos(rotation)|
+    a_y = |a_ref sin(tilt) sin(rotation)|
+    a_z = |a_ref cos(tilt)|
 
     a_ref     Reference acceleration along the vertical, RMS.
     tilt      Tilt angle of the plane against the horizontal.
@@ -329,6 +359,12 @@ fn no_gum_interval() {
     insta::assert_snapshot!(page(&case), @"
     inclined-plane
     coverage probability 95 %; 10 000 Monte Carlo trials, seed 1
+
+    model inclined-plane: Prato, Mazzoleni, Schiavi (2020), equations (1)-(3); Chiominto et al. (2024),
+    equation (1)
+    a_x = |a_ref sin(tilt) cos(rotation)|
+    a_y = |a_ref sin(tilt) sin(rotation)|
+    a_z = |a_ref cos(tilt)|
 
     a_ref     Reference acceleration along the vertical, RMS.
     tilt      Tilt angle of the plane against the horizontal.
@@ -394,6 +430,12 @@ fn a_sweep_is_one_table_for_each_output() {
     insta::assert_snapshot!(page(&sweep(&[0.0, 15.0, 45.0, 90.0], 20_000)), @r"
         inclined-plane
         coverage probability 95 %; 20 000 Monte Carlo trials for each row, seed 1
+
+        model inclined-plane: Prato, Mazzoleni, Schiavi (2020), equations (1)-(3); Chiominto et al. (2024),
+        equation (1)
+        a_x = |a_ref sin(tilt) cos(rotation)|
+        a_y = |a_ref sin(tilt) sin(rotation)|
+        a_z = |a_ref cos(tilt)|
 
         a_ref     Reference acceleration along the vertical, RMS.
         tilt      Tilt angle of the plane against the horizontal.

@@ -117,6 +117,7 @@ fn budgets_are_live_and_hold_the_numbers_of_the_json() {
         let book = Book::of(&case);
         let names = [
             "Results",
+            "Measurement",
             "Inputs",
             "Budget a_x",
             "Budget a_y",

@@ -101,9 +101,9 @@ impl Law {
         match self {
             Self::Sum { inversion, mean, outer, last, .. } => {
                 let p = if rises(outer) { p } else { 1.0 - p };
-                let (x, at) = solved(inversion, p, last)?;
+                let (x, _) = solved(inversion, p, last)?;
                 let slope = slope(outer, mean + x);
-                Some([at.density / slope, inversion.density_error / slope])
+                Some([inversion.at(x).density / slope, inversion.density_error / slope])
             }
             Self::One { .. } => {
                 // the slope of the quantile function, by differences of fourth order
@@ -240,6 +240,9 @@ fn solve(inversion: &Inversion, p: f64, start: f64) -> Option<(f64, At)> {
     for _ in 0..300 {
         let at = inversion.at(x);
         let short = p - at.cdf;
+        if at.density > 0.0 && short.abs() <= 2e-16 * at.density * (x.abs() + inversion.width) {
+            return Some((x, at));
+        }
         if short > 0.0 {
             low = x;
         } else {

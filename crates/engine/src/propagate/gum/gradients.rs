@@ -4,7 +4,7 @@ use std::sync::{Arc, OnceLock};
 
 use crate::model::{Columns, Slopes};
 use crate::number::{COLUMN, CodePath, Kernel, Operand};
-use crate::task::{Row, Task};
+use crate::task::{Row, Task, differences};
 
 /// The outputs' estimates and, for each output, its sensitivity coefficients.
 pub(super) type Linear = (Vec<f64>, Vec<Vec<f64>>);
@@ -30,14 +30,22 @@ impl<'a> Gradients<'a> {
     pub(super) fn one(&self, row: &Row) -> Linear {
         let mut values: Vec<f64> = row.distributions.iter().map(|d| d.mean()).collect();
         values.extend(&row.conditions);
-        self.task.model.program.gradients(&values)
+        let model = &self.task.model;
+        match &self.task.function {
+            Some(function) => {
+                let u: Vec<f64> =
+                    row.distributions.iter().map(|d| d.standard_uncertainty()).collect();
+                differences(&**function, &values, &u, model.outputs.len())
+            }
+            None => model.program.gradients(&values),
+        }
     }
 
     /// Of consecutive rows.
     pub(super) fn all(&self, rows: &[Row], path: CodePath) -> Vec<Linear> {
         let slopes = self.slopes.get_or_init(|| {
             let task = self.task;
-            let sweeps = task.rows.len() >= FEWEST;
+            let sweeps = task.rows.len() >= FEWEST && task.function.is_none();
             let of = || Slopes::new(&task.model.program, &same(task), task.variables.len());
             sweeps.then(of).flatten()
         });

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use crate::distribution::{BLOCK, Draws, Joint, StreamKey, Varying};
 use crate::model::{Schedule, ScheduledOutput};
 use crate::number::{COLUMN, CodePath, Column, Kernel};
-use crate::task::{Row, Sharing, Task};
+use crate::task::{ColumnFunction, Row, Sharing, Task};
 
 /// One row of a task made ready for trials.
 #[derive(Debug)]
@@ -21,8 +21,18 @@ pub(crate) struct RowTrials {
     branches: Vec<Option<(f64, f64)>>,
     /// For each output its tolerance limits, infinite where there are none.
     limits: Vec<[f64; 2]>,
+    /// What computes the outputs in place of the schedule.
+    function: Option<Called>,
     /// The outputs' values in the first blocks, as far as they are held.
     held: Vec<Box<[[f64; BLOCK]]>>,
+}
+
+/// A function that takes columns.
+#[derive(Debug)]
+struct Called {
+    function: Arc<dyn ColumnFunction>,
+    /// For each variable of the program its value where it does not vary.
+    bound: Vec<Option<f64>>,
 }
 
 /// Buffers of one thread, reused from block to block.
@@ -66,6 +76,10 @@ impl RowTrials {
             keys,
             branches,
             limits,
+            function: task
+                .function
+                .as_ref()
+                .map(|function| Called { function: Arc::clone(function), bound }),
             held: Vec::new(),
         }
     }
@@ -105,8 +119,42 @@ impl RowTrials {
             workspace.outputs.copy_from_slice(held);
             return;
         }
+        if let Some(called) = &self.function {
+            self.called(called, (path, block), workspace);
+            return;
+        }
         let wanted = Wanted::Outputs;
         path.run(BlockKernel { path, trials: self, block, workspace, wanted });
+    }
+
+    /// As [`RowTrials::block`], by a function that takes columns.
+    #[cold]
+    fn called(
+        &self,
+        Called { function, bound }: &Called,
+        (path, block): (CodePath, u64),
+        workspace: &mut Workspace,
+    ) {
+        let mut drawn = vec![Vec::with_capacity(BLOCK); self.varying.len()];
+        let wanted = Wanted::All { drawn: &mut drawn };
+        path.run(BlockKernel { path, trials: self, block, workspace, wanted });
+        let mut drawn = drawn.into_iter();
+        let column = |bound: &Option<f64>| match bound {
+            Some(value) => vec![*value; BLOCK],
+            None => drawn.next().unwrap_or_default(),
+        };
+        let variables: Vec<Vec<f64>> = bound.iter().map(column).collect();
+        let mut found = vec![vec![f64::NAN; BLOCK]; self.outputs()];
+        function.evaluate(&variables, &mut found);
+        let outputs = workspace.outputs.iter_mut().zip(found).zip(&self.branches);
+        for ((out, found), branch) in outputs {
+            for (out, value) in out.iter_mut().zip(found) {
+                *out = value;
+            }
+            if let Some((middle, turn)) = *branch {
+                onto_branch(out, middle, turn);
+            }
+        }
     }
 
     /// The drawn values of the varying variables, in the order of the task's variables with
@@ -137,17 +185,18 @@ struct BlockKernel<'a> {
     trials: &'a RowTrials,
     block: u64,
     workspace: &'a mut Workspace,
-    wanted: Wanted,
+    wanted: Wanted<'a>,
 }
 
 /// What is asked of a block. Both stand in one kernel, so that drawing is compiled once for each
 /// code path.
-#[derive(Clone, Copy)]
-enum Wanted {
+enum Wanted<'a> {
     /// The outputs' values in all trials.
     Outputs,
     /// The drawn values of all inputs in one column of trials, left in the registers.
     Inputs { column: usize },
+    /// The drawn values of all inputs in all trials.
+    All { drawn: &'a mut [Vec<f64>] },
 }
 
 impl Kernel for BlockKernel<'_> {
@@ -155,22 +204,30 @@ impl Kernel for BlockKernel<'_> {
 
     #[inline(always)]
     fn run(self) {
-        let Self { path, trials, block, workspace, wanted } = self;
+        let Self { path, trials, block, workspace, mut wanted } = self;
         let Workspace { registers, outputs } = workspace;
         let schedule = &trials.schedule;
         let mut draws = Draws::new(&trials.varying, &trials.keys, path, block);
         let all: Vec<bool>;
-        let (used, last) = match wanted {
+        let (used, last) = match &wanted {
             Wanted::Outputs => (&schedule.used, BLOCK),
-            Wanted::Inputs { column } => {
+            Wanted::Inputs { .. } | Wanted::All { .. } => {
                 all = vec![true; trials.varying.len()];
-                (&all, column * COLUMN)
+                let last =
+                    if let Wanted::Inputs { column } = wanted { column * COLUMN } else { BLOCK };
+                (&all, last)
             }
         };
         for first in (0..BLOCK).step_by(COLUMN) {
             draws.column(registers, &trials.registers, used);
             if first == last {
                 return;
+            }
+            if let Wanted::All { drawn } = &mut wanted {
+                for (values, &register) in drawn.iter_mut().zip(&trials.registers) {
+                    values.extend(&registers[register].0);
+                }
+                continue;
             }
             schedule.run(registers);
             for (output, slot) in schedule.outputs.iter().enumerate() {

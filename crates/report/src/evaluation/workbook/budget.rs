@@ -1,17 +1,21 @@
 //! The worksheet of an output's budget: contributions, combined standard uncertainty, effective
 //! degrees of freedom, coverage factor and expanded uncertainty as formulas.
 
+use std::ops::Range;
+
 use rust_xlsxwriter::XlsxError;
 
 use super::inputs::{Places, RowPlaces};
 use super::model::ModelPlaces;
 use crate::number::position;
+use crate::table::budget::{COMPOSED, InputRow, input_rows};
 use crate::table::conditions_text;
 use crate::workbook::{Cached, Leaf, Look, here};
 use crate::{EvaluationReport, plain, table};
 use gumption_engine::distribution::paired;
-use gumption_engine::propagate::RowEvaluation;
+use gumption_engine::model::Quantity;
 use gumption_engine::propagate::gum::{BudgetLine, CorrelationLine, Dof, Gum};
+use gumption_engine::propagate::{InputFigures, RowEvaluation};
 use gumption_engine::task::{Coverage, Row, Settings};
 
 const NAME: u16 = 0;
@@ -82,6 +86,10 @@ struct Block<'a> {
     ensembles: Vec<Vec<usize>>,
     /// The first line.
     top: u32,
+    /// The lines of the inputs, among which those of sums of components stand.
+    places: Vec<u32>,
+    /// The quantities that are made of components, with their lines.
+    sums: Vec<(u32, &'a Quantity, InputFigures)>,
     /// Position of the last digit of the output's figures.
     position: Option<i32>,
 }
@@ -109,6 +117,13 @@ pub(super) fn write(
             at += 2;
             continue;
         };
+        let (mut places, mut sums) = (Vec::new(), Vec::new());
+        for (line, input) in (at + 1..).zip(input_rows(task, gum)) {
+            match input {
+                InputRow::Composed(quantity, figures) => sums.push((line, quantity, figures)),
+                InputRow::Variable(..) => places.push(line),
+            }
+        }
         let block = Block {
             settings: &evaluation.settings,
             row,
@@ -122,11 +137,14 @@ pub(super) fn write(
                 .map(|ensemble| ensemble.members)
                 .collect(),
             top: at + 1,
+            places,
+            sums,
             position: position(gum.standard_uncertainty, evaluation.settings.digits),
         };
         leaf.headers(at, HEADERS)?;
         let model = live.model.get(number);
         block.inputs(leaf, report, output, model)?;
+        block.sums(leaf)?;
         block.coefficients(leaf, report)?;
         let figures = block.figures(leaf, output, model)?;
         block.as_evaluated(leaf, found, output)?;
@@ -151,17 +169,22 @@ pub(super) fn write(
 impl Block<'_> {
     /// The line behind the last one of the budget.
     fn below(&self) -> u32 {
-        self.top + (self.lines.len() + self.links.len()) as u32 + 1
+        self.first_link() + self.links.len() as u32 + 1
+    }
+
+    /// The line of the first correlation coefficient, below those of the inputs.
+    fn first_link(&self) -> u32 {
+        self.top + (self.lines.len() + self.sums.len()) as u32
     }
 
     fn line_of(&self, variable: usize) -> Option<u32> {
         let position = self.lines.iter().position(|line| line.variable == variable)?;
-        Some(self.top + position as u32)
+        self.places.get(position).copied()
     }
 
     /// The cells of a column from the first to the last line of the inputs.
     fn range(&self, column: u16) -> String {
-        let last = self.top + self.lines.len().saturating_sub(1) as u32;
+        let last = self.places.last().copied().unwrap_or(self.top);
         format!("{}:{}", here(self.top, column), here(last, column))
     }
 
@@ -178,7 +201,7 @@ impl Block<'_> {
         model: Option<&ModelPlaces>,
     ) -> Result<(), XlsxError> {
         let u = self.combined();
-        for (at, line) in (self.top..).zip(&self.lines) {
+        for (&at, line) in self.places.iter().zip(&self.lines) {
             let Some(variable) = report.task.variables.get(line.variable) else { continue };
             let Some(cells) = self.cells.variables.get(line.variable) else { continue };
             let own = position(line.standard_uncertainty, self.settings.digits);
@@ -222,6 +245,54 @@ impl Block<'_> {
         Ok(())
     }
 
+    /// The quantities that are made of components: their estimates and combined standard
+    /// uncertainties. What they contribute stands in the lines of the components.
+    fn sums(&self, leaf: &mut Leaf) -> Result<(), XlsxError> {
+        for (at, quantity, figures) in &self.sums {
+            let of = figures.variables.clone();
+            leaf.text(*at, NAME, &plain(&quantity.name))?;
+            leaf.text(*at, UNIT, &plain(quantity.unit.text()))?;
+            leaf.text(*at, DISTRIBUTION, COMPOSED)?;
+            let own = position(figures.standard_uncertainty, self.settings.digits);
+            let correlated = self.links.iter().any(|link| {
+                let [a, b] = link.variables;
+                of.contains(&a) && of.contains(&b)
+            });
+            let live = [("SUM", ESTIMATE, 0, figures.estimate)].into_iter().chain(
+                // the products of correlated components are not in the cells of the inputs
+                (!correlated).then_some((
+                    "SQRT(SUMSQ",
+                    UNCERTAINTY,
+                    1,
+                    figures.standard_uncertainty,
+                )),
+            );
+            for (function, column, which, now) in live {
+                let Some(cells) = self.cells_of(of.clone(), which) else { continue };
+                let close = ")".repeat(function.matches('(').count() + 1);
+                let formula = format!("{function}({cells}{close}");
+                leaf.formula((*at, column), &formula, &Cached::Number(now), own, Look::Plain)?;
+            }
+            if correlated {
+                leaf.number((*at, UNCERTAINTY), figures.standard_uncertainty, own, Look::Plain)?;
+            }
+            match figures.dof {
+                Dof::Finite(dof) => leaf.number((*at, DOF), dof, Some(-2), Look::Plain)?,
+                Dof::Infinite => leaf.text(*at, DOF, "∞")?,
+                Dof::Undefined => leaf.text(*at, DOF, "undefined")?,
+            }
+        }
+        Ok(())
+    }
+
+    /// The cells of consecutive variables among the inputs, which stand below each other.
+    fn cells_of(&self, variables: Range<usize>, which: usize) -> Option<String> {
+        let cells = self.cells.variables.get(variables)?;
+        let (first, last) = (&cells.first()?[which], &cells.last()?[which]);
+        let last = last.rsplit_once('!').map_or(last.as_str(), |(_, cell)| cell);
+        Some(format!("{first}:{last}"))
+    }
+
     /// The term of the Welch-Satterthwaite formula of a line. Paired readings are one term, which
     /// stands in the line of the first of them.
     fn welch(&self, at: u32, line: &BudgetLine) -> (String, f64) {
@@ -249,9 +320,8 @@ impl Block<'_> {
         let own: f64 = lines.map(|line| line.share).sum();
         let pairs = self.links.iter().enumerate();
         let pairs = pairs.filter(|(_, link)| link.variables.iter().all(|&v| within(v)));
-        let (places, shares): (Vec<u32>, Vec<f64>) = pairs
-            .map(|(position, link)| (self.top + (self.lines.len() + position) as u32, link.share))
-            .unzip();
+        let (places, shares): (Vec<u32>, Vec<f64>) =
+            pairs.map(|(position, link)| (self.first_link() + position as u32, link.share)).unzip();
         let members = set.iter().filter_map(|&member| self.line_of(member));
         let cells: Vec<String> = members.chain(places).map(|at| here(at, VARIANCE)).collect();
         let term =
@@ -265,7 +335,7 @@ impl Block<'_> {
         leaf: &mut Leaf,
         report: &EvaluationReport<'_>,
     ) -> Result<(), XlsxError> {
-        let first = self.top + self.lines.len() as u32;
+        let first = self.first_link();
         let u = self.combined();
         for (number, (at, link)) in (first..).zip(&self.links).enumerate() {
             let name = |v: usize| report.task.variables.get(v).map_or("", |v| v.name.as_str());
@@ -314,7 +384,7 @@ impl Block<'_> {
         leaf.formula((at(0), 1), &y, &Cached::Number(gum.estimate), self.position, look)?;
         // u
         let links = (!self.links.is_empty()).then(|| {
-            let from = self.top + self.lines.len() as u32;
+            let from = self.first_link();
             let to = from + self.links.len() as u32 - 1;
             format!("+SUM({}:{})", here(from, VARIANCE), here(to, VARIANCE))
         });

@@ -15,9 +15,10 @@ use self::tape::Tape;
 use super::{Shown, repeat};
 use crate::table::correlations;
 use crate::table::correlations::Coefficients;
-use crate::workbook::{Book, failed};
-use crate::{EvaluationReport, plain, table};
+use crate::workbook::{Book, Leaf, failed};
+use crate::{EvaluationReport, plain, statement, table};
 use gumption_engine::propagate::RowEvaluation;
+use gumption_engine::task::Task;
 
 /// Lines of all budgets together, at most; of longer ones only the results are written.
 const MOST_LINES: usize = 50_000;
@@ -41,9 +42,11 @@ fn write(report: &EvaluationReport<'_>, shown: &Shown<'_>) -> Result<Vec<u8>, Xl
     let task = report.task;
     let mut book = Book::new(&plain(&task.title))?;
     let mut results = book.leaf("Results")?;
+    let measurement = measurement(&mut book, task)?;
     if lines(report) > MOST_LINES {
         results::write(&mut results, report, &[])?;
         book.push(results)?;
+        measurement.into_iter().try_for_each(|leaf| book.push(leaf))?;
         return about(book, report, shown);
     }
     // formulas of the results refer to the budgets behind them
@@ -66,7 +69,8 @@ fn write(report: &EvaluationReport<'_>, shown: &Shown<'_>) -> Result<Vec<u8>, Xl
         budgets.push(leaf);
     }
     results::write(&mut results, report, &totals)?;
-    for leaf in [results, inputs].into_iter().chain(budgets).chain(steps) {
+    for leaf in [results].into_iter().chain(measurement).chain([inputs]).chain(budgets).chain(steps)
+    {
         book.push(leaf)?;
     }
     if let [row] = report.evaluation.rows.as_slice()
@@ -78,6 +82,29 @@ fn write(report: &EvaluationReport<'_>, shown: &Shown<'_>) -> Result<Vec<u8>, Xl
         book.push(leaf)?;
     }
     about(book, report, shown)
+}
+
+/// The worksheet that states the measurement: sources and equations.
+fn measurement(book: &mut Book, task: &Task) -> Result<Option<Leaf>, XlsxError> {
+    let sources = statement::sources(task);
+    let equations = statement::sheet(task);
+    if sources.is_empty() && equations.is_none() {
+        return Ok(None);
+    }
+    let mut leaf = book.leaf("Measurement")?;
+    leaf.title(0, "Measurement model")?;
+    let mut at = 1;
+    for said in sources {
+        leaf.line(at, &said)?;
+        at += 1;
+    }
+    if let Some(sheet) = equations {
+        at = leaf.table(at + 1, &sheet)?;
+    }
+    if let Some(said) = statement::left_out(task) {
+        leaf.line(at, &said)?;
+    }
+    Ok(Some(leaf))
 }
 
 /// The lines of all budgets.

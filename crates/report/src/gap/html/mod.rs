@@ -9,7 +9,7 @@ mod where_map;
 
 use maud::{Markup, html};
 
-use super::{departure, digits, sheets, words};
+use super::{composed, departure, digits, sheets, words};
 pub(crate) use crate::html::Drawing;
 pub(super) use crate::html::WIDTH;
 use crate::html::{figure, page, table};
@@ -65,6 +65,12 @@ pub fn html(diagnosis: &Diagnosis, provenance: &Provenance) -> String {
         @if !departure.is_empty() {
             h2 { "What the departure looks like" }
             ul { @for said in departure { li { (said) } } }
+        }
+        @let composed = composed::sentences(diagnosis);
+        @if !composed.is_empty() {
+            h2 { "What would explain it: composed, not from your list" }
+            ul { @for said in composed { li { (said) } } }
+            p { (composed::HOW_TO_USE) }
         }
         h2 { "How far does it shrink?" }
         (table(&sheets::shrinkage(diagnosis)))

@@ -177,6 +177,7 @@ fn diagnosis() -> Diagnosis {
             parameters: vec![low_pass()],
         }],
         departure: Vec::new(),
+        composed: Vec::new(),
         prior_conflicts: vec![PriorConflict {
             effect: "low-pass".into(),
             parameter: low_pass(),

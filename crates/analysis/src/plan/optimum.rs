@@ -1,0 +1,415 @@
+//! The cheapest combination of improvements.
+//!
+//! Of inputs that can be improved by any amount, the cost is least where for all of them the same
+//! share of the combined variance is bought for a unit of cost: with C_i (u_i0/u_i)^p_i the cost and
+//! D_i = (d u^2/d u_i) u_i/2 what the variance has of input i (c_i^2 u_i^2 without correlations),
+//! p_i C_i (u_i0/u_i)^p_i = lambda D_i, between the least u_i that can be had and u_i0. lambda is
+//! found so that the target just holds; with a fixed coverage factor and no negative correlations the
+//! problem is convex in ln u_i and this is its minimum. That k itself moves with the shares is taken
+//! into account where the target is tried, not in the condition.
+//!
+//! Numbers of readings are first taken as real (their cost has that form, with power 2), then whole
+//! numbers about what was found are all tried. Offers are tried in all combinations.
+
+use super::NoPlan;
+use super::cost::{Costs, Improvement, Offer};
+use super::trial_budget::{Change, Changes, Plannable, TrialBudget};
+use gumption_engine::propagate::gum::Gum;
+
+/// Combinations of offers, at most.
+const MOST_COMBINATIONS: usize = 2000;
+
+/// Combinations of whole numbers of readings, at most.
+const MOST_WHOLE: usize = 400;
+
+/// Steps in which shares of correlated inputs settle.
+const SETTLING: usize = 25;
+
+/// What becomes of an input in a plan.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PlannedInput {
+    /// Place of the variable in the task.
+    pub variable: usize,
+    /// Its standard uncertainty now.
+    pub from: f64,
+    /// Its standard uncertainty in the plan.
+    pub to: f64,
+    /// The number of readings, where it is changed by that.
+    pub readings: Option<u64>,
+    /// The offer that is taken, in words.
+    pub offer: Option<String>,
+    /// What it costs.
+    pub cost: f64,
+}
+
+/// A plan.
+#[derive(Clone, Debug)]
+pub struct CheapestPlan {
+    /// The inputs that can be improved, in the order of the task.
+    pub inputs: Vec<PlannedInput>,
+    /// What all of it costs.
+    pub cost: f64,
+    /// The output as planned.
+    pub gum: Gum,
+}
+
+impl CheapestPlan {
+    /// The inputs that differ from what they are, with what they become.
+    pub(super) fn changes(&self) -> Changes {
+        let changed = self.inputs.iter().filter(|input| input.to != input.from);
+        changed
+            .map(|input| match input.readings {
+                Some(count) => (input.variable, Change::Readings(count as f64)),
+                None => (input.variable, Change::Width(input.to)),
+            })
+            .collect()
+    }
+}
+
+/// An input that can be improved by any amount.
+#[derive(Clone, Copy, Debug)]
+struct Smooth {
+    variable: usize,
+    now: f64,
+    cost: f64,
+    power: f64,
+    least: f64,
+    /// The number of readings now, if u stands for such a number.
+    readings: Option<f64>,
+}
+
+impl Smooth {
+    fn change(&self, u: f64) -> Change {
+        match self.readings {
+            Some(now) => Change::Readings(now * (self.now / u).powi(2)),
+            None => Change::Width(u),
+        }
+    }
+
+    fn cost(&self, u: f64) -> f64 {
+        self.cost * (libm::pow(self.now / u, self.power) - 1.0)
+    }
+}
+
+/// An input that is improved by readings.
+#[derive(Clone, Copy, Debug)]
+struct Counted {
+    variable: usize,
+    now: u64,
+    most: u64,
+    each: f64,
+}
+
+/// The problem without its offers.
+#[derive(Debug)]
+struct Problem<'a> {
+    budget: &'a TrialBudget<'a>,
+    smooth: Vec<Smooth>,
+    counted: Vec<Counted>,
+}
+
+/// A solution and its cost.
+type Solution = (Changes, f64);
+
+pub(super) fn cheapest(budget: &TrialBudget<'_>, costs: &Costs) -> Result<CheapestPlan, NoPlan> {
+    let mut problem = Problem { budget, smooth: Vec::new(), counted: Vec::new() };
+    let mut offers: Vec<(usize, Vec<Offer>)> = Vec::new();
+    let mut improved = Vec::new();
+    for variable in 0..budget.task.variables.len() {
+        let Some(improvement) = costs.improvement(budget, variable) else { continue };
+        improved.push(variable);
+        let now = budget.uncertainty(variable);
+        match improvement {
+            Improvement::Continuous { cost, power, least } => {
+                let least = least.min(now);
+                let readings = None;
+                problem.smooth.push(Smooth { variable, now, cost, power, least, readings });
+            }
+            Improvement::Readings { each, most } => {
+                if let Plannable::Readings(count) = budget.plannable(variable) {
+                    let most = most.max(count);
+                    problem.counted.push(Counted { variable, now: count, most, each });
+                }
+            }
+            Improvement::Offers(of) => offers.push((variable, of)),
+        }
+    }
+    let sizes = offers.iter().map(|(_, of)| of.len() + 1);
+    let combinations = sizes.clone().fold(1_usize, usize::saturating_mul);
+    if combinations > MOST_COMBINATIONS {
+        return Err(NoPlan::TooManyOffers { found: combinations, most: MOST_COMBINATIONS });
+    }
+    let mut best: Option<Solution> = None;
+    for number in 0..combinations {
+        let (mut rest, mut taken, mut cost) = (number, Changes::new(), 0.0);
+        for (variable, of) in &offers {
+            let choice = rest % (of.len() + 1);
+            rest /= of.len() + 1;
+            if let Some(offer) = choice.checked_sub(1).and_then(|choice| of.get(choice)) {
+                taken.push((*variable, Change::Width(offer.standard_uncertainty)));
+                cost += offer.cost;
+            }
+        }
+        if best.as_ref().is_some_and(|(_, least)| cost >= *least) {
+            continue;
+        }
+        if let Some((mut changes, more)) = problem.solve(&taken)
+            && best.as_ref().is_none_or(|(_, least)| cost + more < *least)
+        {
+            changes.extend(taken);
+            best = Some((changes, cost + more));
+        }
+    }
+    let Some((changes, cost)) = best else {
+        return Err(NoPlan::Unreachable(problem.least(&offers)));
+    };
+    let gum = budget.gum(&changes).ok_or(NoPlan::Undefined)?;
+    let inputs = improved.into_iter().map(|variable| {
+        let change = changes.iter().find(|(changed, _)| *changed == variable);
+        problem.planned(variable, change.map(|(_, change)| *change), &offers)
+    });
+    Ok(CheapestPlan { inputs: inputs.collect(), cost, gum })
+}
+
+impl Problem<'_> {
+    /// The cheapest solution behind the offers that are taken; `None` where the target cannot be
+    /// reached with them.
+    fn solve(&self, taken: &Changes) -> Option<Solution> {
+        if self.counted.is_empty() {
+            return self.balanced(taken, &self.smooth);
+        }
+        // readings as real numbers: their cost is each * now * ((u0/u)^2 - 1)
+        let relaxed = self.counted.iter().map(|of| {
+            let now = self.budget.uncertainty(of.variable);
+            Smooth {
+                variable: of.variable,
+                now,
+                cost: of.each * of.now as f64,
+                power: 2.0,
+                least: now * (of.now as f64 / of.most as f64).sqrt(),
+                readings: Some(of.now as f64),
+            }
+        });
+        let all: Vec<Smooth> = self.smooth.iter().copied().chain(relaxed).collect();
+        let (found, _) = self.balanced(taken, &all)?;
+        let middle: Vec<u64> = self
+            .counted
+            .iter()
+            .map(|of| {
+                let count = found.iter().find_map(|(variable, change)| match change {
+                    Change::Readings(count) if *variable == of.variable => Some(*count),
+                    _ => None,
+                });
+                (count.map_or(of.now, |count| count.floor() as u64)).clamp(of.now, of.most)
+            })
+            .collect();
+        // as wide about that as can be tried
+        let count = u32::try_from(self.counted.len()).unwrap_or(u32::MAX);
+        let width = (2..=12_usize)
+            .rev()
+            .find(|w| w.checked_pow(count).is_some_and(|combinations| combinations <= MOST_WHOLE));
+        let (width, below) = width.map_or((1, 0), |width| (width, (width / 2 - 1) as u64));
+        let combinations = width.saturating_pow(count).min(MOST_WHOLE);
+        let mut best: Option<Solution> = None;
+        let mut upper = None;
+        for number in 0..=combinations {
+            let (mut rest, mut fixed, mut cost) = (number, taken.clone(), 0.0);
+            for (of, &middle) in self.counted.iter().zip(&middle) {
+                // the last try rounds all of them up
+                let step = if number == combinations { below + 1 } else { (rest % width) as u64 };
+                rest /= width;
+                let whole = (middle + step).saturating_sub(below).clamp(of.now, of.most);
+                fixed.push((of.variable, Change::Readings(whole as f64)));
+                cost += of.each * (whole - of.now) as f64;
+            }
+            if number == combinations {
+                upper = Some(fixed.clone());
+            }
+            if best.as_ref().is_some_and(|(_, least)| cost >= *least) {
+                continue;
+            }
+            if let Some((smooth, more)) = self.balanced(&fixed, &self.smooth)
+                && best.as_ref().is_none_or(|(_, least)| cost + more < *least)
+            {
+                let own = fixed.into_iter().skip(taken.len());
+                best = Some((smooth.into_iter().chain(own).collect(), cost + more));
+            }
+        }
+        best.or_else(|| self.further(taken, upper?))
+    }
+
+    /// Where no whole numbers about the real ones do, because k moves: further readings of all,
+    /// until the target holds.
+    fn further(&self, taken: &Changes, mut fixed: Changes) -> Option<Solution> {
+        for _ in 0..10_000 {
+            let mut moved = false;
+            for of in &self.counted {
+                for (variable, change) in fixed.iter_mut().skip(taken.len()) {
+                    if let Change::Readings(count) = change
+                        && *variable == of.variable
+                        && *count < of.most as f64
+                    {
+                        *count += 1.0;
+                        moved = true;
+                    }
+                }
+            }
+            if let Some((smooth, more)) = self.balanced(&fixed, &self.smooth) {
+                let own: Changes = fixed.into_iter().skip(taken.len()).collect();
+                let cost = |of: &Counted| {
+                    let count = own.iter().find_map(|(variable, change)| match change {
+                        Change::Readings(count) if *variable == of.variable => Some(*count),
+                        _ => None,
+                    });
+                    count.map_or(0.0, |count| of.each * (count - of.now as f64))
+                };
+                let cost = more + self.counted.iter().map(cost).sum::<f64>();
+                return Some((smooth.into_iter().chain(own).collect(), cost));
+            }
+            if !moved {
+                return None;
+            }
+        }
+        None
+    }
+
+    /// The cheapest standard uncertainties of the inputs of any amount, with others fixed.
+    fn balanced(&self, fixed: &Changes, smooth: &[Smooth]) -> Option<Solution> {
+        let with = |u: &[f64]| -> Changes {
+            let own = smooth.iter().zip(u).filter(|(of, u)| **u != of.now);
+            own.map(|(of, &u)| (of.variable, of.change(u))).chain(fixed.iter().copied()).collect()
+        };
+        let now: Vec<f64> = smooth.iter().map(|of| of.now).collect();
+        let solution = |u: &[f64]| -> Solution {
+            let cost = smooth.iter().zip(u).map(|(of, &u)| of.cost(u)).sum();
+            let own = with(u).into_iter().filter(|(v, _)| fixed.iter().all(|(f, _)| f != v));
+            (own.collect(), cost)
+        };
+        if self.budget.holds(&with(&now)) {
+            return Some(solution(&now));
+        }
+        let least: Vec<f64> = smooth.iter().map(|of| of.least).collect();
+        // what the variance has of each input, over the square of its standard uncertainty
+        let slopes = |u: &[f64]| self.slopes(&with(u), smooth, u);
+        let at = |lambda: f64| -> Option<Vec<f64>> {
+            let mut u = now.clone();
+            for _ in 0..SETTLING {
+                let slopes = slopes(&u)?;
+                let next: Vec<f64> = smooth
+                    .iter()
+                    .zip(&slopes)
+                    .map(|(of, &slope)| {
+                        if slope <= 0.0 {
+                            return of.now;
+                        }
+                        // p C u0^p / (lambda d) = u^(p + 2), in logarithms so that nothing overflows
+                        let ln = (libm::log(of.power * of.cost / slope)
+                            + of.power * libm::log(of.now)
+                            - lambda)
+                            / (of.power + 2.0);
+                        libm::exp(ln).clamp(of.least, of.now)
+                    })
+                    .collect();
+                let settled =
+                    next.iter().zip(&u).all(|(a, b)| (a - b).abs() <= 1e-14 * f64::max(*a, *b));
+                u = next;
+                if settled {
+                    break;
+                }
+            }
+            Some(u)
+        };
+        // the logarithm of lambda at which the first input begins to move
+        let first = smooth
+            .iter()
+            .zip(slopes(&now)?)
+            .filter(|(_, slope)| *slope > 0.0)
+            .map(|(of, slope)| libm::log(of.power * of.cost / slope) - 2.0 * libm::log(of.now))
+            .fold(f64::INFINITY, f64::min);
+        if !first.is_finite() {
+            return None;
+        }
+        let holds = |lambda: f64| at(lambda).is_some_and(|u| self.budget.holds(&with(&u)));
+        let mut step = 1.0;
+        let (mut outside, mut inside) = (first, first + step);
+        while !holds(inside) {
+            if at(inside)? == least || step > 1e4 {
+                return None;
+            }
+            step *= 2.0;
+            (outside, inside) = (inside, inside + step);
+        }
+        let lambda = super::search::boundary(inside, outside, holds);
+        Some(solution(&at(lambda)?))
+    }
+
+    /// For each input of any amount D_i/u_i^2 = c_i^2 + sum_j r_ij c_i c_j u_j/u_i.
+    fn slopes(&self, changes: &Changes, smooth: &[Smooth], u: &[f64]) -> Option<Vec<f64>> {
+        let gum = self.budget.gum(changes)?;
+        let variance = gum.standard_uncertainty.powi(2);
+        let lines: Vec<_> = gum.budget().collect();
+        let links: Vec<_> = gum.correlations().collect();
+        let of = |(of, &u): (&Smooth, &f64)| {
+            let own = lines.iter().find(|line| line.variable == of.variable);
+            let own = own.map_or(0.0, |line| line.sensitivity * line.sensitivity);
+            let linked = links.iter().filter(|link| link.variables.contains(&of.variable));
+            // the share is that of both
+            let joint: f64 = linked.map(|link| 0.5 * link.share * variance).sum();
+            if u > 0.0 && joint != 0.0 { own + joint / (u * u) } else { own }
+        };
+        Some(smooth.iter().zip(u).map(of).collect())
+    }
+
+    /// The least that the figure can be, for the message.
+    fn least(&self, offers: &[(usize, Vec<Offer>)]) -> f64 {
+        let smooth = self.smooth.iter().map(|of| (of.variable, Change::Width(of.least)));
+        let counted = self.counted.iter().map(|of| (of.variable, Change::Readings(of.most as f64)));
+        let offered = offers.iter().map(|(variable, of)| {
+            let now = self.budget.uncertainty(*variable);
+            let least = of.iter().map(|offer| offer.standard_uncertainty).fold(now, f64::min);
+            (*variable, Change::Width(least))
+        });
+        let changes = smooth.chain(counted).chain(offered).collect();
+        self.budget.figure(&changes).unwrap_or(f64::NAN)
+    }
+
+    /// What becomes of an input.
+    fn planned(
+        &self,
+        variable: usize,
+        change: Option<Change>,
+        offers: &[(usize, Vec<Offer>)],
+    ) -> PlannedInput {
+        let from = self.budget.uncertainty(variable);
+        let to = change.map_or(from, |change| self.budget.changed_uncertainty(variable, change));
+        let counted = self.counted.iter().find(|of| of.variable == variable);
+        let readings = counted.map(|of| match change {
+            Some(Change::Readings(count)) => count as u64,
+            _ => of.now,
+        });
+        let offer = offers
+            .iter()
+            .find(|(offered, _)| *offered == variable)
+            .filter(|_| change.is_some())
+            .and_then(|(_, of)| of.iter().find(|offer| offer.standard_uncertainty == to));
+        let smooth = self.smooth.iter().find(|of| of.variable == variable);
+        let cost = match (smooth, counted, readings, offer) {
+            (Some(of), ..) => of.cost(to),
+            (_, Some(of), Some(count), _) => of.each * (count - of.now) as f64,
+            (.., Some(offer)) => offer.cost,
+            _ => 0.0,
+        };
+        let to = match (counted, readings) {
+            (Some(of), Some(count)) if count == of.now => from,
+            _ => to,
+        };
+        PlannedInput {
+            variable,
+            from,
+            to,
+            readings,
+            offer: offer.map(|offer| offer.about.clone()),
+            cost,
+        }
+    }
+}

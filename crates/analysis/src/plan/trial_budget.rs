@@ -1,0 +1,150 @@
+//! The budget of a row with some of its inputs changed.
+
+use std::sync::Arc;
+
+use super::PlanTarget;
+use gumption_engine::distribution::{Constant, Distribution, Invalid, Normal, StudentT};
+use gumption_engine::propagate::gum::{AtEstimates, Gum};
+use gumption_engine::task::{Row, Task};
+
+/// What of an input can be changed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Plannable {
+    /// Its standard uncertainty.
+    Width,
+    /// The number of its readings, of which there are so many.
+    Readings(u64),
+    /// Nothing, and why.
+    Not(&'static str),
+}
+
+/// What an input is changed to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Change {
+    /// A standard uncertainty.
+    Width(f64),
+    /// A number of readings, of which a part may be meant on the way to a whole number.
+    Readings(f64),
+}
+
+/// Variables with what they are changed to.
+pub(super) type Changes = Vec<(usize, Change)>;
+
+/// A row of a task and the output that is planned.
+#[derive(Debug)]
+pub(super) struct TrialBudget<'a> {
+    pub(super) task: &'a Task,
+    pub(super) row: &'a Row,
+    pub(super) target: PlanTarget,
+    at: AtEstimates<'a>,
+}
+
+impl<'a> TrialBudget<'a> {
+    pub(super) fn of(task: &'a Task, row: &'a Row, target: PlanTarget) -> Self {
+        Self { task, row, target, at: AtEstimates::of(task, row) }
+    }
+
+    fn distribution(&self, variable: usize) -> Option<&Arc<Distribution>> {
+        self.row.distributions.get(variable)
+    }
+
+    /// The standard uncertainty of a variable as it is.
+    pub(super) fn uncertainty(&self, variable: usize) -> f64 {
+        self.distribution(variable).map_or(0.0, |known| known.standard_uncertainty())
+    }
+
+    /// What of a variable can be changed.
+    pub(super) fn plannable(&self, variable: usize) -> Plannable {
+        let Some(known) = self.distribution(variable) else {
+            return Plannable::Not("no such quantity");
+        };
+        if known.standard_uncertainty() == 0.0 {
+            return Plannable::Not("known exactly");
+        }
+        match &**known {
+            Distribution::SavedResult(_) => {
+                Plannable::Not("a saved result: plan the evaluation that it comes from")
+            }
+            Distribution::Readings(readings) if readings.together() > 1 => {
+                Plannable::Not("paired readings: their number is that of all of them")
+            }
+            Distribution::Readings(readings) => {
+                let count = readings.values().len();
+                // where it is the scatter of these readings that decides
+                if known.dof() == count as f64 - 1.0 {
+                    Plannable::Readings(count as u64)
+                } else {
+                    Plannable::Width
+                }
+            }
+            _ => Plannable::Width,
+        }
+    }
+
+    /// The standard uncertainty and the degrees of freedom that a change gives.
+    fn changed(&self, variable: usize, change: Change) -> (f64, f64) {
+        let (u, dof) = self
+            .distribution(variable)
+            .map_or((0.0, f64::INFINITY), |known| (known.standard_uncertainty(), known.dof()));
+        match change {
+            Change::Width(u) => (u, dof),
+            Change::Readings(count) => (u * ((dof + 1.0) / count).sqrt(), count - 1.0),
+        }
+    }
+
+    /// The standard uncertainty that a change gives.
+    pub(super) fn changed_uncertainty(&self, variable: usize, change: Change) -> f64 {
+        self.changed(variable, change).0
+    }
+
+    /// The output with some inputs changed; `None` where it is not defined.
+    pub(super) fn gum(&self, changes: &Changes) -> Option<Gum> {
+        let mut distributions = self.row.distributions.to_vec();
+        for &(variable, change) in changes {
+            let (u, dof) = self.changed(variable, change);
+            let place = distributions.get_mut(variable)?;
+            // estimate, standard uncertainty and degrees of freedom are all that counts here
+            *place = Arc::new(stand_in(place.mean(), u, dof).ok()?);
+        }
+        self.at.with(distributions.into()).into_iter().nth(self.target.output)?
+    }
+
+    /// U or u, whichever is wanted, with some inputs changed.
+    pub(super) fn figure(&self, changes: &Changes) -> Option<f64> {
+        let gum = self.gum(changes)?;
+        if self.target.expanded {
+            gum.expanded_uncertainty()
+        } else {
+            Some(gum.standard_uncertainty)
+        }
+    }
+
+    /// Whether the target holds with some inputs changed.
+    pub(super) fn holds(&self, changes: &Changes) -> bool {
+        self.figure(changes).is_some_and(|figure| figure <= self.target.most)
+    }
+
+    /// The changes for another row: widths by the same factor.
+    pub(super) fn carried_to(&self, other: &TrialBudget<'_>, changes: &Changes) -> Changes {
+        let carried = |&(variable, change): &(usize, Change)| match change {
+            Change::Width(u) => {
+                let factor = u / self.uncertainty(variable);
+                (variable, Change::Width(factor * other.uncertainty(variable)))
+            }
+            Change::Readings(_) => (variable, change),
+        };
+        let varies = |(variable, _): &&(usize, Change)| other.uncertainty(*variable) > 0.0;
+        changes.iter().filter(varies).map(carried).collect()
+    }
+}
+
+/// A distribution of an estimate, a standard uncertainty and its degrees of freedom.
+pub(super) fn stand_in(mean: f64, u: f64, dof: f64) -> Result<Distribution, Invalid> {
+    Ok(if u == 0.0 {
+        Constant::new(mean)?.into()
+    } else if dof.is_finite() {
+        StudentT::new(mean, u, dof)?.into()
+    } else {
+        Normal::new(mean, u)?.into()
+    })
+}

@@ -1,0 +1,292 @@
+//! Two at once where one term does not do: pairs of terms, products of functions of two conditions, and
+//! a term beside an effect of the list.
+
+use rayon::prelude::*;
+
+use super::metric::{Metric, White};
+use super::search::solved;
+use super::term::Argument;
+use super::{Composition, Search, Term};
+use crate::discrepancy::Base;
+use crate::posterior::{Posterior, WeighedHypothesis};
+use gumption_engine::linalg::dot;
+use gumption_engine::number::elementary;
+use gumption_engine::special;
+use nalgebra::{DMatrix, DVector};
+
+/// Prior share of two at once, where one term does not do.
+pub(super) const SHARE: f64 = 0.3;
+
+/// Terms, and effects of the list, to which another term is added.
+const FIRST: usize = 3;
+
+/// Terms that are multiplied with each other.
+const MULTIPLIED: usize = 12;
+
+/// Forms that are looked at closely beside each of these.
+const REFINED: usize = 60;
+
+/// Of those so many are kept.
+const KEPT: usize = 12;
+
+/// One term does not do where it leaves residuals as large as these with less than this probability.
+const DOUBTFUL: f64 = 0.01;
+
+/// Half the step of differences in the scores.
+const STEP: f64 = 1e-3;
+
+impl Search<'_> {
+    /// Whether the best of the terms leaves more than the noise.
+    pub(super) fn misfits(
+        &self,
+        metric: &Metric<'_>,
+        residuals: &[f64],
+        found: &[Composition],
+    ) -> bool {
+        let best = found.iter().max_by(|a, b| a.ln_weight.total_cmp(&b.ln_weight));
+        let Some(best) = best.filter(|_| !self.setup.linear.fitted) else { return false };
+        let (with, _) = self.beside_term(metric, best);
+        let white = with.white(residuals);
+        let square = white.dot(&white).max(0.0);
+        let dof = residuals.len() as f64;
+        special::gamma::ln_sf(0.5 * square, 0.5 * dof) < elementary::ln(DOUBTFUL)
+    }
+
+    /// The metric with a term integrated out, and the logarithm of the density that it has of the
+    /// residuals less that without.
+    fn beside_term<'m>(
+        &self,
+        metric: &Metric<'m>,
+        term: &Composition,
+    ) -> (Metric<'m>, Vec<Vec<f64>>) {
+        let columns = term.in_data(self.setup, &term.shares());
+        let scaled: Vec<Vec<f64>> = columns
+            .iter()
+            .map(|column| {
+                let white = metric.whiten(column);
+                let touched = white.iter().filter(|x| **x != 0.0).count().max(1) as f64;
+                let rms = (dot(&white, &white) / touched).sqrt().max(f64::MIN_POSITIVE);
+                column.iter().map(|x| WIDE * x / rms).collect()
+            })
+            .collect();
+        (metric.with(&scaled), scaled)
+    }
+
+    /// All that is found of two at once.
+    pub(super) fn joint(
+        &self,
+        metric: &Metric<'_>,
+        residuals: &[f64],
+        singles: &[Composition],
+        posterior: &Posterior,
+    ) -> Vec<Composition> {
+        let white = metric.white(residuals);
+        let mut ranked: Vec<&Composition> = singles.iter().collect();
+        ranked.sort_by(|a, b| b.ln_weight.total_cmp(&a.ln_weight));
+        let ln_each = elementary::ln(SHARE / 3.0);
+        let mut found = self.products(metric, &white, &ranked, ln_each);
+        found.extend(self.pairs(metric, &white, &ranked, ln_each));
+        found.extend(self.beside_listed(metric, residuals, posterior, ln_each));
+        found
+    }
+
+    /// Sums of a leading term and another one.
+    fn pairs(
+        &self,
+        metric: &Metric<'_>,
+        white: &White,
+        ranked: &[&Composition],
+        ln_share: f64,
+    ) -> Vec<Composition> {
+        let mut leading: Vec<&Composition> = Vec::new();
+        for of in ranked {
+            let same = |other: &&Composition| {
+                let (own, other) = (&of.terms[0], &other.terms[0]);
+                own.target.names == other.target.names && own.argument == other.argument
+            };
+            if leading.len() < FIRST && !leading.iter().any(same) {
+                leading.push(of);
+            }
+        }
+        let square = white.dot(white);
+        let of_first = |first: &&Composition| {
+            let (with, _) = self.beside_term(metric, first);
+            // the residuals in the new metric, whitened by the same blocks
+            let again = with.rewhitened(white);
+            let gain =
+                0.5 * (square - again.dot(&again)) - (with.half_ln_det() - metric.half_ln_det());
+            // what the parameters of its functions cost, and its size in the place of that here
+            let occam = first.ln_weight - first.best;
+            let ln_first = first.best - first.gain_at(self.setup, metric, white);
+            let mut others = self.singles(&with, &again, REFINED);
+            others.sort_by(|a, b| b.ln_weight.total_cmp(&a.ln_weight));
+            others.truncate(KEPT);
+            let joined = others.into_iter().filter_map(move |other| {
+                let mut terms = vec![first.terms[0].clone()];
+                terms.extend(other.terms);
+                let two = terms.len() == 2 && !terms[0].is_same_as(&terms[1]);
+                let ln_weight = ln_share + ln_first + occam + gain + other.ln_weight;
+                two.then(|| Composition { terms, ln_weight, best: ln_weight, ..(*first).clone() })
+            });
+            joined.collect::<Vec<Composition>>()
+        };
+        leading.par_iter().flat_map_iter(of_first).collect()
+    }
+
+    /// Products of functions of two conditions.
+    fn products(
+        &self,
+        metric: &Metric<'_>,
+        white: &White,
+        ranked: &[&Composition],
+        ln_share: f64,
+    ) -> Vec<Composition> {
+        let single: Vec<&&Composition> = ranked
+            .iter()
+            .filter(|of| {
+                let term = &of.terms[0];
+                matches!(term.argument, Argument::Condition(_)) && term.shape.count() == 1
+            })
+            .collect();
+        // the best of every quantity, way and condition
+        let mut leading: Vec<&&Composition> = Vec::new();
+        for of in single {
+            let own = &of.terms[0];
+            let alike = leading.iter().filter(|other| {
+                let other = &other.terms[0];
+                own.is_way_of(other) && own.argument == other.argument
+            });
+            if alike.count() < 3 && leading.len() < MULTIPLIED {
+                leading.push(of);
+            }
+        }
+        let mut found = Vec::new();
+        for (number, first) in leading.iter().enumerate() {
+            for second in &leading[number + 1..] {
+                let (one, other) = (&first.terms[0], &second.terms[0]);
+                if !one.is_way_of(other) || one.argument == other.argument {
+                    continue;
+                }
+                let product = Composition {
+                    terms: vec![one.clone(), other.clone()],
+                    product: true,
+                    beside: Vec::new(),
+                    ln_weight: 0.0,
+                    best: 0.0,
+                    share: 0.0,
+                };
+                let gain = product.gain_at(self.setup, metric, white);
+                // half of the prior of each, and what its parameters cost
+                let costs = [first, second].map(|of| of.ln_weight - of.best);
+                let prior =
+                    [first, second].map(|of| of.best - of.gain_at(self.setup, metric, white));
+                let prior = prior[0].max(prior[1]);
+                let ln_weight = ln_share + prior + costs[0] + costs[1] + gain
+                    - elementary::ln(leading.len() as f64);
+                found.push(Composition { ln_weight, best: ln_weight, ..product });
+            }
+        }
+        found
+    }
+
+    /// A term beside the leading effects of the list, each with its parameters free about its best
+    /// point.
+    fn beside_listed(
+        &self,
+        metric: &Metric<'_>,
+        residuals: &[f64],
+        posterior: &Posterior,
+        ln_share: f64,
+    ) -> Vec<Composition> {
+        let mut listed: Vec<&WeighedHypothesis> =
+            posterior.hypotheses.iter().filter(|h| h.effects.len() == 1).collect();
+        listed.sort_by(|a, b| b.ln_weight().total_cmp(&a.ln_weight()));
+        let ln_effect = -elementary::ln(listed.len().max(1) as f64);
+        listed.truncate(FIRST);
+        let white = metric.white(residuals);
+        let square = white.dot(&white);
+        let beside = |hypothesis: &&WeighedHypothesis| {
+            let setup = self.setup;
+            let mode = hypothesis.evidence.modes.first()?;
+            let at = |moved: Option<(usize, f64)>| {
+                let mut mode = mode.clone();
+                if let Some((place, step)) = moved {
+                    mode.scores[place] += step;
+                }
+                Base::at(setup, &hypothesis.effects, &mode)
+            };
+            let mut left = at(None)?.residuals(setup);
+            let mut columns = Vec::new();
+            for place in setup.roles.len()..mode.scores.len() {
+                let (up, down) = (at(Some((place, STEP)))?, at(Some((place, -STEP)))?);
+                let column: Vec<f64> = up
+                    .values
+                    .iter()
+                    .zip(&down.values)
+                    .map(|(up, down)| (up - down) / (2.0 * STEP))
+                    .collect();
+                if column.iter().any(|x| !x.is_finite()) {
+                    return None;
+                }
+                // as if the effect were linear about its best point, its scores standard normal
+                for (left, x) in left.iter_mut().zip(&column) {
+                    *left += x * mode.scores[place];
+                }
+                columns.push(column);
+            }
+            let with = metric.with(&columns);
+            let again = with.white(&left);
+            let gain =
+                0.5 * (square - again.dot(&again)) - (with.half_ln_det() - metric.half_ln_det());
+            let mut others = self.singles(&with, &again, REFINED);
+            others.sort_by(|a, b| b.ln_weight.total_cmp(&a.ln_weight));
+            others.truncate(KEPT);
+            for of in &mut others {
+                of.beside.clone_from(&hypothesis.effects);
+                of.ln_weight += ln_share + ln_effect + gain;
+            }
+            Some(others)
+        };
+        listed.par_iter().filter_map(beside).flatten_iter().collect()
+    }
+}
+
+/// The standard deviation of a first term's size, in standard uncertainties, beside a second one.
+const WIDE: f64 = 300.0;
+
+impl Composition {
+    /// The gain of its functions with their parameters as they are.
+    fn gain_at(
+        &self,
+        setup: &crate::setup::Setup<'_>,
+        metric: &Metric<'_>,
+        residuals: &White,
+    ) -> f64 {
+        let columns: Vec<White> =
+            self.in_data(setup, &self.shares()).iter().map(|column| metric.white(column)).collect();
+        let d = columns.len();
+        let scales: Vec<f64> = columns
+            .iter()
+            .map(|white| {
+                let touched = white.values.iter().filter(|x| **x != 0.0).count().max(1) as f64;
+                (dot(&white.values, &white.values) / touched).sqrt()
+            })
+            .collect();
+        let gram = DMatrix::from_fn(d, d, |i, j| columns[i].dot(&columns[j]));
+        let products = DVector::from_fn(d, |i, _| columns[i].dot(residuals));
+        solved(&gram, &products, &scales).map_or(f64::NEG_INFINITY, |fit| fit.gain)
+    }
+}
+
+impl Term {
+    /// Whether it makes the same quantity depart in the same way.
+    fn is_way_of(&self, other: &Self) -> bool {
+        self.target.names == other.target.names && self.kind == other.kind
+    }
+
+    fn is_same_as(&self, other: &Self) -> bool {
+        self.is_way_of(other)
+            && self.argument == other.argument
+            && self.shape.form() == other.shape.form()
+    }
+}

@@ -1,0 +1,345 @@
+//! Composed effects: what may be missing where no candidate explains the data.
+//!
+//! A departure of one term, q + k g(c) or q (1 + k g(c)), of an output or of a quantity that the sim
+//! computes, with g from a list of functions of a condition or of the quantity's own value. Its size k
+//! is integrated out exactly, what else g has on a grid and then about the best point ([`search`]); the
+//! sim is linear in its inputs. Where one term does not do, products of two conditions' functions and
+//! pairs of terms are tried, and a term beside each leading effect of the list.
+//!
+//! Quantities, conditions and forms are equally probable beforehand, and all composed effects together
+//! are as probable as the smooth departures of [`crate::discrepancy`], against which their evidence
+//! stands: a departure that is none of these forms leaves them improbable.
+
+mod effect;
+mod joint;
+mod metric;
+mod prediction;
+mod search;
+mod shape;
+mod target;
+mod term;
+#[cfg(test)]
+mod tests;
+
+pub use effect::{ComposedEffect, ComposedParameter, ComposedPrior, ComposedTerm};
+pub use shape::ComposedForm;
+
+use rayon::prelude::*;
+
+use crate::data::by_rows;
+use crate::diagnosis::DepartureKind;
+use crate::discrepancy::{Discrepancy, Unexplained};
+use crate::logarithm::{ln_add, ln_sum};
+use crate::posterior::Posterior;
+use crate::setup::Setup;
+use gumption_engine::linalg::dot;
+use gumption_engine::number::elementary;
+use metric::{Metric, White};
+use search::{Frame, OnGrid};
+use shape::{Shape, Values};
+use target::{Response, Target};
+use term::{Argument, Term};
+
+/// So many forms of the first grid are looked at closely.
+const REFINED: usize = 300;
+
+/// Prior weights of functions of an output's own value, and of those of a quantity within the sim,
+/// beside a condition's.
+const OWN_VALUE: f64 = 0.5;
+const OWN_VALUE_WITHIN: f64 = 0.1;
+
+/// Composed effects that are handed over, at most.
+const MOST: usize = 8;
+
+/// Those with less than this share of the most probable one are left out.
+const LEAST: f64 = 1e-3;
+
+/// Quantities do the same where the cosine between what they do is nearer to 1 than this.
+const SAME: f64 = 1e-9;
+
+/// Data with more values than this are not composed for: what departs in them is a matter of more
+/// than one term, and the search costs a pass for every form.
+const MOST_VALUES: usize = 20_000;
+
+/// A departure composed of terms, with its weight.
+#[derive(Clone, Debug)]
+pub(crate) struct Composition {
+    terms: Vec<Term>,
+    /// Whether the terms' functions are multiplied by each other rather than added.
+    product: bool,
+    /// Places of the effects of the list that it acts beside.
+    beside: Vec<usize>,
+    /// The logarithm of prior times evidence, above that of the data without a departure.
+    ln_weight: f64,
+    /// The same with the parameters of the functions at their best values.
+    best: f64,
+    /// Posterior share among all that "unexplained" stands for.
+    pub(crate) share: f64,
+}
+
+/// What the composer found.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Compositions {
+    /// Most probable first.
+    pub(crate) all: Vec<Composition>,
+    /// Variances of the noise by value, where it is estimated.
+    variances: Option<Vec<f64>>,
+}
+
+/// A target in the metric: one way of departing.
+struct Way<'m> {
+    target: usize,
+    kind: DepartureKind,
+    frame: Frame<'m>,
+    value: Option<Values>,
+}
+
+/// A form of a way: what is integrated.
+struct Candidate {
+    way: usize,
+    argument: Argument,
+    shape: Shape,
+    found: OnGrid,
+    ln_prior: f64,
+}
+
+/// A shape with its functions at its grid.
+struct Tabulated {
+    shape: Shape,
+    grid: Vec<(Vec<f64>, Vec<Vec<f64>>)>,
+}
+
+/// All shapes of values, with the functions at their grids.
+fn tabulated(values: &Values) -> Vec<Tabulated> {
+    let shapes = Shape::all(values);
+    shapes
+        .into_par_iter()
+        .map(|shape| {
+            let at = |shares: Vec<f64>| {
+                let columns = shape.columns(&values.at, &shape.parameters(&shares));
+                (shares, columns)
+            };
+            let grid = shape.grid().into_iter().map(at).collect();
+            Tabulated { shape, grid }
+        })
+        .collect()
+}
+
+/// Composes departures for data of a setup that "unexplained" is probable for.
+pub(crate) fn compose(
+    setup: &Setup<'_>,
+    discrepancy: &Discrepancy,
+    posterior: &Posterior,
+) -> Compositions {
+    let unexplained = &posterior.unexplained;
+    if setup.data.len() > MOST_VALUES {
+        return Compositions::default();
+    }
+    let variances = unexplained.kinds.first().and_then(|kind| kind.variances.clone());
+    let variances = variances.map(|variances| variances.to_vec());
+    let metric = Metric::new(setup, variances.as_deref());
+    let residuals = by_rows(&setup.data.nominal_residuals());
+    let white = metric.white(&residuals);
+    let targets = target::targets(setup);
+    let responses: Vec<Response> = targets.par_iter().map(|t| t.in_data(setup)).collect();
+    let search = Search { setup, targets: &targets, responses: &responses };
+    let mut found = search.singles(&metric, &white, REFINED);
+    let of_process = of_process(setup, discrepancy, unexplained, &metric, &residuals);
+    let best = found.iter().map(|of| of.ln_weight).fold(f64::NEG_INFINITY, f64::max);
+    if best < of_process || search.misfits(&metric, &residuals, &found) {
+        let more = search.joint(&metric, &residuals, &found, posterior);
+        let rest = 1.0 - joint::SHARE;
+        found.iter_mut().for_each(|of| of.ln_weight += elementary::ln(rest));
+        found.extend(more);
+    }
+    weighed(found, of_process, variances)
+}
+
+/// What all searches of a case have in common.
+struct Search<'s> {
+    setup: &'s Setup<'s>,
+    targets: &'s [Target],
+    responses: &'s [Response],
+}
+
+/// The logarithm of the evidence of the discrepancies, above that without any, in this metric.
+fn of_process(
+    setup: &Setup<'_>,
+    discrepancy: &Discrepancy,
+    unexplained: &Unexplained,
+    metric: &Metric<'_>,
+    residuals: &[f64],
+) -> f64 {
+    let known = unexplained.kinds.iter().find(|kind| kind.base.is_none());
+    if let (true, Some(kind)) = (setup.linear.fitted, known) {
+        // of the heaviest form, with the noise as it is taken here, and its share of all
+        let form = &discrepancy.forms[kind.form];
+        let features = form.features(setup, &discrepancy.axes);
+        let columns: Vec<Vec<f64>> = features
+            .column_iter()
+            .map(|column| column.iter().map(|x| kind.multiplier * x).collect())
+            .collect();
+        let gain = gain(&metric.with(&columns), metric, residuals);
+        let steps = crate::discrepancy::amplitude_steps(true) as f64;
+        return gain + form.ln_weight - elementary::ln(steps) - elementary::ln(kind.weight);
+    }
+    let whitened = setup.linear.whiten_blocks(residuals);
+    unexplained.ln_evidence - crate::discrepancy::ln_normal(setup, &whitened)
+}
+
+/// By how much the logarithm of the density of residuals is higher in one metric than in another with
+/// the same noise.
+fn gain(of: &Metric<'_>, over: &Metric<'_>, residuals: &[f64]) -> f64 {
+    let ln = |metric: &Metric<'_>| {
+        let white = metric.white(residuals);
+        -0.5 * white.dot(&white) - metric.half_ln_det()
+    };
+    ln(of) - ln(over)
+}
+
+impl Search<'_> {
+    /// Departures of one term in a metric; so many forms of the first grid are looked at closely.
+    fn singles(&self, metric: &Metric<'_>, white: &White, refined: usize) -> Vec<Composition> {
+        let Self { setup, targets, .. } = *self;
+        let ways = self.ways(metric, white);
+        let conditions = term::conditions(setup);
+        let tables: Vec<(Argument, &Values, Vec<Tabulated>)> = conditions
+            .iter()
+            .map(|(argument, values)| (*argument, values, tabulated(values)))
+            .collect();
+        let ln_way = -elementary::ln(ways.len().max(1) as f64);
+        let mut candidates: Vec<Candidate> = ways
+            .par_iter()
+            .enumerate()
+            .flat_map_iter(|(number, way)| {
+                let own = way.value.as_ref().filter(|_| way.kind == DepartureKind::Additive);
+                let own = own.map(|values| {
+                    // a departure in proportion to the value itself is a proportional constant
+                    let mut table = tabulated(values);
+                    table.retain(|of| of.shape.form() != ComposedForm::Slope);
+                    (Argument::Value, values, table)
+                });
+                // what is a function of the value is often one of a condition too, which can be set
+                let own_weight = match (&own, targets[way.target].outputs.is_empty()) {
+                    (None, _) => 0.0,
+                    (Some(_), false) => OWN_VALUE,
+                    (Some(_), true) => OWN_VALUE_WITHIN,
+                };
+                let arguments = 1.0 + tables.len() as f64 + own_weight;
+                let ln_of = |argument: Argument| {
+                    let weight = if argument == Argument::Value { own_weight } else { 1.0 };
+                    ln_way + elementary::ln(weight / arguments)
+                };
+                let constant = Shape::constant();
+                let points = setup.data.points.len();
+                let grid = vec![(Vec::new(), constant.columns(&vec![0.0; points], &[]))];
+                let mut found: Vec<Candidate> = Vec::new();
+                let mut add = |argument, shape: &Shape, grid: &[_], ln_prior| {
+                    if let Some(on_grid) = way.frame.on_grid(grid) {
+                        let shape = shape.clone();
+                        let candidate =
+                            Candidate { way: number, argument, shape, found: on_grid, ln_prior };
+                        found.push(candidate);
+                    }
+                };
+                add(Argument::Nothing, &constant, &grid, ln_of(Argument::Nothing));
+                for (argument, _, table) in tables.iter().chain(&own) {
+                    let forms: Vec<ComposedForm> = table.iter().map(|of| of.shape.form()).collect();
+                    let mut each = forms.clone();
+                    each.sort_by_key(|form| form.name());
+                    each.dedup();
+                    let ln_form = ln_of(*argument) - elementary::ln(each.len().max(1) as f64);
+                    for of in table {
+                        let form = of.shape.form();
+                        let variants = forms.iter().filter(|other| **other == form).count();
+                        let ln_prior = ln_form - elementary::ln(variants as f64);
+                        add(*argument, &of.shape, &of.grid, ln_prior);
+                    }
+                }
+                found
+            })
+            .collect();
+        candidates
+            .sort_by(|a, b| (b.found.gain + b.ln_prior).total_cmp(&(a.found.gain + a.ln_prior)));
+        candidates.truncate(refined);
+        candidates
+            .into_par_iter()
+            .map(|Candidate { way, argument, shape, found, ln_prior }| {
+                let way = &ways[way];
+                let nothing = vec![0.0; setup.data.points.len()];
+                let at = match argument {
+                    Argument::Nothing => &nothing,
+                    Argument::Value => way.value.as_ref().map_or(&nothing, |values| &values.at),
+                    Argument::Condition(_) => conditions
+                        .iter()
+                        .find(|(of, _)| *of == argument)
+                        .map_or(&nothing, |(_, values)| &values.at),
+                };
+                let found = way.frame.refined(&shape, at, found);
+                let term = Term {
+                    target: targets[way.target].clone(),
+                    kind: way.kind,
+                    argument,
+                    shape,
+                    shares: found.shares,
+                    widths: found.widths,
+                };
+                Composition {
+                    terms: vec![term],
+                    product: false,
+                    beside: Vec::new(),
+                    ln_weight: ln_prior + found.ln_evidence,
+                    best: ln_prior + found.best,
+                    share: 0.0,
+                }
+            })
+            .collect()
+    }
+
+    /// The ways in which the targets can depart, without those that do the same as one before.
+    fn ways<'m>(&'m self, metric: &'m Metric<'m>, white: &'m White) -> Vec<Way<'m>> {
+        let Self { setup, targets, responses } = *self;
+        let mut ways: Vec<Way<'m>> = Vec::new();
+        let mut known: Vec<Vec<f64>> = Vec::new();
+        for (number, (target, response)) in targets.iter().zip(responses).enumerate() {
+            for kind in [DepartureKind::Additive, DepartureKind::Proportional] {
+                if kind == DepartureKind::Additive && !target.addable {
+                    continue;
+                }
+                let own = response.of(kind);
+                let Some(frame) = Frame::new(metric, setup, own, white) else { continue };
+                let own = metric.whiten(own);
+                let same = |other: &Vec<f64>| {
+                    let cosine = dot(&own, other) / (dot(&own, &own) * dot(other, other)).sqrt();
+                    1.0 - cosine.abs() < SAME
+                };
+                if known.iter().any(same) {
+                    continue;
+                }
+                known.push(own);
+                let value = response.value.clone().and_then(Values::new);
+                ways.push(Way { target: number, kind, frame, value });
+            }
+        }
+        ways
+    }
+}
+
+/// Probabilities from the weights; `of_process` is the evidence of what they compete with.
+fn weighed(
+    mut all: Vec<Composition>,
+    of_process: f64,
+    variances: Option<Vec<f64>>,
+) -> Compositions {
+    all.retain(|composition| composition.ln_weight.is_finite());
+    all.sort_by(|a, b| b.ln_weight.total_cmp(&a.ln_weight));
+    let together = ln_sum(all.iter().map(|composition| composition.ln_weight));
+    // composed and smooth departures are equally probable beforehand
+    let total = ln_add(together, of_process);
+    for composition in &mut all {
+        composition.share = elementary::exp(composition.ln_weight - total);
+    }
+    let most = all.first().map_or(0.0, |first| first.share);
+    all.retain(|composition| composition.share >= LEAST * most);
+    Compositions { all, variances }
+}

@@ -1,0 +1,145 @@
+//! The sentences of a plan.
+
+use super::PlanReport;
+use super::sheets::{DIGITS, at_most};
+use crate::number::{exact, rounded, significant};
+use crate::plain;
+use crate::table::{conditions_text, grouped, in_unit};
+use gumption_analysis::plan::{Costs, DriftLaw, PlanCheck, PlannedInterval};
+use gumption_engine::model::Quantity;
+
+pub(super) const EQUAL: &str = "Without a file of costs, halving any standard uncertainty counts as \
+    much as any other; a reading costs so much that three times as many in addition, which halve it, \
+    count the same.";
+
+pub(super) const ALONE: &str = "What each quantity alone would have to become while all others stay \
+    as they are, by the law of propagation; - where even without its uncertainty the target is \
+    missed. Limits are rounded down.";
+
+pub(super) fn title(report: &PlanReport<'_>) -> String {
+    let title = plain(&report.task.title);
+    if title.is_empty() { "Plan".to_owned() } else { format!("Plan: {title}") }
+}
+
+fn value(output: Option<&Quantity>, text: &str) -> String {
+    output.map_or_else(|| text.to_owned(), |output| in_unit(text, &output.unit))
+}
+
+fn name(report: &PlanReport<'_>) -> String {
+    let output = report.output().map_or("", |output| output.name.as_str());
+    format!("{}({})", report.kind(), plain(output))
+}
+
+/// What is wanted, and what there is.
+pub(super) fn target(report: &PlanReport<'_>) -> String {
+    let plan = report.plan;
+    let wanted = value(report.output(), &exact(plan.target.most));
+    let now = value(report.output(), &significant(plan.figure, DIGITS));
+    let name = name(report);
+    let mut said = format!("target {name} <= {wanted}; now {name} = {now}");
+    if let Some(k) = plan.now.coverage_factor.filter(|_| plan.target.expanded) {
+        said += &format!(" (k = {})", rounded(k, -2));
+    }
+    if let Some(row) = report.task.rows.get(plan.row).filter(|_| report.task.swept) {
+        let at = conditions_text(&report.task.model.conditions, &row.conditions);
+        said += &format!(", largest at {at}");
+    }
+    said
+}
+
+/// What is said below the tables.
+pub(super) fn notes(report: &PlanReport<'_>) -> Vec<String> {
+    let plan = report.plan;
+    let mut said = Vec::new();
+    if let Some(cheapest) = &plan.cheapest {
+        let planned = if plan.target.expanded {
+            cheapest.gum.expanded_uncertainty()
+        } else {
+            Some(cheapest.gum.standard_uncertainty)
+        };
+        if let Some(planned) = planned {
+            let k = cheapest.gum.coverage_factor.filter(|_| plan.target.expanded);
+            let k = k.map(|k| format!(" (k = {})", rounded(k, -2))).unwrap_or_default();
+            let planned = value(report.output(), &significant(planned, DIGITS));
+            said.push(format!("With this plan {} = {planned}{k}.", name(report)));
+        }
+        if matches!(report.costs, Costs::Equal) {
+            said.push(EQUAL.to_owned());
+        }
+    }
+    said.extend(plan.check.as_ref().and_then(|found| check(report, found)));
+    if !plan.missed_rows.is_empty() {
+        let rows: Vec<String> =
+            plan.missed_rows.iter().take(20).map(|row| (row + 1).to_string()).collect();
+        said.push(format!(
+            "The plan is that of the row with the largest uncertainty; the target is missed in {} \
+             other rows ({}{}): plan them with their own conditions.",
+            plan.missed_rows.len(),
+            rows.join(", "),
+            if plan.missed_rows.len() > rows.len() { ", ..." } else { "" }
+        ));
+    }
+    said
+}
+
+/// What the trials say.
+fn check(report: &PlanReport<'_>, found: &PlanCheck) -> Option<String> {
+    let figure = value(report.output(), &significant(found.figure?, DIGITS));
+    let verdict = match found.holds {
+        Some(true) => "the target holds",
+        Some(false) => {
+            "the target is missed: the model is not linear enough for this plan, so aim \
+                        lower"
+        }
+        None => "the target holds to within their scatter",
+    };
+    let of = if report.plan.target.expanded {
+        "half the length of the coverage interval"
+    } else {
+        "the standard uncertainty"
+    };
+    let mut said = format!(
+        "Check by {} Monte Carlo trials of the plan: {of} is {figure}; {verdict}.",
+        grouped(found.trials)
+    );
+    if !found.stood_in.is_empty() {
+        let names: Vec<String> =
+            found.stood_in.iter().map(|&variable| plain(report.name(variable))).collect();
+        said += &format!(
+            " Drawn as normal or t, since their shapes have no width of their own: {}.",
+            names.join(", ")
+        );
+    }
+    Some(said)
+}
+
+/// The calibration interval.
+pub(super) fn interval(report: &PlanReport<'_>, found: &PlannedInterval) -> String {
+    let unit = plain(report.time_unit);
+    let time = |value: String| if unit.is_empty() { value } else { format!("{value} {unit}") };
+    let drift = found.drift;
+    let law = match drift.law {
+        DriftLaw::Linear => "in proportion to time",
+        DriftLaw::RandomWalk => "with the square root of time",
+    };
+    let input = plain(report.name(drift.variable));
+    let stated = time(exact(drift.stated));
+    let grows = format!("`{input}` is the drift of {stated} and grows {law}");
+    match found.longest {
+        None => format!("Calibration interval: {grows}; the target holds for as long as matters."),
+        Some(0.0) => format!(
+            "Calibration interval: {grows}; the target does not hold even right after a calibration: \
+             improve other inputs first."
+        ),
+        Some(longest) => {
+            let u = found.standard_uncertainty.map_or_else(String::new, |u| {
+                format!(", when u({input}) = {} {}", at_most(u), plain(report.unit(drift.variable)))
+            });
+            format!(
+                "Calibration interval: {grows}; the target holds for {}{}.",
+                time(at_most(longest)),
+                u.trim_end()
+            )
+        }
+    }
+}

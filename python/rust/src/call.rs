@@ -1,0 +1,66 @@
+//! Commands as functions, and the command line as a program.
+
+use std::ffi::OsString;
+
+use gumption::command::{Exit, GivenFile};
+use pyo3::prelude::*;
+use pyo3::types::PyBytes;
+
+use crate::application;
+use crate::errors::{argument, failed};
+use crate::model::Model;
+use crate::supervised::supervised;
+
+/// Runs a command and gives back what it would have printed, what it would have said on standard
+/// error, and whether its answer was "yes" where it asks something.
+#[pyfunction]
+#[pyo3(signature = (arguments, model=None, text=None))]
+pub(crate) fn call(
+    py: Python<'_>,
+    arguments: Vec<OsString>,
+    model: Option<&Bound<'_, Model>>,
+    text: Option<String>,
+) -> PyResult<(Py<PyBytes>, String, bool)> {
+    let input = model.map(|model| {
+        let source = &model.get().source;
+        GivenFile {
+            name: source.name.clone(),
+            text: source.text.clone(),
+            folder: source.folder.clone(),
+            held: source.held.clone(),
+        }
+    });
+    // what stands for standard input is called so
+    let stdin = |text| GivenFile { name: "<stdin>".to_owned(), text, ..GivenFile::default() };
+    let input = input.or_else(|| text.map(stdin));
+    let called = supervised(py, None, |watch| {
+        application().call(arguments, input, std::sync::Arc::clone(&watch.stop))
+    })?;
+    let answered = called.map_err(|failure| failed(py, &failure))?;
+    let bytes = PyBytes::new(py, &answered.answer).unbind();
+    Ok((bytes, answered.notes, answered.exit == Exit::Done))
+}
+
+/// The factor and the offset with which a value in a unit becomes its number in coherent SI units (of
+/// a Celsius temperature the number of degrees Celsius): `value * factor + offset`.
+#[pyfunction]
+pub(crate) fn unit_scale(py: Python<'_>, unit: &str) -> PyResult<(f64, f64)> {
+    let parsed = gumption::unit::Unit::parse(unit);
+    let parsed = parsed.map_err(|error| argument(py, format!("the unit `{unit}`: {error}")))?;
+    Ok((parsed.factor(), parsed.offset()))
+}
+
+/// Whether values in one unit can be converted to another.
+#[pyfunction]
+pub(crate) fn units_fit(first: &str, second: &str) -> bool {
+    let parse = |text| gumption::unit::Unit::parse(text).ok();
+    parse(first).zip(parse(second)).is_some_and(|(first, second)| first.is_compatible(&second))
+}
+
+/// The command line; the first argument is the name of the program. It gives the exit code.
+#[pyfunction]
+pub(crate) fn main(py: Python<'_>, arguments: Vec<OsString>) -> u8 {
+    let ended = py.detach(|| application().main_of(arguments));
+    // an exit code shows its number in no other way
+    (0..=u8::MAX).find(|&code| ended == std::process::ExitCode::from(code)).unwrap_or(1)
+}

@@ -1,0 +1,39 @@
+//! The extension module of the Python package `gumption`: the engine, the files, the reports and the
+//! command line of this workspace as Python objects. What is only Python stands in
+//! `python/gumption`.
+
+mod arrow;
+mod budgets;
+mod call;
+mod columns;
+mod errors;
+mod function;
+mod model;
+mod run;
+mod supervised;
+
+use pyo3::prelude::*;
+
+/// The command line with the built-in measurements, made once.
+fn application() -> &'static gumption::Application {
+    static ALL: std::sync::LazyLock<gumption::Application> =
+        std::sync::LazyLock::new(gumption::Application::new);
+    &ALL
+}
+
+/// Everything here is safe without the global lock: objects do not change after they are made.
+#[pymodule(gil_used = false)]
+fn _gumption(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add("__version__", env!("CARGO_PKG_VERSION"))?;
+    module.add("ModelError", module.py().get_type::<errors::ModelError>())?;
+    module.add_class::<model::Model>()?;
+    module.add_class::<run::Run>()?;
+    module.add_function(wrap_pyfunction!(arrow::arrow_array, module)?)?;
+    module.add_function(wrap_pyfunction!(arrow::arrow_stream, module)?)?;
+    module.add_function(wrap_pyfunction!(budgets::budgets, module)?)?;
+    module.add_function(wrap_pyfunction!(call::call, module)?)?;
+    module.add_function(wrap_pyfunction!(call::main, module)?)?;
+    module.add_function(wrap_pyfunction!(call::unit_scale, module)?)?;
+    module.add_function(wrap_pyfunction!(call::units_fit, module)?)?;
+    Ok(())
+}

@@ -1,0 +1,366 @@
+//! A model file, read and checked.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use gumption::command::Failure;
+use gumption::file::{ModelFile, Override, bytes};
+use gumption::propagate::{Control, Evaluation, evaluate, warnings};
+use gumption::report::Provenance;
+use gumption::task::{Coverage, StoppingRule, Task, Trials};
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyTuple};
+
+use crate::application;
+use crate::errors::{argument, failed};
+use crate::function::PythonFunction;
+use crate::run::{Ran, Run};
+use crate::supervised::{Watch, supervised};
+
+/// What a model is read from.
+#[derive(Debug)]
+pub(crate) struct Source {
+    pub(crate) name: String,
+    pub(crate) text: String,
+    pub(crate) folder: PathBuf,
+    pub(crate) held: Vec<(String, Vec<u8>)>,
+    allowed: Vec<PathBuf>,
+    replaced: Vec<String>,
+    accept_changed: bool,
+}
+
+/// A model file, read and checked.
+#[pyclass(frozen, module = "gumption._gumption")]
+#[derive(Debug)]
+pub(crate) struct Model {
+    pub(crate) source: Arc<Source>,
+    pub(crate) file: Arc<ModelFile>,
+    provenance: Arc<Provenance>,
+}
+
+/// What `run` is asked for beside what the file says.
+#[derive(Debug, Default)]
+struct Asked {
+    trials: Option<Trials>,
+    seed: Option<u64>,
+    coverage: Option<f64>,
+    factor: Option<f64>,
+    digits: Option<u32>,
+    real_dof: bool,
+    validate: bool,
+    rule: Option<StoppingRule>,
+    max_trials: Option<u64>,
+    threads: usize,
+    memory: usize,
+}
+
+impl Asked {
+    fn of(py: Python<'_>, options: &Bound<'_, PyDict>) -> PyResult<Self> {
+        let mut asked = Self { memory: 64 << 20, ..Self::default() };
+        for (name, value) in options {
+            if value.is_none() {
+                continue;
+            }
+            let name: String = name.extract()?;
+            let needed = |what: &str| argument(py, format!("`{name}`: {what} is needed"));
+            match name.as_str() {
+                "trials" => {
+                    asked.trials = Some(trials(&value).ok_or_else(|| {
+                        needed("a whole number (0, or from 2 to 1e12) or \"adaptive\"")
+                    })?)
+                }
+                "seed" => {
+                    let seed = value.extract().map_err(|_| needed("a whole number from 0"));
+                    asked.seed = Some(seed?);
+                }
+                "coverage" => {
+                    let p = value.extract().ok().filter(|p| 0.0 < *p && *p < 1.0);
+                    asked.coverage =
+                        Some(p.ok_or_else(|| {
+                            needed("a probability between 0 and 1, such as 0.95,")
+                        })?);
+                }
+                "k" => {
+                    let k = value.extract().ok().filter(|k| 0.0 < *k && *k <= 8.0);
+                    asked.factor =
+                        Some(k.ok_or_else(|| needed("a coverage factor above 0 and up to 8"))?);
+                }
+                "digits" => {
+                    let digits = value.extract().ok().filter(|d| (1..=15).contains(d));
+                    asked.digits =
+                        Some(digits.ok_or_else(|| needed("a whole number from 1 to 15"))?);
+                }
+                "real_dof" => asked.real_dof = value.is_truthy()?,
+                "validate" => asked.validate = value.is_truthy()?,
+                "rule" => {
+                    let rule = value.extract::<String>().ok();
+                    let rule = rule.and_then(|rule| StoppingRule::named(&rule));
+                    asked.rule = Some(rule.ok_or_else(|| needed("\"7.9\" or \"stein\""))?);
+                }
+                "max_trials" => {
+                    let most = value.extract().ok().filter(|n| *n >= 20_000);
+                    asked.max_trials =
+                        Some(most.ok_or_else(|| needed("a whole number from 20000"))?);
+                }
+                "threads" => {
+                    let threads = value.extract().ok().filter(|n| (1..=1024).contains(n));
+                    asked.threads =
+                        threads.ok_or_else(|| needed("a whole number from 1 to 1024"))?;
+                }
+                "memory" => {
+                    let bytes = value.extract().ok().filter(|n| *n >= 1 << 20);
+                    asked.memory = bytes.ok_or_else(|| needed("at least 1 MiB, in bytes,"))?;
+                }
+                _ => return Err(argument(py, format!("`run` has no option `{name}`"))),
+            }
+        }
+        let refuse = |reason: &str| Err(argument(py, reason));
+        if asked.coverage.is_some() && asked.factor.is_some() {
+            return refuse("`coverage` and `k` say the same; give one of them");
+        }
+        if asked.validate && asked.trials.is_some() {
+            return refuse("`validate` finds the number of trials; leave `trials` out");
+        }
+        Ok(asked)
+    }
+
+    /// What is asked for beats the file, as on the command line.
+    fn settings(&self, task: &mut Task) {
+        let settings = &mut task.settings;
+        let fixed = matches!(settings.coverage, Coverage::Factor { fixed: true, .. });
+        let factor = self.factor.map(|factor| Coverage::Factor { factor, fixed });
+        let coverage = self.coverage.map(Coverage::Probability).or(factor);
+        settings.coverage = coverage.unwrap_or(settings.coverage);
+        if let Some(trials) = self.trials {
+            settings.trials = trials;
+            settings.decide_up_to = 0;
+        }
+        if self.validate {
+            settings.trials = Trials::Adaptive;
+            settings.for_validation = true;
+        }
+        settings.rule = self.rule.unwrap_or(settings.rule);
+        settings.max_trials = self.max_trials.unwrap_or(settings.max_trials);
+        settings.seed = self.seed.unwrap_or(settings.seed);
+        if let Some(digits) = self.digits {
+            *settings = settings.with_digits(digits);
+        }
+        settings.real_dof |= self.real_dof;
+    }
+}
+
+/// A number of trials, a whole float or a text such as `1e6` as well.
+fn trials(value: &Bound<'_, PyAny>) -> Option<Trials> {
+    if value.extract::<String>().is_ok_and(|text| text == "adaptive") {
+        return Some(Trials::Adaptive);
+    }
+    let count: f64 = value.extract().ok()?;
+    let right = count.fract() == 0.0 && (0.0..=1e12).contains(&count) && count != 1.0;
+    right.then_some(Trials::Fixed(count as u64))
+}
+
+#[pymethods]
+impl Model {
+    #[new]
+    #[pyo3(signature = (name, text, folder="", held=Vec::new(), allow=Vec::new(), replaced=Vec::new(), accept_changed=false))]
+    #[allow(clippy::too_many_arguments)] // it is only called by the package
+    fn new(
+        py: Python<'_>,
+        name: &str,
+        text: &str,
+        folder: &str,
+        held: Vec<(String, Vec<u8>)>,
+        allow: Vec<PathBuf>,
+        replaced: Vec<String>,
+        accept_changed: bool,
+    ) -> PyResult<Self> {
+        let (name, text) = (name.to_owned(), text.to_owned());
+        let folder = PathBuf::from(folder);
+        let source = Source { name, text, folder, held, allowed: allow, replaced, accept_changed };
+        let overrides = source.replaced.iter().map(|text| {
+            let needed =
+                || argument(py, format!("`{text}`: NAME=VALUE or NAME.field=VALUE is needed"));
+            Override::parse(text).ok_or_else(needed)
+        });
+        let overrides = overrides.collect::<PyResult<Vec<Override>>>()?;
+        let read = || {
+            let files = application().files().allowing(&source.allowed);
+            let files = files.accepting_changed_results(source.accept_changed);
+            let files = files.holding(&source.held);
+            files.model_text(&source.name, &source.text, &source.folder, &overrides)
+        };
+        let file = py.detach(read).map_err(|found| failed(py, &Failure::Diagnostics(found)))?;
+        let provenance = Provenance::of(&file.source.text, &file.files);
+        Ok(Self {
+            source: Arc::new(source),
+            file: Arc::new(file),
+            provenance: Arc::new(provenance),
+        })
+    }
+
+    /// Reads a file from the disk.
+    #[staticmethod]
+    #[pyo3(signature = (path, allow=Vec::new(), replaced=Vec::new(), accept_changed=false))]
+    fn load(
+        py: Python<'_>,
+        path: PathBuf,
+        allow: Vec<PathBuf>,
+        replaced: Vec<String>,
+        accept_changed: bool,
+    ) -> PyResult<Self> {
+        let name = path.display().to_string();
+        let folder = path.parent().unwrap_or(Path::new("")).display().to_string();
+        let bytes = std::fs::File::open(&path).ok().and_then(|f| bytes::of(f, bytes::MOST).ok());
+        match bytes.and_then(|bytes| bytes::text(&bytes).ok().map(|text| text.into_owned())) {
+            Some(text) => {
+                Self::new(py, &name, &text, &folder, Vec::new(), allow, replaced, accept_changed)
+            }
+            // the reader of files says why, with its place
+            None => Err(match application().files().model(&path, &[]) {
+                Err(found) => failed(py, &Failure::Diagnostics(found)),
+                Ok(_) => argument(py, format!("{name}: it cannot be read")),
+            }),
+        }
+    }
+
+    /// All that the model is read from, in the order of the constructor's arguments. Files that it names
+    /// are there with the content that was read, so that it can be read again elsewhere.
+    #[getter]
+    fn source<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
+        let Source { name, text, folder, held, allowed, replaced, accept_changed } = &*self.source;
+        let known = |name: &str| held.iter().any(|(held, _)| held == name);
+        let read = self.file.files.iter().filter(|(name, _)| !known(name));
+        let held: Vec<(String, Bound<'_, pyo3::types::PyBytes>)> = held
+            .iter()
+            .chain(read)
+            .map(|(name, bytes)| (name.clone(), pyo3::types::PyBytes::new(py, bytes)))
+            .collect();
+        let folder = folder.display().to_string();
+        (name, text, folder, held, allowed, replaced, accept_changed).into_pyobject(py)
+    }
+
+    #[getter]
+    fn title(&self) -> &str {
+        &self.file.task.title
+    }
+
+    /// Names and units of the inputs.
+    #[getter]
+    fn inputs(&self) -> Vec<(String, String)> {
+        let inputs = self.file.task.model.inputs.iter().map(|input| &input.quantity);
+        inputs.map(|of| (of.name.clone(), of.unit.text().to_owned())).collect()
+    }
+
+    /// Names and units of the outputs.
+    #[getter]
+    fn outputs(&self) -> Vec<(String, String)> {
+        let outputs = self.file.task.model.outputs.iter().map(|output| &output.quantity);
+        outputs.map(|of| (of.name.clone(), of.unit.text().to_owned())).collect()
+    }
+
+    /// Names and units of the conditions.
+    #[getter]
+    fn conditions(&self) -> Vec<(String, String)> {
+        let conditions = self.file.task.model.conditions.iter();
+        conditions.map(|of| (of.name.clone(), of.unit.text().to_owned())).collect()
+    }
+
+    #[getter]
+    fn rows(&self) -> usize {
+        self.file.task.rows.len()
+    }
+
+    /// Names of the random variables: inputs, and `input/component` where an input has components.
+    #[getter]
+    fn variables(&self) -> Vec<String> {
+        self.file.task.variables.iter().map(|variable| variable.name.clone()).collect()
+    }
+
+    /// Codes, places and texts of the notes on what was read.
+    #[getter]
+    fn warnings(&self) -> Vec<(&'static str, String, String)> {
+        let told = self.file.warnings.iter();
+        told.map(|w| (w.code, w.place.clone(), w.text.clone())).collect()
+    }
+
+    /// Evaluates the model.
+    #[pyo3(signature = (options, progress=None, function=None))]
+    fn run(
+        &self,
+        py: Python<'_>,
+        options: &Bound<'_, PyDict>,
+        progress: Option<&Bound<'_, PyAny>>,
+        function: Option<Py<PyAny>>,
+    ) -> PyResult<Run> {
+        let asked = Asked::of(py, options)?;
+        let mut task = self.file.task.clone();
+        asked.settings(&mut task);
+        if asked.rule.is_some() && task.settings.trials != Trials::Adaptive {
+            let reason = "`rule` is about adaptive runs; add `trials=\"adaptive\"`";
+            return Err(argument(py, reason));
+        }
+        let file = Arc::clone(&self.file);
+        let counted = progress.is_some();
+        let work = move |watch: &Watch| evaluated(&file, task, &asked, counted, function, watch);
+        let found = match supervised(py, progress, work)? {
+            Ok(found) => found,
+            Err(Failed::Python(raised)) => return Err(raised),
+            Err(Failed::Evaluation(failure)) => return Err(failed(py, &failure)),
+        };
+        let Evaluated { task, evaluation, notes, threads, memory } = found;
+        let provenance = Arc::clone(&self.provenance);
+        let (file, replaced) = (Arc::clone(&self.file), self.source.replaced.clone());
+        Ok(Run::of(Ran { file, task, evaluation, notes, provenance, replaced, threads, memory }))
+    }
+
+    fn __repr__(&self) -> String {
+        format!("<gumption._gumption.Model {:?}>", self.source.name)
+    }
+}
+
+struct Evaluated {
+    task: Task,
+    evaluation: Evaluation,
+    notes: Vec<gumption::task::Warning>,
+    threads: usize,
+    memory: usize,
+}
+
+enum Failed {
+    Python(PyErr),
+    Evaluation(Failure),
+}
+
+fn evaluated(
+    file: &ModelFile,
+    mut task: Task,
+    asked: &Asked,
+    counted: bool,
+    function: Option<Py<PyAny>>,
+    watch: &Watch,
+) -> Result<Evaluated, Failed> {
+    let called = function.map(|f| Arc::new(PythonFunction::new(f, Arc::clone(&watch.stop))));
+    if let Some(called) = &called {
+        task.function = Some(called.clone());
+    }
+    let Asked { threads, memory, .. } = *asked;
+    let advance = |trials: u64| {
+        watch.done.fetch_add(trials, std::sync::atomic::Ordering::Relaxed);
+    };
+    let control = Control::default().with_threads(threads).with_memory(memory);
+    let control = control.with_stop(&watch.stop);
+    let control = if counted { control.with_progress(&advance) } else { control };
+    let evaluation = evaluate(&task, &control);
+    if let Some(raised) = called.and_then(|called| called.raised()) {
+        return Err(Failed::Python(raised));
+    }
+    let evaluation = evaluation.map_err(|error| {
+        Failed::Evaluation(match error {
+            gumption::propagate::EvaluationError::Threads(_) => Failure::System(error.to_string()),
+            error => Failure::Diagnostics(file.evaluation_failed(error.to_string())),
+        })
+    })?;
+    let mut notes = file.warnings.clone();
+    notes.extend(warnings(&task, &evaluation));
+    Ok(Evaluated { task, evaluation, notes, threads, memory })
+}

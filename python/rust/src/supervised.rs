@@ -1,0 +1,100 @@
+//! Long computations: without the interpreter's lock, on threads of our own, and watched for Ctrl-C.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::mpsc::{RecvTimeoutError, sync_channel};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Duration;
+
+use pyo3::exceptions::{PyOSError, PyRuntimeError};
+use pyo3::prelude::*;
+use rayon::{ThreadPool, ThreadPoolBuilder};
+
+/// How often signals are looked at.
+const LOOK: Duration = Duration::from_millis(30);
+
+/// How long a computation that was told to stop is waited for. What cannot be stopped ends by itself,
+/// unheard.
+const PATIENCE: Duration = Duration::from_millis(60);
+
+/// The threads, and the process that they live in: a child that was forked has none of its parent's.
+static POOL: Mutex<Option<(u32, Arc<ThreadPool>)>> = Mutex::new(None);
+
+fn pool() -> PyResult<Arc<ThreadPool>> {
+    let mut pool = POOL.lock().unwrap_or_else(PoisonError::into_inner);
+    let process = std::process::id();
+    if let Some((of, pool)) = &*pool
+        && *of == process
+    {
+        return Ok(Arc::clone(pool));
+    }
+    let made = ThreadPoolBuilder::new()
+        .thread_name(|number| format!("gumption-{number}"))
+        .build()
+        .map_err(|error| PyOSError::new_err(format!("cannot start threads: {error}")))?;
+    let made = Arc::new(made);
+    // waiting for the end of threads that are not there would take forever
+    std::mem::forget(pool.replace((process, Arc::clone(&made))));
+    Ok(made)
+}
+
+/// What a computation is watched by.
+#[derive(Debug, Default)]
+pub(crate) struct Watch {
+    pub(crate) stop: Arc<AtomicBool>,
+    pub(crate) done: AtomicU64,
+}
+
+/// Does some work on the threads of the pool while other Python threads run on. Ctrl-C, or whatever
+/// exception a handler of signals raises, sets the flag of the watch and is raised; `progress` is
+/// called now and then with what the work has counted.
+///
+/// # Errors
+/// What a handler of signals raises or `progress` does; a panic of the work.
+pub(crate) fn supervised<T: Send + 'static>(
+    py: Python<'_>,
+    progress: Option<&Bound<'_, PyAny>>,
+    work: impl FnOnce(&Watch) -> T + Send + 'static,
+) -> PyResult<T> {
+    let watch = Arc::new(Watch::default());
+    // called from within a computation, as by a model's function: the threads are busy with that
+    if rayon::current_thread_index().is_some() {
+        return Ok(py.detach(|| work(&watch)));
+    }
+    let (give, take) = sync_channel(1);
+    let given = Arc::clone(&watch);
+    pool()?.spawn(move || {
+        // where nobody waits any more, nothing is to be told
+        let _ = give.send(catch_unwind(AssertUnwindSafe(|| work(&given))));
+    });
+    let take = Mutex::new(take);
+    let wait = |time: Duration| {
+        let take = take.lock().unwrap_or_else(PoisonError::into_inner);
+        take.recv_timeout(time)
+    };
+    loop {
+        match py.detach(|| wait(LOOK)) {
+            Ok(Ok(found)) => {
+                tell(progress, &watch)?;
+                return Ok(found);
+            }
+            Ok(Err(_)) | Err(RecvTimeoutError::Disconnected) => {
+                return Err(PyRuntimeError::new_err("an internal error of gumption"));
+            }
+            Err(RecvTimeoutError::Timeout) => {
+                if let Err(raised) = py.check_signals().and_then(|()| tell(progress, &watch)) {
+                    watch.stop.store(true, Ordering::Relaxed);
+                    let _ = py.detach(|| wait(PATIENCE));
+                    return Err(raised);
+                }
+            }
+        }
+    }
+}
+
+fn tell(progress: Option<&Bound<'_, PyAny>>, watch: &Watch) -> PyResult<()> {
+    match progress {
+        Some(progress) => progress.call1((watch.done.load(Ordering::Relaxed),)).map(|_| ()),
+        None => Ok(()),
+    }
+}

@@ -1,0 +1,311 @@
+"""The other commands as functions: what they give is the answer of the command line."""
+
+from __future__ import annotations
+
+import io
+import json
+import os
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from gumption import _gumption
+from gumption._result import format_of, framed
+
+
+
+def call(*arguments: str | os.PathLike[str]) -> bytes:
+    """Run the command line as a function: what it would print on standard output.
+
+    Parameters
+    ----------
+    *arguments : str or path-like
+        What would stand behind ``gumption``.
+
+    Raises
+    ------
+    ModelError
+        What it would say with exit code 2.
+    """
+    return _gumption.call([os.fspath(argument) for argument in arguments])[0]
+
+
+class Answer(dict[str, Any]):
+    """The JSON answer of a command as a dictionary, which knows its other formats as well.
+
+    Attributes
+    ----------
+    notes : list of str
+        What the command said on standard error.
+    yes : bool
+        Whether the answer is "yes" where the command asks something (``--fail``).
+    """
+
+    def __init__(
+        self,
+        arguments: Sequence[str],
+        model: _gumption.Model | None = None,
+        text: str | None = None,
+    ) -> None:
+        self._asked = (list(arguments), model, text)
+        answer, notes, self.yes = self._call(["--format", "json"])
+        self.notes = [line.removeprefix("note: ") for line in notes.splitlines()]
+        super().__init__(json.loads(answer))
+
+    def _call(self, more: Sequence[str]) -> tuple[bytes, str, bool]:
+        arguments, model, text = self._asked
+        return _gumption.call([*arguments, *more], model, text)
+
+    def to(self, format: str) -> bytes:  # noqa: A002 - the name that the command line has
+        """The answer in another format of the command, such as ``"table"`` or ``"html"``."""
+        return self._call(["--format", format, "--quiet"])[0]
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write the answer in the format that the extension says.
+
+        ``.html``, ``.md``, ``.tex``, ``.xlsx``, ``.txt``, ``.json``, ``.csv`` and for certificates
+        ``.xml`` (the Digital Calibration Certificate), as far as the command has them.
+        """
+        self._call(["--format", format_of(path), "--output", os.fspath(path), "--quiet"])
+
+    def to_pandas(self) -> Any:
+        """The answer as ``--format csv`` has it, a ``pandas.DataFrame``."""
+        from gumption._frames import frame_of
+
+        return frame_of(self.to("csv").decode())
+
+    def _repr_html_(self) -> str:
+        try:
+            return framed(self.to("html").decode())
+        except _gumption.ModelError:
+            import html
+
+            return f"<pre>{html.escape(str(self))}</pre>"
+
+    def __str__(self) -> str:
+        return self.to("table").decode()
+
+    def __reduce__(self) -> Any:
+        arguments, model, text = self._asked
+        source = None if model is None else model.source
+        return _asked_again, (arguments, source, text)
+
+
+def _asked_again(arguments: Sequence[str], source: Any, text: str | None) -> Answer:
+    return Answer(arguments, None if source is None else _gumption.Model(*source), text)
+
+
+class Certificate(Answer):
+    """A calibration certificate; `Answer.save` writes it, as ``.xml`` a DCC."""
+
+
+def _options(**options: Any) -> list[str]:
+    """Options of the command line; what is `None` or `False` is left out."""
+    found: list[str] = []
+    for name, value in options.items():
+        option = f"--{name.replace('_', '-')}"
+        if value is None or value is False:
+            continue
+        if value is True:
+            found.append(option)
+        elif isinstance(value, (list, tuple)):
+            for each in value:
+                found += [option, os.fspath(each)]
+        else:
+            found += [option, os.fspath(value) if isinstance(value, os.PathLike) else str(value)]
+    return found
+
+
+def _given(file: Any) -> tuple[str, str | None]:
+    """A path, or ``-`` with the text that it stands for."""
+    if isinstance(file, Mapping):
+        return "-", json.dumps(file, ensure_ascii=False, allow_nan=False)
+    return os.fspath(file), None
+
+
+def gap(
+    case: str | os.PathLike[str],
+    *,
+    predict: str | os.PathLike[str] | None = None,
+    seed: int | None = None,
+    threads: int | None = None,
+    allow_path: Sequence[str | os.PathLike[str]] = (),
+) -> Answer:
+    """Diagnose where measured data depart from a model, and which effect is missing.
+
+    Parameters
+    ----------
+    case : path-like
+        The case: a model file with observations and candidate effects.
+    predict : path-like, optional
+        A table of conditions at which to give the corrected prediction as well.
+    seed, threads, allow_path : optional
+        As on the command line.
+    """
+    options = _options(predict=predict, seed=seed, threads=threads, allow_path=allow_path)
+    return Answer(["gap", os.fspath(case), *options])
+
+
+def gap_check(
+    case: str | os.PathLike[str],
+    draws: int | None = None,
+    *,
+    seed: int | None = None,
+    threads: int | None = None,
+    keep: str | os.PathLike[str] | None = None,
+) -> Answer:
+    """Check the diagnosis blindly at a case's own design: how far its answers can be trusted.
+
+    Parameters
+    ----------
+    case : path-like
+        The case; its data are not used.
+    draws : int, optional
+        Number of truths to draw.
+    seed, threads, keep : optional
+        As on the command line.
+    """
+    options = _options(draws=draws, seed=seed, threads=threads, keep=keep)
+    return Answer(["gap-check", os.fspath(case), *options])
+
+
+def observe(recipe: str | os.PathLike[str] | Mapping[str, Any], *, seed: int | None = None) -> Answer:
+    """Take amplitudes, phases and delays with their uncertainties from raw recordings.
+
+    Parameters
+    ----------
+    recipe : path-like or mapping
+        The recipe, a file or its content.
+    seed : int, optional
+        Seed of the random streams.
+    """
+    path, text = _given(recipe)
+    return Answer(["observe", path, *_options(seed=seed)], None, text)
+
+
+def compare(
+    table: Any,
+    *,
+    against: str | os.PathLike[str] | None = None,
+    correlations: str | os.PathLike[str] | None = None,
+    rounding: bool = False,
+) -> Answer:
+    """Compare results two by two (normalized errors), or those of many laboratories.
+
+    Parameters
+    ----------
+    table : path-like or DataFrame or mapping
+        Columns ``label, x1, U1, x2, U2`` and perhaps ``k1, k2, r``; or of laboratories ``label, x, U``
+        and perhaps ``k``. A file (CSV, XLSX), or the columns themselves.
+    against : path-like, optional
+        Take the second results from the JSON answer of a run.
+    correlations : path-like, optional
+        Correlation coefficients between laboratories.
+    rounding : bool, default False
+        Show the normalized errors that the printed digits allow.
+
+    Returns
+    -------
+    Answer
+        Its `Answer.yes` says whether all are compatible.
+    """
+    text = None
+    if isinstance(table, (str, os.PathLike)):
+        path = os.fspath(table)
+    else:
+        path, text = "-", _comparison(table)
+    options = _options(against=against, correlations=correlations, rounding=rounding, fail=True)
+    return Answer(["compare", path, *options], None, text)
+
+
+def _comparison(table: Any) -> str:
+    import csv
+
+    from gumption._frames import columns
+
+    found = columns(table)
+    out = io.StringIO()
+    writer = csv.writer(out, lineterminator="\n")
+    writer.writerow(found)
+    cells = [column.tolist() if hasattr(column, "tolist") else list(column) for column in found.values()]
+    writer.writerows(zip(*cells))
+    return out.getvalue()
+
+
+def assumptions(
+    model: Any,
+    *,
+    allow: float | None = None,
+    trials: int | None = None,
+    seed: int | None = None,
+    threads: int | None = None,
+    coverage: float | None = None,
+    k: float | None = None,
+) -> Answer:
+    """Test the Type B assumptions: which matter, and which the readings contradict.
+
+    Parameters
+    ----------
+    model : path-like, Model or mapping
+        The model, a file or an object.
+    allow : float, optional
+        Relative change of the expanded uncertainty that is allowed; 0.05 unless given.
+    trials, seed, threads, coverage, k : optional
+        As on the command line.
+    """
+    from gumption._model import Model, from_dict
+
+    options = _options(
+        allow=allow, trials=trials, seed=seed, threads=threads, coverage=coverage, k=k
+    )
+    if isinstance(model, Mapping):
+        model = from_dict(model)
+    if isinstance(model, Model):
+        model._refuse_function("assumptions")
+        replaced = [part for text in model._rust.source[5] for part in ("--set", text)]
+        return Answer(["assumptions", "-", *options, *replaced], model._rust)
+    return Answer(["assumptions", os.fspath(model), *options])
+
+
+def certificate(
+    file: str | os.PathLike[str] | Mapping[str, Any],
+    *,
+    trials: int | str | None = None,
+    seed: int | None = None,
+    coverage: float | None = None,
+    k: float | None = None,
+    threads: int | None = None,
+    allow_path: Sequence[str | os.PathLike[str]] = (),
+) -> Certificate:
+    """Make a calibration certificate.
+
+    Parameters
+    ----------
+    file : path-like or mapping
+        The certificate file, or its content.
+    trials, seed, coverage, k, threads, allow_path : optional
+        As on the command line.
+
+    Examples
+    --------
+    ``gumption.certificate("certificate.json").save("certificate.xml")`` writes a DCC.
+    """
+    path, text = _given(file)
+    options = _options(
+        trials=trials, seed=seed, coverage=coverage, k=k, threads=threads, allow_path=allow_path
+    )
+    return Certificate(["certificate", path, *options], None, text)
+
+
+def diff(a: str | os.PathLike[str], b: str | os.PathLike[str]) -> Answer:
+    """Say what changed between two model files or saved results, and what it did to U."""
+    return Answer(["diff", os.fspath(a), os.fspath(b)])
+
+
+def verify() -> Answer:
+    """Recompute the published examples on this machine (ISO/IEC 17025, 7.11)."""
+    return Answer(["verify"])
+
+
+def check(file: str | os.PathLike[str]) -> Answer:
+    """List all mistakes of a file: ``{"ok": ..., "errors": [...]}``."""
+    return Answer(["check", os.fspath(file)])

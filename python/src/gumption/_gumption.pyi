@@ -1,0 +1,127 @@
+"""The extension module: what is made in Rust."""
+
+import os
+from collections.abc import Callable
+from typing import Any, final
+
+import numpy as np
+import numpy.typing as npt
+
+__all__ = [
+    "Model",
+    "ModelError",
+    "Run",
+    "__version__",
+    "arrow_array",
+    "arrow_stream",
+    "budgets",
+    "call",
+    "main",
+    "unit_scale",
+    "units_fit",
+]
+
+__version__: str
+
+_Source = tuple[str, str, str, list[tuple[str, bytes]], list[str], list[str], bool]
+
+class ModelError(ValueError):
+    """A mistake in a model, another file or an argument.
+
+    The text is what the command line says on standard error, with the place in the file.
+
+    Attributes
+    ----------
+    errors : list of dict
+        Every mistake with the keys ``file``, ``line``, ``column``, ``code``, ``message`` and
+        ``suggestion``, as ``gumption check --format json`` lists them; empty where an argument is at
+        fault.
+    """
+
+    errors: list[dict[str, Any]]
+
+@final
+class Model:
+    def __new__(
+        cls,
+        name: str,
+        text: str,
+        folder: str = "",
+        held: list[tuple[str, bytes]] = ...,
+        allow: list[str] = ...,
+        replaced: list[str] = ...,
+        accept_changed: bool = False,
+    ) -> Model: ...
+    @staticmethod
+    def load(
+        path: str | os.PathLike[str],
+        allow: list[str] = ...,
+        replaced: list[str] = ...,
+        accept_changed: bool = False,
+    ) -> Model: ...
+    @property
+    def source(self) -> _Source: ...
+    @property
+    def title(self) -> str: ...
+    @property
+    def inputs(self) -> list[tuple[str, str]]: ...
+    @property
+    def outputs(self) -> list[tuple[str, str]]: ...
+    @property
+    def conditions(self) -> list[tuple[str, str]]: ...
+    @property
+    def rows(self) -> int: ...
+    @property
+    def variables(self) -> list[str]: ...
+    @property
+    def warnings(self) -> list[tuple[str, str, str]]: ...
+    def run(
+        self,
+        options: dict[str, Any],
+        progress: Callable[[int], object] | None = None,
+        function: Callable[[list[npt.NDArray[np.float64]]], list[Any]] | None = None,
+    ) -> Run: ...
+
+@final
+class Run:
+    def formatted(self, format: str) -> bytes: ...
+    def saved(self) -> str: ...
+    def samples(self, outputs: list[str], row: int) -> list[npt.NDArray[np.float64]]: ...
+    def histograms(
+        self, row: int
+    ) -> list[tuple[float, float, npt.NDArray[np.uint64]] | None]: ...
+    def column(self, output: str, name: str) -> npt.NDArray[np.float64]: ...
+    def condition_rows(self) -> npt.NDArray[np.float64]: ...
+    def budget(self, output: str, row: int) -> dict[str, Any] | None: ...
+    def correlations(self, row: int) -> list[float]: ...
+    def trials_file(self, form: str) -> bytes: ...
+    @property
+    def warnings(self) -> list[tuple[str, str, str]]: ...
+    @property
+    def swept(self) -> bool: ...
+    @property
+    def rows(self) -> int: ...
+    @property
+    def coverage_probability(self) -> float: ...
+    @property
+    def seed(self) -> int: ...
+    @property
+    def outputs(self) -> list[tuple[str, str]]: ...
+    @property
+    def conditions(self) -> list[tuple[str, str]]: ...
+
+def arrow_array(values: npt.NDArray[np.float64]) -> tuple[Any, Any]: ...
+def arrow_stream(names: list[str], columns: list[npt.NDArray[np.float64]]) -> Any: ...
+def budgets(
+    model: Model,
+    columns: dict[str, tuple[Any, Any, Any]],
+    coverage: float | None = None,
+    k: float | None = None,
+    real_dof: bool = False,
+) -> list[dict[str, Any]]: ...
+def call(
+    arguments: list[str], model: Model | None = None, text: str | None = None
+) -> tuple[bytes, str, bool]: ...
+def main(arguments: list[str]) -> int: ...
+def unit_scale(unit: str) -> tuple[float, float]: ...
+def units_fit(first: str, second: str) -> bool: ...

@@ -1,0 +1,371 @@
+"""Models: files, dictionaries and traced functions, ready to be evaluated."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Callable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+from gumption import _gumption
+from gumption._frames import condition_file
+from gumption._quantities import as_input, shared
+from gumption._result import Result
+
+if TYPE_CHECKING:
+    from gumption._measurement import BlockFunction
+
+
+class Model:
+    """A measurement model with what is known about its inputs; it does not change.
+
+    `load`, `from_dict`, `from_json` and `Measurement` make models. They pickle.
+    """
+
+    _rust: _gumption.Model
+    _function: BlockFunction | None
+
+    def __init__(self) -> None:
+        raise TypeError("models are made by gumption.load, from_dict, from_json or model")
+
+    @classmethod
+    def _of(cls, rust: _gumption.Model, function: BlockFunction | None = None) -> Model:
+        made = object.__new__(cls)
+        made._rust = rust
+        made._function = function
+        return made
+
+    @property
+    def title(self) -> str:
+        """The title."""
+        return self._rust.title
+
+    @property
+    def inputs(self) -> dict[str, str]:
+        """Names and units of the inputs."""
+        return dict(self._rust.inputs)
+
+    @property
+    def outputs(self) -> dict[str, str]:
+        """Names and units of the outputs."""
+        return dict(self._rust.outputs)
+
+    @property
+    def conditions(self) -> dict[str, str]:
+        """Names and units of the conditions."""
+        return dict(self._rust.conditions)
+
+    @property
+    def rows(self) -> int:
+        """The number of rows of conditions; 1 where nothing is swept."""
+        return self._rust.rows
+
+    @property
+    def warnings(self) -> list[dict[str, str]]:
+        """Notes on what was read, each with ``code``, ``where`` and ``text``."""
+        return [{"code": c, "where": w, "text": t} for c, w, t in self._rust.warnings]
+
+    @property
+    def text(self) -> str:
+        """The model file."""
+        return self._rust.source[1]
+
+    def to_dict(self) -> dict[str, Any]:
+        """The model file as a dictionary."""
+        found = json.loads(self.text)
+        assert isinstance(found, dict)
+        return found
+
+    def run(
+        self,
+        trials: int | float | str | None = None,
+        seed: int | None = None,
+        *,
+        coverage: float | None = None,
+        k: float | None = None,
+        digits: int | None = None,
+        real_dof: bool = False,
+        validate: bool = False,
+        rule: str | None = None,
+        max_trials: int | None = None,
+        threads: int | None = None,
+        memory: int | None = None,
+        progress: bool | Callable[[int], object] = False,
+    ) -> Result:
+        """Evaluate by the law of propagation (JCGM 100) and by Monte Carlo (JCGM 101).
+
+        Other threads of Python run on meanwhile, and Ctrl-C ends the run at once. What is not given
+        is as the model file says. The result has the same bits on any number of threads, and those
+        of ``gumption run``.
+
+        Parameters
+        ----------
+        trials : int or "adaptive", optional
+            Number of trials; 0 for the law of propagation alone, ``"adaptive"`` for as many as the
+            digits need (JCGM 101, 7.9).
+        seed : int, optional
+            Seed of the random streams.
+        coverage : float, optional
+            Coverage probability.
+        k : float, optional
+            Coverage factor for infinite degrees of freedom in place of `coverage`.
+        digits : int, optional
+            Significant digits of the standard uncertainty that are held meaningful (clause 8).
+        real_dof : bool, default False
+            Take the coverage factor at the real number of effective degrees of freedom.
+        validate : bool, default False
+            Make as many trials as the validation of the GUM interval needs (JCGM 101, 8.2).
+        rule : {"7.9", "stein"}, optional
+            When an adaptive run stops.
+        max_trials : int, optional
+            Largest number of trials of an adaptive run.
+        threads : int, optional
+            Number of threads; all of the machine's unless given.
+        memory : int, optional
+            Bytes for kept values of trials; 64 MiB unless given.
+        progress : bool or callable, default False
+            Show a bar of ``tqdm``, or call this now and then with the trials that are made.
+
+        Returns
+        -------
+        Result
+
+        Raises
+        ------
+        ModelError
+            If the model cannot be evaluated, with its place in the file.
+        KeyboardInterrupt
+            Within 0.2 s of Ctrl-C.
+        """
+        options = {
+            "trials": trials, "seed": seed, "coverage": coverage, "k": k, "digits": digits,
+            "real_dof": real_dof or None, "validate": validate or None, "rule": rule,
+            "max_trials": max_trials, "threads": threads, "memory": memory,
+        }  # fmt: skip
+        given = {name: value for name, value in options.items() if value is not None}
+        return Result(self, given, self._evaluated(given, progress))
+
+    def _evaluated(
+        self, options: dict[str, Any], progress: bool | Callable[[int], object] = False
+    ) -> _gumption.Run:
+        """The run on this machine's threads."""
+        function = self._function.of(self._rust) if self._function is not None else None
+        if progress is False:
+            return self._rust.run(options, None, function)
+        if callable(progress):
+            return self._rust.run(options, progress, function)
+        from tqdm.auto import tqdm
+
+        trials = options.get("trials")
+        total = int(trials) * self.rows if isinstance(trials, (int, float)) and trials else None
+        with tqdm(total=total, unit="trials", unit_scale=True) as bar:
+            return self._rust.run(options, lambda done: bar.update(done - bar.n), function)
+
+    def set(self, *replacements: str, **values: Any) -> Model:
+        """The model with other estimates or fields of inputs, as ``--set`` has them.
+
+        Limits move along with an estimate, and widths follow their specification.
+
+        Parameters
+        ----------
+        *replacements : str
+            ``"NAME=35 deg"`` or ``"NAME.half_width=0.2"``.
+        **values
+            An estimate for an input, in its unit or as a text with one. Two underscores stand for the
+            point of a field: ``tilt__half_width=0.2``.
+        """
+        self._refuse_function("set")
+        named = [f"{name.replace('__', '.')}={value}" for name, value in values.items()]
+        name, text, folder, held, allow, replaced, accept = self._rust.source
+        all_ = [*replaced, *replacements, *named]
+        return Model._of(_gumption.Model(name, text, folder, held, allow, all_, accept))
+
+    def with_inputs(
+        self,
+        inputs: Mapping[str, Any] | None = None,
+        *,
+        correlations: Sequence[tuple[str, str, float]] | None = None,
+        **named: Any,
+    ) -> Model:
+        """The model with something else known about some inputs.
+
+        Parameters
+        ----------
+        inputs : mapping, optional
+            What is known, as `Measurement` takes it, by the names of the inputs.
+        correlations : sequence of (str, str, float), optional
+            Correlation coefficients in place of those of the model.
+        **named
+            The same as `inputs`.
+        """
+        self._refuse_function("with_inputs")
+        known = {**(inputs or {}), **named}
+        file, held = self.to_dict(), dict(self._rust.source[3])
+        units = self.inputs
+        for name, value in known.items():
+            if name not in units:
+                raise _gumption.ModelError(
+                    f"the model has no input `{name}`; it has {', '.join(units)}"
+                )
+            found = as_input(value, name)
+            file["inputs"][name] = found.to_dict(units[name])
+            held.update(found.held)
+        links = [*(correlations if correlations is not None else file.get("correlations", []))]
+        links += shared(known)
+        if links:
+            file["correlations"] = [list(link) for link in links]
+        return self._with(file, held)
+
+    def with_conditions(self, table: Any, units: Mapping[str, str] | None = None) -> Model:
+        """The model in every row of a table of conditions.
+
+        Parameters
+        ----------
+        table : DataFrame or mapping
+            A column for each condition of the model.
+        units : mapping of str to str, optional
+            Units of the columns; those of the model's conditions unless given, or unless a column
+            knows its own.
+        """
+        self._refuse_function("with_conditions")
+        own = {**self.conditions, **(units or {})}
+        if not own:
+            raise _gumption.ModelError("the model has no conditions")
+        file, held = self.to_dict(), dict(self._rust.source[3])
+        file["conditions"], tables = condition_file(table, own)
+        held.update(tables)
+        return self._with(file, held)
+
+    def _with(self, file: Mapping[str, Any], held: Mapping[str, bytes]) -> Model:
+        name, _, folder, _, allow, replaced, accept = self._rust.source
+        text = _json(file)
+        files = list(held.items())
+        return Model._of(_gumption.Model(name, text, folder, files, allow, replaced, accept))
+
+    def _refuse_function(self, what: str) -> None:
+        if self._function is not None:
+            raise _gumption.ModelError(
+                f"`{what}` needs a model of formulas, but the function of `{self.title}` could not be "
+                "traced; call the function with other inputs"
+            )
+
+    def __repr__(self) -> str:
+        inputs, outputs = ", ".join(self.inputs), ", ".join(self.outputs)
+        return f"<gumption.Model {self.title!r}: {outputs} of {inputs}>"
+
+    def __reduce__(self) -> Any:
+        return _model_from, (self._rust.source, self._function)
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Model):
+            return NotImplemented
+        return self._rust.source == other._rust.source and self._function is other._function
+
+    def __hash__(self) -> int:
+        return hash(self._rust.source[1])
+
+
+def _model_from(source: tuple[Any, ...], function: BlockFunction | None) -> Model:
+    return Model._of(_gumption.Model(*source), function)
+
+
+def _json(file: Mapping[str, Any]) -> str:
+    return json.dumps(file, indent=1, ensure_ascii=False, allow_nan=False)
+
+
+def load(
+    path: str | os.PathLike[str],
+    *,
+    set: Mapping[str, Any] | Sequence[str] = (),  # noqa: A002 - the name that the command line has
+    allow_path: Sequence[str | os.PathLike[str]] = (),
+    accept_changed: bool = False,
+) -> Model:
+    """Read a model file.
+
+    Parameters
+    ----------
+    path : path-like
+        The file. What it names is looked for in its folder.
+    set : mapping or sequence of str, optional
+        Other estimates or fields of inputs, as ``--set`` has them: ``{"tilt": "36 deg"}`` or
+        ``["tilt.half_width=0.2"]``.
+    allow_path : sequence of path-like, optional
+        Folders beside its own that the file may name files in.
+    accept_changed : bool, default False
+        Take saved results that were changed since they were written.
+
+    Returns
+    -------
+    Model
+
+    Raises
+    ------
+    ModelError
+        With all mistakes of the file and their places.
+    """
+    items = [f"{name}={value}" for name, value in set.items()] if isinstance(set, Mapping) else set
+    allowed = [os.fspath(folder) for folder in allow_path]
+    return Model._of(_gumption.Model.load(os.fspath(path), allowed, list(items), accept_changed))
+
+
+def from_json(text: str, *, name: str = "<json>", folder: str | os.PathLike[str] = "") -> Model:
+    """Read the text of a model file.
+
+    Parameters
+    ----------
+    text : str
+        The text.
+    name : str, optional
+        What messages call it.
+    folder : path-like, optional
+        Where the files are that it names; the current folder unless given.
+    """
+    return Model._of(_gumption.Model(name, text, os.fspath(folder)))
+
+
+def from_dict(
+    file: Mapping[str, Any],
+    *,
+    name: str = "<dict>",
+    folder: str | os.PathLike[str] = "",
+    conditions: Any = None,
+) -> Model:
+    """Make a model of a dictionary as a model file has it.
+
+    Inputs may be whatever `Measurement` takes: `Input` objects, outputs of results, numbers of
+    other libraries. ``format`` may be left out.
+
+    Parameters
+    ----------
+    file : mapping
+        The keys of a model file.
+    name : str, optional
+        What messages call it.
+    folder : path-like, optional
+        Where the files are that it names; the current folder unless given.
+    conditions : DataFrame or mapping, optional
+        The rows of the conditions; ``file["conditions"]`` then has their units only, as
+        ``{"f": "Hz"}`` or ``{"f": {"unit": "Hz"}}``.
+    """
+    made: dict[str, Any] = {"format": 1, **file}
+    held: dict[str, bytes] = {}
+    inputs = made.get("inputs")
+    if isinstance(inputs, Mapping):
+        own = {}
+        for key, value in inputs.items():
+            if isinstance(value, (Mapping, str)):
+                own[key] = value
+                continue
+            found = as_input(value, key)
+            own[key] = found.to_dict()
+            held.update(found.held)
+        made["inputs"] = own
+        links = shared({key: value for key, value in inputs.items() if not isinstance(value, str)})
+        if links:
+            made["correlations"] = [*made.get("correlations", []), *map(list, links)]
+    if conditions is not None:
+        asked = made.get("conditions", {})
+        units = {n: of if isinstance(of, str) else of.get("unit", "1") for n, of in asked.items()}
+        made["conditions"], tables = condition_file(conditions, units)
+        held.update(tables)
+    return Model._of(_gumption.Model(name, _json(made), os.fspath(folder), list(held.items())))

@@ -1,0 +1,80 @@
+"""Figures with matplotlib."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from gumption._result import Result
+
+
+def plot(result: Result, outputs: list[str], row: int | None) -> Any:
+    """The figure that `Result.plot` gives."""
+    from matplotlib.figure import Figure
+
+    drawn = [result[name] for name in outputs]
+    figure = Figure(figsize=(6.4, 3.2 * len(drawn)), layout="constrained")
+    panels = figure.subplots(len(drawn), 1, squeeze=False)[:, 0]
+    swept = result._run.swept and row is None
+    bins = None if swept else dict(zip(result, result._run.histograms(row or 0)))
+    for panel, output in zip(panels, drawn):
+        if bins is None:
+            _sweep(panel, result, output)
+        else:
+            _distribution(panel, output, bins.get(output.name), row or 0)
+    return figure
+
+
+def _at(value: Any, row: int) -> Any:
+    """A figure in a row of conditions."""
+    return value if isinstance(value, float) or np.ndim(value) == 0 else value[row]
+
+
+def _interval(values: Any, row: int) -> Any:
+    return values[row] if values.ndim == 2 else values
+
+
+def _distribution(panel: Any, output: Any, bins: Any, row: int) -> None:
+    gum, trials = output.gum, output.monte_carlo
+    y, u = _at(gum.estimate, row), _at(gum.standard_uncertainty, row)
+    if bins is not None:
+        low, width, counts = bins
+        edges = low + width * np.arange(len(counts) + 1)
+        density = counts / (_at(trials.trials, row) * width)
+        panel.stairs(density, edges, fill=True, color="tab:blue", alpha=0.35, label="Monte Carlo")
+        for name, of, style in (
+            ("symmetric", trials.symmetric_interval, "-"),
+            ("shortest", trials.shortest_interval, ":"),
+        ):
+            for number, end in enumerate(_interval(of, row)):
+                label = f"{name} interval" if number == 0 else None
+                panel.axvline(end, color="tab:blue", linestyle=style, label=label)
+    if u > 0:
+        x = np.linspace(y - 4 * u, y + 4 * u, 400)
+        normal = np.exp(-0.5 * ((x - y) / u) ** 2) / (u * np.sqrt(2 * np.pi))
+        panel.plot(x, normal, color="tab:orange", label="GUM, normal")
+    interval = _interval(gum.interval, row)
+    if np.all(np.isfinite(interval)):
+        for number, end in enumerate(interval):
+            label = "GUM interval" if number == 0 else None
+            panel.axvline(end, color="tab:orange", linestyle="--", label=label)
+    panel.set_xlabel(f"{output.name} in {output.unit}")
+    panel.set_ylabel("density")
+    panel.set_ylim(bottom=0)
+    panel.legend(fontsize="small")
+
+
+def _sweep(panel: Any, result: Result, output: Any) -> None:
+    names = list(result.conditions)
+    units = dict(result._run.conditions)
+    rows = np.arange(result.rows)
+    # over a condition of its own values, else over the rows
+    x = result.conditions[names[0]] if len(names) == 1 else rows
+    panel.errorbar(
+        x, output.gum.estimate, yerr=output.gum.expanded_uncertainty, fmt="o", capsize=3, label="y, U"
+    )
+    panel.set_xlabel(f"{names[0]} in {units[names[0]]}" if len(names) == 1 else "row")
+    panel.set_ylabel(f"{output.name} in {output.unit}")
+    panel.legend(fontsize="small")

@@ -1,0 +1,482 @@
+"""What a run gave."""
+
+from __future__ import annotations
+
+import hashlib
+import html
+import json
+import os
+from collections.abc import Iterator, Mapping
+from typing import TYPE_CHECKING, Any, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from gumption import _gumption
+from gumption._frames import frame_of
+from gumption._samples import Samples, SampleTable
+from gumption._shapes import Input
+
+if TYPE_CHECKING:
+    from gumption._model import Model
+
+#: A figure: a number, or with conditions one for each row of these.
+Figure = Union[float, npt.NDArray[np.float64]]
+
+#: Formats of pages and answers, by the extensions of files.
+FORMATS = {
+    ".json": "json", ".csv": "csv", ".txt": "table", ".md": "markdown", ".tex": "latex",
+    ".html": "html", ".htm": "html", ".xlsx": "xlsx", ".xml": "dcc",
+}  # fmt: skip
+
+
+def format_of(path: str | os.PathLike[str]) -> str:
+    """The format that the extension of a file says."""
+    extension = os.path.splitext(os.fspath(path))[1].lower()
+    if extension not in FORMATS:
+        known = ", ".join(FORMATS)
+        raise _gumption.ModelError(f"`{os.fspath(path)}`: the extension is none of {known}")
+    return FORMATS[extension]
+
+
+def framed(page: str) -> str:
+    """A page in a frame of its own, so that its look and that of a notebook do not mix."""
+    return (
+        f'<iframe srcdoc="{html.escape(page)}" style="width:100%;height:36em;border:0" '
+        'title="gumption"></iframe>'
+    )
+
+
+class _Figures:
+    """Figures of one output by one method."""
+
+    _method = ""
+
+    def __init__(self, output: Output) -> None:
+        self._output = output
+
+    def _figure(self, name: str) -> Figure:
+        return self._output._figure(f"{self._method}.{name}")
+
+    def _pair(self, low: str, high: str) -> npt.NDArray[np.float64]:
+        return np.stack([np.asarray(self._figure(low)), np.asarray(self._figure(high))], axis=-1)
+
+    def __repr__(self) -> str:
+        names = [name for name, of in vars(type(self)).items() if isinstance(of, property)]
+        lines = [f"{name}: {getattr(self, name)}" for name in names]
+        return "\n".join(lines)
+
+
+class Gum(_Figures):
+    """One output by the law of propagation (JCGM 100).
+
+    With conditions every figure is an array of one entry a row. What is not defined is NaN.
+    """
+
+    _method = "gum"
+
+    @property
+    def estimate(self) -> Figure:
+        """Estimate y."""
+        return self._figure("estimate")
+
+    @property
+    def standard_uncertainty(self) -> Figure:
+        """Combined standard uncertainty u(y)."""
+        return self._figure("standard_uncertainty")
+
+    @property
+    def dof(self) -> Figure:
+        """Effective degrees of freedom; infinite where every contribution's are."""
+        return self._figure("dof")
+
+    @property
+    def coverage_factor(self) -> Figure:
+        """Coverage factor k."""
+        return self._figure("coverage_factor")
+
+    @property
+    def expanded_uncertainty(self) -> Figure:
+        """Expanded uncertainty U = k u(y)."""
+        return self._figure("expanded_uncertainty")
+
+    @property
+    def interval(self) -> npt.NDArray[np.float64]:
+        """The interval y - U to y + U, along the last axis."""
+        return self._pair("low", "high")
+
+
+class MonteCarlo(_Figures):
+    """One output by the Monte Carlo method (JCGM 101).
+
+    With conditions every figure is an array of one entry a row. What is not defined is NaN.
+    """
+
+    _method = "monte_carlo"
+
+    @property
+    def trials(self) -> Figure:
+        """Number of trials."""
+        return self._figure("trials")
+
+    @property
+    def estimate(self) -> Figure:
+        """Mean of the trials."""
+        return self._figure("estimate")
+
+    @property
+    def standard_uncertainty(self) -> Figure:
+        """Standard deviation of the trials."""
+        return self._figure("standard_uncertainty")
+
+    @property
+    def median(self) -> Figure:
+        """Median of the trials."""
+        return self._figure("median")
+
+    @property
+    def symmetric_interval(self) -> npt.NDArray[np.float64]:
+        """Probabilistically symmetric coverage interval, along the last axis."""
+        return self._pair("symmetric_low", "symmetric_high")
+
+    @property
+    def shortest_interval(self) -> npt.NDArray[np.float64]:
+        """Shortest coverage interval, along the last axis."""
+        return self._pair("shortest_low", "shortest_high")
+
+    @property
+    def skewness(self) -> Figure:
+        """Skewness of the trials."""
+        return self._figure("skewness")
+
+    @property
+    def excess_kurtosis(self) -> Figure:
+        """Excess kurtosis of the trials."""
+        return self._figure("excess_kurtosis")
+
+
+class Budget(Mapping[str, Any]):
+    """The budget of one output: columns by name, one entry a line.
+
+    The lines are the inputs, then correlation coefficients, ``r(a, b)``, which have a share only.
+    Columns are ``input``, ``unit``, ``estimate``, ``standard_uncertainty``, ``distribution``, ``type``,
+    ``group``, ``dof``, ``sensitivity``, ``contribution`` and ``share``; they are attributes as well.
+    """
+
+    def __init__(self, columns: Mapping[str, Any]) -> None:
+        self._columns = dict(columns)
+
+    def __getitem__(self, name: str) -> Any:
+        return self._columns[name]
+
+    def __getattr__(self, name: str) -> Any:
+        if not name.startswith("_") and name in self._columns:
+            return self._columns[name]
+        raise AttributeError(name)
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._columns)
+
+    def __len__(self) -> int:
+        return len(self._columns)
+
+    def to_pandas(self) -> Any:
+        """The budget as a ``pandas.DataFrame`` with the inputs as its index."""
+        import pandas
+
+        return pandas.DataFrame(self._columns).set_index("input")
+
+    def __repr__(self) -> str:
+        shown = ("input", "estimate", "standard_uncertainty", "sensitivity", "contribution", "share")
+        rows = [list(shown)]
+        for line in zip(*(self._columns[name] for name in shown)):
+            rows.append([f"{cell:.6g}" if isinstance(cell, float) else str(cell) for cell in line])
+        widths = [max(map(len, column)) for column in zip(*rows)]
+        return "\n".join("  ".join(c.rjust(w) for c, w in zip(row, widths)) for row in rows)
+
+
+class Output:
+    """One output of a result.
+
+    It stands for itself as an input of another model: its distribution, and how it varies together
+    with the other outputs of the same result and with what they share with other results.
+    """
+
+    def __init__(self, result: Result, name: str) -> None:
+        self._result = result
+        self.name = name
+        self.unit = dict(result._run.outputs)[name]
+
+    def _figure(self, name: str) -> Figure:
+        column: npt.NDArray[np.float64] = self._result._run.column(self.name, name)
+        return column if self._result._run.swept else float(column[0])
+
+    @property
+    def gum(self) -> Gum:
+        """By the law of propagation."""
+        return Gum(self)
+
+    @property
+    def monte_carlo(self) -> MonteCarlo:
+        """By the Monte Carlo method."""
+        return MonteCarlo(self)
+
+    @property
+    def budget(self) -> Budget:
+        """The budget, with conditions that of the first row; `budget_at` has the others."""
+        return self.budget_at(0)
+
+    def budget_at(self, row: int) -> Budget:
+        """The budget in a row of conditions, counted from 0."""
+        columns = self._result._run.budget(self.name, row)
+        if columns is None:
+            raise _gumption.ModelError(
+                f"`{self.name}` has no budget: a sensitivity coefficient is not finite"
+            )
+        return Budget(columns)
+
+    @property
+    def gum_valid(self) -> bool | None | npt.NDArray[np.float64]:
+        """Whether the GUM interval is valid here (JCGM 101, clause 8); `None` where undecided.
+
+        With conditions an array of 1, 0 and NaN.
+        """
+        found = self._figure("validation.gum_valid")
+        if isinstance(found, float):
+            return None if np.isnan(found) else bool(found)
+        return found
+
+    @property
+    def conformance_probability(self) -> Figure:
+        """The probability of conformance to the output's tolerance; NaN where it has none."""
+        return self._figure("conformity.probability")
+
+    def samples(self, row: int = 0) -> Samples:
+        """The trials in a row of conditions."""
+        found = self._result.samples(self.name, row)
+        assert isinstance(found, Samples)
+        return found
+
+    def to_dict(self) -> dict[str, Any]:
+        """The output as the JSON answer has it, with conditions that of the first row."""
+        answer = self._result.to_dict()
+        found = answer["rows"][0] if "rows" in answer else answer
+        output = found["outputs"][self.name]
+        assert isinstance(output, dict)
+        return output
+
+    def _as_input(self) -> Input:
+        text = self._result.saved()
+        # results of different runs are told apart, and outputs of one run belong together
+        name = f"{hashlib.sha256(text.encode()).hexdigest()[:16]}.result.json"
+        spec = {"distribution": "result", "file": name, "output": self.name}
+        return Input(spec, self.unit, [(name, text.encode())])
+
+    def __repr__(self) -> str:
+        gum = self.gum
+        if self._result._run.swept:
+            return f"<gumption.Output {self.name} in {self.unit}: {self._result.rows} rows>"
+        return (
+            f"<gumption.Output {self.name}: {gum.estimate:.7g} {self.unit}, "
+            f"u = {gum.standard_uncertainty:.3g} {self.unit}>"
+        )
+
+
+class Result(Mapping[str, Output]):
+    """What a run gave: a mapping from the names of outputs to `Output` objects.
+
+    A result pickles as its model, seed and settings, and is computed again when it is needed: that
+    gives the same bits.
+    """
+
+    def __init__(
+        self, model: Model, options: Mapping[str, Any], run: _gumption.Run | None = None
+    ) -> None:
+        self.model = model
+        self._options = dict(options)
+        self._done = run
+        self._answer: dict[str, Any] | None = None
+        self._saved: str | None = None
+
+    @property
+    def _run(self) -> _gumption.Run:
+        if self._done is None:
+            self._done = self.model._evaluated(self._options)
+        return self._done
+
+    def __getitem__(self, name: str) -> Output:
+        names = [output for output, _ in self._run.outputs]
+        if name not in names:
+            raise KeyError(f"there is no output {name!r}; there are {', '.join(names)}")
+        return Output(self, name)
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(name for name, _ in self._run.outputs)
+
+    def __len__(self) -> int:
+        return len(self._run.outputs)
+
+    @property
+    def rows(self) -> int:
+        """The number of rows of conditions; 1 where nothing is swept."""
+        return self._run.rows
+
+    @property
+    def conditions(self) -> dict[str, npt.NDArray[np.float64]]:
+        """The conditions, one entry a row; empty where nothing is swept."""
+        if not self._run.swept:
+            return {}
+        values = self._run.condition_rows()
+        return {name: values[:, i] for i, (name, _) in enumerate(self._run.conditions)}
+
+    @property
+    def seed(self) -> int:
+        """The seed of the random streams."""
+        return self._run.seed
+
+    @property
+    def coverage_probability(self) -> float:
+        """The coverage probability."""
+        return self._run.coverage_probability
+
+    @property
+    def warnings(self) -> list[dict[str, str]]:
+        """Notes and warnings, each with ``code``, ``where`` and ``text``."""
+        return [{"code": c, "where": w, "text": t} for c, w, t in self._run.warnings]
+
+    def correlations(self, row: int = 0) -> npt.NDArray[np.float64]:
+        """The correlation matrix of the outputs in a row of conditions."""
+        count = len(self)
+        matrix = np.eye(count)
+        matrix[np.triu_indices(count, 1)] = self._run.correlations(row)
+        return np.triu(matrix) + np.triu(matrix, 1).T
+
+    def to_json(self) -> str:
+        """The answer of ``gumption run --format json``, byte for byte."""
+        return bytes(self._run.formatted("json")).decode()
+
+    def to_dict(self) -> dict[str, Any]:
+        """The answer of ``gumption run --format json`` as a dictionary."""
+        if self._answer is None:
+            self._answer = json.loads(self.to_json())
+        assert self._answer is not None
+        return self._answer
+
+    def to_pandas(self) -> Any:
+        """A ``pandas.DataFrame`` of one line for each output and row, as ``--format csv`` has them."""
+        frame = frame_of(self.to("csv").decode())
+        index = [*(name for name, _ in self._run.conditions if self._run.swept), "output"]
+        return frame.set_index(index)
+
+    def samples(self, name: str | None = None, row: int = 0) -> Any:
+        """The trials, made again: the bits are those of the run.
+
+        Parameters
+        ----------
+        name : str, optional
+            An output; all of them unless given.
+        row : int, default 0
+            The row of conditions.
+
+        Returns
+        -------
+        Samples or SampleTable
+            For one output an array; for all of them a mapping of arrays. Both speak Arrow.
+        """
+        names = list(self) if name is None else [self[name].name]
+        columns = [Samples.of(values) for values in self._run.samples(names, row)]
+        return columns[0] if name is not None else SampleTable(dict(zip(names, columns)))
+
+    def saved(self) -> str:
+        """The result file of the run, as ``gumption run --save`` writes it."""
+        if self._saved is None:
+            self._saved = self._run.saved()
+        return self._saved
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write the result file, from which inputs of other models are taken."""
+        _write(path, self.saved().encode())
+
+    def to(self, format: str) -> bytes:  # noqa: A002 - the name that the command line has
+        """The answer in a format of the command line.
+
+        Parameters
+        ----------
+        format : {"table", "json", "csv", "markdown", "latex", "html", "xlsx"}
+            The format.
+        """
+        if format == "xlsx" and self.model._function is not None:
+            self.model._refuse_function("xlsx")
+        return bytes(self._run.formatted(format))
+
+    def write(self, path: str | os.PathLike[str]) -> None:
+        """Write a page or an answer in the format that the extension says.
+
+        Extensions are ``.html``, ``.xlsx``, ``.md``, ``.tex``, ``.txt``, ``.json`` and ``.csv``, and
+        ``.npy`` for the trials.
+        """
+        if os.fspath(path).lower().endswith(".npy"):
+            _write(path, bytes(self._run.trials_file("npy")))
+        else:
+            _write(path, self.to(format_of(path)))
+
+    def plot(self, outputs: str | list[str] | None = None, *, row: int | None = None) -> Any:
+        """Draw the distributions with the coverage intervals of both methods, or with conditions the
+        estimates with their expanded uncertainties.
+
+        Parameters
+        ----------
+        outputs : str or list of str, optional
+            Which outputs; all of them unless given.
+        row : int, optional
+            With conditions, the row whose distributions are drawn.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+        """
+        from gumption._plot import plot
+
+        names = [outputs] if isinstance(outputs, str) else outputs
+        return plot(self, names if names is not None else list(self), row)
+
+    def _repr_html_(self) -> str:
+        return framed(self.to("html").decode())
+
+    def __str__(self) -> str:
+        return self.to("table").decode()
+
+    def __repr__(self) -> str:
+        if self._done is None:
+            return f"<gumption.Result of {self.model!r}, not computed yet>"
+        shown = "\n".join(f"  {output!r}" for output in list(self.values())[:20])
+        return f"<gumption.Result {self.model.title!r}\n{shown}>"
+
+    # two results are one if they are the same object; a mapping would compare its entries
+    def __eq__(self, other: object) -> bool:
+        return self is other
+
+    def __hash__(self) -> int:
+        return id(self)
+
+    def __reduce__(self) -> Any:
+        return Result, (self.model, {**self._options, "seed": self.seed})
+
+
+def _write(path: str | os.PathLike[str], content: bytes) -> None:
+    """A file that is there whole or as it was."""
+    import tempfile
+
+    folder = os.path.dirname(os.path.abspath(os.fspath(path)))
+    handle, temporary = tempfile.mkstemp(dir=folder, prefix=".gumption-")
+    try:
+        with os.fdopen(handle, "wb") as out:
+            out.write(content)
+        # as if it had been opened by its name
+        mask = os.umask(0)
+        os.umask(mask)
+        os.chmod(temporary, 0o666 & ~mask)
+        os.replace(temporary, path)
+    except BaseException:
+        os.unlink(temporary)
+        raise

@@ -1,0 +1,321 @@
+"""What is known about an input quantity: every shape of a model file as a function.
+
+Each function gives an `Input`. The keys of a model file's input that have no argument of their own go
+in as further keyword arguments: ``about`` (the source of uncertainty in words), ``type`` (``"A"`` or
+``"B"``), ``group``, ``per`` (``"row"`` or the name of a condition), ``evidence`` and so on.
+
+A width (``std``, ``half_width``, ``expanded``, ``scale``) is a number in the input's unit, or a
+specification such as ``"0.02 % + 2 uV"``. An estimate may be a formula of conditions as text.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Mapping
+from typing import Any, Union
+
+import numpy as np
+import numpy.typing as npt
+
+#: A number, or a text that a model file may have in its place.
+Value = Union[float, str]
+
+
+class Input:
+    """What is known about an input quantity, as it stands in a model file.
+
+    Parameters
+    ----------
+    spec : mapping
+        The keys of the input in a model file, its unit left out.
+    unit : str, optional
+        The unit; that which the model asks for unless given.
+    held : iterable of (str, bytes)
+        Files that the keys name, by their names.
+
+    Notes
+    -----
+    An object that is given for two inputs is one quantity: both always have the same value.
+    """
+
+    __slots__ = ("held", "spec", "unit")
+
+    def __init__(
+        self,
+        spec: Mapping[str, Any],
+        unit: str | None = None,
+        held: Iterable[tuple[str, bytes]] = (),
+    ) -> None:
+        self.spec: dict[str, Any] = dict(spec)
+        self.unit = unit
+        self.held: tuple[tuple[str, bytes], ...] = tuple(held)
+
+    def to_dict(self, unit: str = "1") -> dict[str, Any]:
+        """The input as it stands in a model file; `unit` holds where it has none of its own."""
+        return {"unit": self.unit if self.unit is not None else unit, **self.spec}
+
+    def __repr__(self) -> str:
+        return f"gumption.Input({self.spec!r}, unit={self.unit!r})"
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Input, (self.spec, self.unit, self.held)
+
+
+def plain(value: Any) -> Any:
+    """Numbers of NumPy as those of Python; what is no number as it is."""
+    if isinstance(value, np.generic):
+        return value.item()
+    if isinstance(value, np.ndarray):
+        return value.tolist()
+    if isinstance(value, Mapping):
+        return {key: plain(inner) for key, inner in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [plain(inner) for inner in value]
+    return value
+
+
+def _shape(
+    distribution: str | None, unit: str | None, fields: Mapping[str, Any], more: Mapping[str, Any]
+) -> Input:
+    spec = {} if distribution is None else {"distribution": distribution}
+    for key, value in {**fields, **more}.items():
+        if value is not None:
+            spec[key] = plain(value)
+    return Input(spec, unit)
+
+
+def constant(value: Value, unit: str | None = None, **more: Any) -> Input:
+    """A quantity that is known exactly."""
+    return _shape("constant", unit, {"value": value}, more)
+
+
+def normal(
+    mean: Value,
+    std: Value | None = None,
+    unit: str | None = None,
+    *,
+    expanded: Value | None = None,
+    k: float | None = None,
+    p: float | None = None,
+    dof: float | None = None,
+    **more: Any,
+) -> Input:
+    """A normal distribution.
+
+    Parameters
+    ----------
+    mean : float or str
+        Estimate.
+    std : float or str, optional
+        Standard uncertainty.
+    unit : str, optional
+        Unit of estimate and width; that which the model asks for unless given.
+    expanded : float or str, optional
+        Expanded uncertainty in place of `std`, with `k` or `p`.
+    k, p : float, optional
+        Coverage factor, or coverage probability, of `expanded`.
+    dof : float, optional
+        Degrees of freedom of the standard uncertainty. With them the trials are drawn from the
+        scaled and shifted t (JCGM 101, 6.4.9.7).
+    **more
+        Further keys of an input in a model file.
+    """
+    fields = {"mean": mean, "std": std, "expanded": expanded, "k": k, "p": p, "dof": dof}
+    return _shape("normal", unit, fields, more)
+
+
+def _limits(
+    shape: str,
+    mean: Value | None,
+    half_width: Value | None,
+    unit: str | None,
+    lower: Value | None,
+    upper: Value | None,
+    more: Mapping[str, Any],
+) -> Input:
+    fields = {"mean": mean, "half_width": half_width, "lower": lower, "upper": upper}
+    return _shape(shape, unit, fields, more)
+
+
+def rectangular(
+    mean: Value | None = None,
+    half_width: Value | None = None,
+    unit: str | None = None,
+    *,
+    lower: Value | None = None,
+    upper: Value | None = None,
+    dof: float | None = None,
+    **more: Any,
+) -> Input:
+    """A rectangular (uniform) distribution, by estimate and half-width or by its limits.
+
+    With `dof` the limits are not known exactly (JCGM 100, G.4.2; JCGM 101, 6.4.3).
+    """
+    return _limits("rectangular", mean, half_width, unit, lower, upper, {"dof": dof, **more})
+
+
+def triangular(
+    mean: Value | None = None,
+    half_width: Value | None = None,
+    unit: str | None = None,
+    *,
+    lower: Value | None = None,
+    upper: Value | None = None,
+    mode: Value | None = None,
+    dof: float | None = None,
+    **more: Any,
+) -> Input:
+    """A triangular distribution; with limits the `mode` may lie off the middle."""
+    more = {"mode": mode, "dof": dof, **more}
+    return _limits("triangular", mean, half_width, unit, lower, upper, more)
+
+
+def trapezoidal(
+    mean: Value | None = None,
+    half_width: Value | None = None,
+    unit: str | None = None,
+    *,
+    beta: float,
+    lower: Value | None = None,
+    upper: Value | None = None,
+    dof: float | None = None,
+    **more: Any,
+) -> Input:
+    """A symmetric trapezoidal distribution; `beta` is the ratio of its top's width to its base's."""
+    more = {"beta": beta, "dof": dof, **more}
+    return _limits("trapezoidal", mean, half_width, unit, lower, upper, more)
+
+
+def arcsine(
+    mean: Value | None = None,
+    half_width: Value | None = None,
+    unit: str | None = None,
+    *,
+    lower: Value | None = None,
+    upper: Value | None = None,
+    **more: Any,
+) -> Input:
+    """An arcsine (U-shaped) distribution: a quantity that cycles sinusoidally."""
+    return _limits("arcsine", mean, half_width, unit, lower, upper, more)
+
+
+def curvilinear_trapezoid(
+    lower: Value, upper: Value, inexactness: Value, unit: str | None = None, **more: Any
+) -> Input:
+    """A rectangular distribution whose limits are not known exactly (JCGM 101, 6.4.3)."""
+    fields = {"lower": lower, "upper": upper, "inexactness": inexactness}
+    return _shape("curvilinear-trapezoid", unit, fields, more)
+
+
+def student_t(
+    mean: Value, scale: Value, dof: float, unit: str | None = None, **more: Any
+) -> Input:
+    """A scaled and shifted t distribution; by the GUM its standard uncertainty is `scale`."""
+    return _shape("t", unit, {"mean": mean, "scale": scale, "dof": dof}, more)
+
+
+def readings(
+    values: npt.ArrayLike, unit: str | None = None, *, paired: bool | None = None, **more: Any
+) -> Input:
+    """Repeated readings (Type A): their mean, s/sqrt(n), and n - 1 degrees of freedom.
+
+    Parameters
+    ----------
+    values : array_like
+        The readings.
+    unit : str, optional
+        Their unit.
+    paired : bool, optional
+        Whether they were taken together with those of other inputs.
+    **more
+        Further keys of an input in a model file.
+    """
+    fields = {"values": np.asarray(values).tolist(), "paired": paired}
+    return _shape("readings", unit, fields, more)
+
+
+def exponential(mean: Value, unit: str | None = None, **more: Any) -> Input:
+    """An exponential distribution (JCGM 101, 6.4.10)."""
+    return _shape("exponential", unit, {"mean": mean}, more)
+
+
+def gamma(shape: float, rate: float, unit: str | None = None, **more: Any) -> Input:
+    """A gamma distribution; `rate` is in 1/unit."""
+    return _shape("gamma", unit, {"shape": shape, "rate": rate}, more)
+
+
+def lognormal(mean: Value, std: Value, unit: str | None = None, **more: Any) -> Input:
+    """A log-normal distribution; `mean` and `std` are those of the quantity itself."""
+    return _shape("lognormal", unit, {"mean": mean, "std": std}, more)
+
+
+def beta(
+    alpha: float,
+    beta: float,
+    unit: str | None = None,
+    *,
+    lower: Value | None = None,
+    upper: Value | None = None,
+    **more: Any,
+) -> Input:
+    """A beta distribution between 0 and 1, or between limits."""
+    fields = {"alpha": alpha, "beta": beta, "lower": lower, "upper": upper}
+    return _shape("beta", unit, fields, more)
+
+
+def log_uniform(lower: Value, upper: Value, unit: str | None = None, **more: Any) -> Input:
+    """A distribution whose logarithm is rectangular, between limits above 0."""
+    return _shape("log-uniform", unit, {"lower": lower, "upper": upper}, more)
+
+
+def poisson_count(count: int, unit: str | None = None, **more: Any) -> Input:
+    """The expectation behind a count (JCGM 101, 6.4.11)."""
+    return _shape("poisson-count", unit, {"count": count}, more)
+
+
+def samples(values: npt.ArrayLike, unit: str | None = None, **more: Any) -> Input:
+    """An empirical distribution: values that are drawn with replacement."""
+    return _shape("samples", unit, {"values": np.asarray(values, dtype=float).tolist()}, more)
+
+
+def result(file: str | os.PathLike[str], output: str, unit: str | None = None, **more: Any) -> Input:
+    """An output of a saved result (``Result.save``, ``gumption run --save``)."""
+    import hashlib
+
+    with open(file, "rb") as opened:
+        content = opened.read()
+    # two files of one name are told apart
+    name = f"{hashlib.sha256(content).hexdigest()[:16]}.result.json"
+    found = _shape("result", unit, {"file": name, "output": output}, more)
+    return Input(found.spec, unit, [(name, content)])
+
+
+def components(mean: Value | None, parts: Mapping[str, Input], unit: str | None = None, **more: Any) -> Input:
+    """Several contributions to one quantity, by their names: calibration, resolution, drift.
+
+    Parameters
+    ----------
+    mean : float or str or None
+        The estimate; `None` where readings among the components give it.
+    parts : mapping of str to Input
+        What is known of each contribution, in the unit of the quantity; its estimate is 0.
+    unit : str, optional
+        The unit of all.
+    **more
+        Further keys of an input in a model file.
+    """
+    own = [{"name": name, **part.spec} for name, part in parts.items()]
+    held = [file for part in parts.values() for file in part.held]
+    found = _shape(None, unit, {"mean": mean, "components": own}, more)
+    return Input(found.spec, unit, held)
+
+
+def known(unit: str | None = None, **keys: Any) -> Input:
+    """An input by the keys that it has in a model file.
+
+    Examples
+    --------
+    >>> gumption.known("V", distribution="normal", mean=5, std="0.02 % + 2 uV").spec
+    {'distribution': 'normal', 'mean': 5, 'std': '0.02 % + 2 uV'}
+    """
+    return _shape(None, unit, keys, {})

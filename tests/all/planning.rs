@@ -1,0 +1,133 @@
+//! Plans towards a wanted uncertainty, as the program gives them.
+
+use std::fs;
+use std::path::Path;
+use std::process::Output;
+
+use serde_json::Value;
+
+use crate::support::{command, root};
+
+fn run(folder: &Path, arguments: &[&str]) -> Output {
+    command().current_dir(folder).args(arguments).output().expect("the program runs")
+}
+
+fn answer(folder: &Path, arguments: &[&str]) -> Value {
+    let found = run(folder, arguments);
+    assert!(found.status.success(), "{}", String::from_utf8_lossy(&found.stderr));
+    serde_json::from_slice(&found.stdout).expect("JSON")
+}
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().unwrap_or_else(|| panic!("{value} is no number"))
+}
+
+const SUM: &str = r#"{"format": 1, "inputs": {
+    "a": {"unit": "mm", "distribution": "normal", "mean": 100, "std": 3},
+    "b": {"unit": "mm", "distribution": "normal", "mean": 50, "std": 4},
+    "c": {"unit": "mm", "distribution": "constant", "value": 1}},
+    "equations": {"y": "a + b + c"}, "outputs": {"y": {"unit": "mm"}}, "coverage_factor": 2}"#;
+
+/// y = a + b with u = 3 and 4 and k = 2: for U <= 7 b alone needs sqrt(12.25 - 9), a alone cannot do
+/// it; the drift b may grow for sqrt(3.25)/4 of its year. The tolerance is that of the bisection.
+#[test]
+fn a_plan_by_hand() {
+    let folder = tempfile::tempdir().expect("a folder");
+    fs::write(folder.path().join("sum.json"), SUM).expect("a file");
+    let target = "U(y) <= 0.7 cm";
+    let arguments = [
+        "plan", "sum.json", "--target", target, "--format", "json", "--trials", "100000",
+        "--drift", "b=1 yr",
+    ];
+    let found = answer(folder.path(), &arguments);
+    assert_eq!(number(&found["target"]), 7.0);
+    assert!((number(&found["now"]) - 10.0).abs() < 1e-12);
+    let inputs = found["inputs"].as_array().expect("a list");
+    assert_eq!(inputs.len(), 3);
+    assert!(inputs[0]["needed"].is_null() && inputs[2]["needed"].is_null());
+    assert!((number(&inputs[1]["needed"]) - 3.25f64.sqrt()).abs() < 1e-12);
+    assert!(inputs.iter().all(|input| input["readings_needed"].is_null()));
+    let cheapest = found["cheapest"].as_array().expect("a list");
+    let planned = |place: usize| number(&cheapest[place]["standard_uncertainty"]);
+    assert!((planned(0).powi(2) + planned(1).powi(2) - 12.25).abs() < 1e-11);
+    // u0 is 3 and 4, costs u0/u: a^3 : b^3 = 3 : 4
+    assert!((planned(0).powi(3) / planned(1).powi(3) - 0.75).abs() < 1e-11);
+    // within five standard errors (false failure 6e-7)
+    let (half, error) =
+        (number(&found["check"]["U"]), number(&found["check"]["numerical_standard_error"]));
+    assert!((half - 7.0).abs() < 5.0 * error, "{half} +- {error}");
+    assert!((number(&found["interval"]["longest"]) - 3.25f64.sqrt() / 4.0).abs() < 1e-12);
+}
+
+#[test]
+fn pages_and_costs_of_the_examples() {
+    let folder = root().join("models/plan");
+    let with = |format: &str| {
+        let arguments =
+            ["plan", "source.json", "--cost", "costs.json", "--target", "U(source) <= 8 uV"];
+        let mut all = arguments.to_vec();
+        all.extend(["--trials", "100000", "--format", format]);
+        let found = run(&folder, &all);
+        assert!(found.status.success(), "{}", String::from_utf8_lossy(&found.stderr));
+        String::from_utf8(found.stdout).expect("text")
+    };
+    let found: Value = serde_json::from_str(&with("json")).expect("JSON");
+    assert_eq!((&found["currency"], &found["costs"]), (&"EUR".into(), &"stated".into()));
+    assert!(number(&found["planned"]["expanded_uncertainty"]) <= 8e-6);
+    let cost: f64 =
+        found["cheapest"].as_array().expect("a list").iter().map(|of| number(&of["cost"])).sum();
+    assert!((cost - number(&found["cost"])).abs() < 1e-9 * cost);
+    let page = with("table");
+    assert!(page.lines().all(|line| line.chars().count() <= 100), "{page}");
+    for text in [&page, &with("markdown"), &with("html"), &with("csv")] {
+        for name in ["reference/calibration", "reference/drift", "difference", "thermal"] {
+            assert!(text.contains(name), "{text}");
+        }
+    }
+    assert!(with("html").matches("<svg").count() == 1);
+    let checked = run(&folder, &["check", "costs.json"]);
+    assert!(checked.status.success(), "{}", String::from_utf8_lossy(&checked.stderr));
+}
+
+#[test]
+fn what_cannot_be_planned_is_said() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path();
+    fs::write(path.join("sum.json"), SUM).expect("a file");
+    let cost = |text: &str| fs::write(path.join("cost.json"), text).expect("a file");
+    let wrong = |arguments: &[&str]| {
+        let mut all = vec!["plan", "sum.json", "--trials", "0"];
+        all.extend(arguments);
+        let found = run(path, &all);
+        assert_eq!(found.status.code(), Some(2), "{arguments:?}");
+        assert!(found.stdout.is_empty(), "{arguments:?}");
+        String::from_utf8(found.stderr)
+            .expect("text")
+            .split_whitespace()
+            .collect::<Vec<_>>()
+            .join(" ")
+    };
+    let target = |target: &str| wrong(&["--target", target]);
+    assert!(target("U(z) <= 1").contains("there is no output `z`"));
+    assert!(target("U(y) <= 1 kg").contains("`1 kg`"));
+    assert!(target("U(y) <= 0 mm").contains("above zero"));
+    assert!(target("y < 7").contains("is written"));
+    assert!(target("U(y) <= 11 mm").contains("is met already: U(y) is 10 mm now"));
+    let costs = || wrong(&["--target", "U(y) <= 7 mm", "--cost", "cost.json"]);
+    cost(r#"{"costs": {"a": {"cost": 1}}}"#);
+    assert!(costs().contains(
+        "cannot be reached: with every improvement that the file of costs has U(y) is still 8 mm"
+    ));
+    cost(r#"{"costs": {"aa": {"cost": 1}}}"#);
+    assert!(costs().contains("`aa`") && costs().contains("cost.json:1"));
+    cost(r#"{"costs": {"a": {"per_reading": 1}}}"#);
+    assert!(costs().contains("not evaluated from readings"));
+    cost(r#"{"costs": {"a": {"cost": 1, "least": "1 kg"}}}"#);
+    assert!(costs().contains("1 kg"));
+    cost("");
+    assert!(costs().contains("cost.json"));
+    let drift = |drift: &str| wrong(&["--target", "U(y) <= 7 mm", "--drift", drift]);
+    assert!(drift("d=1 yr").contains("no input or component `d`"));
+    assert!(drift("b").contains("is written"));
+    assert!(drift("c=1 yr").contains("no uncertainty that could grow"));
+}
