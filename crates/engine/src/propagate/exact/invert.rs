@@ -375,7 +375,8 @@ impl Inversion {
         let rounding = 4e-16 * (count + 4.0);
         let relative = rounding + numeric;
         let lumps = 2.0 * (count + 1.0) * NEGLIGIBLE;
-        let width = plan.width;
+        let peeled = plan.peeled.map_or(0.0, |i| terms[i].width());
+        let width = elementary::hypot(plan.width, peeled);
         Self {
             nodes,
             step: plan.step,

@@ -74,6 +74,9 @@ fn tables_of_the_supplement() {
 /// a + b - sqrt(8 a b 0.025) where that lies on the flank, and on the top else.
 #[test]
 fn two_rectangles() {
+    // a narrow normal contribution in the flat part of a wide rectangle moves nothing
+    let wide = exact_of(&task(vec![rectangular(0.0, 1.0), normal(0.0, 1e-6)], "x0 + x1", 0.95));
+    assert!((wide.unwrap().symmetric_interval[1] - 0.95).abs() < 1e-14);
     for (a, b) in [(1.0, 1.0), (1.0, 0.3), (1.0, 1e-4), (5.0, 1e-9)] {
         let found =
             exact_of(&task(vec![rectangular(0.0, a), rectangular(0.0, b)], "x0 + x1", 0.95));
@@ -100,8 +103,8 @@ fn products_of_lognormals() {
     let k = crate::special::normal::quantile(0.975);
     let found = exact_of(&task(inputs, "x0*x1/x2", 0.95)).unwrap();
     let end = |sign: f64| libm::exp(mu + sign * k * square.sqrt());
-    assert!((found.symmetric_interval[0] - end(-1.0)).abs() < 1e-14);
-    assert!((found.symmetric_interval[1] - end(1.0)).abs() < 1e-14);
+    assert!((found.symmetric_interval[0] - end(-1.0)).abs() < 3e-14);
+    assert!((found.symmetric_interval[1] - end(1.0)).abs() < 3e-14);
     assert!((found.estimate.unwrap() - expectation).abs() < 1e-14);
     let u = expectation * libm::expm1(square).sqrt();
     assert!((found.standard_uncertainty.unwrap() - u).abs() < 1e-13);
