@@ -10,5 +10,6 @@ pub mod linalg;
 pub mod model;
 pub mod number;
 pub mod propagate;
+pub mod regression;
 pub mod special;
 pub mod task;

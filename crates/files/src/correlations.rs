@@ -35,6 +35,9 @@ pub(super) fn read(
     let by_name = shown.map(|(place, variable)| (variable.name.as_str(), place)).collect();
     let mut reader =
         Reader { log: root.log, inputs, rows, by_name, found, pairs: HashSet::new(), places };
+    for (first, coefficient, place) in &inputs.pairs {
+        reader.add(*first, first + 1, *coefficient, place);
+    }
     if let Some(list) = root.list("correlations") {
         for node in list.iter().take_while(|_| !root.log.is_full()) {
             reader.triple(node);

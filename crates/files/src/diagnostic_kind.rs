@@ -331,6 +331,25 @@ pub enum DiagnosticKind {
         /// Why, as a part of the sentence.
         reason: String,
     },
+    /// A calibration function that cannot be fitted, or points that cannot be read.
+    Fit {
+        /// The function, or the coordinate.
+        name: String,
+        /// Why, as a sentence without a capital.
+        reason: String,
+    },
+    /// A complex quantity that is not written as one, or is not taken as one.
+    Complex {
+        /// The quantity.
+        name: String,
+        /// Why, as the rest of the sentence.
+        reason: String,
+    },
+    /// A coverage region that cannot be.
+    Region {
+        /// Why, as a sentence without a capital.
+        reason: String,
+    },
     /// Too many rows, inputs, nodes.
     TooMany {
         /// What is concerned, in words.
@@ -508,6 +527,9 @@ impl DiagnosticKind {
             Self::Sample { .. } => "bad-sample",
             Self::Table { .. } => "bad-table",
             Self::Correlation { .. } => "bad-correlation",
+            Self::Complex { .. } => "bad-complex",
+            Self::Fit { .. } => "bad-fit",
+            Self::Region { .. } => "bad-region",
             Self::TooMany { .. } => "too-many",
             Self::MoreMistakes { .. } => "more-mistakes",
             Self::SavedChanged { .. } => "changed-result",
@@ -741,6 +763,9 @@ impl fmt::Display for DiagnosticKind {
             }
             Self::Effect { name, reason } => write!(f, "the effect `{name}` {reason}"),
             Self::Correlation { reason } => f.write_str(reason),
+            Self::Fit { name, reason } => write!(f, "`{name}`: {reason}"),
+            Self::Region { reason } => f.write_str(reason),
+            Self::Complex { name, reason } => write!(f, "`{name}` {reason}"),
             // more than can be counted, or than was looked at
             Self::TooMany { what, found: usize::MAX, most } => {
                 write!(f, "there are more than {most} {what}, which this version takes at most")

@@ -25,6 +25,9 @@ pub(super) struct InputSet {
     pub(super) files: Vec<(String, Vec<u8>)>,
     /// The variables whose readings are said to be paired.
     pub(super) paired: Vec<usize>,
+    /// The first variable of the parts of a complex quantity, with the correlation coefficient of the
+    /// two and its place.
+    pub(super) pairs: Vec<(usize, f64, Range<usize>)>,
     /// Readings that distributions are to be tested against.
     pub(super) evidence: Vec<Evidence>,
 }

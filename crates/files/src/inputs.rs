@@ -56,8 +56,14 @@ pub(super) fn read(
             continue;
         };
         let moved = overrides.iter().rev().find(|o| o.input == member.key && o.field.is_none());
-        let (name, folder) = (&member.key, results.folder);
-        Reader { object, name, conditions, moved, folder, results, inputs: &mut inputs }.input();
+        let (name, folder) = (member.key.as_str(), results.folder);
+        let inputs = &mut inputs;
+        let whole = None;
+        let mut reader = Reader { object, name, conditions, moved, folder, results, inputs, whole };
+        match object.get("complex") {
+            None => reader.input(),
+            Some(complex) => reader.complex(complex),
+        }
     }
     let found = inputs.variables.len();
     if found > MOST_VARIABLES {
@@ -77,6 +83,8 @@ struct Reader<'a, 'i> {
     folder: Folder<'a>,
     results: &'a Results<'a>,
     inputs: &'i mut InputSet,
+    /// The unit of a part of a complex quantity, unless it says its own.
+    whole: Option<Unit>,
 }
 
 impl<'a> Reader<'a, '_> {
@@ -102,6 +110,87 @@ impl<'a> Reader<'a, '_> {
         self.inputs.quantity_places.push(object.place().clone());
     }
 
+    /// A complex quantity: two real ones, its real and imaginary part, or its modulus and phase.
+    fn complex(&mut self, member: &'a Member) {
+        let log = self.object.log;
+        self.object.check_keys(keys::COMPLEX_INPUT);
+        if let Some(moved) = self.moved {
+            let (text, name) = (moved.text.clone(), self.name);
+            let reason = format!("`{name}` is complex and has no estimate of its own");
+            log.report(self.object.place(), DiagnosticKind::Override { text, reason });
+        }
+        let unit = unit(&self.object, "unit").unwrap_or_else(|| {
+            self.inputs.without_unit.push(self.name.to_owned());
+            Unit::one()
+        });
+        let what = "`complex`";
+        let Some(object) = Object::new(log, what, &member.value, &member.key_span) else {
+            return;
+        };
+        object.check_keys(keys::COMPLEX);
+        let polar = object.get("modulus").is_some() || object.get("phase").is_some();
+        let (parts, other) = if polar {
+            ([("modulus", "abs"), ("phase", "arg")], ["re", "im"])
+        } else {
+            ([("re", "re"), ("im", "im")], ["modulus", "phase"])
+        };
+        if let Some(second) = other.into_iter().find_map(|key| object.get(key)) {
+            let reason = "has `re` and `im`, or `modulus` and `phase`, and not some of both";
+            let (name, reason) = (self.name.to_owned(), reason.to_owned());
+            log.report(&second.key_span, DiagnosticKind::Complex { name, reason });
+            return;
+        }
+        let first = self.inputs.variables.len();
+        for (key, suffix) in parts {
+            let Some(part) = object.required(key) else { continue };
+            let what = "a part of a complex quantity";
+            let Some(part) = Object::new(log, what, &part.value, &part.key_span) else { continue };
+            let radian = || Unit::parse("rad").unwrap_or_else(|_| Unit::one());
+            let whole = Some(if key == "phase" { radian() } else { unit.clone() });
+            let name = format!("{}.{suffix}", self.name);
+            let (conditions, folder, results) = (self.conditions, self.folder, self.results);
+            let inputs = &mut *self.inputs;
+            let known = inputs.quantities.len();
+            let name = name.as_str();
+            let mut reader = Reader {
+                object: part,
+                name,
+                conditions,
+                moved: None,
+                folder,
+                results,
+                inputs,
+                whole: whole.clone(),
+            };
+            reader.input();
+            let own = self.inputs.quantities.get(known).map(|of| of.quantity.unit.clone());
+            if let (Some(own), Some(whole)) = (own, whole)
+                && !own.is_compatible(&whole)
+            {
+                let diagnostic = DiagnosticKind::WrongDimension {
+                    name: name.to_owned(),
+                    found: own.to_string(),
+                    found_as: own.dimension().describe(),
+                    expected: whole.to_string(),
+                    expected_as: whole.dimension().describe(),
+                };
+                let place = part.get("unit").map_or(part.place(), |m| &m.value.span);
+                log.report(place, diagnostic);
+            }
+        }
+        let Some(member) = object.get("correlation") else { return };
+        let Some(coefficient) = object.number("correlation") else { return };
+        // of a part with components nothing tells which of them it is of
+        if self.inputs.variables.len() != first + 2 {
+            let reason = "has a `correlation` of parts of which one has components; declare it \
+                          between components in `correlations`";
+            let (name, reason) = (self.name.to_owned(), reason.to_owned());
+            log.report(&member.key_span, DiagnosticKind::Complex { name, reason });
+            return;
+        }
+        self.inputs.pairs.push((first, coefficient, member.value.span.clone()));
+    }
+
     /// The unit as given; without one that of a saved result, or 1.
     fn unit(&self) -> Option<Unit> {
         let object = &self.object;
@@ -110,6 +199,7 @@ impl<'a> Reader<'a, '_> {
         );
         match object.get("unit") {
             None if is_result => self.results.unit(object),
+            None if self.whole.is_some() => self.whole.clone(),
             _ => unit(object, "unit"),
         }
     }

@@ -9,7 +9,7 @@ use super::DiagnosticKind;
 use super::conditions::Conditions;
 use super::diagnostics::Collector;
 use super::input_set::InputSet;
-use super::json::Json;
+use super::json::{Json, Member, Node};
 use super::model_reader::{Equation, ModelBody};
 use super::object::Object;
 use super::outputs::Outputs;
@@ -48,20 +48,27 @@ pub(super) fn check_names(root: &Object<'_>, of: &Quantities, body: &Option<Mode
     let Quantities { inputs, conditions, .. } = of;
     // names with the kind of quantity; a key that stands twice in one object is reported there
     let mut taken: HashMap<&str, usize> = HashMap::new();
-    let inputs = inputs.quantities.iter().map(|q| q.quantity.name.as_str());
-    let input_places = root.get("inputs").map(|m| match &m.value.value {
-        Json::Object(members) => members.iter().map(|m| &m.key_span).collect(),
+    let read = |name: &str| {
+        let whole = |own: &str| own.rsplit_once('.').is_some_and(|(whole, _)| whole == name);
+        let names = inputs.quantities.iter().map(|q| q.quantity.name.as_str());
+        names.into_iter().any(|own| own == name || whole(own))
+    };
+    let mut named: Vec<(usize, &str, &Range<usize>)> = match root.get("inputs") {
+        Some(Member { value: Node { value: Json::Object(members), .. }, .. }) => members
+            .iter()
+            .filter(|member| read(&member.key))
+            .map(|member| (0, member.key.as_str(), &member.key_span))
+            .collect(),
         _ => Vec::new(),
-    });
-    let mut named: Vec<(usize, &str, &Range<usize>)> = inputs
-        .zip(input_places.unwrap_or_default())
-        .map(|(name, place)| (0, name, place))
-        .collect();
+    };
     let swept = conditions.quantities.iter().zip(&conditions.places);
     named.extend(swept.map(|(quantity, place)| (1, quantity.name.as_str(), place)));
     if let Some(ModelBody::Equations(equations)) = body {
         let written = equations.iter().filter_map(|(_, member, _)| *member);
         named.extend(written.map(|m| (2, m.key.as_str(), &m.key_span)));
+    }
+    if let Some(Json::Object(members)) = root.get("fits").map(|m| &m.value.value) {
+        named.extend(members.iter().map(|m| (3, m.key.as_str(), &m.key_span)));
     }
     let mut looks: HashMap<String, &str> = HashMap::new();
     for (kind, name, place) in named {
@@ -222,6 +229,7 @@ pub(super) fn check_equations(
     for (name, ..) in equations {
         scope.announce(name);
     }
+    define_complex(&mut scope, of, equations);
     for (name, member, formula) in equations.iter().take_while(|_| !log.is_full()) {
         let result = match formula {
             Some(formula) if *check_units => formula.check(&scope),
@@ -236,10 +244,45 @@ pub(super) fn check_equations(
             }
             Typing::ANY
         });
+        if let Some(formula) = formula
+            && formula.is_complex(&scope)
+        {
+            scope.define_complex(name);
+        }
         scope.define(name, typing);
     }
     scope
 }
+
+/// Complex quantities that are pairs of inputs, and in models that have some the imaginary unit.
+fn define_complex(scope: &mut Scope, of: &Quantities, equations: &[Equation<'_>]) {
+    let mut found = !of.outputs.complex.is_empty();
+    let names = of.inputs.quantities.iter().map(|input| &input.quantity);
+    for Quantity { name, unit, .. } in names.clone() {
+        let Some((whole, part)) = name.rsplit_once('.') else { continue };
+        let other = match part {
+            "re" => "im",
+            "abs" => "arg",
+            _ => continue,
+        };
+        let other = format!("{whole}.{other}");
+        if names.clone().any(|quantity| quantity.name == other) {
+            scope.define(whole, Typing::in_unit(unit));
+            scope.define_complex(whole);
+            found = true;
+        }
+    }
+    let own = names.clone().any(|quantity| quantity.name == IMAGINARY_UNIT)
+        || equations.iter().any(|(name, ..)| name == IMAGINARY_UNIT)
+        || of.conditions.quantities.iter().any(|quantity| quantity.name == IMAGINARY_UNIT);
+    if found && !own {
+        scope.define(IMAGINARY_UNIT, Typing::NUMBER);
+        scope.define_complex(IMAGINARY_UNIT);
+    }
+}
+
+/// The name of the imaginary unit.
+const IMAGINARY_UNIT: &str = "i";
 
 /// Checks that every output has an equation, whose unit fits.
 pub(super) fn check_formula_outputs(log: &Collector, scope: &Scope, of: &Quantities) {
@@ -248,10 +291,25 @@ pub(super) fn check_formula_outputs(log: &Collector, scope: &Scope, of: &Quantit
     let known: Arc<[String]> = scope.names().map(str::to_owned).collect();
     for (output, place, unit_place) in outputs.each() {
         let name = &output.quantity.name;
-        let Some(typing) = scope.get(name) else {
-            unknown_output(log, name, &known, place);
+        // a part of a complex output
+        let whole =
+            name.rsplit_once('.').filter(|(whole, _)| outputs.complex.iter().any(|c| c == whole));
+        let found = match whole {
+            Some((whole, "arg")) => scope.get(whole).map(|_| Typing::NUMBER),
+            Some((whole, _)) => scope.get(whole),
+            None => scope.get(name),
+        };
+        let Some(typing) = found else {
+            let whole = whole.map_or(name.as_str(), |(whole, _)| whole);
+            unknown_output(log, whole, &known, place);
             continue;
         };
+        if whole.is_none() && scope.is_complex(name) {
+            let reason = "is complex; say how it is reported: \"complex\": \"re-im\" or \"polar\"";
+            let (name, reason) = (name.clone(), reason.to_owned());
+            log.report(place, DiagnosticKind::Complex { name, reason });
+            continue;
+        }
         let unit = &output.quantity.unit;
         let checked = *check_units && !unknown_units.contains(name.as_str());
         if let Some(dimension) = typing.dimension.filter(|_| checked)

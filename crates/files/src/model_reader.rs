@@ -25,6 +25,7 @@ use std::sync::Arc;
 
 use super::conditions::{self, Conditions};
 use super::diagnostics::{Collector, Diagnostics};
+use super::fits::{self, FitSet};
 use super::folder::Folder;
 use super::input_set::InputSet;
 use super::json::{Json, Member, Node};
@@ -44,11 +45,12 @@ use super::scopes::{ConditionSet, number_form, report_formula, typed_scope};
 use super::simulated::{names_simulation, simulated};
 use super::size::Size;
 use super::table::{self, Table};
-use super::{DiagnosticKind, correlations, inputs, keys, settings};
+use super::{DiagnosticKind, correlations, inputs, keys, regions, settings};
 use gumption_engine::distribution::{Correlation, Fits};
 use gumption_engine::model::formula::Formula;
 use gumption_engine::model::typed::{Catalogue, CatalogueEntry};
 use gumption_engine::model::{Model, Output, typed};
+use gumption_engine::regression::CurveFunction;
 use gumption_engine::task::{ModelStatement, Row, Settings, Task, Warning};
 use gumption_gap::{ModelForm, ObservedOutput, OverridableModel};
 use gumption_units::Unit;
@@ -158,9 +160,10 @@ impl<'a> ModelReader<'a> {
         let settings = settings::read(root);
 
         let Data { mut observations, conditions, simulated } = self.data()?;
-        let body = self.body(&simulated);
+        let fits = self.fits(check_units)?;
+        let body = self.body(&simulated, &fits.curves);
         let results = Results::new(self.folder, self.options.files);
-        let mut of = self.quantities(conditions, check_units, &body, &results)?;
+        let mut of = self.quantities(conditions, check_units, &body, (&results, &fits))?;
 
         let mut files = std::mem::take(&mut of.conditions.files);
         if let Some(observations) = &mut observations {
@@ -168,14 +171,20 @@ impl<'a> ModelReader<'a> {
         }
         files.extend(of.inputs.files.iter().cloned());
         files.extend(results.files.take());
-        let fits = Fits::default();
-        let (correlations, notes) = self.correlations(&of, &mut files, &fits);
+        files.extend(fits.files);
+        let joint = Fits::default();
+        let (correlations, notes) = self.correlations(&of, &mut files, &joint);
         let mut warnings = of.inputs.warnings.clone();
+        warnings.extend(fits.warnings);
         warnings.extend(notes);
         warnings.extend(results.warnings.take());
         let body = body?;
         let statement = body.statement();
         let sim = self.sim(body, &mut of, &mut warnings)?;
+        let regions = regions::read(root, &sim.outputs);
+        if !root.log.is_clean() {
+            return None;
+        }
         let observed = self.observed(observations.as_ref(), &sim)?;
 
         let swept = root.get("conditions").is_some() || observations.is_some();
@@ -184,12 +193,26 @@ impl<'a> ModelReader<'a> {
         let model = sim.model().map_err(|error| {
             root.report(DiagnosticKind::Evaluation { message: error.to_string() });
         });
-        let parts = Parts { title, source, statement, settings, fits, swept, correlations };
-        let task = task(parts, model.ok()?, of)?;
+        let curves = fits.curves;
+        let fits = joint;
+        let parts = Parts { title, source, statement, settings, fits, swept, correlations, curves };
+        let mut task = task(parts, model.ok()?, of)?;
+        task.regions = regions;
         let source = root.log.source.clone();
         let file = ModelFile { task, warnings, source, files, output_places, evidence };
         let data = observations.map(|observations| observations.table);
         Some(Found { file, sim, observed, simulated: simulated.len(), data })
+    }
+
+    /// The calibration functions; `None` after a mistake in one, without which formulas mean nothing.
+    fn fits(&self, check_units: bool) -> Option<FitSet> {
+        let Some(member) = self.root.get("fits") else { return Some(FitSet::default()) };
+        if let Some(model) = self.root.get("model") {
+            let diagnostic = DiagnosticKind::OnlyWith { key: "fits", with: "equations" };
+            self.root.log.report(&model.key_span, diagnostic);
+            return None;
+        }
+        fits::read(self.root.log, member, self.folder, number_form(check_units))
     }
 
     /// The table of the data and the rows of conditions.
@@ -230,19 +253,22 @@ impl<'a> ModelReader<'a> {
         conditions: Conditions,
         check_units: bool,
         body: &Option<ModelBody<'a>>,
-        results: &Results<'_>,
+        (results, fits): (&Results<'_>, &FitSet),
     ) -> Option<Quantities> {
         let (root, log) = (&self.root, self.root.log);
         let set = ConditionSet { conditions: &conditions, check_units };
         let inputs = match root.get("inputs") {
             Some(member) => inputs::read(log, member, &set, self.options.overrides, results),
             // somebody else's simulation needs none
-            None if names_simulation(root) => Some(InputSet::default()),
+            None if names_simulation(root) || root.get("fits").is_some() => {
+                Some(InputSet::default())
+            }
             None => root.required("inputs").and(None),
         };
         let outputs =
             root.required("outputs").and_then(|member| outputs::read(log, member, results));
-        let (inputs, outputs) = (inputs?, outputs.unwrap_or_default());
+        let (mut inputs, outputs) = (inputs?, outputs.unwrap_or_default());
+        fits.add_to(log, &mut inputs);
         let of = Quantities { inputs, conditions, outputs, check_units };
         check_names(root, &of, body);
         let rows = of.conditions.rows.len();
@@ -342,7 +368,11 @@ impl<'a> ModelReader<'a> {
     }
 
     /// What computes the outputs; `simulated` are outputs with the column that holds them.
-    fn body(&self, simulated: &[(String, String)]) -> Option<ModelBody<'a>> {
+    fn body(
+        &self,
+        simulated: &[(String, String)],
+        curves: &[Arc<CurveFunction>],
+    ) -> Option<ModelBody<'a>> {
         match (self.root.get("model"), self.root.get("equations")) {
             (Some(member), None) => {
                 let name = self.root.text("model")?;
@@ -351,7 +381,7 @@ impl<'a> ModelReader<'a> {
                 Some(ModelBody::Typed(entry, &member.value.span))
             }
             (None, Some(member)) => {
-                let mut equations = equations(self.root.log, member)?;
+                let mut equations = equations(self.root.log, member, curves)?;
                 equations.extend(of_columns(simulated));
                 Some(ModelBody::Equations(equations))
             }
@@ -389,11 +419,16 @@ fn typed_model<'c>(
 }
 
 /// The equations of a file, in order.
-fn equations<'a>(log: &'a Collector, member: &'a Member) -> Option<Vec<Equation<'a>>> {
+fn equations<'a>(
+    log: &'a Collector,
+    member: &'a Member,
+    curves: &[Arc<CurveFunction>],
+) -> Option<Vec<Equation<'a>>> {
     let object = Object::new(log, "`equations`", &member.value, &member.key_span)?;
     let formula = |member: &Member| match &member.value.value {
         Json::Text(text) => {
-            Formula::parse(text).map_err(|error| report_formula(log, member, error)).ok()
+            let parsed = Formula::parse_with(text, curves);
+            parsed.map_err(|error| report_formula(log, member, error)).ok()
         }
         other => {
             let (what, found) = (format!("`{}`", member.key), other.kind());
@@ -433,11 +468,12 @@ struct Parts {
     fits: Fits,
     swept: bool,
     correlations: Vec<Correlation>,
+    curves: Vec<Arc<CurveFunction>>,
 }
 
 /// The task; none where something is not known about a variable, which has been reported.
 fn task(parts: Parts, model: Model, of: Quantities) -> Option<Task> {
-    let Parts { title, source, statement, settings, fits, swept, correlations } = parts;
+    let Parts { title, source, statement, settings, fits, swept, correlations, curves } = parts;
     let Quantities { inputs, conditions, .. } = of;
     if !inputs.known.is_complete(inputs.variables.len()) {
         return None;
@@ -448,7 +484,7 @@ fn task(parts: Parts, model: Model, of: Quantities) -> Option<Task> {
     let mut task = Task::new(model, inputs.variables, rows);
     (task.title, task.swept, task.settings) = (title, swept, settings);
     (task.source, task.statement) = (source, statement);
-    (task.correlations, task.fits) = (correlations, fits);
+    (task.correlations, task.fits, task.curves) = (correlations, fits, curves);
     Some(task)
 }
 

@@ -26,9 +26,70 @@ pub(super) struct Outputs {
     pub(super) unit_places: Vec<Range<usize>>,
     /// Names of those whose unit could not be read.
     pub(super) without_unit: Vec<String>,
+    /// Names of complex ones.
+    pub(super) complex: Vec<String>,
 }
 
 impl Outputs {
+    /// The two real outputs of a complex quantity.
+    fn complex(&mut self, object: &Object<'_>, member: &Member, complex: &Member) {
+        let log = object.log;
+        let polar = match object.text("complex") {
+            Some("re-im") => false,
+            Some("polar") => true,
+            Some(other) => {
+                let diagnostic = DiagnosticKind::NotOneOf {
+                    key: "complex".into(),
+                    found: other.to_owned(),
+                    allowed: vec!["re-im".into(), "polar".into()],
+                };
+                log.report(&complex.value.span, diagnostic);
+                return;
+            }
+            None => return,
+        };
+        for key in ["periodic", "tolerance", "cmc", "cmc_floor"] {
+            if let Some(second) = object.get(key) {
+                let reason = format!(
+                    "is complex, and `{key}` is of a real output; give its part, such as \
+                     abs({0}), an equation and an output of its own",
+                    member.key
+                );
+                let name = member.key.clone();
+                log.report(&second.key_span, DiagnosticKind::Complex { name, reason });
+            }
+        }
+        let whole = unit(object, "unit").unwrap_or_else(Unit::one);
+        let radian = || Unit::parse("rad").unwrap_or_else(|_| Unit::one());
+        let phase = match object.get("phase_unit") {
+            None => radian(),
+            Some(_) => unit(object, "phase_unit").unwrap_or_else(radian),
+        };
+        let parts = if polar {
+            [("abs", &whole), ("arg", &phase)]
+        } else {
+            [("re", &whole), ("im", &whole)]
+        };
+        for (part, unit) in parts {
+            let mut output = Output::new(Quantity {
+                name: format!("{}.{part}", member.key),
+                unit: unit.clone(),
+                about: object.text("about").unwrap_or("").to_owned(),
+            });
+            if part == "arg" {
+                // values on the branch within half a turn of the estimate
+                output.period = Some(unit.from_si(std::f64::consts::TAU));
+            }
+            let place = object.get("unit").map_or(&member.key_span, |m| &m.value.span);
+            let phase_place = object.get("phase_unit").map(|m| &m.value.span);
+            let place = phase_place.filter(|_| part == "arg").unwrap_or(place);
+            self.outputs.push(output);
+            self.places.push(member.key_span.clone());
+            self.unit_places.push(place.clone());
+        }
+        self.complex.push(member.key.clone());
+    }
+
     /// The outputs with the places of their names and units.
     pub(super) fn each(&self) -> impl Iterator<Item = (&Output, &Range<usize>, &Range<usize>)> {
         let places = self.places.iter().zip(&self.unit_places);
@@ -48,6 +109,14 @@ pub(super) fn read(log: &Collector, member: &Member, results: &Results<'_>) -> O
             continue;
         };
         object.check_keys(keys::OUTPUT);
+        if let Some(complex) = object.get("complex") {
+            outputs.complex(&object, member, complex);
+            continue;
+        }
+        if let Some(phase) = object.get("phase_unit") {
+            let diagnostic = DiagnosticKind::OnlyWith { key: "phase_unit", with: "complex" };
+            log.report(&phase.key_span, diagnostic);
+        }
         let period = object.number("periodic");
         if let (Some(period), Some(member)) = (period, object.get("periodic"))
             && period <= 0.0

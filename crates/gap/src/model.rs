@@ -10,6 +10,7 @@ use gumption_engine::model::{
     InputQuantity, Model, NumberForm, Output, Program, Quantity, Recorder, Traced, recorded_values,
     variables,
 };
+use gumption_engine::number::{ComplexNumber, Number};
 
 /// What computes the outputs of a model.
 #[derive(Clone, Debug)]
@@ -134,26 +135,30 @@ impl OverridableModel {
                 let named = effect.parameters.iter().map(|parameter| {
                     next += 1;
                     let value = recorder.variable(next - 1);
-                    (parameter.name.as_str(), self.numbers.taken(value, &parameter.unit))
+                    let value = self.numbers.taken(value, &parameter.unit);
+                    (parameter.name.as_str(), ComplexNumber::real(value))
                 });
                 named.collect()
             })
             .collect();
         let given = recorded_values(&recorder, &self.inputs, &self.conditions, self.numbers);
-        let given = given.into_iter();
-        let outputs = Making::new(self, effects, parameters, given.collect()).results()?;
+        let given = with_complex(given);
+        let outputs = Making::new(self, effects, parameters, given).results()?;
         let results: Vec<Traced<'_>> = self
             .outputs
             .iter()
             .zip(outputs)
             .map(|(output, value)| {
                 let Quantity { name, unit, .. } = &output.quantity;
-                self.numbers.given(value, unit, self.scope.get(name).unwrap_or(Typing::ANY))
+                self.numbers.given(value.re, unit, self.scope.get(name).unwrap_or(Typing::ANY))
             })
             .collect();
         Ok(recorder.program(next, &results))
     }
 }
+
+/// A recorded value, which may be complex.
+type Value<'r> = ComplexNumber<Traced<'r>>;
 
 /// One recording: quantities are computed when they are asked for.
 ///
@@ -162,14 +167,14 @@ impl OverridableModel {
 struct Making<'s, 'r> {
     sim: &'s OverridableModel,
     effects: &'s [&'s Effect],
-    parameters: Vec<HashMap<&'s str, Traced<'r>>>,
+    parameters: Vec<HashMap<&'s str, Value<'r>>>,
     /// What the formulas of each effect know.
     scopes: Vec<Scope>,
     equations: HashMap<&'s str, &'s Formula>,
     outputs: HashSet<&'s str>,
-    given: HashMap<String, Traced<'r>>,
+    given: HashMap<String, Value<'r>>,
     typed: Option<Vec<Traced<'r>>>,
-    made: HashMap<&'s str, Traced<'r>>,
+    made: HashMap<&'s str, Value<'r>>,
 }
 
 /// What a quantity becomes, one after the other.
@@ -185,7 +190,7 @@ enum Step<'s> {
 /// A quantity that was begun.
 struct Begun<'s, 'r> {
     name: &'s str,
-    value: Option<Traced<'r>>,
+    value: Option<Value<'r>>,
     steps: VecDeque<Step<'s>>,
     /// What the first of the steps still needs.
     needs: VecDeque<&'s str>,
@@ -195,8 +200,8 @@ impl<'s, 'r> Making<'s, 'r> {
     fn new(
         sim: &'s OverridableModel,
         effects: &'s [&'s Effect],
-        parameters: Vec<HashMap<&'s str, Traced<'r>>>,
-        given: HashMap<String, Traced<'r>>,
+        parameters: Vec<HashMap<&'s str, Value<'r>>>,
+        given: HashMap<String, Value<'r>>,
     ) -> Self {
         let mut equations = HashMap::new();
         if let ModelForm::Equations(all) = &sim.maker {
@@ -212,11 +217,11 @@ impl<'s, 'r> Making<'s, 'r> {
     }
 
     /// The outputs with all effects, in SI units.
-    fn results(&mut self) -> Result<Vec<Traced<'r>>, OverrideError> {
-        let mut current: HashMap<&str, Traced<'r>> = HashMap::new();
+    fn results(&mut self) -> Result<Vec<Value<'r>>, OverrideError> {
+        let mut current: HashMap<&str, Value<'r>> = HashMap::new();
         for output in &self.sim.outputs {
             let name = output.quantity.name.as_str();
-            current.insert(name, self.quantity(name)?);
+            current.insert(name, self.output(name)?);
         }
         for (number, effect) in self.effects.iter().enumerate() {
             let before = current.clone();
@@ -243,9 +248,23 @@ impl<'s, 'r> Making<'s, 'r> {
         self.sim.outputs.iter().map(named).collect()
     }
 
+    /// An output: a quantity, or a part of a complex one.
+    fn output(&mut self, name: &'s str) -> Result<Value<'r>, OverrideError> {
+        let whole = name.rsplit_once('.').filter(|_| !self.given.contains_key(name));
+        let Some((whole, part)) = whole else { return self.quantity(name) };
+        let value = self.quantity(whole)?;
+        Ok(match part {
+            "re" => value.real_part(),
+            "im" => value.imaginary_part(),
+            "abs" => value.abs(),
+            "arg" => value.argument(),
+            _ => return Err(undefined(name)),
+        })
+    }
+
     /// A quantity as the formulas after it see it: with all overrides, but an output as the model
     /// computes it, since overrides of outputs act last.
-    fn quantity(&mut self, name: &'s str) -> Result<Traced<'r>, OverrideError> {
+    fn quantity(&mut self, name: &'s str) -> Result<Value<'r>, OverrideError> {
         if let Some(&value) = self.made.get(name) {
             return Ok(value);
         }
@@ -277,7 +296,9 @@ impl<'s, 'r> Making<'s, 'r> {
 
     /// What a quantity is made of: a value or what computes it, then its overrides.
     fn begin(&self, name: &'s str) -> Result<Begun<'s, 'r>, OverrideError> {
-        let value = self.given.get(name).copied();
+        // a quantity of the model may be called i
+        let hidden = name == IMAGINARY_UNIT && self.equations.contains_key(name);
+        let value = self.given.get(name).copied().filter(|_| !hidden);
         let mut steps = VecDeque::new();
         if value.is_none() {
             steps.push_back(match &self.sim.maker {
@@ -325,7 +346,7 @@ impl<'s, 'r> Making<'s, 'r> {
     }
 
     /// A quantity's value after a step, all that the step needs being made.
-    fn step(&mut self, of: &Begun<'s, 'r>, step: &Step<'s>) -> Result<Traced<'r>, OverrideError> {
+    fn step(&mut self, of: &Begun<'s, 'r>, step: &Step<'s>) -> Result<Value<'r>, OverrideError> {
         let made = |making: &Self, used: &str| {
             making.made.get(used).copied().ok_or_else(|| undefined(used))
         };
@@ -353,12 +374,14 @@ impl<'s, 'r> Making<'s, 'r> {
             Step::Typed(place) => {
                 if let (None, ModelForm::Typed(typed)) = (&self.typed, &self.sim.maker) {
                     let inputs: HashSet<&str> = self.typed_inputs().collect();
-                    let value =
-                        |name: &str| inputs.get(name).and_then(|name| self.made.get(name)).copied();
+                    let value = |name: &str| {
+                        let made = inputs.get(name).and_then(|name| self.made.get(name));
+                        made.map(|value| value.re)
+                    };
                     self.typed = Some(typed.record_with(value));
                 }
                 let output = self.typed.as_ref().and_then(|outputs| outputs.get(place));
-                output.copied().ok_or_else(|| undefined(of.name))
+                output.copied().map(ComplexNumber::real).ok_or_else(|| undefined(of.name))
             }
         }
     }
@@ -368,11 +391,37 @@ impl<'s, 'r> Making<'s, 'r> {
         &self,
         formula: &Formula,
         effect: Option<usize>,
-        values: &HashMap<String, Traced<'r>>,
-    ) -> Result<Traced<'r>, OverrideError> {
+        values: &HashMap<String, Value<'r>>,
+    ) -> Result<Value<'r>, OverrideError> {
         let scope = effect.and_then(|number| self.scopes.get(number)).unwrap_or(&self.sim.scope);
-        formula.record(scope, values).map_err(OverrideError::Formula)
+        formula.evaluate(scope, values).map_err(OverrideError::Formula)
     }
+}
+
+/// The imaginary unit, in models that have complex quantities.
+const IMAGINARY_UNIT: &str = "i";
+
+/// The values of inputs and conditions, with the complex quantities that pairs of inputs are.
+fn with_complex<'r>(given: Vec<(String, Traced<'r>)>) -> HashMap<String, Value<'r>> {
+    let mut values: HashMap<String, Value<'r>> = HashMap::new();
+    let parts: HashMap<&str, Traced<'r>> =
+        given.iter().map(|(name, value)| (name.as_str(), *value)).collect();
+    for (name, value) in &given {
+        let Some((whole, part)) = name.rsplit_once('.') else { continue };
+        let other = |part: &str| parts.get(format!("{whole}.{part}").as_str()).copied();
+        let complex = match part {
+            "re" => other("im").map(|im| ComplexNumber::new(*value, im)),
+            "abs" => other("arg").map(|phase| ComplexNumber::polar(*value, phase)),
+            _ => None,
+        };
+        if let Some(complex) = complex {
+            values.insert(whole.to_owned(), complex);
+        }
+    }
+    let unit = ComplexNumber::new(Traced::constant(0.0), Traced::constant(1.0));
+    values.insert(IMAGINARY_UNIT.to_owned(), unit);
+    values.extend(given.into_iter().map(|(name, value)| (name, ComplexNumber::real(value))));
+    values
 }
 
 fn undefined(name: &str) -> OverrideError {

@@ -6,7 +6,9 @@ use serde::{Serialize, Serializer};
 
 use super::EvaluationReport;
 use super::answer::{in_order, pretty, write_pretty};
+use super::fits::FitSide;
 use super::json_inputs::{Inputs, RowInputs, varying};
+use super::regions::RegionSide;
 use super::subtotals::Subtotals;
 use gumption_engine::propagate::gum::{BudgetLine, CorrelationLine, Dof, Gum};
 use gumption_engine::propagate::monte_carlo::{MonteCarlo, NumericalError};
@@ -47,6 +49,8 @@ struct Answer<'a> {
     inputs: Inputs<'a>,
     #[serde(flatten)]
     results: Results<'a>,
+    #[serde(serialize_with = "in_order", skip_serializing_if = "Vec::is_empty")]
+    fits: Vec<(&'a str, FitSide<'a>)>,
     warnings: Vec<Remark<'a>>,
     provenance: Origin<'a>,
 }
@@ -107,6 +111,8 @@ struct Figures<'a> {
     /// Those of the coefficients; not there without trials.
     #[serde(skip_serializing_if = "Pairs::is_empty")]
     output_correlations_standard_error: Pairs<'a, Option<f64>>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    regions: Vec<RegionSide<'a>>,
 }
 
 /// The outputs of a row, made one by one.
@@ -516,6 +522,7 @@ impl<'a> Answer<'a> {
             equations: &task.statement.equations,
             inputs: Inputs { task },
             results,
+            fits: task.curves.iter().map(|c| (c.fit.name.as_str(), FitSide::of(c))).collect(),
             warnings: warnings.iter().map(Remark::of).collect(),
             provenance: Origin {
                 model_sha256: &provenance.model_sha256,
@@ -534,6 +541,7 @@ impl<'a> Figures<'a> {
             outputs,
             output_correlations: Pairs { task, figures: &row.correlations },
             output_correlations_standard_error: Pairs { task, figures: &row.correlation_errors },
+            regions: row.regions.iter().map(|region| RegionSide::of(task, region)).collect(),
         }
     }
 }

@@ -18,7 +18,12 @@ pub enum EvaluationType {
 impl EvaluationType {
     /// The usual evaluation of a distribution: A for readings, else B.
     pub fn of(distribution: &Distribution) -> Self {
-        if matches!(distribution, Distribution::Readings(_)) { Self::A } else { Self::B }
+        match distribution {
+            Distribution::Readings(_) => Self::A,
+            // from the scatter about a curve
+            Distribution::Fitted(fitted) if fitted.fit().factor.is_some() => Self::A,
+            _ => Self::B,
+        }
     }
 
     /// The letter.

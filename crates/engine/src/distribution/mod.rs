@@ -11,6 +11,7 @@ mod constant;
 mod curvilinear_trapezoid;
 mod exponential;
 mod external;
+mod fitted;
 mod gamma;
 mod inexact_width;
 mod input;
@@ -36,6 +37,7 @@ pub use constant::Constant;
 pub use curvilinear_trapezoid::CurvilinearTrapezoid;
 pub use exponential::Exponential;
 pub use external::External;
+pub use fitted::Fitted;
 pub use gamma::Gamma;
 pub use input::{EvaluationType, Input, InputError};
 pub use joint::Draws;
@@ -198,6 +200,8 @@ distributions! {
     SavedResult,
     /// Drawn by another crate.
     External,
+    /// A parameter of a fitted calibration function.
+    Fitted,
 }
 
 impl Distribution {

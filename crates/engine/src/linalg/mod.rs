@@ -5,6 +5,7 @@
 //! is neither matrixmultiply, whose kernels fuse products on machines that can, nor a logarithm of
 //! the platform. What nalgebra does not have stands here:
 //!
+//! - [`BlockedRoot`]: Cholesky roots of large matrices, in tiles and on all threads;
 //! - [`packed`]: lower triangles stored row by row, for loops over many small matrices;
 //! - [`Eigen`]: eigenvalues of symmetric matrices with the eigenvectors beside each other in memory;
 //! - [`CorrelationMatrix`]: factors of nearly singular correlation matrices and the nearest possible
@@ -13,10 +14,12 @@
 //! Every routine consists of sums, products, quotients and square roots in a fixed order, so its
 //! results are the same bits on every machine.
 
+mod blocked;
 mod correlation;
 mod eigen;
 pub mod packed;
 
+pub use blocked::BlockedRoot;
 pub use correlation::CorrelationMatrix;
 pub use eigen::Eigen;
 

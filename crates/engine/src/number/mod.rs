@@ -11,6 +11,7 @@
 //! fused, so results are the same bits on every machine and at every vector width.
 
 mod column;
+mod complex_number;
 pub(crate) mod derivative;
 mod dual;
 pub mod elementary;
@@ -21,6 +22,7 @@ mod shortest;
 
 pub use column::{COLUMN, Column};
 pub(crate) use column::{Operand, apply_binary, apply_sin_cos, apply_unary};
+pub use complex_number::ComplexNumber;
 pub use dual::Dual;
 pub use operation::{Binary, Unary};
 pub(crate) use path::Instructions;
@@ -189,6 +191,26 @@ pub trait Number:
             Some(power) if exponent < 0 => Self::constant(1.0) / power,
             Some(power) => power,
         }
+    }
+
+    /// The real part: the number itself unless it is complex.
+    fn real_part(self) -> Self {
+        self
+    }
+
+    /// The imaginary part: 0 unless it is complex.
+    fn imaginary_part(self) -> Self {
+        Self::constant(0.0)
+    }
+
+    /// The conjugate: the number itself unless it is complex.
+    fn conjugate(self) -> Self {
+        self
+    }
+
+    /// The angle from the real axis, from -pi to pi in radians.
+    fn argument(self) -> Self {
+        Self::constant(0.0).atan2(self)
     }
 
     /// `self` times itself.

@@ -12,6 +12,7 @@ use super::exact::{self, Noiseless};
 use super::gum::{self, Gum, GumRow};
 use super::monte_carlo::{self, MonteCarlo, Request, Search, Undefined};
 use super::quasi;
+use super::regions::{RegionEvaluation, regions};
 use super::second_order::{SecondOrder, second_order};
 use super::validate::{Validation, validate};
 use crate::distribution::{BLOCK, Correlation, CorrelationError, Joint};
@@ -54,6 +55,8 @@ pub struct RowEvaluation {
     /// Numerical standard errors of those from the trials; `None` where an output's trials do not
     /// tell them. Empty by the law of propagation, which has none.
     pub correlation_errors: Vec<Option<f64>>,
+    /// The coverage regions of several outputs together, as many as the task asks for.
+    pub regions: Vec<RegionEvaluation>,
     /// Trials that were left out because an output was not finite.
     pub undefined: Option<Undefined>,
     /// The variables that are outputs of saved results, drawn as they varied together there.
@@ -343,6 +346,7 @@ fn evaluate_row(
         outputs: Vec::with_capacity(gums.len()),
         correlations: Vec::new(),
         correlation_errors: Vec::new(),
+        regions: Vec::new(),
         undefined: None,
         jointly_drawn: joint
             .rank_samples()
@@ -369,6 +373,7 @@ fn evaluate_row(
             result.correlation_errors = finished.correlation_errors;
         }
     }
+    let of_law = if task.regions.is_empty() { Vec::new() } else { linear.correlations() };
     if figures.iter().all(Option::is_none) {
         result.correlations = linear.correlations();
     }
@@ -421,6 +426,10 @@ fn evaluate_row(
             conformity,
             drawn_dof,
         });
+    }
+    if !task.regions.is_empty() {
+        let trials = monte_carlo::RowTrials::new(task, row, &linear.estimates, &joint);
+        result.regions = regions(task, &result, &of_law, &trials, control)?;
     }
     Ok(result)
 }

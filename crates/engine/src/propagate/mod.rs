@@ -15,6 +15,7 @@ mod input_figures;
 pub mod monte_carlo;
 mod origins;
 mod quasi;
+mod regions;
 mod replay;
 mod second_order;
 pub mod validate;
@@ -31,6 +32,9 @@ pub use evaluation::{
 pub use exact::{Accuracy, Noiseless, Scatter};
 pub use input_figures::InputFigures;
 pub use origins::{Origins, linear, origins};
+pub use regions::{
+    JointRegion, Region, RegionEvaluation, RegionValidation, SampledRegion, SmallestRegion,
+};
 pub use replay::{for_each_block, histograms, joint_ranks, quantiles};
 pub use second_order::SecondOrder;
 pub use warnings::{second_order_text, warnings};

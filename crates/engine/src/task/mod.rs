@@ -29,6 +29,8 @@ use std::sync::Arc;
 use crate::distribution::{Correlation, Distribution, EvaluationType, Fits, Input};
 use crate::model::Model;
 use crate::model::typed::Measurement;
+use crate::propagate::Region;
+use crate::regression::CurveFunction;
 use gumption_units::Unit;
 
 /// One random variable of the model: an input quantity, or a component of one.
@@ -84,6 +86,10 @@ pub struct Task {
     pub settings: Settings,
     /// The joint draws found so far.
     pub fits: Fits,
+    /// The calibration functions that its formulas call.
+    pub curves: Vec<Arc<CurveFunction>>,
+    /// The outputs that are covered together.
+    pub regions: Vec<Region>,
     /// What computes the outputs in place of the model's program, where it cannot be recorded.
     pub function: Option<Arc<dyn ColumnFunction>>,
 }
@@ -119,6 +125,8 @@ impl Task {
             rows,
             settings: Settings::default(),
             fits: Fits::default(),
+            curves: Vec::new(),
+            regions: Vec::new(),
             function: None,
         }
     }

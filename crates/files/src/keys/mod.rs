@@ -4,6 +4,7 @@
 mod case;
 mod certificate;
 mod costs;
+mod fits;
 mod model_file;
 mod node;
 mod recipe;
@@ -18,15 +19,17 @@ use serde_json::Value;
 pub(crate) use case::{EFFECT, OBSERVATIONS, OBSERVED, PRIOR};
 pub(crate) use certificate::{CERTIFICATE, CERTIFICATE_KEYS, CERTIFICATE_ROW, DEVICE, PARTY};
 pub(crate) use costs::{COST, COSTS, COSTS_KEY, OFFER};
+pub(crate) use fits::{COVARIANCE_FILE, FIT, POINTS};
 pub(crate) use model_file::{
-    CONDITION, CORRELATION_MATRIX, MODEL, MONTE_CARLO, OUTPUT, TABLE_OF_CONDITIONS, TOLERANCE,
+    CONDITION, CORRELATION_MATRIX, MODEL, MONTE_CARLO, OUTPUT, REGION, TABLE_OF_CONDITIONS,
+    TOLERANCE,
 };
 use node::{With, object, reference};
 pub(crate) use recipe::{
     CHANNEL, FREQUENCY, POINT, QUANTITY, RECIPE, RECIPE_CONDITION, RECIPE_KEY, RECIPE_ROW,
     RECORDING, SEARCH, SEARCHED, STEPS,
 };
-pub(crate) use shapes::{COMPONENT, COMPOSED, INPUT, SHAPES, Shape};
+pub(crate) use shapes::{COMPLEX, COMPLEX_INPUT, COMPONENT, COMPOSED, INPUT, SHAPES, Shape};
 pub(crate) use values::READINGS;
 
 /// A key that an object of a file may have.
@@ -51,6 +54,7 @@ pub(crate) fn schema(effects: &BTreeSet<String>) -> Value {
     definitions.extend(case::definitions(effects));
     definitions.extend(certificate::definitions());
     definitions.extend(costs::definitions());
+    definitions.extend(fits::definitions());
     definitions.extend(recipe::definitions());
     definitions.extend(result_file::definitions());
     definitions.extend(shapes::definitions());

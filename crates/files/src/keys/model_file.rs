@@ -41,6 +41,7 @@ pub(crate) const MODEL: &[Key] = keys![
                 "What is known about the input quantities; their order is that of every table.",
                 reference("input"),
             ),
+    "fits" => reference("fits"),
     "correlations" => described("array", "Correlation coefficients of inputs or components.")
                 .with("items", reference("correlation")),
     "correlation_matrix" => reference("correlation-matrix"),
@@ -52,6 +53,8 @@ pub(crate) const MODEL: &[Key] = keys![
             .with("minProperties", 1),
     "model" => text_of("Name of a typed model, in place of `equations`: `gumption models`."),
     "outputs" => named("The quantities to report.", reference("output")).with("minProperties", 1),
+    "regions" => described("array", "Outputs that are covered together (JCGM 102).")
+                .with("items", closed("Two outputs or more.", REGION, &["outputs"])),
     "coverage_probability" => referenced("probability", "Coverage probability; 0.9545, that of the factor 2, unless given."),
     "coverage_factor" => described("number", "Coverage factor for infinite degrees of freedom; sets the \
                                  coverage probability.")
@@ -93,6 +96,7 @@ fn root() -> Value {
     let without_inputs = vec![
         object([("required", texts(["inputs"]))]),
         object([("required", texts(["observations"]))]),
+        object([("required", texts(["fits"]))]),
     ];
     closed("A model file.", MODEL, &["outputs"])
         .with("anyOf", either)
@@ -126,10 +130,22 @@ fn example() -> Value {
     ])
 }
 
+/// Keys of a coverage region.
+pub(crate) const REGION: &[Key] = keys![
+    "outputs" => described("array", "Names of outputs; that of a complex one stands for its two parts.")
+                .with("items", object([("type", Value::from("string"))]))
+                .with("minItems", 1),
+    "probability" => referenced("probability", "Coverage probability; that of the file unless given."),
+];
+
 /// Keys of an output.
 pub(crate) const OUTPUT: &[Key] = keys![
     "unit" => reference("unit"),
     "about" => text_of("What it is, in words."),
+    "complex" => described("string", "The formula's value is complex, and is reported as two outputs: `re-im` as \
+                 NAME.re and NAME.im, `polar` as NAME.abs and NAME.arg.")
+                .with("enum", texts(["re-im", "polar"])),
+    "phase_unit" => referenced("unit", "The unit of the phase of a complex output; rad."),
     "periodic" => referenced("positive", "The length of a turn in the output's unit, for phases."),
     "tolerance" => reference("tolerance"),
     "cmc" => referenced("width", "The laboratory's capability: its smallest expanded uncertainty."),

@@ -1,7 +1,7 @@
 //! The distributions, with the keys that each of them has.
 
 use super::node::{With, object, reference, texts};
-use super::{closed_of, described, referenced, text_of};
+use super::{Key, closed, closed_of, described, keys, referenced, text_of};
 use serde_json::Value;
 
 /// A distribution as files name it.
@@ -213,6 +213,24 @@ pub(crate) const COMPONENT: [&str; 5] = ["name", "distribution", "about", "type"
 pub(crate) const COMPOSED: [&str; 7] =
     ["unit", "mean", "components", "about", "type", "group", "per"];
 
+/// Keys of a complex input.
+pub(crate) const COMPLEX_INPUT: &[Key] = keys![
+    "unit" => reference("unit"),
+    "complex" => closed("The two parts, each with its distribution.", COMPLEX, &[]),
+    "about" => text_of("What it is, in words."),
+];
+
+/// Keys of the parts of a complex input.
+pub(crate) const COMPLEX: &[Key] = keys![
+    "re" => referenced("input", "The real part, in the quantity's unit unless it says its own."),
+    "im" => referenced("input", "The imaginary part."),
+    "modulus" => referenced("input", "The modulus, in the quantity's unit unless it says its own."),
+    "phase" => referenced("input", "The phase, in radians unless it says its own unit."),
+    "correlation" => described("number", "The correlation coefficient of the two parts.")
+                .with("minimum", -1)
+                .with("maximum", 1),
+];
+
 fn common(key: &str) -> Value {
     match key {
         "unit" => reference("unit"),
@@ -283,6 +301,10 @@ pub(super) fn definitions() -> Vec<(String, Value)> {
         ("input".to_owned(), choice(Holder::Input)),
         ("component".to_owned(), choice(Holder::Component)),
         ("input-of-components".to_owned(), composed),
+        (
+            "complex-input".to_owned(),
+            closed("A complex input quantity.", COMPLEX_INPUT, &["complex"]),
+        ),
     ];
     for holder in [Holder::Input, Holder::Component] {
         for shape in &SHAPES {
@@ -321,7 +343,14 @@ fn choice(holder: Holder) -> Value {
         Holder::Input => choice
             .with("if", object([("required", texts(["components"]))]))
             .with("then", reference("input-of-components"))
-            .with("else", needed.with("allOf", chosen)),
+            .with(
+                "else",
+                object([
+                    ("if", object([("required", texts(["complex"]))])),
+                    ("then", reference("complex-input")),
+                    ("else", needed.with("allOf", chosen)),
+                ]),
+            ),
     }
     .with("examples", examples(holder))
 }

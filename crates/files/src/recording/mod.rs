@@ -21,6 +21,37 @@ use gumption_signal::{BLOCK, BlockVisitor, InMemorySamples, Measured, SampleSour
 /// recording is read again for each pass.
 const MOST_IN_MEMORY: u64 = 1 << 25;
 
+/// A matrix in the bytes of a NumPy file, row by row.
+///
+/// # Errors
+/// What is wrong with it, as a sentence without a capital.
+pub(super) fn npy_matrix(mut bytes: &[u8]) -> Result<(usize, usize, Vec<f64>), String> {
+    let header = npy_header::NpyHeader::read(&mut bytes)?;
+    let &[rows, columns] = header.shape.as_slice() else {
+        return Err(format!("it has {} dimensions; a matrix has two", header.shape.len()));
+    };
+    let size = header.number.size();
+    let count = rows.checked_mul(columns).and_then(|count| usize::try_from(count).ok());
+    let count = count.filter(|count| count.checked_mul(size) == Some(bytes.len()));
+    let Some(count) = count.filter(|count| *count > 0) else {
+        return Err(format!(
+            "it has {} bytes behind its header, not {rows} x {columns} numbers",
+            bytes.len()
+        ));
+    };
+    let (rows, columns) = (rows as usize, columns as usize);
+    let stored: Vec<f64> =
+        bytes.chunks_exact(size).map(|bytes| header.number.value(bytes)).collect();
+    if let Some(place) = stored.iter().position(|value| !value.is_finite()) {
+        return Err(format!("its number {} is not finite", place + 1));
+    }
+    if !header.fortran_order {
+        return Ok((rows, columns, stored));
+    }
+    let turned = (0..count).map(|place| stored[place % columns * rows + place / columns]);
+    Ok((rows, columns, turned.collect()))
+}
+
 /// A column of a recording.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum ColumnName {

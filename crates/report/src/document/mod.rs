@@ -11,7 +11,7 @@ pub(super) use latex::latex;
 #[cfg(test)]
 pub(crate) use latex::unit::Declared;
 pub(super) use markdown::{markdown, markdown_with_code};
-pub(crate) use text::text;
+pub(crate) use text::{below, text};
 
 use super::html::Drawing;
 use super::sheet::Sheet;

@@ -11,7 +11,14 @@ const LEAST_TEXT: usize = 10;
 pub(crate) fn text(document: &Document) -> String {
     let mut parts = vec![heading(&document.title, '═')];
     parts.push(document.subtitle.iter().map(|line| wrapped(line)).collect());
-    parts.extend(document.blocks.iter().map(block));
+    parts.push(below(document));
+    parts.retain(|part| !part.is_empty());
+    parts.join("\n")
+}
+
+/// What stands below title and subtitle.
+pub(crate) fn below(document: &Document) -> String {
+    let mut parts: Vec<String> = document.blocks.iter().map(block).collect();
     parts.retain(|part| !part.is_empty());
     parts.join("\n")
 }

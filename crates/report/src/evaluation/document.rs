@@ -29,9 +29,13 @@ pub(super) fn of(report: &EvaluationReport<'_>, shown: &Shown<'_>) -> Document {
                 results::section(&mut document, report, shown, output);
             }
             together(&mut document, task, row);
+            crate::regions::sections(&mut document, task, row);
         }
         _ => sweep::sections(&mut document, report),
     }
+    let digits = evaluation.settings.digits;
+    let curves = task.curves.iter().map(|curve| &**curve);
+    crate::fits::sections(&mut document, curves, evaluation.settings.coverage, digits);
     if let Some(sheet) = quantities(task) {
         document.section("Quantities");
         document.table(sheet);

@@ -25,6 +25,10 @@ pub(super) fn about(name: &str) -> Option<&'static str> {
         "mean" => "the mean of its arguments",
         "kelvin" => "the thermodynamic temperature of a Celsius temperature",
         "celsius" => "the Celsius temperature of a thermodynamic one",
+        "re" => "the real part of a complex quantity",
+        "im" => "its imaginary part",
+        "arg" => "its phase, from -pi to pi",
+        "conj" => "its conjugate",
         _ => return None,
     })
 }

@@ -18,6 +18,7 @@ use std::io::{self, Write};
 use self::budget::Budget;
 use super::EvaluationReport;
 use super::answer::in_memory;
+use super::document::{self, Document};
 use super::number::exact;
 use super::statement;
 use gumption_engine::decimal::to_position;
@@ -74,8 +75,19 @@ pub fn write_table(
                 .into_iter()
                 .chain(left_out(row).map(|said| said + "\n"));
             whole.into_iter().try_for_each(&mut below)?;
+            let mut regions = Document::default();
+            crate::regions::sections(&mut regions, task, row);
+            if !regions.blocks.is_empty() {
+                below(document::below(&regions))?;
+            }
         }
         rows => sweep::tables(task, rows, digits).try_for_each(&mut below)?,
+    }
+    let mut fits = Document::default();
+    let curves = task.curves.iter().map(|curve| &**curve);
+    crate::fits::sections(&mut fits, curves, evaluation.settings.coverage, digits);
+    if !fits.blocks.is_empty() {
+        below(document::below(&fits))?;
     }
     if let Some(said) = stopped(evaluation) {
         below(said + "\n")?;

@@ -7,6 +7,7 @@ use super::{Group, Joint, paired};
 use crate::distribution::{Distribution, Stream, StreamKey, normal};
 use crate::linalg::packed;
 use crate::number::{CodePath, Column};
+use crate::regression::Refit;
 
 /// The quantities of a row that vary, and the joint draw of those that are linked.
 #[derive(Debug)]
@@ -17,6 +18,8 @@ pub struct Varying {
     members: Vec<Vec<Member>>,
     /// Outputs of saved results.
     rank_samples: Vec<RankSample>,
+    /// Parameters of fits.
+    refits: Vec<Refit>,
     in_group: Vec<bool>,
 }
 
@@ -46,12 +49,15 @@ impl Varying {
         let members = members.collect();
         let rank_samples: Vec<RankSample> =
             joint.rank_samples.iter().map(|set| set.among(varying)).collect();
-        for &index in rank_samples.iter().flat_map(|set| &set.members) {
+        let refits: Vec<Refit> = joint.refits.iter().map(|set| set.among(varying)).collect();
+        let refitted = refits.iter().flat_map(|set| &set.members);
+        for &index in rank_samples.iter().flat_map(|set| &set.members).chain(refitted) {
             if let Some(is) = in_group.get_mut(index) {
                 *is = true;
             }
         }
-        Self { distributions, joint: Arc::clone(joint), members, rank_samples, in_group }
+        let joint = Arc::clone(joint);
+        Self { distributions, joint, members, rank_samples, refits, in_group }
     }
 
     /// All of these quantities.
@@ -80,7 +86,8 @@ impl Varying {
         let paired = groups.filter(|(group, _)| group.dof.is_some());
         let paired = paired.flat_map(|(_, members)| members.iter().map(|m| m.index));
         let sampled = self.rank_samples.iter().flat_map(|set| set.members.iter().copied());
-        for index in paired.chain(sampled) {
+        let refitted = self.refits.iter().flat_map(|set| set.members.iter().copied());
+        for index in paired.chain(sampled).chain(refitted) {
             without[index] = true;
         }
         without
@@ -90,7 +97,8 @@ impl Varying {
     pub fn linked(&self) -> Vec<Vec<usize>> {
         let groups = self.members.iter().map(|set| set.iter().map(|m| m.index).collect());
         let sampled = self.rank_samples.iter().map(|set| set.members.clone());
-        groups.chain(sampled).collect()
+        let refitted = self.refits.iter().map(|set| set.members.clone());
+        groups.chain(sampled).chain(refitted).collect()
     }
 }
 
@@ -126,6 +134,11 @@ impl<'a> Draws<'a> {
                 set.draw(&varying.distributions, &mut self.streams, registers, register);
             }
         }
+        for set in &varying.refits {
+            if set.members.iter().any(|&m| used[m]) {
+                set.draw(&mut self.streams, registers, register);
+            }
+        }
     }
 
     /// Draws the next column of standard normal scores of every quantity, dependent as the
@@ -143,6 +156,9 @@ impl<'a> Draws<'a> {
         }
         for set in &varying.rank_samples {
             set.draw(&varying.distributions, &mut self.streams, registers, register);
+        }
+        for set in &varying.refits {
+            set.draw(&mut self.streams, registers, register);
         }
     }
 

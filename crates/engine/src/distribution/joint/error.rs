@@ -67,6 +67,14 @@ pub enum CorrelationError {
         /// How many paired readings of that length there are.
         count: usize,
     },
+    /// A coefficient is declared for a parameter of a calibration function, whose joint distribution
+    /// is that of its fit.
+    GivenByFit {
+        /// The parameter.
+        member: usize,
+        /// The other quantity.
+        other: usize,
+    },
     /// A coefficient is declared for paired readings, whose joint distribution is that of their
     /// sample.
     GivenByReadings {
@@ -89,7 +97,9 @@ impl CorrelationError {
             }
             Self::OutOfReach { declared, .. } => of(declared.first) && of(declared.second),
             Self::NoVariance { member, .. } | Self::NoQuantiles { member } => of(*member),
-            Self::GivenByReadings { member, other, .. } => of(*member) && of(*other),
+            Self::GivenByReadings { member, other, .. } | Self::GivenByFit { member, other } => {
+                of(*member) && of(*other)
+            }
             Self::TooMany { .. } | Self::Unpaired { .. } => false,
         }
     }
@@ -143,6 +153,12 @@ impl CorrelationError {
                 "{} has paired readings, of which there must be as many of equal length as it \
                  says, but there are {count}",
                 name(*member)
+            ),
+            Self::GivenByFit { member, other } => format!(
+                "{} is a parameter of a calibration function, whose fit tells how it varies with \
+                 the others, so that it cannot have a declared correlation with {} as well",
+                name(*member),
+                name(*other)
             ),
             Self::GivenByReadings { member, other, paired: true } => format!(
                 "the correlation of {} and {} is given twice: by their paired readings and by a \

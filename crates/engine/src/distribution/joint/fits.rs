@@ -83,7 +83,10 @@ impl Fits {
 }
 
 fn linked(named: &[usize], distributions: &[Arc<Distribution>]) -> Linked {
-    let is_paired = |d: &Distribution| matches!(d, Distribution::Readings(r) if r.together() > 1);
+    let is_paired = |d: &Distribution| match d {
+        Distribution::Readings(readings) => readings.together() > 1,
+        other => matches!(other, Distribution::Fitted(_)),
+    };
     let mut indices = named.to_vec();
     let all = distributions.iter().enumerate();
     let has_ranks = |d: &Distribution| d.saved().is_some_and(|s| s.origin().ranks.is_some());

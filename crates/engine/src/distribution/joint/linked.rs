@@ -11,7 +11,7 @@ pub(crate) enum Dependence {
     /// A multivariate t distribution of these degrees of freedom and this factor of its correlation
     /// matrix.
     Student(f64, Vec<f64>),
-    /// Trials of a saved result.
+    /// Trials of a saved result, or fits of drawn points: known by draws alone.
     Trials,
 }
 
@@ -38,6 +38,10 @@ impl Joint {
             .rank_samples
             .iter()
             .map(|set| Linked { members: set.members.clone(), dependence: Dependence::Trials });
-        groups.chain(sampled).collect()
+        let refitted = self
+            .refits
+            .iter()
+            .map(|refit| Linked { members: refit.members.clone(), dependence: Dependence::Trials });
+        groups.chain(sampled).chain(refitted).collect()
     }
 }

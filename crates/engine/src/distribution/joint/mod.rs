@@ -6,6 +6,8 @@
 //! - Outputs of one saved result are drawn as they varied in its trials ([`rank_sample`]), unless a
 //!   coefficient links one of them to another quantity.
 //! - Paired readings are drawn from a multivariate t distribution ([`paired`]).
+//! - Parameters of a fitted calibration function are drawn from their joint normal or t distribution,
+//!   or each trial's from points of its own.
 //!
 //! Contradictory coefficients are refused, never changed: only what lies within the rounding of
 //! their last decimals is taken as the nearest possible, and said to be. The same holds where each
@@ -44,6 +46,7 @@ use standard::Standard;
 
 use super::Distribution;
 use crate::linalg::CorrelationMatrix;
+use crate::regression::Refit;
 
 /// A declared correlation coefficient of two quantities.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -113,6 +116,8 @@ pub struct Joint {
     groups: Vec<Group>,
     /// Outputs of saved results.
     rank_samples: Vec<RankSample>,
+    /// Parameters of fits, each trial's from points of its own.
+    refits: Vec<Refit>,
     /// Whether some matrix was positive semi-definite only up to the rounding of its coefficients.
     pub(crate) rounded: bool,
     /// The quantities that are drawn through a Gaussian copula, in order. Normal ones that share a
@@ -157,13 +162,26 @@ impl Joint {
             {
                 let (first, second) = (members.contains(&c.first), members.contains(&c.second));
                 let (member, other) = if first { (c.first, c.second) } else { (c.second, c.first) };
+                if ensemble.fit.is_some() {
+                    return Err(CorrelationError::GivenByFit { member, other });
+                }
                 let paired = first && second;
                 return Err(CorrelationError::GivenByReadings { member, other, paired });
             }
+            if let Some(fit) = ensemble.fit.as_ref().filter(|fit| !fit.is_linear()) {
+                let parameter = |m: &usize| match &*distributions[*m] {
+                    Distribution::Fitted(fitted) => fitted.parameter(),
+                    _ => 0,
+                };
+                let parameters = members.iter().map(parameter).collect();
+                joint.refits.push(Refit::new(members.clone(), parameters, Arc::clone(fit)));
+                continue;
+            }
+            let dof = members.first().map(|&m| distributions[m].drawn_dof());
             joint.groups.push(Group {
                 members: members.iter().map(|&m| Member::plain(m)).collect(),
                 factor: ensemble.coefficients.factor(),
-                dof: members.first().map(|&m| distributions[m].drawn_dof()),
+                dof: dof.filter(|dof| dof.is_finite()),
             });
         }
         let linked = links::connected(&active);

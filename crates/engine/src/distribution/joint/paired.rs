@@ -4,22 +4,28 @@
 //! uses the correlation coefficients of the sample (JCGM 100, 5.2.3); trials are drawn from the
 //! multivariate t distribution of JCGM 102, 5.3: N quantities read n times have n - N degrees of
 //! freedom and the scale matrix S/n, with the divisor n - N in S.
+//!
+//! The parameters of one fitted calibration function are an ensemble too, with the coefficients of
+//! their covariance matrix and the degrees of freedom of its residuals.
 
 use std::sync::Arc;
 
 use super::Correlation;
 use super::error::CorrelationError;
-use crate::distribution::{Distribution, Readings, Stream, student};
+use crate::distribution::{Distribution, Fitted, Readings, Stream, student};
 use crate::linalg::CorrelationMatrix;
 use crate::number::{COLUMN, Column};
+use crate::regression::Regression;
 
-/// Quantities with paired readings, in order.
+/// Quantities with paired readings, or the parameters of a fit, in order.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Ensemble {
     /// Indices of the quantities.
     pub members: Vec<usize>,
     /// Correlation coefficients of the sample.
     pub(super) coefficients: CorrelationMatrix,
+    /// The fit whose parameters they are.
+    pub(super) fit: Option<Arc<Regression>>,
 }
 
 /// The ensembles among these quantities, by the index of their first members.
@@ -41,8 +47,35 @@ pub fn ensembles(distributions: &[Arc<Distribution>]) -> Vec<Ensemble> {
     let ensemble = |set: Vec<(usize, &Readings)>| Ensemble {
         members: set.iter().map(|(index, _)| *index).collect(),
         coefficients: coefficients(&set.iter().map(|(_, r)| r.values()).collect::<Vec<_>>()),
+        fit: None,
     };
-    sets.into_iter().map(ensemble).collect()
+    sets.into_iter().map(ensemble).chain(fits(distributions)).collect()
+}
+
+/// The parameters of each fit.
+fn fits(distributions: &[Arc<Distribution>]) -> impl Iterator<Item = Ensemble> {
+    let mut sets: Vec<Vec<(usize, &Fitted)>> = Vec::new();
+    for (index, distribution) in distributions.iter().enumerate() {
+        let Distribution::Fitted(fitted) = &**distribution else {
+            continue;
+        };
+        let same = |set: &&mut Vec<(usize, &Fitted)>| Arc::ptr_eq(set[0].1.fit(), fitted.fit());
+        match sets.iter_mut().find(same) {
+            Some(set) => set.push((index, fitted)),
+            None => sets.push(vec![(index, fitted)]),
+        }
+    }
+    let ensemble = |set: Vec<(usize, &Fitted)>| {
+        let fit = set.first().map(|(_, fitted)| Arc::clone(fitted.fit()));
+        let mut coefficients = CorrelationMatrix::identity(set.len());
+        for (i, j) in coefficients.pairs() {
+            let (first, second) = (set[i].1, set[j].1);
+            let r = first.fit().correlation(first.parameter(), second.parameter());
+            coefficients.set(i, j, r);
+        }
+        Ensemble { members: set.iter().map(|(index, _)| *index).collect(), coefficients, fit }
+    };
+    sets.into_iter().map(ensemble).collect::<Vec<_>>().into_iter()
 }
 
 impl Ensemble {
@@ -61,6 +94,9 @@ impl Ensemble {
         distributions: &[Arc<Distribution>],
     ) -> Result<(), CorrelationError> {
         let count = self.members.len();
+        if self.fit.is_some() {
+            return Ok(());
+        }
         let wrong = self.members.iter().find(|&&member| {
             !matches!(distributions.get(member).map(|d| &**d),
                 Some(Distribution::Readings(readings)) if readings.together() == count)

@@ -41,6 +41,8 @@ impl Standard {
             Distribution::Readings(readings) if readings.together() > 1 => {
                 Self::Own(Arc::clone(distribution))
             }
+            // drawn with the other parameters of its fit
+            Distribution::Fitted(_) => Self::Own(Arc::clone(distribution)),
             other if other.is_drawn_normal() => Self::Normal,
             other if dof.is_finite() && other.saved().is_none() => Self::T(dof),
             _ => Self::Own(Arc::clone(distribution)),

@@ -6,13 +6,14 @@ use std::ops::Range;
 use super::error::{FormulaError, Operand};
 use super::evaluate::constants;
 use super::fraction::{Fraction, fractions};
-use super::function::Function;
+use super::function::{Function, Part};
 use super::message::excerpt;
 use super::suggest;
 use super::syntax::{Kind, Node, Operator, Tree};
 use super::tie::Tie;
 use super::typing::{Scope, Typing};
 use crate::number::{Binary, Unary};
+use crate::regression::CurveFunction;
 use gumption_units::{Dimension, Exponent, Unit};
 
 /// The most mistakes reported of one formula.
@@ -92,6 +93,9 @@ impl<'c> Checker<'c> {
             Kind::Infix { operator, operator_span, left, right } => {
                 self.infix(*operator, operator_span, (index, &node.span), [*left, *right])
             }
+            Kind::Curve { curve, inverse, argument } => {
+                free(self.curve(curve, *inverse, *argument))
+            }
             Kind::Call { function: None, name_span, .. } => {
                 self.no_function(name_span);
                 free(Typing::ANY)
@@ -139,6 +143,32 @@ impl<'c> Checker<'c> {
             });
         }
         Typing::ANY
+    }
+
+    /// A calibration function: its argument has to be a quantity of that side.
+    fn curve(&mut self, curve: &CurveFunction, inverse: bool, argument: usize) -> Typing {
+        let (from, to) = if inverse { (&curve.y, &curve.x) } else { (&curve.x, &curve.y) };
+        let side = if inverse { "y" } else { "x" };
+        let typing = self.settled(argument);
+        let span = self.tree.span(argument);
+        let expected = Typing::in_unit(from);
+        if let Some(dimension) = typing.dimension
+            && Some(dimension) != expected.dimension
+        {
+            let operand = self.operand(argument, dimension);
+            let reason = format!(
+                "{operand}, but {side} of `{}` is {} (in {from})",
+                curve.fit.name,
+                from.describe()
+            );
+            self.report_dimension(FormulaError::Curve { reason, span });
+        } else if let Err(misfit) = typing.reported_in(from) {
+            let text = self.quoted(argument);
+            let reason =
+                format!("`{text}` cannot be {side} of `{}` in {from}: {misfit}", curve.fit.name);
+            self.report_dimension(FormulaError::Curve { reason, span });
+        }
+        Typing::in_unit(to)
     }
 
     fn no_function(&mut self, span: &Range<usize>) {
@@ -304,6 +334,11 @@ impl<'c> Checker<'c> {
                 let typing = self.together(name, name_span, arguments);
                 Typing { dimension, ..typing }
             }
+            Function::Part(Part::Argument) => {
+                self.without_zero(name, first);
+                Typing::NUMBER
+            }
+            Function::Part(_) => self.without_zero(name, first),
             // the parser reads them as sums
             Function::Sum | Function::Mean => Typing::ANY,
             Function::Kelvin | Function::Celsius => {

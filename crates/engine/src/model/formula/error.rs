@@ -108,6 +108,20 @@ pub enum FormulaError {
         /// Where it stands first.
         span: Range<usize>,
     },
+    /// A complex quantity where only real ones can be.
+    Complex {
+        /// What is wrong, as a sentence without a capital.
+        reason: String,
+        /// Where.
+        span: Range<usize>,
+    },
+    /// A calibration function that is called in a wrong way.
+    Curve {
+        /// What is wrong, as a sentence without a capital.
+        reason: String,
+        /// Where.
+        span: Range<usize>,
+    },
     /// A call of a function that does not exist.
     UnknownFunction {
         /// The name as written.
@@ -265,6 +279,8 @@ impl FormulaError {
             | Self::UnknownName { span, .. }
             | Self::DefinedLater { span, .. }
             | Self::UnknownFunction { span, .. }
+            | Self::Curve { span, .. }
+            | Self::Complex { span, .. }
             | Self::NotAFunction { span, .. }
             | Self::ArgumentCount { span, .. }
             | Self::MixedDimensions { span, .. }

@@ -4,11 +4,13 @@ use std::collections::HashMap;
 
 use super::dimension::check;
 use super::error::FormulaError;
-use super::function::Function;
+use super::function::{Function, Part};
 use super::suggest;
 use super::syntax::{Kind, Operator, Tree};
 use super::typing::{Scope, Typing};
+use crate::model::NumberForm;
 use crate::number::{Binary, Number, Unary};
+use gumption_units::{Unit, Zero};
 
 /// The zero of the Celsius scale in K.
 const CELSIUS_ZERO: f64 = 273.15;
@@ -66,6 +68,20 @@ pub(super) fn evaluate<T: Number>(
                 let value = if offset == 0.0 { value } else { value - offset };
                 value / at(&results, *right)
             }
+            Kind::Curve { curve, inverse, argument } => {
+                let typing = typings.get(*argument).copied().unwrap_or(Typing::ANY);
+                let from = if *inverse { &curve.y } else { &curve.x };
+                let argument = in_own_unit(at(&results, *argument), from, typing, curve.form);
+                let parameters: Option<Vec<T>> =
+                    curve.parameters.iter().map(|(name, _)| values.get(name).copied()).collect();
+                let parameters = parameters.ok_or_else(|| FormulaError::UnknownName {
+                    name: curve.fit.name.clone(),
+                    span: node.span.clone(),
+                    nearest: Vec::new(),
+                    known: Vec::new(),
+                })?;
+                curve.value(argument, &parameters, *inverse)
+            }
             Kind::InUnit { number, unit } => match tree.nodes.get(*number).map(|node| &node.kind) {
                 Some(Kind::Number(number)) => T::constant(unit.value_to_si(*number)),
                 _ if unit.offset() == 0.0 => at(&results, *number) * unit.factor(),
@@ -86,7 +102,11 @@ pub(super) fn constants(tree: &Tree) -> Vec<Option<f64>> {
         let known = |index: &usize| constants.get(*index).is_some_and(Option::is_some);
         let is_constant = match &node.kind {
             Kind::Number(_) | Kind::Pi => true,
-            Kind::Name | Kind::Unit(_) | Kind::Constant(_) | Kind::InUnit { .. } => false,
+            Kind::Name
+            | Kind::Unit(_)
+            | Kind::Constant(_)
+            | Kind::InUnit { .. }
+            | Kind::Curve { .. } => false,
             Kind::Negate(x) => known(x),
             Kind::Infix { left, right, .. } => known(left) && known(right),
             Kind::Call { function: None | Some(Function::Kelvin | Function::Celsius), .. } => false,
@@ -104,7 +124,7 @@ fn apply<T: Number>(kind: &Kind, results: &[T], constants: &[Option<f64>]) -> Op
     Some(match kind {
         Kind::Number(value) => T::constant(*value),
         Kind::Pi => T::constant(std::f64::consts::PI),
-        Kind::Name | Kind::InUnit { .. } => return None,
+        Kind::Name | Kind::InUnit { .. } | Kind::Curve { .. } => return None,
         Kind::Unit(unit) => T::constant(unit.factor()),
         Kind::Constant(constant) => T::constant(constant.value()),
         Kind::Negate(x) => -at(results, *x),
@@ -127,12 +147,29 @@ fn apply<T: Number>(kind: &Kind, results: &[T], constants: &[Option<f64>]) -> Op
                 Function::Two(operation) | Function::Fold(operation) => {
                     arguments.fold(first, |result, argument| result.binary(operation, argument))
                 }
+                Function::Part(Part::Real) => first.real_part(),
+                Function::Part(Part::Imaginary) => first.imaginary_part(),
+                Function::Part(Part::Argument) => first.argument(),
+                Function::Part(Part::Conjugate) => first.conjugate(),
                 Function::Sum | Function::Mean | Function::Kelvin | Function::Celsius => {
                     return None;
                 }
             }
         }
     })
+}
+
+/// A formula's number of that kind as one in a unit. A difference knows no zero.
+fn in_own_unit<T: Number>(value: T, unit: &Unit, typing: Typing, form: NumberForm) -> T {
+    if form == NumberForm::Declared {
+        return value;
+    }
+    let shift = match typing.zero {
+        Some(_) => Zero::shift(typing.zero, unit.zero()).unwrap_or(0.0) - unit.offset(),
+        None => 0.0,
+    };
+    let value = if shift == 0.0 { value } else { value + shift };
+    if unit.factor() == 1.0 { value } else { value / unit.factor() }
 }
 
 fn infix<T: Number>(operator: Operator, x: T, y: T) -> T {

@@ -107,7 +107,8 @@ pub(super) fn fractions(text: &str, tree: &Tree) -> Vec<Option<Fraction>> {
             | Kind::Unit(_)
             | Kind::Constant(_)
             | Kind::InUnit { .. }
-            | Kind::Call { .. } => None,
+            | Kind::Call { .. }
+            | Kind::Curve { .. } => None,
         };
         found.push(fraction);
     }

@@ -19,10 +19,21 @@ pub(super) enum Function {
     Kelvin,
     /// The Celsius temperature of a thermodynamic one.
     Celsius,
+    /// A part of a complex number.
+    Part(Part),
+}
+
+/// What is taken of a complex number.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Part {
+    Real,
+    Imaginary,
+    Argument,
+    Conjugate,
 }
 
 /// All functions, in the order in which messages list them.
-const FUNCTIONS: [Function; 23] = [
+const FUNCTIONS: [Function; 27] = [
     Function::One(Unary::Sin),
     Function::One(Unary::Cos),
     Function::One(Unary::Tan),
@@ -46,6 +57,10 @@ const FUNCTIONS: [Function; 23] = [
     Function::Mean,
     Function::Kelvin,
     Function::Celsius,
+    Function::Part(Part::Real),
+    Function::Part(Part::Imaginary),
+    Function::Part(Part::Argument),
+    Function::Part(Part::Conjugate),
 ];
 
 /// How many arguments a function takes.
@@ -99,6 +114,10 @@ impl Function {
             Self::Mean => "mean",
             Self::Kelvin => "kelvin",
             Self::Celsius => "celsius",
+            Self::Part(Part::Real) => "re",
+            Self::Part(Part::Imaginary) => "im",
+            Self::Part(Part::Argument) => "arg",
+            Self::Part(Part::Conjugate) => "conj",
         }
     }
 
@@ -110,13 +129,13 @@ impl Function {
     /// Whether no quantity may be called so. Names of functions that came later still may be those
     /// of quantities where no parenthesis follows, because files have them.
     pub(super) fn is_reserved(self) -> bool {
-        !matches!(self, Self::Sum | Self::Mean | Self::Celsius)
+        !matches!(self, Self::Sum | Self::Mean | Self::Celsius | Self::Part(_))
     }
 
     /// How many arguments it takes.
     pub(super) fn arity(self) -> Arity {
         match self {
-            Self::One(_) | Self::Kelvin | Self::Celsius => Arity::One,
+            Self::One(_) | Self::Kelvin | Self::Celsius | Self::Part(_) => Arity::One,
             Self::Two(_) => Arity::Two,
             Self::Fold(_) | Self::Sum | Self::Mean => Arity::TwoOrMore,
         }

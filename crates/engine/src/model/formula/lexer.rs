@@ -66,6 +66,12 @@ impl<'t> Lexer<'t> {
             self.number()?
         } else if begins_name(c) {
             let name = self.take_while(continues_name);
+            // a part of a quantity: `line.a`
+            let part = self.rest().strip_prefix('.');
+            if part.is_some_and(|part| part.starts_with(begins_name)) {
+                self.at += 1;
+                self.take_while(continues_name);
+            }
             if is_pi(name) { TokenKind::Pi } else { TokenKind::Name }
         } else {
             self.sign(c)?

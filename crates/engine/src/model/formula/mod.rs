@@ -43,6 +43,7 @@
 
 #![warn(clippy::indexing_slicing)]
 
+mod complexity;
 mod constant;
 mod dimension;
 mod error;
@@ -65,6 +66,7 @@ mod typing;
 
 use std::collections::HashMap;
 use std::ops::Range;
+use std::sync::Arc;
 
 pub use constant::{ExactConstant, constants};
 pub use error::{Arity, FormulaError, NumberFault, Operand};
@@ -76,6 +78,7 @@ pub use typing::{KelvinKind, Scope, Typing};
 
 use super::Traced;
 use crate::number::Number;
+use crate::regression::CurveFunction;
 use syntax::{Kind, Tree};
 
 /// A formula that has been read.
@@ -97,7 +100,15 @@ impl Formula {
     /// # Errors
     /// The first place where the text does not follow the grammar.
     pub fn parse(text: &str) -> Result<Self, FormulaError> {
-        Ok(Self { tree: parser::parse(text)?, text: text.to_owned() })
+        Self::parse_with(text, &[])
+    }
+
+    /// Reads a formula that may call calibration functions: `line(x)`, `inverse(line, y)`.
+    ///
+    /// # Errors
+    /// As [`Formula::parse`]; a calibration function that is called in a wrong way.
+    pub fn parse_with(text: &str, curves: &[Arc<CurveFunction>]) -> Result<Self, FormulaError> {
+        Ok(Self { tree: parser::parse_with(text, curves)?, text: text.to_owned() })
     }
 
     /// The text as written.
@@ -106,12 +117,16 @@ impl Formula {
     }
 
     /// The names of quantities that the formula uses, in the order of the text and as often as they
-    /// occur, each with its place.
+    /// occur, each with its place. Of a calibration function they are those of its parameters.
     pub fn names(&self) -> impl Iterator<Item = (&str, Range<usize>)> {
-        let names = self.tree.nodes.iter().filter(|node| node.kind == Kind::Name);
-        names.filter_map(|node| {
-            let name = self.text.get(node.span.clone())?;
-            Some((name, node.span.clone()))
+        self.tree.nodes.iter().flat_map(|node| {
+            let own = self.text.get(node.span.clone()).filter(|_| node.kind == Kind::Name);
+            let parameters = match &node.kind {
+                Kind::Curve { curve, .. } => curve.parameters.as_slice(),
+                _ => &[],
+            };
+            let names = own.into_iter().chain(parameters.iter().map(|(name, _)| name.as_str()));
+            names.map(|name| (name, node.span.clone()))
         })
     }
 
@@ -121,6 +136,11 @@ impl Formula {
     /// All mistakes (fifty at most), in the order of their places; never an empty list.
     pub fn check(&self, scope: &Scope) -> Result<Typing, Vec<FormulaError>> {
         self.checked(scope, true)
+    }
+
+    /// Whether the value is complex, by the names that are.
+    pub fn is_complex(&self, scope: &Scope) -> bool {
+        scope.has_complex() && complexity::complexity(&self.text, &self.tree, scope).0
     }
 
     /// Checks names and calls but not dimensions, for empirical formulas. The result's dimension is
@@ -159,6 +179,9 @@ impl Formula {
     fn checked(&self, scope: &Scope, units: bool) -> Result<Typing, Vec<FormulaError>> {
         let dimension::Checked { typings, mut errors } =
             dimension::check(&self.text, &self.tree, scope, units);
+        if scope.has_complex() {
+            errors.extend(complexity::complexity(&self.text, &self.tree, scope).1);
+        }
         if errors.is_empty() {
             return Ok(typings.last().copied().unwrap_or(Typing::ANY));
         }

@@ -12,8 +12,9 @@
 //! primary    = number | "pi" | "π" | name | call | "(" comparison ")"
 //! unit       = "[" a unit, or a defining constant "]"
 //! call       = name "(" [ comparison { "," comparison } ] ")"
+//!            | "inverse" "(" calibration function "," comparison ")"
 //! number     = ( digits [ "." [ digits ] ] | "." digits ) [ ( "e" | "E" ) [ "+" | "-" ] digits ]
-//! name       = a letter or "_", then letters, digits and "_"
+//! name       = a letter or "_", then letters, digits and "_" [ "." the same ]
 //! ```
 //!
 //! `-` may be the minus sign `−` and `*` one of `·`, `⋅`, `×`. White space is allowed between
@@ -21,6 +22,7 @@
 //! neighbour of higher rank. It calls itself only for what is nested, and nesting is limited.
 
 use std::ops::Range;
+use std::sync::Arc;
 
 use super::constant::DefiningConstant;
 use super::error::{FormulaError, NumberFault};
@@ -28,6 +30,7 @@ use super::function::Function;
 use super::lexer::{Lexer, Token, TokenKind};
 use super::message::excerpt;
 use super::syntax::{Kind, Node, Operator, Tree};
+use crate::regression::CurveFunction;
 use gumption_units::Unit;
 
 /// The longest formula, in bytes.
@@ -37,6 +40,9 @@ pub(super) const MAX_LENGTH: usize = 100_000;
 pub(super) const MAX_DEPTH: usize = 200;
 
 const OPERAND: &str = "a number, a name, a function or `(`";
+
+/// The call that turns a calibration function round.
+const INVERSE: &str = "inverse";
 
 /// A constant in brackets is no unit behind a number.
 const HOUR: &str = "[hour]";
@@ -61,8 +67,14 @@ fn ranks(operator: Operator) -> (Rank, Rank) {
     }
 }
 
-/// Reads a whole formula.
+/// Reads a whole formula without calibration functions.
+#[cfg(test)]
 pub(super) fn parse(text: &str) -> Result<Tree, FormulaError> {
+    parse_with(text, &[])
+}
+
+/// Reads a whole formula, which may call these calibration functions.
+pub(super) fn parse_with(text: &str, curves: &[Arc<CurveFunction>]) -> Result<Tree, FormulaError> {
     if text.len() > MAX_LENGTH {
         return Err(FormulaError::TooLong { length: text.len(), limit: MAX_LENGTH });
     }
@@ -71,8 +83,8 @@ pub(super) fn parse(text: &str) -> Result<Tree, FormulaError> {
     if token.kind == TokenKind::End {
         return Err(FormulaError::Empty);
     }
-    let mut parser =
-        Parser { text, lexer, token, last: None, depth: 0, opened: Vec::new(), nodes: Vec::new() };
+    let (last, opened, nodes) = (None, Vec::new(), Vec::new());
+    let mut parser = Parser { text, curves, lexer, token, last, depth: 0, opened, nodes };
     parser.expression(LOOSEST)?;
     if parser.token.kind != TokenKind::End {
         return Err(parser.unexpected(AFTER_WHOLE));
@@ -82,6 +94,7 @@ pub(super) fn parse(text: &str) -> Result<Tree, FormulaError> {
 
 struct Parser<'t> {
     text: &'t str,
+    curves: &'t [Arc<CurveFunction>],
     lexer: Lexer<'t>,
     /// The token that is next.
     token: Token,
@@ -254,6 +267,15 @@ impl Parser<'_> {
                 _ => Ok(self.push(Kind::Name, name_span)),
             };
         }
+        if function.is_none() && !self.curves.is_empty() {
+            let name = self.slice(&name_span);
+            if let Some(curve) = self.curve(name) {
+                return self.curve_call(&curve, &name_span, false);
+            }
+            if name == INVERSE {
+                return self.inverse(&name_span);
+            }
+        }
         self.open()?;
         let arguments = self.nested(&name_span, Self::arguments)?;
         let span = name_span.start..self.token.span.end;
@@ -264,6 +286,67 @@ impl Parser<'_> {
             return Ok(self.summed(function, &arguments, (name_span, span)));
         }
         Ok(self.push(Kind::Call { function, name_span, arguments }, span))
+    }
+
+    fn curve(&self, name: &str) -> Option<Arc<CurveFunction>> {
+        self.curves.iter().find(|curve| curve.fit.name == name).cloned()
+    }
+
+    /// `inverse(line, y)`, from its parenthesis on.
+    fn inverse(&mut self, name_span: &Range<usize>) -> Result<Part, FormulaError> {
+        self.open()?;
+        let (name, span) = (self.slice(&self.token.span).to_owned(), self.token.span.clone());
+        let Some(curve) = self.curve(&name) else {
+            let known: Vec<String> =
+                self.curves.iter().map(|curve| format!("`{}`", curve.fit.name)).collect();
+            let reason = format!(
+                "the first argument of `inverse` is a calibration function: {}",
+                known.join(", ")
+            );
+            return Err(FormulaError::Curve { reason, span });
+        };
+        self.advance()?;
+        if self.token.kind != TokenKind::Comma {
+            return Err(self.unexpected("`,` and the value of y"));
+        }
+        if let Err(at) = curve.fit.direction() {
+            let reason = format!(
+                "`{name}` turns at about x = {}{}, so that some values of y belong to two x; fit the \
+                 points on one side of it",
+                crate::decimal::significant(at, 3),
+                match curve.x.text().trim() {
+                    "" | "1" => String::new(),
+                    unit => format!(" {unit}"),
+                }
+            );
+            return Err(FormulaError::Curve { reason, span });
+        }
+        self.curve_call(&curve, name_span, true)
+    }
+
+    /// A calibration function at its argument, from the parenthesis or the comma before it on.
+    fn curve_call(
+        &mut self,
+        curve: &Arc<CurveFunction>,
+        name_span: &Range<usize>,
+        inverse: bool,
+    ) -> Result<Part, FormulaError> {
+        if inverse {
+            self.advance()?;
+        } else {
+            self.open()?;
+        }
+        let arguments = self.nested(name_span, Self::arguments)?;
+        let span = name_span.start..self.token.span.end;
+        self.close(AFTER_ARGUMENT)?;
+        let &[argument] = arguments.as_slice() else {
+            let name = &curve.fit.name;
+            let call = if inverse { format!("inverse({name}, y)") } else { format!("{name}(x)") };
+            let reason = format!("a calibration function is called as `{call}`");
+            return Err(FormulaError::Curve { reason, span });
+        };
+        let curve = Arc::clone(curve);
+        Ok(self.push(Kind::Curve { curve, inverse, argument }, span))
     }
 
     /// `sum(a, b, c)` as `a + b + c`, and `mean` of them as that over 3.

@@ -4,9 +4,11 @@
 //! walks the tree is a loop: a sum of thirty thousand terms needs no deep stack.
 
 use std::ops::Range;
+use std::sync::Arc;
 
 use super::constant::DefiningConstant;
 use super::function::Function;
+use crate::regression::CurveFunction;
 use gumption_units::Unit;
 
 /// A formula as a tree; the last node is the whole.
@@ -45,6 +47,8 @@ pub(super) enum Kind {
     /// A call. A name that is no function's is kept, because only the names in scope tell what is
     /// wrong with it.
     Call { function: Option<Function>, name_span: Range<usize>, arguments: Vec<usize> },
+    /// A calibration function at an argument, or with `inverse` the x that belongs to a value.
+    Curve { curve: Arc<CurveFunction>, inverse: bool, argument: usize },
 }
 
 /// An operator between two operands.
@@ -94,6 +98,7 @@ impl Tree {
         self.nodes.iter().any(|node| match &node.kind {
             Kind::Call { function: Some(Function::Kelvin | Function::Celsius), .. } => true,
             Kind::Unit(unit) => unit.offset() != 0.0,
+            Kind::Curve { .. } => true,
             _ => false,
         })
     }

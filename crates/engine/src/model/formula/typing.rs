@@ -107,6 +107,7 @@ pub struct Scope {
     names: Vec<(String, Typing)>,
     index_of: HashMap<String, usize>,
     later: HashSet<String>,
+    complex: HashSet<String>,
 }
 
 impl Scope {
@@ -146,6 +147,21 @@ impl Scope {
     /// The defined names, in the order of their definition.
     pub fn names(&self) -> impl Iterator<Item = &str> {
         self.names.iter().map(|(name, _)| name.as_str())
+    }
+
+    /// Says that a name's value is complex.
+    pub fn define_complex(&mut self, name: impl Into<String>) {
+        self.complex.insert(name.into());
+    }
+
+    /// Whether a name's value is complex.
+    pub fn is_complex(&self, name: &str) -> bool {
+        self.complex.contains(name)
+    }
+
+    /// Whether there are complex values.
+    pub(super) fn has_complex(&self) -> bool {
+        !self.complex.is_empty()
     }
 
     /// Whether a name has been announced and not defined.

@@ -1,6 +1,6 @@
 //! Complex quantities: phasors of sinusoidal motion and frequency responses.
 
-use std::ops::{Add, Mul, Sub};
+use std::ops::{Add, Div, Mul, Sub};
 
 use crate::number::Number;
 
@@ -40,6 +40,66 @@ impl<T: Number> Complex<T> {
     /// Angle from the real axis in radians, from -pi to pi.
     pub fn phase(self) -> T {
         self.im.atan2(self.re)
+    }
+
+    /// The conjugate: the imaginary part changes its sign.
+    #[must_use]
+    pub fn conjugate(self) -> Self {
+        Self { re: self.re, im: -self.im }
+    }
+
+    /// The square root of the right half plane.
+    #[must_use]
+    pub fn sqrt(self) -> Self {
+        Self::polar(self.modulus().sqrt(), self.phase() * 0.5)
+    }
+
+    /// The exponential function.
+    #[must_use]
+    pub fn exp(self) -> Self {
+        Self::polar(self.re.exp(), self.im)
+    }
+
+    /// The natural logarithm, whose imaginary part is the phase.
+    #[must_use]
+    pub fn ln(self) -> Self {
+        Self { re: self.modulus().ln(), im: self.phase() }
+    }
+
+    /// The sine.
+    #[must_use]
+    pub fn sin(self) -> Self {
+        Self { re: self.re.sin() * self.im.cosh(), im: self.re.cos() * self.im.sinh() }
+    }
+
+    /// The cosine.
+    #[must_use]
+    pub fn cos(self) -> Self {
+        Self { re: self.re.cos() * self.im.cosh(), im: -(self.re.sin() * self.im.sinh()) }
+    }
+
+    /// The hyperbolic sine.
+    #[must_use]
+    pub fn sinh(self) -> Self {
+        Self { re: self.re.sinh() * self.im.cos(), im: self.re.cosh() * self.im.sin() }
+    }
+
+    /// The hyperbolic cosine.
+    #[must_use]
+    pub fn cosh(self) -> Self {
+        Self { re: self.re.cosh() * self.im.cos(), im: self.re.sinh() * self.im.sin() }
+    }
+}
+
+impl<T: Number> Div for Complex<T> {
+    type Output = Self;
+
+    fn div(self, other: Self) -> Self {
+        let size = other.re.square() + other.im.square();
+        Self {
+            re: (self.re * other.re + self.im * other.im) / size,
+            im: (self.im * other.re - self.re * other.im) / size,
+        }
     }
 }
 

@@ -21,7 +21,7 @@ use self::law::{Found, Law};
 use self::separate::{Group, Outer, Separated, separate};
 use self::term::{Inputs, Term};
 use crate::distribution::characteristic::Characteristic;
-use crate::distribution::{Distribution, Joint, Normal, StudentT};
+use crate::distribution::{Dependence, Distribution, Joint, Normal, StudentT};
 use crate::model::{Node, Output, fold};
 use crate::task::{Row, Task};
 
@@ -141,6 +141,10 @@ pub(crate) fn evaluate(problem: &Problem<'_>) -> Result<Noiseless, String> {
         distributions: &problem.row.distributions,
         linked: &linked,
     };
+    let drawn = |l: &usize| linked[*l].dependence == Dependence::Trials;
+    if separated.groups.iter().any(|group| group.linked.iter().any(drawn)) {
+        return Err(term::DRAWN_TOGETHER.to_owned());
+    }
     if separated.groups.is_empty() {
         return Err("the output does not vary".to_owned());
     }

@@ -178,6 +178,10 @@ enum Coordinate {
 /// A place on a coordinate: the score, or the value of the quantity; and its weight.
 type Place = [f64; 2];
 
+/// Why quantities that are drawn in sets have no distribution here.
+pub(super) const DRAWN_TOGETHER: &str =
+    "outputs of one saved result, or parameters of a fit, are known together by draws alone";
+
 /// Scores farther out have no weight.
 const FARTHEST: f64 = 8.6;
 
@@ -490,9 +494,7 @@ fn check_dependence(inputs: &Inputs<'_>, group: &Group) -> Result<(), String> {
                 return Err("paired readings go through a function that is not linear".to_owned());
             }
             Dependence::Trials => {
-                return Err(
-                    "several outputs of one saved result are drawn from its trials".to_owned()
-                );
+                return Err(DRAWN_TOGETHER.to_owned());
             }
         }
     }

@@ -68,9 +68,9 @@ impl Inputs {
                 Dependence::Scores(factor) => (factor.clone(), None),
                 Dependence::Student(dof, factor) => (factor.clone(), Some(*dof)),
                 Dependence::Trials => {
-                    return Err(
-                        "several outputs of one saved result are drawn from its trials".into()
-                    );
+                    let why = "outputs of one saved result, or parameters of a fit, are known \
+                               together by draws alone";
+                    return Err(why.to_owned());
                 }
             };
             if dof.is_some() {

@@ -224,7 +224,7 @@ const TABLE: &[(&str, &str, &str, Option<&str>)] = &[
     (
         "erf(n)",
         "erf",
-        "there is no function `erf`; the functions are sin, cos, tan, asin, acos, atan, atan2, sinh, cosh, tanh, exp, ln, log10, sqrt, cbrt, abs, min, max, hypot, sum, mean, kelvin, celsius",
+        "there is no function `erf`; the functions are sin, cos, tan, asin, acos, atan, atan2, sinh, cosh, tanh, exp, ln, log10, sqrt, cbrt, abs, min, max, hypot, sum, mean, kelvin, celsius, re, im, arg, conj",
         None,
     ),
     (

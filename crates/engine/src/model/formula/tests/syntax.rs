@@ -22,6 +22,9 @@ fn show(tree: &Tree, text: &str, place: usize) -> String {
             let (left, right) = (show(tree, text, *left), show(tree, text, *right));
             format!("({left}{}{right})", operator.name())
         }
+        Kind::Curve { curve, argument, .. } => {
+            format!("{}({})", curve.fit.name, show(tree, text, *argument))
+        }
         Kind::Call { name_span, arguments, .. } => {
             let arguments: Vec<_> = arguments.iter().map(|a| show(tree, text, *a)).collect();
             format!("{}({})", &text[name_span.clone()], arguments.join(","))

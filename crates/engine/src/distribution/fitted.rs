@@ -1,0 +1,106 @@
+//! A parameter of a fitted calibration function.
+
+use std::sync::Arc;
+
+use super::shape::{Invalid, Shape, finite, positive};
+use super::stream::Stream;
+use super::{normal, student};
+use crate::number::Column;
+use crate::regression::Regression;
+
+/// A parameter of a calibration function. All parameters of one fit are drawn together: from their
+/// joint normal distribution, or the multivariate t where their uncertainties come from the residuals,
+/// or, where they are not linear in the data, each trial from a fit to data of its own.
+#[derive(Clone, Debug)]
+pub struct Fitted {
+    fit: Arc<Regression>,
+    parameter: usize,
+    mean: f64,
+    scale: f64,
+}
+
+impl Fitted {
+    /// A parameter of a fit, by its number.
+    ///
+    /// # Errors
+    /// A parameter without a finite estimate or a standard uncertainty above zero.
+    pub fn new(fit: &Arc<Regression>, parameter: usize) -> Result<Self, Invalid> {
+        Ok(Self {
+            mean: finite("estimate", fit.estimate(parameter))?,
+            scale: positive("standard uncertainty", fit.standard_uncertainty(parameter))?,
+            fit: Arc::clone(fit),
+            parameter,
+        })
+    }
+
+    /// The fit.
+    pub fn fit(&self) -> &Arc<Regression> {
+        &self.fit
+    }
+
+    /// The number of the parameter.
+    pub fn parameter(&self) -> usize {
+        self.parameter
+    }
+}
+
+impl PartialEq for Fitted {
+    fn eq(&self, other: &Self) -> bool {
+        self.parameter == other.parameter
+            && self.mean == other.mean
+            && (Arc::ptr_eq(&self.fit, &other.fit) || self.fit == other.fit)
+    }
+}
+
+impl Shape for Fitted {
+    const NAME: &'static str = "fit";
+
+    fn mean(&self) -> f64 {
+        self.mean
+    }
+
+    fn standard_uncertainty(&self) -> f64 {
+        self.scale
+    }
+
+    fn divisor(&self) -> Option<f64> {
+        Some(1.0)
+    }
+
+    fn dof(&self) -> f64 {
+        self.fit.degrees_of_freedom()
+    }
+
+    fn drawn_dof(&self) -> f64 {
+        self.dof()
+    }
+
+    fn drawn_as(&self) -> Option<&'static str> {
+        (self.dof().is_finite() && self.fit.is_linear()).then_some(student::StudentT::NAME)
+    }
+
+    fn standard_deviation(&self) -> f64 {
+        student::standard_deviation(self.scale, self.dof())
+    }
+
+    fn quantile(&self, p: f64) -> f64 {
+        self.mean + self.scale * student::standard_quantile(p, self.dof())
+    }
+
+    fn quantile_upper(&self, q: f64) -> f64 {
+        self.mean - self.scale * student::standard_quantile(q, self.dof())
+    }
+
+    #[inline(always)]
+    fn draw(&self, stream: &mut Stream, out: &mut Column) {
+        if self.dof().is_finite() {
+            student::draw(self.mean, self.scale, self.dof(), stream, out);
+        } else {
+            normal::draw(self.mean, self.scale, stream, out);
+        }
+    }
+
+    fn moved_to(&self, estimate: f64) -> Result<Self, Invalid> {
+        Ok(Self { mean: finite("estimate", estimate)?, ..self.clone() })
+    }
+}

@@ -1,0 +1,360 @@
+//! Coverage regions of several outputs together (JCGM 102).
+//!
+//! By the law of propagation the outputs are jointly normal, with the covariance matrix U: the
+//! ellipsoid (y - x)' U^-1 (y - x) <= k_p^2 has the chi-squared quantile as k_p^2 (6.5.2), and the
+//! hyper-rectangle of half-lengths k_q u(y_j) holds at least p with the k_q of Bonferroni (6.5.3). From
+//! trials k_p and k_q are the p-quantiles of the distances and of the largest standardized deviations
+//! (7.7.2, 7.7.3), and the smallest region is made of the fullest cells of a mesh (7.7.4), whose axes
+//! here are those of the covariance matrix, so that narrow regions need no finer one.
+
+use std::collections::HashMap;
+
+use nalgebra::DMatrix;
+
+use super::monte_carlo::{Ranks, RowTrials, repeat};
+use super::validate::numerical_tolerance;
+use super::{Control, EvaluationError, RowEvaluation};
+use crate::linalg::{Eigen, packed};
+use crate::special;
+use crate::task::Task;
+
+/// Outputs that are covered together.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Region {
+    /// The outputs, by their numbers.
+    pub outputs: Vec<usize>,
+    /// The coverage probability; that of the settings unless given.
+    pub probability: Option<f64>,
+}
+
+/// The coverage regions of several outputs.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct RegionEvaluation {
+    /// The outputs, by their numbers.
+    pub outputs: Vec<usize>,
+    /// The coverage probability.
+    pub probability: f64,
+    /// By the law of propagation; `None` where an output has none.
+    pub gum: Option<JointRegion>,
+    /// From the trials; `None` without them, or where an output has no variance.
+    pub monte_carlo: Option<SampledRegion>,
+    /// The comparison of the two (clause 8).
+    pub validation: Option<RegionValidation>,
+}
+
+/// An ellipsoid and a hyper-rectangle about the estimates.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct JointRegion {
+    /// The estimates.
+    pub estimates: Vec<f64>,
+    /// The covariance matrix, row by row.
+    pub covariance: Vec<f64>,
+    /// k_p of the ellipsoid; `None` where the covariance matrix is singular.
+    pub ellipsoid_k: Option<f64>,
+    /// k_q of the hyper-rectangle.
+    pub box_k: f64,
+}
+
+/// The same from trials, and the smallest region.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct SampledRegion {
+    /// Estimates, covariance matrix and factors.
+    pub region: JointRegion,
+    /// How many trials they are from.
+    pub trials: u64,
+    /// The smallest region; `None` of many outputs, or where the covariance matrix is singular.
+    pub smallest: Option<SmallestRegion>,
+    /// Numerical standard error of the factor of the ellipsoid.
+    pub ellipsoid_error: Option<f64>,
+    /// Numerical standard error of the factor of the hyper-rectangle.
+    pub box_error: f64,
+    /// Numerical standard error of the volume of the smallest region.
+    pub volume_error: Option<f64>,
+    /// Some of the trials, one output after the other, for figures.
+    pub sample: Vec<Vec<f64>>,
+}
+
+/// The cells of a mesh that hold the probability with the least volume.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SmallestRegion {
+    /// How many.
+    pub cells: u64,
+    /// Their volume together, in the product of the outputs' units.
+    pub volume: f64,
+}
+
+/// Whether the law of propagation is confirmed (JCGM 102, clause 8).
+#[derive(Clone, Debug, PartialEq)]
+pub struct RegionValidation {
+    /// The moduli of the differences of estimates and of standard uncertainties, each with its
+    /// tolerance.
+    pub differences: Vec<[f64; 2]>,
+    /// That of the largest eigenvalues of the correlation matrices, with its tolerance.
+    pub eigenvalue: [f64; 2],
+    /// That of the factors k_p, with its tolerance.
+    pub ellipsoid: Option<[f64; 2]>,
+    /// Whether all are within.
+    pub gum_valid: bool,
+}
+
+/// Trials that distances are kept of, at most: two numbers each.
+const MOST_TRIALS: u64 = 8_000_000;
+
+/// Outputs that a mesh is made for, at most.
+const MOST_DIMENSIONS: usize = 8;
+
+/// Trials of a figure.
+const SHOWN: usize = 2000;
+
+/// The regions of a row, whose figures are known; `correlations` are those of the law of propagation.
+pub(super) fn regions(
+    task: &Task,
+    row: &RowEvaluation,
+    correlations: &[f64],
+    trials: &RowTrials,
+    control: &Control<'_>,
+) -> Result<Vec<RegionEvaluation>, EvaluationError> {
+    let usual = task.settings.coverage.probability();
+    let evaluate = |region: &Region| {
+        let probability = region.probability.unwrap_or(usual);
+        let gum = by_law(region, row, correlations, probability);
+        let monte_carlo = from_trials(region, row, trials, probability, control)?;
+        let validation = gum.as_ref().zip(monte_carlo.as_ref());
+        let validation = validation.map(|(gum, found)| compare(gum, found, task.settings.digits));
+        let outputs = region.outputs.clone();
+        Ok(RegionEvaluation { outputs, probability, gum, monte_carlo, validation })
+    };
+    task.regions.iter().map(evaluate).collect()
+}
+
+/// The coefficient of outputs i and j among those of all pairs of `count` outputs.
+fn coefficient(correlations: &[f64], count: usize, i: usize, j: usize) -> f64 {
+    if i == j {
+        return 1.0;
+    }
+    let (i, j) = (i.min(j), i.max(j));
+    let place = i * count - i * (i + 1) / 2 + (j - i - 1);
+    correlations.get(place).copied().unwrap_or(0.0)
+}
+
+/// The covariance matrix of a region's outputs; `None` where one has no standard uncertainty.
+fn covariance(
+    region: &Region,
+    row: &RowEvaluation,
+    correlations: &[f64],
+    uncertainty: impl Fn(usize) -> Option<f64>,
+) -> Option<Vec<f64>> {
+    let u: Vec<f64> = region.outputs.iter().map(|o| uncertainty(*o)).collect::<Option<_>>()?;
+    let count = row.outputs.len();
+    let mut matrix = Vec::with_capacity(u.len() * u.len());
+    for (a, i) in region.outputs.iter().enumerate() {
+        for (b, j) in region.outputs.iter().enumerate() {
+            // a constant output varies with none
+            let r = coefficient(correlations, count, *i, *j);
+            let r = if r.is_finite() { r } else { 0.0 };
+            matrix.push(r * u[a] * u[b]);
+        }
+    }
+    Some(matrix)
+}
+
+/// The Cholesky root of a covariance matrix as a packed triangle; `None` if it is singular.
+fn root(covariance: &[f64], order: usize) -> Option<Vec<f64>> {
+    let mut lower: Vec<f64> = (0..order)
+        .flat_map(|i| (0..=i).map(move |j| (i, j)))
+        .map(|(i, j)| covariance[i * order + j])
+        .collect();
+    packed::cholesky(&mut lower, 0.0).ok()?;
+    let definite = |i: usize| {
+        let pivot = lower[packed::triangle(i) + i];
+        pivot * pivot > 1e-12 * covariance[i * order + i]
+    };
+    (0..order).all(definite).then_some(lower)
+}
+
+fn by_law(
+    region: &Region,
+    row: &RowEvaluation,
+    correlations: &[f64],
+    probability: f64,
+) -> Option<JointRegion> {
+    let of = |output: usize| row.outputs.get(output)?.gum.as_ref();
+    let estimates: Option<Vec<f64>> =
+        region.outputs.iter().map(|o| Some(of(*o)?.estimate)).collect();
+    let uncertainty = |output: usize| Some(of(output)?.standard_uncertainty);
+    let covariance = covariance(region, row, correlations, uncertainty)?;
+    let order = region.outputs.len();
+    let ellipsoid_k = root(&covariance, order)
+        .map(|_| (2.0 * special::gamma::quantile(probability, 0.5 * order as f64)).sqrt());
+    // each interval alone holds 1 - (1 - p)/m, all together at least p
+    let outside = 0.5 * (1.0 - probability) / order as f64;
+    let box_k = -special::normal::quantile(outside);
+    Some(JointRegion { estimates: estimates?, covariance, ellipsoid_k, box_k })
+}
+
+fn from_trials(
+    region: &Region,
+    row: &RowEvaluation,
+    trials: &RowTrials,
+    probability: f64,
+    control: &Control<'_>,
+) -> Result<Option<SampledRegion>, EvaluationError> {
+    let of = |output: usize| row.outputs.get(output)?.monte_carlo.as_ref();
+    let uncertainty = |output: usize| of(output)?.standard_uncertainty;
+    let estimates: Option<Vec<f64>> = region.outputs.iter().map(|o| of(*o)?.estimate).collect();
+    let covariance = covariance(region, row, &row.correlations, uncertainty);
+    let (Some(estimates), Some(covariance), Some(made)) = (estimates, covariance, row.made())
+    else {
+        return Ok(None);
+    };
+    let order = region.outputs.len();
+    let root = root(&covariance, order);
+    let scales: Vec<f64> = (0..order).map(|i| covariance[i * order + i].sqrt()).collect();
+    if scales.contains(&0.0) {
+        return Ok(None);
+    }
+    let count = made.min(MOST_TRIALS);
+    let mut distances: Vec<f64> = Vec::new();
+    let mut deviations: Vec<f64> = Vec::new();
+    let mut mesh = Mesh::new(order, count);
+    let every = (count as usize).div_ceil(SHOWN).max(1);
+    let mut sample = vec![Vec::new(); order];
+    let mut number = 0;
+    let finished = repeat(trials, count, control, |block: &[Vec<f64>]| {
+        let columns: Vec<&[f64]> =
+            region.outputs.iter().map(|o| block.get(*o).map_or(&[][..], Vec::as_slice)).collect();
+        let length = columns.first().map_or(0, |column| column.len());
+        let mut off = vec![0.0; order];
+        for trial in 0..length {
+            let mut largest = 0.0_f64;
+            for (i, column) in columns.iter().enumerate() {
+                off[i] = column[trial] - estimates[i];
+                largest = largest.max((off[i] / scales[i]).abs());
+                if number % every == 0 {
+                    sample[i].push(column[trial]);
+                }
+            }
+            number += 1;
+            deviations.push(largest);
+            if let Some(root) = &root {
+                packed::solve(root, &mut off);
+                distances.push(off.iter().map(|z| z * z).sum::<f64>().sqrt());
+                mesh.add(&off);
+            }
+        }
+        Ok::<(), EvaluationError>(())
+    })?;
+    let trials = deviations.len() as u64;
+    if !finished || trials < 100 {
+        return Ok(None);
+    }
+    let (box_k, box_error) = quantile(&mut deviations, probability);
+    let ellipsoid = root.as_ref().map(|_| quantile(&mut distances, probability));
+    let size = root
+        .as_ref()
+        .map(|root| (0..order).map(|i| root[packed::triangle(i) + i]).product::<f64>());
+    let smallest = size.and_then(|size| mesh.smallest(probability, trials, size));
+    let ellipsoid_k = ellipsoid.map(|(k, _)| k);
+    Ok(Some(SampledRegion {
+        region: JointRegion { estimates, covariance, ellipsoid_k, box_k },
+        trials,
+        smallest: smallest.map(|(smallest, _)| smallest),
+        ellipsoid_error: ellipsoid.map(|(_, error)| error),
+        box_error,
+        volume_error: smallest.map(|(_, error)| error),
+        sample,
+    }))
+}
+
+/// The p-quantile of values by the rank of JCGM 101, 7.7, and its numerical standard error from the
+/// values a standard deviation of the rank below and above.
+fn quantile(values: &mut [f64], probability: f64) -> (f64, f64) {
+    values.sort_unstable_by(f64::total_cmp);
+    let count = values.len();
+    let rank = (Ranks::new(count as u64, probability).q as usize).clamp(1, count);
+    let spread = (count as f64 * probability * (1.0 - probability)).sqrt().ceil() as usize;
+    let at = |rank: usize| values[rank.clamp(1, count) - 1];
+    (at(rank), 0.5 * (at(rank + spread) - at(rank.saturating_sub(spread))))
+}
+
+/// Counts of trials in cells whose axes are those in which the outputs are uncorrelated with variance
+/// 1.
+struct Mesh {
+    /// Length of a cell's edges.
+    edge: f64,
+    order: usize,
+    counts: HashMap<u128, u64>,
+}
+
+impl Mesh {
+    /// Cells shrink with the trials so that both their width and the scatter of their counts do: the
+    /// rate of a histogram's best width.
+    fn new(order: usize, trials: u64) -> Self {
+        let edge = crate::number::elementary::pow(trials as f64, -1.0 / (order as f64 + 4.0));
+        Self { edge, order, counts: HashMap::new() }
+    }
+
+    fn add(&mut self, place: &[f64]) {
+        if self.order > MOST_DIMENSIONS {
+            return;
+        }
+        let cell = place.iter().fold(0, |cell: u128, z| {
+            let along = (z / self.edge).floor().clamp(-32_000.0, 32_000.0) as i16;
+            (cell << 16) | u128::from(along as u16)
+        });
+        *self.counts.entry(cell).or_insert(0) += 1;
+    }
+
+    /// The fullest cells that hold the probability; `size` is the volume of a unit cell in the outputs'
+    /// own units.
+    fn smallest(&self, probability: f64, trials: u64, size: f64) -> Option<(SmallestRegion, f64)> {
+        let mut counts: Vec<u64> = self.counts.values().copied().collect();
+        counts.sort_unstable_by(|a, b| b.cmp(a));
+        let wanted = probability * trials as f64;
+        let (mut held, mut cells, mut last) = (0, 0, 1);
+        for count in counts {
+            if held as f64 >= wanted {
+                break;
+            }
+            held += count;
+            cells += 1;
+            last = count;
+        }
+        let cell = size * crate::number::elementary::pow(self.edge, self.order as f64);
+        // what one more standard deviation of the held count costs in cells
+        let error = (wanted * (1.0 - probability)).sqrt() / last as f64 * cell;
+        let volume = cells as f64 * cell;
+        (cells > 0).then_some((SmallestRegion { cells, volume }, error))
+    }
+}
+
+fn compare(gum: &JointRegion, found: &SampledRegion, digits: u32) -> RegionValidation {
+    let (order, of_trials) = (gum.estimates.len(), &found.region);
+    let u = |of: &JointRegion, i: usize| of.covariance[i * order + i].sqrt();
+    let mut differences = Vec::with_capacity(2 * order);
+    for i in 0..order {
+        let tolerance = numerical_tolerance(u(gum, i), digits);
+        differences.push([(gum.estimates[i] - of_trials.estimates[i]).abs(), tolerance]);
+    }
+    for i in 0..order {
+        let tolerance = numerical_tolerance(u(gum, i), digits);
+        differences.push([(u(gum, i) - u(of_trials, i)).abs(), tolerance]);
+    }
+    let largest = |of: &JointRegion| {
+        let matrix = DMatrix::from_fn(order, order, |i, j| {
+            let scale = u(of, i) * u(of, j);
+            if scale > 0.0 { of.covariance[i * order + j] / scale } else { f64::from(i == j) }
+        });
+        Eigen::of(&matrix).values.into_iter().fold(0.0, f64::max)
+    };
+    let value = largest(gum);
+    let eigenvalue = [(value - largest(of_trials)).abs(), numerical_tolerance(value, digits)];
+    let factors = gum.ellipsoid_k.zip(of_trials.ellipsoid_k);
+    let ellipsoid = factors.map(|(a, b)| [(a - b).abs(), numerical_tolerance(a, digits)]);
+    let all = differences.iter().chain(std::iter::once(&eigenvalue)).chain(&ellipsoid);
+    let gum_valid = ellipsoid.is_some() && all.into_iter().all(|[d, tolerance]| d <= tolerance);
+    RegionValidation { differences, eigenvalue, ellipsoid, gum_valid }
+}

@@ -1,0 +1,169 @@
+//! The forms of calibration functions.
+
+use crate::model::{Node, Program};
+use crate::number::{Binary, Dual, Number};
+
+/// A function of one variable with parameters.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub enum Curve {
+    /// a + b (x - origin) + c (x - origin)^2 + ...
+    Polynomial {
+        /// The highest power.
+        degree: usize,
+        /// Where the powers count from.
+        origin: f64,
+    },
+    /// A program whose variables are x, then the parameters, and whose output is y.
+    Program(Program),
+}
+
+/// How many variables are differentiated by at a time.
+const AT_A_TIME: usize = 8;
+
+/// Halvings of the range before the root is made exact: after them it is known to 2e-5 of the range.
+const HALVINGS: usize = 16;
+
+/// Steps of Newton's method thereafter; three double the digits beyond all.
+const STEPS: usize = 4;
+
+/// Steps of a difference quotient, as a share of the range.
+const DIFFERENCE: f64 = 1e-5;
+
+impl Curve {
+    /// A polynomial of that degree in x itself; 1 is a straight line.
+    pub fn polynomial(degree: usize) -> Self {
+        Self::Polynomial { degree, origin: 0.0 }
+    }
+
+    /// How many parameters it has.
+    pub fn parameters(&self) -> usize {
+        match self {
+            Self::Polynomial { degree, .. } => degree + 1,
+            Self::Program(program) => program.variables().saturating_sub(1),
+        }
+    }
+
+    /// The curve's value at x.
+    pub fn value<T: Number>(&self, x: T, parameters: &[T]) -> T {
+        match self {
+            Self::Polynomial { origin, .. } => {
+                let x = if *origin == 0.0 { x } else { x - *origin };
+                let mut powers = parameters.iter().rev().copied();
+                let highest = powers.next().unwrap_or_else(|| T::constant(0.0));
+                powers.fold(highest, |sum, parameter| sum * x + parameter)
+            }
+            Self::Program(program) => {
+                let variables: Vec<T> =
+                    std::iter::once(x).chain(parameters.iter().copied()).collect();
+                let value = program.evaluate(&variables).pop();
+                value.unwrap_or_else(|| T::constant(f64::NAN))
+            }
+        }
+    }
+
+    /// The x in or near the range where the curve is y. Over the range the curve rises (`sign` 1) or
+    /// falls (`sign` -1). Where there is none it is not a number.
+    ///
+    /// A straight line has its own formula. Any other is found by halving the range, which tells all
+    /// trials alike, and Newton's steps, which also carry the exact derivatives.
+    pub fn inverse<T: Number>(&self, y: T, parameters: &[T], range: [f64; 2], sign: f64) -> T {
+        if let (Self::Polynomial { degree: 1, origin }, [a, b]) = (self, parameters) {
+            let x = (y - *a) / *b;
+            return if *origin == 0.0 { x } else { x + *origin };
+        }
+        let width = range[1] - range[0];
+        let (mut least, mut most) = (T::constant(range[0]), T::constant(range[1]));
+        for _ in 0..HALVINGS {
+            let middle = (least + most) * 0.5;
+            let missing = (y - self.value(middle, parameters)) * sign;
+            // 1 where the root lies above the middle
+            let above = T::constant(0.0).binary(Binary::Less, missing);
+            least = least + above * (middle - least);
+            most = middle + above * (most - middle);
+        }
+        let mut x = (least + most) * 0.5;
+        for _ in 0..STEPS {
+            x = x + (y - self.value(x, parameters)) / self.slope(x, parameters, width);
+        }
+        // no root, no number: far beyond the range the steps may end anywhere
+        let left = (y - self.value(x, parameters)).abs() / self.slope(x, parameters, width).abs();
+        x + (T::constant(1e-6 * width) - left).sqrt() * 0.0
+    }
+
+    /// The slope at x: of a program by a central difference, whose error of the order of the square
+    /// of its step slows Newton's method down by nothing that is seen.
+    fn slope<T: Number>(&self, x: T, parameters: &[T], width: f64) -> T {
+        match self {
+            Self::Polynomial { origin, .. } => {
+                let x = if *origin == 0.0 { x } else { x - *origin };
+                let mut terms =
+                    parameters.iter().enumerate().skip(1).rev().map(|(k, p)| *p * k as f64);
+                let highest = terms.next().unwrap_or_else(|| T::constant(0.0));
+                terms.fold(highest, |sum, term| sum * x + term)
+            }
+            Self::Program(_) => {
+                let step = DIFFERENCE * width;
+                let [above, below] = [x + step, x - step].map(|x| self.value(x, parameters));
+                (above - below) / (2.0 * step)
+            }
+        }
+    }
+}
+
+/// A program that is differentiated at many points: its nodes' values are kept from one to the next.
+#[derive(Clone, Debug)]
+pub(super) struct Differentiated<'p> {
+    program: &'p Program,
+    values: Vec<Dual<AT_A_TIME>>,
+    variables: Vec<f64>,
+}
+
+impl<'p> Differentiated<'p> {
+    pub(super) fn of(program: &'p Program) -> Self {
+        Self { program, values: Vec::new(), variables: vec![0.0; program.variables()] }
+    }
+
+    /// The value at x, the derivative by x, and those by the parameters.
+    pub(super) fn at(&mut self, x: f64, parameters: &[f64], each: &mut [f64]) -> (f64, f64) {
+        if let Some((first, rest)) = self.variables.split_first_mut() {
+            *first = x;
+            rest.copy_from_slice(parameters);
+        }
+        let (mut value, mut slope) = (f64::NAN, f64::NAN);
+        let Some(&output) = self.program.outputs.first() else { return (value, slope) };
+        for first in (0..self.variables.len()).step_by(AT_A_TIME) {
+            self.values.clear();
+            for node in &self.program.nodes {
+                let found = match *node {
+                    Node::Variable(v) => {
+                        let x = self.variables.get(v).copied().unwrap_or(0.0);
+                        match v.checked_sub(first) {
+                            Some(index) => Dual::variable(x, index),
+                            None => Dual::constant(x),
+                        }
+                    }
+                    Node::Constant(c) => Dual::constant(c),
+                    Node::Unary(operation, x) => self.values[x].unary(operation),
+                    Node::Binary(operation, x, y) => {
+                        self.values[x].binary(operation, self.values[y])
+                    }
+                };
+                self.values.push(found);
+            }
+            let found = self.values[output];
+            value = found.value;
+            for (index, derivative) in found.gradient.into_iter().enumerate() {
+                match (first + index).checked_sub(1) {
+                    None => slope = derivative,
+                    Some(parameter) => {
+                        if let Some(place) = each.get_mut(parameter) {
+                            *place = derivative;
+                        }
+                    }
+                }
+            }
+        }
+        (value, slope)
+    }
+}

@@ -1,0 +1,159 @@
+//! Why a curve cannot be fitted.
+
+use std::fmt;
+
+/// A coordinate of the points.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Coordinate {
+    /// The abscissae.
+    X,
+    /// The ordinates.
+    Y,
+    /// Covariances of the two.
+    Both,
+}
+
+impl fmt::Display for Coordinate {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::X => "x",
+            Self::Y => "y",
+            Self::Both => "x with y",
+        })
+    }
+}
+
+/// Why a curve cannot be fitted to points. `Display` gives a sentence without a capital; points count
+/// from 1 there.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum RegressionError {
+    /// Not as many numbers as points.
+    Length {
+        /// Of what.
+        coordinate: Coordinate,
+        /// How many there should be.
+        expected: usize,
+        /// How many there are.
+        found: usize,
+    },
+    /// A number that is infinite or none.
+    NotFinite {
+        /// Of what.
+        coordinate: Coordinate,
+        /// The point, from 0.
+        point: usize,
+    },
+    /// A variance that is not above zero.
+    NoVariance {
+        /// Of what.
+        coordinate: Coordinate,
+        /// The point, from 0.
+        point: usize,
+    },
+    /// A covariance matrix that is not positive definite.
+    NotDefinite {
+        /// Whose rows fail, if one coordinate's do.
+        coordinate: Option<Coordinate>,
+        /// The point up to which it is positive definite, from 0.
+        point: usize,
+    },
+    /// Fewer points than the curve needs.
+    TooFewPoints {
+        /// How many there are.
+        points: usize,
+        /// How many parameters the curve has.
+        parameters: usize,
+        /// Whether the uncertainties are to be found from the residuals too.
+        estimated: bool,
+    },
+    /// Fewer different abscissae than a polynomial has coefficients.
+    TooFewAbscissae {
+        /// How many there are.
+        different: usize,
+        /// How many coefficients the polynomial has.
+        parameters: usize,
+    },
+    /// Parameters that the points cannot tell from the others.
+    Dependent {
+        /// The parameter, from 0.
+        parameter: usize,
+    },
+    /// The uncertainties of abscissae are stated and those of ordinates are not.
+    OrdinatesUnknown,
+    /// The curve has no value at a point.
+    Undefined {
+        /// The point, from 0.
+        point: usize,
+    },
+    /// The iteration finds no smallest sum of squares.
+    NotConverged {
+        /// How many steps it took.
+        steps: usize,
+    },
+    /// The points lie on the curve, so that nothing tells their uncertainty.
+    NoScatter,
+}
+
+impl fmt::Display for RegressionError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Length { coordinate, expected, found } => {
+                write!(f, "{expected} numbers of {coordinate} are needed, but there are {found}")
+            }
+            Self::NotFinite { coordinate, point } => {
+                write!(f, "{coordinate} of point {} is not a finite number", point + 1)
+            }
+            Self::NoVariance { coordinate, point } => {
+                write!(f, "the uncertainty of {coordinate} of point {} is not above 0", point + 1)
+            }
+            Self::NotDefinite { coordinate: None, point } => write!(
+                f,
+                "the covariance of x and y of point {} is not below the product of their standard \
+                 uncertainties",
+                point + 1
+            ),
+            Self::NotDefinite { coordinate: Some(coordinate), point } => write!(
+                f,
+                "the covariance matrix is not positive definite: {coordinate} of point {} would be \
+                 known exactly, or better, from those before it",
+                point + 1
+            ),
+            Self::TooFewPoints { points, parameters, estimated: false } => {
+                write!(f, "{points} points cannot tell {parameters} parameters")
+            }
+            Self::TooFewPoints { points, parameters, estimated: true } => write!(
+                f,
+                "{points} points cannot tell {parameters} parameters and the scatter about the \
+                 curve; state the standard uncertainties of y, or take {} points or more",
+                parameters + 1
+            ),
+            Self::TooFewAbscissae { different, parameters } => write!(
+                f,
+                "x has {different} different value{}, but a curve with {parameters} coefficients \
+                 needs {parameters}",
+                if *different == 1 { "" } else { "s" }
+            ),
+            Self::Dependent { .. } => {
+                f.write_str("the points cannot tell all the parameters from each other")
+            }
+            Self::OrdinatesUnknown => f.write_str(
+                "the uncertainties of x are stated and those of y are not; state both, or neither",
+            ),
+            Self::Undefined { point } => {
+                write!(f, "the curve has no value at point {}", point + 1)
+            }
+            Self::NotConverged { steps } => write!(
+                f,
+                "no smallest sum of squares was found in {steps} steps; other values of `start` \
+                 may help"
+            ),
+            Self::NoScatter => f.write_str(
+                "the points lie exactly on the curve, so that their scatter tells no uncertainty; \
+                 state the standard uncertainties of y",
+            ),
+        }
+    }
+}
+
+impl std::error::Error for RegressionError {}

@@ -1,0 +1,66 @@
+//! A calibration function as formulas call it.
+
+use std::sync::Arc;
+
+use super::result::Regression;
+use crate::model::NumberForm;
+use crate::number::Number;
+use gumption_units::Unit;
+
+/// A fitted curve with the units of both sides: `line(x)` and `inverse(line, y)`.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct CurveFunction {
+    /// The fit.
+    pub fit: Arc<Regression>,
+    /// Unit of x.
+    pub x: Unit,
+    /// Unit of y.
+    pub y: Unit,
+    /// The parameters' names, `line.a`, with their units.
+    pub parameters: Vec<(String, Unit)>,
+    /// The numbers that formulas compute with.
+    pub form: NumberForm,
+}
+
+impl PartialEq for CurveFunction {
+    fn eq(&self, other: &Self) -> bool {
+        self.fit == other.fit && self.x == other.x && self.y == other.y
+    }
+}
+
+impl CurveFunction {
+    /// A fit whose points are in these units.
+    pub fn new(
+        fit: Arc<Regression>,
+        (x, y): (Unit, Unit),
+        parameters: Vec<(String, Unit)>,
+        form: NumberForm,
+    ) -> Self {
+        Self { fit, x, y, parameters, form }
+    }
+
+    /// The curve's value, or with `inverse` the x that belongs to a value, as the number of formulas;
+    /// so are the parameters, and `argument` is already in the unit of its side.
+    pub(crate) fn value<T: Number>(&self, argument: T, parameters: &[T], inverse: bool) -> T {
+        let own: Vec<T> = parameters
+            .iter()
+            .zip(&self.parameters)
+            .map(|(value, (_, unit))| match self.form {
+                NumberForm::Coherent if unit.factor() != 1.0 => *value / unit.factor(),
+                _ => *value,
+            })
+            .collect();
+        let (value, unit) = if inverse {
+            let sign = self.fit.direction().unwrap_or(f64::NAN);
+            (self.fit.curve.inverse(argument, &own, self.fit.points.range(), sign), &self.x)
+        } else {
+            (self.fit.curve.value(argument, &own), &self.y)
+        };
+        if self.form == NumberForm::Declared {
+            return value;
+        }
+        let scaled = if unit.factor() == 1.0 { value } else { value * unit.factor() };
+        if unit.offset() == 0.0 { scaled } else { scaled + unit.offset() }
+    }
+}

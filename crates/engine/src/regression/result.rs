@@ -1,0 +1,356 @@
+//! A fitted calibration function.
+
+use std::sync::Arc;
+
+use super::chebyshev::Chebyshev;
+use super::curve::{Curve, Differentiated};
+use super::degree::DegreeChoice;
+use super::error::RegressionError;
+use super::least_squares;
+use super::points::{Noise, Points};
+use super::solver::{Basis, Solver};
+use crate::special;
+
+/// Steps end where they change the parameters by so many standard uncertainties.
+const TOLERANCE: f64 = 1e-11;
+
+/// Residuals below this share of the ordinates are rounding.
+const NO_SCATTER: f64 = 1e-14;
+
+/// A curve fitted to points.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct Regression {
+    /// Its name.
+    pub name: String,
+    /// Its form.
+    pub curve: Curve,
+    /// The points.
+    pub points: Arc<Points>,
+    pub(super) noise: Arc<Noise>,
+    /// The parameters.
+    pub estimates: Vec<f64>,
+    /// Their covariance matrix, row by row.
+    covariance: Vec<f64>,
+    /// The same in the basis that the fit is made in.
+    pub(super) inner: Inner,
+    /// The weighted sum of squares of the residuals; with unit weights where nothing is stated.
+    pub chi2: f64,
+    /// Degrees of freedom: points less parameters.
+    pub dof: usize,
+    /// The common factor of the stated standard uncertainties that the residuals tell, if it is used:
+    /// where nothing is stated, the standard deviation of the residuals.
+    pub factor: Option<f64>,
+    /// The degrees that were compared, where the degree was chosen.
+    pub degrees: Vec<DegreeChoice>,
+}
+
+/// The parameters in the basis that the fit is made in, and their covariance matrix.
+#[derive(Clone, Debug)]
+pub(super) struct Inner {
+    pub(super) basis: Option<Chebyshev>,
+    pub(super) estimates: Vec<f64>,
+    covariance: Vec<f64>,
+}
+
+impl Regression {
+    /// Fits a curve; `start` are values near the parameters of a [`Curve::Program`].
+    ///
+    /// # Errors
+    /// Points that cannot be fitted, and why ([`RegressionError`]).
+    pub fn of(
+        name: &str,
+        curve: &Curve,
+        points: &Arc<Points>,
+        start: &[f64],
+    ) -> Result<Self, RegressionError> {
+        let noise = Arc::new(points.noise()?);
+        Self::with(name, curve, (points, noise), start)
+    }
+
+    /// The same where the covariances have been taken apart already.
+    pub(super) fn with(
+        name: &str,
+        curve: &Curve,
+        (points, noise): (&Arc<Points>, Arc<Noise>),
+        start: &[f64],
+    ) -> Result<Self, RegressionError> {
+        let (count, found) = (curve.parameters(), points.len());
+        let estimated = points.estimated;
+        if found < count + usize::from(estimated) {
+            return Err(RegressionError::TooFewPoints {
+                points: found,
+                parameters: count,
+                estimated,
+            });
+        }
+        if let Noise::Single { x, y, .. } = &*noise
+            && y.is_empty()
+            && !x.is_empty()
+        {
+            return Err(RegressionError::OrdinatesUnknown);
+        }
+        let mut different = points.x.clone();
+        different.sort_by(f64::total_cmp);
+        different.dedup();
+        if different.len() < count {
+            let different = different.len();
+            return Err(RegressionError::TooFewAbscissae { different, parameters: count });
+        }
+        drop(different);
+        let basis = match curve {
+            Curve::Polynomial { .. } => Some(Chebyshev::over(points.range(), count)),
+            Curve::Program(_) => None,
+        };
+        let mut solver = Solver::new(&noise, basis_of(curve, basis), count, estimated);
+        if basis.is_none() {
+            search(&mut solver, curve, points, start)?;
+        }
+        let chi2 = solver.fit(&points.x, &points.y, TOLERANCE)?;
+        let dof = found - count;
+        let factor = if estimated { Some((chi2 / dof as f64).sqrt()) } else { None };
+        let mut inner = least_squares::inverse_of_normal(&solver.solution.triangle, count);
+        if let Some(factor) = factor {
+            inner.iter_mut().for_each(|entry| *entry *= factor * factor);
+        }
+        let parameters = std::mem::take(&mut solver.parameters);
+        drop(solver);
+        let (estimates, covariance) = match (basis, curve) {
+            (Some(basis), Curve::Polynomial { origin, .. }) => {
+                let matrix = basis.to_powers(*origin);
+                (product(&matrix, &parameters), conjugated(&matrix, &inner, count))
+            }
+            _ => (parameters.clone(), inner.clone()),
+        };
+        Ok(Self {
+            name: name.to_owned(),
+            curve: curve.clone(),
+            points: Arc::clone(points),
+            noise,
+            estimates,
+            covariance,
+            inner: Inner { basis, estimates: parameters, covariance: inner },
+            chi2,
+            dof,
+            factor,
+            degrees: Vec::new(),
+        })
+    }
+
+    /// How many parameters there are.
+    pub fn count(&self) -> usize {
+        self.estimates.len()
+    }
+
+    /// A parameter.
+    pub fn estimate(&self, parameter: usize) -> f64 {
+        self.estimates[parameter]
+    }
+
+    /// The covariance of two parameters.
+    pub fn covariance(&self, first: usize, second: usize) -> f64 {
+        self.covariance[first * self.count() + second]
+    }
+
+    /// The standard uncertainty of a parameter.
+    pub fn standard_uncertainty(&self, parameter: usize) -> f64 {
+        self.covariance(parameter, parameter).sqrt()
+    }
+
+    /// The correlation coefficient of two parameters.
+    pub fn correlation(&self, first: usize, second: usize) -> f64 {
+        let product = self.standard_uncertainty(first) * self.standard_uncertainty(second);
+        (self.covariance(first, second) / product).clamp(-1.0, 1.0)
+    }
+
+    /// Degrees of freedom of the parameters' uncertainties: infinite where those of the points are
+    /// stated.
+    pub fn degrees_of_freedom(&self) -> f64 {
+        if self.factor.is_some() { self.dof as f64 } else { f64::INFINITY }
+    }
+
+    /// The probability of a sum of squares at least this large where the curve and the stated
+    /// uncertainties are right; `None` where there is nothing to compare.
+    pub fn p_value(&self) -> Option<f64> {
+        let tested = self.factor.is_none() && self.dof > 0;
+        tested.then(|| special::gamma::sf(0.5 * self.chi2, 0.5 * self.dof as f64))
+    }
+
+    /// Whether the points agree with the curve: the sum of squares is not above the 95 % quantile of
+    /// the chi-squared distribution.
+    pub fn is_valid(&self) -> Option<bool> {
+        self.p_value().map(|p| p >= 0.05)
+    }
+
+    /// The 95 % quantile of the chi-squared distribution of the degrees of freedom.
+    pub fn limit_of_chi2(&self) -> Option<f64> {
+        let tested = self.factor.is_none() && self.dof > 0;
+        tested.then(|| 2.0 * special::gamma::quantile(0.95, 0.5 * self.dof as f64))
+    }
+
+    /// Ordinates less the curve at the stated abscissae.
+    pub fn residuals(&self) -> Vec<f64> {
+        let points = self.points.x.iter().zip(&self.points.y);
+        points.map(|(x, y)| y - self.at(*x)).collect()
+    }
+
+    /// The curve at x.
+    pub fn at(&self, x: f64) -> f64 {
+        self.inner_at(x).0
+    }
+
+    /// The standard uncertainty of the curve at x.
+    pub fn uncertainty_at(&self, x: f64) -> f64 {
+        let each = self.inner_at(x).2;
+        quadratic(&each, &self.inner.covariance).sqrt()
+    }
+
+    /// Value, slope and derivatives at x, in the basis of the fit.
+    fn inner_at(&self, x: f64) -> (f64, f64, Vec<f64>) {
+        let mut each = vec![0.0; self.count()];
+        let (value, slope) = match &mut basis_of(&self.curve, self.inner.basis) {
+            Basis::Chebyshev(basis) => basis.at(x, &self.inner.estimates, &mut each),
+            Basis::Program(program) => program.at(x, &self.inner.estimates, &mut each),
+        };
+        (value, slope, each)
+    }
+
+    /// Whether residuals are there to tell an uncertainty, where none is stated.
+    pub fn has_scatter(&self) -> bool {
+        let largest = self.points.y.iter().fold(0.0, |largest: f64, y| largest.max(y.abs()));
+        match (self.factor, &self.points.of_y) {
+            (None, _) => true,
+            (Some(factor), super::Spread::None) => factor > NO_SCATTER * largest,
+            (Some(factor), _) => factor > 0.0,
+        }
+    }
+
+    /// Whether the curve rises (1) or falls (-1) all over the range of the points; otherwise an x
+    /// where it turns.
+    ///
+    /// # Errors
+    /// Where it turns, in the unit of x.
+    pub fn direction(&self) -> Result<f64, f64> {
+        const PLACES: usize = 400;
+        let [least, most] = self.points.range();
+        let at = |k: usize| least + (most - least) * (k as f64 / PLACES as f64);
+        let sign = (self.at(most) - self.at(least)).signum();
+        let turns = |k: &usize| self.inner_at(at(*k)).1 * sign < 0.0;
+        match (0..=PLACES).find(turns) {
+            Some(k) => Err(at(k)),
+            None => Ok(sign),
+        }
+    }
+
+    /// How much the standard uncertainty of the curve differs, relatively and at most over the range,
+    /// when it is computed from the coefficients of the powers: what they lose by rounding.
+    pub fn rounding(&self) -> f64 {
+        let Curve::Polynomial { origin, .. } = &self.curve else { return 0.0 };
+        let [least, most] = self.points.range();
+        let at = |share: f64| least + share * (most - least);
+        let count = self.count();
+        let worst = |x: f64| {
+            let powers: Vec<f64> =
+                std::iter::successors(Some(1.0), |p| Some(p * (x - origin))).take(count).collect();
+            let exact = self.uncertainty_at(x);
+            // the largest terms of the sum, times the rounding of each
+            let terms: f64 = powers
+                .iter()
+                .enumerate()
+                .map(|(k, power)| (power * self.standard_uncertainty(k)).powi(2))
+                .sum();
+            f64::EPSILON * terms / (exact * exact)
+        };
+        (0..=20).map(|k| worst(at(f64::from(k) / 20.0))).fold(0.0, f64::max)
+    }
+
+    /// Whether the parameters are linear in data that are normal, so that the joint normal or t
+    /// distribution of them is exact.
+    pub fn is_linear(&self) -> bool {
+        matches!(self.curve, Curve::Polynomial { .. }) && self.points.is_exact_in_x()
+    }
+
+    /// The memory of a fit to other points of the same uncertainty.
+    pub(super) fn solver(&self) -> Solver<'_> {
+        let basis = basis_of(&self.curve, self.inner.basis);
+        Solver::new(&self.noise, basis, self.count(), self.points.estimated)
+    }
+
+    /// Parameters in the basis of the fit as those of the curve.
+    pub(super) fn outer(&self, parameters: &[f64], powers: &[f64]) -> Vec<f64> {
+        if powers.is_empty() { parameters.to_vec() } else { product(powers, parameters) }
+    }
+
+    /// The matrix of [`Regression::outer`]; empty where nothing changes.
+    pub(super) fn powers(&self) -> Vec<f64> {
+        match (self.inner.basis, &self.curve) {
+            (Some(basis), Curve::Polynomial { origin, .. }) => basis.to_powers(*origin),
+            _ => Vec::new(),
+        }
+    }
+}
+
+impl PartialEq for Regression {
+    fn eq(&self, other: &Self) -> bool {
+        self.name == other.name
+            && self.estimates == other.estimates
+            && self.covariance == other.covariance
+            && (Arc::ptr_eq(&self.points, &other.points) || self.points == other.points)
+    }
+}
+
+fn basis_of(curve: &Curve, basis: Option<Chebyshev>) -> Basis<'_> {
+    match (curve, basis) {
+        (Curve::Program(program), _) => Basis::Program(Differentiated::of(program)),
+        (Curve::Polynomial { degree, .. }, basis) => {
+            let usual = || Chebyshev::over([-1.0, 1.0], degree + 1);
+            Basis::Chebyshev(basis.unwrap_or_else(usual))
+        }
+    }
+}
+
+/// The parameters of a formula, with x taken as exact and y as independent where they are not.
+fn search(
+    solver: &mut Solver<'_>,
+    curve: &Curve,
+    points: &Points,
+    start: &[f64],
+) -> Result<(), RegressionError> {
+    let variances = (0..points.len()).map(|i| points.uncertainty_of_y(i).map(|u| u * u));
+    let y: Vec<f64> = variances.map_while(|variance| variance).collect();
+    let independent = Noise::Single { x: Vec::new(), y, xy: Vec::new() };
+    let basis = basis_of(curve, None);
+    let mut first = Solver::new(&independent, basis, curve.parameters(), points.estimated);
+    for (parameter, start) in first.parameters.iter_mut().zip(start) {
+        *parameter = *start;
+    }
+    first.search(&points.x, &points.y)?;
+    solver.parameters.clone_from(&first.parameters);
+    Ok(())
+}
+
+/// A square matrix times a vector.
+fn product(matrix: &[f64], vector: &[f64]) -> Vec<f64> {
+    let rows = matrix.chunks_exact(vector.len().max(1));
+    rows.map(|row| crate::linalg::dot(row, vector)).collect()
+}
+
+/// M C M'.
+fn conjugated(matrix: &[f64], covariance: &[f64], count: usize) -> Vec<f64> {
+    let mut result = vec![0.0; count * count];
+    let rows: Vec<Vec<f64>> =
+        matrix.chunks_exact(count.max(1)).map(|row| product(covariance, row)).collect();
+    for (i, row) in rows.iter().enumerate() {
+        for j in 0..=i {
+            let entry = crate::linalg::dot(row, &matrix[j * count..(j + 1) * count]);
+            result[i * count + j] = entry;
+            result[j * count + i] = entry;
+        }
+    }
+    result
+}
+
+/// v' C v.
+fn quadratic(vector: &[f64], covariance: &[f64]) -> f64 {
+    crate::linalg::dot(vector, &product(covariance, vector)).max(0.0)
+}

@@ -1,0 +1,313 @@
+//! The smallest weighted sum of squares: Gauss and Newton's method with the true abscissae eliminated.
+//!
+//! About a guess of the parameters and of the true abscissae the condition that every true point lies
+//! on the curve is linear. Its misfits e = y - f - f'(x - x*) have the covariance matrix
+//! S = Vy - F' Vxy - Vyx F' + F' Vx F', and the change of the parameters is the generalized least
+//! squares of e; what it leaves corrects the abscissae. At the end the parameters' covariance matrix is
+//! the inverse of A' S^-1 A, A being the derivatives by the parameters (ISO/TS 28037, clauses 6 to 10
+//! are cases of it).
+
+use super::chebyshev::Chebyshev;
+use super::curve::Differentiated;
+use super::error::RegressionError;
+use super::least_squares::{self, Solution};
+use super::points::{Noise, Root};
+
+/// What parameters are coefficients of.
+#[derive(Clone, Debug)]
+pub(super) enum Basis<'p> {
+    Chebyshev(Chebyshev),
+    Program(Differentiated<'p>),
+}
+
+/// A column that is shorter than this share of itself once those before it are taken out depends on
+/// them.
+const DEPENDENT: f64 = 1e-11;
+
+/// Most steps of a fit.
+const MOST_STEPS: usize = 500;
+
+/// The damping that the search of a formula's parameters begins with, and that it ends at.
+const FIRST_DAMPING: f64 = 1e-3;
+const MOST_DAMPING: f64 = 1e18;
+
+/// The memory of a fit, and what stays the same from one set of points to the next.
+#[derive(Debug)]
+pub(super) struct Solver<'p> {
+    noise: &'p Noise,
+    basis: Basis<'p>,
+    count: usize,
+    /// Whether uncertainties are relative to each other only.
+    estimated: bool,
+    /// The true abscissae.
+    abscissae: Vec<f64>,
+    /// The parameters.
+    pub(super) parameters: Vec<f64>,
+    /// The root of the normal equations and the last step.
+    pub(super) solution: Solution,
+    /// Derivatives by the parameters, one column after the other, and the same whitened.
+    derivatives: Vec<f64>,
+    whitened: Vec<f64>,
+    misfits: Vec<f64>,
+    white_misfits: Vec<f64>,
+    slopes: Vec<f64>,
+    each: Vec<f64>,
+    root: Option<Root>,
+}
+
+impl<'p> Solver<'p> {
+    pub(super) fn new(noise: &'p Noise, basis: Basis<'p>, count: usize, estimated: bool) -> Self {
+        Self {
+            noise,
+            basis,
+            count,
+            estimated,
+            abscissae: Vec::new(),
+            parameters: vec![0.0; count],
+            solution: Solution::default(),
+            derivatives: Vec::new(),
+            whitened: Vec::new(),
+            misfits: Vec::new(),
+            white_misfits: Vec::new(),
+            slopes: Vec::new(),
+            each: vec![0.0; count],
+            root: None,
+        }
+    }
+
+    /// Whether one step is all that there is: the curve is linear in its parameters and x is exact.
+    pub(super) fn is_linear(&self) -> bool {
+        matches!(self.basis, Basis::Chebyshev(_)) && self.is_exact_in_x()
+    }
+
+    fn is_exact_in_x(&self) -> bool {
+        match self.noise {
+            Noise::Single { x, .. } => x.is_empty(),
+            Noise::Ordinates(_) => true,
+            Noise::Full { .. } => false,
+        }
+    }
+
+    /// Finds the parameters from those that are there; gives the weighted sum of squares. Steps end
+    /// where they change nothing by more than `tolerance` standard uncertainties.
+    pub(super) fn fit(
+        &mut self,
+        x: &[f64],
+        y: &[f64],
+        tolerance: f64,
+    ) -> Result<f64, RegressionError> {
+        self.abscissae.clear();
+        self.abscissae.extend_from_slice(x);
+        let (mut steps, linear) = (0, self.is_linear());
+        loop {
+            self.linearize(x, y)?;
+            self.whiten()?;
+            least_squares::solve(
+                &mut self.whitened,
+                &mut self.white_misfits,
+                DEPENDENT,
+                &mut self.solution,
+            )
+            .map_err(|parameter| RegressionError::Dependent { parameter })?;
+            let squares = self.left();
+            let ends = self.is_small(squares, tolerance);
+            for (parameter, step) in self.parameters.iter_mut().zip(&self.solution.parameters) {
+                *parameter += step;
+            }
+            steps += 1;
+            // a second step of a linear fit mends the rounding of the first
+            if (linear && steps == 2) || (ends && (steps > 1 || self.is_exact_in_x())) {
+                return Ok(squares);
+            }
+            if steps == MOST_STEPS || !squares.is_finite() {
+                return Err(RegressionError::NotConverged { steps });
+            }
+            if !self.is_exact_in_x() {
+                self.correct_abscissae(x);
+            }
+        }
+    }
+
+    /// What the last step leaves of the squares.
+    fn left(&self) -> f64 {
+        self.white_misfits.iter().skip(self.count).map(|misfit| misfit * misfit).sum()
+    }
+
+    /// Whether the last step is small: in standard uncertainties, or at the rounding of the
+    /// parameters.
+    fn is_small(&self, squares: f64, tolerance: f64) -> bool {
+        let points = self.white_misfits.len();
+        let spare = points.saturating_sub(self.count).max(1) as f64;
+        let scale = if self.estimated { (squares / spare).sqrt() } else { 1.0 };
+        // R times the step, which is what the step changes in units of the misfits
+        let moved: f64 =
+            self.white_misfits.iter().take(self.count).map(|change| change * change).sum();
+        let steps = self.parameters.iter().zip(&self.solution.parameters);
+        moved.sqrt() <= tolerance * scale
+            || steps.into_iter().all(|(parameter, step)| step.abs() <= 1e-13 * parameter.abs())
+    }
+
+    /// Misfits, slopes and derivatives at the parameters and abscissae.
+    fn linearize(&mut self, x: &[f64], y: &[f64]) -> Result<(), RegressionError> {
+        let n = x.len();
+        self.misfits.resize(n, 0.0);
+        self.slopes.resize(n, 0.0);
+        self.derivatives.resize(n * self.count, 0.0);
+        for point in 0..n {
+            let (at, parameters, each) = (self.abscissae[point], &self.parameters, &mut self.each);
+            let (value, slope) = match &mut self.basis {
+                Basis::Chebyshev(basis) => basis.at(at, parameters, each),
+                Basis::Program(program) => program.at(at, parameters, each),
+            };
+            if !(value.is_finite() && self.each.iter().all(|d| d.is_finite())) {
+                return Err(RegressionError::Undefined { point });
+            }
+            self.misfits[point] = y[point] - value - slope * (x[point] - at);
+            self.slopes[point] = slope;
+            for (k, derivative) in self.each.iter().enumerate() {
+                self.derivatives[k * n + point] = *derivative;
+            }
+        }
+        Ok(())
+    }
+
+    /// Derivatives and misfits in units in which the misfits are independent with variance 1.
+    fn whiten(&mut self) -> Result<(), RegressionError> {
+        let n = self.misfits.len();
+        self.whitened.clear();
+        self.whitened.extend_from_slice(&self.derivatives);
+        self.white_misfits.clear();
+        self.white_misfits.extend_from_slice(&self.misfits);
+        let columns = self.whitened.chunks_exact_mut(n.max(1));
+        let columns = columns.chain(std::iter::once(&mut self.white_misfits[..]));
+        match self.noise {
+            Noise::Single { x, y, xy } if x.is_empty() && y.is_empty() && xy.is_empty() => {}
+            Noise::Single { .. } => {
+                let slopes = &self.slopes;
+                let weights: Vec<f64> =
+                    (0..n).map(|i| 1.0 / self.noise.of_misfit(i, slopes[i]).sqrt()).collect();
+                for column in columns {
+                    for (entry, weight) in column.iter_mut().zip(&weights) {
+                        *entry *= weight;
+                    }
+                }
+            }
+            Noise::Ordinates(root) => columns.for_each(|column| root.solve(column)),
+            Noise::Full { x, y, xy } => {
+                let d = &self.slopes;
+                let entry = |i: usize, j: usize| {
+                    y[i * n + j] - d[i] * xy[i * n + j] - d[j] * xy[j * n + i]
+                        + d[i] * d[j] * x[i * n + j]
+                };
+                let root = Root::of(n, entry).map_err(|point| RegressionError::NotDefinite {
+                    coordinate: Some(super::Coordinate::Y),
+                    point,
+                })?;
+                columns.for_each(|column| root.solve(column));
+                self.root = Some(root);
+            }
+        }
+        Ok(())
+    }
+
+    /// The true abscissae that belong to the step.
+    fn correct_abscissae(&mut self, x: &[f64]) {
+        let n = x.len();
+        let mut left = std::mem::take(&mut self.misfits);
+        for (column, step) in self.derivatives.chunks_exact(n).zip(&self.solution.parameters) {
+            for (left, derivative) in left.iter_mut().zip(column) {
+                *left -= derivative * step;
+            }
+        }
+        match self.noise {
+            Noise::Single { x: variances, xy, .. } => {
+                for (i, left) in left.iter_mut().enumerate() {
+                    let (variance, slope) = (variances[i], self.slopes[i]);
+                    let weight = *left / self.noise.of_misfit(i, slope);
+                    let cross = xy.get(i).copied().unwrap_or(0.0);
+                    self.abscissae[i] = x[i] + (variance * slope - cross) * weight;
+                }
+            }
+            Noise::Ordinates(_) => {}
+            Noise::Full { x: variances, xy, .. } => {
+                if let Some(root) = &self.root {
+                    root.solve(&mut left);
+                    root.solve_transposed(&mut left);
+                }
+                for (i, x) in x.iter().enumerate() {
+                    let row = i * n..(i + 1) * n;
+                    let terms = variances[row.clone()].iter().zip(&xy[row]).zip(&self.slopes);
+                    let terms = terms.zip(&left);
+                    let change: f64 =
+                        terms.map(|(((v, c), slope), weight)| (v * slope - c) * weight).sum();
+                    self.abscissae[i] = x + change;
+                }
+            }
+        }
+        self.misfits = left;
+    }
+
+    /// The parameters of a curve that is not linear in them, by the method of Levenberg and Marquardt
+    /// from those that are there, with x taken as exact. What it finds [`Solver::fit`] makes exact.
+    pub(super) fn search(&mut self, x: &[f64], y: &[f64]) -> Result<(), RegressionError> {
+        let n = x.len();
+        self.abscissae.clear();
+        self.abscissae.extend_from_slice(x);
+        self.linearize(x, y)?;
+        self.whiten()?;
+        let sum = |misfits: &[f64]| misfits.iter().map(|misfit| misfit * misfit).sum::<f64>();
+        let (mut squares, mut damping) = (sum(&self.white_misfits), FIRST_DAMPING);
+        let mut lengths = vec![0.0_f64; self.count];
+        for _ in 0..MOST_STEPS {
+            let (columns, misfits) = (self.whitened.clone(), self.white_misfits.clone());
+            for (length, column) in lengths.iter_mut().zip(columns.chunks_exact(n)) {
+                *length = length.max(sum(column).sqrt());
+            }
+            let before = self.parameters.clone();
+            loop {
+                // the damping as further rows
+                let rows = n + self.count;
+                let mut damped = vec![0.0; rows * self.count];
+                for (k, column) in damped.chunks_exact_mut(rows).enumerate() {
+                    column[..n].copy_from_slice(&columns[k * n..(k + 1) * n]);
+                    column[n + k] = (damping.sqrt() * lengths[k]).max(f64::MIN_POSITIVE);
+                }
+                let mut right = misfits.clone();
+                right.resize(rows, 0.0);
+                let solved = least_squares::solve(&mut damped, &mut right, 0.0, &mut self.solution);
+                let moved: f64 = right.iter().take(self.count).map(|m| m * m).sum();
+                for (k, parameter) in self.parameters.iter_mut().enumerate() {
+                    *parameter = before[k] + self.solution.parameters.get(k).unwrap_or(&0.0);
+                }
+                let tried = solved.is_ok() && self.linearize(x, y).is_ok() && self.whiten().is_ok();
+                let found = sum(&self.white_misfits);
+                if tried && found <= squares {
+                    let ends = squares - found <= 1e-12 * squares && moved <= 1e-10 * squares;
+                    squares = found;
+                    damping *= 0.1;
+                    if ends || squares == 0.0 {
+                        return Ok(());
+                    }
+                    break;
+                }
+                damping *= 10.0;
+                if damping > MOST_DAMPING {
+                    // no step makes it smaller: this is the place, or rounding hides it
+                    self.parameters = before;
+                    return Ok(());
+                }
+            }
+        }
+        Err(RegressionError::NotConverged { steps: MOST_STEPS })
+    }
+}
+
+impl Noise {
+    /// The variance of a point's misfit where the curve has this slope.
+    #[inline]
+    fn of_misfit(&self, point: usize, slope: f64) -> f64 {
+        let Self::Single { x, y, xy } = self else { return 1.0 };
+        let of = |values: &Vec<f64>| values.get(point).copied().unwrap_or(0.0);
+        of(y) + slope * (slope * of(x) - 2.0 * of(xy))
+    }
+}

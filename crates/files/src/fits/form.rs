@@ -1,0 +1,265 @@
+//! The form of a calibration function: a polynomial of some degree, or a formula.
+
+use std::collections::HashMap;
+
+use super::super::DiagnosticKind;
+use super::super::json::{Json, Member};
+use super::super::object::Object;
+use super::super::scopes::report_formula;
+use super::super::value_text::{ValueOf, converted, with_unit};
+use gumption_engine::model::formula::{Formula, Scope, Typing, check_name};
+use gumption_engine::model::{NumberForm, Program, Recorder, Traced};
+use gumption_units::Unit;
+
+/// The variable of a formula.
+const VARIABLE: &str = "x";
+
+/// The highest degree.
+const MOST_DEGREE: f64 = 20.0;
+
+/// The form as written.
+pub(super) enum Form<'a> {
+    /// A polynomial of a degree; a straight line is one of degree 1.
+    Degree(usize),
+    /// A polynomial of the degree that the points ask for.
+    Automatic,
+    /// A formula of x and parameters, with its place.
+    Formula(Formula, &'a Member),
+}
+
+/// A formula as a program of x and its parameters.
+pub(super) struct Made {
+    pub(super) program: Program,
+    /// The parameters, `line.a`, with their units.
+    pub(super) parameters: Vec<(String, Unit)>,
+    /// Values near them.
+    pub(super) start: Vec<f64>,
+    /// What is to be known of their units.
+    pub(super) note: Option<String>,
+}
+
+impl<'a> Form<'a> {
+    pub(super) fn read(fit: &Object<'a>) -> Option<Self> {
+        let written = fit.get("form");
+        let text = match written {
+            Some(_) => fit.text("form")?,
+            None if fit.get("degree").is_some() => "polynomial",
+            None => "straight-line",
+        };
+        match (text, fit.get("degree")) {
+            ("straight-line", None) => Some(Self::Degree(1)),
+            ("polynomial", Some(member)) => degree(fit, member),
+            ("polynomial", None) => {
+                fit.report(DiagnosticKind::MissingKey { key: "degree", what: "a polynomial" });
+                None
+            }
+            (_, Some(member)) => {
+                let diagnostic =
+                    DiagnosticKind::OnlyWith { key: "degree", with: "\"form\": \"polynomial\"" };
+                fit.log.report(&member.key_span, diagnostic);
+                None
+            }
+            (text, None) => {
+                let member = written?;
+                let formula = Formula::parse(text);
+                match formula {
+                    Ok(formula) => Some(Self::Formula(formula, member)),
+                    Err(error) => {
+                        report_formula(fit.log, member, error);
+                        None
+                    }
+                }
+            }
+        }
+    }
+
+    /// The program of a formula; nothing of a polynomial. Outside `None` after a mistake.
+    #[allow(clippy::option_option)]
+    pub(super) fn curve(
+        &self,
+        (fit, fit_name): (&Object<'_>, &str),
+        x: &Unit,
+        y: &Unit,
+        numbers: NumberForm,
+    ) -> Option<Option<Made>> {
+        let Self::Formula(formula, member) = self else {
+            if let Some(start) = fit.get("start") {
+                let diagnostic =
+                    DiagnosticKind::OnlyWith { key: "start", with: "a formula as \"form\"" };
+                fit.log.report(&start.key_span, diagnostic);
+                return None;
+            }
+            return Some(None);
+        };
+        let start = Start::read(fit, formula, member)?;
+        // parameters without any unit are those of an empirical formula
+        let checked = numbers == NumberForm::Coherent && start.has_units;
+        let form = if checked { numbers } else { NumberForm::Declared };
+        let mut scope = Scope::new();
+        scope.define(VARIABLE, Typing::in_unit(x));
+        for (name, unit, _) in &start.parameters {
+            scope.define(name, if checked { Typing::in_unit(unit) } else { Typing::ANY });
+        }
+        let found = if checked { formula.check(&scope) } else { formula.check_names(&scope) };
+        let typing = match found {
+            Ok(typing) => typing,
+            Err(errors) => {
+                errors.into_iter().for_each(|error| report_formula(fit.log, member, error));
+                return None;
+            }
+        };
+        let name = || "y".to_owned();
+        if let Some(dimension) = typing.dimension.filter(|_| checked)
+            && dimension != y.dimension()
+        {
+            let diagnostic = DiagnosticKind::WrongDimension {
+                name: name(),
+                found: y.to_string(),
+                found_as: y.dimension().describe(),
+                expected: super::super::scopes::coherent(dimension),
+                expected_as: dimension.describe(),
+            };
+            fit.log.report(&member.value.span, diagnostic);
+            return None;
+        }
+        if let Err(misfit) = typing.reported_in(y)
+            && checked
+        {
+            let diagnostic =
+                DiagnosticKind::WrongScale { name: name(), unit: y.to_string(), misfit };
+            fit.log.report(&member.value.span, diagnostic);
+            return None;
+        }
+        let recorder = Recorder::default();
+        let units = std::iter::once((VARIABLE, x))
+            .chain(start.parameters.iter().map(|(name, unit, _)| (name.as_str(), unit)));
+        let values: HashMap<String, Traced<'_>> = units
+            .enumerate()
+            .map(|(number, (name, unit))| {
+                (name.to_owned(), form.taken(recorder.variable(number), unit))
+            })
+            .collect();
+        let value = match formula.record(&scope, &values) {
+            Ok(value) => form.given(value, y, typing),
+            Err(error) => {
+                report_formula(fit.log, member, error);
+                return None;
+            }
+        };
+        let program = recorder.program(1 + start.parameters.len(), &[value]);
+        let note = (numbers == NumberForm::Coherent && !start.has_units).then(|| {
+            format!(
+                "units are not checked in the formula of `{fit_name}`: it computes with x in {x} and \
+                 y in {y}, and its parameters are plain numbers; give those of `start` with units"
+            )
+        });
+        let note = note.filter(|_| !x.factors().is_empty() || !y.factors().is_empty());
+        let (mut parameters, mut values) = (Vec::new(), Vec::new());
+        for (name, unit, value) in start.parameters {
+            parameters.push((format!("{fit_name}.{name}"), unit));
+            values.push(value);
+        }
+        Some(Some(Made { program, parameters, start: values, note }))
+    }
+}
+
+fn degree<'a>(fit: &Object<'a>, member: &'a Member) -> Option<Form<'a>> {
+    match &member.value.value {
+        Json::Text(text) if text == "auto" => return Some(Form::Automatic),
+        Json::Text(text) => {
+            let diagnostic = DiagnosticKind::NotOneOf {
+                key: "degree".into(),
+                found: text.clone(),
+                allowed: vec!["auto".into(), "a whole number".into()],
+            };
+            fit.log.report(&member.value.span, diagnostic);
+            return None;
+        }
+        _ => {}
+    }
+    let found = fit.number("degree")?;
+    if found.fract() != 0.0 || !(1.0..=MOST_DEGREE).contains(&found) {
+        let range = "a whole number from 1 to 20";
+        let diagnostic = DiagnosticKind::OutOfRange { key: "degree".into(), found, range };
+        fit.log.report(&member.value.span, diagnostic);
+        return None;
+    }
+    Some(Form::Degree(found as usize))
+}
+
+/// Values near the parameters of a formula.
+struct Start {
+    parameters: Vec<(String, Unit, f64)>,
+    has_units: bool,
+}
+
+impl Start {
+    fn read(fit: &Object<'_>, formula: &Formula, form: &Member) -> Option<Self> {
+        let log = fit.log;
+        let Some(member) = fit.get("start") else {
+            let diagnostic =
+                DiagnosticKind::MissingKey { key: "start", what: "a fit with a formula" };
+            log.report(&form.key_span, diagnostic);
+            return None;
+        };
+        let object = Object::new(log, "`start`", &member.value, &member.key_span)?;
+        let used: Vec<&str> = formula.names().map(|(name, _)| name).collect();
+        let (mut parameters, mut has_units) = (Vec::new(), false);
+        for member in object.members() {
+            let name = &member.key;
+            let reason = match check_name(name) {
+                Err(error) => Some(error.to_string()),
+                Ok(()) if name == VARIABLE => Some("it is that of the variable".to_owned()),
+                Ok(()) if !used.contains(&name.as_str()) => {
+                    Some("the formula has no parameter of that name".to_owned())
+                }
+                Ok(()) => None,
+            };
+            if let Some(reason) = reason {
+                let name = name.clone();
+                log.report(&member.key_span, DiagnosticKind::BadName { name, reason });
+                return None;
+            }
+            let (unit, value) = match &member.value.value {
+                Json::Text(text) => {
+                    let read = with_unit(text).ok_or_else(|| DiagnosticKind::Value {
+                        key: name.clone(),
+                        found: text.clone(),
+                        reason: "a number with a unit is needed, such as `2 kN`".to_owned(),
+                    });
+                    let (_, unit) = log.value(&member.value.span, read)?;
+                    let parsed = Unit::parse(unit)
+                        .map_err(|error| DiagnosticKind::Unit { unit: unit.to_owned(), error });
+                    let unit = log.value(&member.value.span, parsed)?;
+                    has_units = true;
+                    let value =
+                        with_unit(text).map(|read| converted(read, &unit, ValueOf::Quantity));
+                    (unit, value.and_then(Result::ok)?)
+                }
+                _ => (Unit::one(), object.number(name)?),
+            };
+            parameters.push((name.clone(), unit, value));
+        }
+        if let Some((name, span)) = formula
+            .names()
+            .find(|(name, _)| *name != VARIABLE && !parameters.iter().any(|(p, ..)| p == name))
+        {
+            let reason = format!(
+                "`{name}` is neither `x` nor a parameter: each parameter has a value in `start`"
+            );
+            let error = gumption_engine::model::formula::FormulaError::Curve { reason, span };
+            report_formula(log, form, error);
+            return None;
+        }
+        if parameters.is_empty() {
+            member_has_none(fit, form);
+            return None;
+        }
+        Some(Self { parameters, has_units })
+    }
+}
+
+fn member_has_none(fit: &Object<'_>, form: &Member) {
+    let diagnostic = DiagnosticKind::NoValues { name: "start".into() };
+    fit.log.report(&form.key_span, diagnostic);
+}

@@ -1,0 +1,180 @@
+//! A coordinate of the points of a calibration function.
+
+use std::rc::Rc;
+
+use super::super::DiagnosticKind;
+use super::super::conditions::unit;
+use super::super::diagnostics::Collector;
+use super::super::folder::Folder;
+use super::super::json::{Json, Member};
+use super::super::keys;
+use super::super::object::Object;
+use super::super::table::{self, Table};
+use super::super::value_text::ValueOf;
+use super::super::width::Width;
+use super::matrix;
+use gumption_engine::regression::Spread;
+use gumption_units::Unit;
+
+/// The values of a coordinate in its unit, and their uncertainties.
+pub(super) struct Side {
+    pub(super) values: Vec<f64>,
+    pub(super) unit: Unit,
+    pub(super) spread: Spread,
+}
+
+/// The tables of a fit, each read once: both coordinates mostly are columns of one.
+#[derive(Default)]
+pub(super) struct Tables(Vec<(String, Rc<Table>)>);
+
+impl Tables {
+    fn read(
+        &mut self,
+        log: &Collector,
+        name: &str,
+        place: &std::ops::Range<usize>,
+        folder: Folder<'_>,
+        files: &mut Vec<(String, Vec<u8>)>,
+    ) -> Option<Rc<Table>> {
+        if let Some((_, known)) = self.0.iter().find(|(known, _)| known == name) {
+            return Some(Rc::clone(known));
+        }
+        let (table, bytes) = table::read(log, folder, name, place)?;
+        if files.iter().all(|(known, _)| known != name) {
+            files.push((name.to_owned(), bytes));
+        }
+        let table = Rc::new(table);
+        self.0.push((name.to_owned(), Rc::clone(&table)));
+        Some(table)
+    }
+}
+
+/// Reads the coordinate `name`; tables that were read are added to `files`.
+pub(super) fn read(
+    log: &Collector,
+    member: &Member,
+    name: &'static str,
+    (folder, tables): (Folder<'_>, &mut Tables),
+    files: &mut Vec<(String, Vec<u8>)>,
+) -> Option<Side> {
+    let what = if name == "x" { "`x` of a fit" } else { "`y` of a fit" };
+    let object = Object::new(log, what, &member.value, &member.key_span)?;
+    object.check_keys(keys::POINTS);
+    let unit = match object.get("unit") {
+        None => Unit::one(),
+        Some(_) => unit(&object, "unit")?,
+    };
+    let table = match object.get("file") {
+        None => None,
+        Some(member) => {
+            Some(tables.read(log, object.text("file")?, &member.value.span, folder, files)?)
+        }
+    };
+    let values = match (&table, object.get("values")) {
+        (Some(_), Some(second)) => {
+            let keys = "`values` and `file`";
+            let reason = format!("{keys} are given; one of them has the points");
+            let diagnostic = DiagnosticKind::Fit { name: name.to_owned(), reason };
+            log.report(&second.key_span, diagnostic);
+            return None;
+        }
+        (Some(table), None) => {
+            let column = match object.get("column") {
+                None => name,
+                Some(_) => object.text("column")?,
+            };
+            let place = object.get("column").or(object.get("file"));
+            let place = place.map_or(object.place(), |member| &member.value.span);
+            column_of(log, table, column, place)?
+        }
+        (None, _) => {
+            object.required("values")?;
+            object.values("values", &unit, ValueOf::Quantity)?
+        }
+    };
+    if values.is_empty() {
+        object.report(DiagnosticKind::NoValues { name: name.to_owned() });
+        return None;
+    }
+    let spread = spread(&object, name, &values, &unit, table.as_deref(), (folder, files))?;
+    Some(Side { values, unit, spread })
+}
+
+/// A column of a table.
+fn column_of(
+    log: &Collector,
+    table: &Table,
+    name: &str,
+    place: &std::ops::Range<usize>,
+) -> Option<Vec<f64>> {
+    let Some(column) = table.columns.iter().position(|column| column == name) else {
+        let reason = format!(
+            "`{}` has no column of that name; its columns are {}",
+            table.source.name,
+            table.columns.join(", ")
+        );
+        log.report(place, DiagnosticKind::Fit { name: name.to_owned(), reason });
+        return None;
+    };
+    Some(table.rows.iter().filter_map(|row| row.get(column).copied()).collect())
+}
+
+/// What is stated of the uncertainty.
+fn spread(
+    side: &Object<'_>,
+    name: &str,
+    values: &[f64],
+    unit: &Unit,
+    table: Option<&Table>,
+    (folder, files): (Folder<'_>, &mut Vec<(String, Vec<u8>)>),
+) -> Option<Spread> {
+    let log = side.log;
+    match (side.get("standard_uncertainty"), side.get("covariance")) {
+        (None, None) => Some(Spread::None),
+        (Some(_), Some(second)) => {
+            let reason = "`standard_uncertainty` and `covariance` are given; one of them is enough";
+            let (name, reason) = (name.to_owned(), reason.to_owned());
+            log.report(&second.key_span, DiagnosticKind::Fit { name, reason });
+            None
+        }
+        (None, Some(member)) => {
+            matrix::covariance(log, member, values.len(), folder, files).map(Spread::Joint)
+        }
+        (Some(member), None) => {
+            let squares = |of: Vec<f64>| Some(Spread::Each(of.iter().map(|u| u * u).collect()));
+            let column = |text: &str| {
+                table.filter(|table| table.columns.iter().any(|column| column == text))
+            };
+            let each = match &member.value.value {
+                Json::List(_) => {
+                    let each = side.values("standard_uncertainty", unit, ValueOf::Difference)?;
+                    if each.len() != values.len() {
+                        let reason = format!(
+                            "there are {} standard uncertainties for {} values",
+                            each.len(),
+                            values.len()
+                        );
+                        let diagnostic = DiagnosticKind::Fit { name: name.to_owned(), reason };
+                        log.report(&member.value.span, diagnostic);
+                        return None;
+                    }
+                    each
+                }
+                Json::Text(text) if column(text).is_some() => {
+                    column_of(log, column(text)?, text, &member.value.span)?
+                }
+                _ => {
+                    let width = Width::read(&member.value, name, "standard_uncertainty", unit);
+                    let width = log.value(&member.value.span, width)?;
+                    values.iter().map(|value| width.at(*value)).collect()
+                }
+            };
+            if let Some(point) = each.iter().position(|u| *u < 0.0) {
+                let (key, found) = ("standard_uncertainty".to_owned(), each[point]);
+                log.report(&member.value.span, DiagnosticKind::NotPositive { key, found });
+                return None;
+            }
+            squares(each)
+        }
+    }
+}

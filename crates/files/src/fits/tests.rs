@@ -1,0 +1,173 @@
+//! Calibration functions, complex quantities and regions from file to result.
+
+use std::path::Path;
+
+use crate::read_text;
+use gumption_engine::number::CodePath;
+use gumption_engine::propagate::gum::{Dof, Gum};
+use gumption_engine::propagate::{Control, Evaluation, evaluate, trial_hash};
+use gumption_engine::task::Task;
+
+fn read(text: &str) -> Task {
+    match read_text("test", text, Path::new(""), &[]) {
+        Ok(file) => file.task,
+        Err(diagnostics) => panic!("{diagnostics}"),
+    }
+}
+
+fn run(text: &str) -> Evaluation {
+    evaluate(&read(text), &Control::default()).unwrap()
+}
+
+fn gum(evaluation: &Evaluation, output: usize) -> &Gum {
+    evaluation.rows[0].outputs[output].gum.as_ref().unwrap()
+}
+
+fn near(found: f64, expected: f64, relative: f64) {
+    assert!((found / expected - 1.0).abs() < relative, "{found} {expected}");
+}
+
+/// A calibration of five standards, read three times, with nothing stated: GTC 1.5.1,
+/// `type_a.line_fit` and (0.0714 - a)/b, to the rounding of the sums.
+const LINE: &str = r#"{
+  "fits": {"cal": {
+    "x": {"unit": "mg/L", "values": [0, 0.1, 0.1, 0.1, 0.3, 0.3, 0.3, 0.5, 0.5, 0.5, 0.7, 0.7, 0.7, 0.9, 0.9]},
+    "y": {"values": [0.001, 0.028, 0.029, 0.029, 0.084, 0.083, 0.081, 0.135, 0.131, 0.133, 0.180, 0.181, 0.183, 0.215, 0.230]}}},
+  "inputs": {"A": {"distribution": "constant", "value": 0.0714}},
+  "equations": {"c0": "inverse(cal, A)", "a": "cal.a", "b": "cal.b", "back": "cal(c0)"},
+  "outputs": {"c0": {"unit": "ug/L"}, "a": {}, "b": {"unit": "L/mg"}, "back": {}},
+  "monte_carlo": {"trials": 100000}
+}"#;
+
+#[test]
+fn a_line_without_stated_uncertainties_is_that_of_gtc() {
+    let evaluation = run(LINE);
+    let expected = [
+        (264.244_962_051_818_85, 5.966_444_051_962_448),
+        (0.006_048_543_689_320_404, 0.002_303_155_169_607_570_5),
+        (0.247_313_915_857_605_18, 0.004_383_980_941_561_965_5),
+    ];
+    for (output, (estimate, uncertainty)) in expected.into_iter().enumerate() {
+        let gum = gum(&evaluation, output);
+        near(gum.estimate, estimate, 1e-12);
+        near(gum.standard_uncertainty, uncertainty, 1e-11);
+        assert!(matches!(gum.dof, Dof::Finite(dof) if (dof - 13.0).abs() < 1e-9), "{:?}", gum.dof);
+        // a multivariate t with 13 degrees of freedom: u is larger by sqrt(13/11), in 100,000 trials
+        // to 0.3 %; five standard errors
+        let trials = evaluation.rows[0].outputs[output].monte_carlo.as_ref().unwrap();
+        let ratio = trials.standard_uncertainty.unwrap() / uncertainty;
+        assert!((ratio / (13.0_f64 / 11.0).sqrt() - 1.0).abs() < 0.015, "{output} {ratio}");
+    }
+    // the curve at its inverse is the value again, in every trial
+    let back = evaluation.rows[0].outputs[3].monte_carlo.as_ref().unwrap();
+    assert!((back.estimate.unwrap() - 0.0714).abs() < 1e-12);
+    assert!(back.standard_uncertainty.unwrap() < 1e-12);
+}
+
+/// Parabola and formula: forward and inverse meet, and the derivatives of the inverse are those of the
+/// implicit function.
+#[test]
+fn inverses_of_curves() {
+    let points = r#""x": {"unit": "degC", "values": [0, 20, 40, 60, 80, 100]},
+        "y": {"unit": "ohm", "values": [100.01, 107.80, 115.53, 123.24, 130.91, 138.49], "standard_uncertainty": 0.02}"#;
+    for form in [
+        r#""form": "polynomial", "degree": 2"#.to_owned(),
+        r#""form": "polynomial", "degree": "auto""#.to_owned(),
+        r#""form": "r*(1 + a*(x/[degC]) + b*(x/[degC])^2)", "start": {"r": "100 ohm", "a": 0.004, "b": 0}"#
+            .to_owned(),
+    ] {
+        let text = format!(
+            r#"{{"fits": {{"q": {{{form}, {points}}}}},
+              "inputs": {{"R": {{"unit": "mohm", "distribution": "normal", "mean": 110000, "std": 5}}}},
+              "equations": {{"t": "inverse(q, R)", "back": "q(t) - R"}},
+              "outputs": {{"t": {{"unit": "degC"}}, "back": {{"unit": "ohm"}}}},
+              "monte_carlo": {{"trials": 20000}}}}"#
+        );
+        let evaluation = run(&text);
+        let (t, back) = (gum(&evaluation, 0), gum(&evaluation, 1));
+        assert!(back.estimate.abs() < 1e-9, "{form} {}", back.estimate);
+        assert!(back.standard_uncertainty < 1e-8, "{form} {}", back.standard_uncertainty);
+        // a linear model here: u of the trials is that of the law, to 0.5 % in 20,000 trials
+        let trials = evaluation.rows[0].outputs[0].monte_carlo.as_ref().unwrap();
+        near(trials.standard_uncertainty.unwrap(), t.standard_uncertainty, 0.025);
+        let back = evaluation.rows[0].outputs[1].monte_carlo.as_ref().unwrap();
+        assert!(back.standard_uncertainty.unwrap() < 1e-8, "{form}");
+    }
+}
+
+/// Trials of fits are the same bits on every path and on any number of threads.
+#[test]
+fn fits_of_trials_have_the_same_bits_everywhere() {
+    let uncertain = LINE
+        .replace("0.9, 0.9]}", r#"0.9, 0.9], "standard_uncertainty": 0.005}"#)
+        .replace("0.215, 0.230]}", r#"0.215, 0.230], "standard_uncertainty": 0.002}"#);
+    for text in [LINE, &uncertain] {
+        let task = read(text);
+        let hash = |path, threads| {
+            let control = Control::default().with_path(path).with_threads(threads);
+            trial_hash(&task, 5000, &control).unwrap()
+        };
+        let first = hash(CodePath::BASELINE, 1);
+        for path in CodePath::available() {
+            assert_eq!([hash(path, 1), hash(path, 3)], [first; 2], "{}", path.name());
+        }
+    }
+}
+
+/// GTC 1.5.1, `ucomplex`: z l^2/(1 - 0.1 i z) and the root of l in polar form.
+#[test]
+fn complex_quantities_are_those_of_gtc() {
+    let evaluation = run(r#"{"inputs": {
+          "z": {"complex": {"re": {"distribution": "normal", "mean": 0.012, "std": 0.005},
+                            "im": {"distribution": "normal", "mean": -0.004, "std": 0.005},
+                            "correlation": 0.3}},
+          "l": {"complex": {"modulus": {"distribution": "normal", "mean": 0.98, "std": 0.002},
+                            "phase": {"unit": "deg", "distribution": "rectangular", "mean": 35, "half_width": 0.5}}}},
+          "equations": {"g": "z*l^2/(1 - 0.1*i*z)", "r": "sqrt(l)", "one": "re(conj(l)*l)/abs(l)^2"},
+          "outputs": {"g": {"complex": "re-im"}, "r": {"complex": "polar", "phase_unit": "deg"}, "one": {}},
+          "monte_carlo": {"trials": 0}}"#);
+    let expected = [
+        (0.007_543_219_733_758_203, 0.004_321_806_928_216_755),
+        (0.009_528_728_288_429_43, 0.005_247_054_472_167_302),
+        (0.989_949_493_661_166_5, 0.001_010_152_544_552_210_9),
+        (17.5, 0.144_337_567_297_406_5),
+    ];
+    for (output, (estimate, uncertainty)) in expected.into_iter().enumerate() {
+        near(gum(&evaluation, output).estimate, estimate, 1e-13);
+        near(gum(&evaluation, output).standard_uncertainty, uncertainty, 1e-12);
+    }
+    near(evaluation.rows[0].correlations[0], -0.235_272_220_799_659_15, 1e-12);
+    assert!((gum(&evaluation, 4).estimate - 1.0).abs() < 1e-15);
+    assert!(gum(&evaluation, 4).standard_uncertainty < 1e-16);
+}
+
+/// y1 = x1 + x3 and y2 = x2 + x3 of standard normal quantities (as JCGM 102, 9.2): U has 2 and 1,
+/// k_p = sqrt(chi2_0.95(2)) = 2.4477, the box needs 2.2121 (the normal distribution function of two
+/// quantities with r = 0.5, SciPy), Bonferroni 2.2414, and the ellipse has the area
+/// pi k_p^2 sqrt(3) = 32.602. Of 200,000 trials the factors have numerical standard errors of 0.006, and
+/// the mesh costs a few parts in a hundred of the area.
+#[test]
+fn a_region_of_two_outputs() {
+    let normal = r#"{"distribution": "normal", "mean": 0, "std": 1}"#;
+    let evaluation = run(&format!(
+        r#"{{"inputs": {{"x1": {normal}, "x2": {normal}, "x3": {normal}}},
+          "equations": {{"y1": "x1 + x3", "y2": "x2 + x3"}},
+          "outputs": {{"y1": {{}}, "y2": {{}}}},
+          "regions": [{{"outputs": ["y1", "y2"], "probability": 0.95}}],
+          "monte_carlo": {{"trials": 200000, "digits": 1}}}}"#
+    ));
+    let region = &evaluation.rows[0].regions[0];
+    let gum = region.gum.as_ref().unwrap();
+    for (found, expected) in gum.covariance.iter().zip([2.0, 1.0, 1.0, 2.0]) {
+        near(*found, expected, 1e-12);
+    }
+    near(gum.ellipsoid_k.unwrap(), 2.447_746_830_680_816, 1e-12);
+    near(gum.box_k, 2.241_402_727_604_945, 1e-12);
+    let found = region.monte_carlo.as_ref().unwrap();
+    let error = found.ellipsoid_error.unwrap();
+    assert!(error < 0.02 && found.box_error < 0.02, "{error} {}", found.box_error);
+    assert!((found.region.ellipsoid_k.unwrap() - 2.447_746_8).abs() < 5.0 * error);
+    assert!((found.region.box_k - 2.212_127_7).abs() < 5.0 * found.box_error);
+    near(found.smallest.unwrap().volume, 32.601_943_76, 0.04);
+    assert!(region.validation.as_ref().unwrap().gum_valid);
+}

@@ -1,0 +1,80 @@
+//! The keys of calibration functions.
+
+use super::node::{With, object, reference, texts};
+use super::values::whole;
+use super::{Key, closed, described, keys, named, referenced, text_of};
+use serde_json::Value;
+
+pub(super) fn definitions() -> Vec<(String, Value)> {
+    let definitions = [
+        ("fits", named("Calibration functions by name, which formulas call.", reference("fit"))),
+        ("fit", closed("Points and the curve that is fitted to them.", FIT, &["x", "y"])),
+        ("points", closed("A coordinate of the points.", POINTS, &[])),
+    ];
+    definitions.into_iter().map(|(name, node)| (name.to_owned(), node)).collect()
+}
+
+/// Keys of a calibration function.
+pub(crate) const FIT: &[Key] = keys![
+    "form" => text_of(
+            "`straight-line` (unless given), `polynomial`, or a formula of x and parameters: \
+             `a + b*exp(-x/c)`.",
+        ),
+    "degree" => object([
+            ("description", Value::from("Degree of a polynomial; `auto` takes the one with the smallest AICc.")),
+            ("anyOf", Value::from(vec![whole("The degree.", 1, 20), object([("enum", texts(["auto"]))])])),
+        ]),
+    "origin" => referenced("value", "Where the powers of x count from; 0."),
+    "x" => referenced("points", "The abscissae."),
+    "y" => referenced("points", "The ordinates."),
+    "cross_covariance" => covariance(
+            "Covariances of x with y: of each point, or a matrix whose entry (i, j) is that of x i with \
+             y j.",
+        ),
+    "weights" => described(
+            "string",
+            "`estimated`: the uncertainties are relative to each other only, and the residuals tell \
+             their common factor.",
+        )
+        .with("enum", texts(["stated", "estimated"])),
+    "start" => described("object", "Values near the parameters of a formula, with their units: `2 kN`.")
+        .with("additionalProperties", reference("value")),
+    "about" => text_of("What it is, in words."),
+    "group" => text_of("A group of the budget, for subtotals."),
+];
+
+/// Keys of a coordinate.
+pub(crate) const POINTS: &[Key] = keys![
+    "unit" => reference("unit"),
+    "values" => referenced("values", "The values."),
+    "file" => referenced("file", "A CSV file with a header of names, in place of `values`."),
+    "column" => text_of("The column of the file; `x` or `y` unless given."),
+    "standard_uncertainty" => uncertainty(),
+    "covariance" => covariance("The covariance matrix, in squares of the unit."),
+    "about" => text_of("What it is, in words."),
+];
+
+fn uncertainty() -> Value {
+    let number = || object([("type", Value::from("number")), ("minimum", Value::from(0))]);
+    let list = object([("type", Value::from("array")), ("items", number())]);
+    let text =
+        text_of("A specification of each value, such as `0.1 % of reading + 2 uV`, or a column.");
+    object([
+        ("description", Value::from("Standard uncertainty of all values, or of each.")),
+        ("anyOf", Value::from(vec![number(), list, text])),
+    ])
+}
+
+fn covariance(about: &str) -> Value {
+    let number = || object([("type", Value::from("number"))]);
+    let row = || object([("type", Value::from("array")), ("items", number())]);
+    let entry = object([("anyOf", Value::from(vec![number(), row()]))]);
+    let list = object([("type", Value::from("array")), ("items", entry)]);
+    let file = closed("A table of numbers.", COVARIANCE_FILE, &["file"]);
+    object([("description", Value::from(about)), ("anyOf", Value::from(vec![list, file]))])
+}
+
+/// Keys of a covariance matrix in a file.
+pub(crate) const COVARIANCE_FILE: &[Key] = keys![
+    "file" => referenced("file", "A CSV file of numbers, with or without a header, or an .npy file."),
+];

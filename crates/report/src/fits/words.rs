@@ -1,0 +1,106 @@
+//! What is said of a calibration function.
+
+use super::factor;
+use super::json::own_name;
+use crate::number::{exact, significant};
+use crate::plain;
+use gumption_engine::regression::{Cross, Curve, CurveFunction, Spread};
+use gumption_engine::task::Coverage;
+
+/// The form, what it was fitted to, and how.
+pub(super) fn form(curve: &CurveFunction) -> String {
+    let fit = &*curve.fit;
+    let name = plain(&fit.name);
+    let points = &*fit.points;
+    let equation = match &fit.curve {
+        Curve::Polynomial { origin, .. } => {
+            let x =
+                if *origin == 0.0 { "x".to_owned() } else { format!("(x - {})", exact(*origin)) };
+            let term = |(power, (name, _)): (usize, &(String, gumption_units::Unit))| {
+                let name = own_name(name);
+                match power {
+                    0 => name.to_owned(),
+                    1 => format!("{name} {x}"),
+                    power => format!("{name} {x}^{power}"),
+                }
+            };
+            let terms: Vec<String> = curve.parameters.iter().enumerate().map(term).collect();
+            format!("{name}(x) = {}", terms.join(" + "))
+        }
+        _ => format!("{name}(x), a formula of the file"),
+    };
+    let [least, most] = points.range();
+    let unit = |unit: &gumption_units::Unit| match unit.text().trim() {
+        "" | "1" => String::new(),
+        text => format!(" {}", plain(text)),
+    };
+    let method = match (points.is_exact_in_x(), &points.of_y, &points.cross) {
+        (true, Spread::None, _) => {
+            "ordinary least squares, as nothing is stated of the uncertainty of y"
+        }
+        (true, Spread::Each(_), _) => "weighted least squares",
+        (true, Spread::Joint(_), _) => "generalized least squares with the covariance matrix of y",
+        (false, Spread::Joint(_), _) | (false, _, Cross::Joint(_)) => {
+            "generalized distance regression with the covariance matrices of x and y"
+        }
+        (false, _, Cross::Each(_)) => {
+            "generalized distance regression, x and y of each point being correlated"
+        }
+        (false, ..) => "generalized distance regression, x and y being uncertain",
+    };
+    format!(
+        "{equation}, fitted to {} points from x = {} to {}{} by {method}.",
+        points.len(),
+        exact(least),
+        exact(most),
+        unit(&curve.x)
+    )
+}
+
+/// Whether points, curve and uncertainties agree.
+pub(super) fn agreement(curve: &CurveFunction) -> String {
+    let fit = &*curve.fit;
+    match (fit.is_valid(), fit.limit_of_chi2(), fit.factor) {
+        (Some(valid), Some(limit), _) => format!(
+            "Chi-squared is {} with {} degrees of freedom, {} its 95 % quantile {} (p = {}): the points, \
+             the form of the curve and the stated uncertainties {}.",
+            significant(fit.chi2, 4),
+            fit.dof,
+            if valid { "not above" } else { "above" },
+            significant(limit, 4),
+            significant(fit.p_value().unwrap_or(f64::NAN), 2),
+            if valid { "agree" } else { "do not agree" }
+        ),
+        (_, _, Some(factor)) if fit.points.of_y == Spread::None => {
+            let unit = plain(curve.y.text());
+            format!(
+                "The standard deviation of the residuals is {}{} with {} degrees of freedom; it stands \
+                 for the uncertainty of y, so that nothing is left to test the form of the curve by.",
+                significant(factor, 3),
+                if unit.is_empty() || unit == "1" { String::new() } else { format!(" {unit}") },
+                fit.dof
+            )
+        }
+        (_, _, Some(factor)) => format!(
+            "The residuals make the stated uncertainties {} times as large, with {} degrees of freedom; \
+             nothing is left to test the form of the curve by.",
+            significant(factor, 3),
+            fit.dof
+        ),
+        _ => "The curve goes through all points, so that nothing tests its form.".to_owned(),
+    }
+}
+
+/// What a certificate may state of it.
+pub(super) fn statement(curve: &CurveFunction, coverage: Coverage) -> String {
+    let k = factor(curve, coverage);
+    let [least, most] = curve.fit.points.range();
+    format!(
+        "From x = {} to {} the calibration function has the expanded uncertainty U(x) = k u(x), with the \
+         coverage factor k = {}, where u(x)^2 is the sum of all covariances of the coefficients times \
+         the derivatives by both:",
+        exact(least),
+        exact(most),
+        significant(k, 3)
+    )
+}

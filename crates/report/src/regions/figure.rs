@@ -1,0 +1,105 @@
+//! Two outputs: trials, and the ellipse and the box of both methods.
+
+use plotters::element::{Circle, PathElement};
+use plotters::style::Color;
+
+use crate::html::{Drawing, WIDTH};
+use crate::plain;
+use crate::plot::{AFTER, Axis, BEFORE, Panel, WEAK, px, stroke, svg};
+use gumption_engine::number::elementary::sin_cos_turn;
+use gumption_engine::propagate::{JointRegion, RegionEvaluation};
+use gumption_engine::task::Task;
+
+/// Height in pixels.
+const TALL: f64 = 420.0;
+
+/// Corners of an ellipse as it is drawn.
+const CORNERS: usize = 180;
+
+/// The figure of a region of two outputs; `None` of more.
+pub(super) fn draw(task: &Task, region: &RegionEvaluation) -> Option<Drawing> {
+    let &[first, second] = region.outputs.as_slice() else { return None };
+    let quantities =
+        [first, second].map(|output| task.model.outputs.get(output).map(|o| &o.quantity));
+    let [Some(a), Some(b)] = quantities else { return None };
+    let found = region.monte_carlo.as_ref();
+    let sample: Vec<(f64, f64)> = match found.map(|found| found.sample.as_slice()) {
+        Some([x, y]) => x.iter().copied().zip(y.iter().copied()).collect(),
+        _ => Vec::new(),
+    };
+    let outlines: Vec<Outline> =
+        [region.gum.as_ref().map(|gum| (gum, BEFORE)), found.map(|found| (&found.region, AFTER))]
+            .into_iter()
+            .flatten()
+            .filter_map(|(of, colour)| {
+                Some(Outline { ellipse: ellipse(of)?, corners: corners(of), colour })
+            })
+            .collect();
+    if outlines.is_empty() {
+        return None;
+    }
+    let places = || {
+        let lines = outlines.iter().flat_map(|o| o.ellipse.iter().chain(&o.corners));
+        lines.chain(&sample).copied()
+    };
+    let over = |values: &mut dyn Iterator<Item = f64>| -> Option<Axis> {
+        let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+        values.for_each(|value| (low, high) = (low.min(value), high.max(value)));
+        let margin = 0.04 * (high - low);
+        (margin > 0.0 && margin.is_finite()).then(|| Axis::linear(low - margin, high + margin))
+    };
+    let (x, y) = (over(&mut places().map(|p| p.0))?, over(&mut places().map(|p| p.1))?);
+    let label = |quantity: &gumption_engine::model::Quantity| match quantity.unit.text().trim() {
+        "" | "1" => plain(&quantity.name),
+        text => format!("{} in {}", plain(&quantity.name), plain(text)),
+    };
+    let drawn = svg(WIDTH, TALL, |area| {
+        let panel =
+            Panel { x: (&x, label(a)), y: (&y, label(b)), marks: [8, 8], title: String::new() };
+        let chart = panel.draw(area)?;
+        let chart = chart.plotting_area();
+        for place in &sample {
+            chart.draw(&Circle::new(*place, px(1.0), WEAK.mix(0.5).filled()))?;
+        }
+        for Outline { ellipse, corners, colour } in &outlines {
+            chart.draw(&PathElement::new(ellipse.clone(), stroke(*colour, 2.0)))?;
+            chart.draw(&PathElement::new(corners.clone(), stroke(*colour, 1.0)))?;
+        }
+        Ok(())
+    });
+    let trials = if sample.is_empty() { "" } else { " Dots are some of the trials." };
+    let caption = format!(
+        "Coverage ellipse and box by the law of propagation (vermilion) and from the trials (blue).{trials}"
+    );
+    Some(Drawing { svg: drawn, caption })
+}
+
+struct Outline {
+    ellipse: Vec<(f64, f64)>,
+    corners: Vec<(f64, f64)>,
+    colour: plotters::style::RGBColor,
+}
+
+/// The ellipse: the root of the covariance matrix times a circle of radius k.
+fn ellipse(of: &JointRegion) -> Option<Vec<(f64, f64)>> {
+    let k = of.ellipsoid_k?;
+    let (&[a, b], &[aa, ab, _, bb]) = (of.estimates.as_slice(), of.covariance.as_slice()) else {
+        return None;
+    };
+    let first = aa.sqrt();
+    let common = ab / first;
+    let own = (bb - common * common).max(0.0).sqrt();
+    let place = |corner: usize| {
+        let (sin, cos) = sin_cos_turn(corner as f64 / CORNERS as f64);
+        (a + k * first * cos, b + k * (common * cos + own * sin))
+    };
+    Some((0..=CORNERS).map(place).collect())
+}
+
+fn corners(of: &JointRegion) -> Vec<(f64, f64)> {
+    let (&[a, b], &[aa, _, _, bb]) = (of.estimates.as_slice(), of.covariance.as_slice()) else {
+        return Vec::new();
+    };
+    let (da, db) = (of.box_k * aa.sqrt(), of.box_k * bb.sqrt());
+    vec![(a - da, b - db), (a + da, b - db), (a + da, b + db), (a - da, b + db), (a - da, b - db)]
+}
