@@ -11,7 +11,7 @@ use super::{CommandLine, Exit, Failure, progress, run, signals};
 use gumption_analysis::certificate::contents::Certificate as Asked;
 use gumption_analysis::certificate::{Failed, Issued, issue};
 use gumption_engine::propagate::{EvaluationError, warnings};
-use gumption_engine::task::{MethodChoice, Trials, Warning};
+use gumption_engine::task::{Trials, Warning};
 use gumption_files::{CertificateFile, Diagnostic, DiagnosticKind, Diagnostics};
 use gumption_report::certificate::{self as report, CertificateReport, ModelSource};
 
@@ -65,7 +65,6 @@ impl Certificate {
             let settings = &mut asked.task.settings;
             settings.seed = self.seed.or(settings.seed);
             settings.coverage = self.coverage.or(settings.coverage);
-            settings.method = settings.method.or(Some(MethodChoice::Auto));
             settings.quasi_otherwise = true;
             if let Some(trials) = self.trials {
                 settings.trials = trials;

@@ -2,6 +2,8 @@
 //! `tests/exact/bounds.py`, which computes the figures with 30 digits:
 //! `cargo run -p gumption-engine --example exact_models -- COUNT`.
 
+#![allow(clippy::print_stdout, clippy::disallowed_methods)]
+
 use gumption_engine::distribution::{
     Arcsine, CurvilinearTrapezoid, Distribution, Exponential, Gamma, Input, Normal, Rectangular,
     StudentT, Trapezoidal, Triangular,

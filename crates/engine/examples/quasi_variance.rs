@@ -1,6 +1,8 @@
 //! How many times smaller the variance of interval ends is with quasi-random points than with as many
 //! trials: `cargo run --release -p gumption-engine --example quasi_variance`.
 
+#![allow(clippy::print_stdout, clippy::disallowed_methods)]
+
 use gumption_engine::distribution::{Arcsine, Distribution, Input, Normal, Rectangular, StudentT};
 use gumption_engine::propagate::{Accuracy, Control, evaluate};
 use gumption_engine::task::{MethodChoice, Settings, Task, Trials};
