@@ -333,6 +333,13 @@ pub mod propagate {
     pub mod validate {
         pub use gumption_engine::propagate::validate::{Validation, numerical_tolerance, validate};
     }
+
+    /// A run on more than one machine: passes over ranges of blocks, made anywhere and put together.
+    pub mod parts {
+        pub use gumption_engine::propagate::parts::{
+            Damaged, Merged, Merging, NotShared, PartError, SharedPass, blocks,
+        };
+    }
 }
 
 /// What is to be evaluated: a model, what is known about its inputs in every row of conditions, and

@@ -76,6 +76,9 @@ def test_the_example() -> None:
         (lambda x, y: (x > y) + np.abs(y), "(x > y) + abs(y)"),
         (lambda x, y: np.square(x) + np.reciprocal(y), "x^2 + 1/y"),
         (lambda x, y: np.deg2rad(x), "x*pi/180"),
+        (lambda x, y: x**-2, "x^(-2)"),
+        (lambda x, y: x**0.5 + y ** (1 / 3), "x^(1/2) + y^(1/3)"),
+        (lambda x, y: x**0.1234567, "x^0.1234567"),
     ],
 )
 def test_formulas(function: Any, formula: str) -> None:
@@ -138,6 +141,14 @@ def test_dimensions_are_checked() -> None:
     wrong = gu.model(inputs={"l": "mm", "t": "s"}, outputs={"z": "m"})(lambda l, t: l + t)
     with pytest.raises(gu.ModelError, match="they cannot be added"):
         wrong(l=1.0, t=2.0)
+
+
+def test_exponents_of_quantities() -> None:
+    side = gu.model(inputs={"v": "mm^3"}, outputs={"a": "mm", "b": "1/mm"})(
+        lambda v: (v ** (1 / 3), np.power(v, -1 / 3))
+    )
+    result = side((8, 0.1)).run(trials=0)
+    assert math.isclose(result["a"].gum.estimate, 2) and math.isclose(result["b"].gum.estimate, 0.5)
 
 
 def test_an_object_given_twice_is_one_quantity() -> None:

@@ -33,6 +33,7 @@ mod one_number;
 mod other_distributions;
 mod outputs;
 mod own_program;
+mod parts;
 mod phases;
 mod planning;
 mod recordings;

@@ -18,6 +18,8 @@ pub enum Exit {
     No,
     /// A file was checked and found wrong; the mistakes are the answer.
     Wrong,
+    /// The parts of a run are put together, and another pass over its blocks is needed.
+    Again,
     /// Interrupted by a signal.
     Interrupted,
 }
@@ -28,6 +30,8 @@ impl Exit {
             Self::Done => 0,
             Self::Wrong => 2,
             Self::No => 3,
+            // EX_TEMPFAIL of sysexits.h: to be tried again
+            Self::Again => 75,
             Self::Interrupted => signals::exit_code(),
         })
     }

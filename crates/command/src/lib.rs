@@ -8,15 +8,18 @@ mod check;
 mod compare;
 mod diagnostics;
 mod diff;
+mod evaluated;
 mod exit;
 mod gap;
 mod gap_check;
 mod help;
+mod merge;
 mod models;
 mod new;
 mod observe;
 mod options;
 mod output;
+mod parts;
 mod plan;
 mod progress;
 mod replacement;
@@ -53,6 +56,8 @@ struct Arguments {
 enum Command {
     /// Evaluate a model file by GUM and by Monte Carlo and print its budget and intervals
     Run(run::Run),
+    /// Put the parts of a run together (`gumption run --blocks`), and give its answer
+    Merge(merge::Merge),
     /// Test the Type B assumptions of a model file: which matter, which the readings contradict
     Assumptions(assumptions::Assumptions),
     /// Make a calibration certificate from a certificate file and its models
@@ -121,7 +126,8 @@ impl CommandLine {
 
     /// Runs with the arguments of the process: says what is wrong on standard error, and ends with
     /// 0 (done), 1 (the system is at fault), 2 (the arguments or files are), 3 (done, and the answer
-    /// is "no" where `--fail` was given), or 130, 143 or 129 (interrupted, terminated, hung up).
+    /// is "no" where `--fail` was given), 75 (`merge`: another pass is needed), or 130, 143 or 129
+    /// (interrupted, terminated, hung up).
     pub fn main(&self) -> ExitCode {
         self.main_of(std::env::args_os())
     }
@@ -169,6 +175,7 @@ impl CommandLine {
     fn execute(&self, command: Command) -> Result<Exit, Failure> {
         match command {
             Command::Run(command) => command.execute(self),
+            Command::Merge(command) => command.execute(self),
             Command::Assumptions(command) => command.execute(self),
             Command::Certificate(command) => command.execute(self),
             Command::Check(command) => command.execute(self),

@@ -233,6 +233,11 @@ impl Model {
         Ok(given(&self.model, text, |path| files.model(path, replaced))??)
     }
 
+    /// Its path; `None` of standard input.
+    pub(super) fn path(&self) -> Option<&Path> {
+        Some(self.model.as_path()).filter(|path| *path != Path::new("-"))
+    }
+
     /// The paths of the file and of those that it names.
     pub(super) fn paths(&self, file: &ModelFile) -> Vec<PathBuf> {
         with_named(&self.model, file.files.iter().map(|(name, _)| name))

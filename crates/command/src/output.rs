@@ -154,7 +154,8 @@ pub(super) fn folder_of(path: &Path) -> &Path {
 }
 
 impl Destination {
-    fn open(path: &Path) -> Result<Self, Failure> {
+    /// Opens a file that the program names itself.
+    pub(super) fn open(path: &Path) -> Result<Self, Failure> {
         let sink = Sink::open(path).map_err(|error| failed(path, error))?;
         Ok(Self { path: path.to_owned(), sink })
     }

@@ -1,11 +1,11 @@
 //! `gumption run`
 
-use std::io::{self, Write};
 use std::path::PathBuf;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::AtomicBool;
 
 use clap::{Args, ValueEnum};
 
+<<<<<<< HEAD
 use super::exit::say;
 use super::options::{self, Answer, CoverageOption, Model, Page, Seed, Threads};
 use super::output::Place;
@@ -18,6 +18,15 @@ use gumption_engine::task::{MethodChoice, StoppingRule, Task, Trials, Warning};
 use gumption_files::ModelFile;
 use gumption_report as report;
 use gumption_report::{BudgetColumn, EvaluationReport, Provenance, Shown, TableStyle};
+=======
+use super::evaluated::Evaluated;
+use super::options::{self, CoverageOption, Model, Seed, Threads};
+use super::{CommandLine, Exit, Failure, parts, progress, signals};
+use gumption_engine::propagate::{Control, Evaluation, EvaluationError, evaluate};
+use gumption_engine::task::{StoppingRule, Task, Trials};
+use gumption_files::{ModelFile, SharedRun};
+use gumption_report::Provenance;
+>>>>>>> main
 
 /// Evaluate a model file.
 #[derive(Debug, Args)]
@@ -25,7 +34,7 @@ pub(super) struct Run {
     #[command(flatten)]
     model: Model,
     #[command(flatten)]
-    answer: Answer<Page>,
+    evaluated: Evaluated,
     #[command(flatten)]
     seed: Seed,
     /// Number of Monte Carlo trials; 0 for the GUM evaluation alone, `adaptive` for as many as the
@@ -60,26 +69,24 @@ pub(super) struct Run {
     /// Take the coverage factor at the real number of effective degrees of freedom
     #[arg(long, value_name = "real")]
     dof: Option<DofRule>,
-    /// More columns of the budget in a table: names with commas between them
-    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = options::columns())]
-    columns: Vec<BudgetColumn>,
-    /// Draw the distribution of each output below the table, with the coverage intervals
-    #[arg(long)]
-    histogram: bool,
-    /// Write a result file, from which inputs of other models can be taken
-    #[arg(long, value_name = "FILE")]
-    save: Option<PathBuf>,
-    /// Write the trials: a .csv or a .npy file
-    #[arg(long, value_name = "FILE", value_parser = save::samples)]
-    samples: Option<save::SampleFile>,
-    /// End with exit code 3 if clause 8 finds a GUM interval not valid, an output does not conform, or
-    /// that is undecided
-    #[arg(long)]
-    fail: bool,
+    /// Make a part of the run, for `gumption merge`: the blocks A to B - 1 of 1024 trials each, or the
+    /// K-th of N parts
+    #[arg(
+        long, value_name = "A..B|K/N", value_parser = parts::blocks, requires = "partial",
+        conflicts_with_all = ["output", "save", "samples", "histogram", "columns", "fail"]
+    )]
+    blocks: Option<parts::Blocks>,
+    /// Write that part to a file
+    #[arg(long, value_name = "FILE", requires = "blocks")]
+    partial: Option<PathBuf>,
+    /// Make the part of a later pass: the file `next-pass` of `gumption merge`
+    #[arg(long, value_name = "FILE", requires = "blocks")]
+    pass: Option<PathBuf>,
+    /// Make the run in parts that are kept in a folder; a run that was stopped goes on from those that
+    /// are there
+    #[arg(long, value_name = "DIR", conflicts_with_all = ["blocks", "samples"])]
+    resume: Option<PathBuf>,
 }
-
-/// Rows of conditions whose distributions are drawn in a terminal, at most.
-const MOST_DRAWN_ROWS: usize = 100;
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
 enum DofRule {
@@ -89,149 +96,39 @@ enum DofRule {
 impl Run {
     pub(super) fn execute(&self, program: &CommandLine) -> Result<Exit, Failure> {
         let file = self.model.read(program)?;
-        let text = &file.source.text;
         let mut task = file.task.clone();
         self.settings(&mut task);
         if self.rule.is_some() && task.settings.trials != Trials::Adaptive {
             let reason = "`--rule` is about adaptive runs; add `--trials adaptive`";
             return Err(Failure::Argument(reason.to_owned()));
         }
-        save::check(&task, self.save.as_deref(), self.samples.as_ref())?;
-        self.check_format(&task)?;
-        if self.fail && task.settings.trials == Trials::Fixed(0) {
-            let reason = "`--fail` has nothing to judge by without trials, but their number is 0";
-            return Err(Failure::Argument(reason.to_owned()));
-        }
-        let asked = [
-            ("--output", self.answer.output.as_deref()),
-            ("--save", self.save.as_deref()),
-            ("--samples", self.samples.as_ref().map(save::SampleFile::path)),
-        ];
-        let [answer, saved, samples] = output::open(asked, &self.model.paths(&file))?;
         let stop = signals::stop_flag();
-        let (evaluation, warnings) = self.evaluate(&file, &task, &stop)?;
-        let provenance = provenance(text, &file.files);
-        let report = EvaluationReport {
-            task: &task,
-            evaluation: &evaluation,
-            warnings: &warnings,
-            provenance: &provenance,
-        };
-        self.answer.say(&warnings);
         let control = self.control(&stop);
-        let histograms = self.histograms(&report, &control)?;
+        let shared = || {
+            let (path, set) = (self.model.path(), &self.model.replacements);
+            SharedRun::new(&file, path, set, &task.settings, self.memory)
+        };
+        let quiet = self.evaluated.answer.quiet;
+        if let (Some(blocks), Some(partial)) = (&self.blocks, &self.partial) {
+            let read = self.model.paths(&file);
+            let asked = parts::Asked { blocks, partial, pass: self.pass.as_deref(), read, quiet };
+            return parts::make(&file, &task, shared(), asked, &control);
+        }
+        self.evaluated.check(&task)?;
+        let places = self.evaluated.open(&self.model.paths(&file))?;
+        let (evaluation, quantiles) = match &self.resume {
+            Some(folder) => {
+                let asked = (folder.as_path(), self.evaluated.saves());
+                let found = parts::resume(&file, &task, shared(), asked, &control, quiet)?;
+                let Some((evaluation, quantiles)) = found else { return Ok(Exit::Interrupted) };
+                (*evaluation, quantiles)
+            }
+            None => (self.evaluate(&file, &task, &control)?, None),
+        };
         let replaced: Vec<String> =
             self.model.replacements.iter().map(|set| set.text.clone()).collect();
-        let shown = Shown {
-            columns: &self.columns,
-            histograms: &histograms,
-            replaced: &replaced,
-            model: text,
-        };
-        // what fails is told when all that can be written is
-        let saver = save::Saver { report: &report, control: &control };
-        let left = [
-            saved.map(|file| (file.path().to_owned(), saver.result(file))),
-            samples
-                .zip(self.samples.as_ref())
-                .map(|(file, asked)| (file.path().to_owned(), saver.samples(asked, file))),
-        ];
-        let place = answer.map_or(Place::StandardOutput, Place::File);
-        let format = self.answer.format;
-        let written = place.write_with(|out| write(format, &report, &shown, out));
-        let mut failures: Vec<Failure> = written.err().into_iter().collect();
-        for (path, left) in left.into_iter().flatten() {
-            match left {
-                Ok(true) => {}
-                Ok(false) => {
-                    let name = report::plain(&path.display().to_string());
-                    say(&format!("gumption: interrupted, `{name}` is not written\n"));
-                }
-                Err(failure) => failures.push(failure),
-            }
-        }
-        let mut failures = failures.into_iter();
-        if let Some(first) = failures.next() {
-            failures.for_each(|failure| say(&failure.to_string()));
-            return Err(first);
-        }
-        if evaluation.stopped || stop.load(Ordering::Relaxed) {
-            return Ok(Exit::Interrupted);
-        }
-        if self.fail { self.judged(&task, &evaluation) } else { Ok(Exit::Done) }
-    }
-
-    /// How a run with `--fail` ends: with "no" where clause 8 or the conformity of an output is
-    /// against it, or undecided.
-    fn judged(&self, task: &Task, evaluation: &Evaluation) -> Result<Exit, Failure> {
-        let judgements = judgements(task, evaluation);
-        if judgements.iter().all(|judgement| judgement.verdict.is_none()) {
-            let reason = "`--fail` has nothing to judge: no output has a GUM interval to compare \
-                          with, or tolerance limits";
-            return Err(Failure::Argument(reason.to_owned()));
-        }
-        let against: Vec<&Judgement> =
-            judgements.iter().filter(|of| of.verdict != Some(Verdict::Yes)).collect();
-        for judgement in against.iter().take(MOST_JUDGEMENTS) {
-            self.answer.note([judgement.text().as_str()]);
-        }
-        Ok(if against.is_empty() { Exit::Done } else { Exit::No })
-    }
-
-    /// Whether the answer can be given in the format that was asked for.
-    fn check_format(&self, task: &Task) -> Result<(), Failure> {
-        let refuse = |reason: &str| Err(Failure::Argument(reason.to_owned()));
-        let format = self.answer.format;
-        if format == Page::Xlsx && self.answer.is_terminal() {
-            return Err(options::workbook_in_terminal());
-        }
-        let results = task.rows.len().saturating_mul(task.model.outputs.len());
-        if format == Page::Xlsx && results > report::MOST_RESULTS {
-            return Err(Failure::Argument(format!(
-                "there are {results} results, but a workbook takes at most {}; take \
-                 `--format csv`, or evaluate fewer rows of conditions",
-                report::MOST_RESULTS
-            )));
-        }
-        if !self.histogram {
-            return Ok(());
-        }
-        if format != Page::Table {
-            return refuse(
-                "`--histogram` goes with `--format table`; `--format html` shows the distribution \
-                 without it",
-            );
-        }
-        if task.settings.trials == Trials::Fixed(0) {
-            return refuse("`--histogram` needs Monte Carlo trials, but their number is 0");
-        }
-        if task.rows.len() > MOST_DRAWN_ROWS {
-            return Err(Failure::Argument(format!(
-                "`--histogram` draws at most {MOST_DRAWN_ROWS} rows of conditions, but there are \
-                 {}; evaluate fewer of them",
-                task.rows.len()
-            )));
-        }
-        Ok(())
-    }
-
-    /// For each row the histograms of its outputs, where the answer shows them.
-    fn histograms(
-        &self,
-        report: &EvaluationReport<'_>,
-        control: &Control<'_>,
-    ) -> Result<Vec<Vec<Option<Histogram>>>, Failure> {
-        let EvaluationReport { task, evaluation, .. } = *report;
-        let rows = match self.answer.format {
-            Page::Html if evaluation.rows.len() == 1 => 1,
-            Page::Table if self.histogram => evaluation.rows.len(),
-            _ => 0,
-        };
-        let mut all = Vec::with_capacity(rows);
-        for row in 0..rows {
-            all.push(histograms(task, evaluation, row, control)?.unwrap_or_default());
-        }
-        Ok(all)
+        let found = (&file, &task, &evaluation, quantiles);
+        self.evaluated.give(found, &replaced, places, (&control, &stop))
     }
 
     /// The command line beats the file.
@@ -264,44 +161,18 @@ impl Run {
         &self,
         file: &ModelFile,
         task: &Task,
-        stop: &AtomicBool,
-    ) -> Result<(Evaluation, Vec<Warning>), Failure> {
+        control: &Control<'_>,
+    ) -> Result<Evaluation, Failure> {
         let rows = task.rows.len() as u64;
         let trials = match task.settings.trials {
             Trials::Fixed(trials) => Some(trials.saturating_mul(rows)),
             Trials::Adaptive => None,
         };
-        let bar = progress::bar(trials, self.answer.quiet);
+        let bar = progress::bar(trials, self.evaluated.answer.quiet);
         let advance = |trials: u64| bar.inc(trials);
-        let control = self.control(stop).with_progress(&advance);
-        let result = evaluate(task, &control);
+        let result = evaluate(task, &control.with_progress(&advance));
         bar.finish_and_clear();
-        let evaluation = result.map_err(|error| failure(file, error))?;
-        let mut notes = file.warnings.clone();
-        notes.extend(warnings(task, &evaluation));
-        Ok((evaluation, notes))
-    }
-}
-
-/// Writes the answer in a format.
-fn write(
-    format: Page,
-    report: &EvaluationReport<'_>,
-    shown: &Shown<'_>,
-    out: &mut dyn Write,
-) -> io::Result<()> {
-    match format {
-        Page::Table => {
-            let style = TableStyle { columns: shown.columns.to_vec(), ..TableStyle::default() };
-            report::write_table(report, &style, &mut *out)?;
-            out.write_all(report::histograms(report, shown).as_bytes())
-        }
-        Page::Json => report::write_json(report, out),
-        Page::Csv => report::write_csv(report, out),
-        Page::Markdown => out.write_all(report::markdown(report, shown).as_bytes()),
-        Page::Latex => out.write_all(report::latex(report, shown).as_bytes()),
-        Page::Html => out.write_all(report::html(report, shown).as_bytes()),
-        Page::Xlsx => out.write_all(&report::xlsx(report, shown)?),
+        result.map_err(|error| failure(file, error))
     }
 }
 
@@ -318,64 +189,4 @@ pub(super) fn failure(file: &ModelFile, error: EvaluationError) -> Failure {
 /// The digests of a file and of the tables that it reads.
 pub(super) fn provenance(text: &str, files: &[(String, Vec<u8>)]) -> Provenance {
     Provenance::of(text, files)
-}
-
-/// What `--fail` asks of an output, and the answer.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Verdict {
-    Yes,
-    No,
-    Undecided,
-}
-
-/// The answer for an output in a row; `None` where it could not be asked.
-struct Judgement {
-    output: String,
-    row: Option<usize>,
-    asked: &'static str,
-    verdict: Option<Verdict>,
-}
-
-impl Judgement {
-    fn text(&self) -> String {
-        let row = self.row.map_or(String::new(), |row| format!("row {}, ", row + 1));
-        let verdict = match self.verdict {
-            Some(Verdict::Yes) => "yes",
-            Some(Verdict::No) => "no",
-            Some(Verdict::Undecided) => "undecided",
-            None => "it could not be checked",
-        };
-        format!("--fail: {row}`{}`: {}: {verdict}", self.output, self.asked)
-    }
-}
-
-/// Judgements that are told, at most.
-const MOST_JUDGEMENTS: usize = 20;
-
-fn judgements(task: &Task, evaluation: &Evaluation) -> Vec<Judgement> {
-    let mut all = Vec::new();
-    for (number, row) in evaluation.rows.iter().enumerate() {
-        for (output, found) in task.model.outputs.iter().zip(&row.outputs) {
-            let judgement = |asked, verdict| Judgement {
-                output: output.quantity.name.clone(),
-                row: (evaluation.rows.len() > 1).then_some(number),
-                asked,
-                verdict,
-            };
-            let valid = found.validation.map(|validation| match validation.gum_valid {
-                Some(true) => Verdict::Yes,
-                Some(false) => Verdict::No,
-                None => Verdict::Undecided,
-            });
-            let conforms = found
-                .conformity
-                .as_ref()
-                .map(|conformity| if conformity.conforms { Verdict::Yes } else { Verdict::No });
-            all.push(judgement("is the GUM interval valid (clause 8)", valid));
-            if output.tolerance.is_some() {
-                all.push(judgement("does it conform", conforms));
-            }
-        }
-    }
-    all
 }

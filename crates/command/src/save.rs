@@ -60,6 +60,8 @@ pub(super) fn check(
 pub(super) struct Saver<'a> {
     pub(super) report: &'a EvaluationReport<'a>,
     pub(super) control: &'a Control<'a>,
+    /// The quantiles of the outputs, where they are known.
+    pub(super) quantiles: Option<&'a [Vec<f64>]>,
 }
 
 impl From<EvaluationError> for Failure {
@@ -83,7 +85,7 @@ impl From<EvaluationError> for BlockError {
 impl Saver<'_> {
     /// The result file; `false` if the run was stopped, and the file is as it was.
     pub(super) fn result(&self, file: Destination) -> Result<bool, Failure> {
-        let text = match report::saved_result(self.report, self.control) {
+        let text = match report::saved_result(self.report, self.quantiles, self.control) {
             Ok(Some(text)) => text,
             // the trials of a run that was stopped before the first one
             Ok(None) | Err(SaveError::NoTrials | SaveError::Rows) => return Ok(false),

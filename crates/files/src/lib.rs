@@ -52,6 +52,7 @@ pub mod schema;
 mod scopes;
 mod settings;
 mod shapes;
+mod shared_run;
 mod sharing;
 mod simulated;
 mod size;
@@ -83,6 +84,10 @@ pub use reader::{
 pub use recipe::{OpenedRow, RecipeCondition, RecipeFile, RecipeRow};
 pub use recording::Recording;
 pub use result_file::{ResultFile, SavedOutput};
+pub use shared_run::{
+    SharedFileError, SharedFileHeader, SharedFileKind, SharedModelError, SharedRun, shared_file,
+    shared_file_bytes,
+};
 pub use source::SourceText;
 pub use target::{read_drift, read_target};
 pub use variant::NotCopied;

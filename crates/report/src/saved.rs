@@ -92,12 +92,14 @@ impl From<EvaluationError> for SaveError {
 }
 
 /// The result file of a finished run, whose trials are made again for it ([`saved`]); `None` if that
-/// is stopped.
+/// is stopped. `known` are the quantiles of each output at [`Scores::WRITTEN`], where they are known
+/// already.
 ///
 /// # Errors
 /// [`SaveError`].
 pub fn saved_result(
     report: &EvaluationReport<'_>,
+    known: Option<&[Vec<f64>]>,
     control: &Control<'_>,
 ) -> Result<Option<String>, SaveError> {
     let EvaluationReport { task, evaluation, provenance, .. } = *report;
@@ -114,15 +116,17 @@ pub fn saved_result(
         }
     }
     let scores: Vec<f64> = Scores::WRITTEN.values().collect();
-    let Some(quantiles) = quantiles(task, evaluation, 0, &scores, control)? else {
-        return Ok(None);
+    let found = match known {
+        Some(_) => None,
+        None => quantiles(task, evaluation, 0, &scores, control)?,
     };
+    let Some(quantiles) = known.or(found.as_deref()) else { return Ok(None) };
     let Some(ranks) = joint_ranks(task, evaluation, 0, control)? else {
         return Ok(None);
     };
     let gums: Vec<_> = evaluated.outputs.iter().map(linear).collect();
     let origins = origins(task, row, &gums, &provenance.model_sha256);
-    Ok(Some(saved(report, &origins, &quantiles, &ranks)))
+    Ok(Some(saved(report, &origins, quantiles, &ranks)))
 }
 
 #[derive(Serialize)]

@@ -161,7 +161,8 @@ impl Run {
 
     /// The result file of the run, from which inputs of other models are taken.
     fn saved(&self, py: Python<'_>) -> PyResult<String> {
-        let found = self.made(py, |ran, control| report::saved_result(&ran.report(), control))?;
+        let found =
+            self.made(py, |ran, control| report::saved_result(&ran.report(), None, control))?;
         match found {
             Ok(Some(text)) => Ok(text),
             Ok(None) => Err(PyOSError::new_err("the run was stopped")),

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Callable, Iterable, Mapping
+from fractions import Fraction
 from typing import Any
 
 import numpy as np
@@ -281,7 +282,18 @@ def _binary(operator: str, first: Any, second: Any) -> Any:
         if not isinstance(value, Traced) and not np.isscalar(value) and not isinstance(value, np.ndarray):
             return NotImplemented
     operands = _operands([first, second])
+    if operator == "^" and not isinstance(second, Traced):
+        operands = (operands[0], _exponent(operands[0].tape, _number(second)))
     return Traced(operands[0].tape, operator, operands)
+
+
+def _exponent(tape: Tape, value: float) -> Traced:
+    """An exponent; a ratio of small numbers as such, because quantities have exact exponents only."""
+    ratio = Fraction(value).limit_denominator(24) if math.isfinite(value) else Fraction(0)
+    if ratio.denominator == 1 or float(ratio) != value:
+        return _literal(tape, value)
+    top, bottom = _literal(tape, ratio.numerator), _literal(tape, ratio.denominator)
+    return Traced(tape, "/", (top, bottom))
 
 
 def _call(name: str, values: list[Any]) -> Traced:

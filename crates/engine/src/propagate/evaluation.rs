@@ -235,8 +235,11 @@ pub fn joint(task: &Task, row: &Row) -> Result<Arc<Joint>, EvaluationError> {
 /// # Errors
 /// Contradictory correlations; more undefined trials than the settings allow.
 pub fn evaluate(task: &Task, control: &Control<'_>) -> Result<Evaluation, EvaluationError> {
-    in_pool(task, control, || evaluate_rows(task, control))?
+    in_pool(task, control, || evaluate_rows(task, control, &|_| None))?
 }
+
+/// The figures of a row's trials, where they are known already.
+pub(super) type Known<'k> = &'k (dyn Fn(usize) -> Option<monte_carlo::Finished> + Sync);
 
 /// Memory for the columns of all threads. Only models of tens of thousands of inputs or hundreds of
 /// outputs need so much on a machine of many cores.
@@ -269,15 +272,24 @@ pub fn in_pool<R: Send>(
 }
 
 /// Among how many rows at most the memory for kept values is divided.
-const ROWS_AT_A_TIME: usize = 16;
+pub(super) const ROWS_AT_A_TIME: usize = 16;
 
-fn evaluate_rows(task: &Task, control: &Control<'_>) -> Result<Evaluation, EvaluationError> {
+/// How the rows of a task share the memory; how is a matter of the task alone, so that no figure
+/// depends on the number of threads.
+pub(super) fn of_one_row<'c>(task: &Task, control: &Control<'c>) -> Control<'c> {
+    let memory = control.memory / task.rows.len().clamp(1, ROWS_AT_A_TIME);
+    Control { memory, ..*control }
+}
+
+/// Evaluates all rows, with the figures of trials that are known and those of others.
+pub(super) fn evaluate_rows(
+    task: &Task,
+    control: &Control<'_>,
+    known: Known<'_>,
+) -> Result<Evaluation, EvaluationError> {
     let reaches = reach(&task.model.program, task.variables.len());
     let gum = gum::Rows::of(task);
-    // rows are evaluated at the same time and share the memory; how is a matter of the task alone,
-    // so that no figure depends on the number of threads
-    let memory = control.memory / task.rows.len().clamp(1, ROWS_AT_A_TIME);
-    let control = &Control { memory, ..*control };
+    let control = &of_one_row(task, control);
     let notes = Mutex::new(Notes::default());
     // every row has its slot from the start: a million of them are not to be held twice
     let mut rows: Vec<Option<Result<RowEvaluation, EvaluationError>>> = Vec::new();
@@ -288,7 +300,7 @@ fn evaluate_rows(task: &Task, control: &Control<'_>) -> Result<Evaluation, Evalu
             let rows = rows.par_iter().zip(linear).enumerate();
             slots.par_iter_mut().zip(rows).for_each(|(slot, (number, (row, linear)))| {
                 let row = (chunk * COLUMN + number, row, linear);
-                *slot = Some(evaluate_row(task, row, &reaches, control, &notes));
+                *slot = Some(evaluate_row(task, row, &reaches, control, (known, &notes)));
             });
         },
     );
@@ -336,11 +348,11 @@ fn evaluate_row(
     (number, row, mut linear): (usize, &Row, GumRow),
     reaches: &[Vec<bool>],
     control: &Control<'_>,
-    notes: &Mutex<Notes>,
+    (known, notes): (Known<'_>, &Mutex<Notes>),
 ) -> Result<RowEvaluation, EvaluationError> {
     let joint = joint(task, row)?;
     let mut gums = std::mem::take(&mut linear.outputs);
-    let drawn_dof: Vec<f64> = reaches.iter().map(|reach| fewest_dof(reach, row)).collect();
+    let drawn_dof = drawn_dof(reaches, row);
     let mut result = RowEvaluation {
         conditions: row.conditions.clone(),
         outputs: Vec::with_capacity(gums.len()),
@@ -358,8 +370,10 @@ fn evaluate_row(
     let mut figures: Vec<Option<MonteCarlo>> = vec![None; gums.len()];
     let mut stopped = false;
     if task.settings.trials != Trials::Fixed(0) {
-        let mut trials = monte_carlo::RowTrials::new(task, row, &linear.estimates, &joint);
-        let finished = decided(task, &mut trials, &gums, &drawn_dof, control);
+        let finished = known(number).unwrap_or_else(|| {
+            let mut trials = monte_carlo::RowTrials::new(task, row, &linear.estimates, &joint);
+            decided(task, &mut trials, &gums, &drawn_dof, control)
+        });
         stopped = finished.stopped;
         if let Some(undefined) = finished.undefined {
             if undefined.count as f64 > task.settings.allowed_undefined * undefined.trials as f64 {
@@ -494,30 +508,21 @@ pub(super) fn differs_from_linear(gum: &Gum, figures: &MonteCarlo) -> bool {
 const FURTHER: u64 = 4;
 
 /// The Monte Carlo run of a row, and runs of more trials while clause 8 is undecided.
-fn decided(
+pub(super) fn decided(
     task: &Task,
     trials: &mut monte_carlo::RowTrials,
     gums: &[Option<Gum>],
     drawn_dof: &[f64],
     control: &Control<'_>,
 ) -> monte_carlo::Finished {
-    let settings = &task.settings;
+    let probability = task.settings.coverage.probability();
     let mut finished = run(task, trials, gums, drawn_dof, control);
     let mut count = Settings::USUAL_TRIALS;
-    if settings.trials != Trials::Fixed(count) {
-        return finished;
-    }
-    let most = settings.decide_up_to / task.rows.len().max(1) as u64;
-    let is_open = |finished: &monte_carlo::Finished| {
-        let pairs = gums.iter().zip(&finished.outputs);
-        pairs
-            .filter_map(|(gum, figures)| validate(gum.as_ref()?, figures, settings.digits))
-            .any(|validation| validation.gum_valid.is_none())
-    };
-    while count.saturating_mul(FURTHER) <= most && is_open(&finished) && !control.is_stopped() {
-        count *= FURTHER;
-        let request =
-            Request { trials: count, probability: settings.coverage.probability(), drawn_dof };
+    while let Some(further) = goes_on(task, gums, &finished, count)
+        && !control.is_stopped()
+    {
+        count = further;
+        let request = Request { trials: count, probability, drawn_dof };
         let more = monte_carlo::run(trials, request, &Control { progress: None, ..*control });
         // what was counted before is whole
         if more.stopped {
@@ -527,6 +532,26 @@ fn decided(
         finished = more;
     }
     finished
+}
+
+/// With how many trials a run of `count` of them goes on, because clause 8 is undecided.
+pub(super) fn goes_on(
+    task: &Task,
+    gums: &[Option<Gum>],
+    finished: &monte_carlo::Finished,
+    count: u64,
+) -> Option<u64> {
+    let settings = &task.settings;
+    let most = settings.decide_up_to / task.rows.len().max(1) as u64;
+    let further = count.saturating_mul(FURTHER);
+    if settings.trials != Trials::Fixed(Settings::USUAL_TRIALS) || further > most {
+        return None;
+    }
+    let pairs = gums.iter().zip(&finished.outputs);
+    let is_open = pairs
+        .filter_map(|(gum, figures)| validate(gum.as_ref()?, figures, settings.digits))
+        .any(|validation| validation.gum_valid.is_none());
+    is_open.then_some(further)
 }
 
 /// The Monte Carlo run of a row, of a fixed or an adaptive number of trials.
@@ -570,8 +595,13 @@ fn run(
     finished
 }
 
+/// For each output the fewest degrees of freedom among the t distributions that it depends on.
+pub(super) fn drawn_dof(reaches: &[Vec<bool>], row: &Row) -> Vec<f64> {
+    reaches.iter().map(|reach| fewest_dof(reach, row)).collect()
+}
+
 /// For each output, the variables that it depends on.
-fn reach(program: &Program, variables: usize) -> Vec<Vec<bool>> {
+pub(super) fn reach(program: &Program, variables: usize) -> Vec<Vec<bool>> {
     program
         .reach()
         .into_iter()

@@ -1,10 +1,6 @@
 //! Moments of the trials from their sums.
 
-use std::borrow::Borrow;
-
 use super::plan::Reference;
-use super::products::Products;
-use super::shortest_scatter::BATCHES;
 use super::sums::Sums;
 
 /// Mean, standard deviation and shape of one output's trials.
@@ -53,63 +49,12 @@ impl Moments {
     }
 }
 
-/// One output's sums: of all trials, and of some groups of them.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Parts {
-    pub(super) trials: u64,
-    total: Sums,
-    groups: Vec<(u64, Sums)>,
-}
-
-impl Parts {
-    /// From the chunks of the trials in order, each with the number of its trials.
-    pub(super) fn of<'s>(chunks: impl Iterator<Item = (u64, &'s Sums)>) -> Self {
-        let chunks: Vec<(u64, &Sums)> = chunks.collect();
-        let mut parts = Self::default();
-        for (trials, sums) in chunks.iter().filter(|(trials, _)| *trials > 0) {
-            parts.trials += trials;
-            parts.total.merge(sums);
-        }
-        for group in chunks.chunks(chunks_in_group(chunks.len())) {
-            let mut own = (0, Sums::default());
-            for (trials, sums) in group.iter().filter(|(trials, _)| *trials > 0) {
-                own.0 += trials;
-                own.1.merge(sums);
-            }
-            parts.groups.push(own);
-        }
-        parts
-    }
-
-    /// The moments of all trials, with the errors that the scatter of the groups gives.
-    pub(super) fn moments(&self, reference: Reference) -> Moments {
-        let all = Moments::new(self.trials, reference, &self.total);
-        let of_group = |group: &(u64, Sums)| {
-            let moments = Moments::new(group.0, reference, &group.1);
-            [moments.skewness, moments.excess_kurtosis]
-        };
-        let shapes: Vec<(u64, [f64; 2])> =
-            self.groups.iter().map(|group| (group.0, of_group(group))).collect();
-        let pooled = [all.skewness, all.excess_kurtosis];
-        let [skewness, kurtosis] = [0, 1].map(|which| {
-            let figures = shapes.iter().map(|(trials, shape)| (*trials, shape[which]));
-            group_error(&figures.collect::<Vec<_>>(), pooled[which])
-        });
-        Moments { shape_errors: [skewness, kurtosis], ..all }
-    }
-}
-
-/// How many chunks of so many make a group, so that there are no more groups than batches.
-pub(super) fn chunks_in_group(chunks: usize) -> usize {
-    chunks.div_ceil(BATCHES).max(1)
-}
-
 /// The numerical standard error of a figure of all trials: its scatter between groups of them,
 /// brought to all trials by the square-root law. `None` with fewer than four groups of comparable
 /// size, and where the figure of all trials is more than that away from the mean of the groups: so it
 /// is where few trials of a long tail carry it, which most groups have not seen, and all groups are
 /// off together.
-fn group_error(groups: &[(u64, f64)], pooled: f64) -> Option<f64> {
+pub(super) fn group_error(groups: &[(u64, f64)], pooled: f64) -> Option<f64> {
     let total: u64 = groups.iter().map(|(trials, _)| trials).sum();
     let largest = groups.iter().map(|(trials, _)| *trials).max()?;
     let large = groups.iter().filter(|(trials, _)| 2 * trials > largest);
@@ -126,42 +71,8 @@ fn group_error(groups: &[(u64, f64)], pooled: f64) -> Option<f64> {
     ((pooled - mean).abs() <= error.max(rounding)).then_some(error)
 }
 
-/// The correlation coefficients of all outputs i < j from their sums and the sums of products.
-pub(super) fn correlations<P: Borrow<Parts>>(
-    trials: u64,
-    parts: &[P],
-    products: &Products,
-) -> Vec<f64> {
-    let pairs = parts.iter().enumerate().flat_map(|(i, a)| {
-        let others = parts[i + 1..].iter().zip(products.of(i));
-        others.map(move |(b, &product)| {
-            correlation(trials, &a.borrow().total, &b.borrow().total, product)
-        })
-    });
-    pairs.collect()
-}
-
-/// The numerical standard errors of these coefficients; `None` where they cannot be told, and of very
-/// many outputs.
-pub(super) fn correlation_errors<P: Borrow<Parts>>(
-    parts: &[P],
-    products: &Products,
-    pooled: &[f64],
-) -> Vec<Option<f64>> {
-    let outputs = parts.len();
-    let pairs = (0..outputs).flat_map(|i| (i + 1..outputs).map(move |j| (i, j)));
-    let error = |((i, j), &pooled): ((usize, usize), &f64)| {
-        let (a, b): (&Parts, &Parts) = (parts[i].borrow(), parts[j].borrow());
-        let groups = a.groups.iter().zip(&b.groups).zip(products.of_groups(i, j)?);
-        let groups = groups.filter(|((a, _), _)| a.0 > 1);
-        let figures = groups.map(|((a, b), product)| (a.0, correlation(a.0, &a.1, &b.1, product)));
-        group_error(&figures.collect::<Vec<_>>(), pooled).filter(|error| error.is_finite())
-    };
-    pairs.zip(pooled).map(error).collect()
-}
-
 /// The correlation coefficient of two outputs from their sums and the sum of their products.
-fn correlation(trials: u64, a: &Sums, b: &Sums, product: f64) -> f64 {
+pub(super) fn correlation(trials: u64, a: &Sums, b: &Sums, product: f64) -> f64 {
     let n = trials as f64;
     let (a1, b1) = (a.powers[0] / n, b.powers[0] / n);
     let (a2, b2) = (a.powers[1] / n - a1 * a1, b.powers[1] / n - b1 * b1);

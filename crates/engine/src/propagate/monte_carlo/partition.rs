@@ -4,10 +4,17 @@
 //! later passes regenerate them and keep, or count more finely, only what lies in the few cells on
 //! which the wanted order statistics depend.
 
+use super::parts::{Damaged, Reader, Writer};
 use super::sorting::sort;
 
 /// Cells of the first pass.
 const FIRST_CELLS: usize = 1 << 14;
+
+/// Cells of a partition that is read, at most: some times as many as passes make.
+const MOST_CELLS: usize = 1 << 23;
+
+/// Grids within each other in a partition that is read, at most: each pass adds one.
+const DEEPEST: usize = 32;
 
 /// What becomes of the values in a cell.
 #[derive(Clone, Debug)]
@@ -104,6 +111,49 @@ impl Grid {
             }
         }
     }
+
+    /// Cells of one kind in a row are written as their number.
+    fn write(&self, out: &mut Writer) {
+        out.reals(&[self.low, self.inverse]);
+        out.number(self.cells.len() as u64);
+        for same in self.cells.chunk_by(Cell::is_alike) {
+            match &same[0] {
+                Cell::Split(grid) => {
+                    out.number(0);
+                    grid.write(out);
+                }
+                Cell::Count => out.number(2 * same.len() as u64 - 1),
+                Cell::Keep => out.number(2 * same.len() as u64),
+            }
+        }
+    }
+
+    /// A grid of at most so many cells, those within it included, which are then fewer.
+    fn read(from: &mut Reader<'_>, room: &mut usize, depth: usize) -> Result<Self, Damaged> {
+        let [low, inverse] = from.reals()?;
+        let count = from.at_most(*room as u64, "too many cells")? as usize;
+        Damaged::unless(count > 0 && depth <= DEEPEST, "no cells")?;
+        *room -= count;
+        let mut cells = Vec::with_capacity(count);
+        while cells.len() < count {
+            let left = (count - cells.len()) as u64;
+            match from.at_most(2 * left, "too many cells")? {
+                0 => cells.push(Cell::Split(Box::new(Self::read(from, room, depth + 1)?))),
+                same if same % 2 == 0 => {
+                    cells.extend(std::iter::repeat_n(Cell::Keep, (same / 2) as usize));
+                }
+                same => cells.extend(std::iter::repeat_n(Cell::Count, same.div_ceil(2) as usize)),
+            }
+        }
+        Ok(Self { low, inverse, cells, leaves: vec![0; count] })
+    }
+}
+
+impl Cell {
+    /// Whether two cells are written as one; split ones never are.
+    fn is_alike(&self, other: &Self) -> bool {
+        matches!((self, other), (Self::Count, Self::Count) | (Self::Keep, Self::Keep))
+    }
 }
 
 impl Partition {
@@ -147,10 +197,29 @@ impl Partition {
         self.number();
     }
 
-    /// The leaves with what a pass found in them.
-    pub(super) fn leaves(&self, tally: &Tally) -> Vec<Leaf> {
+    /// The partition as bytes.
+    pub(super) fn write(&self, out: &mut Writer) {
+        self.root.write(out);
+    }
+
+    /// A partition from bytes.
+    pub(super) fn read(from: &mut Reader<'_>) -> Result<Self, Damaged> {
+        let mut room = MOST_CELLS;
+        let mut partition = Self { root: Grid::read(from, &mut room, 0)?, leaves: 0 };
+        partition.number();
+        Ok(partition)
+    }
+
+    /// For each leaf whether its values are kept.
+    pub(super) fn kept_leaves(&self) -> Vec<bool> {
         let mut kept = Vec::with_capacity(self.leaves);
         self.root.kept(&mut kept);
+        kept
+    }
+
+    /// The leaves with what a pass found in them.
+    pub(super) fn leaves(&self, tally: &Tally) -> Vec<Leaf> {
+        let kept = self.kept_leaves();
         let (mut below, mut index) = (0, 0);
         let found = tally.counts.iter().zip(&tally.extremes).zip(kept);
         found
@@ -196,6 +265,27 @@ impl Tally {
             *extreme = [extreme[0].min(least), extreme[1].max(greatest)];
         }
         self.kept.extend(other.kept);
+    }
+
+    /// For each leaf the number of its values, the least and the greatest.
+    pub(super) fn counted(&self) -> impl Iterator<Item = (u64, [f64; 2])> + '_ {
+        self.counts.iter().copied().zip(self.extremes.iter().copied())
+    }
+
+    /// The kept values as they came.
+    pub(super) fn kept(&self) -> &[f64] {
+        &self.kept
+    }
+
+    /// Sets what was found in a leaf.
+    pub(super) fn set(&mut self, leaf: usize, count: u64, extremes: [f64; 2]) {
+        self.counts[leaf] = count;
+        self.extremes[leaf] = extremes;
+    }
+
+    /// The same with these kept values.
+    pub(super) fn with_kept(self, kept: Vec<f64>) -> Self {
+        Self { kept, ..self }
     }
 
     /// The kept values in order.

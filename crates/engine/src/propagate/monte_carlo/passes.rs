@@ -1,19 +1,33 @@
 //! One pass over all trials in bounded memory: values are counted in the cells of a partition, and
 //! those in the cells that are wanted are kept.
 
+use std::ops::Range;
+
 use rayon::prelude::*;
 
 use super::accumulate::drop_undefined;
 use super::block::RowTrials;
 use super::partition::{Leaf, Partition, Tally};
 use super::plan::Plan;
-use super::products::{self, Products, waves};
+use super::products::{self, waves};
 use super::request::trials_in;
+use super::run::chunks_of;
 use super::shortest_scatter::batch_blocks;
 use super::sums::Sums;
+use super::totals::{ChunkSums, SumTree, Totals};
 use crate::distribution::BLOCK;
 use crate::number::{CodePath, Kernel};
 use crate::propagate::Control;
+
+/// What one pass over some chunks of the trials gives.
+#[derive(Clone, Debug)]
+pub(super) struct Stretch {
+    pub(super) trials: u64,
+    pub(super) undefined: u64,
+    pub(super) first_undefined: Option<(u64, usize)>,
+    pub(super) sums: SumTree,
+    pub(super) tallies: Vec<Tally>,
+}
 
 /// What one pass over all trials gives.
 #[derive(Debug)]
@@ -21,9 +35,7 @@ pub(super) struct Pass {
     pub(super) trials: u64,
     pub(super) undefined: u64,
     pub(super) first_undefined: Option<(u64, usize)>,
-    /// Sums of each chunk with its number and its trials, without the products.
-    pub(super) sums: Vec<(u64, u64, Vec<Sums>)>,
-    pub(super) products: Products,
+    pub(super) totals: Totals,
     pub(super) tallies: Vec<Tally>,
     /// Whether the run was stopped meanwhile; all of the other figures are of the trials until then.
     pub(super) stopped: bool,
@@ -81,100 +93,169 @@ pub(super) fn narrow(partition: &mut Partition, leaves: &[Leaf], needed: &[bool]
     );
 }
 
-/// Goes once over the first `count` trials, as far as the run is not stopped.
-pub(super) fn pass(
-    trials: &RowTrials,
-    count: u64,
-    control: &Control<'_>,
-    plans: &[Plan],
-    partitions: &[Partition],
-    with_sums: bool,
-) -> Pass {
-    let blocks = count.div_ceil(BLOCK as u64);
-    // the chunks of a run that holds its tails, so that sums have the same bits
-    let chunk_blocks = batch_blocks(count);
-    let chunks = blocks.div_ceil(chunk_blocks);
-    let empty = || Pass {
-        trials: 0,
-        undefined: 0,
-        first_undefined: None,
-        sums: Vec::new(),
-        products: Products::default(),
-        tallies: partitions.iter().map(Partition::tally).collect(),
-        stopped: false,
-    };
-    let mut whole = empty();
-    whole.products = Products::new(if with_sums { plans.len() } else { 0 }, chunks);
-    for wave in waves(chunks, if with_sums { plans.len() } else { 0 }) {
-        let wave = wave.into_par_iter().with_min_len(16).fold(
-            || (empty(), trials.workspace()),
-            |(mut pass, mut workspace), chunk| {
-                let chunk = chunk as u64;
-                let mut sums = vec![Sums::default(); plans.len()];
-                let before = pass.trials;
-                for block in chunk * chunk_blocks..((chunk + 1) * chunk_blocks).min(blocks) {
-                    if control.is_stopped() {
-                        break;
-                    }
-                    trials.block(control.path, block, &mut workspace);
-                    let wanted = trials_in(block, count);
-                    let (left, first) =
-                        drop_undefined(control.path, &mut workspace.outputs, wanted);
-                    if let Some(first) = first {
-                        pass.undefined += (wanted - left) as u64;
-                        let found = (block, first);
-                        let earlier = pass.first_undefined.unwrap_or(found);
-                        pass.first_undefined = Some(earlier.min(found));
-                    }
-                    let values = &workspace.outputs;
-                    if with_sums {
-                        let sums = &mut sums[..];
-                        let path = control.path;
-                        path.run(SumKernel { path, values, count: left, plans, sums });
-                        control.advance(wanted as u64);
-                    }
-                    pass.trials += left as u64;
-                    for ((tally, partition), v) in
-                        pass.tallies.iter_mut().zip(partitions).zip(values)
-                    {
-                        tally.add(partition, &v[..left]);
-                    }
-                }
-                if with_sums {
-                    pass.sums.push((chunk, pass.trials - before, sums));
-                }
-                (pass, workspace)
-            },
-        );
-        let mut found = wave.map(|(pass, _)| pass).reduce(empty, |mut a, b| {
-            a.add(b);
-            a
-        });
-        found.sums.sort_by_key(|(chunk, ..)| *chunk);
-        for (_, _, sums) in &mut found.sums {
-            whole.products.take(sums.iter_mut());
+/// What a pass looks at.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Look<'a> {
+    /// So many of the first trials.
+    pub(super) count: u64,
+    pub(super) plans: &'a [Plan],
+    /// In which cells the values of each output are counted.
+    pub(super) partitions: &'a [Partition],
+    /// Whether moments are taken too.
+    pub(super) with_sums: bool,
+}
+
+impl Look<'_> {
+    /// Outputs whose products are summed up.
+    fn summed(&self) -> usize {
+        if self.with_sums { self.plans.len() } else { 0 }
+    }
+
+    /// The chunks of all trials: those of a run that holds its tails, so that sums have the same
+    /// bits.
+    pub(super) fn chunks(&self) -> u64 {
+        chunks_of(self.count)
+    }
+
+    /// Nothing yet.
+    pub(super) fn empty(&self) -> Stretch {
+        Stretch {
+            trials: 0,
+            undefined: 0,
+            first_undefined: None,
+            sums: SumTree::new(self.chunks()),
+            tallies: self.partitions.iter().map(Partition::tally).collect(),
         }
-        whole.add(found);
+    }
+}
+
+/// Goes once over all trials, as far as the run is not stopped.
+pub(super) fn pass(trials: &RowTrials, look: Look<'_>, control: &Control<'_>) -> Pass {
+    let mut whole = Pass::empty(look);
+    for wave in waves(0..look.chunks(), look.summed()) {
+        whole.take(stretch_of(trials, look, wave, control));
         if control.is_stopped() {
             break;
         }
     }
+    whole.totals.close();
     whole.stopped = control.is_stopped();
     whole
 }
 
-impl Pass {
+/// Goes once over some chunks of the trials, as far as the run is not stopped.
+pub(super) fn stretch(
+    trials: &RowTrials,
+    look: Look<'_>,
+    chunks: Range<u64>,
+    control: &Control<'_>,
+) -> Stretch {
+    let mut all = look.empty();
+    for wave in waves(chunks, look.summed()) {
+        all.add(stretch_of(trials, look, wave, control));
+    }
+    all
+}
+
+fn stretch_of(
+    trials: &RowTrials,
+    look: Look<'_>,
+    chunks: Range<usize>,
+    control: &Control<'_>,
+) -> Stretch {
+    let Look { count, plans, partitions, with_sums } = look;
+    let blocks = count.div_ceil(BLOCK as u64);
+    let chunk_blocks = batch_blocks(count);
+    let found = chunks.into_par_iter().with_min_len(16).fold(
+        || (look.empty(), trials.workspace()),
+        |(mut found, mut workspace), chunk| {
+            if control.is_stopped() {
+                return (found, workspace);
+            }
+            let chunk = chunk as u64;
+            let mut sums = vec![Sums::default(); plans.len()];
+            let before = found.trials;
+            for block in chunk * chunk_blocks..((chunk + 1) * chunk_blocks).min(blocks) {
+                if control.is_stopped() {
+                    break;
+                }
+                trials.block(control.path, block, &mut workspace);
+                let wanted = trials_in(block, count);
+                let (left, first) = drop_undefined(control.path, &mut workspace.outputs, wanted);
+                if let Some(first) = first {
+                    found.undefined += (wanted - left) as u64;
+                    let place = (block, first);
+                    let earlier = found.first_undefined.unwrap_or(place);
+                    found.first_undefined = Some(earlier.min(place));
+                }
+                let values = &workspace.outputs;
+                if with_sums {
+                    let sums = &mut sums[..];
+                    let path = control.path;
+                    path.run(SumKernel { path, values, count: left, plans, sums });
+                    control.advance(wanted as u64);
+                }
+                found.trials += left as u64;
+                for ((tally, partition), v) in found.tallies.iter_mut().zip(partitions).zip(values)
+                {
+                    tally.add(partition, &v[..left]);
+                }
+            }
+            if with_sums {
+                let sums = ChunkSums { trials: found.trials - before, outputs: sums };
+                found.sums.insert(chunk, 1, sums);
+            }
+            (found, workspace)
+        },
+    );
+    found.map(|(found, _)| found).reduce(
+        || look.empty(),
+        |mut a, b| {
+            a.add(b);
+            a
+        },
+    )
+}
+
+/// The earlier of two trials.
+fn earlier(a: Option<(u64, usize)>, b: Option<(u64, usize)>) -> Option<(u64, usize)> {
+    match (a, b) {
+        (Some(x), Some(y)) => Some(x.min(y)),
+        (x, y) => x.or(y),
+    }
+}
+
+fn merge(tallies: &mut [Tally], others: Vec<Tally>) {
+    for (tally, other) in tallies.iter_mut().zip(others) {
+        tally.merge(other);
+    }
+}
+
+impl Stretch {
     /// Takes over what another part of the trials gave.
     fn add(&mut self, other: Self) {
         self.trials += other.trials;
         self.undefined += other.undefined;
-        self.first_undefined = match (self.first_undefined, other.first_undefined) {
-            (Some(x), Some(y)) => Some(x.min(y)),
-            (x, y) => x.or(y),
-        };
-        self.sums.extend(other.sums);
-        for (tally, other) in self.tallies.iter_mut().zip(other.tallies) {
-            tally.merge(other);
-        }
+        self.first_undefined = earlier(self.first_undefined, other.first_undefined);
+        self.sums.merge(other.sums);
+        merge(&mut self.tallies, other.tallies);
+    }
+}
+
+impl Pass {
+    /// Nothing yet.
+    pub(super) fn empty(look: Look<'_>) -> Self {
+        let Stretch { tallies, .. } = look.empty();
+        let totals = Totals::new(look.chunks());
+        Self { trials: 0, undefined: 0, first_undefined: None, totals, tallies, stopped: false }
+    }
+
+    /// Takes over what some chunks gave.
+    pub(super) fn take(&mut self, found: Stretch) {
+        self.trials += found.trials;
+        self.undefined += found.undefined;
+        self.first_undefined = earlier(self.first_undefined, found.first_undefined);
+        self.totals.take(found.sums);
+        merge(&mut self.tallies, found.tallies);
     }
 }

@@ -10,14 +10,11 @@
 //! order statistic. Where it does not, the later passes narrow the cells as they would have without
 //! a pilot, so that the figures are the same.
 
-use super::block::RowTrials;
 use super::interval::Ranks;
 use super::partition::{Leaf, Partition};
-use super::passes::pass;
-use super::plan::Plan;
+use super::passes::Pass;
 use super::request::Request;
 use super::targets::{SearchTargets, leaf_of};
-use crate::propagate::Control;
 
 /// This part of the trials is looked at beforehand, twice.
 const PART: u64 = 64;
@@ -32,37 +29,35 @@ const NARROW: usize = 1 << 18;
 /// Of more outputs the values that are likely to be asked for would hardly find room.
 const MOST_OUTPUTS: usize = 16;
 
-/// Makes the partitions of all outputs ready, if they are few; `None` if the run was stopped.
-pub(super) fn prepare(
-    trials: &RowTrials,
-    request: Request<'_>,
-    control: &Control<'_>,
-    plans: &[Plan],
-    partitions: &mut [Partition],
-    budget: usize,
-) -> Option<()> {
-    if plans.len() > MOST_OUTPUTS {
-        return Some(());
-    }
-    let part = request.trials / PART;
+/// Of how many trials the cells are made ready beforehand; `None` of very many outputs, which are
+/// not.
+pub(super) fn part(trials: u64, outputs: usize) -> Option<u64> {
+    (outputs <= MOST_OUTPUTS).then_some(trials / PART)
+}
+
+/// Divides the cells that matter, from the counts of a first pass over the part.
+pub(super) fn divide(coarse: &Pass, request: Request<'_>, partitions: &mut [Partition]) {
     let search = SearchTargets::new(request.trials, request.probability);
-    let coarse = pass(trials, part, control, plans, partitions, false);
-    if coarse.stopped {
-        return None;
-    }
+    let outputs = partitions.len();
     for (partition, tally) in partitions.iter_mut().zip(&coarse.tallies) {
         let leaves = partition.leaves(tally);
         let mut wanted = around_targets(&leaves, coarse.trials, &search);
         near_the_shortest(&leaves, coarse.trials, request.probability, &mut wanted);
         let count = wanted.iter().filter(|wanted| **wanted).count();
-        let parts = NARROW / plans.len() / count.max(1);
+        let parts = NARROW / outputs / count.max(1);
         let parts = parts.clamp(16, 4096);
         partition.refine(&leaves, |_| false, |leaf| if wanted[leaf] { parts } else { 0 });
     }
-    let narrow = pass(trials, part, control, plans, partitions, false);
-    if narrow.stopped {
-        return None;
-    }
+}
+
+/// Marks the cells whose values are kept, from the counts of a second pass over the part.
+pub(super) fn mark(
+    narrow: &Pass,
+    request: Request<'_>,
+    partitions: &mut [Partition],
+    budget: usize,
+) {
+    let search = SearchTargets::new(request.trials, request.probability);
     for (partition, tally) in partitions.iter_mut().zip(&narrow.tallies) {
         let leaves = partition.leaves(tally);
         let wanted = around_targets(&leaves, narrow.trials, &search);
@@ -73,7 +68,6 @@ pub(super) fn prepare(
             partition.refine(&leaves, |leaf| wanted[leaf], |_| 0);
         }
     }
-    Some(())
 }
 
 /// The rank that is so many standard deviations of a rank beyond the one that a share of the trials

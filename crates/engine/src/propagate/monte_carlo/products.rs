@@ -4,7 +4,6 @@
 
 use std::ops::Range;
 
-use super::moments::chunks_in_group;
 use super::plan::{LANES, Plan, pairwise};
 use super::sums::Sums;
 use crate::distribution::BLOCK;
@@ -52,77 +51,18 @@ pub(super) fn add<'s>(
     }
 }
 
-/// Pairs of outputs at most of which the products of groups of chunks are held: 1 MiB.
-const MOST_GROUPED: usize = 4096;
-
-/// The sums of products of all chunks so far; for each output those with the outputs after it.
-#[derive(Debug, Default)]
-pub(super) struct Products {
-    all: Vec<Vec<f64>>,
-    /// The same of groups of chunks, the pairs one after the other; none of very many outputs.
-    groups: Vec<Vec<f64>>,
-    chunks_in_group: usize,
-    taken: usize,
-}
-
-impl Products {
-    /// None yet of so many outputs, in so many chunks.
-    pub(super) fn new(outputs: usize, chunks: u64) -> Self {
-        let all: Vec<Vec<f64>> =
-            (0..outputs).map(|output| vec![0.0; outputs - output - 1]).collect();
-        let pairs = outputs * outputs.saturating_sub(1) / 2;
-        let chunks_in_group = chunks_in_group(chunks as usize);
-        let groups =
-            if pairs > MOST_GROUPED { 0 } else { (chunks as usize).div_ceil(chunks_in_group) };
-        Self { all, groups: vec![vec![0.0; pairs]; groups], chunks_in_group, taken: 0 }
-    }
-
-    /// Takes over the products of the next chunk.
-    pub(super) fn take<'s>(&mut self, sums: impl Iterator<Item = &'s mut Sums>) {
-        let mut nothing = Vec::new();
-        let group = self.groups.get_mut(self.taken / self.chunks_in_group).unwrap_or(&mut nothing);
-        self.taken += 1;
-        let mut rest = group.as_mut_slice();
-        for (totals, sums) in self.all.iter_mut().zip(sums) {
-            // a chunk without trials has no products
-            let products = std::mem::take(&mut sums.products);
-            for (total, product) in totals.iter_mut().zip(&products) {
-                *total += product;
-            }
-            let (own, others) = rest.split_at_mut(totals.len().min(rest.len()));
-            for (total, product) in own.iter_mut().zip(&products) {
-                *total += product;
-            }
-            rest = others;
-        }
-    }
-
-    /// The products of an output with those after it.
-    pub(super) fn of(&self, output: usize) -> &[f64] {
-        self.all.get(output).map_or(&[], Vec::as_slice)
-    }
-
-    /// The products of the outputs i < j in each group of chunks.
-    pub(super) fn of_groups(&self, i: usize, j: usize) -> Option<impl Iterator<Item = f64> + '_> {
-        let outputs = self.all.len();
-        let place = i * (2 * outputs - i - 1) / 2 + j - i - 1;
-        let known = !self.groups.is_empty();
-        known.then(|| self.groups.iter().map(move |group| group[place]))
-    }
-}
-
-/// The chunks 0 to `chunks` in waves.
-pub(super) fn waves(chunks: u64, outputs: usize) -> impl Iterator<Item = Range<usize>> {
+/// Some chunks in waves.
+pub(super) fn waves(chunks: Range<u64>, outputs: usize) -> impl Iterator<Item = Range<usize>> {
     let bytes = size_of::<f64>() * outputs * outputs.saturating_sub(1) / 2;
     let wave = (MEMORY / bytes.max(1)).max(1);
-    let chunks = chunks as usize;
-    (0..chunks).step_by(wave).map(move |first| first..(first + wave).min(chunks))
+    let (start, end) = (chunks.start as usize, chunks.end as usize);
+    (start..end).step_by(wave).map(move |first| first..(first + wave).min(end))
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::moments::{Parts, correlations};
     use super::super::plan::Reference;
+    use super::super::totals::{ChunkSums, Totals};
     use super::super::windows::Windows;
     use super::*;
     use crate::number::CodePath;
@@ -148,17 +88,13 @@ mod tests {
         };
         let plans: Vec<Plan> = (0..outputs).map(plan).collect();
         let mut sums = vec![Sums::default(); outputs];
-        let mut products = Products::new(outputs, 2);
         for _ in 0..2 {
             for ((sums, values), plan) in sums.iter_mut().zip(&values).zip(&plans) {
                 sums.add(CodePath::BASELINE, &values[..100], plan.reference);
             }
             add(&values, 100, &plans, sums.iter_mut());
-            products.take(sums.iter_mut());
         }
-        let parts: Vec<Parts> =
-            sums.iter().map(|sums| Parts::of([(200, sums)].into_iter())).collect();
-        let found = correlations(200, &parts, &products);
+        let found = Totals::of(ChunkSums { trials: 200, outputs: sums }, Vec::new()).correlations();
         let pairs = (0..outputs).flat_map(|i| (i + 1..outputs).map(move |j| (i, j)));
         assert_eq!(found.len(), outputs * (outputs - 1) / 2);
         for ((i, j), r) in pairs.zip(found) {
@@ -170,13 +106,13 @@ mod tests {
     #[test]
     fn few_outputs_are_one_wave() {
         let only = |chunks, outputs| -> Option<Range<usize>> {
-            let mut waves = waves(chunks, outputs);
+            let mut waves = waves(0..chunks, outputs);
             waves.next().filter(|_| waves.next().is_none())
         };
         assert_eq!(only(100_000, 3), Some(0..100_000));
         assert_eq!(only(5, 1), Some(0..5));
         // 36 MB a chunk
-        assert_eq!(waves(10, 3000).collect::<Vec<_>>(), [0..7, 7..10]);
-        assert_eq!(waves(2, 100_000).collect::<Vec<_>>(), [0..1, 1..2]);
+        assert_eq!(waves(0..10, 3000).collect::<Vec<_>>(), [0..7, 7..10]);
+        assert_eq!(waves(0..2, 100_000).collect::<Vec<_>>(), [0..1, 1..2]);
     }
 }

@@ -5,9 +5,10 @@
 //! ones (in far tails) are kept or split in further passes.
 
 use super::block::RowTrials;
-use super::partition::Leaf;
-use super::passes::{first_partitions, kept_budget, narrow, pass};
+use super::partition::{Leaf, Partition};
+use super::passes::{Look, Pass, first_partitions, kept_budget, narrow, pass};
 use super::pilot::plans;
+use super::plan::Plan;
 use super::repeat::repeat;
 use super::request::Request;
 use super::targets::leaf_of;
@@ -19,7 +20,7 @@ use crate::special;
 const WIDEST: f64 = 0.002;
 
 /// Passes after which wider cells are taken as they are.
-const MOST_PASSES: usize = 8;
+pub(super) const MOST_PASSES: u32 = 8;
 
 /// For each output the quantiles at the probabilities Phi(score) among the first `count` trials;
 /// `None` if the run was stopped or no trial is finite. The order statistic of rank k of M stands
@@ -31,8 +32,7 @@ pub(crate) fn quantiles(
     scores: &[f64],
     control: &Control<'_>,
 ) -> Option<Vec<Vec<f64>>> {
-    let outputs = trials.outputs().max(1) as u64;
-    if count.saturating_mul(16 * outputs) <= control.memory as u64 {
+    if are_held(count, trials.outputs(), control.memory) {
         let mut kept: Vec<Vec<f64>> = vec![Vec::new(); trials.outputs()];
         let whole = repeat(trials, count, control, |block| {
             for (kept, values) in kept.iter_mut().zip(block) {
@@ -76,30 +76,74 @@ fn of_cells(
     scores: &[f64],
     control: &Control<'_>,
 ) -> Option<Vec<Vec<f64>>> {
-    let request = Request { trials: count, probability: 0.5, drawn_dof: &[] };
-    let plans = plans(trials, request, control, 1.0);
-    let mut partitions = first_partitions(&plans);
-    let budget = kept_budget(&plans, control);
-    let mut found: Vec<Option<Vec<f64>>> = vec![None; plans.len()];
-    for number in 1..=MOST_PASSES {
-        let made = pass(trials, count, control, &plans, &partitions, false);
-        if made.stopped {
+    let plans = quantile_plans(trials, count, control);
+    let mut passes = QuantilePasses::new(&plans);
+    loop {
+        let made = pass(trials, passes.look(count, &plans), control);
+        if made.stopped || made.trials == 0 {
             return None;
         }
+        if passes.take(made, scores, &plans, kept_budget(&plans, control)) {
+            return passes.quantiles();
+        }
+    }
+}
+
+/// Where the outputs' values lie.
+pub(super) fn quantile_plans(trials: &RowTrials, count: u64, control: &Control<'_>) -> Vec<Plan> {
+    let request = Request { trials: count, probability: 0.5, drawn_dof: &[] };
+    plans(trials, request, control, 1.0)
+}
+
+/// Whether the values of so many trials are held to take quantiles of them.
+pub(super) fn are_held(count: u64, outputs: usize, memory: usize) -> bool {
+    count.saturating_mul(16 * outputs.max(1) as u64) <= memory as u64
+}
+
+/// Where the search for quantiles in cells stands.
+#[derive(Clone, Debug)]
+pub(super) struct QuantilePasses {
+    /// Passes before.
+    pub(super) before: u32,
+    pub(super) partitions: Vec<Partition>,
+    /// For each output its quantiles, once they are found.
+    pub(super) found: Vec<Option<Vec<f64>>>,
+}
+
+impl QuantilePasses {
+    /// Before the first pass.
+    pub(super) fn new(plans: &[Plan]) -> Self {
+        Self { before: 0, partitions: first_partitions(plans), found: vec![None; plans.len()] }
+    }
+
+    /// What the next pass looks at.
+    pub(super) fn look<'a>(&'a self, count: u64, plans: &'a [Plan]) -> Look<'a> {
+        Look { count, plans, partitions: &self.partitions, with_sums: false }
+    }
+
+    /// Takes what a pass found; whether it was the last one.
+    pub(super) fn take(
+        &mut self,
+        made: Pass,
+        scores: &[f64],
+        plans: &[Plan],
+        budget: usize,
+    ) -> bool {
+        self.before += 1;
         if made.trials == 0 {
-            return None;
+            return true;
         }
         for (output, tally) in made.tallies.into_iter().enumerate() {
-            if found[output].is_some() {
+            if self.found[output].is_some() {
                 continue;
             }
-            let leaves = partitions[output].leaves(&tally);
+            let leaves = self.partitions[output].leaves(&tally);
             let kept = tally.into_sorted();
             let widest = WIDEST * plans[output].reference.scale;
             let needed = too_wide(&leaves, scores, made.trials, widest);
             let open = leaves.iter().zip(&needed).any(|(l, needed)| *needed && l.kept.is_none());
-            if open && number < MOST_PASSES {
-                narrow(&mut partitions[output], &leaves, &needed, budget);
+            if open && self.before < MOST_PASSES {
+                narrow(&mut self.partitions[output], &leaves, &needed, budget);
                 continue;
             }
             let at = |k: u64| order_statistic(&leaves, &kept, k);
@@ -109,13 +153,15 @@ fn of_cells(
             for k in 1..values.len() {
                 values[k] = values[k].max(values[k - 1]);
             }
-            found[output] = Some(values);
+            self.found[output] = Some(values);
         }
-        if found.iter().all(Option::is_some) {
-            break;
-        }
+        self.found.iter().all(Option::is_some)
     }
-    found.into_iter().collect()
+
+    /// The quantiles, if all are found.
+    pub(super) fn quantiles(self) -> Option<Vec<Vec<f64>>> {
+        self.found.into_iter().collect()
+    }
 }
 
 /// The leaves that hold a wanted rank and are too wide to interpolate in.

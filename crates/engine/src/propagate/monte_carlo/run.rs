@@ -1,19 +1,22 @@
 //! A Monte Carlo run of one row: pilot, main pass, figures.
 
+use std::ops::Range;
+
 use rayon::prelude::*;
 
 use super::accumulate::{AccumulateKernel, Accumulated, drop_undefined};
 use super::block::{RowTrials, Workspace};
 use super::figures::{Finished, Intervals, MonteCarlo, NumericalError, Undefined, of_moments};
 use super::interval::{Ranks, is_extreme, quantile_error, shortest, symmetric};
-use super::moments::{Moments, Parts, correlation_errors, correlations};
+use super::moments::Moments;
 use super::order::Order;
 use super::pilot::{KEEP_ALL_MARGIN, pilot_blocks, plans};
 use super::plan::Plan;
-use super::products::{Products, waves};
+use super::products::waves;
 use super::request::{Request, trials_in};
 use super::several_pass;
 use super::shortest_scatter::{BATCHES, BatchInterval, ShortestScatter, batch_blocks};
+use super::totals::{ChunkSums, Totals};
 use super::windows::Windows;
 use crate::distribution::BLOCK;
 use crate::number::CodePath;
@@ -36,8 +39,8 @@ fn run_held(trials: &RowTrials, request: Request<'_>, control: &Control<'_>) -> 
         if kept_bytes(&plans, request) > control.memory {
             return run_in_passes(trials, request, control, &plans);
         }
-        let (chunks, products) = accumulate_all(trials, request.trials, &plans, control);
-        let made = (chunks, &products);
+        let (chunks, totals) = accumulate_all(trials, request.trials, &plans, control);
+        let made = (chunks, &totals);
         if let Some(finished) = finish(trials, request, control, &plans, made, &mut scatters) {
             return finished;
         }
@@ -48,7 +51,7 @@ fn run_held(trials: &RowTrials, request: Request<'_>, control: &Control<'_>) -> 
 }
 
 /// The memory that the kept values of all outputs would take.
-fn kept_bytes(plans: &[Plan], request: Request<'_>) -> usize {
+pub(super) fn kept_bytes(plans: &[Plan], request: Request<'_>) -> usize {
     let share: f64 = plans.iter().map(|plan| plan.kept).sum();
     (8.0 * share * request.trials as f64) as usize
 }
@@ -78,7 +81,7 @@ fn run_in_passes(
 
 /// How the shortest intervals of the first batches scatter, made by themselves: the same as those of
 /// a run that holds its tails, in memory for a batch on each thread.
-fn scatters(
+pub(super) fn scatters(
     trials: &RowTrials,
     request: Request<'_>,
     control: &Control<'_>,
@@ -108,30 +111,51 @@ fn scatters(
         .collect()
 }
 
-/// Accumulates all trials, chunk by chunk on all threads; the chunks come back in order, with the sums of
-/// products of all together.
+/// How many chunks the first `count` trials are summed up in.
+pub(super) fn chunks_of(count: u64) -> u64 {
+    count.div_ceil(BLOCK as u64).div_ceil(batch_blocks(count))
+}
+
+/// Accumulates all trials, chunk by chunk on all threads; the chunks come back in order, with the sums
+/// of all together.
 fn accumulate_all(
     trials: &RowTrials,
     count: u64,
     plans: &[Plan],
     control: &Control<'_>,
-) -> (Vec<Accumulated>, Products) {
-    let chunks_of_all = count.div_ceil(BLOCK as u64).div_ceil(batch_blocks(count));
-    let accumulate = |workspace: &mut Workspace, number: u64| {
-        accumulate_chunk(trials, count, plans, control, workspace, number)
-    };
+) -> (Vec<Accumulated>, Totals) {
     let mut chunks: Vec<Accumulated> = Vec::new();
-    let mut products = Products::new(plans.len(), chunks_of_all);
-    for wave in waves(chunks_of_all, plans.len()) {
-        let wave = wave.into_par_iter().map(|number| number as u64);
-        let wave = wave.map_init(|| trials.workspace(), accumulate);
-        let mut wave: Vec<Accumulated> = wave.collect();
-        for accumulated in &mut wave {
-            products.take(accumulated.outputs.iter_mut().map(|output| &mut output.sums));
+    let mut totals = Totals::new(chunks_of(count));
+    for wave in waves(0..chunks_of(count), plans.len()) {
+        let first = wave.start as u64;
+        let mut wave = accumulate_chunks(trials, count, wave, plans, control);
+        for (number, accumulated) in (first..).zip(&mut wave) {
+            totals.take_chunk(number, sums_of(accumulated));
         }
         chunks.extend(wave);
     }
-    (chunks, products)
+    totals.close();
+    (chunks, totals)
+}
+
+/// The sums of a chunk, which are then no longer there.
+pub(super) fn sums_of(chunk: &mut Accumulated) -> ChunkSums {
+    let outputs = chunk.outputs.iter_mut().map(|output| std::mem::take(&mut output.sums));
+    ChunkSums { trials: chunk.trials, outputs: outputs.collect() }
+}
+
+/// Accumulates some of the chunks of the first `count` trials, on all threads.
+pub(super) fn accumulate_chunks(
+    trials: &RowTrials,
+    count: u64,
+    chunks: Range<usize>,
+    plans: &[Plan],
+    control: &Control<'_>,
+) -> Vec<Accumulated> {
+    let accumulate = |workspace: &mut Workspace, number: usize| {
+        accumulate_chunk(trials, count, plans, control, workspace, number as u64)
+    };
+    chunks.into_par_iter().map_init(|| trials.workspace(), accumulate).collect()
 }
 
 /// Accumulates one chunk of the first `count` trials.
@@ -165,12 +189,12 @@ fn accumulate_chunk(
 }
 
 /// The figures from the chunks; `None` if a window missed a value that is needed.
-fn finish(
+pub(super) fn finish(
     trials: &RowTrials,
     request: Request<'_>,
     control: &Control<'_>,
     plans: &[Plan],
-    (mut chunks, products): (Vec<Accumulated>, &Products),
+    (mut chunks, totals): (Vec<Accumulated>, &Totals),
     scatters: &mut [Option<ShortestScatter>],
 ) -> Option<Finished> {
     let undefined = undefined(trials, control.path, &chunks);
@@ -179,15 +203,11 @@ fn finish(
     if count == 0 {
         return Some(Finished { undefined, stopped, ..Finished::default() });
     }
-    let parts: Vec<Parts> = (0..plans.len())
-        .map(|output| {
-            Parts::of(chunks.iter().map(|chunk| (chunk.trials, &chunk.outputs[output].sums)))
-        })
-        .collect();
+    let moments = plans.iter().enumerate();
     let moments: Vec<Moments> =
-        parts.iter().zip(plans).map(|(parts, plan)| parts.moments(plan.reference)).collect();
-    let correlations = correlations(count, &parts, products);
-    let correlation_errors = correlation_errors(&parts, products, &correlations);
+        moments.map(|(output, plan)| totals.moments(output, plan.reference)).collect();
+    let correlations = totals.correlations();
+    let correlation_errors = totals.correlation_errors(&correlations);
     let mut per_output: Vec<Vec<Batch>> = (0..plans.len()).map(|_| Vec::new()).collect();
     for chunk in &mut chunks {
         for (batches, output) in per_output.iter_mut().zip(&mut chunk.outputs) {

@@ -18,16 +18,14 @@
 use super::block::RowTrials;
 use super::figures::{Finished, Intervals, MonteCarlo, NumericalError, Undefined, of_moments};
 use super::interval::{Ranks, is_extreme};
-use super::moments::{Moments, Parts, correlation_errors, correlations};
-use super::partition::Leaf;
-use super::passes::{Pass, first_partitions, kept_budget, narrow, pass};
+use super::partition::{Leaf, Partition};
+use super::passes::{Look, Pass, first_partitions, kept_budget, narrow, pass};
 use super::pilot_refinement;
 use super::plan::Plan;
 use super::request::Request;
 use super::shortest_scatter::ShortestScatter;
-use super::sums::Sums;
 use super::targets::{SearchTargets, leaf_of};
-use crate::number::CodePath;
+use super::totals::Totals;
 use crate::propagate::Control;
 
 /// Up to so many trials the shortest interval is exactly that of the trials.
@@ -38,7 +36,7 @@ const SHORTEST_TOLERANCE: f64 = 1e-5;
 
 /// Passes after which a search ends at what it has; each narrows a cell at least sixteenfold, so
 /// that the 2^53 numbers of a binade are told apart earlier.
-const MOST_PASSES: usize = 20;
+pub(super) const MOST_PASSES: u32 = 20;
 
 /// Runs all trials. `scatters` tell how the shortest intervals scatter, found otherwise. A run that
 /// is stopped has the figures of all trials that were counted until then, their order statistics as
@@ -50,75 +48,212 @@ pub(super) fn run(
     plans: &[Plan],
     scatters: &[ShortestScatter],
 ) -> Option<Finished> {
-    let mut partitions = first_partitions(plans);
     let budget = kept_budget(plans, control);
-    pilot_refinement::prepare(trials, request, control, plans, &mut partitions, budget)?;
-    let mut searches: Vec<Option<Search>> = vec![None; plans.len()];
-    let mut first: Option<(Pass, Vec<(Moments, Parts)>)> = None;
-    for number in 0..MOST_PASSES {
-        let mut found = pass(trials, request.trials, control, plans, &partitions, number == 0);
-        let stopped = found.stopped;
-        if stopped && number > 0 {
-            // what the passes before it told is all that is known
-            if let Some((whole, _)) = &mut first {
-                whole.stopped = true;
+    let mut passes = Passes::new(request, plans);
+    loop {
+        let made = pass(trials, passes.look(request, plans), control);
+        if passes.take(made, request, plans, budget) {
+            return passes.finish(trials, request, control, plans, scatters);
+        }
+    }
+}
+
+/// What the next pass is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Phase {
+    /// The first over a part of the trials.
+    Coarse,
+    /// The second over that part.
+    Narrow,
+    /// Over all trials, so many times before.
+    All(u32),
+}
+
+/// What the first pass over all trials told.
+#[derive(Clone, Debug)]
+pub(super) struct Whole {
+    pub(super) trials: u64,
+    pub(super) undefined: u64,
+    pub(super) first_undefined: Option<(u64, usize)>,
+    pub(super) totals: Totals,
+    /// Whether the run was stopped.
+    pub(super) stopped: bool,
+}
+
+/// Where a run in several passes stands: what the passes told so far, and in which cells the next
+/// one counts.
+#[derive(Clone, Debug)]
+pub(super) struct Passes {
+    pub(super) phase: Phase,
+    pub(super) partitions: Vec<Partition>,
+    pub(super) whole: Option<Whole>,
+    /// For each output its order statistics, once they are found.
+    pub(super) found: Vec<Option<Found>>,
+    /// What is known of them until then.
+    bounds: Vec<Option<Found>>,
+}
+
+impl Passes {
+    /// Before the first pass.
+    pub(super) fn new(request: Request<'_>, plans: &[Plan]) -> Self {
+        let part = pilot_refinement::part(request.trials, plans.len());
+        let phase = if part.is_some() { Phase::Coarse } else { Phase::All(0) };
+        Self::at(phase, first_partitions(plans), None, vec![None; plans.len()])
+    }
+
+    /// After some passes.
+    pub(super) fn at(
+        phase: Phase,
+        partitions: Vec<Partition>,
+        whole: Option<Whole>,
+        found: Vec<Option<Found>>,
+    ) -> Self {
+        let bounds = vec![None; found.len()];
+        Self { phase, partitions, whole, found, bounds }
+    }
+
+    /// What the next pass looks at.
+    pub(super) fn look<'a>(&'a self, request: Request<'_>, plans: &'a [Plan]) -> Look<'a> {
+        let part = pilot_refinement::part(request.trials, plans.len());
+        let part = part.filter(|_| self.is_beforehand());
+        let count = part.unwrap_or(request.trials);
+        let with_sums = self.phase == Phase::All(0);
+        Look { count, plans, partitions: &self.partitions, with_sums }
+    }
+
+    fn is_beforehand(&self) -> bool {
+        !matches!(self.phase, Phase::All(_))
+    }
+
+    /// Takes what a pass found; whether it was the last one.
+    pub(super) fn take(
+        &mut self,
+        made: Pass,
+        request: Request<'_>,
+        plans: &[Plan],
+        budget: usize,
+    ) -> bool {
+        if made.stopped && self.is_beforehand() {
+            return true;
+        }
+        match self.phase {
+            Phase::Coarse => {
+                pilot_refinement::divide(&made, request, &mut self.partitions);
+                self.phase = Phase::Narrow;
+                false
             }
-            break;
+            Phase::Narrow => {
+                pilot_refinement::mark(&made, request, &mut self.partitions, budget);
+                self.phase = Phase::All(0);
+                false
+            }
+            Phase::All(before) => {
+                self.phase = Phase::All(before + 1);
+                self.take_all(before, made, request, plans, budget)
+            }
         }
-        let tallies = std::mem::take(&mut found.tallies);
-        if number == 0 {
-            let summary = |(output, plan)| summary(&found.sums, output, plan);
-            let summaries = plans.iter().enumerate().map(summary).collect();
-            first = Some((found, summaries));
+    }
+
+    /// Takes a pass over all trials, so many such passes before.
+    fn take_all(
+        &mut self,
+        before: u32,
+        made: Pass,
+        request: Request<'_>,
+        plans: &[Plan],
+        budget: usize,
+    ) -> bool {
+        let Pass { trials, undefined, first_undefined, totals, tallies, stopped } = made;
+        if before == 0 {
+            self.whole = Some(Whole { trials, undefined, first_undefined, totals, stopped });
         }
-        let (whole, summaries) = first.as_ref()?;
+        let Some(whole) = &mut self.whole else { return true };
+        if stopped && before > 0 {
+            // what the passes before it told is all that is known
+            whole.stopped = true;
+            return true;
+        }
         if whole.trials == 0 {
-            break;
+            return true;
         }
+        let last = before + 1 >= MOST_PASSES || stopped;
         let mut open = false;
         for (output, tally) in tallies.into_iter().enumerate() {
-            if searches[output].as_ref().is_some_and(|search| search.found.is_some()) {
+            if self.found[output].is_some() {
                 continue;
             }
-            let std = summaries[output].0.std;
+            let std = whole.totals.moments(output, plans[output].reference).std;
             let mut search = Search::new(whole.trials, request.probability, std);
-            let leaves = partitions[output].leaves(&tally);
-            let last = number + 1 == MOST_PASSES || stopped;
+            let partition = &mut self.partitions[output];
+            let leaves = partition.leaves(&tally);
             let kept = tally.into_sorted();
             let needed = search.step(&leaves, &kept, last);
             if search.found.is_none() {
                 let mut bounded = search.clone();
                 bounded.step(&leaves, &kept, true);
-                search.bounds = bounded.found;
+                self.bounds[output] = bounded.found;
                 open = true;
-                narrow(&mut partitions[output], &leaves, &needed, budget);
+                narrow(partition, &leaves, &needed, budget);
             }
-            searches[output] = Some(search);
+            self.found[output] = search.found;
         }
-        if !open {
-            break;
-        }
+        !open
     }
-    let (whole, summaries) = first?;
-    Some(finish(trials, (request, control.path), whole, &summaries, searches, scatters))
-}
 
-/// One output's moments and parts from its sums, chunk by chunk in order.
-fn summary(sums: &[(u64, u64, Vec<Sums>)], output: usize, plan: &Plan) -> (Moments, Parts) {
-    let parts = Parts::of(sums.iter().map(|(_, trials, sums)| (*trials, &sums[output])));
-    (parts.moments(plan.reference), parts)
+    /// The figures; `None` if no pass over all trials was begun.
+    pub(super) fn finish(
+        self,
+        trials: &RowTrials,
+        request: Request<'_>,
+        control: &Control<'_>,
+        plans: &[Plan],
+        scatters: &[ShortestScatter],
+    ) -> Option<Finished> {
+        let whole = self.whole?;
+        let undefined = whole.first_undefined.map(|(block, trial)| Undefined {
+            count: whole.undefined,
+            trials: whole.trials + whole.undefined,
+            first: trials.inputs_of(control.path, block, trial),
+        });
+        let correlations = whole.totals.correlations();
+        let correlation_errors = whole.totals.correlation_errors(&correlations);
+        let figures = self.found.into_iter().zip(self.bounds).zip(plans).enumerate();
+        let outputs: Vec<MonteCarlo> = figures
+            .filter_map(|(output, ((found, bounds), plan))| {
+                let found = found.or(bounds)?;
+                let moments = &whole.totals.moments(output, plan.reference);
+                let dof = request.drawn_dof.get(output).copied().unwrap_or(f64::INFINITY);
+                let scatter = scatters.get(output).copied();
+                let shortest_error = scatter.map_or([f64::NAN; 2], |scatter| scatter.errors);
+                let errors =
+                    NumericalError::new(moments, dof, found.errors, shortest_error, found.extremes);
+                let [low, high, median] = found.at;
+                let intervals = Intervals {
+                    symmetric: [low, high],
+                    shortest: found.shortest,
+                    exact: found.exact,
+                    unique: scatter.is_none_or(|scatter| scatter.unique),
+                };
+                Some(MonteCarlo::new(moments, dof, median, intervals, errors))
+            })
+            .collect();
+        let trials = if outputs.len() == plans.len() { whole.trials } else { 0 };
+        let correlation_errors = of_moments(correlation_errors, &outputs);
+        let stopped = whole.stopped;
+        Some(Finished { trials, outputs, correlations, correlation_errors, undefined, stopped })
+    }
 }
 
 /// The figures of one output that are order statistics.
 #[derive(Clone, Copy, Debug)]
-struct Found {
+pub(super) struct Found {
     /// Lower end, upper end, median.
-    at: [f64; 3],
-    errors: [f64; 3],
+    pub(super) at: [f64; 3],
+    pub(super) errors: [f64; 3],
     /// The least and the greatest trial.
-    extremes: [f64; 2],
-    shortest: [f64; 2],
-    exact: bool,
+    pub(super) extremes: [f64; 2],
+    pub(super) shortest: [f64; 2],
+    pub(super) exact: bool,
 }
 
 /// The search for one output's order statistics.
@@ -128,13 +263,11 @@ struct Search {
     ranks: Ranks,
     std: f64,
     found: Option<Found>,
-    /// What is known until it is found.
-    bounds: Option<Found>,
 }
 
 impl Search {
     fn new(trials: u64, probability: f64, std: f64) -> Self {
-        Self { trials, ranks: Ranks::new(trials, probability), std, found: None, bounds: None }
+        Self { trials, ranks: Ranks::new(trials, probability), std, found: None }
     }
 
     /// Looks for the figures in what a pass kept; gives the leaves that are still needed. With
@@ -261,46 +394,4 @@ fn value_at(leaf: &Leaf, kept: &[f64], rank: u64, anyway: bool) -> Option<f64> {
     }
     let offset = (rank - leaf.below - 1) as usize;
     kept.get(leaf.kept? + offset).copied()
-}
-
-fn finish(
-    trials: &RowTrials,
-    (request, path): (Request<'_>, CodePath),
-    whole: Pass,
-    summaries: &[(Moments, Parts)],
-    searches: Vec<Option<Search>>,
-    scatters: &[ShortestScatter],
-) -> Finished {
-    let undefined = whole.first_undefined.map(|(block, trial)| Undefined {
-        count: whole.undefined,
-        trials: whole.trials + whole.undefined,
-        first: trials.inputs_of(path, block, trial),
-    });
-    let parts: Vec<&Parts> = summaries.iter().map(|(_, parts)| parts).collect();
-    let correlations = correlations(whole.trials, &parts, &whole.products);
-    let correlation_errors = correlation_errors(&parts, &whole.products, &correlations);
-    let figures = searches.into_iter().zip(summaries).enumerate();
-    let outputs: Vec<MonteCarlo> = figures
-        .filter_map(|(output, (search, (moments, _)))| {
-            let search = search?;
-            let found = search.found.or(search.bounds)?;
-            let dof = request.drawn_dof.get(output).copied().unwrap_or(f64::INFINITY);
-            let scatter = scatters.get(output).copied();
-            let shortest_error = scatter.map_or([f64::NAN; 2], |scatter| scatter.errors);
-            let errors =
-                NumericalError::new(moments, dof, found.errors, shortest_error, found.extremes);
-            let [low, high, median] = found.at;
-            let intervals = Intervals {
-                symmetric: [low, high],
-                shortest: found.shortest,
-                exact: found.exact,
-                unique: scatter.is_none_or(|scatter| scatter.unique),
-            };
-            Some(MonteCarlo::new(moments, dof, median, intervals, errors))
-        })
-        .collect();
-    let trials = if outputs.len() == summaries.len() { whole.trials } else { 0 };
-    let correlation_errors = of_moments(correlation_errors, &outputs);
-    let stopped = whole.stopped;
-    Finished { trials, outputs, correlations, correlation_errors, undefined, stopped }
 }

@@ -34,10 +34,17 @@ impl Sums {
         }
     }
 
-    /// The sums of two sets of trials, but for the products, which are added up by themselves.
+    /// The sums of two sets of trials.
     pub(crate) fn merge(&mut self, other: &Self) {
         self.inside += other.inside;
         for (sum, term) in self.powers.iter_mut().zip(other.powers) {
+            *sum += term;
+        }
+        // a chunk without trials has no products
+        if self.products.len() < other.products.len() {
+            self.products.resize(other.products.len(), 0.0);
+        }
+        for (sum, term) in self.products.iter_mut().zip(&other.products) {
             *sum += term;
         }
     }
