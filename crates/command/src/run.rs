@@ -5,28 +5,13 @@ use std::sync::atomic::AtomicBool;
 
 use clap::{Args, ValueEnum};
 
-<<<<<<< HEAD
-use super::exit::say;
-use super::options::{self, Answer, CoverageOption, Model, Page, Seed, Threads};
-use super::output::Place;
-use super::{CommandLine, Exit, Failure, output, progress, save, signals};
-use gumption_engine::propagate::monte_carlo::Histogram;
-use gumption_engine::propagate::{
-    Control, Evaluation, EvaluationError, evaluate, histograms, warnings,
-};
-use gumption_engine::task::{MethodChoice, StoppingRule, Task, Trials, Warning};
-use gumption_files::ModelFile;
-use gumption_report as report;
-use gumption_report::{BudgetColumn, EvaluationReport, Provenance, Shown, TableStyle};
-=======
 use super::evaluated::Evaluated;
 use super::options::{self, CoverageOption, Model, Seed, Threads};
 use super::{CommandLine, Exit, Failure, parts, progress, signals};
 use gumption_engine::propagate::{Control, Evaluation, EvaluationError, evaluate};
-use gumption_engine::task::{StoppingRule, Task, Trials};
+use gumption_engine::task::{MethodChoice, StoppingRule, Task, Trials};
 use gumption_files::{ModelFile, SharedRun};
 use gumption_report::Provenance;
->>>>>>> main
 
 /// Evaluate a model file.
 #[derive(Debug, Args)]

@@ -14,11 +14,8 @@ pub mod gum;
 mod input_figures;
 pub mod monte_carlo;
 mod origins;
-<<<<<<< HEAD
-mod quasi;
-=======
 pub mod parts;
->>>>>>> main
+mod quasi;
 mod regions;
 mod replay;
 mod second_order;
