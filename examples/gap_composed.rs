@@ -15,14 +15,14 @@ use std::path::Path;
 use std::time::Instant;
 
 use gumption::file::FileReader;
-use gumption::gap::{Case, ComposedEffect, DepartureOver, Diagnosis, DiagnosisOptions, diagnose};
+use gumption::gap::{Case, ComposedEffect, Diagnosis, DiagnosisOptions, diagnose};
 use gumption::task::Row;
 use serde_json::{Map, Value, json};
 
 mod departures;
 mod generator;
 
-use departures::{BENCHES, Bench, Simulated, Withheld, simulated};
+use departures::{BENCHES, Bench, Simulated, Withheld, said, simulated};
 
 /// Composed effects that are named with more than this probability on data without a gap are false
 /// names.
@@ -86,27 +86,6 @@ fn diagnosed(
     Ok(diagnose(&read, Some(&rows), DiagnosisOptions::new(1), &|_| {})?)
 }
 
-/// What a composed effect says: its quantities, what it is a function of, its form.
-fn said(of: &ComposedEffect) -> (String, String, String) {
-    let first = &of.terms[0];
-    let over = match &first.over {
-        DepartureOver::Nothing => "",
-        DepartureOver::Condition(name) => name,
-        DepartureOver::Value => "value",
-        DepartureOver::AllConditions => "conditions",
-    };
-    (first.quantities.join("+"), over.to_owned(), first.form.name().to_owned())
-}
-
-/// Whether quantity and argument are right, and the form as well.
-fn right(of: &ComposedEffect, withheld: &Withheld) -> (bool, bool) {
-    let (quantity, over, form) = said(of);
-    let place = of.terms.len() == 1
-        && withheld.quantities.contains(&quantity.as_str())
-        && withheld.over.contains(&over.as_str());
-    (place, place && withheld.forms.contains(&form.as_str()))
-}
-
 #[derive(Default)]
 struct Tally {
     cases: usize,
@@ -126,7 +105,7 @@ impl Tally {
         found: &Diagnosis,
     ) -> String {
         let rights: Vec<(bool, bool)> =
-            found.composed.iter().take(3).map(|of| right(of, withheld)).collect();
+            found.composed.iter().take(3).map(|of| withheld.is_named_by(of)).collect();
         let place = rights.first().is_some_and(|of| of.0);
         let first = rights.first().is_some_and(|of| of.1);
         let third = rights.iter().any(|of| of.1);
@@ -156,7 +135,7 @@ impl Tally {
             .iter()
             .take(3)
             .map(|of| {
-                let (quantity, over, form) = said(of);
+                let [quantity, over, form] = said(of);
                 let over = if over.is_empty() { over } else { format!(" over {over}") };
                 format!("{quantity} {form}{over} {:.2}", of.probability)
             })

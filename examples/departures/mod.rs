@@ -9,6 +9,7 @@
 
 use std::f64::consts::TAU;
 
+use super::ComposedEffect;
 use super::generator::SplitMix64;
 
 /// An effect that is withheld: what it does to the outputs, and what names it rightly.
@@ -23,6 +24,24 @@ pub(crate) struct Withheld {
     pub(crate) forms: &'static [&'static str],
     /// Whether its size may be chosen, since the departure is proportional to it.
     pub(crate) scales: bool,
+}
+
+impl Withheld {
+    /// Whether a composed effect has the right quantity and argument, and the form as well.
+    pub(crate) fn is_named_by(&self, of: &ComposedEffect) -> (bool, bool) {
+        let [quantity, over, form] = said(of);
+        let place = of.terms.len() == 1
+            && self.quantities.contains(&quantity.as_str())
+            && self.over.contains(&over.as_str());
+        (place, place && self.forms.contains(&form.as_str()))
+    }
+}
+
+/// What a composed effect says: its quantities, what it is a function of ("" for a constant), its form.
+pub(crate) fn said(of: &ComposedEffect) -> [String; 3] {
+    let first = &of.terms[0];
+    let over = first.over.name().unwrap_or_default();
+    [first.quantities.join("+"), over.to_owned(), first.form.name().to_owned()]
 }
 
 /// A sim with its inputs (unit, mean, standard uncertainty), conditions and outputs.

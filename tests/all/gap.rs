@@ -160,7 +160,7 @@ fn long_case() -> String {
 
 #[cfg(unix)]
 #[test]
-fn an_interrupt_leaves_no_file() {
+fn an_interrupt_hands_back_a_whole_page() {
     use std::io::{BufRead, BufReader};
     use std::process::Stdio;
 
@@ -182,5 +182,8 @@ fn an_interrupt_leaves_no_file() {
     assert!(killed.unwrap().success());
     assert_eq!(child.wait().unwrap().code(), Some(130));
     let names = std::fs::read_dir(folder.path()).unwrap();
-    assert_eq!(names.count(), 2, "the case and its data are all there is");
+    assert_eq!(names.count(), 3, "the case, its data and the answer are all there is");
+    let page = std::fs::read_to_string(file).unwrap();
+    assert!(page.ends_with("</html>\n") || page.ends_with("</html>"), "the page is whole");
+    assert!(page.contains("The diagnosis was interrupted"), "and says what it is");
 }

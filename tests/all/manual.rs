@@ -97,7 +97,7 @@ fn tables_are_made_by_the_program() {
         assert!(committed == note + &told, "{name} is of another version: GUMPTION_UPDATE=1");
         made += 1;
     }
-    assert_eq!(made, 8);
+    assert_eq!(made, 9);
 }
 
 /// Every page is in the table of contents, and every link within the manual leads to a file.
@@ -211,4 +211,35 @@ fn examples_are_printed_and_run() {
         }
     }
     assert!(run >= 25, "{run} of\n{list}");
+}
+
+/// README's commands, in a copy of the files that they name; what asks, what takes minutes and what
+/// a toolchain runs is left to other tests.
+#[cfg(unix)]
+#[test]
+fn commands_of_the_first_page_run() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let linked = |name: &str| {
+        std::os::unix::fs::symlink(root().join(name), folder.path().join(name)).expect("linked");
+    };
+    linked("models");
+    let readme = fs::read_to_string(root().join("README.md")).expect("README.md");
+    let mut run = 0;
+    for (_, code) in blocks(&readme).into_iter().filter(|(fence, _)| *fence == "sh") {
+        let commands = ["gumption ", "mkdir "];
+        for line in code.lines().filter(|line| commands.iter().any(|of| line.starts_with(of))) {
+            let word = line.split_whitespace().nth(1).expect("a command");
+            if ["new", "gap", "gap-check"].contains(&word) {
+                continue;
+            }
+            let said = shell(folder.path(), line);
+            let error = String::from_utf8_lossy(&said.stderr);
+            assert!(said.status.success(), "{line}\n{error}");
+            run += 1;
+        }
+    }
+    assert!(run >= 20, "{run} commands");
+    // the file that the page shows is the one that it runs
+    let power = fs::read_to_string(root().join("models/examples/power.json")).expect("the file");
+    assert!(blocks(&readme).iter().any(|(fence, code)| *fence == "json" && *code == power));
 }

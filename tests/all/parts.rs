@@ -183,7 +183,8 @@ fn a_killed_part_is_made_again() {
     let options = ["--trials", "300000"];
     place.make(&options, &["0..100"], 1);
     let part = ["run", "m.json", "--blocks", "100..293", "--partial", "parts/2.bin"];
-    let long = [&part[..], &["--trials", "1000000000", "--memory", "100G"]].concat();
+    let all = ["run", "m.json", "--blocks", "100..900000", "--partial", "parts/2.bin"];
+    let long = [&all[..], &["--trials", "1000000000", "--memory", "100G"]].concat();
     let mut child = command().current_dir(place.path()).args(long).spawn().unwrap();
     std::thread::sleep(std::time::Duration::from_millis(200));
     child.kill().unwrap();

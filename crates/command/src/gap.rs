@@ -1,11 +1,12 @@
 //! `gumption gap`
 
 use std::path::PathBuf;
+use std::sync::atomic::AtomicBool;
 
 use clap::{Args, ValueEnum};
 
 use super::options::{self, Answer, Seed, Threads, Trust};
-use super::{CommandLine, Exit, Failure, progress, run};
+use super::{CommandLine, Exit, Failure, progress, run, signals};
 use gumption_engine::task::Row;
 use gumption_files::CaseFile;
 use gumption_gap as gap;
@@ -38,6 +39,8 @@ enum Format {
     Table,
     /// A page with figures for a browser and for print, in one file
     Html,
+    /// The page for GitHub and editors, without figures
+    Markdown,
     /// The whole answer for programs
     Json,
     /// One line for each hypothesis: prior, posterior probability, evidence
@@ -55,11 +58,14 @@ impl Gap {
         let mut read = options::with_named(&self.case, file.files.iter().map(|(name, _)| name));
         read.extend(self.predict.clone());
         let place = self.answer.open(&read)?;
+        // from the first word on, who interrupts gets what there is
+        let stop = signals::stop_flag();
         self.answer.say(&file.warnings);
-        let diagnosis = self.diagnose(&file, at.as_deref())?;
+        let diagnosis = self.diagnose(&file, at.as_deref(), &stop)?;
         let answer = match self.answer.format {
             Format::Table => report::gap::table(&diagnosis),
             Format::Html => report::gap::html(&diagnosis, &self.provenance(&file)?),
+            Format::Markdown => report::gap::markdown(&diagnosis, &self.provenance(&file)?),
             Format::Json => report::gap::json(&diagnosis),
             Format::Csv => report::gap::csv(&diagnosis),
         };
@@ -68,7 +74,7 @@ impl Gap {
             self.answer.note(diagnosis.notes.iter().map(|note| note.text.as_str()));
         }
         place.write(&answer)?;
-        Ok(Exit::Done)
+        Ok(if diagnosis.interrupted { Exit::Interrupted } else { Exit::Done })
     }
 
     /// The digests of all files that the answer rests on.
@@ -83,11 +89,17 @@ impl Gap {
         Ok(run::provenance(&file.source.text, &files))
     }
 
-    fn diagnose(&self, file: &CaseFile, at: Option<&[Row]>) -> Result<Diagnosis, Failure> {
+    fn diagnose(
+        &self,
+        file: &CaseFile,
+        at: Option<&[Row]>,
+        stop: &AtomicBool,
+    ) -> Result<Diagnosis, Failure> {
         let seed = self.seed.or(file.case.task.settings.seed);
         let bar = progress::share(self.answer.quiet);
         let told = |share: f64| progress::tell(&bar, share);
-        let diagnose = || gap::diagnose(&file.case, at, gap::DiagnosisOptions::new(seed), &told);
+        let options = gap::DiagnosisOptions::new(seed);
+        let diagnose = || gap::diagnose_until(&file.case, at, options, &told, stop);
         let diagnosis = self.threads.install(diagnose)?;
         bar.finish_and_clear();
         diagnosis.map_err(|error| Failure::System(error.to_string()))

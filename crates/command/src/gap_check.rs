@@ -61,6 +61,8 @@ impl GapCheck {
         let file = self.trust.files(program).case(&self.case)?;
         let read = options::with_named(&self.case, file.files.iter().map(|(name, _)| name));
         let place = self.answer.open(&read)?;
+        // from the first word on, an interrupt leaves nothing behind
+        let stop = signals::stop_flag();
         self.answer.say(&file.warnings);
         let seed = self.seed.or(file.case.task.settings.seed);
         let kept;
@@ -74,7 +76,6 @@ impl GapCheck {
                 kept.path()
             }
         };
-        let stop = signals::stop_flag();
         let scores = || self.scores(program, &file, folder, seed, &stop);
         let Some(scores) = self.threads.install(scores)?? else {
             return Ok(Exit::Interrupted);
@@ -139,7 +140,7 @@ impl GapCheck {
             let own = folder.join(format!("{number:05}"));
             make(&own)?;
             let withheld = (truth.kind == gap::check::TruthKind::Withheld)
-                .then(|| truth.effects.first().map(String::as_str))
+                .then(|| truth.effects.first().map(|name| file.case.listed_name(name)))
                 .flatten();
             let files = file.variant(&measured, withheld);
             for (name, bytes) in files.map_err(|error| Failure::Argument(error.0))? {

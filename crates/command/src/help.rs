@@ -11,7 +11,7 @@ use gumption_units::nearest;
 #[derive(Debug, Args)]
 pub(super) struct Help {
     /// A command, or one of model, distributions, functions, units, case, certificate-file, recipe,
-    /// saved-result
+    /// costs, saved-result
     topic: Option<String>,
     /// Format of what is told about files and formulas
     #[arg(long, value_enum, default_value = "table")]

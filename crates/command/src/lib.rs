@@ -13,6 +13,7 @@ mod exit;
 mod gap;
 mod gap_check;
 mod help;
+mod import;
 mod merge;
 mod models;
 mod new;
@@ -66,6 +67,8 @@ enum Command {
     Check(check::Check),
     /// Compare results two by two (normalized errors), or those of many laboratories
     Compare(compare::Compare),
+    /// Make a model file of a budget in a spreadsheet
+    Import(import::Import),
     /// Write a model file to start from: from options, or from answers to questions
     New(new::New),
     /// List the typed measurement models, or describe one
@@ -180,6 +183,7 @@ impl CommandLine {
             Command::Certificate(command) => command.execute(self),
             Command::Check(command) => command.execute(self),
             Command::Compare(command) => command.execute(),
+            Command::Import(command) => command.execute(),
             Command::Models(command) => command.execute(self),
             Command::Verify(command) => command.execute(self),
             Command::Diff(command) => command.execute(self),

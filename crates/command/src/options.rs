@@ -124,8 +124,7 @@ pub(super) struct CoverageOption {
 impl CoverageOption {
     /// The coverage, unless given that of the file. A factor that the file keeps fixed is kept fixed.
     pub(super) fn or(&self, of_file: Coverage) -> Coverage {
-        let fixed = matches!(of_file, Coverage::Factor { fixed: true, .. });
-        let given = self.k.map(|factor| Coverage::Factor { factor, fixed });
+        let given = self.k.map(|factor| of_file.with_factor(factor));
         self.coverage.map(Coverage::Probability).or(given).unwrap_or(of_file)
     }
 }

@@ -9,7 +9,7 @@ use super::evaluated::Evaluated;
 use super::options::{self, CoverageOption, Model, Seed, Threads};
 use super::{CommandLine, Exit, Failure, parts, progress, signals};
 use gumption_engine::propagate::{Control, Evaluation, EvaluationError, evaluate};
-use gumption_engine::task::{MethodChoice, StoppingRule, Task, Trials};
+use gumption_engine::task::{MethodChoice, SettingsChanges, StoppingRule, Task, Trials};
 use gumption_files::{ModelFile, SharedRun};
 use gumption_report::Provenance;
 
@@ -118,24 +118,19 @@ impl Run {
 
     /// The command line beats the file.
     fn settings(&self, task: &mut Task) {
-        let settings = &mut task.settings;
-        settings.coverage = self.coverage.or(settings.coverage);
-        if let Some(trials) = self.trials {
-            settings.trials = trials;
-            settings.decide_up_to = 0;
-        }
-        if self.validate {
-            settings.trials = Trials::Adaptive;
-            settings.for_validation = true;
-        }
-        settings.rule = self.rule.unwrap_or(settings.rule);
-        settings.method = self.method.or(settings.method);
-        settings.max_trials = self.max_trials.unwrap_or(settings.max_trials);
-        settings.seed = self.seed.or(settings.seed);
-        if let Some(digits) = self.digits {
-            *settings = settings.with_digits(digits);
-        }
-        settings.real_dof |= self.dof.is_some();
+        let settings = task.settings;
+        let asked = SettingsChanges {
+            coverage: Some(self.coverage.or(settings.coverage)),
+            trials: self.trials,
+            validate: self.validate,
+            rule: self.rule,
+            method: self.method,
+            max_trials: self.max_trials,
+            seed: Some(self.seed.or(settings.seed)),
+            digits: self.digits,
+            real_dof: self.dof.is_some(),
+        };
+        task.settings = asked.applied(settings);
     }
 
     fn control<'s>(&self, stop: &'s AtomicBool) -> Control<'s> {

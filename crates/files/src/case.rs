@@ -96,11 +96,27 @@ impl ModelReader<'_> {
             soundness::check(self.root.log, &read, &placed, data);
         }
         shipped.filter(|()| complete)?;
-        let Found { file, sim, observed, simulated, .. } = found?;
+        let unlisted = catalogue::unlisted(&read, &results, &placed);
+        let Found { file, sim, observed, simulated, reachable, replication, .. } = found?;
+        let of = |name: String| sim.conditions.iter().position(|condition| condition.name == name);
+        let groups = replication.and_then(of);
         warnings.splice(0..0, file.warnings);
         let candidates = placed.into_iter().map(|placed| placed.candidate).collect();
-        let case =
-            Case { task: file.task, model: sim, observed, simulated, candidates, prior: prior? };
+        let case = Case {
+            task: file.task,
+            model: sim,
+            observed,
+            simulated,
+            reachable,
+            candidates,
+            shipped: unlisted,
+            replication: None,
+            prior: prior?,
+        };
+        let case = match groups {
+            Some(condition) => case.replicated(condition),
+            None => case,
+        };
         Some(CaseFile { case, warnings, source: file.source, files: file.files })
     }
 }

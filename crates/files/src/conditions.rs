@@ -24,6 +24,8 @@ pub(super) struct Conditions {
     pub(super) quantities: Vec<Quantity>,
     pub(super) places: Vec<Range<usize>>,
     pub(super) rows: Vec<Vec<f64>>,
+    /// Between which values each can be set, in its unit, where the file says so.
+    pub(super) reachable: Vec<Option<[f64; 2]>>,
     /// The tables read: name and content.
     pub(super) files: Vec<(String, Vec<u8>)>,
     /// Names of those whose unit could not be read.
@@ -54,6 +56,7 @@ impl Conditions {
         let place = table.columns.iter().position(|column| column == name);
         self.places.push(named.clone());
         self.quantities.push(Quantity { name: name.to_owned(), unit, about: String::new() });
+        self.reachable.push(None);
         for (row, data) in self.rows.iter_mut().zip(&table.rows) {
             row.push(place.and_then(|place| data.get(place)).copied().unwrap_or(f64::NAN));
         }
@@ -67,8 +70,25 @@ impl Conditions {
             Unit::one()
         });
         let about = condition.text("about").unwrap_or("").to_owned();
+        self.reachable.push(reachable(condition, &member.key, &unit));
         self.quantities.push(Quantity { name: member.key.clone(), unit, about });
     }
+}
+
+/// The `range` of a condition: between which values it can be set.
+fn reachable(condition: &Object<'_>, name: &str, unit: &Unit) -> Option<[f64; 2]> {
+    let member = condition.get("range")?;
+    let values = condition.values("range", unit, ValueOf::Quantity)?;
+    if let [low, high] = values[..]
+        && low < high
+    {
+        return Some([low, high]);
+    }
+    let name = name.to_owned();
+    condition
+        .log
+        .report(&member.value.span, DiagnosticKind::ConditionRange { name, found: values });
+    None
 }
 
 /// Reads `conditions`; paths are relative to `folder`. Conditions without values are columns of
@@ -267,7 +287,8 @@ fn from_table(object: &Object<'_>, file: &Member, folder: Folder<'_>) -> Option<
         .collect();
     let places = vec![file.value.span.clone(); table.columns.len()];
     let (rows, files) = (table.rows, vec![(name.to_owned(), bytes)]);
-    Some(Conditions { quantities, places, rows, files, without_unit, unreadable: false })
+    let reachable = vec![None; places.len()];
+    Some(Conditions { quantities, places, rows, reachable, files, without_unit, unreadable: false })
 }
 
 /// The table with only those columns that are wanted, in their order.

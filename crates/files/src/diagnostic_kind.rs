@@ -293,6 +293,13 @@ pub enum DiagnosticKind {
         /// The name that is concerned.
         name: String,
     },
+    /// A range of a condition that is not two increasing values.
+    ConditionRange {
+        /// The condition.
+        name: String,
+        /// What stands there.
+        found: Vec<f64>,
+    },
     /// A condition that has no values of its own and no table to take them from.
     NoTable {
         /// The name that is concerned.
@@ -521,6 +528,7 @@ impl DiagnosticKind {
             Self::Formula { .. } => "bad-formula",
             Self::EstimateUndefined { .. } => "estimate-undefined",
             Self::NoValues { .. } => "no-values",
+            Self::ConditionRange { .. } => "bad-range",
             Self::NoTable { .. } => "no-table",
             Self::Cell { .. } => "bad-cell",
             Self::ShortRow { .. } => "short-row",
@@ -734,6 +742,15 @@ impl fmt::Display for DiagnosticKind {
                 write!(f, "this estimate is {found} in row {row} of the conditions")
             }
             Self::NoValues { name } => write!(f, "`{name}` has no values; at least one is needed"),
+            Self::ConditionRange { name, found } => {
+                let found: Vec<String> = found.iter().map(|v| Shortest(*v).to_string()).collect();
+                write!(
+                    f,
+                    "the range of the condition `{name}` is [{}], but must be two values, the lower \
+                     one first: `[1, 500]`",
+                    found.join(", ")
+                )
+            }
             Self::NoTable { name } => write!(
                 f,
                 "the condition `{name}` has no `values`; it would name a column of observations, \

@@ -5,6 +5,7 @@ use std::collections::HashSet;
 use super::DiagnosticKind;
 use super::condition_values::ConditionValues;
 use super::conditions::unit;
+use super::dcc::FromCertificate;
 use super::diagnostics::Collector;
 use super::folder::Folder;
 use super::input_set::InputSet;
@@ -13,6 +14,7 @@ use super::keys::{self, Shape};
 use super::object::Object;
 use super::overrides::Override;
 use super::paired;
+use super::readings::{self, FileReadings};
 use super::results::Results;
 use super::samples;
 use super::shapes::{self, Estimate, Fields};
@@ -58,8 +60,9 @@ pub(super) fn read(
         let moved = overrides.iter().rev().find(|o| o.input == member.key && o.field.is_none());
         let (name, folder) = (member.key.as_str(), results.folder);
         let inputs = &mut inputs;
-        let whole = None;
-        let mut reader = Reader { object, name, conditions, moved, folder, results, inputs, whole };
+        let (whole, certificate) = (None, None);
+        let mut reader =
+            Reader { object, name, conditions, moved, folder, results, certificate, inputs, whole };
         match object.get("complex") {
             None => reader.input(),
             Some(complex) => reader.complex(complex),
@@ -82,6 +85,8 @@ struct Reader<'a, 'i> {
     moved: Option<&'a Override>,
     folder: Folder<'a>,
     results: &'a Results<'a>,
+    /// What the input takes from a certificate.
+    certificate: Option<FromCertificate>,
     inputs: &'i mut InputSet,
     /// The unit of a part of a complex quantity, unless it says its own.
     whole: Option<Unit>,
@@ -90,6 +95,12 @@ struct Reader<'a, 'i> {
 impl<'a> Reader<'a, '_> {
     fn input(&mut self) {
         let object = self.object;
+        let is_certificate = object
+            .get("distribution")
+            .is_some_and(|member| matches!(&member.value.value, Json::Text(name) if name == "dcc"));
+        if is_certificate && object.get("components").is_none() {
+            self.certificate = self.results.of_certificate(&object);
+        }
         let unit = self.unit().unwrap_or_else(|| {
             self.inputs.without_unit.push(self.name.to_owned());
             Unit::one()
@@ -153,6 +164,7 @@ impl<'a> Reader<'a, '_> {
             let known = inputs.quantities.len();
             let name = name.as_str();
             let mut reader = Reader {
+                certificate: None,
                 object: part,
                 name,
                 conditions,
@@ -197,9 +209,13 @@ impl<'a> Reader<'a, '_> {
         let is_result = object.get("distribution").is_some_and(
             |member| matches!(&member.value.value, Json::Text(name) if name == "result"),
         );
+        let is_certificate = object
+            .get("distribution")
+            .is_some_and(|member| matches!(&member.value.value, Json::Text(name) if name == "dcc"));
         match object.get("unit") {
             None if is_result => self.results.unit(object),
             None if self.whole.is_some() => self.whole.clone(),
+            None if is_certificate => Some(self.certificate.as_ref()?.unit.clone()),
             _ => unit(object, "unit"),
         }
     }
@@ -270,16 +286,19 @@ impl<'a> Reader<'a, '_> {
             return;
         };
         let samples = self.samples(&object, self.name, kind);
+        let read = self.readings_of_file(&object, self.name, kind);
+        let Some(read) = read else { return };
+        if kind.name == "dcc" && self.certificate.is_none() {
+            return;
+        }
+        let certificate = self.certificate.clone();
         let (results, conditions) = (self.results, self.conditions);
         let fields = |estimate, row| Fields {
-            object,
-            name: self.name,
-            unit,
-            estimate,
-            share_of: None,
             samples: samples.as_ref(),
-            results,
+            read: read.as_ref(),
+            certificate: certificate.as_ref(),
             at: Some((conditions, row)),
+            ..Fields::new(object, self.name, unit, estimate, results)
         };
         let mut zero_width = Vec::new();
         let mut drawn: Vec<Distribution> = Vec::new();
@@ -291,11 +310,15 @@ impl<'a> Reader<'a, '_> {
             else {
                 return;
             };
-            if !["constant", "result"].contains(&kind.name) && distribution.constant().is_some() {
+            if !["constant", "result", "dcc"].contains(&kind.name)
+                && distribution.constant().is_some()
+            {
                 zero_width.push(row + 1);
             }
             drawn.push(distribution);
         }
+        let shared = if differs { None } else { drawn.first() };
+        self.note_of_readings(self.name, kind, shared, read.as_ref());
         let same_elsewhere = !differs && self.conditions.rows() > 1;
         if let Some(first) = zero_width.first() {
             let text = format!(
@@ -347,16 +370,82 @@ impl<'a> Reader<'a, '_> {
         samples::read(object, name, self.folder, &mut self.inputs.files)
     }
 
+    /// The readings of a file, if that is where they are; outside `None` after a mistake.
+    #[allow(clippy::option_option)]
+    fn readings_of_file(
+        &mut self,
+        object: &Object<'_>,
+        name: &str,
+        kind: &Shape,
+    ) -> Option<Option<FileReadings>> {
+        if kind.name != "readings" {
+            return Some(None);
+        }
+        match readings::of_file(object, name, self.folder, &mut self.inputs.files) {
+            Some(read) => read.map(Some),
+            None => {
+                for key in ["column", "groups"] {
+                    if let Some(member) = object.get(key) {
+                        let diagnostic = DiagnosticKind::OnlyWith { key, with: "file" };
+                        object.log.report(&member.key_span, diagnostic);
+                        return None;
+                    }
+                }
+                Some(None)
+            }
+        }
+    }
+
+    /// What is to be said of readings: groups, a drift, no scatter.
+    fn note_of_readings(
+        &mut self,
+        name: &str,
+        kind: &Shape,
+        drawn: Option<&Distribution>,
+        read: Option<&FileReadings>,
+    ) {
+        if kind.name != "readings" {
+            return;
+        }
+        let mut notes: Vec<(&'static str, String)> = Vec::new();
+        notes.extend(read.and_then(|read| read.note.clone()).map(|note| ("nested-readings", note)));
+        match drawn {
+            Some(Distribution::Readings(readings)) => {
+                let note = readings::dependence(name, readings.values());
+                notes.extend(note.map(|note| ("dependent-readings", note)));
+            }
+            Some(Distribution::Rectangular(_)) => {
+                let note = format!(
+                    "`{name}`: the scatter of the readings is below what the resolution leaves \
+                     unknown, which is taken in its place as a rectangular distribution (JCGM 100, \
+                     F.2.2.1)"
+                );
+                notes.push(("resolution-taken", note));
+            }
+            Some(Distribution::Constant(_)) => {
+                let note = format!(
+                    "`{name}`: all readings are equal and show no scatter; it is a constant beside \
+                     the other components, one of which has to be the resolution"
+                );
+                notes.push(("no-scatter", note));
+            }
+            _ => {}
+        }
+        for (code, note) in notes {
+            self.inputs.warnings.push(Warning::new(code, name, note));
+        }
+    }
+
     /// Adds a variable of the budget.
     fn variable(&mut self, name: String, object: &Object<'_>, kind: Option<&Shape>, unit: &Unit) {
-        let readings = kind.is_some_and(|kind| kind.name == "readings");
-        if readings && object.truth("paired") == Some(true) {
+        let is_type_a = kind.is_some_and(|kind| kind.name == "readings");
+        if is_type_a && object.truth("paired") == Some(true) {
             self.inputs.paired.push(self.inputs.variables.len());
         }
         let evaluation = match object.text("type") {
             Some("A") => EvaluationType::A,
             Some("B") => EvaluationType::B,
-            None if readings => EvaluationType::A,
+            None if is_type_a => EvaluationType::A,
             None => EvaluationType::B,
             Some(other) => {
                 let diagnostic = DiagnosticKind::NotOneOf {
@@ -370,7 +459,10 @@ impl<'a> Reader<'a, '_> {
             }
         };
         let about = object.text("about").or_else(|| self.object.text("about")).unwrap_or("");
-        let sharing = self.sharing();
+        let own_rows =
+            is_type_a && readings::are_of_rows(object) && self.object.get("per").is_none();
+        // every row has been read on its own
+        let sharing = if own_rows { Sharing::Row } else { self.sharing() };
         let mut variable = Variable::new(name, unit.clone());
         variable.evaluation = evaluation;
         let group = object.text("group").or_else(|| self.object.text("group"));
@@ -420,8 +512,9 @@ impl<'a> Reader<'a, '_> {
         let (Some(parts), Some(source)) = (parts, source) else {
             return;
         };
-        let readings: Vec<&Part<'_>> = parts.iter().filter(|p| p.kind.name == "readings").collect();
-        if readings.len() > 1 {
+        let of_type_a: Vec<&Part<'_>> =
+            parts.iter().filter(|p| p.kind.name == "readings").collect();
+        if of_type_a.len() > 1 {
             let reason = "is a second one of `readings`; at most one can be".to_owned();
             object.report(DiagnosticKind::Component { name: self.name.to_owned(), reason });
             return;
@@ -431,7 +524,7 @@ impl<'a> Reader<'a, '_> {
                 Some(mean) => Some(mean),
                 None => return,
             },
-            (EstimateSource::Own, None) if readings.is_empty() => {
+            (EstimateSource::Own, None) if of_type_a.is_empty() => {
                 object.report(DiagnosticKind::MissingKey {
                     key: "mean",
                     what: "an input with components",
@@ -443,7 +536,7 @@ impl<'a> Reader<'a, '_> {
         let conditions = self.conditions;
         let at = |row| (conditions, row);
         let of_readings =
-            match readings.first().map(|part| part.distribution(unit, 0.0, self.results, at(0))) {
+            match of_type_a.first().map(|part| part.distribution(unit, 0.0, self.results, at(0))) {
                 Some(Some(distribution)) => distribution.mean(),
                 Some(None) => return,
                 None => 0.0,
@@ -452,6 +545,15 @@ impl<'a> Reader<'a, '_> {
             || parts.iter().any(|part| shapes::has_width_of_row(&part.object, part.kind, unit));
         let mut drawn: Vec<Vec<Distribution>> = vec![Vec::new(); 1 + parts.len()];
         for row in 0..if differs { self.conditions.rows() } else { 1 } {
+            let of_readings = match of_type_a.first() {
+                Some(part) if row > 0 && readings::are_of_rows(&part.object) => {
+                    match part.distribution(unit, 0.0, self.results, at(row)) {
+                        Some(distribution) => distribution.mean(),
+                        None => return,
+                    }
+                }
+                _ => of_readings,
+            };
             let total = match self.estimate(&source, unit, row) {
                 Some(Estimate::Own) => own_mean.unwrap_or(of_readings),
                 Some(Estimate::Given(value)) => value,
@@ -470,6 +572,10 @@ impl<'a> Reader<'a, '_> {
             };
             let row = std::iter::once(base.into()).chain(of_parts);
             drawn.iter_mut().zip(row).for_each(|(drawn, distribution)| drawn.push(distribution));
+        }
+        for (part, drawn) in parts.iter().zip(drawn.iter().skip(1)) {
+            let shared = if differs { None } else { drawn.first() };
+            self.note_of_readings(&part.full, part.kind, shared, part.read.0.as_ref());
         }
         for (part, mut drawn) in drawn.into_iter().enumerate() {
             match drawn.pop() {
@@ -524,7 +630,18 @@ impl<'a> Reader<'a, '_> {
                     keys::COMPONENT.into_iter().chain(kind.fields.iter().copied()).collect();
                 component.check_names(&known);
                 let samples = self.samples(&component, &full, kind);
-                parts.push(Part { object: component, full, kind, samples });
+                let Some(read) = self.readings_of_file(&component, &full, kind) else { continue };
+                let beside_others = list.len() > 1;
+                let mut certificate = None;
+                if kind.name == "dcc" {
+                    certificate = self.results.of_certificate(&component);
+                    if certificate.is_none() {
+                        continue;
+                    }
+                }
+                let object = component;
+                let read = (read, certificate);
+                parts.push(Part { object, full, kind, samples, read, beside_others });
             }
         }
         for part in &parts {
@@ -540,6 +657,9 @@ struct Part<'a> {
     full: String,
     kind: &'static Shape,
     samples: Option<Samples>,
+    /// Readings of a file, and what is taken from a certificate.
+    read: (Option<FileReadings>, Option<FromCertificate>),
+    beside_others: bool,
 }
 
 impl Part<'_> {
@@ -555,10 +675,15 @@ impl Part<'_> {
         let own = !self.kind.is_about_zero()
             || ["mean", "value", "lower"].iter().any(|key| self.object.get(key).is_some());
         let estimate = if own { Estimate::Own } else { Estimate::Given(0.0) };
-        let (object, name) = (self.object, self.full.as_str());
-        let samples = self.samples.as_ref();
-        let (share_of, at) = (Some(total), Some(at));
-        Fields { object, name, unit, estimate, share_of, samples, results, at }
-            .distribution(self.kind)
+        Fields {
+            share_of: Some(total),
+            samples: self.samples.as_ref(),
+            read: self.read.0.as_ref(),
+            certificate: self.read.1.as_ref(),
+            beside_others: self.beside_others,
+            at: Some(at),
+            ..Fields::new(self.object, &self.full, unit, estimate, results)
+        }
+        .distribution(self.kind)
     }
 }

@@ -14,7 +14,7 @@ use super::model_reader::{Equation, ModelBody};
 use super::object::Object;
 use super::outputs::Outputs;
 use super::scopes::{coherent, condition_scope, report_formula};
-use gumption_engine::model::formula::{Scope, Typing, check_name};
+use gumption_engine::model::formula::{Scope, TableCall, TableData, Typing, check_name};
 use gumption_engine::model::typed::CatalogueEntry;
 use gumption_engine::model::{Output, Quantity};
 use gumption_engine::task::Warning;
@@ -217,10 +217,14 @@ pub(super) fn check_equations(
     log: &Collector,
     equations: &[Equation<'_>],
     of: &Quantities,
+    tables: Vec<(TableCall, Option<TableData>)>,
 ) -> Scope {
     let Quantities { inputs, conditions, check_units, .. } = of;
     let unknown_units = of.unknown_units();
     let mut scope = condition_scope(conditions);
+    for (call, data) in tables {
+        scope.define_table(call, data);
+    }
     for input in &inputs.quantities {
         let Quantity { name, unit, .. } = &input.quantity;
         let known = !unknown_units.contains(name.as_str());

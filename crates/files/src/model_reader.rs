@@ -28,6 +28,7 @@ use super::diagnostics::{Collector, Diagnostics};
 use super::fits::{self, FitSet};
 use super::folder::Folder;
 use super::input_set::InputSet;
+use super::interpolated;
 use super::json::{Json, Member, Node};
 use super::model_checks::{
     Quantities, celsius_as_kelvin, check_equations, check_formula_outputs, check_names,
@@ -45,7 +46,7 @@ use super::scopes::{ConditionSet, number_form, report_formula, typed_scope};
 use super::simulated::{names_simulation, simulated};
 use super::size::Size;
 use super::table::{self, Table};
-use super::{DiagnosticKind, correlations, inputs, keys, regions, settings};
+use super::{DiagnosticKind, correlations, inputs, keys, notation, regions, settings};
 use gumption_engine::distribution::{Correlation, Fits};
 use gumption_engine::model::formula::Formula;
 use gumption_engine::model::typed::{Catalogue, CatalogueEntry};
@@ -83,6 +84,10 @@ pub(super) struct Found {
     pub(super) observed: Vec<Option<ObservedOutput>>,
     /// How many of the last conditions are columns of somebody else's simulation.
     pub(super) simulated: usize,
+    /// Between which values each condition can be set, where the file says so.
+    pub(super) reachable: Vec<Option<[f64; 2]>>,
+    /// The condition that tells devices or days apart.
+    pub(super) replication: Option<String>,
     /// The table of the data.
     pub(super) data: Option<Table>,
 }
@@ -137,7 +142,10 @@ pub(super) fn read_with<T>(
     options: ModelOptions<'_>,
     read: impl FnOnce(&ModelReader<'_>) -> Option<T>,
 ) -> Result<T, Diagnostics> {
-    let change = |log: &Collector, root: &mut Node| overrides::apply(log, root, options.overrides);
+    let change = |log: &Collector, root: &mut Node| {
+        notation::apply(log, root);
+        overrides::apply(log, root, options.overrides);
+    };
     read_changed_root(name, text, "a model file", change, |root| {
         let folder = options.files.folder(folder);
         read(&ModelReader { root, folder, options })
@@ -171,6 +179,7 @@ impl<'a> ModelReader<'a> {
         }
         files.extend(of.inputs.files.iter().cloned());
         files.extend(results.files.take());
+        files.append(&mut results.certificates.borrow_mut().files);
         files.extend(fits.files);
         let joint = Fits::default();
         let (correlations, notes) = self.correlations(&of, &mut files, &joint);
@@ -180,13 +189,14 @@ impl<'a> ModelReader<'a> {
         warnings.extend(results.warnings.take());
         let body = body?;
         let statement = body.statement();
-        let sim = self.sim(body, &mut of, &mut warnings)?;
+        let sim = self.sim(body, &mut of, &mut warnings, &mut files)?;
         let regions = regions::read(root, &sim.outputs);
         if !root.log.is_clean() {
             return None;
         }
         let observed = self.observed(observations.as_ref(), &sim)?;
 
+        let reachable = std::mem::take(&mut of.conditions.reachable);
         let swept = root.get("conditions").is_some() || observations.is_some();
         let output_places = std::mem::take(&mut of.outputs.places);
         let evidence = std::mem::take(&mut of.inputs.evidence);
@@ -200,8 +210,12 @@ impl<'a> ModelReader<'a> {
         task.regions = regions;
         let source = root.log.source.clone();
         let file = ModelFile { task, warnings, source, files, output_places, evidence };
-        let data = observations.map(|observations| observations.table);
-        Some(Found { file, sim, observed, simulated: simulated.len(), data })
+        let simulated = simulated.len();
+        let (data, replication) = match observations {
+            Some(of) => (Some(of.table), of.replication.map(|(name, _)| name)),
+            None => (None, None),
+        };
+        Some(Found { file, sim, observed, simulated, reachable, replication, data })
     }
 
     /// The calibration functions; `None` after a mistake in one, without which formulas mean nothing.
@@ -240,6 +254,10 @@ impl<'a> ModelReader<'a> {
             (None, Some(table)) => Conditions::rows_of(table),
             (None, None) => Conditions::none(),
         };
+        let of_rows = table.zip(observations.as_ref().and_then(|of| of.replication.as_ref()));
+        if let Some((table, (name, place))) = of_rows {
+            replication_column(log, &mut conditions, table, name, place);
+        }
         let simulated = match &observations {
             Some(of) => simulated(root, of, table.unwrap_or(&of.table), &mut conditions),
             None => Vec::new(),
@@ -301,6 +319,7 @@ impl<'a> ModelReader<'a> {
         body: ModelBody<'a>,
         of: &mut Quantities,
         warnings: &mut Vec<Warning>,
+        files: &mut Vec<(String, Vec<u8>)>,
     ) -> Option<OverridableModel> {
         let log = self.root.log;
         let (scope, maker) = match body {
@@ -315,7 +334,10 @@ impl<'a> ModelReader<'a> {
                 (scope, ModelForm::Typed(entry.typed))
             }
             ModelBody::Equations(equations) => {
-                let scope = check_equations(log, &equations, of);
+                let form = number_form(of.check_units);
+                let tables = interpolated::read(log, self.folder, &equations, form, files);
+                warnings.extend(tables.notes);
+                let scope = check_equations(log, &equations, of, tables.tables);
                 check_formula_outputs(log, &scope, of);
                 if of.check_units {
                     warnings.extend(celsius_as_kelvin(&scope, &of.outputs.outputs));
@@ -456,6 +478,28 @@ fn fill_from_declaration(output: &mut Output, declared: &typed::DeclaredOutput) 
     {
         let factor = Unit::conversion_factor(&unit, &output.quantity.unit);
         output.period = factor.ok().map(|factor| period * factor);
+    }
+}
+
+/// The column that tells devices or days apart as a condition, unless it is one already.
+fn replication_column(
+    log: &Collector,
+    conditions: &mut Conditions,
+    table: &Table,
+    name: &str,
+    place: &Range<usize>,
+) {
+    match conditions.quantities.iter().find(|condition| condition.name == name) {
+        None => conditions.add_column(table, name, Unit::one(), place),
+        Some(condition) if condition.unit == Unit::one() => {}
+        Some(condition) => {
+            let reason = format!(
+                "the condition `{name}` has the unit `{}`, but what tells devices or days apart is a \
+                 plain number; leave its unit out",
+                condition.unit.text()
+            );
+            log.report(place, DiagnosticKind::Observation { reason });
+        }
     }
 }
 

@@ -141,6 +141,14 @@ impl<'a> Object<'a> {
         }
     }
 
+    /// A value that is an element of a list, as [`value`](Self::value).
+    pub(crate) fn value_at(&self, key: &str, node: &Node, unit: &Unit, of: ValueOf) -> Option<f64> {
+        match self.value_of(key, node, unit, of) {
+            Some(value) => value,
+            None => self.element(key, node),
+        }
+    }
+
     /// A list of values, as [`value`](Self::value).
     pub(crate) fn values(&self, key: &str, unit: &Unit, of: ValueOf) -> Option<Vec<f64>> {
         let list = self.list(key)?;

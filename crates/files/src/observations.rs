@@ -11,7 +11,7 @@ use super::object::Object;
 use super::source::Place;
 use super::table::{self, Table};
 use gumption_engine::linalg::packed;
-use gumption_gap::ObservedOutput;
+use gumption_gap::{MOST_GROUPS, ObservedOutput};
 use gumption_units::nearest;
 
 /// The data's table with the columns of the observed outputs.
@@ -19,6 +19,8 @@ use gumption_units::nearest;
 pub(super) struct Observations {
     pub(super) table: Table,
     pub(super) columns: Vec<Column>,
+    /// The column that tells devices or days apart, and where it is named.
+    pub(super) replication: Option<(String, Range<usize>)>,
     /// The content of the tables read, by name.
     pub(super) files: Vec<(String, Vec<u8>)>,
 }
@@ -52,7 +54,45 @@ pub(super) fn read(log: &Collector, member: &Member, folder: Folder<'_>) -> Opti
     }
     let read = read.into_iter().collect::<Option<Vec<_>>>()?;
     once_each(log, columns.members());
-    Some(Observations { table, columns: read, files })
+    let replication = match object.get("replication") {
+        Some(member) => Some((replication(&object, &table)?, member.value.span.clone())),
+        None => None,
+    };
+    Some(Observations { table, columns: read, replication, files })
+}
+
+/// The column that tells devices or days apart.
+fn replication(object: &Object<'_>, table: &Table) -> Option<String> {
+    let name = object.text("replication")?;
+    let span = object.get("replication").map_or(object.place(), |member| &member.value.span);
+    let report = |reason: String| {
+        object.log.report(span, DiagnosticKind::Observation { reason });
+    };
+    let Some(place) = table.columns.iter().position(|column| column == name) else {
+        let near = nearest(name, table.columns.iter().map(String::as_str));
+        report(format!(
+            "`{}` has no column `{name}`{}",
+            table.source.name,
+            match near {
+                Some(near) => format!("; did you mean `{near}`?"),
+                None => format!("; its columns are {}", table.columns.join(", ")),
+            }
+        ));
+        return None;
+    };
+    let mut groups: Vec<f64> =
+        table.rows.iter().filter_map(|row| row.get(place).copied()).collect();
+    groups.sort_by(f64::total_cmp);
+    groups.dedup();
+    if !(2..=MOST_GROUPS).contains(&groups.len()) {
+        report(format!(
+            "different values in the column `{name}`: {}; units of replication are 2 to {MOST_GROUPS} \
+             numbers, the same one in each row of a device or day",
+            groups.len()
+        ));
+        return None;
+    }
+    Some(name.to_owned())
 }
 
 /// A column of the data says one thing: it holds measured values, uncertainties or a simulation of

@@ -215,9 +215,7 @@ fn prior(tolerance: &Object<'_>, unit: &Unit, results: &Results<'_>) -> Option<D
     let mut known = vec!["distribution", "about"];
     known.extend(kind.fields);
     object.check_names(&known);
-    let (estimate, name) = (Estimate::Own, "prior");
-    Fields { object, name, unit, estimate, share_of: None, samples: None, results, at: None }
-        .distribution(kind)
+    Fields::new(object, "prior", unit, Estimate::Own, results).distribution(kind)
 }
 
 /// The tolerance limits of an output.

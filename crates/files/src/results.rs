@@ -4,6 +4,7 @@ use std::cell::RefCell;
 use std::collections::HashMap;
 use std::sync::Arc;
 
+use super::dcc::{self, Certificates, FromCertificate};
 use super::diagnostics::{Collector, Diagnostics};
 use super::folder::Folder;
 use super::json::Node;
@@ -26,6 +27,8 @@ pub(super) struct Results<'a> {
     read: RefCell<HashMap<String, Option<Arc<ResultFile>>>>,
     /// The content of the files, by name.
     pub(super) files: RefCell<Vec<(String, Vec<u8>)>>,
+    /// The certificates that it names.
+    pub(super) certificates: RefCell<Certificates>,
     /// What is to be known of the files.
     pub(super) warnings: RefCell<Vec<Warning>>,
 }
@@ -33,13 +36,18 @@ pub(super) struct Results<'a> {
 impl<'a> Results<'a> {
     /// Paths are relative to `folder`.
     pub(crate) fn new(folder: Folder<'a>, reader: FileReader<'a>) -> Self {
-        let (read, files) = (RefCell::default(), RefCell::default());
-        Self { folder, reader, read, files, warnings: RefCell::default() }
+        let (read, files, certificates) = Default::default();
+        Self { folder, reader, read, files, certificates, warnings: RefCell::default() }
     }
 
     /// The unit of the result that an input names, for an input without a unit of its own.
     pub(super) fn unit(&self, input: &Object<'_>) -> Option<Unit> {
         Some(self.output(input)?.unit)
+    }
+
+    /// What an input takes from a certificate.
+    pub(super) fn of_certificate(&self, input: &Object<'_>) -> Option<FromCertificate> {
+        dcc::read(input, self.folder, &mut self.certificates.borrow_mut())
     }
 
     /// The distribution of the result that an input names, in `unit`. A component is a difference,

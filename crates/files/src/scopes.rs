@@ -1,6 +1,7 @@
 //! What formulas of a file are checked against: the names that they may use, with their units.
 
 use std::collections::HashMap;
+use std::ops::Range;
 
 use super::DiagnosticKind;
 use super::condition_values::ConditionValues;
@@ -17,18 +18,26 @@ use gumption_units::{Dimension, Unit};
 
 /// A formula's mistake at its place inside the JSON text.
 pub(super) fn report_formula(log: &Collector, member: &Member, error: FormulaError) {
+    let place = place_in_formula(log, member, &error.span());
+    log.report(&place, DiagnosticKind::Formula { error });
+}
+
+/// The place in the JSON text of a place in a formula.
+pub(super) fn place_in_formula(
+    log: &Collector,
+    member: &Member,
+    inner: &Range<usize>,
+) -> Range<usize> {
     let span = &member.value.span;
-    let inner = error.span();
     let raw = log.source.text.get(span.start + 1..span.end.saturating_sub(1));
     let plain = raw.is_some_and(|raw| !raw.contains('\\'));
     // escapes in the JSON text would shift the place, so the whole text is underlined then
-    let place = if plain {
+    if plain {
         let start = (span.start + 1 + inner.start).min(span.end);
         start..(span.start + 1 + inner.end).clamp(start, span.end)
     } else {
         span.clone()
-    };
-    log.report(&place, DiagnosticKind::Formula { error });
+    }
 }
 
 /// A coherent unit of a dimension, as text.

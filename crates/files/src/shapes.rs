@@ -4,16 +4,18 @@ use std::ops::Range;
 
 use super::DiagnosticKind;
 use super::condition_values::ConditionValues;
-use super::json::Json;
+use super::dcc::FromCertificate;
+use super::json::{Json, Node};
 use super::keys::{SHAPES, Shape};
 use super::object::Object;
+use super::readings::{self, FileReadings};
 use super::results::Results;
 use super::value_text::ValueOf;
 use super::width::Width;
 use gumption_engine::distribution::{
     Arcsine, Beta, Constant, CurvilinearTrapezoid, Distribution, Exponential, Gamma, Invalid,
-    LogUniform, Lognormal, Normal, PoissonCount, Readings, Rectangular, Samples, StudentT,
-    Trapezoidal, Triangular,
+    LogUniform, Lognormal, Normal, PoissonCount, Quantiles, Readings, Rectangular, Samples,
+    SplitNormal, StudentT, Trapezoidal, Triangular, Truncated,
 };
 use gumption_engine::model::formula::Formula;
 use gumption_engine::special;
@@ -46,8 +48,18 @@ impl Shape {
 }
 
 /// Keys of inputs and components that do not belong to a shape.
-const KEYS: [&str; 9] =
-    ["name", "distribution", "about", "type", "group", "unit", "per", "evidence", "components"];
+const KEYS: [&str; 10] = [
+    "name",
+    "distribution",
+    "about",
+    "type",
+    "group",
+    "unit",
+    "per",
+    "evidence",
+    "components",
+    "limits",
+];
 
 /// The shape that an object names.
 pub(super) fn kind(object: &Object<'_>) -> Option<&'static Shape> {
@@ -88,6 +100,12 @@ pub(super) struct Fields<'a> {
     pub(super) share_of: Option<f64>,
     /// The samples, where the shape has any: read once for all rows.
     pub(super) samples: Option<&'a Samples>,
+    /// The readings of a file, read once for all rows.
+    pub(super) read: Option<&'a FileReadings>,
+    /// What is taken from a certificate, read once for all rows.
+    pub(super) certificate: Option<&'a FromCertificate>,
+    /// Whether other components stand beside it, so that readings may be equal.
+    pub(super) beside_others: bool,
     /// The saved results that inputs name.
     pub(super) results: &'a Results<'a>,
     /// The conditions and the row of them that this is for, where a width may be a formula of them.
@@ -113,13 +131,67 @@ fn formula_of_width(object: &Object<'_>, key: &str, unit: &Unit) -> Option<Strin
 
 /// Whether a width of the object is a formula of conditions, so that it differs from row to row.
 pub(super) fn has_width_of_row(object: &Object<'_>, kind: &Shape, unit: &Unit) -> bool {
+    let is_text = |key: &str| {
+        let member = object.get(key);
+        member.is_some_and(|member| matches!(member.value.value, Json::Text(_)))
+    };
+    if kind.name == "readings" && readings::are_of_rows(object)
+        || kind.fields.contains(&"dof") && is_text("dof")
+        || kind.name == "dcc" && object.get("at").is_some()
+    {
+        return true;
+    }
     let mut widths = WIDTHS.iter().filter(|key| kind.fields.contains(key));
     widths.any(|key| formula_of_width(object, key, unit).is_some())
 }
 
 impl<'a> Fields<'a> {
+    /// The fields of a quantity that has nothing beside them: no file read for it, no conditions.
+    pub(super) fn new(
+        object: Object<'a>,
+        name: &'a str,
+        unit: &'a Unit,
+        estimate: Estimate,
+        results: &'a Results<'a>,
+    ) -> Self {
+        Self {
+            object,
+            name,
+            unit,
+            estimate,
+            share_of: None,
+            samples: None,
+            read: None,
+            certificate: None,
+            beside_others: false,
+            results,
+            at: None,
+        }
+    }
+
     /// The distribution, with what cannot be reported.
     pub(super) fn distribution(&self, kind: &Shape) -> Option<Distribution> {
+        let shape = self.whole(kind)?;
+        let Some(list) = self.object.get("limits").and(self.object.list("limits")) else {
+            return self.object.get("limits").is_none().then_some(shape);
+        };
+        let place = self.place_of("limits");
+        let [lower, upper] = list else {
+            let (what, found) = ("`limits`".to_owned(), "another number of values");
+            let expected = "two values, or `null` for no limit";
+            self.object.log.report(&place, DiagnosticKind::WrongType { what, found, expected });
+            return None;
+        };
+        let end = |node: &Node, none: f64| match node.value {
+            Json::Null => Some(none),
+            _ => self.object.value_at("limits", node, self.unit, self.of()),
+        };
+        let (lower, upper) = (end(lower, f64::NEG_INFINITY), end(upper, f64::INFINITY));
+        self.made(Truncated::cut(shape, lower?, upper?))
+    }
+
+    /// The distribution without regard to limits.
+    fn whole(&self, kind: &Shape) -> Option<Distribution> {
         match kind.name {
             "constant" => {
                 let value = self.estimate("value")?;
@@ -207,12 +279,122 @@ impl<'a> Fields<'a> {
                 let saved = results.distribution(&self.object, self.name, self.unit, component)?;
                 self.moved(Ok(saved))
             }
-            _ => {
+            "dcc" => {
+                let taken = self.certificate?;
+                let shape = taken.distribution(&self.object, self.name, self.unit, self.at)?;
+                self.moved(Ok(shape))
+            }
+            "split-normal" => {
+                self.object.required("mode")?;
+                let mode = self.limit("mode")?;
+                let (low, high) = (self.width("std_low", mode), self.width("std_high", mode));
+                match (low?, high?) {
+                    (Some(low), Some(high)) => self.moved(SplitNormal::new(mode, low, high)),
+                    _ => self.made(Constant::new(mode)),
+                }
+            }
+            "quantiles" => {
+                self.object.required("probabilities")?;
                 self.object.required("values")?;
-                let values = self.object.values("values", self.unit, self.of())?;
-                self.moved(Readings::new(values))
+                let probabilities = self.object.numbers("probabilities");
+                let values = self.object.values("values", self.unit, self.of());
+                self.moved(Quantiles::new(&probabilities?, &values?))
+            }
+            _ => self.readings(),
+        }
+    }
+
+    /// Readings, or what stands in place of their scatter.
+    fn readings(&self) -> Option<Distribution> {
+        let object = &self.object;
+        let values = match self.read {
+            Some(read) => read.values.clone(),
+            None => self.listed_readings()?,
+        };
+        for key in ["pooled", "resolution", "evaluation", "groups"] {
+            if let (Some(paired), Some(_)) = (object.get("paired"), object.get(key)) {
+                let diagnostic = DiagnosticKind::Exclusive { first: key, second: "paired" };
+                object.log.report(&paired.key_span, diagnostic);
+                return None;
             }
         }
+        let bayesian = match object.text("evaluation") {
+            Some("bayesian") => true,
+            Some("frequentist") => false,
+            None if object.get("evaluation").is_none() => false,
+            None => return None,
+            Some(found) => {
+                let (key, found) = ("evaluation".to_owned(), found.to_owned());
+                let allowed = vec!["frequentist".to_owned(), "bayesian".to_owned()];
+                let place = self.place_of("evaluation");
+                object.log.report(&place, DiagnosticKind::NotOneOf { key, found, allowed });
+                return None;
+            }
+        };
+        let pooled = readings::pooled(object)?;
+        let count = values.len() as f64;
+        let origin = values.first().copied().unwrap_or(f64::NAN);
+        let mean = origin + values.iter().map(|value| value - origin).sum::<f64>() / count;
+        let resolution = match object.get("resolution") {
+            Some(_) => self.width("resolution", mean)?,
+            None => None,
+        };
+        let half = resolution.map(|step| 0.5 * step);
+        let of_scatter: Result<Distribution, Invalid> = match pooled {
+            Some((std, dof)) if !values.is_empty() => {
+                Normal::with_dof(mean, std / count.sqrt(), dof).map(Into::into)
+            }
+            _ if bayesian => Readings::new(values).and_then(Readings::bayesian).map(Into::into),
+            _ => Readings::new(values).map(Into::into),
+        };
+        match (of_scatter, half) {
+            (Ok(scatter), Some(half))
+                if half / 3.0_f64.sqrt() <= scatter.standard_uncertainty() =>
+            {
+                self.moved(Ok(scatter))
+            }
+            (Ok(_) | Err(Invalid::NoScatter { .. }), Some(half)) => {
+                self.moved(Rectangular::new(mean, half))
+            }
+            (Err(Invalid::TooFewReadings { count: 1 }), Some(half)) => {
+                self.moved(Rectangular::new(mean, half))
+            }
+            (Err(Invalid::NoScatter { .. }), None) if self.beside_others => {
+                self.moved(Constant::new(mean))
+            }
+            (scatter, _) => self.moved(scatter),
+        }
+    }
+
+    /// The readings of `values`: numbers, or formulas of the conditions in this row.
+    fn listed_readings(&self) -> Option<Vec<f64>> {
+        let object = &self.object;
+        object.required("values")?;
+        let at = self.at.filter(|_| readings::are_of_rows(object));
+        let Some((conditions, row)) = at else {
+            return object.values("values", self.unit, self.of());
+        };
+        let mut values = Vec::new();
+        for node in object.list("values")? {
+            let Json::Text(text) = &node.value else {
+                values.push(object.value_at("values", node, self.unit, self.of())?);
+                continue;
+            };
+            if !readings::is_formula(node) {
+                values.push(object.value_at("values", node, self.unit, self.of())?);
+                continue;
+            }
+            let formula = Formula::parse(text).map_err(|error| DiagnosticKind::Formula { error });
+            let formula = object.log.value(&node.span, formula)?;
+            if row == 0
+                && let Err(kinds) = conditions.check(&formula, self.unit, self.of())
+            {
+                kinds.into_iter().for_each(|kind| object.log.report(&node.span, kind));
+                return None;
+            }
+            values.push(conditions.value(&formula, row, self.unit, self.of()));
+        }
+        Some(values)
     }
 
     /// The shape, moved to an estimate that comes from elsewhere.
@@ -434,8 +616,23 @@ impl<'a> Fields<'a> {
         None
     }
 
+    /// The degrees of freedom: a number, or a formula of conditions.
     fn dof(&self) -> Option<f64> {
-        self.object.number("dof")
+        let member = self.object.get("dof")?;
+        let (Json::Text(text), Some((conditions, row))) = (&member.value.value, self.at) else {
+            return self.object.number("dof");
+        };
+        let (log, span) = (self.object.log, &member.value.span);
+        let formula = Formula::parse(text).map_err(|error| DiagnosticKind::Formula { error });
+        let formula = log.value(span, formula)?;
+        let (unit, of) = (Unit::one(), ValueOf::Quantity);
+        if let Err(kinds) = conditions.check(&formula, &unit, of) {
+            if row == 0 {
+                kinds.into_iter().for_each(|kind| log.report(span, kind));
+            }
+            return None;
+        }
+        Some(conditions.value(&formula, row, &unit, of))
     }
 
     fn made<S: Into<Distribution>>(&self, shape: Result<S, Invalid>) -> Option<Distribution> {

@@ -40,6 +40,29 @@ pub(super) fn first_sheet(bytes: Vec<u8>) -> Result<String, String> {
     csv(&cells(bytes)?)
 }
 
+/// All cells of the first sheet, row by row from its first one, empty where nothing stands.
+///
+/// # Errors
+/// What is wrong with the workbook, as a sentence about it.
+pub(super) fn rows(bytes: Vec<u8>) -> Result<Vec<Vec<String>>, String> {
+    /// Beyond it nobody keeps a budget.
+    const MOST_ROWS: u32 = 10_000;
+    const MOST_COLUMNS: u32 = 256;
+    check_parts(&bytes)?;
+    let mut rows: Vec<Vec<String>> = Vec::new();
+    for (row, cells) in cells(bytes)?.range(..MOST_ROWS) {
+        rows.resize(*row as usize, Vec::new());
+        let mut line: Vec<String> = Vec::new();
+        for (column, text) in cells.range(..MOST_COLUMNS) {
+            line.resize(*column as usize, String::new());
+            let inside = text.strip_prefix('"').and_then(|text| text.strip_suffix('"'));
+            line.push(inside.map_or_else(|| text.clone(), |text| text.replace("\"\"", "\"")));
+        }
+        rows.push(line);
+    }
+    Ok(rows)
+}
+
 fn is_none(error: impl std::fmt::Display) -> String {
     format!("it is no workbook: {error}")
 }

@@ -1,6 +1,6 @@
 //! A case of the gap diagnosis: a model, what was measured, and the effects that may be missing.
 
-use crate::{Effect, OverridableModel, OverrideError};
+use crate::{Effect, OverridableModel, OverrideError, Replication};
 use gumption_engine::distribution::{Distribution, LogUniform, Normal, Rectangular};
 use gumption_engine::model::Program;
 use gumption_engine::task::Task;
@@ -18,8 +18,16 @@ pub struct Case {
     /// How many of the last conditions are columns of somebody else's simulation rather than
     /// conditions of the measurement.
     pub simulated: usize,
+    /// Between which values each condition can be set, in its unit; `None` where that is not known,
+    /// or none at all, so that measurements are proposed among the values of the data.
+    pub reachable: Vec<Option<[f64; 2]>>,
     /// The candidate effects.
     pub candidates: Vec<Candidate>,
+    /// Effects that ship with the program, can act on the model and are not among the candidates; they
+    /// are tried where no candidate explains the data.
+    pub shipped: Vec<Candidate>,
+    /// Which rows belong to one device or day; see [`Case::replicated`].
+    pub replication: Option<Replication>,
     /// The prior probabilities.
     pub prior: Prior,
 }
@@ -74,10 +82,9 @@ impl Case {
         self.recorded(&[])?;
         for one in 0..self.candidates.len() {
             self.recorded(&[one])?;
-            let pairs = if self.prior.two > 0.0 { one + 1 } else { self.candidates.len() };
-            for other in pairs..self.candidates.len() {
-                self.recorded(&[one, other])?;
-            }
+        }
+        if self.prior.two > 0.0 {
+            self.pairs().iter().try_for_each(|pair| self.recorded(pair).map(|_| ()))?;
         }
         Ok(())
     }
@@ -87,8 +94,11 @@ impl Case {
     pub(crate) fn with_wide_priors(&self) -> Self {
         let mut wide = self.clone();
         wide.prior = Prior { two: 0.0, three: 0.0, ..wide.prior };
-        for prior in wide.candidates.iter_mut().flat_map(|candidate| &mut candidate.priors) {
-            *prior = widened(prior);
+        for place in 0..wide.candidates.len() {
+            let listed = self.listed_parameters(place);
+            for prior in wide.candidates[place].priors.iter_mut().take(listed) {
+                *prior = widened(prior);
+            }
         }
         wide
     }

@@ -48,6 +48,11 @@ fn distances(setup: &Setup<'_>, rows: &[Row]) -> Vec<f64> {
     rows.iter().map(distance).collect()
 }
 
+/// How many of these rows are outside of the box of the data.
+pub(crate) fn outside(setup: &Setup<'_>, rows: &[Row]) -> usize {
+    distances(setup, rows).into_iter().filter(|distance| *distance > 0.0).count()
+}
+
 /// What "unexplained" says in rows that count as within the box of the data, as a block of conditions
 /// does that was left out.
 pub(crate) fn within(

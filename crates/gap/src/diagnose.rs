@@ -1,10 +1,14 @@
 //! The whole diagnosis, step by step.
 
+use std::sync::atomic::AtomicBool;
+
 use super::composed::Compositions;
+use super::departure;
 use super::departure_prediction;
 use super::diagnosis::{
-    Diagnosis, DiagnosisNote, EstimatedNoise, Hypothesis, NamedQuantity, NoiseEstimate, Predicted,
-    RowGap, SerialCorrelation, SuspectValue, UncertaintyFactor,
+    DescribedEffect, Diagnosis, DiagnosisNote, EstimatedNoise, Hypothesis, HypothesisKind,
+    NamedQuantity, NextMeasurements, NoiseEstimate, Predicted, RowGap, SerialCorrelation,
+    SuspectValue, UncertaintyFactor,
 };
 use super::discrepancy::Discrepancy;
 use super::goodness_of_fit::{gap, plus_rows};
@@ -16,8 +20,10 @@ use super::posterior::{Effort, Posterior};
 use super::setup::Setup;
 use super::weighed::{Weighed, names, rival};
 use super::weighed_noise::WeighedNoise;
-use super::{next, predict, prior_conflict, scan, shrink};
-use crate::{Case, OverrideError};
+use super::{next, predict, prior_conflict, replication, scan, shrink, strength};
+use crate::{Candidate, Case, OverrideError};
+use gumption_engine::model::Quantity;
+use gumption_engine::model::formula::Formula;
 use gumption_engine::number::elementary;
 use gumption_engine::task::{Coverage, Row};
 
@@ -58,10 +64,37 @@ pub fn diagnose(
     options: DiagnosisOptions,
     progress: &(dyn Fn(f64) + Sync),
 ) -> Result<Diagnosis, OverrideError> {
+    diagnosed(case, at, options, progress, None)
+}
+
+/// As [`diagnose`], until `stop` is set: then it hands back what is known so far, marked as
+/// interrupted. Hypotheses that were not yet begun are missing, other noises and regions are not
+/// looked for, and nothing is proposed.
+///
+/// # Errors
+/// Effects that cannot act on the model.
+pub fn diagnose_until(
+    case: &Case,
+    at: Option<&[Row]>,
+    options: DiagnosisOptions,
+    progress: &(dyn Fn(f64) + Sync),
+    stop: &AtomicBool,
+) -> Result<Diagnosis, OverrideError> {
+    diagnosed(case, at, options, progress, Some(stop))
+}
+
+fn diagnosed(
+    case: &Case,
+    at: Option<&[Row]>,
+    options: DiagnosisOptions,
+    progress: &(dyn Fn(f64) + Sync),
+    stop: Option<&AtomicBool>,
+) -> Result<Diagnosis, OverrideError> {
     case.check()?;
     let seed = options.seed;
     let wide = case.with_wide_priors();
-    let weighed = Weighed::new(case, &wide, seed, Effort::FULL, &|share| progress(0.6 * share));
+    let effort = Effort { stop, ..Effort::FULL };
+    let weighed = Weighed::new(case, &wide, seed, effort, &|share| progress(0.6 * share));
     let group = weighed.indistinguishable();
     let verdict = weighed.most_probable(&group);
     let Weighed {
@@ -69,6 +102,7 @@ pub fn diagnose(
         departure,
         composed,
         compositions,
+        unlisted,
         noise: weighed_noise,
         setup,
         discrepancy,
@@ -80,7 +114,8 @@ pub fn diagnose(
         ..
     } = weighed;
     let with_rows = plus_rows(&setup, &variances);
-    let regions = scan::regions(&setup, &with_rows, seed);
+    let regions =
+        if effort.is_stopped() { Vec::new() } else { scan::regions(&setup, &with_rows, seed) };
     progress(0.7);
     let probability = coverage(case);
     let (shrinkage, rows) = shrink::shrinkage(
@@ -90,14 +125,26 @@ pub fn diagnose(
         &correction,
         &variances,
         probability,
-        seed,
+        (seed, stop),
     );
     progress(0.85);
-    let next = rival(&posterior, best, &group)
-        .filter(|_| explained)
-        .and_then(|rival| next::best(&setup, &posterior, best, rival, &variances, seed));
+    let rivals = if explained {
+        rival(&posterior, best, &group).map(|rival| [Some(best), Some(rival)])
+    } else {
+        Some([None, Some(best)])
+    };
+    let next = if effort.is_stopped() {
+        NextMeasurements { entropy: next::entropy_of(&posterior), ..NextMeasurements::default() }
+    } else {
+        next::next(&setup, &discrepancy, &posterior, rivals, &variances, seed)
+    };
+    let interrupted = effort.is_stopped();
     progress(0.95);
     let noise = noise(&setup, &variances, &posterior, best, (&weighed_noise, probability), &rows);
+    let strength = match verdict.kind {
+        HypothesisKind::None => Vec::new(),
+        _ => strength::along(&setup, &rows),
+    };
     let step = rows.len().div_ceil(MOST_ROWS).max(1);
     let rows = rows.into_iter().step_by(step).collect();
     let hypotheses = hypotheses(&setup, &posterior, probability);
@@ -113,7 +160,14 @@ pub fn diagnose(
         code: "prior-conflict",
         text: prior_conflict::note(conflict),
     }));
+    if let Some(note) = at.and_then(|at| extrapolated(&setup, &posterior, at)) {
+        notes.push(note);
+    }
+    if interrupted {
+        notes.insert(0, DiagnosisNote { code: "interrupted", text: INTERRUPTED.to_owned() });
+    }
     let present = present(&setup, &posterior, probability);
+    let replication = replication::report(&setup, &posterior, probability);
     progress(1.0);
     let named = |name: &str, unit: &gumption_units::Unit| NamedQuantity {
         name: name.to_owned(),
@@ -130,7 +184,10 @@ pub fn diagnose(
             .collect(),
         conditions: case.model.conditions.iter().map(|c| named(&c.name, &c.unit)).collect(),
         gap,
+        candidates: case.candidates.iter().map(described).collect(),
+        interrupted,
         regions,
+        strength,
         most_probable: verdict,
         hypotheses,
         shrinkage,
@@ -139,13 +196,51 @@ pub fn diagnose(
         rows,
         noise,
         present,
+        replication,
         prior_conflicts,
         departure,
         composed,
+        unlisted,
         notes,
         probability,
         seed,
     })
+}
+
+/// What is to be said of predictions outside of the conditions of the data, where a departure that
+/// nothing of the list explains goes on in a way that they do not tell.
+fn extrapolated(setup: &Setup<'_>, posterior: &Posterior, at: &[Row]) -> Option<DiagnosisNote> {
+    let outside = departure_prediction::outside(setup, at);
+    let matters = posterior.probability > departure::WORTH_TELLING;
+    (matters && outside > 0).then(|| DiagnosisNote {
+        code: "extrapolation",
+        text: format!(
+            "{outside} of {} rows of the prediction lie outside of the conditions of the data. No \
+             effect of the list says how the departure goes on there: smooth and composed departures \
+             are averaged with less regard to their probabilities, and the standard uncertainty is \
+             enlarged with the distance.",
+            at.len()
+        ),
+    })
+}
+
+/// The note of a diagnosis that was interrupted.
+const INTERRUPTED: &str = "The diagnosis was interrupted; this is what was known then. Hypotheses may \
+     be missing, their probabilities are rough, and what had not been begun (other noises, regions, \
+     cross-validation, what to measure next) is left out.";
+
+/// A candidate in words.
+fn described(candidate: &Candidate) -> DescribedEffect {
+    let effect = &candidate.effect;
+    let text = |(name, formula): &(String, Formula)| (name.clone(), formula.text().to_owned());
+    let parameter = |of: &Quantity| [of.name.clone(), of.unit.text().to_owned(), of.about.clone()];
+    DescribedEffect {
+        name: effect.name.clone(),
+        about: candidate.about.clone(),
+        source: candidate.source.clone(),
+        overrides: effect.overrides.iter().map(text).collect(),
+        parameters: effect.parameters.iter().map(parameter).collect(),
+    }
 }
 
 /// All hypotheses, most probable first.
@@ -231,7 +326,9 @@ pub(crate) fn prediction(
                 let variance = (square / total - mean * mean).max(0.0) + linear;
                 (mean, variance.sqrt())
             });
-            Predicted { conditions: row.conditions.clone(), outputs: outputs.collect() }
+            let model = predict::nominal(setup, row);
+            let outputs = outputs.collect();
+            Predicted { conditions: row.conditions.clone(), outputs, model }
         })
         .collect()
 }

@@ -13,16 +13,22 @@ pub struct Diagnosis {
     pub conditions: Vec<NamedQuantity>,
     /// Whether there is a gap.
     pub gap: GapTest,
+    /// The candidate effects, in the order of the case.
+    pub candidates: Vec<DescribedEffect>,
+    /// Whether it was interrupted, so that it holds what was known then.
+    pub interrupted: bool,
     /// Where it lies, most surprising region first.
     pub regions: Vec<GapRegion>,
+    /// How strong it is along each condition, for each output; empty without a gap.
+    pub strength: Vec<GapStrength>,
     /// The hypothesis of highest posterior probability.
     pub most_probable: MostProbable,
     /// All hypotheses, most probable first.
     pub hypotheses: Vec<Hypothesis>,
     /// How far the gap shrinks.
     pub shrinkage: Shrinkage,
-    /// What to measure next to separate the verdict from its rival.
-    pub next: Option<NextMeasurement>,
+    /// What to measure next.
+    pub next: NextMeasurements,
     /// Corrected predictions at conditions that were asked for.
     pub prediction: Option<Vec<Predicted>>,
     /// The data row by row, before and after.
@@ -31,6 +37,8 @@ pub struct Diagnosis {
     pub noise: Vec<NoiseEstimate>,
     /// For each candidate effect the probability that it is part of the truth, most probable first.
     pub present: Vec<PresentEffect>,
+    /// Sizes of effects in each group of rows, where the case says which belong together.
+    pub replication: Option<ReplicatedEffects>,
     /// Effects whose priors the data contradict, most probable first.
     pub prior_conflicts: Vec<PriorConflict>,
     /// What is known of a departure that no candidate makes, most probable form first; empty where
@@ -39,6 +47,9 @@ pub struct Diagnosis {
     /// Effects that would explain it, composed and not from the list, most probable first; empty where
     /// "unexplained" has at most the probability 0.05.
     pub composed: Vec<ComposedEffect>,
+    /// Effects that ship with the program and are not listed, and that would explain it, most probable
+    /// first.
+    pub unlisted: Vec<UnlistedEffect>,
     /// What to bear in mind.
     pub notes: Vec<DiagnosisNote>,
     /// Coverage probability of all intervals.
@@ -54,6 +65,29 @@ pub struct NamedQuantity {
     pub name: String,
     /// Unit as written; empty for a plain number.
     pub unit: String,
+}
+
+/// A candidate effect in words.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct DescribedEffect {
+    /// Name.
+    pub name: String,
+    /// What it is.
+    pub about: String,
+    /// Where it comes from.
+    pub source: String,
+    /// The quantities that it overrides, each with its formula.
+    pub overrides: Vec<(String, String)>,
+    /// Its parameters: name, unit, what it is.
+    pub parameters: Vec<[String; 3]>,
+}
+
+impl DescribedEffect {
+    /// Of a name, with nothing said of it.
+    pub fn new(name: impl Into<String>) -> Self {
+        Self { name: name.into(), ..Self::default() }
+    }
 }
 
 /// Whether the data depart from the model by more than the stated uncertainties explain.
@@ -83,6 +117,40 @@ pub struct GapRegion {
     pub share_of_gap: f64,
     /// Mean of the residuals over their standard uncertainties.
     pub mean_z: f64,
+}
+
+/// How strong the gap of an output is along a condition.
+#[derive(Clone, Debug, PartialEq)]
+pub struct GapStrength {
+    /// Place of the output.
+    pub output: usize,
+    /// Place of the condition.
+    pub condition: usize,
+    /// Parts of the condition's values, in order.
+    pub parts: Vec<StrengthPart>,
+}
+
+/// A part of a condition's values.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StrengthPart {
+    /// Its least and largest value, in the condition's unit.
+    pub range: [f64; 2],
+    /// Share of the excess of the output's squared residuals that lies here.
+    pub share_of_gap: f64,
+    /// Mean of the residuals over their standard uncertainties.
+    pub mean_z: f64,
+}
+
+/// An effect of the shipped catalogue that the case does not list.
+#[derive(Clone, Debug)]
+pub struct UnlistedEffect {
+    /// Its name in the catalogue.
+    pub effect: String,
+    /// Posterior probability beside what "unexplained" is otherwise, all of the catalogue together
+    /// being as probable beforehand.
+    pub probability: f64,
+    /// Its parameters.
+    pub parameters: Vec<EffectParameter>,
 }
 
 /// What kind of answer the verdict is.
@@ -181,8 +249,11 @@ pub struct Shrinkage {
     pub within: [f64; 2],
     /// Gain in the logarithm of the predictive density of data that were left out.
     pub log_density_gain: f64,
-    /// How many blocks of conditions were left out in turn.
+    /// How many blocks of conditions were left out in turn; 0 where that was interrupted, so that what
+    /// is after the correction is of the fit to all data.
     pub blocks: usize,
+    /// How many values were measured.
+    pub values: usize,
 }
 
 /// Root mean squares before and after a correction.
@@ -198,15 +269,105 @@ pub struct Shrunk {
     pub removed_fraction: f64,
 }
 
-/// The measurement that would separate two groups of hypotheses best.
+/// What to measure next, and what no measurement can tell.
+#[derive(Clone, Debug, Default)]
+#[non_exhaustive]
+pub struct NextMeasurements {
+    /// Entropy of the posterior probabilities of all hypotheses, in nats: how much there is left to
+    /// learn.
+    pub entropy: f64,
+    /// The verdict and its strongest rival, each a list of effects or `None` for "unexplained"; `None`
+    /// where the verdict has no rival.
+    pub separates: Option<[Option<Vec<String>>; 2]>,
+    /// Measurements, best first.
+    pub proposals: Vec<ProposedMeasurement>,
+    /// Groups of hypotheses that are the same function of the conditions in the whole reachable
+    /// range, so that no measurement of these outputs can tell them apart.
+    pub equivalent: Vec<Vec<Vec<String>>>,
+}
+
+/// A measurement that may be worth making.
 #[derive(Clone, Debug)]
-pub struct NextMeasurement {
-    /// The verdict's group and its rival.
-    pub separates: [Vec<String>; 2],
-    /// Values of the conditions, in their units.
-    pub conditions: Vec<f64>,
-    /// By how much the logarithm of the odds is expected to rise if the verdict is true.
-    pub expected_log_odds: f64,
+#[non_exhaustive]
+pub struct ProposedMeasurement {
+    /// What is to be measured.
+    pub kind: ProposalKind,
+    /// How often.
+    pub count: usize,
+    /// By how much the entropy of the posterior probabilities is expected to fall, in nats.
+    pub expected_entropy_loss: f64,
+    /// After how many of these measurements odds of 20 to 1 for the truth, be it the verdict or its
+    /// rival, are as likely as not; `None` where no number of them reaches that.
+    pub count_for_20_to_1: Option<usize>,
+}
+
+impl ProposedMeasurement {
+    /// Once, of which nothing is expected yet.
+    pub fn new(kind: ProposalKind) -> Self {
+        Self { kind, count: 1, expected_entropy_loss: 0.0, count_for_20_to_1: None }
+    }
+}
+
+/// What is to be measured. Conditions are in their units.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ProposalKind {
+    /// One row more at conditions among those of the data or between them.
+    Row {
+        /// Values of the conditions.
+        conditions: Vec<f64>,
+    },
+    /// Several rows at conditions among those of the data or between them.
+    Repeats {
+        /// Values of the conditions.
+        conditions: Vec<f64>,
+    },
+    /// Rows at reachable conditions that lie outside of those of the data.
+    Outside {
+        /// Values of the conditions.
+        conditions: Vec<f64>,
+    },
+    /// A calibration of an input.
+    Input {
+        /// The input, with its unit.
+        input: NamedQuantity,
+        /// The standard uncertainty that it is to reach, a fifth of what is stated.
+        standard_uncertainty: f64,
+        /// What is stated.
+        stated: f64,
+    },
+    /// Rows of an output of the model that was not measured.
+    Output {
+        /// The output, with its unit.
+        output: NamedQuantity,
+        /// Values of the conditions.
+        conditions: Vec<f64>,
+        /// The standard uncertainty of one value that is assumed.
+        standard_uncertainty: f64,
+    },
+}
+
+impl ProposalKind {
+    /// The word that files have.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Row { .. } => "row",
+            Self::Repeats { .. } => "repeats",
+            Self::Outside { .. } => "outside",
+            Self::Input { .. } => "input",
+            Self::Output { .. } => "output",
+        }
+    }
+
+    /// The conditions, if it has any.
+    pub fn conditions(&self) -> Option<&[f64]> {
+        match self {
+            Self::Row { conditions }
+            | Self::Repeats { conditions }
+            | Self::Outside { conditions }
+            | Self::Output { conditions, .. } => Some(conditions),
+            Self::Input { .. } => None,
+        }
+    }
 }
 
 /// A corrected prediction.
@@ -216,6 +377,8 @@ pub struct Predicted {
     pub conditions: Vec<f64>,
     /// For each observed output value and standard uncertainty, in its unit.
     pub outputs: Vec<(f64, f64)>,
+    /// For each observed output what the model says without a correction.
+    pub model: Vec<f64>,
 }
 
 /// One row of the data.
@@ -242,6 +405,23 @@ pub struct ValueGap {
     pub after: f64,
     /// Standard uncertainty of that residual: noise and what was fitted.
     pub u_after: f64,
+    /// Measured value less the corrected model that was fitted to all data.
+    pub left: f64,
+    /// Standard uncertainty of what that corrected model says.
+    pub u_corrected: f64,
+}
+
+impl ValueGap {
+    /// What the sim says.
+    pub fn sim(&self) -> f64 {
+        self.measured - self.before
+    }
+
+    /// What the corrected sim says; where data were wrapped into a turn, on the side of the measured
+    /// value.
+    pub fn corrected(&self) -> f64 {
+        self.measured - self.left
+    }
 }
 
 /// What the data say of the noise of an output.
@@ -348,6 +528,34 @@ pub struct PresentEffect {
     pub parameters: Vec<EffectParameter>,
 }
 
+/// Sizes of effects in each group of rows: for each device or day.
+#[derive(Clone, Debug)]
+pub struct ReplicatedEffects {
+    /// The condition that tells the groups apart.
+    pub condition: NamedQuantity,
+    /// Its values.
+    pub groups: Vec<f64>,
+    /// The effects, most probable first.
+    pub effects: Vec<ReplicatedEffect>,
+}
+
+/// The first parameter of an effect in each group.
+#[derive(Clone, Debug)]
+pub struct ReplicatedEffect {
+    /// Name of the effect.
+    pub effect: String,
+    /// Probability that it is there with one size for all groups.
+    pub probability_shared: f64,
+    /// Probability that it is there with a size of each group's own.
+    pub probability_own: f64,
+    /// Whether the groups differ by ratios: then the spread is that of the logarithm.
+    pub by_ratios: bool,
+    /// Its size in each group, over all hypotheses that it is part of.
+    pub sizes: Vec<EffectParameter>,
+    /// Standard deviation of the sizes between groups, if each has its own.
+    pub spread: Option<EffectParameter>,
+}
+
 /// A form of the departure that "unexplained" stands for.
 #[derive(Clone, Debug)]
 pub struct DepartureForm {
@@ -409,6 +617,18 @@ pub enum DepartureOver {
     Value,
     /// All conditions together.
     AllConditions,
+}
+
+impl DepartureOver {
+    /// It in one word: the condition's name, `value` or `conditions`; `None` where it is constant.
+    pub fn name(&self) -> Option<&str> {
+        match self {
+            Self::Nothing => None,
+            Self::Condition(name) => Some(name),
+            Self::Value => Some("value"),
+            Self::AllConditions => Some("conditions"),
+        }
+    }
 }
 
 /// What a departure looks like over what it is a function of.

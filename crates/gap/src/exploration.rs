@@ -9,7 +9,7 @@ use rayon::prelude::*;
 
 use super::evidence::{DISAGREE, EvidenceEstimate};
 use super::likelihood::Likelihood;
-use super::posterior::{MANY_VALUES, WeighedHypothesis};
+use super::posterior::{Effort, MANY_VALUES, WeighedHypothesis};
 use super::response_scan;
 use super::search::Mode;
 use super::setup::Setup;
@@ -37,22 +37,26 @@ pub(super) struct Exploration<'s, 'c> {
     setup: &'s Setup<'c>,
     part: Option<Setup<'c>>,
     seed: u64,
-    starts: usize,
+    effort: Effort<'s>,
 }
 
 impl<'s, 'c> Exploration<'s, 'c> {
-    /// `starts` are the draws of the prior from which each search starts.
-    pub(super) fn new(setup: &'s Setup<'c>, seed: u64, starts: usize) -> Self {
+    pub(super) fn new(setup: &'s Setup<'c>, seed: u64, effort: Effort<'s>) -> Self {
         let part = (setup.data.len() > MANY_VALUES).then(|| setup.thinned(PART));
-        Self { setup, part, seed, starts }
+        Self { setup, part, seed, effort }
     }
 
     /// A hypothesis with a first estimate of its evidence; `known` are those with fewer effects.
+    /// `None` once nothing new is to be begun.
     pub(super) fn begin(
         &self,
         effects: Vec<usize>,
         known: &[WeighedHypothesis],
-    ) -> WeighedHypothesis {
+    ) -> Option<WeighedHypothesis> {
+        (!self.effort.is_stopped()).then(|| self.begun(effects, known))
+    }
+
+    fn begun(&self, effects: Vec<usize>, known: &[WeighedHypothesis]) -> WeighedHypothesis {
         let starts = seeds(self.setup, &effects, known);
         let evidence = self.integral(&effects, known, starts, "");
         let prior = self.setup.case.prior;
@@ -61,7 +65,7 @@ impl<'s, 'c> Exploration<'s, 'c> {
         let prior = match effects.len() {
             0 => prior.none,
             1 => share(prior.one, count),
-            2 => share(prior.two, count * count.saturating_sub(1) / 2),
+            2 => share(prior.two, self.setup.case.pairs().len()),
             _ => share(prior.three, count * count.saturating_sub(1) * count.saturating_sub(2) / 6),
         };
         WeighedHypothesis { effects, prior, evidence, probability: 0.0 }
@@ -69,11 +73,11 @@ impl<'s, 'c> Exploration<'s, 'c> {
 
     /// No gap and every effect alone.
     pub(super) fn singles(&self) -> Vec<WeighedHypothesis> {
-        let none = self.begin(Vec::new(), &[]);
+        let none = self.begun(Vec::new(), &[]);
         let known = std::slice::from_ref(&none);
         let count = self.setup.case.candidates.len();
         let singles: Vec<WeighedHypothesis> =
-            (0..count).into_par_iter().map(|effect| self.begin(vec![effect], known)).collect();
+            (0..count).into_par_iter().filter_map(|one| self.begin(vec![one], known)).collect();
         std::iter::once(none).chain(singles).collect()
     }
 
@@ -97,7 +101,7 @@ impl<'s, 'c> Exploration<'s, 'c> {
         if self.part.is_none() {
             starts.extend(scanned(self.setup, &likelihood, effects, known));
         }
-        EvidenceEstimate::begin(&likelihood, key, &starts, self.starts)
+        EvidenceEstimate::begin(&likelihood, key, &starts, self.effort.starts)
     }
 
     /// Tries the modes of pairs on their members, and what that gives on the pairs, until nothing new

@@ -16,8 +16,10 @@ mod diagnose;
 mod diagnosis;
 mod differential_evolution;
 mod discrepancy;
+mod equivalent;
 mod evidence;
 mod evidence_error;
+mod expected_entropy;
 mod exploration;
 mod goodness_of_fit;
 mod latent;
@@ -33,26 +35,33 @@ mod posterior;
 mod predict;
 mod prior_conflict;
 mod profile_path;
+mod reachable;
+mod replication;
 mod response_scan;
 mod scan;
 mod search;
 mod selection;
 mod setup;
 mod shrink;
+mod strength;
+mod unlisted;
 mod weighed;
 mod weighed_noise;
 mod whitened;
 
 pub use case::{Candidate, Case, ObservedOutput, Prior};
 pub use composed::{ComposedEffect, ComposedForm, ComposedParameter, ComposedPrior, ComposedTerm};
-pub use diagnose::{DiagnosisOptions, diagnose};
+pub use diagnose::{DiagnosisOptions, diagnose, diagnose_until};
 pub use diagnosis::{
-    DepartureForm, DepartureKind, DepartureOver, DepartureShape, Diagnosis, DiagnosisNote,
-    EffectParameter, EstimatedNoise, GapRegion, GapTest, Hypothesis, HypothesisKind, MostProbable,
-    NamedQuantity, NextMeasurement, NoiseEstimate, Predicted, PresentEffect, PriorConflict, RowGap,
-    SerialCorrelation, Shrinkage, Shrunk, SuspectValue, UncertaintyFactor, ValueGap,
+    DepartureForm, DepartureKind, DepartureOver, DepartureShape, DescribedEffect, Diagnosis,
+    DiagnosisNote, EffectParameter, EstimatedNoise, GapRegion, GapStrength, GapTest, Hypothesis,
+    HypothesisKind, MostProbable, NamedQuantity, NextMeasurements, NoiseEstimate, Predicted,
+    PresentEffect, PriorConflict, ProposalKind, ProposedMeasurement, ReplicatedEffect,
+    ReplicatedEffects, RowGap, SerialCorrelation, Shrinkage, Shrunk, StrengthPart, SuspectValue,
+    UncertaintyFactor, UnlistedEffect, ValueGap,
 };
 pub use model::{Effect, ModelForm, OverridableModel, OverrideError};
+pub use replication::{MOST_GROUPS, OwnSizes, Replication};
 pub use selection::{ModelSelection, noise, nominal, select_model};
 
 #[cfg(test)]

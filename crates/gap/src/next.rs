@@ -1,181 +1,520 @@
-//! What to measure next: the conditions whose measurement would separate two hypotheses best.
+//! What to measure next: what is expected to lower the entropy of the probabilities of all hypotheses
+//! most.
+//!
+//! Proposals are compared at the same number of rows, the smallest that is expected to halve the
+//! entropy at the best place. What is measured at one place is told by its mean, so that a proposal of
+//! many rows costs no more than one of a single row.
 
 use rayon::prelude::*;
 
-use super::diagnosis::NextMeasurement;
-use super::logarithm::{HALF_LN_TWO_PI, ln_sum};
+use super::diagnosis::{NamedQuantity, NextMeasurements, ProposalKind, ProposedMeasurement};
+use super::discrepancy::Discrepancy;
+use super::equivalent;
+use super::expected_entropy::{Detail, Normals, Outlook, expected_loss, ln_odds};
 use super::posterior::Posterior;
-use super::predict;
+use super::predict::{self, Predictor, Values};
+use super::reachable::{self, Place};
 use super::setup::Setup;
-use crate::mixture::standard_normals;
-use gumption_engine::distribution::StreamKey;
-use gumption_engine::number::{COLUMN, Column, elementary};
-use gumption_engine::task::{Row, Sharing};
-
-/// Conditions that are tried at most.
-const MOST_CANDIDATES: usize = 600;
+use super::shrink;
+use super::weighed::names;
+use gumption_engine::number::elementary;
+use gumption_engine::special::normal;
+use gumption_engine::task::Sharing;
 
 /// Draws of each hypothesis.
-const DRAWS: usize = 256;
+const DRAWS: usize = 64;
 
-/// How many of the most promising conditions are looked at closely.
-const FINALISTS: usize = 8;
+/// Hypotheses that are told apart, at most, and the least probability of one.
+const MOST_HYPOTHESES: usize = 12;
+const LEAST_PROBABILITY: f64 = 2e-3;
 
-/// The best measurement to tell `verdict` from `rival` (places of hypotheses). `variances` are those
-/// of the noise by value.
-pub(crate) fn best(
+/// Places that are looked at closely for each of the roughly tried numbers of rows.
+const FINALISTS: usize = 4;
+const ROUGHLY: [usize; 3] = [1, 8, 64];
+
+/// Numbers of rows that a proposal may have.
+const COUNTS: [usize; 13] = [1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 100];
+
+/// Below this entropy, in nats, there is nothing to decide: odds of 500 to 1.
+const DECIDED: f64 = 0.015;
+
+/// Wanted odds.
+const ODDS: f64 = 20.0;
+
+/// No number of rows above this is proposed.
+const MOST_ROWS: usize = 1_000_000;
+
+/// A calibration lowers the standard uncertainty of an input to this share.
+const CALIBRATED: f64 = 0.2;
+
+/// What lowers the entropy by a smaller share is no proposal.
+const WORTH_PROPOSING: f64 = 0.01;
+
+/// Calibrations and other outputs that are proposed, at most.
+const MOST_OTHERS: usize = 3;
+
+/// A hypothesis as what it says of measurements not yet made.
+pub(crate) struct PredictiveHypothesis {
+    /// Its effects; `None` for "unexplained".
+    pub(crate) effects: Option<Vec<String>>,
+    /// Its probability.
+    pub(crate) probability: f64,
+    /// For each place and observed output draws of the value.
+    pub(crate) values: Values,
+    /// For each place the same of the outputs that were not observed; none where it says nothing of
+    /// them.
+    pub(crate) unobserved: Option<Values>,
+    /// For each input that is an unknown quantity draws of its score, in standard deviations of what
+    /// is stated.
+    pub(crate) inputs: Vec<Vec<f64>>,
+}
+
+/// Everything that proposals are made from. `rivals` are places of hypotheses: the verdict (`None` for
+/// "unexplained") and the one to tell it from; `variances` are those of the noise by value.
+pub(crate) fn next(
     setup: &Setup<'_>,
+    discrepancy: &Discrepancy,
     posterior: &Posterior,
-    verdict: usize,
-    rival: usize,
+    rivals: Option<[Option<usize>; 2]>,
     variances: &[f64],
     seed: u64,
-) -> Option<NextMeasurement> {
-    let rows = candidates(setup);
-    let draws = |place: usize| {
-        let hypothesis = &posterior.hypotheses[place];
-        let draws = hypothesis.evidence.resampled(DRAWS);
-        predict::values(setup, &hypothesis.effects, &draws, &rows)
-    };
-    let (own, other) = (draws(verdict), draws(rival));
-    let outputs = setup.data.outputs.len();
-    let noise: Vec<f64> = (0..outputs)
-        .map(|output| {
-            let mut of: Vec<f64> =
-                variances.iter().skip(output).step_by(outputs).copied().collect();
-            of.sort_by(f64::total_cmp);
-            of.get(of.len() / 2).copied().unwrap_or(1.0)
+) -> NextMeasurements {
+    let entropy = entropy_of(posterior);
+    let separates = rivals.map(|pair| {
+        pair.map(|place| {
+            let hypothesis = posterior.hypotheses.get(place?)?;
+            Some(names(setup, &hypothesis.effects))
+        })
+    });
+    let places = reachable::places(setup);
+    let equivalent = equivalent::groups(setup, posterior, &places, variances);
+    let mut proposals = Vec::new();
+    if entropy > DECIDED && !places.is_empty() {
+        let hypotheses = predictive(setup, discrepancy, posterior, &places);
+        let same = separates.as_ref().is_some_and(|pair| {
+            let of = |one: &Option<Vec<String>>| {
+                equivalent.iter().position(|group| one.as_ref().is_some_and(|e| group.contains(e)))
+            };
+            of(&pair[0]).is_some() && of(&pair[0]) == of(&pair[1])
+        });
+        let pair = separates.as_ref().filter(|_| !same);
+        let prospects = Prospects::new(setup, &places, &hypotheses, pair, variances, seed);
+        proposals = prospects.proposals(entropy);
+    }
+    NextMeasurements { entropy, separates, proposals, equivalent }
+}
+
+/// Entropy of the probabilities of all hypotheses, in nats.
+pub(crate) fn entropy_of(posterior: &Posterior) -> f64 {
+    let of = |p: f64| if p > 0.0 { -p * elementary::ln(p) } else { 0.0 };
+    let probabilities = posterior.hypotheses.iter().map(|h| h.probability);
+    probabilities.chain([posterior.probability]).map(of).sum()
+}
+
+/// The outputs of the model that were not observed.
+fn unobserved(setup: &Setup<'_>) -> Vec<usize> {
+    let observed = setup.case.observed.iter().enumerate();
+    observed.filter(|(_, of)| of.is_none()).map(|(output, _)| output).collect()
+}
+
+/// The hypotheses of a posterior with what they say at some places.
+fn predictive(
+    setup: &Setup<'_>,
+    discrepancy: &Discrepancy,
+    posterior: &Posterior,
+    places: &[Place],
+) -> Vec<PredictiveHypothesis> {
+    let rows: Vec<_> = places.iter().map(|place| place.row.clone()).collect();
+    let others = unobserved(setup);
+    let mut leading: Vec<usize> = (0..posterior.hypotheses.len())
+        .filter(|&h| {
+            let hypothesis = &posterior.hypotheses[h];
+            hypothesis.probability > LEAST_PROBABILITY && hypothesis.evidence.has_draws()
         })
         .collect();
-    // first a rough order by two normal distributions, then the expectation itself
-    let mut ranked: Vec<(f64, usize)> =
-        (0..rows.len()).map(|row| (rough(&own[row], &other[row], &noise), row)).collect();
-    ranked.retain(|(gain, _)| gain.is_finite());
-    ranked.sort_by(|a, b| b.0.total_cmp(&a.0));
-    ranked.truncate(FINALISTS);
-    let (gain, row) = ranked
+    leading.sort_by(|&a, &b| {
+        posterior.hypotheses[b].probability.total_cmp(&posterior.hypotheses[a].probability)
+    });
+    leading.truncate(MOST_HYPOTHESES);
+    let mut hypotheses: Vec<PredictiveHypothesis> = leading
         .into_par_iter()
-        .map(|(_, row)| (expected(&own[row], &other[row], &noise, seed), row))
-        .max_by(|a, b| a.0.total_cmp(&b.0))?;
-    let names = |place: usize| {
-        let effects = &posterior.hypotheses[place].effects;
-        effects.iter().map(|&e| setup.case.candidates[e].effect.name.clone()).collect()
-    };
-    Some(NextMeasurement {
-        separates: [names(verdict), names(rival)],
-        conditions: rows[row].conditions.clone(),
-        expected_log_odds: gain,
-    })
-}
-
-/// Rows at all combinations of the levels of the data and, between those of the condition with most
-/// levels, their middles. What is known about inputs that differ from row to row is taken from the
-/// row with the nearest conditions, so such cases stay at the data's own rows.
-fn candidates(setup: &Setup<'_>) -> Vec<Row> {
-    let conditions = setup.case.model.conditions.len();
-    let first = |point: &super::data::Point| point.rows.first().map(|&row| setup.data.ids[row]);
-    let measured: Vec<&Row> =
-        setup.data.points.iter().filter_map(first).map(|id| &setup.case.task.rows[id]).collect();
-    let own = || -> Vec<Row> {
-        let step = measured.len().div_ceil(MOST_CANDIDATES).max(1);
-        measured.iter().step_by(step).map(|row| (*row).clone()).collect()
-    };
-    let Some(template) = measured.first() else { return Vec::new() };
-    let same = measured.iter().all(|row| row.distributions == template.distributions);
-    let by_condition =
-        setup.case.task.variables.iter().any(|v| matches!(v.sharing, Sharing::Condition(_)));
-    if !same || by_condition || setup.case.simulated > 0 || conditions == 0 {
-        return own();
-    }
-    let mut axes: Vec<Vec<f64>> = (0..conditions)
-        .map(|condition| {
-            let mut values: Vec<f64> =
-                measured.iter().map(|row| row.conditions[condition]).collect();
-            values.sort_by(f64::total_cmp);
-            values.dedup();
-            values
+        .map(|h| {
+            let hypothesis = &posterior.hypotheses[h];
+            let draws = hypothesis.evidence.resampled(DRAWS);
+            let of = |outputs: &[usize]| {
+                Predictor::new(setup, &hypothesis.effects, &rows, outputs).values(&draws)
+            };
+            let input = |place: usize| draws.iter().map(|draw| draw[place]).collect();
+            PredictiveHypothesis {
+                effects: Some(names(setup, &hypothesis.effects)),
+                probability: hypothesis.probability,
+                values: of(&setup.data.outputs),
+                unobserved: (!others.is_empty()).then(|| of(&others)),
+                inputs: (0..setup.unknown_inputs.len()).map(input).collect(),
+            }
         })
         .collect();
-    if let Some(longest) = axes.iter_mut().max_by_key(|axis| axis.len()) {
-        let middle = |pair: &[f64]| {
-            if pair[0] > 0.0 { (pair[0] * pair[1]).sqrt() } else { 0.5 * (pair[0] + pair[1]) }
+    if posterior.probability > LEAST_PROBABILITY {
+        let kinds = shrink::top(&posterior.unexplained.kinds);
+        let normals = discrepancy.predict(setup, kinds, &rows);
+        let scores: Vec<f64> =
+            (0..DRAWS).map(|n| normal::quantile((n as f64 + 0.5) / DRAWS as f64)).collect();
+        let draws = |&(mean, variance): &(f64, f64)| -> Vec<f64> {
+            scores.iter().map(|score| mean + variance.sqrt() * score).collect()
         };
-        let middles: Vec<f64> = longest.windows(2).map(middle).collect();
-        if longest.len() < 100 {
-            longest.extend(middles);
-        }
+        hypotheses.push(PredictiveHypothesis {
+            effects: None,
+            probability: posterior.probability,
+            values: normals.iter().map(|row| row.iter().map(draws).collect()).collect(),
+            unobserved: None,
+            // what a discrepancy says of inputs is no more than was known of them
+            inputs: vec![scores.clone(); setup.unknown_inputs.len()],
+        });
     }
-    let count = axes.iter().try_fold(1usize, |n, axis| n.checked_mul(axis.len()));
-    if count.is_none_or(|count| count > MOST_CANDIDATES) {
-        return own();
-    }
-    (0..count.unwrap_or(0))
-        .map(|number| {
-            let mut left = number;
-            let conditions = axes.iter().map(|axis| {
-                let value = axis[left % axis.len()];
-                left /= axis.len();
-                value
-            });
-            Row { conditions: conditions.collect(), distributions: template.distributions.clone() }
-        })
-        .collect()
+    let turns = &setup.data.turns;
+    unwrap(&mut hypotheses, turns);
+    hypotheses
 }
 
-/// The expected logarithm of the odds where both predictions are normal and outputs independent.
-fn rough(own: &[Vec<f64>], other: &[Vec<f64>], noise: &[f64]) -> f64 {
-    let moments = |draws: &[f64]| {
-        let n = draws.len().max(1) as f64;
-        let mean = draws.iter().sum::<f64>() / n;
-        (mean, draws.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / n)
+/// Phases within half a turn of the first hypothesis, so that their means mean something.
+fn unwrap(hypotheses: &mut [PredictiveHypothesis], turns: &[Option<f64>]) {
+    let reference: Vec<Vec<f64>> = match hypotheses.first() {
+        Some(first) => first
+            .values
+            .iter()
+            .map(|row| row.iter().map(|draws| draws.first().copied().unwrap_or(0.0)).collect())
+            .collect(),
+        None => return,
     };
-    own.iter()
-        .zip(other)
-        .zip(noise)
-        .map(|((own, other), noise)| {
-            let ((a, va), (b, vb)) = (moments(own), moments(other));
-            let (va, vb) = (va + noise, vb + noise);
-            0.5 * ((va + (a - b).powi(2)) / vb - 1.0 + elementary::ln(vb / va))
-        })
-        .sum()
-}
-
-/// The expectation of the gain in the logarithm of the odds of the verdict against its rival, if the
-/// verdict is true: the relative entropy of their predictive densities. Each draw of the verdict is
-/// measured once and left out of its own density.
-pub(crate) fn expected(own: &[Vec<f64>], other: &[Vec<f64>], noise: &[f64], seed: u64) -> f64 {
-    let draws = own.first().map_or(0, Vec::len);
-    let outputs = own.len();
-    let mut stream = StreamKey::new(seed, "gap/next").block(0);
-    let mut normals = vec![Vec::with_capacity(draws + COLUMN); outputs];
-    for normals in &mut normals {
-        while normals.len() < draws {
-            let mut column = Column::ZERO;
-            standard_normals(&mut stream, &mut column);
-            normals.extend(column.0);
+    for hypothesis in hypotheses {
+        for (row, reference) in hypothesis.values.iter_mut().zip(&reference) {
+            for ((draws, reference), turn) in row.iter_mut().zip(reference).zip(turns) {
+                let Some(turn) = turn else { continue };
+                for value in draws {
+                    *value -= turn * ((*value - reference) / turn).round();
+                }
+            }
         }
     }
-    let ln_density = |values: &[Vec<f64>], measured: &[f64], without: Option<usize>| {
-        let count = values.first().map_or(0, Vec::len);
-        let each: Vec<f64> = (0..count)
-            .filter(|draw| Some(*draw) != without)
-            .map(|draw| {
-                (0..outputs)
-                    .map(|o| {
-                        let z = (measured[o] - values[o][draw]).powi(2) / noise[o];
-                        -0.5 * (z + elementary::ln(noise[o])) - HALF_LN_TWO_PI
-                    })
-                    .sum()
+}
+
+/// Variances of what is measured at a place, by output.
+#[derive(Clone, Debug)]
+struct NoiseAt {
+    /// What every row has of its own.
+    own: Vec<f64>,
+    /// What all rows at the place share.
+    shared: Vec<f64>,
+}
+
+impl NoiseAt {
+    /// Of the mean of so many rows.
+    fn of_mean(&self, count: usize) -> Vec<f64> {
+        self.own.iter().zip(&self.shared).map(|(own, shared)| own / count as f64 + shared).collect()
+    }
+}
+
+/// What can be measured.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Target {
+    /// All observed outputs at a place.
+    Place(usize),
+    /// One that was not observed, by its number among them.
+    Output(usize, usize),
+    /// An input, by its number among the unknown ones.
+    Input(usize),
+}
+
+/// The hypotheses and what can be measured.
+struct Prospects<'p> {
+    setup: &'p Setup<'p>,
+    places: &'p [Place],
+    hypotheses: &'p [PredictiveHypothesis],
+    /// The verdict and its rival among the hypotheses.
+    pair: Option<[usize; 2]>,
+    noise: Vec<NoiseAt>,
+    /// The same for outputs that were not observed.
+    other_noise: Vec<NoiseAt>,
+    others: Vec<usize>,
+    normals: Normals,
+}
+
+impl<'p> Prospects<'p> {
+    fn new(
+        setup: &'p Setup<'p>,
+        places: &'p [Place],
+        hypotheses: &'p [PredictiveHypothesis],
+        pair: Option<&[Option<Vec<String>>; 2]>,
+        variances: &[f64],
+        seed: u64,
+    ) -> Self {
+        let others = unobserved(setup);
+        let find = |effects: &Option<Vec<String>>| {
+            hypotheses.iter().position(|hypothesis| hypothesis.effects == *effects)
+        };
+        let pair = pair.and_then(|[own, rival]| Some([find(own)?, find(rival)?]));
+        let noise = places.iter().map(|place| noise_at(setup, place, variances)).collect();
+        let relative = relative_uncertainty(setup, variances);
+        let other_noise =
+            places.iter().map(|place| other_noise_at(setup, place, &others, relative)).collect();
+        let normals = Normals::new(seed, setup.data.outputs.len());
+        Self { setup, places, hypotheses, pair, noise, other_noise, others, normals }
+    }
+
+    /// What a hypothesis says of a target; `None` where it says nothing.
+    fn outlook(&self, of: &'p PredictiveHypothesis, target: Target) -> Option<Outlook<'p>> {
+        let draws = match target {
+            Target::Place(place) => of.values.get(place)?.as_slice(),
+            Target::Output(output, place) => {
+                std::slice::from_ref(of.unobserved.as_ref()?.get(place)?.get(output)?)
+            }
+            Target::Input(input) => std::slice::from_ref(of.inputs.get(input)?),
+        };
+        let finite = draws.iter().flatten().all(|value| value.is_finite());
+        finite.then_some(Outlook { probability: of.probability, draws })
+    }
+
+    /// Variances of the noise of a target after so many measurements.
+    fn noise(&self, target: Target, count: usize) -> Vec<f64> {
+        match target {
+            Target::Place(place) => self.noise[place].of_mean(count),
+            Target::Output(output, place) => {
+                vec![self.other_noise[place].of_mean(count)[output]]
+            }
+            Target::Input(_) => vec![CALIBRATED * CALIBRATED / count as f64],
+        }
+    }
+
+    fn loss(&self, target: Target, count: usize, detail: Detail) -> f64 {
+        let outlooks: Vec<Outlook<'p>> =
+            self.hypotheses.iter().filter_map(|of| self.outlook(of, target)).collect();
+        let noise = self.noise(target, count);
+        if outlooks.len() < 2 || noise.iter().any(|v| v.is_nan() || *v <= 0.0 || v.is_infinite()) {
+            return 0.0;
+        }
+        expected_loss(&outlooks, &noise, &self.normals, detail)
+    }
+
+    /// The most promising of some targets.
+    fn finalists(&self, targets: &[Target]) -> Vec<Target> {
+        let mut chosen: Vec<Target> = Vec::new();
+        for count in ROUGHLY {
+            let mut ranked: Vec<(f64, Target)> = targets
+                .par_iter()
+                .map(|&target| (self.loss(target, count, Detail::Normal), target))
+                .collect();
+            ranked.retain(|(loss, _)| loss.is_finite());
+            ranked.sort_by(|a, b| b.0.total_cmp(&a.0));
+            for (_, target) in ranked.into_iter().take(FINALISTS) {
+                if !chosen.contains(&target) {
+                    chosen.push(target);
+                }
+            }
+        }
+        chosen
+    }
+
+    /// The best of some targets with so many measurements.
+    fn best(&self, targets: &[Target], count: usize) -> Option<(f64, Target)> {
+        let losses: Vec<(f64, Target)> = targets
+            .par_iter()
+            .map(|&target| (self.loss(target, count, Detail::Kernels), target))
+            .collect();
+        losses.into_iter().rev().max_by(|a, b| a.0.total_cmp(&b.0))
+    }
+
+    /// After how many measurements odds of 20 to 1 for the truth are as likely as not.
+    fn count_for_odds(&self, target: Target) -> Option<usize> {
+        let [own, rival] = self.pair?;
+        let reached = |count: usize| {
+            let outlook = |place: usize| self.outlook(self.hypotheses.get(place)?, target);
+            let outlooks = [outlook(own)?, outlook(rival)?];
+            let noise = self.noise(target, count);
+            if noise.iter().any(|v| v.is_nan() || *v <= 0.0) {
+                return None;
+            }
+            let odds = ln_odds(outlooks, &noise, &self.normals);
+            let wanted = elementary::ln(ODDS);
+            let share: f64 =
+                odds.iter().filter(|(ln, _)| *ln >= wanted).map(|(_, weight)| weight).sum();
+            Some(share >= 0.5)
+        };
+        if matches!(target, Target::Input(_)) {
+            return reached(1)?.then_some(1);
+        }
+        let mut high = 1;
+        while !reached(high)? {
+            if high >= MOST_ROWS {
+                return None;
+            }
+            high = (2 * high).min(MOST_ROWS);
+        }
+        let mut low = high / 2;
+        while high - low > 1 && high - low > low / 50 {
+            let middle = low + (high - low) / 2;
+            if reached(middle)? {
+                high = middle;
+            } else {
+                low = middle;
+            }
+        }
+        Some(high)
+    }
+
+    /// Everything worth proposing, best first; `entropy` is what there is to learn.
+    fn proposals(&self, entropy: f64) -> Vec<ProposedMeasurement> {
+        let of_places = |outside: bool| -> Vec<Target> {
+            let places = self.places.iter().enumerate();
+            places.filter(|(_, p)| p.outside == outside).map(|(n, _)| Target::Place(n)).collect()
+        };
+        let inside = self.finalists(&of_places(false));
+        let outside = self.finalists(&of_places(true));
+        let others: Vec<Vec<Target>> = (0..self.others.len().min(MOST_OTHERS))
+            .map(|output| {
+                let all = (0..self.places.len()).map(|place| Target::Output(output, place));
+                self.finalists(&all.collect::<Vec<_>>())
             })
             .collect();
-        ln_sum(each.iter().copied()) - elementary::ln(each.len().max(1) as f64)
-    };
-    let total: f64 = (0..draws)
-        .map(|draw| {
-            let measured: Vec<f64> =
-                (0..outputs).map(|o| own[o][draw] + noise[o].sqrt() * normals[o][draw]).collect();
-            ln_density(own, &measured, Some(draw)) - ln_density(other, &measured, None)
+        let count = self.halving(&[inside.clone(), outside.clone()].concat(), entropy);
+        let mut found: Vec<(f64, Target, usize)> = Vec::new();
+        let mut add = |targets: &[Target], count: usize| {
+            found.extend(self.best(targets, count).map(|(loss, target)| (loss, target, count)));
+        };
+        add(&inside, 1);
+        if count > 1 {
+            add(&inside, count);
+        }
+        add(&outside, count);
+        for targets in &others {
+            add(targets, count);
+        }
+        let inputs = 0..self.setup.unknown_inputs.len();
+        let mut inputs: Vec<(f64, Target, usize)> = inputs
+            .map(Target::Input)
+            .map(|target| (self.loss(target, 1, Detail::Kernels), target, 1))
+            .collect();
+        inputs.sort_by(|a, b| b.0.total_cmp(&a.0));
+        found.extend(inputs.into_iter().take(MOST_OTHERS));
+        found.retain(|(loss, ..)| *loss > WORTH_PROPOSING * entropy);
+        found.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.2.cmp(&b.2)));
+        found
+            .into_iter()
+            .filter_map(|(loss, target, count)| {
+                Some(ProposedMeasurement {
+                    kind: self.kind(target, count)?,
+                    count,
+                    expected_entropy_loss: loss,
+                    count_for_20_to_1: self.count_for_odds(target),
+                })
+            })
+            .collect()
+    }
+
+    /// The smallest number of rows at one place that is expected to halve the entropy; where none
+    /// does, the one from which on more rows teach little.
+    fn halving(&self, targets: &[Target], entropy: f64) -> usize {
+        let most = COUNTS[COUNTS.len() - 1];
+        let loss = |count: usize| self.best(targets, count).map_or(0.0, |(loss, _)| loss);
+        let wanted = (0.5 * entropy).min(0.75 * loss(most));
+        let enough = COUNTS.partition_point(|&count| count < most && loss(count) < wanted);
+        COUNTS.get(enough).copied().unwrap_or(most)
+    }
+
+    fn kind(&self, target: Target, count: usize) -> Option<ProposalKind> {
+        let conditions = |place: usize| self.places[place].row.conditions.clone();
+        Some(match target {
+            Target::Place(place) if self.places[place].outside => {
+                ProposalKind::Outside { conditions: conditions(place) }
+            }
+            Target::Place(place) if count == 1 => {
+                ProposalKind::Row { conditions: conditions(place) }
+            }
+            Target::Place(place) => ProposalKind::Repeats { conditions: conditions(place) },
+            Target::Output(output, place) => {
+                let of = &self.setup.case.model.outputs[self.others[output]].quantity;
+                ProposalKind::Output {
+                    output: named(&of.name, &of.unit),
+                    conditions: conditions(place),
+                    standard_uncertainty: self.other_noise[place].own[output].sqrt(),
+                }
+            }
+            Target::Input(input) => {
+                let variable = *self.setup.unknown_inputs.get(input)?;
+                let of = &self.setup.case.task.variables[variable];
+                let stated =
+                    self.places.first()?.row.distributions[variable].standard_uncertainty();
+                ProposalKind::Input {
+                    input: named(&of.name, &of.unit),
+                    standard_uncertainty: CALIBRATED * stated,
+                    stated,
+                }
+            }
         })
-        .sum();
-    total / draws.max(1) as f64
+    }
+}
+
+fn named(name: &str, unit: &gumption_units::Unit) -> NamedQuantity {
+    NamedQuantity { name: name.to_owned(), unit: unit.text().to_owned() }
+}
+
+/// The noise of the observed outputs at a place: that of the nearest measured points, and of inputs
+/// that are not unknown quantities of their own.
+fn noise_at(setup: &Setup<'_>, place: &Place, variances: &[f64]) -> NoiseAt {
+    let data = &setup.data;
+    let outputs = data.outputs.len();
+    let typical = |output: usize| {
+        let rows = place.near.iter().flat_map(|&point| &data.points[point].rows);
+        let of = |&row: &usize| {
+            let stretch = data.noise.stretch(data.ids[row], output);
+            variances[row * outputs + output] / (stretch * stretch)
+        };
+        median(rows.map(of).collect())
+    };
+    let NoiseAt { own, shared } = of_inputs(setup, place, &data.outputs);
+    let own = own.into_iter().enumerate().map(|(output, own)| own + typical(output)).collect();
+    NoiseAt { own, shared }
+}
+
+/// What inputs that are not unknown quantities of their own add to outputs at a place.
+fn of_inputs(setup: &Setup<'_>, place: &Place, outputs: &[usize]) -> NoiseAt {
+    let known = |v: usize| !setup.unknown_inputs.contains(&v);
+    let of_row = |v: usize| matches!(setup.case.task.variables[v].sharing, Sharing::Row);
+    NoiseAt {
+        own: predict::variances_of(setup, &place.row, outputs, |v| known(v) && of_row(v)),
+        shared: predict::variances_of(setup, &place.row, outputs, |v| known(v) && !of_row(v)),
+    }
+}
+
+/// The least relative standard uncertainty of the observed outputs: what an output that was not
+/// observed is taken to be measured with.
+fn relative_uncertainty(setup: &Setup<'_>, variances: &[f64]) -> f64 {
+    let data = &setup.data;
+    let outputs = data.outputs.len();
+    let of = |output: usize| {
+        let relative = (0..data.rows()).map(|row| {
+            let size = data.points[data.point_of[row]].nominal[output].abs();
+            variances[row * outputs + output].sqrt() / size
+        });
+        median(relative.filter(|relative| relative.is_finite()).collect())
+    };
+    (0..outputs).map(of).filter(|relative| *relative > 0.0).fold(f64::INFINITY, f64::min)
+}
+
+/// The noise that outputs which were not observed are taken to have at a place.
+fn other_noise_at(setup: &Setup<'_>, place: &Place, outputs: &[usize], relative: f64) -> NoiseAt {
+    if outputs.is_empty() {
+        return NoiseAt { own: Vec::new(), shared: Vec::new() };
+    }
+    let mut variables: Vec<f64> = place.row.distributions.iter().map(|d| d.mean()).collect();
+    variables.extend(&place.row.conditions);
+    let (values, _) = setup.case.task.model.program.gradients(&variables);
+    let NoiseAt { own, shared } = of_inputs(setup, place, outputs);
+    let own =
+        outputs.iter().zip(own).map(|(&output, own)| own + (relative * values[output]).powi(2));
+    NoiseAt { own: own.collect(), shared }
+}
+
+fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values.get(values.len() / 2).copied().unwrap_or(f64::NAN)
 }

@@ -150,7 +150,7 @@ pub(crate) fn weighings<'c>(
     case: &'c Case,
     wide: &'c Case,
     seed: u64,
-    effort: Effort,
+    effort: Effort<'_>,
     progress: &(dyn Fn(f64) + Sync),
 ) -> Vec<Weighing<'c>> {
     let begun = |(setup, singles): (Setup<'c>, Vec<WeighedHypothesis>),
@@ -174,14 +174,14 @@ pub(crate) fn weighings<'c>(
     let mut weighings = vec![weighing(Setup::new(case), stated, &[], [0.0, 0.35])];
     let stated = &weighings[0].setup.data.uncertainties;
     // of much data each model costs a pass for every draw
-    let few = weighings[0].setup.data.len() <= MANY_VALUES;
+    let few = weighings[0].setup.data.len() <= MANY_VALUES && !effort.is_stopped();
     if stated.iter().any(Option::is_some) && few {
         let model = NoiseModel::with_factor();
         let prior = model.prior(values);
         let setup = weighings[0].setup.with_noise(model);
         weighings.push(weighing(setup, prior, &weighings, [0.35, 0.7]));
     }
-    if few {
+    if few && !effort.is_stopped() {
         for coefficient in serial_correlations(&weighings) {
             let model = NoiseModel::with_serial(coefficient);
             let prior = model.prior(values);
@@ -189,13 +189,20 @@ pub(crate) fn weighings<'c>(
             weighings.push(weighing(setup, prior, &weighings, [0.7, 0.7]));
         }
     }
-    let conflict = if few { prior_conflict(wide, &weighings, seed, effort) } else { None };
+    let conflict = if few && !effort.is_stopped() {
+        prior_conflict(wide, &weighings, seed, effort)
+    } else {
+        None
+    };
     if let Some(conflict) = conflict {
         let mut of_wide = begun(conflict, PRIOR_CONFLICT, &weighings, [0.7, 0.8]);
         of_wide.wide = true;
         weighings.push(of_wide);
     }
     for _ in 0..if few { MOST_SUSPECTS } else { 0 } {
+        if effort.is_stopped() {
+            break;
+        }
         let Some(suspects) = more_suspects(&weighings) else { break };
         let model = NoiseModel::with_suspects(suspects);
         let prior = model.prior(values);
@@ -289,7 +296,7 @@ fn prior_conflict<'c>(
     wide: &'c Case,
     weighings: &[Weighing<'_>],
     seed: u64,
-    effort: Effort,
+    effort: Effort<'_>,
 ) -> Option<(Setup<'c>, Vec<WeighedHypothesis>)> {
     let setup = Setup::new(wide);
     let singles = posterior::singles(&setup, seed, effort);

@@ -22,7 +22,10 @@ pub(crate) fn present(
                 posterior.hypotheses.iter().filter(|h| h.effects.contains(&effect)).collect();
             let probability = holding.iter().map(|h| h.probability).sum();
             let candidate = &setup.case.candidates[effect];
-            let parameters = candidate.effect.parameters.iter().zip(&candidate.priors).enumerate();
+            // what differs between devices is reported by itself
+            let listed = setup.case.listed_parameters(effect);
+            let parameters = candidate.effect.parameters.iter().zip(&candidate.priors);
+            let parameters = parameters.take(listed).enumerate();
             let parameters = parameters.filter_map(|(n, (quantity, prior))| {
                 let map = Map::of(prior);
                 let mut draws: Vec<(f64, f64)> = Vec::new();
@@ -31,22 +34,8 @@ pub(crate) fn present(
                     let own = weighted(hypothesis, place, &map);
                     draws.extend(own.map(|(x, weight)| (x, weight * hypothesis.probability)));
                 }
-                let total: f64 = draws.iter().map(|(_, weight)| weight).sum();
-                if total.is_nan() || total <= 0.0 {
-                    return None;
-                }
-                draws.iter_mut().for_each(|(_, weight)| *weight /= total);
-                draws.sort_by(|a, b| a.0.total_cmp(&b.0));
-                let mean: f64 = draws.iter().map(|(x, w)| x * w).sum();
-                let variance: f64 = draws.iter().map(|(x, w)| w * (x - mean).powi(2)).sum();
-                let [lower, upper] = equal_tails(&draws, coverage);
-                Some(EffectParameter {
-                    name: format!("{}/{}", candidate.effect.name, quantity.name),
-                    unit: quantity.unit.text().to_owned(),
-                    estimate: mean,
-                    standard_uncertainty: variance.max(0.0).sqrt(),
-                    interval: [lower.min(mean), upper.max(mean)],
-                })
+                let name = format!("{}/{}", candidate.effect.name, quantity.name);
+                summary(draws, name, quantity.unit.text().to_owned(), coverage)
             });
             PresentEffect {
                 effect: candidate.effect.name.clone(),
@@ -57,6 +46,31 @@ pub(crate) fn present(
         .collect();
     present.sort_by(|a, b| b.probability.total_cmp(&a.probability));
     present
+}
+
+/// Mean, standard deviation and interval of weighted values; `None` where they weigh nothing.
+pub(crate) fn summary(
+    mut draws: Vec<(f64, f64)>,
+    name: String,
+    unit: String,
+    coverage: f64,
+) -> Option<EffectParameter> {
+    let total: f64 = draws.iter().map(|(_, weight)| weight).sum();
+    if total.is_nan() || total <= 0.0 {
+        return None;
+    }
+    draws.iter_mut().for_each(|(_, weight)| *weight /= total);
+    draws.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let mean: f64 = draws.iter().map(|(x, w)| x * w).sum();
+    let variance: f64 = draws.iter().map(|(x, w)| w * (x - mean).powi(2)).sum();
+    let [lower, upper] = equal_tails(&draws, coverage);
+    Some(EffectParameter {
+        name,
+        unit,
+        estimate: mean,
+        standard_uncertainty: variance.max(0.0).sqrt(),
+        interval: [lower.min(mean), upper.max(mean)],
+    })
 }
 
 /// Values of an unknown quantity with their weights.

@@ -1,6 +1,7 @@
 //! The posterior probabilities of all hypotheses.
 
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use rayon::prelude::*;
 
@@ -45,7 +46,7 @@ pub(crate) struct Posterior {
 
 /// How much is computed.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Effort {
+pub(crate) struct Effort<'s> {
     /// Starts of the search for modes.
     pub(crate) starts: usize,
     /// The standard error of a probability that is good enough.
@@ -56,15 +57,23 @@ pub(crate) struct Effort {
     pub(crate) rounds: usize,
     /// The effective number of draws of hypotheses that are reported in detail.
     pub(crate) effective_sample_size: f64,
+    /// Once this is set, nothing new is begun.
+    pub(crate) stop: Option<&'s AtomicBool>,
 }
 
-impl Effort {
-    pub(crate) const FULL: Self = Self {
+impl Effort<'_> {
+    /// Whether what is known so far is asked for.
+    pub(crate) fn is_stopped(&self) -> bool {
+        self.stop.is_some_and(|stop| stop.load(Ordering::Relaxed))
+    }
+
+    pub(crate) const FULL: Effort<'static> = Effort {
         starts: 16,
         error: 0.005,
         generations: 240,
         rounds: 24,
         effective_sample_size: 1000.0,
+        stop: None,
     };
     /// Less where every draw costs a pass over much data: there the posterior is narrow and nearly
     /// normal, so that few draws serve as well.
@@ -72,15 +81,17 @@ impl Effort {
         if values <= MANY_VALUES {
             return self;
         }
-        Self { starts: 0, generations: 0, rounds: 3, effective_sample_size: 60.0, error: 0.03 }
+        let (starts, generations, rounds) = (0, 0, 3);
+        Self { starts, generations, rounds, effective_sample_size: 60.0, error: 0.03, ..self }
     }
 
-    pub(crate) const QUICK: Self = Self {
+    pub(crate) const QUICK: Effort<'static> = Effort {
         starts: 8,
         error: 0.015,
         generations: 120,
         rounds: 12,
         effective_sample_size: 400.0,
+        stop: None,
     };
 }
 
@@ -91,9 +102,9 @@ const LEADING: f64 = 0.01;
 pub(super) const MANY_VALUES: usize = 20_000;
 
 /// No gap and every effect alone, with first estimates of their evidences.
-pub(crate) fn singles(setup: &Setup<'_>, seed: u64, effort: Effort) -> Vec<WeighedHypothesis> {
+pub(crate) fn singles(setup: &Setup<'_>, seed: u64, effort: Effort<'_>) -> Vec<WeighedHypothesis> {
     let effort = effort.for_values(setup.data.len());
-    Exploration::new(setup, seed, effort.starts).singles()
+    Exploration::new(setup, seed, effort).singles()
 }
 
 /// Weighs all hypotheses against the data of a setup, of which the `singles` are begun. `rivals` is the logarithm of the evidence of
@@ -104,27 +115,27 @@ pub(crate) fn posterior(
     singles: Vec<WeighedHypothesis>,
     discrepancy: &Discrepancy,
     seed: u64,
-    effort: Effort,
+    effort: Effort<'_>,
     rivals: f64,
     progress: &(dyn Fn(f64) + Sync),
 ) -> Posterior {
-    let count = setup.case.candidates.len();
     let effort = effort.for_values(setup.data.len());
     let prior = setup.case.prior;
-    let exploration = Exploration::new(setup, seed, effort.starts);
+    let exploration = Exploration::new(setup, seed, effort);
     let mut hypotheses = singles;
     progress(0.2);
     let residuals = by_rows(&setup.data.nominal_residuals());
     let unexplained =
         discrepancy.evidence(setup, &residuals, floor(&hypotheses, prior.unexplained));
     progress(0.3);
-    if prior.two > 0.0 {
-        let pairs: Vec<Vec<usize>> =
-            (0..count).flat_map(|a| (a + 1..count).map(move |b| vec![a, b])).collect();
+    if prior.two > 0.0 && !effort.is_stopped() {
+        let pairs = setup.case.pairs();
         let of_pairs: Vec<WeighedHypothesis> =
-            pairs.into_par_iter().map(|effects| exploration.begin(effects, &hypotheses)).collect();
+            pairs.into_par_iter().filter_map(|of| exploration.begin(of, &hypotheses)).collect();
         hypotheses.extend(of_pairs);
-        exploration.reconcile(&mut hypotheses);
+        if !effort.is_stopped() {
+            exploration.reconcile(&mut hypotheses);
+        }
     }
     progress(0.6);
     let mut posterior = Posterior {
@@ -138,8 +149,9 @@ pub(crate) fn posterior(
     posterior.weigh();
     // the leading hypotheses are looked at from end to end
     let share = posterior.share();
-    let leads =
-        |h: &&mut WeighedHypothesis| h.probability * share > LEADING && !h.effects.is_empty();
+    let leads = |h: &&mut WeighedHypothesis| {
+        h.probability * share > LEADING && !h.effects.is_empty() && !effort.is_stopped()
+    };
     posterior.hypotheses.par_iter_mut().filter(leads).for_each(|hypothesis| {
         let likelihood = setup.likelihood(&hypothesis.effects);
         if effort.generations > 0 {
@@ -155,7 +167,7 @@ pub(crate) fn posterior(
             .iter()
             .map(|hypothesis| hypothesis.is_open(effort.error, share))
             .collect();
-        if !open.iter().any(|open| *open) {
+        if effort.is_stopped() || !open.iter().any(|open| *open) {
             break;
         }
         posterior.hypotheses.par_iter_mut().zip(open).filter(|(_, open)| *open).for_each(
@@ -169,15 +181,18 @@ pub(crate) fn posterior(
         progress(0.6 + 0.4 * (round + 1) as f64 / effort.rounds as f64);
     }
     let share = posterior.share();
-    let leads =
-        |h: &&mut WeighedHypothesis| h.probability * share > LEADING && !h.effects.is_empty();
+    let leads = |h: &&mut WeighedHypothesis| {
+        h.probability * share > LEADING && !h.effects.is_empty() && !effort.is_stopped()
+    };
     let (none, others) = posterior.hypotheses.split_at_mut(1);
     let none = &*none;
     others.par_iter_mut().filter(leads).for_each(|hypothesis| {
         exploration.replicate(hypothesis, none);
     });
     posterior.weigh();
-    posterior.guard(setup, discrepancy);
+    if !effort.is_stopped() {
+        posterior.guard(setup, discrepancy);
+    }
     // what is reported in detail deserves smooth intervals
     for _ in 0..effort.rounds {
         let share = posterior.share();
@@ -186,7 +201,7 @@ pub(crate) fn posterior(
                 && !h.effects.is_empty()
                 && h.evidence.effective_sample_size < effort.effective_sample_size
         };
-        if !posterior.hypotheses.iter().any(worth) {
+        if effort.is_stopped() || !posterior.hypotheses.iter().any(worth) {
             break;
         }
         posterior.hypotheses.par_iter_mut().filter(|h| worth(h)).for_each(|hypothesis| {
@@ -257,8 +272,7 @@ impl Posterior {
             self.hypotheses[b].probability.total_cmp(&self.hypotheses[a].probability)
         });
         leading.truncate(MOST_GUARDED);
-        let count = setup.case.candidates.len();
-        let all = count + count * count.saturating_sub(1) / 2;
+        let all = setup.case.candidates.len() + setup.case.pairs().len();
         let ln_share = elementary::ln(BESIDE_AN_EFFECT / all.max(1) as f64);
         let floor = floor(&self.hypotheses, self.prior);
         let others: Vec<(f64, Arc<Base>, Unexplained)> = leading

@@ -1,7 +1,7 @@
 //! What a hypothesis says at any conditions, after what the data taught about its unknowns.
 
 use super::latent::{Map, Role};
-use super::likelihood::{Evaluator, fixed_at};
+use super::likelihood::{Evaluator, Likelihood, fixed_at};
 use super::setup::Setup;
 use gumption_engine::number::{COLUMN, CodePath, Column, Kernel};
 use gumption_engine::task::Row;
@@ -16,53 +16,79 @@ pub(crate) fn values(
     draws: &[Vec<f64>],
     rows: &[Row],
 ) -> Values {
-    let likelihood = setup.likelihood(effects);
-    let program = setup.case.program(effects);
-    // inputs whose prior differs from row to row have it from these rows
-    let roles: Vec<Role> = likelihood
-        .roles
-        .iter()
-        .map(|role| match role {
-            Role::Variable { place, .. } if *place < setup.case.task.variables.len() => {
-                // as in the data, where correlated quantities have normal scores
-                let of = |row: &Row| match Map::of(&row.distributions[*place]) {
-                    bounded if bounded.is_bounded() && !role.is_bounded() => {
-                        Map::Other((*row.distributions[*place]).clone())
-                    }
-                    map => map,
-                };
-                let maps: Vec<Map> = rows.iter().map(of).collect();
-                Role::Variable { place: *place, maps }
-            }
-            other => other.clone(),
-        })
-        .collect();
-    let evaluator = Evaluator::new(
-        &program,
-        rows.iter().map(|row| row.conditions.clone()).collect(),
-        setup.case.task.variables.len(),
-        &fixed_at(rows, &roles),
-        &setup.data.outputs,
-    );
-    let outputs = setup.data.outputs.len();
-    let mut values = vec![vec![Vec::with_capacity(draws.len()); outputs]; rows.len()];
-    for draws in draws.chunks(COLUMN) {
-        let mut scores = vec![Column::ZERO; roles.len()];
-        for (lane, draw) in draws.iter().enumerate() {
-            for (column, score) in scores.iter_mut().zip(draw) {
-                column.0[lane] = *score;
-            }
-        }
-        let scores = likelihood.mixed(&scores);
-        let walk =
-            Walk { evaluator: &evaluator, roles: &roles, scores, lanes: draws.len(), outputs };
-        for (of_row, columns) in values.iter_mut().zip(CodePath::best().run(walk)) {
-            for (of_output, column) in of_row.iter_mut().zip(columns) {
-                of_output.extend(column);
-            }
-        }
+    Predictor::new(setup, effects, rows, &setup.data.outputs).values(draws)
+}
+
+/// A hypothesis made ready to say what outputs of the model are in some rows.
+pub(crate) struct Predictor<'s> {
+    likelihood: Likelihood<'s>,
+    /// As in the rows.
+    roles: Vec<Role>,
+    evaluator: Evaluator,
+    outputs: usize,
+}
+
+impl<'s> Predictor<'s> {
+    /// `outputs` are places in the model's outputs.
+    pub(crate) fn new(
+        setup: &'s Setup<'_>,
+        effects: &[usize],
+        rows: &[Row],
+        outputs: &[usize],
+    ) -> Self {
+        let likelihood = setup.likelihood(effects);
+        let program = setup.case.program(effects);
+        // inputs whose prior differs from row to row have it from these rows
+        let roles: Vec<Role> = likelihood
+            .roles
+            .iter()
+            .map(|role| match role {
+                Role::Variable { place, .. } if *place < setup.case.task.variables.len() => {
+                    // as in the data, where correlated quantities have normal scores
+                    let of = |row: &Row| match Map::of(&row.distributions[*place]) {
+                        bounded if bounded.is_bounded() && !role.is_bounded() => {
+                            Map::Other((*row.distributions[*place]).clone())
+                        }
+                        map => map,
+                    };
+                    let maps: Vec<Map> = rows.iter().map(of).collect();
+                    Role::Variable { place: *place, maps }
+                }
+                other => other.clone(),
+            })
+            .collect();
+        let evaluator = Evaluator::new(
+            &program,
+            rows.iter().map(|row| row.conditions.clone()).collect(),
+            setup.case.task.variables.len(),
+            &fixed_at(rows, &roles),
+            outputs,
+        );
+        Self { likelihood, roles, evaluator, outputs: outputs.len() }
     }
-    values
+
+    /// Values for draws of the unknown quantities.
+    pub(crate) fn values(&self, draws: &[Vec<f64>]) -> Values {
+        let Self { likelihood, roles, evaluator, outputs } = self;
+        let outputs = *outputs;
+        let mut values = vec![vec![Vec::with_capacity(draws.len()); outputs]; evaluator.points()];
+        for draws in draws.chunks(COLUMN) {
+            let mut scores = vec![Column::ZERO; roles.len()];
+            for (lane, draw) in draws.iter().enumerate() {
+                for (column, score) in scores.iter_mut().zip(draw) {
+                    column.0[lane] = *score;
+                }
+            }
+            let scores = likelihood.mixed(&scores);
+            let walk = Walk { evaluator, roles, scores, lanes: draws.len(), outputs };
+            for (of_row, columns) in values.iter_mut().zip(CodePath::best().run(walk)) {
+                for (of_output, column) in of_row.iter_mut().zip(columns) {
+                    of_output.extend(column);
+                }
+            }
+        }
+        values
+    }
 }
 
 struct Walk<'w> {
@@ -101,15 +127,33 @@ impl Kernel for Walk<'_> {
     }
 }
 
+/// What the model says of the observed outputs in a row at the inputs' estimates.
+pub(crate) fn nominal(setup: &Setup<'_>, row: &Row) -> Vec<f64> {
+    let mut variables: Vec<f64> = row.distributions.iter().map(|d| d.mean()).collect();
+    variables.extend(&row.conditions);
+    let values = setup.case.task.model.program.evaluate(&variables);
+    setup.data.outputs.iter().map(|&output| values[output]).collect()
+}
+
 /// Variances of the outputs in a row from inputs that act linearly: those that belong to the row
 /// alone, and those that are too small to be unknown quantities of their own.
 pub(crate) fn linear_variances(setup: &Setup<'_>, row: &Row) -> Vec<f64> {
+    variances_of(setup, row, &setup.data.outputs, |v| !setup.unknown_inputs.contains(&v))
+}
+
+/// Variances of outputs in a row from some of the inputs, by the law of propagation.
+pub(crate) fn variances_of(
+    setup: &Setup<'_>,
+    row: &Row,
+    outputs: &[usize],
+    wanted: impl Fn(usize) -> bool,
+) -> Vec<f64> {
     let mut variables: Vec<f64> = row.distributions.iter().map(|d| d.mean()).collect();
     variables.extend(&row.conditions);
     let (_, gradients) = setup.case.task.model.program.gradients(&variables);
     let of = |&output: &usize| {
         let parts = row.distributions.iter().enumerate().map(|(v, distribution)| {
-            if setup.unknown_inputs.contains(&v) {
+            if !wanted(v) {
                 return 0.0;
             }
             let deviation = distribution.standard_deviation();
@@ -119,7 +163,7 @@ pub(crate) fn linear_variances(setup: &Setup<'_>, row: &Row) -> Vec<f64> {
         });
         parts.sum()
     };
-    setup.data.outputs.iter().map(of).collect()
+    outputs.iter().map(of).collect()
 }
 
 /// Mean and variance of every output in every row.

@@ -1,5 +1,7 @@
 //! How far the gap shrinks with the verdict's correction, on conditions that were not fitted.
 
+use std::sync::atomic::{AtomicBool, Ordering};
+
 use rayon::prelude::*;
 
 use super::composed::Compositions;
@@ -43,21 +45,28 @@ pub(crate) fn shrinkage(
     correction: &Correction,
     variances: &[f64],
     probability: f64,
-    seed: u64,
+    (seed, stop): (u64, Option<&AtomicBool>),
 ) -> (Shrinkage, Vec<RowGap>) {
     let data = &setup.data;
     let outputs = data.outputs.len();
     let rows: Vec<Row> = data.ids.iter().map(|&id| setup.case.task.rows[id].clone()).collect();
     let before = by_rows(&data.nominal_residuals());
+    // what the correction says of the data that it was fitted to
+    let fitted = in_sample(setup, discrepancy, posterior, correction, &rows);
+    let stopped = || stop.is_some_and(|stop| stop.load(Ordering::Relaxed));
     let blocks = blocks(setup);
     // without each block in turn
-    let left_out: Vec<(Vec<usize>, Fold)> = blocks
+    let left_out: Option<Vec<(Vec<usize>, Fold)>> = blocks
         .par_iter()
-        .map(|block| (block.clone(), fold(setup, discrepancy, posterior, correction, block, seed)))
+        .map(|block| {
+            let fold = || fold(setup, discrepancy, posterior, correction, block, seed);
+            (!stopped()).then(|| (block.clone(), fold()))
+        })
         .collect();
-    let mut predicted = vec![(0.0, 0.0); data.len()];
+    let blocks = left_out.as_ref().map_or(0, Vec::len);
+    let mut predicted: Vec<(f64, f64)> = fitted.iter().flatten().copied().collect();
     let mut gain = 0.0;
-    for (block, fold) in &left_out {
+    for (block, fold) in left_out.iter().flatten() {
         for (n, &row) in block.iter().enumerate() {
             for output in 0..outputs {
                 predicted[row * outputs + output] = fold.predicted[n][output];
@@ -96,17 +105,18 @@ pub(crate) fn shrinkage(
                         u_before: (noise + nominal_variances[value]).sqrt(),
                         after: after[value],
                         u_after: (noise + predicted[value].1 + linear[value]).sqrt(),
+                        left: data.residual(output, row, fitted[row][output].0),
+                        u_corrected: (fitted[row][output].1 + linear[value]).sqrt(),
                     }
                 })
                 .collect(),
         })
         .collect();
-    // the noise as it happened to be, from the whole fit: it is in `after` as well
-    let fitted = in_sample(setup, discrepancy, posterior, correction, &rows);
     let scaled = |values: &[f64], weights: &[f64]| -> Vec<f64> {
         values.iter().zip(weights).map(|(r, v)| r * r / v).collect()
     };
     let (before2, after2) = (scaled(&before, variances), scaled(&after, variances));
+    // the noise as it happened to be, from the whole fit: it is in `after` as well
     let noise2: Vec<f64> = (0..data.len())
         .map(|value| {
             let (mean, variance) = fitted[value / outputs][value % outputs];
@@ -151,7 +161,8 @@ pub(crate) fn shrinkage(
         ],
         within: [within(&before, &|value| value.u_before), within(&after, &|value| value.u_after)],
         log_density_gain: gain,
-        blocks: blocks.len(),
+        blocks,
+        values: data.len(),
         outputs: per_output,
         all,
     };

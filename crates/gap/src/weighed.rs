@@ -3,7 +3,9 @@
 
 use super::composed::{self, ComposedEffect, Compositions};
 use super::departure;
-use super::diagnosis::{DepartureForm, HypothesisKind, MostProbable, PriorConflict};
+use super::diagnosis::{
+    DepartureForm, HypothesisKind, MostProbable, PriorConflict, UnlistedEffect,
+};
 use super::discrepancy::Discrepancy;
 use super::latent::Role;
 use super::noise_model::{self, Weighing};
@@ -12,6 +14,7 @@ use super::predict;
 use super::prior_conflict;
 use super::setup::Setup;
 use super::shrink::Correction;
+use super::unlisted;
 use super::weighed_noise::WeighedNoise;
 use crate::Case;
 use gumption_engine::number::elementary;
@@ -41,6 +44,8 @@ pub(crate) struct Weighed<'c> {
     /// The same as far as they count in predictions: those that were composed with the noise that is
     /// most probable.
     pub(crate) compositions: Compositions,
+    /// Effects that ship with the program and would make it.
+    pub(crate) unlisted: Vec<UnlistedEffect>,
     /// What the noise may be.
     pub(crate) noise: WeighedNoise,
     /// With the noise that is most probable.
@@ -63,7 +68,7 @@ impl<'c> Weighed<'c> {
         case: &'c Case,
         wide: &'c Case,
         seed: u64,
-        effort: Effort,
+        effort: Effort<'_>,
         progress: &(dyn Fn(f64) + Sync),
     ) -> Self {
         let weighings = noise_model::weighings(case, wide, seed, effort, progress);
@@ -73,6 +78,8 @@ impl<'c> Weighed<'c> {
         let noise = WeighedNoise::of(&weighings);
         let departure = departure::forms(&weighings);
         let (composed, compositions) = composed(&weighings);
+        let coverage = super::diagnose::coverage(case);
+        let unlisted = unlisted::explaining(case, &weighings, seed, coverage);
         let (setup, discrepancy, posterior) = noise_model::summed(weighings);
         let best = (0..posterior.hypotheses.len())
             .max_by(|&a, &b| {
@@ -92,6 +99,7 @@ impl<'c> Weighed<'c> {
             departure,
             composed,
             compositions,
+            unlisted,
             noise,
             setup,
             discrepancy,

@@ -20,6 +20,7 @@
 
 mod defined;
 mod dimension;
+mod dsi;
 mod error;
 mod exponent;
 mod factor;

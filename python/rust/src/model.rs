@@ -7,7 +7,7 @@ use gumption::command::Failure;
 use gumption::file::{ModelFile, Override, bytes};
 use gumption::propagate::{Control, Evaluation, evaluate, warnings};
 use gumption::report::Provenance;
-use gumption::task::{Coverage, StoppingRule, Task, Trials};
+use gumption::task::{Coverage, MethodChoice, SettingsChanges, StoppingRule, Task, Trials};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 
@@ -41,15 +41,9 @@ pub(crate) struct Model {
 /// What `run` is asked for beside what the file says.
 #[derive(Debug, Default)]
 struct Asked {
-    trials: Option<Trials>,
-    seed: Option<u64>,
-    coverage: Option<f64>,
+    changes: SettingsChanges,
+    /// A coverage factor; whether it is kept fixed is said by the file.
     factor: Option<f64>,
-    digits: Option<u32>,
-    real_dof: bool,
-    validate: bool,
-    rule: Option<StoppingRule>,
-    max_trials: Option<u64>,
     threads: usize,
     memory: usize,
 }
@@ -65,20 +59,19 @@ impl Asked {
             let needed = |what: &str| argument(py, format!("`{name}`: {what} is needed"));
             match name.as_str() {
                 "trials" => {
-                    asked.trials = Some(trials(&value).ok_or_else(|| {
+                    asked.changes.trials = Some(trials(&value).ok_or_else(|| {
                         needed("a whole number (0, or from 2 to 1e12) or \"adaptive\"")
                     })?)
                 }
                 "seed" => {
                     let seed = value.extract().map_err(|_| needed("a whole number from 0"));
-                    asked.seed = Some(seed?);
+                    asked.changes.seed = Some(seed?);
                 }
                 "coverage" => {
                     let p = value.extract().ok().filter(|p| 0.0 < *p && *p < 1.0);
-                    asked.coverage =
-                        Some(p.ok_or_else(|| {
-                            needed("a probability between 0 and 1, such as 0.95,")
-                        })?);
+                    let p =
+                        p.ok_or_else(|| needed("a probability between 0 and 1, such as 0.95,"))?;
+                    asked.changes.coverage = Some(Coverage::Probability(p));
                 }
                 "k" => {
                     let k = value.extract().ok().filter(|k| 0.0 < *k && *k <= 8.0);
@@ -87,19 +80,25 @@ impl Asked {
                 }
                 "digits" => {
                     let digits = value.extract().ok().filter(|d| (1..=15).contains(d));
-                    asked.digits =
+                    asked.changes.digits =
                         Some(digits.ok_or_else(|| needed("a whole number from 1 to 15"))?);
                 }
-                "real_dof" => asked.real_dof = value.is_truthy()?,
-                "validate" => asked.validate = value.is_truthy()?,
+                "real_dof" => asked.changes.real_dof = value.is_truthy()?,
+                "validate" => asked.changes.validate = value.is_truthy()?,
                 "rule" => {
                     let rule = value.extract::<String>().ok();
                     let rule = rule.and_then(|rule| StoppingRule::named(&rule));
-                    asked.rule = Some(rule.ok_or_else(|| needed("\"7.9\" or \"stein\""))?);
+                    asked.changes.rule = Some(rule.ok_or_else(|| needed("\"7.9\" or \"stein\""))?);
+                }
+                "method" => {
+                    let method = value.extract::<String>().ok();
+                    let method = method.and_then(|method| MethodChoice::named(&method));
+                    let names = "\"auto\", \"monte-carlo\", \"exact\" or \"quasi\"";
+                    asked.changes.method = Some(method.ok_or_else(|| needed(names))?);
                 }
                 "max_trials" => {
                     let most = value.extract().ok().filter(|n| *n >= 20_000);
-                    asked.max_trials =
+                    asked.changes.max_trials =
                         Some(most.ok_or_else(|| needed("a whole number from 20000"))?);
                 }
                 "threads" => {
@@ -115,10 +114,10 @@ impl Asked {
             }
         }
         let refuse = |reason: &str| Err(argument(py, reason));
-        if asked.coverage.is_some() && asked.factor.is_some() {
+        if asked.changes.coverage.is_some() && asked.factor.is_some() {
             return refuse("`coverage` and `k` say the same; give one of them");
         }
-        if asked.validate && asked.trials.is_some() {
+        if asked.changes.validate && asked.changes.trials.is_some() {
             return refuse("`validate` finds the number of trials; leave `trials` out");
         }
         Ok(asked)
@@ -126,26 +125,10 @@ impl Asked {
 
     /// What is asked for beats the file, as on the command line.
     fn settings(&self, task: &mut Task) {
-        let settings = &mut task.settings;
-        let fixed = matches!(settings.coverage, Coverage::Factor { fixed: true, .. });
-        let factor = self.factor.map(|factor| Coverage::Factor { factor, fixed });
-        let coverage = self.coverage.map(Coverage::Probability).or(factor);
-        settings.coverage = coverage.unwrap_or(settings.coverage);
-        if let Some(trials) = self.trials {
-            settings.trials = trials;
-            settings.decide_up_to = 0;
-        }
-        if self.validate {
-            settings.trials = Trials::Adaptive;
-            settings.for_validation = true;
-        }
-        settings.rule = self.rule.unwrap_or(settings.rule);
-        settings.max_trials = self.max_trials.unwrap_or(settings.max_trials);
-        settings.seed = self.seed.unwrap_or(settings.seed);
-        if let Some(digits) = self.digits {
-            *settings = settings.with_digits(digits);
-        }
-        settings.real_dof |= self.real_dof;
+        let of_file = task.settings.coverage;
+        let factor = self.factor.map(|factor| of_file.with_factor(factor));
+        let coverage = self.changes.coverage.or(factor);
+        task.settings = SettingsChanges { coverage, ..self.changes }.applied(task.settings);
     }
 }
 
@@ -295,7 +278,7 @@ impl Model {
         let asked = Asked::of(py, options)?;
         let mut task = self.file.task.clone();
         asked.settings(&mut task);
-        if asked.rule.is_some() && task.settings.trials != Trials::Adaptive {
+        if asked.changes.rule.is_some() && task.settings.trials != Trials::Adaptive {
             let reason = "`rule` is about adaptive runs; add `trials=\"adaptive\"`";
             return Err(argument(py, reason));
         }

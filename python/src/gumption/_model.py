@@ -87,6 +87,7 @@ class Model:
         real_dof: bool = False,
         validate: bool = False,
         rule: str | None = None,
+        method: str | None = None,
         max_trials: int | None = None,
         threads: int | None = None,
         memory: int | None = None,
@@ -117,6 +118,8 @@ class Model:
             Make as many trials as the validation of the GUM interval needs (JCGM 101, 8.2).
         rule : {"7.9", "stein"}, optional
             When an adaptive run stops.
+        method : {"auto", "monte-carlo", "exact", "quasi"}, optional
+            Which figures without the noise of trials stand beside those of the trials.
         max_trials : int, optional
             Largest number of trials of an adaptive run.
         threads : int, optional
@@ -140,7 +143,7 @@ class Model:
         options = {
             "trials": trials, "seed": seed, "coverage": coverage, "k": k, "digits": digits,
             "real_dof": real_dof or None, "validate": validate or None, "rule": rule,
-            "max_trials": max_trials, "threads": threads, "memory": memory,
+            "method": method, "max_trials": max_trials, "threads": threads, "memory": memory,
         }  # fmt: skip
         given = {name: value for name, value in options.items() if value is not None}
         return Result(self, given, self._evaluated(given, progress))

@@ -20,16 +20,19 @@ mod log_uniform;
 mod lognormal;
 mod normal;
 mod poisson_count;
+mod quantiles;
 mod readings;
 mod rectangular;
 mod result;
 mod samples;
 mod score;
 mod shape;
+mod split_normal;
 mod stream;
 mod student;
 mod trapezoidal;
 mod triangular;
+mod truncated;
 
 pub use arcsine::Arcsine;
 pub use beta::Beta;
@@ -52,12 +55,14 @@ pub use log_uniform::LogUniform;
 pub use lognormal::Lognormal;
 pub use normal::Normal;
 pub use poisson_count::PoissonCount;
+pub use quantiles::Quantiles;
 pub use readings::Readings;
 pub use rectangular::Rectangular;
 pub use result::{Origin, Root, RootCorrelation, RootName, Saved, SavedResult, Scores};
 pub use samples::Samples;
 pub use shape::Invalid;
 use shape::Shape;
+pub use split_normal::SplitNormal;
 pub use stream::BLOCK;
 pub use stream::Stream;
 pub use stream::StreamKey;
@@ -65,6 +70,7 @@ pub use stream::StreamRng;
 pub use student::StudentT;
 pub use trapezoidal::Trapezoidal;
 pub use triangular::Triangular;
+pub use truncated::Truncated;
 
 use crate::number::Column;
 
@@ -196,6 +202,12 @@ distributions! {
     PoissonCount,
     /// Empirical: samples drawn with replacement.
     Samples,
+    /// Two halves of normal distributions.
+    SplitNormal,
+    /// Stated by quantiles.
+    Quantiles,
+    /// Any other, cut off at limits.
+    Truncated,
     /// One output of a saved result.
     SavedResult,
     /// Drawn by another crate.

@@ -18,6 +18,8 @@ pub struct Readings {
     scale: f64,
     /// How many quantities were read together with this one, itself included.
     together: usize,
+    /// Whether the standard uncertainty is that of the t distribution.
+    bayesian: bool,
 }
 
 impl Readings {
@@ -49,6 +51,7 @@ impl Readings {
                 mean: finite("the mean of the values", origin + offset)?,
                 scale: finite("the scatter of the values", scale)?,
                 together: 1,
+                bayesian: false,
             })
         } else {
             Err(Invalid::NoScatter { count })
@@ -70,6 +73,20 @@ impl Readings {
         }
     }
 
+    /// The same readings with the standard deviation of their t distribution as standard uncertainty,
+    /// which has no degrees of freedom (JCGM 101, 6.4.9.4).
+    ///
+    /// # Errors
+    /// Fewer than four readings, for which there is no such standard deviation.
+    pub fn bayesian(self) -> Result<Self, Invalid> {
+        let count = self.values.len();
+        if count < 4 {
+            let (value, range) = (count as f64, "at least 4 for a Bayesian evaluation");
+            return Err(Invalid::OutOfRange { parameter: "values", value, range });
+        }
+        Ok(Self { bayesian: true, ..self })
+    }
+
     /// How many quantities were read together with this one, itself included: 1 unless paired.
     pub fn together(&self) -> usize {
         self.together
@@ -78,7 +95,8 @@ impl Readings {
     /// The scale of the t distribution that trials are drawn from: s/sqrt(n), and of paired
     /// readings the same with the divisor n - N in s.
     pub(crate) fn drawn_scale(&self) -> f64 {
-        self.scale * (self.dof() / self.drawn_dof()).sqrt()
+        let dof = self.values.len() as f64 - 1.0;
+        self.scale * (dof / self.drawn_dof()).sqrt()
     }
 
     /// The readings.
@@ -95,7 +113,7 @@ impl Shape for Readings {
     }
 
     fn standard_uncertainty(&self) -> f64 {
-        self.scale
+        if self.bayesian { self.standard_deviation() } else { self.scale }
     }
 
     fn divisor(&self) -> Option<f64> {
@@ -103,7 +121,7 @@ impl Shape for Readings {
     }
 
     fn dof(&self) -> f64 {
-        self.values.len() as f64 - 1.0
+        if self.bayesian { f64::INFINITY } else { self.values.len() as f64 - 1.0 }
     }
 
     fn drawn_dof(&self) -> f64 {

@@ -4,13 +4,18 @@
 //! formulas in a file: quantities on both sides and a [`Program`] between them.
 
 pub mod formula;
+mod interpolation;
 mod program;
+mod root;
 mod schedule;
 mod slopes;
 mod trace;
 pub mod typed;
+pub use interpolation::{Interpolation, InterpolationMethod, TableFault};
 pub use program::Node;
 pub use program::Program;
+pub use program::RoutineCall;
+pub(crate) use root::Root;
 pub(crate) use schedule::fold;
 pub use schedule::{Schedule, ScheduledOutput};
 pub(crate) use slopes::{Columns, Slope, Slopes};

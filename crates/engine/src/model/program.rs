@@ -4,7 +4,9 @@
 //! sensitivity coefficients, trials) is the same for both. Operations stand in an order in which
 //! each comes after its operands; equal operations on equal operands stand only once.
 
-use crate::number::{Binary, Dual, Number, Shortest, Unary};
+use std::sync::Arc;
+
+use crate::number::{Binary, Dual, Number, Routine, Shortest, Unary, derivative};
 
 /// How many inputs one evaluation with dual numbers differentiates by.
 const GRADIENT_CHUNK: usize = 8;
@@ -23,6 +25,23 @@ pub enum Node {
     Unary(Unary, usize),
     /// An operation of two earlier nodes.
     Binary(Binary, usize, usize),
+    /// The call of this number in [`Program::routines`].
+    Routine(usize),
+}
+
+/// A call of a function of several numbers.
+#[derive(Clone, Debug)]
+pub struct RoutineCall {
+    /// The function.
+    pub routine: Arc<dyn Routine>,
+    /// Its operands: indices of earlier nodes.
+    pub operands: Vec<usize>,
+}
+
+impl RoutineCall {
+    fn values<T: Copy>(&self, of: &[T]) -> Vec<T> {
+        self.operands.iter().map(|&x| of[x]).collect()
+    }
 }
 
 /// A function from variables to outputs.
@@ -34,6 +53,8 @@ pub struct Program {
     pub variables: usize,
     /// For each output the index of its node.
     pub outputs: Vec<usize>,
+    /// The calls of functions of several numbers.
+    pub routines: Vec<RoutineCall>,
 }
 
 impl Program {
@@ -49,7 +70,7 @@ impl Program {
 
     /// Number of operations, each counted once however often its result is used.
     pub fn operations(&self) -> usize {
-        self.nodes.iter().filter(|n| matches!(n, Node::Unary(..) | Node::Binary(..))).count()
+        self.nodes.iter().filter(|n| !matches!(n, Node::Variable(_) | Node::Constant(_))).count()
     }
 
     /// The outputs at the given values of the variables. A missing value is taken as 0.
@@ -66,6 +87,10 @@ impl Program {
                 Node::Constant(c) => T::constant(c),
                 Node::Unary(operation, x) => values[x].unary(operation),
                 Node::Binary(operation, x, y) => values[x].binary(operation, values[y]),
+                Node::Routine(call) => {
+                    let call = &self.routines[call];
+                    T::routine(&call.routine, &call.values(&values))
+                }
             });
         }
         values
@@ -138,6 +163,25 @@ impl Program {
                         slopes[x] += slope * by_x;
                         needed[x] = true;
                     }
+                    // a branch that is not taken has no say
+                    Node::Binary(Binary::When, x, y) => {
+                        if values[x] != 0.0 {
+                            (slopes[y], needed[y]) = (slopes[y] + slope, true);
+                        }
+                    }
+                    Node::Binary(Binary::Unless, x, y) => {
+                        if values[x] == 0.0 {
+                            (slopes[y], needed[y]) = (slopes[y] + slope, true);
+                        }
+                    }
+                    Node::Routine(call) => {
+                        let call = &self.routines[call];
+                        let by = call.routine.slopes(&call.values(&values), values[index]);
+                        for (&x, by) in call.operands.iter().zip(by) {
+                            slopes[x] += derivative::chain(slope, by);
+                            needed[x] = true;
+                        }
+                    }
                     Node::Binary(operation, x, y) => {
                         let [a, b] = [(x, 0), (y, 1)].map(|(x, i)| Dual::variable(values[x], i));
                         let [by_x, by_y] = Dual::<2>::binary(a, operation, b).gradient;
@@ -175,6 +219,9 @@ impl Program {
                             needed[x] = true;
                             needed[y] = true;
                         }
+                        Node::Routine(call) => {
+                            self.routines[call].operands.iter().for_each(|&x| needed[x] = true);
+                        }
                     }
                 }
             }
@@ -183,13 +230,42 @@ impl Program {
         self.outputs.iter().map(|&output| reach_of(output)).collect()
     }
 
+    /// For each node whether an output comes from it at these values: not where only a branch of a
+    /// choice uses it that is not taken.
+    fn taken(&self, values: &[f64]) -> Vec<bool> {
+        let mut taken = vec![false; self.nodes.len()];
+        self.outputs.iter().for_each(|&output| taken[output] = true);
+        for (index, node) in self.nodes.iter().enumerate().rev() {
+            if !taken[index] {
+                continue;
+            }
+            match *node {
+                Node::Variable(_) | Node::Constant(_) => {}
+                Node::Unary(_, x) => taken[x] = true,
+                Node::Binary(operation, x, y) => {
+                    taken[x] = true;
+                    taken[y] |= match operation {
+                        Binary::When => values[x] != 0.0,
+                        Binary::Unless => values[x] == 0.0,
+                        _ => true,
+                    };
+                }
+                Node::Routine(call) => {
+                    self.routines[call].operands.iter().for_each(|&x| taken[x] = true);
+                }
+            }
+        }
+        taken
+    }
+
     /// The first operation whose result is not finite although its operands are, in words such as
     /// `sqrt of -0.25` or `1 / 0`; `None` if all is finite. An infinite constant that a model
     /// uses on purpose (a filter that is absent) is not reported.
     pub fn first_undefined(&self, variables: &[f64]) -> Option<String> {
         let values = self.values(variables);
+        let taken = self.taken(&values);
         for (index, node) in self.nodes.iter().enumerate() {
-            if values[index].is_finite() {
+            if values[index].is_finite() || !taken[index] {
                 continue;
             }
             match *node {
@@ -204,6 +280,13 @@ impl Program {
                     } else {
                         format!("{name} of {x} and {y}")
                     });
+                }
+                Node::Routine(call) => {
+                    let call = &self.routines[call];
+                    let operands = call.values(&values);
+                    if operands.iter().all(|operand| operand.is_finite()) {
+                        return Some(call.routine.undefined(&operands));
+                    }
                 }
                 _ => {}
             }

@@ -2,8 +2,11 @@
 //! needs is dropped, and every remaining step has registers to read from and to write to.
 
 use super::program::{Node, Program};
+use std::sync::Arc;
+
 use crate::number::{
-    Binary, Column, Number, Operand, Unary, apply_binary, apply_sin_cos, apply_unary,
+    Binary, COLUMN, Column, Number, Operand, Routine, Unary, apply_binary, apply_sin_cos,
+    apply_unary,
 };
 
 /// One step over columns.
@@ -11,7 +14,21 @@ use crate::number::{
 enum Step {
     Unary(Unary, usize, usize),
     Binary(Binary, Operand, Operand, usize),
-    SinCos { angle: usize, sin: usize, cos: usize },
+    SinCos {
+        angle: usize,
+        sin: usize,
+        cos: usize,
+    },
+    /// The routine of this number.
+    Routine(usize),
+}
+
+/// A call of a function of several numbers.
+#[derive(Clone, Debug)]
+struct ScheduledRoutine {
+    routine: Arc<dyn Routine>,
+    operands: Vec<Operand>,
+    out: usize,
 }
 
 /// Where an output's column is found.
@@ -27,6 +44,7 @@ pub enum ScheduledOutput {
 #[derive(Clone, Debug)]
 pub struct Schedule {
     steps: Vec<Step>,
+    routines: Vec<ScheduledRoutine>,
     /// Number of registers, those of the varying variables first.
     pub registers: usize,
     /// For each varying variable, in order, whether an output depends on it.
@@ -85,7 +103,7 @@ impl Schedule {
 
         let mut register: Vec<usize> = vec![usize::MAX; program.nodes.len()];
         let mut free: Vec<usize> = Vec::new();
-        let mut steps = Vec::new();
+        let (mut steps, mut routines) = (Vec::new(), Vec::new());
         let operand = |register: &[usize], index: usize| match folded[index] {
             Some(c) => Operand::Constant(c),
             None => Operand::Register(register[index]),
@@ -101,6 +119,24 @@ impl Schedule {
                 })
             };
             let operands: [Option<usize>; 2] = match *node {
+                Node::Routine(call) => {
+                    let call = &program.routines[call];
+                    let out = take(&mut free);
+                    register[index] = out;
+                    let operands = call.operands.iter().map(|&x| operand(&register, x)).collect();
+                    let routine = Arc::clone(&call.routine);
+                    steps.push(Step::Routine(routines.len()));
+                    routines.push(ScheduledRoutine { routine, operands, out });
+                    let mut ended: Vec<usize> = call.operands.clone();
+                    ended.sort_unstable();
+                    ended.dedup();
+                    for x in ended {
+                        if last_use[x] == index && folded[x].is_none() {
+                            free.push(register[x]);
+                        }
+                    }
+                    [None, None]
+                }
                 Node::Constant(_) => [None, None],
                 Node::Variable(v) => {
                     register[index] = register_of_variable[v];
@@ -150,7 +186,7 @@ impl Schedule {
                 None => ScheduledOutput::Register(register[o]),
             })
             .collect();
-        Self { steps, registers, used, outputs }
+        Self { steps, routines, registers, used, outputs }
     }
 
     /// Runs all steps on one column of trials.
@@ -161,8 +197,24 @@ impl Schedule {
                 Step::Unary(operation, x, out) => apply_unary(registers, operation, x, out),
                 Step::Binary(operation, x, y, out) => apply_binary(registers, operation, x, y, out),
                 Step::SinCos { angle, sin, cos } => apply_sin_cos(registers, angle, sin, cos),
+                Step::Routine(number) => self.routines[number].run(registers),
             }
         }
+    }
+}
+
+impl ScheduledRoutine {
+    #[inline(never)]
+    fn run(&self, registers: &mut [Column]) {
+        let operands: Vec<[f64; COLUMN]> = self
+            .operands
+            .iter()
+            .map(|operand| match *operand {
+                Operand::Register(register) => registers[register].0,
+                Operand::Constant(value) => [value; COLUMN],
+            })
+            .collect();
+        self.routine.column(&operands, &mut registers[self.out].0);
     }
 }
 
@@ -178,6 +230,11 @@ pub(crate) fn fold(program: &Program, bound: &[Option<f64>]) -> Vec<Option<f64>>
                 (Some(x), Some(y)) => Some(x.binary(operation, y)),
                 _ => None,
             },
+            Node::Routine(call) => {
+                let call = &program.routines[call];
+                let operands: Option<Vec<f64>> = call.operands.iter().map(|&x| folded[x]).collect();
+                operands.map(|operands| call.routine.value(&operands))
+            }
         });
     }
     folded
@@ -200,6 +257,9 @@ pub(super) fn needed(program: &Program, folded: &[Option<f64>]) -> Vec<bool> {
                 needed[x] = true;
                 needed[y] = true;
             }
+            Node::Routine(call) => {
+                program.routines[call].operands.iter().for_each(|&x| needed[x] = true);
+            }
         }
     }
     needed
@@ -219,6 +279,9 @@ fn last_uses(program: &Program, folded: &[Option<f64>], needed: &[bool]) -> Vec<
             Node::Binary(_, x, y) => {
                 last_use[x] = index;
                 last_use[y] = index;
+            }
+            Node::Routine(call) => {
+                program.routines[call].operands.iter().for_each(|&x| last_use[x] = index);
             }
         }
     }

@@ -2,9 +2,10 @@
 
 use std::cell::RefCell;
 use std::collections::HashMap;
+use std::sync::Arc;
 
-use super::program::{Node, Program};
-use crate::number::{Binary, Number, Unary, number_operators};
+use super::program::{Node, Program, RoutineCall};
+use crate::number::{Binary, Number, Routine, Unary, number_operators};
 
 /// Where the operations of a function are written down.
 #[derive(Debug, Default)]
@@ -15,6 +16,7 @@ pub struct Recorder {
 #[derive(Debug, Default)]
 struct Graph {
     nodes: Vec<Node>,
+    routines: Vec<RoutineCall>,
     index_of: HashMap<Key, usize>,
 }
 
@@ -25,6 +27,7 @@ enum Key {
     Constant(u64),
     Unary(Unary, usize),
     Binary(Binary, usize, usize),
+    Routine(usize),
 }
 
 impl Graph {
@@ -34,11 +37,23 @@ impl Graph {
             Node::Constant(c) => Key::Constant(c.to_bits()),
             Node::Unary(operation, x) => Key::Unary(operation, x),
             Node::Binary(operation, x, y) => Key::Binary(operation, x, y),
+            Node::Routine(call) => Key::Routine(call),
         };
         *self.index_of.entry(key).or_insert_with(|| {
             self.nodes.push(node);
             self.nodes.len() - 1
         })
+    }
+
+    fn call_index(&mut self, call: RoutineCall) -> usize {
+        let same = |known: &RoutineCall| {
+            Arc::ptr_eq(&known.routine, &call.routine) && known.operands == call.operands
+        };
+        let index = self.routines.iter().position(same).unwrap_or_else(|| {
+            self.routines.push(call.clone());
+            self.routines.len() - 1
+        });
+        self.node_index(Node::Routine(index))
     }
 }
 
@@ -63,7 +78,9 @@ impl Recorder {
     /// The program that computes `outputs` from `variables` many variables.
     pub fn program(&self, variables: usize, outputs: &[Traced<'_>]) -> Program {
         let outputs = outputs.iter().map(|&output| self.index(output)).collect();
-        Program { nodes: self.graph.borrow().nodes.clone(), variables, outputs }
+        let graph = self.graph.borrow();
+        let (nodes, routines) = (graph.nodes.clone(), graph.routines.clone());
+        Program { nodes, variables, outputs, routines }
     }
 
     fn index(&self, number: Traced<'_>) -> usize {
@@ -98,6 +115,21 @@ impl Number for Traced<'_> {
         };
         let (x, y) = (recorder.index(self), recorder.index(other));
         let index = recorder.graph.borrow_mut().node_index(Node::Binary(operation, x, y));
+        Self(Recorded::Node(recorder, index))
+    }
+
+    fn routine(routine: &Arc<dyn Routine>, operands: &[Self]) -> Self {
+        let known = |operand: &Self| match operand.0 {
+            Recorded::Constant(c) => Ok(c),
+            Recorded::Node(recorder, _) => Err(recorder),
+        };
+        let recorder = match operands.iter().map(known).collect::<Result<Vec<f64>, _>>() {
+            Ok(values) => return Self::constant(routine.value(&values)),
+            Err(recorder) => recorder,
+        };
+        let operands = operands.iter().map(|&operand| recorder.index(operand)).collect();
+        let call = RoutineCall { routine: Arc::clone(routine), operands };
+        let index = recorder.graph.borrow_mut().call_index(call);
         Self(Recorded::Node(recorder, index))
     }
 }

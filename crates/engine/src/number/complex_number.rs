@@ -1,6 +1,8 @@
 //! Numbers that may be complex, for formulas: what is real stays so, with the same operations.
 
-use super::{Binary, Number, Unary, number_operators};
+use std::sync::Arc;
+
+use super::{Binary, Number, Routine, Unary, number_operators};
 use crate::model::typed::Complex;
 
 /// A real number, or a complex one as a pair of numbers.
@@ -102,8 +104,21 @@ impl<T: Number> Number for ComplexNumber<T> {
                 Complex::polar(modulus, x.phase() * y.re).into()
             }
             (Binary::Power, ..) => (x.ln() * y).exp().into(),
+            // a branch by a real condition
+            (Binary::When | Binary::Unless, None, _) => {
+                Self::new(x.re.binary(operation, y.re), x.re.binary(operation, y.im))
+            }
             _ => Self::constant(f64::NAN),
         }
+    }
+
+    /// Of real numbers alone.
+    fn routine(routine: &Arc<dyn Routine>, operands: &[Self]) -> Self {
+        if operands.iter().any(|operand| operand.im.is_some()) {
+            return Self::constant(f64::NAN);
+        }
+        let operands: Vec<T> = operands.iter().map(|operand| operand.re).collect();
+        Self::real(T::routine(routine, &operands))
     }
 
     fn real_part(self) -> Self {

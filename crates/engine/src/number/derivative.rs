@@ -33,12 +33,21 @@ pub(crate) fn unary(operation: Unary, x: f64, y: f64) -> f64 {
             let c = Number::cosh(x);
             1.0 / (c * c)
         }
+        Unary::Asinh => 1.0 / Number::hypot(1.0, x),
+        Unary::Acosh => 1.0 / ((x - 1.0) * (x + 1.0)).sqrt(),
+        Unary::Atanh => 1.0 / ((1.0 - x) * (1.0 + x)),
+        Unary::ExpMinusOne => Number::exp(x),
+        Unary::LnOnePlus => 1.0 / (1.0 + x),
+        // between the steps; on one the value of a quantity that varies is there for no time
+        Unary::Floor | Unary::Ceil | Unary::Round => 0.0,
+        Unary::Erf => std::f64::consts::FRAC_2_SQRT_PI * Number::exp(-(x * x)),
+        Unary::Gamma => y * crate::special::gamma::digamma(x),
     }
 }
 
 /// The derivatives of an operation by its operands `x` and `y`, where its result is `value`.
 ///
-/// Of `min` and `max` they are 1 for the operand that is taken, at a tie the first one, and 0 for
+/// Of `min`, `max` and choices they are 1 for the operand that is taken, at a tie the first one, and 0 for
 /// the other; of a comparison 0.
 #[inline(always)]
 pub(crate) fn binary(operation: Binary, x: f64, y: f64, value: f64) -> [f64; 2] {
@@ -64,6 +73,9 @@ pub(crate) fn binary(operation: Binary, x: f64, y: f64, value: f64) -> [f64; 2] 
         Binary::Max if y > x => [0.0, 1.0],
         Binary::Min | Binary::Max => [1.0, 0.0],
         Binary::Less | Binary::LessOrEqual | Binary::Equal | Binary::NotEqual => [0.0, 0.0],
+        Binary::Modulo => [1.0, -(x / y).floor()],
+        Binary::When => [0.0, if x == 0.0 { 0.0 } else { 1.0 }],
+        Binary::Unless => [0.0, if x == 0.0 { 1.0 } else { 0.0 }],
     }
 }
 

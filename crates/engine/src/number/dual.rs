@@ -1,7 +1,9 @@
 //! Dual numbers: a value with its exact gradient, carried through every operation by the chain
 //! rule. They give the sensitivity coefficients c_i of JCGM 100, 5.1.3, with no step to choose.
 
-use super::{Binary, Number, Unary, derivative, number_operators, scalar};
+use std::sync::Arc;
+
+use super::{Binary, Number, Routine, Unary, derivative, number_operators, scalar};
 
 /// A value and its partial derivatives with respect to `N` chosen inputs.
 ///
@@ -68,14 +70,29 @@ impl<const N: usize> Number for Dual<N> {
             Binary::Min if y < x => other.chain(value, 1.0),
             Binary::Max if y > x => other.chain(value, 1.0),
             Binary::Min | Binary::Max => self.chain(value, 1.0),
-            Binary::Less | Binary::LessOrEqual | Binary::Equal | Binary::NotEqual => {
-                Self::flat(value)
-            }
+            // nor has a branch that is not taken
+            Binary::When if x != 0.0 => other.chain(value, 1.0),
+            Binary::Unless if x == 0.0 => other.chain(value, 1.0),
+            Binary::When | Binary::Unless => Self::flat(value),
+            _ if operation.is_flat() => Self::flat(value),
             _ => {
                 let [by_x, by_y] = derivative::binary(operation, x, y, value);
                 self.chain_two(other, value, by_x, by_y)
             }
         }
+    }
+
+    fn routine(routine: &Arc<dyn Routine>, operands: &[Self]) -> Self {
+        let values: Vec<f64> = operands.iter().map(|operand| operand.value).collect();
+        let value = routine.value(&values);
+        let mut result = Self::flat(value);
+        for (operand, slope) in operands.iter().zip(routine.slopes(&values, value)) {
+            let part = operand.chain(value, slope);
+            for (sum, part) in result.gradient.iter_mut().zip(part.gradient) {
+                *sum += part;
+            }
+        }
+        result
     }
 }
 

@@ -401,6 +401,48 @@ pub fn tanh(x: f64) -> f64 {
     one_nan(libm::tanh(x))
 }
 
+/// Inverse hyperbolic sine, by `libm` (below 2 ulp).
+#[inline]
+pub fn asinh(x: f64) -> f64 {
+    one_nan(libm::asinh(x))
+}
+
+/// Inverse hyperbolic cosine, by `libm` (below 2 ulp); NaN below 1.
+#[inline]
+pub fn acosh(x: f64) -> f64 {
+    one_nan(libm::acosh(x))
+}
+
+/// Inverse hyperbolic tangent, by `libm` (below 2 ulp); ±∞ at ±1, NaN beyond.
+#[inline]
+pub fn atanh(x: f64) -> f64 {
+    one_nan(libm::atanh(x))
+}
+
+/// exp(x) − 1, by `libm` (below 1 ulp).
+#[inline]
+pub fn expm1(x: f64) -> f64 {
+    one_nan(libm::expm1(x))
+}
+
+/// ln(1 + x), by `libm` (below 1 ulp); −∞ at −1, NaN below.
+#[inline]
+pub fn log1p(x: f64) -> f64 {
+    one_nan(libm::log1p(x))
+}
+
+/// Error function 2/√π ∫₀ˣ exp(−t²) dt, by `libm` (below 1 ulp).
+#[inline]
+pub fn erf(x: f64) -> f64 {
+    one_nan(libm::erf(x))
+}
+
+/// Gamma function, by `libm` (below 20 ulp up to 171); NaN at 0 and at negative whole numbers.
+#[inline]
+pub fn gamma(x: f64) -> f64 {
+    if x <= 0.0 && x == x.floor() { f64::NAN } else { one_nan(libm::tgamma(x)) }
+}
+
 /// Logarithm to base 10, by `libm` (below 1 ulp); −∞ at ±0, NaN below 0.
 #[inline]
 pub fn log10(x: f64) -> f64 {

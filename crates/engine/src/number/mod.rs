@@ -17,6 +17,7 @@ mod dual;
 pub mod elementary;
 mod operation;
 mod path;
+mod routine;
 mod scalar;
 mod shortest;
 
@@ -27,10 +28,12 @@ pub use dual::Dual;
 pub use operation::{Binary, Unary};
 pub(crate) use path::Instructions;
 pub use path::{CodePath, Kernel, UnavailablePath};
+pub use routine::Routine;
 pub use shortest::Shortest;
 
 use std::fmt::Debug;
 use std::ops::{Add, Div, Mul, Neg, Sub};
+use std::sync::Arc;
 
 /// What a measurement model computes with.
 ///
@@ -70,6 +73,9 @@ pub trait Number:
 
     /// Applies an operation of two operands.
     fn binary(self, operation: Binary, other: Self) -> Self;
+
+    /// Calls a function of several numbers.
+    fn routine(routine: &Arc<dyn Routine>, operands: &[Self]) -> Self;
 
     /// Sine of an angle in radians.
     fn sin(self) -> Self {

@@ -35,6 +35,26 @@ pub enum Unary {
     Cosh,
     /// hyperbolic tangent
     Tanh,
+    /// inverse hyperbolic sine
+    Asinh,
+    /// inverse hyperbolic cosine, not negative
+    Acosh,
+    /// inverse hyperbolic tangent
+    Atanh,
+    /// `exp(x) - 1`, without cancellation near 0
+    ExpMinusOne,
+    /// `ln(1 + x)`, without cancellation near 0
+    LnOnePlus,
+    /// the largest whole number that is not above
+    Floor,
+    /// the smallest whole number that is not below
+    Ceil,
+    /// the nearest whole number; halves away from 0
+    Round,
+    /// error function
+    Erf,
+    /// gamma function
+    Gamma,
 }
 
 impl Unary {
@@ -57,6 +77,16 @@ impl Unary {
             Self::Sinh => "sinh",
             Self::Cosh => "cosh",
             Self::Tanh => "tanh",
+            Self::Asinh => "asinh",
+            Self::Acosh => "acosh",
+            Self::Atanh => "atanh",
+            Self::ExpMinusOne => "expm1",
+            Self::LnOnePlus => "log1p",
+            Self::Floor => "floor",
+            Self::Ceil => "ceil",
+            Self::Round => "round",
+            Self::Erf => "erf",
+            Self::Gamma => "gamma",
         }
     }
 }
@@ -90,6 +120,12 @@ pub enum Binary {
     Equal,
     /// 1 where `x != y`, else 0
     NotEqual,
+    /// what is left of `x` after whole multiples of `y`, with the sign of `y`
+    Modulo,
+    /// `y` where `x` is not 0, else 0 whatever `y` is: the branch of a choice that is taken
+    When,
+    /// `y` where `x` is 0, else 0 whatever `y` is: the other branch
+    Unless,
 }
 
 impl Binary {
@@ -109,11 +145,34 @@ impl Binary {
             Self::LessOrEqual => "<=",
             Self::Equal => "==",
             Self::NotEqual => "!=",
+            Self::Modulo => "mod",
+            Self::When => "if",
+            Self::Unless => "if not",
         }
     }
 
     /// Whether the name stands between the operands rather than before them.
     pub fn is_infix(self) -> bool {
-        !matches!(self, Self::Atan2 | Self::Hypot | Self::Min | Self::Max)
+        !matches!(
+            self,
+            Self::Atan2
+                | Self::Hypot
+                | Self::Min
+                | Self::Max
+                | Self::Modulo
+                | Self::When
+                | Self::Unless
+        )
+    }
+
+    /// Whether the result has no slope: it is the same beside the values as at them.
+    pub fn is_flat(self) -> bool {
+        matches!(self, Self::Less | Self::LessOrEqual | Self::Equal | Self::NotEqual)
+    }
+
+    /// Whether the result is one of the operands or a number: the operand that is not taken has no
+    /// say, however steep it is, or without a value.
+    pub fn chooses(self) -> bool {
+        matches!(self, Self::Min | Self::Max | Self::When | Self::Unless)
     }
 }

@@ -1,6 +1,8 @@
 //! Plain numbers: the arithmetic of an estimate, and the definition of every operation's bits.
 
-use super::{Binary, Number, Unary, elementary};
+use std::sync::Arc;
+
+use super::{Binary, Number, Routine, Unary, elementary};
 
 /// One operation on one number; columns of trials apply the very same code to every element.
 #[inline(always)]
@@ -22,6 +24,16 @@ pub(super) fn unary(operation: Unary, x: f64) -> f64 {
         Unary::Sinh => elementary::sinh(x),
         Unary::Cosh => elementary::cosh(x),
         Unary::Tanh => elementary::tanh(x),
+        Unary::Asinh => elementary::asinh(x),
+        Unary::Acosh => elementary::acosh(x),
+        Unary::Atanh => elementary::atanh(x),
+        Unary::ExpMinusOne => elementary::expm1(x),
+        Unary::LnOnePlus => elementary::log1p(x),
+        Unary::Floor => x.floor(),
+        Unary::Ceil => x.ceil(),
+        Unary::Round => x.round(),
+        Unary::Erf => elementary::erf(x),
+        Unary::Gamma => elementary::gamma(x),
     }
 }
 
@@ -56,6 +68,35 @@ pub(super) fn binary(operation: Binary, x: f64, y: f64) -> f64 {
         Binary::LessOrEqual => truth(x <= y),
         Binary::Equal => truth(x == y),
         Binary::NotEqual => truth(x != y),
+        Binary::Modulo => modulo(x, y),
+        // a condition that is no number is no decision
+        Binary::When | Binary::Unless if x.is_nan() => f64::NAN,
+        Binary::When => {
+            if x == 0.0 {
+                0.0
+            } else {
+                y
+            }
+        }
+        Binary::Unless => {
+            if x == 0.0 {
+                y
+            } else {
+                0.0
+            }
+        }
+    }
+}
+
+/// `x - y floor(x/y)`, exactly but for one rounding where the signs differ; NaN for y = 0.
+fn modulo(x: f64, y: f64) -> f64 {
+    let rest = libm::fmod(x, y);
+    if rest.is_nan() {
+        f64::NAN
+    } else if rest != 0.0 && (rest < 0.0) != (y < 0.0) {
+        rest + y
+    } else {
+        rest
     }
 }
 
@@ -85,6 +126,10 @@ impl Number for f64 {
     #[inline(always)]
     fn binary(self, operation: Binary, other: Self) -> Self {
         binary(operation, self, other)
+    }
+
+    fn routine(routine: &Arc<dyn Routine>, operands: &[Self]) -> Self {
+        routine.value(operands)
     }
 }
 

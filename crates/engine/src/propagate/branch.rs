@@ -70,6 +70,9 @@ fn has_cut(program: &Program, output: usize) -> bool {
                 needed[x] = true;
                 needed[y] = true;
             }
+            Node::Routine(call) => {
+                program.routines[call].operands.iter().for_each(|&x| needed[x] = true);
+            }
         }
     }
     false

@@ -148,6 +148,12 @@ impl<'p> Differentiated<'p> {
                     Node::Binary(operation, x, y) => {
                         self.values[x].binary(operation, self.values[y])
                     }
+                    Node::Routine(call) => {
+                        let call = &self.program.routines[call];
+                        let operands: Vec<_> =
+                            call.operands.iter().map(|&x| self.values[x]).collect();
+                        Dual::routine(&call.routine, &operands)
+                    }
                 };
                 self.values.push(found);
             }

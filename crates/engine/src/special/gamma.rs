@@ -5,6 +5,7 @@ use super::normal;
 use super::quadrature::decaying;
 use super::root::{Point, Trend, find};
 use super::weight::{exp_m1_minus, gamma_weight, ln_gamma_1p};
+use crate::number::elementary;
 
 /// Shapes from here on take the quadrature on both sides of the mean.
 const LARGE: f64 = 8.0;
@@ -12,6 +13,32 @@ const LARGE: f64 = 8.0;
 /// Terms of a series at most. The terms of the longest one met (shape and x below 8) fall below
 /// rounding after some 60.
 const TERMS: u32 = 200;
+
+/// The logarithmic derivative of the gamma function; NaN at 0 and at negative whole numbers.
+///
+/// The asymptotic series (DLMF 5.11.2) from 10 on, where its first neglected term is below 1e-15 of
+/// the result, reached by the recurrence ψ(x) = ψ(x + 1) − 1/x and, below 0, by reflection.
+pub fn digamma(x: f64) -> f64 {
+    if x <= 0.0 {
+        if x == x.floor() {
+            return f64::NAN;
+        }
+        let angle = std::f64::consts::PI * x;
+        return digamma(1.0 - x) - std::f64::consts::PI / elementary::tan(angle);
+    }
+    let (mut x, mut sum) = (x, 0.0);
+    while x < 10.0 {
+        sum -= 1.0 / x;
+        x += 1.0;
+    }
+    let z = 1.0 / (x * x);
+    let series = z
+        * (1.0 / 12.0
+            - z * (1.0 / 120.0
+                - z * (1.0 / 252.0
+                    - z * (1.0 / 240.0 - z * (1.0 / 132.0 - z * (691.0 / 32760.0 - z / 12.0))))));
+    sum + elementary::ln(x) - 0.5 / x - series
+}
 
 /// P(a, x): the probability of a gamma quantity of shape a and unit scale below `x`.
 ///
@@ -214,6 +241,27 @@ fn small_upper(x: f64, a: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// mpmath 1.3, 30 digits. The recurrence adds up to 14 terms: 1e-14 relative, or absolute below 1
+    /// where the terms cancel.
+    #[test]
+    fn digamma_against_mpmath() {
+        let table = [
+            (0.1, -10.423754940411076),
+            (1.0, -0.5772156649015329),
+            (2.5, 0.7031566406452432),
+            (9.9, 2.2411803166063814),
+            (10.5, 2.3030010342976864),
+            (-0.3, 2.113309779635399),
+            (-3.7, -0.8450768588704194),
+            (150.0, 5.0072982570756793),
+        ];
+        for (x, expected) in table {
+            let found = digamma(x);
+            assert!((found - expected).abs() < 1e-14 * expected.abs().max(1.0), "{x}: {found}");
+        }
+        assert!(digamma(0.0).is_nan() && digamma(-2.0).is_nan());
+    }
 
     const SHAPES: [f64; 13] =
         [1e-3, 0.05, 0.5, 0.999, 1.0, 1.5, 7.999, 8.0, 30.0, 1e3, 1e5, 1e6, 1e7];

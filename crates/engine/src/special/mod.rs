@@ -27,6 +27,7 @@ mod quadrature;
 mod reference;
 pub(crate) mod root;
 pub mod student;
+pub(crate) mod tails;
 mod weight;
 
 pub(crate) use weight::ln_1p_minus;

@@ -35,6 +35,12 @@ impl From<f64> for Coverage {
 }
 
 impl Coverage {
+    /// This coverage factor in place of what is here; one that is kept fixed is kept fixed.
+    #[must_use]
+    pub fn with_factor(self, factor: f64) -> Self {
+        Self::Factor { factor, fixed: matches!(self, Self::Factor { fixed: true, .. }) }
+    }
+
     /// The coverage probability: 0.9545 for K = 2 (EA-4/02, 5.1), else 2 Phi(K) - 1.
     pub fn probability(self) -> f64 {
         match self {

@@ -172,3 +172,51 @@ impl Settings {
         Self { digits, own_digits: true, ..self }
     }
 }
+
+/// What somebody asks for in place of the settings of a file.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SettingsChanges {
+    /// Coverage probability or factor.
+    pub coverage: Option<Coverage>,
+    /// Monte Carlo trials; a run of so many does not go on by itself.
+    pub trials: Option<Trials>,
+    /// Whether the run makes as many trials as the validation of the GUM interval asks.
+    pub validate: bool,
+    /// When an adaptive run stops.
+    pub rule: Option<StoppingRule>,
+    /// Which figures without noise are wanted beside those of the trials.
+    pub method: Option<MethodChoice>,
+    /// The largest number of trials of an adaptive run.
+    pub max_trials: Option<u64>,
+    /// Seed of the random streams.
+    pub seed: Option<u64>,
+    /// Significant digits of the standard uncertainty that are held meaningful.
+    pub digits: Option<u32>,
+    /// Whether the coverage factor is taken at the real number of effective degrees of freedom.
+    pub real_dof: bool,
+}
+
+impl SettingsChanges {
+    /// The settings with what is asked for.
+    #[must_use]
+    pub fn applied(&self, mut settings: Settings) -> Settings {
+        settings.coverage = self.coverage.unwrap_or(settings.coverage);
+        if let Some(trials) = self.trials {
+            settings.trials = trials;
+            settings.decide_up_to = 0;
+        }
+        if self.validate {
+            settings.trials = Trials::Adaptive;
+            settings.for_validation = true;
+        }
+        settings.rule = self.rule.unwrap_or(settings.rule);
+        settings.method = self.method.or(settings.method);
+        settings.max_trials = self.max_trials.unwrap_or(settings.max_trials);
+        settings.seed = self.seed.unwrap_or(settings.seed);
+        if let Some(digits) = self.digits {
+            settings = settings.with_digits(digits);
+        }
+        settings.real_dof |= self.real_dof;
+        settings
+    }
+}

@@ -185,6 +185,25 @@ pub(super) fn read(
     clean.then_some(())
 }
 
+/// The effects of the catalogue that can act on a sim and that a case does not have.
+pub(super) fn unlisted(
+    sim: &EffectContext<'_>,
+    results: &Results<'_>,
+    own: &[Placed],
+) -> Vec<gumption_gap::Candidate> {
+    let shipped = Catalogue::shipped();
+    let mut names: Vec<&str> = Vec::new();
+    for entry in &shipped.entries {
+        let listed = own.iter().any(|other| other.candidate.effect.name == entry.name);
+        if !listed && !names.contains(&entry.name.as_str()) {
+            names.push(&entry.name);
+        }
+    }
+    // what does not fit the sim is not tried, and nobody asked for it
+    let of = |name: &&str| one(&shipped, name, sim, results, &mut Vec::new()).ok();
+    names.iter().filter_map(of).collect()
+}
+
 /// The effect of that name for the sim, or why it cannot act there.
 fn one(
     shipped: &Catalogue,

@@ -18,7 +18,7 @@ use super::source::SourceText;
 use super::{DiagnosticKind, settings};
 use crate::folder::Folder;
 use gumption_analysis::certificate::contents::{Certificate, Language, Rounding};
-use gumption_engine::task::{Coverage, Settings, Warning};
+use gumption_engine::task::{Coverage, MethodChoice, Settings, Warning};
 use rows::Rows;
 
 /// The most significant digits of a stated uncertainty.
@@ -118,6 +118,9 @@ struct Asking {
 
 impl Asking {
     fn apply(self, settings: &mut Settings) {
+        // no digit of a certificate is to depend on a seed
+        settings.method = settings.method.or(Some(MethodChoice::Auto));
+        settings.quasi_otherwise = true;
         if let Some(own) = self.trials {
             settings.trials = own.trials;
             settings.decide_up_to = own.decide_up_to;

@@ -32,6 +32,11 @@ pub(crate) const OBSERVATIONS: &[Key] = keys![
                  outputs in their units.",
             ),
     "columns" => observed_columns(),
+    "replication" => text_of(
+                "The column that says which device, day or other unit of replication a row belongs to, \
+                 as a number: effects are tried with one size for all of them and with one of each \
+                 one's own.",
+            ),
 ];
 
 fn observations() -> Value {

@@ -29,7 +29,9 @@ pub(crate) use recipe::{
     CHANNEL, FREQUENCY, POINT, QUANTITY, RECIPE, RECIPE_CONDITION, RECIPE_KEY, RECIPE_ROW,
     RECORDING, SEARCH, SEARCHED, STEPS,
 };
-pub(crate) use shapes::{COMPLEX, COMPLEX_INPUT, COMPONENT, COMPOSED, INPUT, SHAPES, Shape};
+pub(crate) use shapes::{
+    COMPLEX, COMPLEX_INPUT, COMPONENT, COMPOSED, INPUT, POOLED, SHAPES, Shape,
+};
 pub(crate) use values::READINGS;
 
 /// A key that an object of a file may have.

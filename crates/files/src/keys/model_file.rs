@@ -39,7 +39,7 @@ pub(crate) const MODEL: &[Key] = keys![
         .with("additionalProperties", object([("type", Value::from("string"))])),
     "inputs" => named(
                 "What is known about the input quantities; their order is that of every table.",
-                reference("input"),
+                object([("anyOf", Value::from(vec![reference("input"), reference("stated")]))]),
             ),
     "fits" => reference("fits"),
     "correlations" => described("array", "Correlation coefficients of inputs or components.")
@@ -200,8 +200,20 @@ fn conditions() -> Value {
 pub(crate) const CONDITION: &[Key] = keys![
     "unit" => reference("unit"),
     "values" => referenced("values", "The values; without them, a column of the observations."),
+    "range" => range(),
     "about" => text_of("What it is, in words."),
 ];
+
+fn range() -> Value {
+    referenced(
+        "values",
+        "The least and the greatest value that it can be set to: where a gap diagnosis may propose to \
+         measure.",
+    )
+    .with("minItems", 2)
+    .with("maxItems", 2)
+    .with("examples", vec![Value::from(vec![1, 500])])
+}
 
 fn condition() -> Value {
     closed("A quantity that is set and known.", CONDITION, &[])

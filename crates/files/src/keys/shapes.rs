@@ -32,7 +32,7 @@ enum Rule {
 }
 
 /// The distributions in the order of JCGM 101, Table 1, then the others.
-pub(crate) static SHAPES: [Shape; 17] = [
+pub(crate) static SHAPES: [Shape; 20] = [
     Shape {
         name: "constant",
         aliases: &[],
@@ -99,8 +99,17 @@ pub(crate) static SHAPES: [Shape; 17] = [
         aliases: &[],
         about: "Repeated readings (Type A): mean, s/sqrt(n), n - 1 degrees of freedom; drawn as \
                 the scaled and shifted t of JCGM 101, 6.4.9.2.",
-        fields: &["values", "paired"],
-        rule: Rule::All(&["values"]),
+        fields: &[
+            "values",
+            "paired",
+            "file",
+            "column",
+            "groups",
+            "resolution",
+            "pooled",
+            "evaluation",
+        ],
+        rule: Rule::One(&["values", "file"]),
     },
     Shape {
         name: "exponential",
@@ -152,6 +161,29 @@ pub(crate) static SHAPES: [Shape; 17] = [
         rule: Rule::One(&["file", "values"]),
     },
     Shape {
+        name: "split-normal",
+        aliases: &[],
+        about: "Two halves of normal distributions, joined at the mode: 5 +0.2 -0.1.",
+        fields: &["mode", "std_low", "std_high"],
+        rule: Rule::All(&["mode", "std_low", "std_high"]),
+    },
+    Shape {
+        name: "quantiles",
+        aliases: &[],
+        about: "Stated by quantiles, with a monotone interpolation; with the probabilities 0 and 1 \
+                these are limits, without them both tails are normal.",
+        fields: &["probabilities", "values"],
+        rule: Rule::All(&["probabilities", "values"]),
+    },
+    Shape {
+        name: "dcc",
+        aliases: &[],
+        about: "A quantity of a Digital Calibration Certificate (2.4 to 3.3): value, uncertainty, k, \
+                p, distribution and unit.",
+        fields: &["file", "id", "ref_type", "index", "at"],
+        rule: Rule::All(&["file"]),
+    },
+    Shape {
         name: "result",
         aliases: &[],
         about: "An output of a saved result.",
@@ -172,11 +204,24 @@ fn field(shape: &str, key: &str) -> Value {
         (_, "expanded") => referenced("width", "Expanded uncertainty U = k u."),
         (_, "k") => referenced("positive", "Coverage factor of `expanded`."),
         (_, "p") => referenced("probability", "Coverage probability of `expanded`."),
-        (_, "dof") => referenced("positive", "Degrees of freedom of the standard uncertainty."),
+        ("t", "dof") => referenced("positive", "Degrees of freedom."),
+        (_, "dof") => object([
+            (
+                "description",
+                Value::from(
+                    "Degrees of freedom of the standard uncertainty, or a formula of the conditions.",
+                ),
+            ),
+            (
+                "anyOf",
+                Value::from(vec![reference("positive"), object([("type", Value::from("string"))])]),
+            ),
+        ]),
         (_, "half_width") => referenced("width", "Half of the distance of the limits."),
         (_, "semi_range") => referenced("width", "Another name of `half_width`."),
         (_, "lower") => referenced("value", "Lower limit."),
         (_, "upper") => referenced("value", "Upper limit."),
+        ("split-normal", "mode") => referenced("value", "The most probable value."),
         (_, "mode") => referenced("value", "The most probable value, from `lower` to `upper`."),
         (_, "inexactness") => {
             referenced("width", "Half of the length of the interval in which each limit lies.")
@@ -190,24 +235,79 @@ fn field(shape: &str, key: &str) -> Value {
         (_, "alpha") => referenced("positive", "First shape parameter."),
         (_, "beta") => referenced("positive", "Second shape parameter."),
         (_, "count") => described("integer", "The count.").with("minimum", 0),
-        ("readings", "values") => reference("values"),
+        ("readings", "values") => described(
+            "array",
+            "The readings; or texts, formulas of the conditions, so that every row has its own: \
+             `[\"r1\", \"r2\"]` names columns of the conditions' table.",
+        )
+        .with(
+            "items",
+            object([(
+                "anyOf",
+                Value::from(vec![reference("value"), object([("type", Value::from("string"))])]),
+            )]),
+        )
+        .with("minItems", 1),
+        ("readings", "file") => {
+            referenced("file", "A file with one reading in each line, or a table with `column`.")
+        }
+        (_, "column") => text_of("The column of the file that has the readings."),
+        (_, "groups") => text_of(
+            "The column of the file that numbers the groups of a nested design (days, set-ups): the \
+             standard uncertainty is that of the means of the groups (JCGM 100, H.5).",
+        ),
+        (_, "resolution") => referenced(
+            "width",
+            "The step of the indication; where its rectangular half is more than the scatter, that \
+             is taken (JCGM 100, F.2.2.1). Equal readings are allowed with it.",
+        ),
+        (_, "pooled") => reference("pooled"),
+        (_, "evaluation") => described(
+            "string",
+            "`bayesian`: the standard uncertainty is the standard deviation of the t distribution, \
+             without degrees of freedom (JCGM 101, 6.4.9.4); four readings at least.",
+        )
+        .with("enum", texts(["frequentist", "bayesian"])),
+        (_, "std_low") => referenced("width", "Standard deviation below the mode."),
+        (_, "std_high") => referenced("width", "Standard deviation above the mode."),
+        (_, "probabilities") => described("array", "Rising probabilities.")
+            .with("items", object([("type", Value::from("number"))]))
+            .with("minItems", 2),
+        ("quantiles", "values") => referenced("values", "The quantiles of these probabilities."),
         (_, "values") => reference("numbers"),
         (_, "paired") => {
             described("boolean", "Readings that were taken together with those of other inputs.")
         }
         ("samples", "file") => referenced("file", "A file with one number in each line."),
         ("result", "file") => referenced("file", "A result that `gumption run --save` wrote."),
+        ("dcc", "file") => referenced("file", "A Digital Calibration Certificate (XML)."),
+        (_, "id") => text_of("The `id` of the quantity."),
+        (_, "ref_type") => text_of("The `refType` of the quantity, such as `basic_measuredValue`."),
+        (_, "index") => {
+            described("integer", "Which of several values, counted from 0.").with("minimum", 0)
+        }
+        (_, "at") => text_of(
+            "The condition over which the quantity is a table, interpolated by straight lines: the \
+             quantity of that name beside it, or its reference or nominal value.",
+        ),
         (_, "output") => text_of("Name of the output in the saved result."),
         (_, key) => text_of(key),
     }
 }
 
 /// Keys that every input without components has beside those of its distribution.
-pub(crate) const INPUT: [&str; 7] =
-    ["unit", "distribution", "about", "type", "group", "per", "evidence"];
+pub(crate) const INPUT: [&str; 8] =
+    ["unit", "distribution", "about", "type", "group", "per", "evidence", "limits"];
 
 /// Keys that every component has beside those of its distribution.
-pub(crate) const COMPONENT: [&str; 5] = ["name", "distribution", "about", "type", "group"];
+pub(crate) const COMPONENT: [&str; 6] =
+    ["name", "distribution", "about", "type", "group", "limits"];
+
+/// Keys of a standard deviation that stands in place of the scatter of readings.
+pub(crate) const POOLED: &[Key] = keys![
+    "std" => referenced("positive", "Standard deviation of one reading, in the unit of the input."),
+    "dof" => referenced("positive", "Its degrees of freedom."),
+];
 
 /// Keys of an input with components.
 pub(crate) const COMPOSED: [&str; 7] =
@@ -251,6 +351,20 @@ fn common(key: &str) -> Value {
         "name" => text_of("Name of the component, unique in its quantity.")
             .with("minLength", 1)
             .with("pattern", "^[^/]*$"),
+        "limits" => described(
+            "array",
+            "Limits that the quantity cannot be beyond, in its unit; `null` for none: the \
+             distribution is cut off there.",
+        )
+        .with(
+            "items",
+            object([(
+                "anyOf",
+                Value::from(vec![reference("value"), object([("type", Value::from("null"))])]),
+            )]),
+        )
+        .with("minItems", 2)
+        .with("maxItems", 2),
         "mean" => referenced("estimate", "The estimate; that of `readings` unless given."),
         "components" => described("array", "Contributions that add up.")
             .with("items", reference("component"))
@@ -301,6 +415,10 @@ pub(super) fn definitions() -> Vec<(String, Value)> {
         ("input".to_owned(), choice(Holder::Input)),
         ("component".to_owned(), choice(Holder::Component)),
         ("input-of-components".to_owned(), composed),
+        ("pooled".to_owned(), closed("A pooled standard deviation.", POOLED, &["std", "dof"])),
+        ("stated".to_owned(), stated()),
+        ("stated-input".to_owned(), stated_in(Holder::Input)),
+        ("stated-component".to_owned(), stated_in(Holder::Component)),
         (
             "complex-input".to_owned(),
             closed("A complex input quantity.", COMPLEX_INPUT, &["complex"]),
@@ -313,6 +431,36 @@ pub(super) fn definitions() -> Vec<(String, Value)> {
         }
     }
     definitions
+}
+
+/// A quantity in one text or number.
+fn stated() -> Value {
+    object([
+        (
+            "description",
+            Value::from(
+                "A quantity as people write it: a constant, or `5.0112(23) V` (standard uncertainty \
+                 in the last digits), `5.0112 V ± 0.0046 V (k=2)`, `5 +0.2 -0.1 mm`.",
+            ),
+        ),
+        ("type", texts(["string", "number"])),
+        ("examples", texts(["5.0112(23) V", "5.0112 V ± 0.0046 V (k=2)", "5 +0.2 -0.1 mm"])),
+    ])
+}
+
+/// An object with such a value in place of a distribution.
+fn stated_in(holder: Holder) -> Value {
+    let keys = holder.keys().iter().filter(|key| **key != "distribution");
+    let properties = keys.map(|&key| (key, common(key))).chain([("value", reference("stated"))]);
+    let required: &[&str] = match holder {
+        Holder::Input => &["value"],
+        Holder::Component => &["name", "value"],
+    };
+    closed_of(
+        "A quantity as people write it, with its unit or a word about it.",
+        properties,
+        required,
+    )
 }
 
 /// The definition by the distribution that is named.
@@ -336,10 +484,14 @@ fn choice(holder: Holder) -> Value {
     };
     let choice = described("object", about);
     match holder {
-        Holder::Component => choice
-            .with("required", texts(["name", "distribution"]))
-            .with("properties", object([("distribution", reference("distribution"))]))
-            .with("allOf", chosen),
+        Holder::Component => {
+            choice.with("if", is_stated()).with("then", reference("stated-component")).with(
+                "else",
+                object([("required", texts(["name", "distribution"]))])
+                    .with("properties", object([("distribution", reference("distribution"))]))
+                    .with("allOf", chosen),
+            )
+        }
         Holder::Input => choice
             .with("if", object([("required", texts(["components"]))]))
             .with("then", reference("input-of-components"))
@@ -348,11 +500,24 @@ fn choice(holder: Holder) -> Value {
                 object([
                     ("if", object([("required", texts(["complex"]))])),
                     ("then", reference("complex-input")),
-                    ("else", needed.with("allOf", chosen)),
+                    (
+                        "else",
+                        object([
+                            ("if", is_stated()),
+                            ("then", reference("stated-input")),
+                            ("else", needed.with("allOf", chosen)),
+                        ]),
+                    ),
                 ]),
             ),
     }
     .with("examples", examples(holder))
+}
+
+/// An object with a value and without a distribution.
+fn is_stated() -> Value {
+    let named = object([("required", texts(["distribution"]))]);
+    object([("required", texts(["value"])), ("not", named)])
 }
 
 fn examples(holder: Holder) -> Value {

@@ -92,7 +92,7 @@ fn wrong_files_are_not_valid() {
         json!({"mean": 1, "components": [{"distribution": "normal", "std": 1}]}),
         json!({"mean": 1, "distribution": "normal", "std": 1, "components": [
             {"name": "a", "distribution": "normal", "std": 1}]}),
-        json!(1),
+        json!(true),
     ];
     for input in inputs {
         let mut file = right.clone();

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::departures::{BENCHES, Bench, Simulated, Withheld, simulated};
+use super::departures::{BENCHES, Bench, Simulated, said, simulated};
 use super::normal;
 use crate::{
     Candidate, Case, ComposedEffect, ComposedPrior, DepartureOver, Diagnosis, DiagnosisOptions,
@@ -86,6 +86,9 @@ fn case_of(bench: &Bench, simulated: &Simulated) -> Case {
         model: sim,
         task,
         simulated: 0,
+        shipped: Vec::new(),
+        reachable: Vec::new(),
+        replication: None,
         prior: Prior::DEFAULT,
     }
 }
@@ -98,27 +101,6 @@ fn diagnosed(bench: &Bench, simulated: &Simulated) -> Diagnosis {
         .map(|(conditions, _)| Row { conditions: conditions.clone(), ..case.task.rows[0].clone() })
         .collect();
     diagnose(&case, Some(&rows), DiagnosisOptions::new(1), &|_| {}).unwrap()
-}
-
-/// What a composed effect says: its quantities, what it is a function of, its form.
-fn said(of: &ComposedEffect) -> (String, String, String) {
-    let first = &of.terms[0];
-    let over = match &first.over {
-        DepartureOver::Nothing => "",
-        DepartureOver::Condition(name) => name,
-        DepartureOver::Value => "value",
-        DepartureOver::AllConditions => "conditions",
-    };
-    (first.quantities.join("+"), over.to_owned(), first.form.name().to_owned())
-}
-
-/// Whether quantity and argument are right, and the form as well.
-fn right(of: &ComposedEffect, withheld: &Withheld) -> (bool, bool) {
-    let (quantity, over, form) = said(of);
-    let place = of.terms.len() == 1
-        && withheld.quantities.contains(&quantity.as_str())
-        && withheld.over.contains(&over.as_str());
-    (place, place && withheld.forms.contains(&form.as_str()))
 }
 
 /// A composed effect as a candidate, with the priors that it is handed over with.
@@ -159,9 +141,20 @@ fn what_is_withheld_is_named_and_explains_once_it_is_listed() {
         let simulated = simulated(bench, place, 1);
         let found = diagnosed(bench, &simulated);
         let first = found.composed.first().unwrap();
-        assert!(right(first, withheld).0, "{} {}: {:?}", bench.name, withheld.name, said(first));
+        assert!(
+            withheld.is_named_by(first).0,
+            "{} {}: {:?}",
+            bench.name,
+            withheld.name,
+            said(first)
+        );
         let three = found.composed.iter().take(3);
-        assert!(three.clone().any(|of| right(of, withheld).1), "{} {}", bench.name, withheld.name);
+        assert!(
+            three.clone().any(|of| withheld.is_named_by(of).1),
+            "{} {}",
+            bench.name,
+            withheld.name
+        );
         let mut case = case_of(bench, &simulated);
         case.candidates.push(pasted(first));
         let again = diagnose(&case, None, DiagnosisOptions::new(1), &|_| {}).unwrap();
@@ -179,8 +172,76 @@ fn what_is_withheld_is_named_and_explains_once_it_is_listed() {
     }
 }
 
-/// Without an effect nothing is named. Of 400 such data sets of the whole study at most one was, so
-/// that 16 have one with a probability below 0.04.
+/// A data set of a bench with two departures: what another withheld effect adds comes on top.
+fn with_another(bench: &Bench, one: usize, of: impl Fn(&[f64]) -> f64) -> Simulated {
+    let mut simulated = simulated(bench, Some(one), 1);
+    for (conditions, values) in simulated.rows.iter().zip(&mut simulated.values) {
+        values[0] += of(conditions);
+    }
+    simulated
+}
+
+/// Two departures at once are named together: moisture, and an error that decays.
+#[test]
+fn pairs_are_composed() {
+    let bench = BENCHES.iter().find(|bench| bench.name == "balance").unwrap();
+    let data = with_another(bench, 1, |c| 0.004 * (-c[2] / 15.0).exp());
+    let found = diagnosed(bench, &data);
+    let first = found.composed.first().unwrap();
+    let mut over: Vec<&DepartureOver> = first.terms.iter().map(|term| &term.over).collect();
+    over.sort_by_key(|over| format!("{over:?}"));
+    let wanted = ["rh", "t"].map(|name| DepartureOver::Condition(name.to_owned()));
+    assert_eq!(over, wanted.iter().collect::<Vec<_>>(), "{:?}", first.terms);
+    assert!(!first.product, "{first:?}");
+    assert!(first.shrunk.removed_fraction > 0.95, "{:?}", first.shrunk);
+}
+
+/// What the list lacks may come beside what it has.
+#[test]
+fn a_term_beside_a_listed_effect_is_composed() {
+    let bench = BENCHES.iter().find(|bench| bench.name == "encoder").unwrap();
+    let data = with_another(bench, 0, |_| 0.03);
+    let found = diagnosed(bench, &data);
+    let beside = found.composed.iter().take(3).find(|of| of.beside == ["zero"]);
+    let beside = beside.unwrap_or_else(|| {
+        panic!("{:?}", found.composed.iter().map(|of| (&of.name, &of.beside)).collect::<Vec<_>>())
+    });
+    assert_eq!(said(beside), ["y", "th", "wave"]);
+}
+
+/// An effect that ships with the program explains what the list does not.
+#[test]
+fn unlisted_effects_are_tried() {
+    let bench = BENCHES.iter().find(|bench| bench.name == "encoder").unwrap();
+    let simulated = simulated(bench, Some(2), 1);
+    let mut case = case_of(bench, &simulated);
+    let mut seam = case.candidates[0].clone();
+    seam.effect.name = "seam".to_owned();
+    seam.effect.overrides =
+        vec![("y".to_owned(), Formula::parse("y + p*(th > 214 [deg])").unwrap())];
+    case.shipped = vec![case.candidates[0].clone(), seam];
+    let found = diagnose(&case, None, DiagnosisOptions::new(1), &|_| {}).unwrap();
+    let first = found.unlisted.first().unwrap();
+    assert_eq!(first.effect, "seam");
+    assert!(first.probability > 0.9, "{first:?}");
+}
+
+/// Where a wave goes through all angles the gap is not the same along them.
+#[test]
+fn strength_is_told_along_conditions() {
+    let bench = BENCHES.iter().find(|bench| bench.name == "encoder").unwrap();
+    let found = diagnosed(bench, &simulated(bench, Some(2), 1));
+    let of = &found.strength[0];
+    assert_eq!((of.output, of.condition, of.parts.len()), (0, 0, 8));
+    let shares: f64 = of.parts.iter().map(|part| part.share_of_gap).sum();
+    assert!((shares - 1.0).abs() < 0.1, "{shares}");
+    // the seam lies at 214 degrees
+    let before: f64 = of.parts[..4].iter().map(|part| part.share_of_gap).sum();
+    assert!(before < 0.1, "{before}");
+}
+
+/// Without an effect nothing is named. Of 80 such data sets of the study none was, so the rate is not
+/// well known: at 1 % this test would fail with a probability of 0.15 for other seeds.
 #[test]
 fn nothing_is_named_without_a_gap() {
     for (number, bench) in BENCHES.iter().chain(&BENCHES).enumerate() {
@@ -204,7 +265,7 @@ fn study() {
             let simulated = simulated(bench, Some(number), seed);
             let found = diagnosed(bench, &simulated);
             let rights: Vec<(bool, bool)> =
-                found.composed.iter().take(3).map(|of| right(of, withheld)).collect();
+                found.composed.iter().take(3).map(|of| withheld.is_named_by(of)).collect();
             let marks = [
                 rights.first().is_some_and(|of| of.0),
                 rights.first().is_some_and(|of| of.1),

@@ -7,16 +7,20 @@ mod discrepancy;
 mod evidence;
 #[path = "../../../../examples/generator/mod.rs"]
 mod generator;
+mod interrupted;
 mod likelihood;
 mod next;
 mod noise;
 mod regions;
+mod replication;
 
 use std::sync::Arc;
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::{Candidate, Case, Effect, ModelForm, ObservedOutput, OverridableModel, Prior};
+use crate::{
+    Candidate, Case, ComposedEffect, Effect, ModelForm, ObservedOutput, OverridableModel, Prior,
+};
 use gumption_engine::distribution::{Distribution, Normal};
 use gumption_engine::model::formula::{Formula, Scope, Typing};
 use gumption_engine::model::{InputQuantity, NumberForm, Output, Quantity};
@@ -73,7 +77,17 @@ fn case(
     let rows = (0..observed[0].values.len()).map(row).collect();
     let task = Task::new(sim.model().unwrap(), vec![variable], rows);
     let observed = observed.into_iter().map(Some).collect();
-    Case { task, model: sim, observed, simulated: 0, candidates, prior: Prior::DEFAULT }
+    Case {
+        task,
+        model: sim,
+        observed,
+        simulated: 0,
+        reachable: Vec::new(),
+        candidates,
+        shipped: Vec::new(),
+        replication: None,
+        prior: Prior::DEFAULT,
+    }
 }
 
 /// Measured values with their standard uncertainties, if these are known.

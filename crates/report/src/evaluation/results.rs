@@ -47,8 +47,8 @@ pub(super) fn section(
     if let Some(sheet) = comparison::sheet(found, digits) {
         document.table(sheet);
     }
-    if let Some(Ok(noiseless)) = &found.noiseless {
-        document.sentence(&comparison::accuracy(quantity, noiseless));
+    if let Some(said) = comparison::without_noise(quantity, found) {
+        document.sentence(&said);
     }
     if let Some(figures) = &found.monte_carlo {
         if !figures.shortest_exact {

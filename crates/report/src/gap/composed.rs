@@ -31,7 +31,7 @@ fn effect(of: &ComposedEffect) -> Value {
         json!({
             "quantity": quantities(term),
             "kind": term.kind.name(),
-            "over": over(&term.over),
+            "over": term.over.name(),
             "form": term.form.name(),
         })
     });
@@ -47,7 +47,7 @@ fn effect(of: &ComposedEffect) -> Value {
         ("name", json!(of.name)),
         ("quantity", json!(first.map(quantities))),
         ("kind", json!(first.map(|term| term.kind.name()))),
-        ("over", json!(first.and_then(|term| over(&term.over)))),
+        ("over", json!(first.and_then(|term| term.over.name()))),
         ("form", json!(first.map(|term| term.form.name()))),
         ("terms", list(terms)),
         ("beside", json!(of.beside)),
@@ -65,15 +65,6 @@ fn effect(of: &ComposedEffect) -> Value {
         ),
         ("about", json!(format!("Composed, not from the list: {}", words(of)))),
     ])
-}
-
-fn over(of: &DepartureOver) -> Option<&str> {
-    match of {
-        DepartureOver::Nothing => None,
-        DepartureOver::Condition(name) => Some(name),
-        DepartureOver::Value => Some("value"),
-        DepartureOver::AllConditions => Some("conditions"),
-    }
 }
 
 /// A parameter as cases have it.
@@ -153,6 +144,21 @@ fn sentence(of: &ComposedEffect) -> String {
         parameters.join(", "),
         share(of.shrunk.removed_fraction)
     )
+}
+
+/// What of the catalogue that ships with the program would explain the gap; `None` where nothing would.
+pub(super) fn unlisted(diagnosis: &Diagnosis) -> Option<String> {
+    let worth = diagnosis.unlisted.iter().filter(|of| of.probability >= WORTH_TELLING);
+    let named: Vec<String> = worth
+        .map(|of| format!("{} (probability {})", plain(&of.effect), probability(of.probability)))
+        .collect();
+    (!named.is_empty()).then(|| {
+        format!(
+            "Of the effects that ship with gumption and are not in the list, these would explain it \
+             alone: {}. `\"catalogue\": [\"NAME\"]` in the case adds one.",
+            named.join(", ")
+        )
+    })
 }
 
 /// What can be done with the composed effects.

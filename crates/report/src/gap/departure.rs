@@ -24,7 +24,7 @@ pub(super) fn departure(diagnosis: &Diagnosis) -> Value {
             "outputs": form.outputs,
             "kind": form.kind.name(),
             "common": form.common,
-            "over": over(&form.over),
+            "over": form.over.name(),
             "shape": form.shape.name(),
             "at": at(form.shape),
             "scale": form.scale,
@@ -37,16 +37,6 @@ pub(super) fn departure(diagnosis: &Diagnosis) -> Value {
             "words": words(form, &diagnosis.conditions),
         })
     }))
-}
-
-/// What a departure is a function of, in one word; `None` where it is constant.
-fn over(of: &DepartureOver) -> Option<&str> {
-    match of {
-        DepartureOver::Nothing => None,
-        DepartureOver::Condition(name) => Some(name),
-        DepartureOver::Value => Some("value"),
-        DepartureOver::AllConditions => Some("conditions"),
-    }
 }
 
 fn at(shape: DepartureShape) -> Option<f64> {

@@ -56,6 +56,11 @@ pub(super) fn percent(probability: f64) -> String {
     format!("{} %", exact(to_position(100.0 * probability, -4)))
 }
 
+/// A share in whole per cent.
+pub(super) fn percent_of(share: f64) -> String {
+    format!("{} %", rounded(100.0 * share, 0))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

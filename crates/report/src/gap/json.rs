@@ -2,10 +2,12 @@
 
 use serde_json::{Value, json};
 
-use super::{composed, departure};
+use super::{composed, departure, strength};
 use crate::answer::{list, object, pretty};
+use crate::number::exact;
 use gumption_gap::{
     Diagnosis, EffectParameter, Hypothesis, NamedQuantity, PresentEffect, PriorConflict,
+    ProposalKind, ReplicatedEffect, UnlistedEffect,
 };
 
 /// The diagnosis as JSON, keys in a fixed order; `null` for what is not defined. It ends in a
@@ -24,6 +26,7 @@ pub fn json(diagnosis: &Diagnosis) -> String {
             }),
         ),
         ("where", regions(diagnosis)),
+        ("strength", strength::strength(diagnosis)),
         (
             "verdict",
             json!({
@@ -36,19 +39,27 @@ pub fn json(diagnosis: &Diagnosis) -> String {
             }),
         ),
         ("present", present(diagnosis)),
+        ("replication", replication(diagnosis)),
         ("prior_conflicts", list(diagnosis.prior_conflicts.iter().map(prior_conflict))),
         ("hypotheses", list(diagnosis.hypotheses.iter().map(hypothesis))),
     ];
     if !diagnosis.departure.is_empty() {
         entries.push(("departure", departure::departure(diagnosis)));
         entries.push(("composed", composed::composed(diagnosis)));
+        entries.push(("unlisted", list(diagnosis.unlisted.iter().map(unlisted))));
     }
-    entries.extend([("shrinks", shrinks(diagnosis)), ("next_measurement", next(diagnosis))]);
+    entries.extend([
+        ("shrinks", shrinks(diagnosis)),
+        ("next_measurement", next(diagnosis)),
+        ("equivalent", json!(diagnosis.next.equivalent)),
+        ("entropy", json!(diagnosis.next.entropy)),
+    ]);
     entries.extend(prediction(diagnosis).map(|prediction| ("prediction", prediction)));
     entries.push(("noise", noise(diagnosis)));
     let notes = diagnosis.notes.iter();
     entries.extend([
         ("rows", rows(diagnosis)),
+        ("interrupted", json!(diagnosis.interrupted)),
         ("notes", list(notes.map(|note| json!({"code": note.code, "message": note.text})))),
         ("coverage_probability", json!(diagnosis.probability)),
         ("seed", json!(diagnosis.seed)),
@@ -78,17 +89,28 @@ fn regions(diagnosis: &Diagnosis) -> Value {
     }))
 }
 
+/// What is known of a parameter.
+fn parameter(of: &EffectParameter) -> Value {
+    json!({
+        "unit": of.unit,
+        "estimate": of.estimate,
+        "standard_uncertainty": of.standard_uncertainty,
+        "interval": of.interval,
+    })
+}
+
 /// Parameters by name.
 fn parameters(of: &[EffectParameter]) -> Value {
-    let parameter = |of: &EffectParameter| {
-        json!({
-            "unit": of.unit,
-            "estimate": of.estimate,
-            "standard_uncertainty": of.standard_uncertainty,
-            "interval": of.interval,
-        })
-    };
     object(of.iter().map(|of| (of.name.as_str(), parameter(of))))
+}
+
+/// An effect of the shipped catalogue that would explain the gap.
+fn unlisted(of: &UnlistedEffect) -> Value {
+    json!({
+        "effect": of.effect,
+        "probability": of.probability,
+        "parameters": parameters(&of.parameters),
+    })
 }
 
 /// By effect, most probable first.
@@ -100,6 +122,27 @@ fn present(diagnosis: &Diagnosis) -> Value {
         })
     };
     object(diagnosis.present.iter().map(|present| (present.effect.as_str(), of(present))))
+}
+
+/// Sizes of effects by group of rows.
+fn replication(diagnosis: &Diagnosis) -> Value {
+    let Some(replication) = &diagnosis.replication else { return Value::Null };
+    let of = |effect: &ReplicatedEffect| {
+        let groups = replication.groups.iter().map(|group| exact(*group));
+        let sizes: Vec<(String, Value)> = groups.zip(effect.sizes.iter().map(parameter)).collect();
+        json!({
+            "probability_shared": effect.probability_shared,
+            "probability_own": effect.probability_own,
+            "by_ratios": effect.by_ratios,
+            "spread": effect.spread.as_ref().map(parameter),
+            "sizes": object(sizes.iter().map(|(name, of)| (name.as_str(), of.clone()))),
+        })
+    };
+    let effects = replication.effects.iter();
+    json!({
+        "condition": replication.condition.name,
+        "effects": object(effects.map(|effect| (effect.effect.as_str(), of(effect)))),
+    })
 }
 
 fn prior_conflict(of: &PriorConflict) -> Value {
@@ -159,20 +202,43 @@ fn shrinks(diagnosis: &Diagnosis) -> Value {
     })
 }
 
+/// What to measure next, best first.
 fn next(diagnosis: &Diagnosis) -> Value {
-    diagnosis.next.as_ref().map_or(Value::Null, |next| {
-        json!({
-            "separates": next.separates,
-            "conditions": named(&diagnosis.conditions, next.conditions.iter().copied()),
-            "expected_log_odds": next.expected_log_odds,
-        })
-    })
+    list(diagnosis.next.proposals.iter().map(|proposal| {
+        let mut entries = vec![("kind", json!(proposal.kind.name()))];
+        if let Some(conditions) = proposal.kind.conditions() {
+            let conditions = named(&diagnosis.conditions, conditions.iter().copied());
+            entries.push(("conditions", conditions));
+        }
+        let standing = |named: &NamedQuantity, standard_uncertainty: f64| {
+            [("unit", json!(named.unit)), ("standard_uncertainty", json!(standard_uncertainty))]
+        };
+        match &proposal.kind {
+            ProposalKind::Input { input, standard_uncertainty, stated } => {
+                entries.push(("input", json!(input.name)));
+                entries.extend(standing(input, *standard_uncertainty));
+                entries.push(("stated_standard_uncertainty", json!(stated)));
+            }
+            ProposalKind::Output { output, standard_uncertainty, .. } => {
+                entries.push(("output", json!(output.name)));
+                entries.extend(standing(output, *standard_uncertainty));
+            }
+            _ => {}
+        }
+        entries.extend([
+            ("count", json!(proposal.count)),
+            ("expected_entropy_loss", json!(proposal.expected_entropy_loss)),
+            ("rows_for_20_to_1", json!(proposal.count_for_20_to_1)),
+            ("separates", json!(diagnosis.next.separates)),
+        ]);
+        object(entries)
+    }))
 }
 
 fn prediction(diagnosis: &Diagnosis) -> Option<Value> {
     let rows = diagnosis.prediction.as_ref()?.iter().map(|row| {
-        let outputs = row.outputs.iter().map(|(value, standard_uncertainty)| {
-            json!({"value": value, "standard_uncertainty": standard_uncertainty})
+        let outputs = row.outputs.iter().zip(&row.model).map(|((value, standard_uncertainty), sim)| {
+            json!({"value": value, "standard_uncertainty": standard_uncertainty, "sim": sim})
         });
         json!({
             "conditions": named(&diagnosis.conditions, row.conditions.iter().copied()),
@@ -221,6 +287,9 @@ fn rows(diagnosis: &Diagnosis) -> Value {
                 "u_before": value.u_before,
                 "after": value.after,
                 "u_after": value.u_after,
+                "sim": value.sim(),
+                "corrected": value.corrected(),
+                "u_corrected": value.u_corrected,
             })
         });
         json!({

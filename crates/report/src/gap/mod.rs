@@ -5,10 +5,14 @@ mod composed;
 mod csv;
 mod departure;
 mod digits;
+mod groups;
 mod html;
 mod json;
+mod markdown;
+mod page;
 mod residuals;
 mod sheets;
+mod strength;
 mod table;
 mod terminal;
 mod words;
@@ -17,6 +21,7 @@ pub use check_json::check_json;
 pub use csv::csv;
 pub use html::html;
 pub use json::json;
+pub use markdown::markdown;
 pub use table::table;
 
 #[cfg(test)]

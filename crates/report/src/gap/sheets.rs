@@ -1,13 +1,13 @@
 //! The tables of a diagnosis.
 
 use super::digits::{self, p_value, probability, share, tenths};
-use super::words;
+use super::{residuals, words};
 use crate::number::{MISSING, position, rounded, significant, to, with_uncertainty};
 use crate::plain;
 use crate::sheet::Sheet;
 use gumption_gap::{
-    Diagnosis, EffectParameter, Hypothesis, HypothesisKind, NamedQuantity, Predicted,
-    PresentEffect, Shrunk,
+    DescribedEffect, Diagnosis, EffectParameter, Hypothesis, HypothesisKind, NamedQuantity,
+    Predicted, PresentEffect, ProposalKind, ProposedMeasurement, ReplicatedEffect, Shrunk,
 };
 
 /// So much of the probability is shown by name, in so many lines at most.
@@ -108,6 +108,16 @@ pub(super) fn hypotheses(diagnosis: &Diagnosis) -> Sheet {
     sheet.text("hypothesis", shown.iter().map(|h| words::hypothesis(h.effects.as_deref())));
     sheet.numbers("prior", shown.iter().map(|h| significant(h.prior, 2)));
     sheet.numbers("probability", shown.iter().map(|h| probability(h.probability)));
+    let first = shown.first().map_or(0.0, |first| first.probability);
+    let odds = |hypothesis: &Hypothesis| {
+        let odds = first / hypothesis.probability;
+        if odds > 1.0 && odds.is_finite() {
+            format!("{} to 1", significant(odds, 2))
+        } else {
+            missing()
+        }
+    };
+    sheet.text("odds", shown.iter().map(odds));
     sheet.numbers("ln evidence", column(0));
     sheet.numbers("standard\nerror", column(1));
     sheet.numbers("effective\ndraws", column(2));
@@ -152,6 +162,16 @@ pub(super) fn parameters(diagnosis: &Diagnosis) -> Option<Sheet> {
     let mut sheet = Sheet::default();
     sheet.text("parameter", parameters.iter().map(|parameter| plain(&parameter.name)));
     let unit = |parameter: &EffectParameter| words::unit(&parameter.unit).unwrap_or_default();
+    let about = |parameter: &EffectParameter| {
+        let (effect, name) = parameter.name.rsplit_once('/')?;
+        let effect = diagnosis.candidates.iter().find(|known| known.name == effect)?;
+        let [.., about] = effect.parameters.iter().find(|[known, ..]| known == name)?;
+        Some(plain(about))
+    };
+    if parameters.iter().any(|parameter| about(parameter).is_some_and(|text| !text.is_empty())) {
+        let about = |parameter: &EffectParameter| about(parameter).unwrap_or_default();
+        sheet.text("what it is", parameters.iter().map(about));
+    }
     sheet.text("unit", parameters.iter().map(unit));
     sheet.numbers("estimate", column(0));
     sheet.numbers("standard\nuncertainty", column(1));
@@ -160,11 +180,85 @@ pub(super) fn parameters(diagnosis: &Diagnosis) -> Option<Sheet> {
     Some(sheet)
 }
 
+/// The effects that were looked for; `None` where there were none.
+pub(super) fn candidates(diagnosis: &Diagnosis) -> Option<Sheet> {
+    let candidates = &diagnosis.candidates;
+    if candidates.is_empty() {
+        return None;
+    }
+    let presence = |name: &str| {
+        let found = diagnosis.present.iter().find(|present| present.effect == name);
+        found.map_or_else(missing, |present| probability(present.probability))
+    };
+    let parameters = |of: &DescribedEffect| {
+        let each = of.parameters.iter().map(|[name, unit, _]| match words::unit(unit) {
+            Some(unit) => format!("{} in {unit}", plain(name)),
+            None => plain(name),
+        });
+        each.collect::<Vec<_>>().join(", ")
+    };
+    let mut sheet = Sheet::default();
+    sheet.text("effect", candidates.iter().map(|of| plain(&of.name)));
+    sheet.text("what it is", candidates.iter().map(|of| plain(&of.about)));
+    sheet.text("parameters", candidates.iter().map(parameters));
+    sheet.numbers("present with\nprobability", candidates.iter().map(|of| presence(&of.name)));
+    Some(sheet)
+}
+
+/// Sizes of effects in each group of rows; `None` where nothing groups them.
+pub(super) fn replication(diagnosis: &Diagnosis) -> Option<Sheet> {
+    let replication = diagnosis.replication.as_ref()?;
+    let present = |of: &&ReplicatedEffect| of.probability_shared + of.probability_own >= PRESENT;
+    let mut lines: Vec<[String; 8]> = Vec::new();
+    for of in replication.effects.iter().filter(present).take(SHOWN) {
+        let head = [
+            plain(&of.effect),
+            probability(of.probability_shared),
+            probability(of.probability_own),
+        ];
+        let mut heads =
+            std::iter::once(head).chain(std::iter::repeat([missing(), missing(), missing()]));
+        let group = |group: f64| {
+            let named = &replication.condition;
+            format!("{} = {}", plain(&named.name), digits::condition(group))
+        };
+        let spread = if of.by_ratios { "spread of the logarithm" } else { "spread" };
+        let labels = replication.groups.iter().map(|&value| group(value));
+        let sizes = labels.zip(&of.sizes).chain(of.spread.iter().map(|of| (spread.to_owned(), of)));
+        for (label, size) in sizes {
+            let [effect, shared, own] = heads.next().unwrap_or_default();
+            let [estimate, u, low, high] = parameter(size);
+            let name = NamedQuantity { name: size.name.clone(), unit: size.unit.clone() };
+            let label = format!("{}, {label}", words::axis(&name));
+            lines.push([effect, shared, own, label, estimate, u, low, high]);
+        }
+    }
+    if lines.is_empty() {
+        return None;
+    }
+    let column = |position: usize| lines.iter().map(move |line| line[position].clone());
+    let mut sheet = Sheet::default();
+    sheet.text("effect", column(0));
+    sheet.numbers("one size\nfor all", column(1));
+    sheet.numbers("each\nits own", column(2));
+    sheet.text("size", column(3));
+    for (place, header) in
+        ["estimate", "standard\nuncertainty", "interval\nfrom", "\nto"].iter().enumerate()
+    {
+        sheet.numbers(header, column(4 + place));
+    }
+    Some(sheet)
+}
+
 /// How far the gap shrinks.
 pub(super) fn shrinkage(diagnosis: &Diagnosis) -> Sheet {
     let shrinkage = &diagnosis.shrinkage;
     let fraction = |shrunk: &Shrunk| {
-        if shrinkage.meaningful { share(shrunk.removed_fraction) } else { missing() }
+        if shrinkage.meaningful {
+            words::fraction(shrunk.removed_fraction, shrunk, shrinkage.values)
+        } else {
+            missing()
+        }
     };
     let rms = |name: String, unit: String, shrunk: &Shrunk| {
         let floor = shrunk.noise_floor;
@@ -195,6 +289,34 @@ pub(super) fn shrinkage(diagnosis: &Diagnosis) -> Sheet {
     sheet
 }
 
+/// What to measure next, best first; `None` where nothing is proposed.
+pub(super) fn next(diagnosis: &Diagnosis) -> Option<Sheet> {
+    let proposals = &diagnosis.next.proposals;
+    if proposals.is_empty() {
+        return None;
+    }
+    let what = |proposal: &ProposedMeasurement| match proposal.kind {
+        ProposalKind::Row { .. } => "one row more",
+        ProposalKind::Repeats { .. } => "repeats",
+        ProposalKind::Outside { .. } => "outside the data",
+        ProposalKind::Input { .. } => "calibrate an input",
+        _ => "another output",
+    };
+    let fall = |proposal: &ProposedMeasurement| {
+        digits::percent_of(proposal.expected_entropy_loss / diagnosis.next.entropy)
+    };
+    let wanted = |proposal: &ProposedMeasurement| {
+        proposal.count_for_20_to_1.map_or_else(missing, |count| count.to_string())
+    };
+    let mut sheet = Sheet::default();
+    sheet.text("what", proposals.iter().map(|p| what(p).to_owned()));
+    sheet.text("where", proposals.iter().map(|p| words::place(diagnosis, p)));
+    sheet.numbers("how\noften", proposals.iter().map(|p| p.count.to_string()));
+    sheet.numbers("decides\nof what is open", proposals.iter().map(fall));
+    sheet.numbers("for odds\nof 20 to 1", proposals.iter().map(wanted));
+    Some(sheet)
+}
+
 /// Corrected predictions of one output. Conditions that would not fit stand in one column.
 pub(super) fn prediction(
     diagnosis: &Diagnosis,
@@ -221,8 +343,23 @@ pub(super) fn prediction(
             None => (missing(), missing()),
         })
         .collect();
-    sheet.numbers("estimate", figures.iter().map(|(value, _)| value.clone()));
+    let digits = |row: &Predicted| {
+        let (_, u) = row.outputs.get(output)?;
+        position(*u, digits::UNCERTAINTY)
+    };
+    let number = |value: Option<f64>, row: &Predicted| match value {
+        Some(value) => to(value, digits(row)),
+        None => missing(),
+    };
+    let sims = rows.iter().map(|row| number(row.model.get(output).copied(), row));
+    let measured = |row: &Predicted| residuals::measured_at(diagnosis, output, &row.conditions);
+    let any = rows.iter().any(|row| measured(row).is_some());
+    sheet.numbers("corrected\nestimate", figures.iter().map(|(value, _)| value.clone()));
     sheet.numbers("standard\nuncertainty", figures.into_iter().map(|(_, u)| u));
+    sheet.numbers("sim as\nit was", sims);
+    if any {
+        sheet.numbers("measured\n(mean)", rows.iter().map(|row| number(measured(row), row)));
+    }
     sheet
 }
 

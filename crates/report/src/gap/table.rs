@@ -1,7 +1,7 @@
 //! The page for a terminal.
 
-use super::{composed, departure, sheets, terminal, words};
-use crate::{Grid, WIDTH, wrapped};
+use super::{composed, departure, sheets, strength, terminal, words};
+use crate::{Grid, WIDTH, plain, wrapped};
 use gumption_gap::{Diagnosis, Predicted};
 
 /// The diagnosis as a page of at most 100 columns: the verdict, whether there is a gap, where, which
@@ -10,14 +10,30 @@ use gumption_gap::{Diagnosis, Predicted};
 /// output.
 pub fn table(diagnosis: &Diagnosis) -> String {
     let mut page = vec![heading(diagnosis)];
+    let overlays = terminal::overlays(diagnosis);
+    if !overlays.is_empty() {
+        page.push(section("What was measured, and what the sim says") + &overlays.join("\n"));
+    }
+    let described = words::effects(diagnosis);
+    if !described.is_empty() {
+        page.push(section("What the effect is") + &effects(described));
+    }
     page.push(section("Is there a gap?") + &wrapped(&words::gap(diagnosis)));
     page.push(section("Where?") + &regions(diagnosis));
     if let Some(present) = sheets::present(diagnosis) {
         page.push(section("Which effects are there?") + &Grid::of(&present).render(WIDTH));
     }
+    if let Some(sheet) = sheets::replication(diagnosis) {
+        let table = Grid::of(&sheet).render(WIDTH);
+        page.push(section("Is it the same for all?") + &wrapped(words::REPLICATION) + &table);
+    }
     page.push(section("Which together?") + &hypotheses(diagnosis));
     if let Some(parameters) = sheets::parameters(diagnosis) {
         page.push(section("Parameters of the verdict") + &Grid::of(&parameters).render(WIDTH));
+    }
+    if !diagnosis.candidates.is_empty() {
+        let names: Vec<String> = diagnosis.candidates.iter().map(|of| plain(&of.name)).collect();
+        page.push(section("What was looked for") + &wrapped(&(names.join(", ") + ".")));
     }
     let departure = paragraphs(departure::sentences(diagnosis));
     if !departure.is_empty() {
@@ -26,10 +42,12 @@ pub fn table(diagnosis: &Diagnosis) -> String {
     let composed = paragraphs(composed::sentences(diagnosis));
     if !composed.is_empty() {
         let title = section("What would explain it: composed, not from your list");
-        page.push(title + &composed + &wrapped(composed::HOW_TO_USE));
+        let unlisted = composed::unlisted(diagnosis).map(|said| wrapped(&said));
+        let unlisted = unlisted.unwrap_or_default();
+        page.push(title + &composed + &wrapped(composed::HOW_TO_USE) + &unlisted);
     }
     page.push(section("How far does it shrink?") + &shrinkage(diagnosis));
-    page.push(section("What to measure next") + &wrapped(&words::next(diagnosis)));
+    page.push(section("What to measure next") + &next(diagnosis));
     if let Some(rows) = &diagnosis.prediction {
         page.push(section("Corrected prediction") + &predictions(diagnosis, rows));
     }
@@ -52,11 +70,25 @@ fn heading(diagnosis: &Diagnosis) -> String {
     let mut heading = wrapped(&words::title(diagnosis)) + &wrapped(&words::settings(diagnosis));
     heading.push('\n');
     heading += &wrapped(&words::verdict(diagnosis));
+    heading += &words::interrupted(diagnosis).map(|said| wrapped(&said)).unwrap_or_default();
     heading += &paragraphs(words::conflicts(diagnosis));
     heading += &paragraphs(words::noise_verdict(diagnosis));
     heading += &words::present(diagnosis).map(|said| wrapped(&said)).unwrap_or_default();
     heading += &words::look_alikes(diagnosis).map(|said| wrapped(&said)).unwrap_or_default();
     heading
+}
+
+fn effects(described: Vec<words::DescribedInWords>) -> String {
+    let one = |of: words::DescribedInWords| {
+        let mut text = paragraphs(of.sentences);
+        if !of.equations.is_empty() {
+            text += &wrapped(words::EQUATIONS);
+            text +=
+                &of.equations.lines().map(|line| wrapped(&format!("  {line}"))).collect::<String>();
+        }
+        text
+    };
+    described.into_iter().map(one).collect()
 }
 
 /// The title of a section, underlined.
@@ -70,13 +102,17 @@ fn paragraphs(sentences: Vec<String>) -> String {
 
 fn regions(diagnosis: &Diagnosis) -> String {
     match sheets::regions(diagnosis) {
-        Some(sheet) => Grid::of(&sheet).render(WIDTH) + &wrapped(words::REGIONS),
+        Some(sheet) => {
+            let along = paragraphs(strength::sentences(diagnosis));
+            Grid::of(&sheet).render(WIDTH) + &wrapped(words::REGIONS) + &along
+        }
         None => wrapped(words::NO_REGION),
     }
 }
 
 fn hypotheses(diagnosis: &Diagnosis) -> String {
     let mut text = Grid::of(&sheets::hypotheses(diagnosis)).render(WIDTH);
+    text += &wrapped(words::ODDS);
     text += &sheets::left_out(diagnosis).map(|said| wrapped(&said)).unwrap_or_default();
     text
 }
@@ -86,6 +122,11 @@ fn shrinkage(diagnosis: &Diagnosis) -> String {
     text += &paragraphs(words::shrinkage(diagnosis));
     text += &paragraphs(words::noise(diagnosis));
     text
+}
+
+fn next(diagnosis: &Diagnosis) -> String {
+    let proposals = sheets::next(diagnosis).map(|sheet| Grid::of(&sheet).render(WIDTH));
+    paragraphs(words::next(diagnosis)) + &proposals.unwrap_or_default()
 }
 
 /// One table for each output.

@@ -1,6 +1,6 @@
 //! Plots of the residuals in a terminal, without colours.
 
-use super::residuals::{self, Over, Residual};
+use super::residuals::{self, Residual};
 use super::words;
 use crate::number::exact;
 use crate::plot::{Axis, CharacterGrid, cell_at};
@@ -27,11 +27,7 @@ const BAND: f64 = 2.0;
 /// condition with most levels.
 pub(super) fn plots(diagnosis: &Diagnosis) -> Vec<String> {
     let over = residuals::finest(diagnosis);
-    let along = match over {
-        Over::Condition(place) => diagnosis.conditions.get(place).map(words::axis),
-        Over::Row => None,
-    };
-    let along = along.unwrap_or_else(|| "the number of the row".to_owned());
+    let along = over.in_sentence(diagnosis);
     let outputs = diagnosis.outputs.iter().enumerate();
     outputs
         .filter_map(|(output, named)| {
@@ -49,6 +45,65 @@ pub(super) fn plots(diagnosis: &Diagnosis) -> Vec<String> {
             Some(wrapped(&title) + &plot(&residuals, scale))
         })
         .collect()
+}
+
+/// Characters of what was measured, of the sim and of the corrected sim.
+const MEASURED: char = 'o';
+const SIM: char = '-';
+const CORRECTED: char = '+';
+
+/// A plot for each output: measured values, the sim and the corrected sim against the condition with
+/// most levels.
+pub(super) fn overlays(diagnosis: &Diagnosis) -> Vec<String> {
+    let over = residuals::finest(diagnosis);
+    let along = over.in_sentence(diagnosis);
+    let outputs = diagnosis.outputs.iter().enumerate();
+    outputs
+        .filter_map(|(output, named)| {
+            let points = residuals::overlaid(diagnosis, output, over);
+            let values = points.iter().flat_map(|(_, values)| *values);
+            let [low, high] = values
+                .fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], v| [a.min(v), b.max(v)]);
+            if high.partial_cmp(&low) != Some(std::cmp::Ordering::Greater) {
+                return None;
+            }
+            let title = format!(
+                "{} against {along}; {MEASURED} measured, {SIM} sim, {CORRECTED} corrected sim, {BOTH} \
+                 several in one place",
+                words::axis(named)
+            );
+            Some(wrapped(&title) + &overlay(&points, [low, high]))
+        })
+        .collect()
+}
+
+fn overlay(points: &[(f64, [f64; 3])], [low, high]: [f64; 2]) -> String {
+    let axis = Axis::over(points.iter().map(|(x, _)| *x));
+    let mut grid = CharacterGrid::new(LEFT + WIDTH, HEIGHT + 2);
+    let margin = 0.02 * (high - low);
+    let row = |value: f64| cell_at((high + margin - value) / (high - low + 2.0 * margin), HEIGHT);
+    for (place, marker) in [SIM, CORRECTED, MEASURED].into_iter().enumerate() {
+        // as in the points: measured, sim, corrected
+        let place = [1, 2, 0][place];
+        for (x, values) in points {
+            let cell = column(&axis, axis.position(*x)).zip(row(values[place]));
+            let Some((column, row)) = cell else { continue };
+            if let Some(cell) = grid.cell(column, row) {
+                *cell = if *cell == ' ' || *cell == marker { marker } else { BOTH };
+            }
+        }
+    }
+    frame(&mut grid);
+    let values = Axis::linear(low - margin, high + margin);
+    for (value, text) in values.marks(5) {
+        let Some(row) = row(value) else { continue };
+        let width = LEFT - 2;
+        if text.chars().count() <= width {
+            grid.write(0, row, &format!("{text:>width$} ┤"));
+        }
+    }
+    mark_levels(&mut grid, &axis);
+    grid.lines()
 }
 
 /// The vertical scale: linear, or by the inverse hyperbolic sine where residuals are large.

@@ -3,13 +3,10 @@
 use super::digits::{self, condition, p_equals, percent, probability, share, tenths};
 use crate::number::{exact, position, rounded, significant, with_uncertainty};
 use crate::plain;
-use gumption_gap::{Diagnosis, GapRegion, HypothesisKind, NamedQuantity, PriorConflict};
-
-/// Odds below this power of e are none at all.
-const WORTH_SAYING: f64 = 0.01;
-
-/// Odds below this power of e are not worth a measurement.
-const WORTH_MEASURING: f64 = 1.0;
+use gumption_gap::{
+    Diagnosis, GapRegion, HypothesisKind, NamedQuantity, PriorConflict, ProposalKind,
+    ProposedMeasurement, Shrunk,
+};
 
 /// What a hypothesis is called.
 pub(super) fn hypothesis(effects: Option<&[String]>) -> String {
@@ -174,6 +171,65 @@ pub(super) fn look_alikes(diagnosis: &Diagnosis) -> Option<String> {
     ))
 }
 
+/// What the sizes in groups are.
+pub(super) const REPLICATION: &str = "Sizes of each group of rows, over all hypotheses that the effect \
+     is part of, with the probabilities that it is there with one size for all groups or with one of \
+     each group's own; the spread is the standard deviation between groups in the latter case.";
+
+/// What a table of odds means.
+pub(super) const ODDS: &str = "Odds: how much more probable the first hypothesis is than this one.";
+
+/// That the diagnosis was interrupted.
+pub(super) fn interrupted(diagnosis: &Diagnosis) -> Option<String> {
+    let note = diagnosis.notes.iter().find(|note| note.code == "interrupted");
+    note.filter(|_| diagnosis.interrupted).map(|note| plain(&note.text))
+}
+
+/// What stands above the formulas of an effect.
+pub(super) const EQUATIONS: &str = "It changes these quantities of the sim (a quantity's own name on the right is its value without \
+     the effect):";
+
+/// An effect of the verdict, in words and formulas.
+pub(super) struct DescribedInWords {
+    pub(super) sentences: Vec<String>,
+    /// A line for each quantity that it overrides.
+    pub(super) equations: String,
+}
+
+/// Named effects are described up to this number.
+const MOST_DESCRIBED: usize = 4;
+
+/// What the effects of the verdict are; where it names none, those that are most likely there.
+pub(super) fn effects(diagnosis: &Diagnosis) -> Vec<DescribedInWords> {
+    let verdict = &diagnosis.most_probable;
+    let named: Vec<&str> = if verdict.effects.is_empty() {
+        let likely = diagnosis.present.iter().filter(|p| p.probability >= WORTH_NAMING);
+        likely.map(|p| p.effect.as_str()).collect()
+    } else {
+        verdict.effects.iter().map(String::as_str).collect()
+    };
+    let described = named.into_iter().take(MOST_DESCRIBED).filter_map(|name| {
+        let effect = diagnosis.candidates.iter().find(|effect| effect.name == name)?;
+        let about = plain(&effect.about);
+        let about = if about.is_empty() { "no description in the case".to_owned() } else { about };
+        let mut sentences = vec![format!("{}: {}", plain(name), about.trim_end_matches('.')) + "."];
+        let parameters = effect.parameters.iter().filter(|[_, _, about]| !about.is_empty());
+        let parameters: Vec<String> = parameters
+            .map(|[name, _, about]| format!("{} is {}", plain(name), plain(about)))
+            .collect();
+        if !parameters.is_empty() {
+            sentences.push(format!("Of its parameters, {}.", parameters.join("; ")));
+        }
+        if !effect.source.is_empty() {
+            sentences.push(format!("Source: {}.", plain(&effect.source).trim_end_matches('.')));
+        }
+        let line = |(of, formula): &(String, String)| format!("{} = {}", plain(of), plain(formula));
+        let equations: Vec<String> = effect.overrides.iter().map(line).collect();
+        Some(DescribedInWords { sentences, equations: equations.join("\n") })
+    });
+    described.collect()
+}
+
 /// The conditions of the whole page.
 pub(super) fn settings(diagnosis: &Diagnosis) -> String {
     format!(
@@ -297,6 +353,14 @@ pub(super) fn shrinkage(diagnosis: &Diagnosis) -> Vec<String> {
                 .to_owned(),
         );
     }
+    if shrinkage.blocks == 0 {
+        said.push(
+            "Nothing was left out of the fit, since the diagnosis was interrupted: what is after the \
+             correction is too small."
+                .to_owned(),
+        );
+        return said;
+    }
     said.push(format!(
         "Every value was predicted by a fit that left its own block of conditions out ({} blocks). \
          The root mean square of all outputs after lies between {} and {} standard uncertainties \
@@ -310,7 +374,7 @@ pub(super) fn shrinkage(diagnosis: &Diagnosis) -> Vec<String> {
         let claim = if shrinkage.meaningful {
             format!(
                 " At the case's own conditions the fraction removed is expected to be {}.",
-                share(shrinkage.claimed_fraction)
+                fraction(shrinkage.claimed_fraction, &shrinkage.all, shrinkage.values)
             )
         } else {
             String::new()
@@ -323,43 +387,133 @@ pub(super) fn shrinkage(diagnosis: &Diagnosis) -> Vec<String> {
     said
 }
 
-/// What to measure next.
-pub(super) fn next(diagnosis: &Diagnosis) -> String {
-    let Some(next) = &diagnosis.next else {
-        return match diagnosis.most_probable.kind {
-            HypothesisKind::Unexplained => {
-                "No candidate effect explains the gap, so there are none to tell apart. Look for \
-                 another effect, which acts where the residuals are large."
-            }
-            HypothesisKind::None | HypothesisKind::Explained => {
-                "No other hypothesis is probable enough to be worth a measurement against it."
-            }
-        }
-        .to_owned();
+/// A hypothesis in a sentence on what to tell apart.
+fn rival(effects: Option<&Vec<String>>) -> String {
+    effects.map_or_else(|| "an effect that is not on the list".to_owned(), |own| quoted(own))
+}
+
+/// What to measure next, in sentences; the table of proposals says the rest.
+pub(super) fn next(diagnosis: &Diagnosis) -> Vec<String> {
+    let next = &diagnosis.next;
+    let mut said = Vec::new();
+    for group in &next.equivalent {
+        let names: Vec<String> = group.iter().map(|effects| quoted(effects)).collect();
+        said.push(format!(
+            "These are the same function of the conditions wherever they can be set, so that no \
+             measurement of these outputs tells them apart: {}.",
+            names.join("; ")
+        ));
+    }
+    let Some(best) = next.proposals.first() else {
+        let open = next.entropy > OPEN;
+        said.push(if open {
+            "No measurement of these outputs at these conditions is expected to teach anything; give \
+             the conditions a `range` if they can be set to other values."
+                .to_owned()
+        } else {
+            "No other hypothesis is probable enough to be worth a measurement against it.".to_owned()
+        });
+        return said;
     };
-    let [own, rival] = next.separates.each_ref().map(|effects| quoted(effects));
-    let gain = next.expected_log_odds;
-    if gain < WORTH_SAYING {
-        return format!(
-            "No one row at these conditions or between them tells {own} from {rival}: the logarithm \
-             of the odds is expected to change by less than {WORTH_SAYING} everywhere."
+    let part = best.expected_entropy_loss / next.entropy;
+    said.push(format!(
+        "Most is expected of this: {}. It takes {} of what is left open between all hypotheses \
+         (the entropy of their probabilities, {} nats).",
+        proposal(diagnosis, best),
+        digits::percent_of(part),
+        significant(next.entropy, 2)
+    ));
+    if part < LITTLE {
+        said.push(
+            "That is little: where the hypotheses differ lies outside these conditions or below this \
+             noise."
+                .to_owned(),
         );
     }
-    let none = next.separates.first().is_some_and(Vec::is_empty);
-    let truth = if none { "there is none".to_owned() } else { format!("{own} is true") };
-    let mut said = format!(
-        "The best place for one more row that tells {own} from {rival} is {}: if {truth}, the \
-         logarithm of the odds is expected to change by {} there.",
-        at(&diagnosis.conditions, &next.conditions),
-        significant(gain, 2)
-    );
-    if gain < WORTH_MEASURING {
-        said.push_str(
-            " That is little: one row does not decide, and where the two differ lies outside these \
-             conditions or below this noise.",
-        );
+    if let Some([own, other]) = next.separates.as_ref() {
+        let probability = |effects: &Option<Vec<String>>| {
+            let found = diagnosis.hypotheses.iter().find(|of| of.effects == *effects);
+            found.map_or(f64::NAN, |of| of.probability)
+        };
+        let now = probability(own) / probability(other);
+        let [own, other] = [own.as_ref(), other.as_ref()].map(rival);
+        if now >= 20.0 {
+            said.push(format!(
+                "The odds of {own} against its strongest rival, {other}, are {} to 1 already.",
+                significant(now, 2)
+            ));
+            return said;
+        }
+        let fewest = next.proposals.iter().filter_map(|p| Some((p.count_for_20_to_1?, p)));
+        said.push(match fewest.min_by_key(|(count, _)| *count) {
+            Some((count, p)) => format!(
+                "Odds of 20 to 1 between {own} and {other}, whichever is true, are as likely as not \
+                 after {}: {}.",
+                if count == 1 { "one of these".to_owned() } else { format!("{count} of these") },
+                place(diagnosis, p)
+            ),
+            None => format!(
+                "No number of these measurements reaches odds of 20 to 1 between {own} and {other}."
+            ),
+        });
     }
     said
+}
+
+/// A removed fraction, not above what the noise lets be known: the mean square of what is left
+/// scatters about the floor by the share of the root of two over the number of values.
+pub(super) fn fraction(removed: f64, of: &Shrunk, values: usize) -> String {
+    let floor = of.noise_floor * of.noise_floor;
+    let removable = of.rms_before * of.rms_before - floor;
+    let chance = 2.0 * (2.0 / values.max(1) as f64).sqrt() * floor / removable;
+    let most = 1.0 - chance;
+    if removed <= most || !(0.0..1.0).contains(&most) {
+        return share(removed);
+    }
+    // one digit of what is left open, so that the bound is not rounded to 1
+    let digits = position(chance, 1).unwrap_or(-3).min(-2);
+    format!(">{}", rounded(most, digits))
+}
+
+/// More entropy than this, in nats, is not decided.
+const OPEN: f64 = 0.015;
+
+/// Less than this share of what is left open is little.
+const LITTLE: f64 = 0.2;
+
+/// What is to be measured, and how often.
+fn proposal(diagnosis: &Diagnosis, proposal: &ProposedMeasurement) -> String {
+    match (&proposal.kind, proposal.count) {
+        (ProposalKind::Input { .. }, _) => place(diagnosis, proposal),
+        (_, 1) => format!("one row at {}", place(diagnosis, proposal)),
+        (_, count) => format!("{count} rows at {}", place(diagnosis, proposal)),
+    }
+}
+
+/// Where it is to be measured, or what.
+pub(super) fn place(diagnosis: &Diagnosis, proposal: &ProposedMeasurement) -> String {
+    match &proposal.kind {
+        ProposalKind::Input { input, standard_uncertainty, stated } => {
+            let [wanted, stated] =
+                [standard_uncertainty, stated].map(|u| in_unit(&significant(*u, 2), input));
+            format!(
+                "{} known to {wanted} instead of {stated} (standard uncertainty)",
+                plain(&input.name)
+            )
+        }
+        ProposalKind::Output { output, conditions, .. } => {
+            format!("{} of {}", at(&diagnosis.conditions, conditions), plain(&output.name))
+        }
+        ProposalKind::Row { conditions }
+        | ProposalKind::Repeats { conditions }
+        | ProposalKind::Outside { conditions } => {
+            if conditions.is_empty() {
+                "the same conditions".to_owned()
+            } else {
+                at(&diagnosis.conditions, conditions)
+            }
+        }
+    }
 }
 
 /// The estimated noise of outputs, a sentence each.

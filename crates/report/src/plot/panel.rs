@@ -13,7 +13,7 @@ use super::ink::{FAINT, INK, WEAK};
 use super::svg::{Area, Drawn, FONT, px, text_style};
 
 /// Space for the marks of an axis and its label, in pixels.
-const BELOW: f64 = 38.0;
+const BELOW: f64 = 42.0;
 const LEFT: f64 = 60.0;
 
 /// An axis as the plotting library wants it.

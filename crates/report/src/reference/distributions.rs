@@ -30,6 +30,9 @@ pub(super) fn uncertainty(name: &str) -> Option<(&'static str, &'static str)> {
         ),
         "poisson-count" => ("sqrt(count + 1)", ""),
         "samples" => ("the standard deviation of the values", ""),
+        "split-normal" => ("sqrt((1 - 2/pi)*(std_high - std_low)^2 + std_high*std_low)", ""),
+        "quantiles" => ("the standard deviation of the interpolated quantiles", ""),
+        "dcc" => ("that of the certificate: U/k", "k"),
         "result" => ("that of the saved result", ""),
         _ => return None,
     })

@@ -29,17 +29,31 @@ pub(super) fn about(name: &str) -> Option<&'static str> {
         "im" => "its imaginary part",
         "arg" => "its phase, from -pi to pi",
         "conj" => "its conjugate",
+        "floor" => "the largest whole number not above; `floor(x/[mm])*1 [mm]`",
+        "ceil" => "the smallest whole number not below",
+        "round" => "the nearest whole number, halves away from 0",
+        "mod" => "`mod(x, y)`: what is left of x after whole y, with the sign of y",
+        "expm1" => "exp(x) - 1, exact near 0",
+        "log1p" => "ln(1 + x), exact near 0",
+        "asinh" | "acosh" | "atanh" => "inverse hyperbolic, of a plain number",
+        "erf" => "the error function",
+        "gamma" => "the gamma function",
+        "if" => "`if(c, a, b)`: a where c is not 0, else b; the other may be undefined",
+        "table" => "`table(x, 'f.csv', 'x', 'y', 'linear')`, or `cubic`: between points",
+        "solve" => "`solve(f, x, from, to)`: the x at which the formula f is 0",
         _ => return None,
     })
 }
 
 /// Operators in the order in which they bind, the tightest first.
-const OPERATORS: [(&str, &str); 8] = [
+const OPERATORS: [(&str, &str); 10] = [
     ("x^n", "power; from right to left, `2^3^2` is `2^(3^2)`"),
     ("-x", "negative; `-x^2` is `-(x^2)`"),
     ("x*y, x/y", "product and quotient, from left to right"),
     ("x + y, x - y", "sum and difference, of one dimension"),
     ("x < y, x <= y, x == y, x != y", "1 where it holds, else 0; `>` and `>=` too"),
+    ("not x", "1 where x is 0, else 0"),
+    ("x and y, x or y", "both, or one of them, is not 0; `and` binds tighter"),
     ("1.5 [mm]", "a number of units"),
     ("p/[hPa]", "how many of a unit"),
     ("pi", "the number"),

@@ -165,6 +165,12 @@ pub(super) fn document(title: &str, root: &str, left_out: &[&str]) -> Document {
 pub(super) fn of_case() -> Document {
     let roots = ["observations", "effects", "catalogue", "prior"];
     let mut document = of_roots("Case of the gap diagnosis", &roots, &[]);
+    let definitions = Definitions::new();
+    let model = definitions.get("model").and_then(|model| model.get("properties")?.as_object());
+    let keys = model.into_iter().flatten().filter(|(key, _)| roots.contains(&key.as_str()));
+    document
+        .blocks
+        .insert(0, Block::Table(definitions.table(keys.collect::<Vec<_>>().into_iter(), &[])));
     document.subtitle = vec![
         "A case is a model file (`gumption help model`) that also has measured data and candidate \
          effects, at its root:"

@@ -21,6 +21,8 @@ pub enum Topic {
     Certificate,
     /// The keys of a recipe.
     Recipe,
+    /// The keys of a file of costs.
+    Costs,
     /// The keys of a saved result.
     SavedResult,
     /// The distributions with their keys and standard uncertainties.
@@ -33,7 +35,7 @@ pub enum Topic {
 
 impl Topic {
     /// All of them.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 9] = [
         Self::Model,
         Self::Distributions,
         Self::Functions,
@@ -41,6 +43,7 @@ impl Topic {
         Self::Case,
         Self::Certificate,
         Self::Recipe,
+        Self::Costs,
         Self::SavedResult,
     ];
 
@@ -51,6 +54,7 @@ impl Topic {
             Self::Case => "case",
             Self::Certificate => "certificate-file",
             Self::Recipe => "recipe",
+            Self::Costs => "costs",
             Self::SavedResult => "saved-result",
             Self::Distributions => "distributions",
             Self::Functions => "functions",
@@ -65,6 +69,7 @@ impl Topic {
             Self::Case => "the keys that make a model file a case of `gumption gap`",
             Self::Certificate => "the keys of a certificate file",
             Self::Recipe => "the keys of a recipe of `gumption observe`",
+            Self::Costs => "the keys of a file of costs of `gumption plan`",
             Self::SavedResult => "the keys of what `run --save` writes",
             Self::Distributions => "the distributions, their keys and standard uncertainties",
             Self::Functions => "the operators, functions and constants of formulas",
@@ -82,6 +87,7 @@ impl Topic {
             Self::Case => keys::of_case(),
             Self::Certificate => keys::document("Certificate file", "certificate", &[]),
             Self::Recipe => keys::document("Recipe", "recipe", &[]),
+            Self::Costs => keys::document("File of costs", "costs", &[]),
             Self::SavedResult => keys::document("Saved result", "result", &[]),
             Self::Distributions => distributions::document(),
             Self::Functions => functions::document(),

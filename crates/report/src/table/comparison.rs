@@ -30,23 +30,21 @@ const SHAPE_PLACE: i32 = -2;
 /// verdict; nothing without trials and without a GUM interval.
 pub(super) fn table(output: &Quantity, figures: &OutputEvaluation, digits: u32) -> Option<String> {
     let gum = figures.gum.as_ref();
+    let lines = Lines::of(figures, digits);
+    let said = without_noise(output, figures);
     let Some(monte_carlo) = &figures.monte_carlo else {
-        let said = gum.and_then(|gum| interval_text(output, gum, digits));
-        return said.map(|said| text::wrapped(&said));
+        let mut page = lines.map_or_else(String::new, |lines| lines.grid().render(WIDTH));
+        page += &gum
+            .and_then(|gum| interval_text(output, gum, digits))
+            .into_iter()
+            .chain(said)
+            .map(|said| text::wrapped(&said))
+            .collect::<String>();
+        return (!page.is_empty()).then_some(page);
     };
-    let noiseless = figures.noiseless.as_ref().and_then(|found| found.as_deref().ok());
-    let lines = lines(gum, monte_carlo, noiseless, digits);
-    let mut grid = Grid::default();
-    grid.text("", lines.iter().map(|line| line.names[0].to_owned()));
-    grid.numbers("GUM", lines.iter().map(|line| line.gum.clone()));
-    grid.numbers("Monte Carlo", lines.iter().map(|line| line.monte_carlo.clone()));
-    grid.numbers("numerical\nstandard error", lines.iter().map(|line| line.error.clone()));
-    if let Some(noiseless) = noiseless {
-        grid.numbers(heading(noiseless), lines.iter().map(|line| line.noiseless.clone()));
-    }
-    let mut page = grid.render(WIDTH);
-    if let Some(noiseless) = noiseless {
-        page += &text::wrapped(&accuracy(output, noiseless));
+    let mut page = lines?.grid().render(WIDTH);
+    if let Some(said) = said {
+        page += &text::wrapped(&said);
     }
     if !monte_carlo.shortest_exact {
         page += &text::wrapped(NEARLY_SHORTEST);
@@ -65,16 +63,17 @@ pub(super) fn table(output: &Quantity, figures: &OutputEvaluation, digits: u32) 
     Some(page)
 }
 
-/// The heading of the column of figures without noise.
-fn heading(noiseless: &Noiseless) -> &'static str {
-    match noiseless.accuracy {
-        Accuracy::Bound(_) => "exact",
-        Accuracy::Scatter(_) => "quasi-random",
-    }
+/// What is said of figures without noise: how far they may be off, or why there are none; nothing where
+/// none were asked for.
+pub(crate) fn without_noise(output: &Quantity, figures: &OutputEvaluation) -> Option<String> {
+    Some(match figures.noiseless.as_ref()? {
+        Ok(noiseless) => accuracy(output, noiseless),
+        Err(why) => format!("no figures without the noise of trials: {}", crate::plain(why)),
+    })
 }
 
 /// How far the figures without noise may be off, and how they were found.
-pub(crate) fn accuracy(output: &Quantity, noiseless: &Noiseless) -> String {
+fn accuracy(output: &Quantity, noiseless: &Noiseless) -> String {
     let number = |value: f64| in_unit(&significant(value, 1), &output.unit);
     match &noiseless.accuracy {
         Accuracy::Bound(bound) => format!(
@@ -266,14 +265,66 @@ pub(crate) fn stability(output: &Quantity, end: &Adaptive, trials: u64) -> Strin
     }
 }
 
-/// A figure by both methods.
-pub(crate) struct Line {
+/// A figure by all methods.
+struct Line {
     /// Its name, and its name where it does not stand below another.
     names: [&'static str; 2],
     gum: String,
     monte_carlo: String,
     error: String,
-    noiseless: String,
+    noiseless: [String; 2],
+}
+
+/// The figures of all methods, and which methods there are.
+struct Lines<'a> {
+    lines: Vec<Line>,
+    has_trials: bool,
+    noiseless: Option<&'a Noiseless>,
+}
+
+impl<'a> Lines<'a> {
+    /// Nothing without trials and without figures that have no noise.
+    fn of(figures: &'a OutputEvaluation, digits: u32) -> Option<Self> {
+        let noiseless = figures.noiseless.as_ref().and_then(|found| found.as_deref().ok());
+        let trials = figures.monte_carlo.as_ref();
+        (trials.is_some() || noiseless.is_some()).then(|| Self {
+            lines: lines(figures.gum.as_ref(), trials, noiseless, digits),
+            has_trials: trials.is_some(),
+            noiseless,
+        })
+    }
+
+    fn names(&self, which: usize) -> impl Iterator<Item = String> {
+        self.lines.iter().map(move |line| line.names[which].to_owned())
+    }
+
+    /// The columns of numbers with their headings.
+    fn columns(&self) -> Vec<(&'static str, Vec<String>)> {
+        let of = |text: fn(&Line) -> &String| self.lines.iter().map(|l| text(l).clone()).collect();
+        let mut columns = vec![("GUM", of(|line| &line.gum))];
+        if self.has_trials {
+            columns.push(("Monte Carlo", of(|line| &line.monte_carlo)));
+            columns.push(("numerical\nstandard error", of(|line| &line.error)));
+        }
+        match self.noiseless.map(|noiseless| &noiseless.accuracy) {
+            Some(Accuracy::Bound(_)) => columns.push(("exact", of(|line| &line.noiseless[0]))),
+            Some(Accuracy::Scatter(_)) => {
+                columns.push(("quasi-\nrandom", of(|line| &line.noiseless[0])));
+                columns.push(("its standard\nerror", of(|line| &line.noiseless[1])));
+            }
+            None => {}
+        }
+        columns
+    }
+
+    fn grid(&self) -> Grid {
+        let mut grid = Grid::default();
+        grid.text("", self.names(0));
+        for (heading, texts) in self.columns() {
+            grid.numbers(heading, texts.into_iter());
+        }
+        grid
+    }
 }
 
 const SYMMETRIC_LOW: [&str; 2] =
@@ -285,112 +336,105 @@ const SHORTEST_LOW: [&str; 2] =
 const SHORTEST_HIGH: [&str; 2] =
     ["                              to", "coverage interval, shortest: to"];
 
-/// The figures of both methods side by side; `None` without trials.
+/// The figures of all methods side by side; `None` where there is only the law of propagation.
 pub(crate) fn sheet(figures: &OutputEvaluation, digits: u32) -> Option<Sheet> {
-    let noiseless = figures.noiseless.as_ref().and_then(|found| found.as_deref().ok());
-    let lines = lines(figures.gum.as_ref(), figures.monte_carlo.as_ref()?, noiseless, digits);
+    let lines = Lines::of(figures, digits)?;
     let mut sheet = Sheet::default();
-    sheet.text("figure", lines.iter().map(|line| line.names[1].to_owned()));
-    sheet.numbers("GUM", lines.iter().map(|line| line.gum.clone()));
-    sheet.numbers("Monte Carlo", lines.iter().map(|line| line.monte_carlo.clone()));
-    sheet.numbers("numerical\nstandard error", lines.iter().map(|line| line.error.clone()));
-    if let Some(noiseless) = noiseless {
-        sheet.numbers(heading(noiseless), lines.iter().map(|line| line.noiseless.clone()));
+    sheet.text("figure", lines.names(1));
+    for (heading, texts) in lines.columns() {
+        sheet.numbers(heading, texts.into_iter());
     }
     Some(sheet)
 }
 
-/// The figures without noise, in the order of the lines.
-fn noiseless_texts(of: Option<&Noiseless>, u: Option<f64>) -> [String; 9] {
-    let missing = || std::array::from_fn(|_| MISSING.to_owned());
-    let Some(of) = of else {
-        return missing();
-    };
+/// Figures without noise with their standard errors, in the order of the lines.
+fn noiseless_texts(of: &Noiseless, u: Option<f64>) -> [[String; 2]; 7] {
     let place = of.standard_uncertainty.or(u).and_then(|u| position(u, NOISELESS_DIGITS));
-    let short = of.shortest_interval;
-    let values = [
-        of.estimate,
-        of.standard_uncertainty,
-        Some(of.median),
-        Some(of.symmetric_interval[0]),
-        Some(of.symmetric_interval[1]),
-        short.map(|ends| ends[0]),
-        short.map(|ends| ends[1]),
-    ];
+    let [low, high] = of.symmetric_interval.map(Some);
+    let ends = |ends: Option<[f64; 2]>| ends.map_or([None; 2], |ends| ends.map(Some));
+    let [short_low, short_high] = ends(of.shortest_interval);
+    let median = Some(of.median);
+    let values = [of.estimate, of.standard_uncertainty, median, low, high, short_low, short_high];
     let errors = match &of.accuracy {
         Accuracy::Bound(bound) => [Some(*bound); 7],
         Accuracy::Scatter(scatter) => {
-            let short = scatter.shortest_interval;
-            [
-                scatter.estimate,
-                scatter.standard_uncertainty,
-                Some(scatter.median),
-                Some(scatter.symmetric_interval[0]),
-                Some(scatter.symmetric_interval[1]),
-                short.map(|ends| ends[0]),
-                short.map(|ends| ends[1]),
-            ]
+            let [low, high] = scatter.symmetric_interval.map(Some);
+            let [short_low, short_high] = ends(scatter.shortest_interval);
+            let (u, median) = (scatter.standard_uncertainty, Some(scatter.median));
+            [scatter.estimate, u, median, low, high, short_low, short_high]
         }
     };
-    let mut texts = missing();
-    for ((text, value), error) in texts.iter_mut().zip(values).zip(errors) {
-        if let Some(value) = value {
-            *text = justified(value, place, error.unwrap_or(f64::NAN));
-        }
-    }
-    texts
+    std::array::from_fn(|i| {
+        let missing = || MISSING.to_owned();
+        let value = values[i].map(|value| justified(value, place, errors[i].unwrap_or(f64::NAN)));
+        let error = errors[i].filter(|error| !error.is_nan()).map(|error| significant(error, 1));
+        [value, error].map(|text| text.unwrap_or_else(missing))
+    })
 }
 
 fn lines(
     gum: Option<&Gum>,
-    figures: &MonteCarlo,
+    trials: Option<&MonteCarlo>,
     noiseless: Option<&Noiseless>,
     digits: u32,
 ) -> Vec<Line> {
     let uncertainty = gum.map(|gum| gum.standard_uncertainty);
-    let own = figures.standard_uncertainty.or(uncertainty);
+    let own = trials.and_then(|figures| figures.standard_uncertainty).or(uncertainty);
     let gum_position = uncertainty.and_then(|u| position(u, digits));
     let own_position = own.and_then(|u| position(u, digits)).or(gum_position);
-    let end_position = place_of_ends(figures, own, digits).or(own_position);
-    let errors = &figures.errors;
-    let figure = |place: Option<i32>,
-                  names: [&'static str; 2],
-                  gum: Option<f64>,
-                  value: Option<f64>,
-                  error: Option<f64>| Line {
-        names,
-        gum: gum.map_or_else(|| MISSING.to_owned(), |value| to(value, gum_position)),
-        monte_carlo: value.map_or_else(
-            || MISSING.to_owned(),
-            |value| justified(value, place, error.unwrap_or(f64::NAN)),
-        ),
-        error: error
-            .filter(|error| !error.is_nan())
-            .map_or_else(|| MISSING.to_owned(), |error| significant(error, 1)),
-        noiseless: MISSING.to_owned(),
-    };
-    let line = |names, gum, value, error| figure(own_position, names, gum, value, error);
-    let end = |names, gum, value, error| figure(end_position, names, gum, value, error);
-    let ends = |[low, high]: [f64; 2]| (Some(low), Some(high));
-    let (gum_low, gum_high) = gum.and_then(Gum::interval).map_or((None, None), ends);
-    let (low, high) = ends(figures.symmetric_interval);
-    let (low_error, high_error) = ends(errors.symmetric_interval);
-    let (short_low, short_high) = ends(figures.shortest_interval);
-    let (short_low_error, short_high_error) = ends(errors.shortest_interval);
-    let spread = figures.standard_uncertainty;
+    let end_position =
+        trials.and_then(|figures| place_of_ends(figures, own, digits)).or(own_position);
+    // its value and error, if there are trials, and where its last digit stands
+    type OfTrials = Option<(Option<f64>, Option<f64>)>;
+    let missing = || MISSING.to_owned();
+    let figure =
+        |place: Option<i32>, names: [&'static str; 2], gum: Option<f64>, of_trials: OfTrials| {
+            let (value, error) = of_trials.unwrap_or_default();
+            Line {
+                names,
+                gum: gum.map_or_else(missing, |value| to(value, gum_position)),
+                monte_carlo: value.map_or_else(missing, |value| {
+                    justified(value, place, error.unwrap_or(f64::NAN))
+                }),
+                error: error
+                    .filter(|error| !error.is_nan())
+                    .map_or_else(missing, |error| significant(error, 1)),
+                noiseless: [MISSING.to_owned(), MISSING.to_owned()],
+            }
+        };
+    let line = |names, gum, of: OfTrials| figure(own_position, names, gum, of);
+    let end = |names, gum, of: OfTrials| figure(end_position, names, gum, of);
+    let each = |of: fn(&MonteCarlo) -> (Option<f64>, Option<f64>)| trials.map(of);
+    let low = |ends: [f64; 2], errors: [f64; 2]| (Some(ends[0]), Some(errors[0]));
+    let high = |ends: [f64; 2], errors: [f64; 2]| (Some(ends[1]), Some(errors[1]));
+    let symmetric = trials.map(|of| (of.symmetric_interval, of.errors.symmetric_interval));
+    let shortest = trials.map(|of| (of.shortest_interval, of.errors.shortest_interval));
+    let [gum_low, gum_high] = gum.and_then(Gum::interval).map_or([None; 2], |ends| ends.map(Some));
     let mut lines = vec![
-        line(["estimate"; 2], gum.map(|gum| gum.estimate), figures.estimate, errors.estimate),
-        line(["standard uncertainty"; 2], uncertainty, spread, errors.standard_uncertainty),
-        end(["median"; 2], None, Some(figures.median), Some(errors.median)),
-        end(SYMMETRIC_LOW, gum_low, low, low_error),
-        end(SYMMETRIC_HIGH, gum_high, high, high_error),
-        end(SHORTEST_LOW, None, short_low, short_low_error),
-        end(SHORTEST_HIGH, None, short_high, short_high_error),
-        shape("skewness", figures.skewness, errors.skewness, figures),
-        shape("excess kurtosis", figures.excess_kurtosis, errors.excess_kurtosis, figures),
+        line(
+            ["estimate"; 2],
+            gum.map(|gum| gum.estimate),
+            each(|of| (of.estimate, of.errors.estimate)),
+        ),
+        line(
+            ["standard uncertainty"; 2],
+            uncertainty,
+            each(|of| (of.standard_uncertainty, of.errors.standard_uncertainty)),
+        ),
+        end(["median"; 2], None, each(|of| (Some(of.median), Some(of.errors.median)))),
+        end(SYMMETRIC_LOW, gum_low, symmetric.map(|(ends, errors)| low(ends, errors))),
+        end(SYMMETRIC_HIGH, gum_high, symmetric.map(|(ends, errors)| high(ends, errors))),
+        end(SHORTEST_LOW, None, shortest.map(|(ends, errors)| low(ends, errors))),
+        end(SHORTEST_HIGH, None, shortest.map(|(ends, errors)| high(ends, errors))),
     ];
-    for (line, text) in lines.iter_mut().zip(noiseless_texts(noiseless, own)) {
-        line.noiseless = text;
+    if let Some(of) = trials {
+        lines.push(shape("skewness", of.skewness, of.errors.skewness, of));
+        lines.push(shape("excess kurtosis", of.excess_kurtosis, of.errors.excess_kurtosis, of));
+    }
+    if let Some(noiseless) = noiseless {
+        for (line, texts) in lines.iter_mut().zip(noiseless_texts(noiseless, own)) {
+            line.noiseless = texts;
+        }
     }
     lines
 }
@@ -408,7 +452,7 @@ fn shape(name: &'static str, value: Option<f64>, error: Option<f64>, of: &MonteC
         gum: missing(),
         monte_carlo: value.map_or_else(missing, figure),
         error: error.map_or_else(missing, |error| significant(error, 1)),
-        noiseless: missing(),
+        noiseless: [missing(), missing()],
     }
 }
 

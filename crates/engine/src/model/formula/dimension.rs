@@ -9,9 +9,9 @@ use super::fraction::{Fraction, fractions};
 use super::function::{Function, Part};
 use super::message::excerpt;
 use super::suggest;
-use super::syntax::{Kind, Node, Operator, Tree};
+use super::syntax::{Kind, Node, Operator, TableCall, Tree};
 use super::tie::Tie;
-use super::typing::{Scope, Typing};
+use super::typing::{Scope, TableData, Typing};
 use crate::number::{Binary, Unary};
 use crate::regression::CurveFunction;
 use gumption_units::{Dimension, Exponent, Unit};
@@ -93,6 +93,18 @@ impl<'c> Checker<'c> {
             Kind::Infix { operator, operator_span, left, right } => {
                 self.infix(*operator, operator_span, (index, &node.span), [*left, *right])
             }
+            Kind::Joined { joint, span, left, right } => {
+                self.truths(joint.name(), span, &[*left, *right]);
+                free(Typing::NUMBER)
+            }
+            Kind::Not { span, of } => {
+                self.truths("not", span, &[*of]);
+                free(Typing::NUMBER)
+            }
+            Kind::Table { x, call } => free(self.table(*x, call)),
+            Kind::Solve { body, unknown, from, to } => {
+                free(self.solve(&node.span, body, unknown, [*from, *to]))
+            }
             Kind::Curve { curve, inverse, argument } => {
                 free(self.curve(curve, *inverse, *argument))
             }
@@ -125,6 +137,79 @@ impl<'c> Checker<'c> {
             return Typing::ANY;
         }
         Typing::in_unit(unit)
+    }
+
+    /// Checks numbers that stand for truths.
+    fn truths(&mut self, name: &'static str, span: &Range<usize>, parts: &[usize]) {
+        for &part in parts {
+            let typing = self.plain_argument(name, part);
+            if let Some(argument) = self.not_plain(part).filter(|_| typing.is_some()) {
+                let function_span = span.clone();
+                let error =
+                    FormulaError::ArgumentNotPlain { function: name, function_span, argument };
+                self.report_dimension(error);
+            }
+        }
+    }
+
+    fn table(&mut self, x: usize, call: &TableCall) -> Typing {
+        let scope = self.scope;
+        let typing = self.settled(x);
+        let Some(data) = scope.table(call) else {
+            let (file, span) = (call.file.clone(), call.span.clone());
+            self.report(FormulaError::TableOutOfPlace { file, span });
+            return Typing::ANY;
+        };
+        let Some(TableData { units: [unit, of_values], .. }) = data else { return Typing::ANY };
+        let column = call.columns.as_ref().map_or("the first column", |[x, _]| x);
+        if let Some(dimension) = typing.dimension.filter(|found| *found != unit.dimension()) {
+            let argument = self.operand(x, dimension);
+            let expected = format!(
+                "`{column}` of `{}` is {}",
+                call.file,
+                match unit.text() {
+                    "" => "a column of plain numbers; write its unit into the header, such as \
+                           `t [degC]`, or divide by one"
+                        .to_owned(),
+                    _ => unit.describe(),
+                }
+            );
+            self.report_dimension(FormulaError::TableArgument { argument, expected });
+        } else if let Err(misfit) = typing.reported_in(unit) {
+            let argument = self.operand(x, unit.dimension());
+            let expected = format!("`{column}` of `{}` is in {unit}: it {misfit}", call.file);
+            self.report_dimension(FormulaError::TableArgument { argument, expected });
+        }
+        Typing::in_unit(of_values)
+    }
+
+    /// An equation to solve: what the unknown is comes from the range.
+    fn solve(
+        &mut self,
+        span: &Range<usize>,
+        body: &Tree,
+        unknown: &Range<usize>,
+        ends: [usize; 2],
+    ) -> Typing {
+        let dimension = self.alike("solve", span, &ends);
+        let typing = Typing { dimension, ..self.together("solve", span, &ends) };
+        let name = self.slice(unknown);
+        if self.scope.get(name).is_some() || self.scope.is_announced(name) {
+            let (name, span) = (name.to_owned(), unknown.clone());
+            self.report(FormulaError::UnknownIsDefined { name, span });
+            return typing;
+        }
+        let is_unknown =
+            |node: &Node| node.kind == Kind::Name && self.text.get(node.span.clone()) == Some(name);
+        if !body.nodes.iter().any(is_unknown) && !body.has_solve() {
+            let (name, span) = (name.to_owned(), unknown.clone());
+            self.report(FormulaError::UnknownNotUsed { name, span });
+        }
+        let mut scope = self.scope.clone();
+        scope.define(name, typing);
+        let inner = check(self.text, body, &scope, self.units);
+        inner.errors.into_iter().for_each(|error| self.report(error));
+        typing
     }
 
     fn name(&mut self, span: &Range<usize>) -> Typing {
@@ -334,13 +419,20 @@ impl<'c> Checker<'c> {
                 let typing = self.together(name, name_span, arguments);
                 Typing { dimension, ..typing }
             }
+            Function::If => {
+                self.truths(name, name_span, &[first]);
+                let branches = arguments.get(1..).unwrap_or_default();
+                let dimension = self.alike(name, name_span, branches);
+                let typing = self.together(name, name_span, branches);
+                Typing { dimension, ..typing }
+            }
+            // the parser reads them as sums, and as nodes of their own
+            Function::Sum | Function::Mean | Function::Table | Function::Solve => Typing::ANY,
             Function::Part(Part::Argument) => {
                 self.without_zero(name, first);
                 Typing::NUMBER
             }
             Function::Part(_) => self.without_zero(name, first),
-            // the parser reads them as sums
-            Function::Sum | Function::Mean => Typing::ANY,
             Function::Kelvin | Function::Celsius => {
                 self.temperature(name, name_span, first);
                 self.scaled_temperature(function)

@@ -227,6 +227,53 @@ pub enum FormulaError {
         /// Where.
         span: Range<usize>,
     },
+    /// `table` with one column named and the other not.
+    TableColumns {
+        /// Where the call stands.
+        span: Range<usize>,
+    },
+    /// A way of interpolation that there is not.
+    TableMethod {
+        /// The text.
+        found: String,
+        /// Where it stands.
+        span: Range<usize>,
+    },
+    /// A table in a formula that cannot read files.
+    TableOutOfPlace {
+        /// The file.
+        file: String,
+        /// Where the call stands.
+        span: Range<usize>,
+    },
+    /// The abscissa of a table in a unit that it cannot be given in.
+    TableArgument {
+        /// The abscissa.
+        argument: Box<Operand>,
+        /// What the table's column is, in words.
+        expected: String,
+    },
+    /// Equations to solve inside of equations to solve.
+    TooManySolves {
+        /// The first one too many.
+        span: Range<usize>,
+        /// How deep they may be.
+        limit: usize,
+    },
+    /// An unknown with the name of a quantity.
+    UnknownIsDefined {
+        /// The name.
+        name: String,
+        /// Where it stands.
+        span: Range<usize>,
+    },
+    /// An unknown that the formula does not have.
+    UnknownNotUsed {
+        /// The name.
+        name: String,
+        /// Where it stands.
+        span: Range<usize>,
+    },
     /// A result whose dimension has exponents that are too large or too fine.
     DimensionOverflow {
         /// The text of the operation.
@@ -289,11 +336,18 @@ impl FormulaError {
             | Self::TwoReadings { span, .. }
             | Self::NumberWithUnit { span, .. }
             | Self::Scale { span, .. }
+            | Self::TableColumns { span }
+            | Self::TableMethod { span, .. }
+            | Self::TableOutOfPlace { span, .. }
+            | Self::TooManySolves { span, .. }
+            | Self::UnknownIsDefined { span, .. }
+            | Self::UnknownNotUsed { span, .. }
             | Self::DimensionOverflow { span, .. } => span.clone(),
             Self::ArgumentNotPlain { argument, .. } | Self::NotATemperature { argument, .. } => {
                 argument.span.clone()
             }
             Self::ExponentNotPlain { exponent } => exponent.span.clone(),
+            Self::TableArgument { argument, .. } => argument.span.clone(),
         }
     }
 
@@ -354,6 +408,7 @@ impl FormulaError {
                 | Self::ExponentNotConstant { .. }
                 | Self::DimensionOverflow { .. }
                 | Self::NumberWithUnit { .. }
+                | Self::TableArgument { .. }
                 | Self::Scale { .. }
         )
     }

@@ -1,15 +1,16 @@
 //! Computing a formula with any kind of number.
 
 use std::collections::HashMap;
+use std::sync::Arc;
 
 use super::dimension::check;
 use super::error::FormulaError;
 use super::function::{Function, Part};
 use super::suggest;
-use super::syntax::{Kind, Operator, Tree};
+use super::syntax::{Joint, Kind, Operator, Tree};
 use super::typing::{Scope, Typing};
-use crate::model::NumberForm;
-use crate::number::{Binary, Number, Unary};
+use crate::model::{NumberForm, Recorder, Root, Traced};
+use crate::number::{Binary, Number, Routine, Unary};
 use gumption_units::{Unit, Zero};
 
 /// The zero of the Celsius scale in K.
@@ -87,6 +88,33 @@ pub(super) fn evaluate<T: Number>(
                 _ if unit.offset() == 0.0 => at(&results, *number) * unit.factor(),
                 _ => at(&results, *number) * unit.factor() + unit.offset(),
             },
+            Kind::Table { x, call } => match scope.table(call) {
+                Some(Some(data)) => {
+                    let routine: Arc<dyn Routine> = Arc::clone(&data.table) as _;
+                    T::routine(&routine, &[at(&results, *x)])
+                }
+                _ => {
+                    let (file, span) = (call.file.clone(), call.span.clone());
+                    return Err(FormulaError::TableOutOfPlace { file, span });
+                }
+            },
+            Kind::Solve { body, unknown, from, to } => {
+                let typing = [from, to].map(|end| typings.get(*end).copied());
+                let typing = typing.into_iter().flatten().find(|typing| typing.dimension.is_some());
+                let mut inner = scope.clone();
+                let name = text.get(unknown.clone()).unwrap_or_default();
+                inner.define(name, typing.unwrap_or(Typing::ANY));
+                let (root, names) = root(text, body, &inner, name)?;
+                let mut operands = vec![at(&results, *from), at(&results, *to)];
+                for name in names {
+                    operands.push(value_of(&name, values).ok_or_else(|| {
+                        let (span, nearest, known) = (node.span.clone(), Vec::new(), Vec::new());
+                        FormulaError::UnknownName { name, span, nearest, known }
+                    })?);
+                }
+                let routine: Arc<dyn Routine> = Arc::new(root);
+                T::routine(&routine, &operands)
+            }
             kind => apply(kind, &results, &constants).ok_or_else(|| wrong_call(text, kind))?,
         };
         results.push(result);
@@ -102,11 +130,10 @@ pub(super) fn constants(tree: &Tree) -> Vec<Option<f64>> {
         let known = |index: &usize| constants.get(*index).is_some_and(Option::is_some);
         let is_constant = match &node.kind {
             Kind::Number(_) | Kind::Pi => true,
-            Kind::Name
-            | Kind::Unit(_)
-            | Kind::Constant(_)
-            | Kind::InUnit { .. }
-            | Kind::Curve { .. } => false,
+            Kind::Name | Kind::Unit(_) | Kind::Constant(_) | Kind::InUnit { .. } => false,
+            Kind::Table { .. } | Kind::Solve { .. } | Kind::Curve { .. } => false,
+            Kind::Joined { left, right, .. } => known(left) && known(right),
+            Kind::Not { of, .. } => known(of),
             Kind::Negate(x) => known(x),
             Kind::Infix { left, right, .. } => known(left) && known(right),
             Kind::Call { function: None | Some(Function::Kelvin | Function::Celsius), .. } => false,
@@ -124,7 +151,19 @@ fn apply<T: Number>(kind: &Kind, results: &[T], constants: &[Option<f64>]) -> Op
     Some(match kind {
         Kind::Number(value) => T::constant(*value),
         Kind::Pi => T::constant(std::f64::consts::PI),
-        Kind::Name | Kind::InUnit { .. } | Kind::Curve { .. } => return None,
+        Kind::Name
+        | Kind::InUnit { .. }
+        | Kind::Table { .. }
+        | Kind::Solve { .. }
+        | Kind::Curve { .. } => return None,
+        Kind::Joined { joint, left, right, .. } => {
+            let [x, y] = [left, right].map(|part| truth(at(results, *part)));
+            match joint {
+                Joint::And => x * y,
+                Joint::Or => x.max(y),
+            }
+        }
+        Kind::Not { of, .. } => at(results, *of).binary(Binary::Equal, T::constant(0.0)),
         Kind::Unit(unit) => T::constant(unit.factor()),
         Kind::Constant(constant) => T::constant(constant.value()),
         Kind::Negate(x) => -at(results, *x),
@@ -151,12 +190,52 @@ fn apply<T: Number>(kind: &Kind, results: &[T], constants: &[Option<f64>]) -> Op
                 Function::Part(Part::Imaginary) => first.imaginary_part(),
                 Function::Part(Part::Argument) => first.argument(),
                 Function::Part(Part::Conjugate) => first.conjugate(),
-                Function::Sum | Function::Mean | Function::Kelvin | Function::Celsius => {
-                    return None;
+                Function::If => {
+                    let (yes, no) = (arguments.next()?, arguments.next()?);
+                    first.binary(Binary::When, yes) + first.binary(Binary::Unless, no)
                 }
+                Function::Sum
+                | Function::Mean
+                | Function::Kelvin
+                | Function::Celsius
+                | Function::Table
+                | Function::Solve => return None,
             }
         }
     })
+}
+
+/// 1 for a number that is not 0.
+fn truth<T: Number>(x: T) -> T {
+    x.binary(Binary::NotEqual, T::constant(0.0))
+}
+
+fn value_of<T: Copy>(name: &str, values: &HashMap<String, T>) -> Option<T> {
+    values.get(name).copied()
+}
+
+/// The equation of a body as a function of the unknown and of the names that come with it.
+fn root(
+    text: &str,
+    body: &Tree,
+    scope: &Scope,
+    unknown: &str,
+) -> Result<(Root, Vec<String>), FormulaError> {
+    let mut places = Vec::new();
+    body.names(text, &mut places);
+    let mut names: Vec<String> = Vec::new();
+    for name in places.into_iter().filter_map(|span| text.get(span)) {
+        if name != unknown && !names.iter().any(|known| known == name) {
+            names.push(name.to_owned());
+        }
+    }
+    let recorder = Recorder::default();
+    let all = std::iter::once(unknown).chain(names.iter().map(String::as_str));
+    let values: HashMap<String, Traced<'_>> =
+        all.zip(0..).map(|(name, index)| (name.to_owned(), recorder.variable(index))).collect();
+    let result = evaluate(text, body, scope, &values)?;
+    let program = recorder.program(names.len() + 1, &[result]);
+    Ok((Root::new(unknown, program), names))
 }
 
 /// A formula's number of that kind as one in a unit. A difference knows no zero.

@@ -107,8 +107,12 @@ pub(super) fn fractions(text: &str, tree: &Tree) -> Vec<Option<Fraction>> {
             | Kind::Unit(_)
             | Kind::Constant(_)
             | Kind::InUnit { .. }
-            | Kind::Call { .. }
-            | Kind::Curve { .. } => None,
+            | Kind::Table { .. }
+            | Kind::Solve { .. }
+            | Kind::Joined { .. }
+            | Kind::Not { .. }
+            | Kind::Curve { .. }
+            | Kind::Call { .. } => None,
         };
         found.push(fraction);
     }

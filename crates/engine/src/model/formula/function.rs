@@ -15,6 +15,12 @@ pub(super) enum Function {
     Sum,
     /// The mean of its arguments; read as a sum over their number.
     Mean,
+    /// One of two branches, by a condition.
+    If,
+    /// A value between the points of a table; read apart, for its texts.
+    Table,
+    /// The root of a formula; read apart, for the unknown.
+    Solve,
     /// The thermodynamic temperature of a Celsius temperature.
     Kelvin,
     /// The Celsius temperature of a thermodynamic one.
@@ -33,7 +39,7 @@ pub(super) enum Part {
 }
 
 /// All functions, in the order in which messages list them.
-const FUNCTIONS: [Function; 27] = [
+const FUNCTIONS: [Function; 41] = [
     Function::One(Unary::Sin),
     Function::One(Unary::Cos),
     Function::One(Unary::Tan),
@@ -61,6 +67,20 @@ const FUNCTIONS: [Function; 27] = [
     Function::Part(Part::Imaginary),
     Function::Part(Part::Argument),
     Function::Part(Part::Conjugate),
+    Function::One(Unary::Floor),
+    Function::One(Unary::Ceil),
+    Function::One(Unary::Round),
+    Function::Two(Binary::Modulo),
+    Function::One(Unary::ExpMinusOne),
+    Function::One(Unary::LnOnePlus),
+    Function::One(Unary::Asinh),
+    Function::One(Unary::Acosh),
+    Function::One(Unary::Atanh),
+    Function::One(Unary::Erf),
+    Function::One(Unary::Gamma),
+    Function::If,
+    Function::Table,
+    Function::Solve,
 ];
 
 /// How many arguments a function takes.
@@ -72,6 +92,12 @@ pub enum Arity {
     Two,
     /// Two or more.
     TwoOrMore,
+    /// Three.
+    Three,
+    /// Two to five.
+    TwoToFive,
+    /// Four.
+    Four,
 }
 
 impl Arity {
@@ -81,6 +107,9 @@ impl Arity {
             Self::One => count == 1,
             Self::Two => count == 2,
             Self::TwoOrMore => count >= 2,
+            Self::Three => count == 3,
+            Self::TwoToFive => (2..=5).contains(&count),
+            Self::Four => count == 4,
         }
     }
 
@@ -90,6 +119,9 @@ impl Arity {
             Self::One => "one argument",
             Self::Two => "two arguments",
             Self::TwoOrMore => "two or more arguments",
+            Self::Three => "three arguments",
+            Self::TwoToFive => "two to five arguments",
+            Self::Four => "four arguments",
         }
     }
 }
@@ -112,6 +144,9 @@ impl Function {
             Self::Two(operation) | Self::Fold(operation) => operation.name(),
             Self::Sum => "sum",
             Self::Mean => "mean",
+            Self::If => "if",
+            Self::Table => "table",
+            Self::Solve => "solve",
             Self::Kelvin => "kelvin",
             Self::Celsius => "celsius",
             Self::Part(Part::Real) => "re",
@@ -129,7 +164,25 @@ impl Function {
     /// Whether no quantity may be called so. Names of functions that came later still may be those
     /// of quantities where no parenthesis follows, because files have them.
     pub(super) fn is_reserved(self) -> bool {
-        !matches!(self, Self::Sum | Self::Mean | Self::Celsius | Self::Part(_))
+        match self {
+            Self::One(operation) => !matches!(
+                operation,
+                Unary::Floor
+                    | Unary::Ceil
+                    | Unary::Round
+                    | Unary::ExpMinusOne
+                    | Unary::LnOnePlus
+                    | Unary::Asinh
+                    | Unary::Acosh
+                    | Unary::Atanh
+                    | Unary::Erf
+                    | Unary::Gamma
+            ),
+            Self::Two(operation) => operation != Binary::Modulo,
+            Self::Fold(_) | Self::Kelvin => true,
+            Self::Part(_) => false,
+            Self::Sum | Self::Mean | Self::Celsius | Self::If | Self::Table | Self::Solve => false,
+        }
     }
 
     /// How many arguments it takes.
@@ -138,6 +191,9 @@ impl Function {
             Self::One(_) | Self::Kelvin | Self::Celsius | Self::Part(_) => Arity::One,
             Self::Two(_) => Arity::Two,
             Self::Fold(_) | Self::Sum | Self::Mean => Arity::TwoOrMore,
+            Self::If => Arity::Three,
+            Self::Table => Arity::TwoToFive,
+            Self::Solve => Arity::Four,
         }
     }
 }

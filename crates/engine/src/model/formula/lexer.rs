@@ -25,6 +25,8 @@ pub(super) enum TokenKind {
     Comma,
     /// `[...]` as a whole.
     Bracket,
+    /// A text in quotes, with the quotes.
+    Text,
     End,
 }
 
@@ -62,6 +64,11 @@ impl<'t> Lexer<'t> {
             self.take_while(|c| c != ']');
             self.at += 1;
             TokenKind::Bracket
+        } else if matches!(c, '"' | '\'') && self.rest().get(1..).is_some_and(|r| r.contains(c)) {
+            self.at += 1;
+            self.take_while(|other| other != c);
+            self.at += 1;
+            TokenKind::Text
         } else if c.is_ascii_digit() || (c == '.' && self.digit_after(1)) {
             self.number()?
         } else if begins_name(c) {
@@ -117,13 +124,14 @@ impl<'t> Lexer<'t> {
             ),
             '!' => (Some("a comparison for different values is written `!=`"), Some("!=")),
             '%' => (Some("5 % is written `0.05` or `5 [%]`"), None),
+            '|' if self.rest().starts_with("||") => {
+                (Some("that one of two comparisons holds is written `or`"), None)
+            }
             '|' => (Some("the modulus of x is written `abs(x)`"), None),
             '√' => (Some("the square root of x is written `sqrt(x)`"), None),
-            '&' => (Some("that two comparisons both hold is their product"), Some("*")),
-            '?' | ':' => (
-                Some("a choice is written as a product with a comparison, such as `(x > 0)*y`"),
-                None,
-            ),
+            '&' => (Some("that two comparisons both hold is written `and`"), Some("and")),
+            '?' | ':' => (Some("a choice is written `if(condition, a, b)`"), None),
+            '"' | '\'' => (Some("the quote at the end of this text is missing"), None),
             '°' | 'º' | '˚' => (Some("an angle of 30 degrees is written `30 [deg]`"), None),
             '[' => (Some("a unit stands between `[` and `]`; parentheses are `(` and `)`"), None),
             '{' => (Some("parentheses are `(` and `)`"), Some("(")),

@@ -211,6 +211,39 @@ impl fmt::Display for FormulaError {
                 number.text
             ),
             Self::Scale { fault, .. } => fault.fmt(f),
+            Self::TableColumns { .. } => f.write_str(
+                "`table` needs both columns or none: table(x, 'file.csv', 'x column', 'y column')",
+            ),
+            Self::TableMethod { found, .. } => write!(
+                f,
+                "`{}` is no way of interpolation; there are `linear` and `cubic`",
+                short(found)
+            ),
+            Self::TableOutOfPlace { file, .. } => write!(
+                f,
+                "the table of `{}` cannot be read here; a table stands in the equations of a model \
+                 file",
+                short(file)
+            ),
+            Self::TableArgument { argument, expected } => {
+                write!(f, "{argument}, but {expected}")
+            }
+            Self::TooManySolves { limit, .. } => write!(
+                f,
+                "there are more than {limit} equations to solve inside each other; give a part of \
+                 the formula a name of its own"
+            ),
+            Self::UnknownIsDefined { name, .. } => write!(
+                f,
+                "`{}` is a quantity of the file already; the unknown of `solve` needs a name of \
+                 its own",
+                short(name)
+            ),
+            Self::UnknownNotUsed { name, .. } => write!(
+                f,
+                "the unknown `{}` does not occur in the formula that is to be 0",
+                short(name)
+            ),
             Self::DimensionOverflow { text, .. } => write!(
                 f,
                 "the dimension of `{text}` is out of range: its exponents are too large or too \

@@ -39,6 +39,9 @@
 //! * A temperature in degrees Celsius keeps its number and has a zero: it is a summand, and
 //!   `kelvin(t)` adds 273.15, unless `t` is known to be in kelvin. Levels in decibels are made by
 //!   `10*log10(x)` or `20*log10(x)` and are summands as well.
+//! * `if(c, a, b)` is a where c is not 0, else b; what is not taken may be undefined. `and`, `or` and
+//!   `not` join comparisons. `solve(f, x, from, to)` is the x at which f is 0, `table(x, 'file.csv')`
+//!   a value between the points of a table, whose file whoever checks the formula has read.
 //! * No text makes reading or checking panic, recurse deeply or take long.
 
 #![warn(clippy::indexing_slicing)]
@@ -74,7 +77,8 @@ pub use function::functions;
 pub use misfit::ScaleMisfit;
 pub use name::{NameError, check_name, is_name};
 pub use scale_fault::{ScaleFault, ScaledPlace};
-pub use typing::{KelvinKind, Scope, Typing};
+pub use syntax::TableCall;
+pub use typing::{KelvinKind, Scope, TableData, Typing};
 
 use super::Traced;
 use crate::number::Number;
@@ -119,15 +123,24 @@ impl Formula {
     /// The names of quantities that the formula uses, in the order of the text and as often as they
     /// occur, each with its place. Of a calibration function they are those of its parameters.
     pub fn names(&self) -> impl Iterator<Item = (&str, Range<usize>)> {
-        self.tree.nodes.iter().flat_map(|node| {
-            let own = self.text.get(node.span.clone()).filter(|_| node.kind == Kind::Name);
+        let mut places = Vec::new();
+        self.tree.names(&self.text, &mut places);
+        let own = places.into_iter().filter_map(|span| Some((self.text.get(span.clone())?, span)));
+        let parameters = self.tree.nodes.iter().flat_map(|node| {
             let parameters = match &node.kind {
                 Kind::Curve { curve, .. } => curve.parameters.as_slice(),
                 _ => &[],
             };
-            let names = own.into_iter().chain(parameters.iter().map(|(name, _)| name.as_str()));
-            names.map(|name| (name, node.span.clone()))
-        })
+            parameters.iter().map(|(name, _)| (name.as_str(), node.span.clone()))
+        });
+        own.chain(parameters)
+    }
+
+    /// The tables that the formula uses, in the order of the text and as often as they occur.
+    pub fn tables(&self) -> Vec<&TableCall> {
+        let mut calls = Vec::new();
+        self.tree.tables(&mut calls);
+        calls
     }
 
     /// Checks names, calls and dimensions, and tells what the result is.

@@ -1,7 +1,10 @@
 //! Reading a formula.
 //!
 //! ```text
-//! formula    = comparison
+//! formula    = truth
+//! truth      = both { "or" both }
+//! both       = not { "and" not }
+//! not        = [ "not" ] comparison
 //! comparison = sum [ ( "<" | "<=" | "≤" | ">" | ">=" | "≥" | "==" | "!=" | "≠" ) sum ]
 //! sum        = product { ( "+" | "-" ) product }               from left to right
 //! product    = signed { ( "*" | "/" ) signed }                 from left to right
@@ -9,10 +12,11 @@
 //! power      = operand [ ( "^" | "**" ) exponent ]             from right to left: 2^3^2 is 2^9
 //! exponent   = ( "-" | "+" ) signed | power
 //! operand    = primary [ unit ] | unit                         1.5 [mm]
-//! primary    = number | "pi" | "π" | name | call | "(" comparison ")"
+//! primary    = number | "pi" | "π" | name | call | "(" truth ")"
 //! unit       = "[" a unit, or a defining constant "]"
-//! call       = name "(" [ comparison { "," comparison } ] ")"
-//!            | "inverse" "(" calibration function "," comparison ")"
+//! call       = name "(" [ argument { "," argument } ] ")"
+//! argument   = truth | text                                of `table` alone
+//!            | "inverse" "(" calibration function "," truth ")"
 //! number     = ( digits [ "." [ digits ] ] | "." digits ) [ ( "e" | "E" ) [ "+" | "-" ] digits ]
 //! name       = a letter or "_", then letters, digits and "_" [ "." the same ]
 //! ```
@@ -29,7 +33,8 @@ use super::error::{FormulaError, NumberFault};
 use super::function::Function;
 use super::lexer::{Lexer, Token, TokenKind};
 use super::message::excerpt;
-use super::syntax::{Kind, Node, Operator, Tree};
+use super::syntax::{Joint, Kind, Node, Operator, TableCall, Tree};
+use crate::model::InterpolationMethod;
 use crate::regression::CurveFunction;
 use gumption_units::Unit;
 
@@ -37,7 +42,7 @@ use gumption_units::Unit;
 pub(super) const MAX_LENGTH: usize = 100_000;
 
 /// The deepest nesting of parentheses, calls, signs and exponents.
-pub(super) const MAX_DEPTH: usize = 200;
+pub(super) const MAX_DEPTH: usize = 100;
 
 const OPERAND: &str = "a number, a name, a function or `(`";
 
@@ -49,21 +54,38 @@ const HOUR: &str = "[hour]";
 const AFTER_WHOLE: &str = "an operator or the end of the formula";
 const AFTER_PART: &str = "an operator or `)`";
 const AFTER_ARGUMENT: &str = "an operator, `,` or `)`";
+const TEXT: &str = "a text in quotes: table(x, 'file.csv', 'x column', 'y column', 'linear')";
+const SOLVE: &str = "`,`, as in solve(formula, unknown, from, to)";
+const UNKNOWN: &str = "the name of the unknown, as in solve(formula, unknown, from, to)";
 
 /// The rank of what an operand is part of.
 type Rank = u8;
 
 const LOOSEST: Rank = 0;
 /// Above `*` and `/`, below `^`.
-const SIGN: Rank = 7;
+const SIGN: Rank = 13;
+/// Above `and`, below comparisons.
+const NOT: Rank = 6;
+
+/// The ranks of a joint to its left and to its right.
+fn joint_ranks(joint: Joint) -> (Rank, Rank) {
+    match joint {
+        Joint::And => (3, 4),
+        Joint::Or => (1, 2),
+    }
+}
+
+/// How deep equations to solve may be inside each other: the inner one is solved at every step of the
+/// outer one.
+const MAX_SOLVES: usize = 2;
 
 /// The ranks of an operator to its left and to its right.
 fn ranks(operator: Operator) -> (Rank, Rank) {
     match operator {
-        Operator::Add | Operator::Subtract => (3, 4),
-        Operator::Multiply | Operator::Divide => (5, 6),
-        Operator::Power => (9, 8),
-        _ => (1, 2),
+        Operator::Add | Operator::Subtract => (9, 10),
+        Operator::Multiply | Operator::Divide => (11, 12),
+        Operator::Power => (15, 14),
+        _ => (7, 8),
     }
 }
 
@@ -83,8 +105,17 @@ pub(super) fn parse_with(text: &str, curves: &[Arc<CurveFunction>]) -> Result<Tr
     if token.kind == TokenKind::End {
         return Err(FormulaError::Empty);
     }
-    let (last, opened, nodes) = (None, Vec::new(), Vec::new());
-    let mut parser = Parser { text, curves, lexer, token, last, depth: 0, opened, nodes };
+    let mut parser = Parser {
+        text,
+        curves,
+        lexer,
+        token,
+        last: None,
+        depth: 0,
+        solves: 0,
+        opened: Vec::new(),
+        nodes: Vec::new(),
+    };
     parser.expression(LOOSEST)?;
     if parser.token.kind != TokenKind::End {
         return Err(parser.unexpected(AFTER_WHOLE));
@@ -101,6 +132,8 @@ struct Parser<'t> {
     /// The token before it.
     last: Option<Token>,
     depth: usize,
+    /// Equations to solve around this place.
+    solves: usize,
     /// The parentheses that are open.
     opened: Vec<Range<usize>>,
     nodes: Vec<Node>,
@@ -117,7 +150,15 @@ impl Parser<'_> {
     fn expression(&mut self, least: Rank) -> Result<Part, FormulaError> {
         let mut left = self.operand()?;
         let mut compared: Option<Range<usize>> = None;
-        while let TokenKind::Operator(operator) = self.token.kind {
+        loop {
+            if let Some(joint) = self.joint() {
+                if joint_ranks(joint).0 < least {
+                    break;
+                }
+                left = self.joined(joint, left)?;
+                continue;
+            }
+            let TokenKind::Operator(operator) = self.token.kind else { break };
             let (rank, rank_right) = ranks(operator);
             if rank < least {
                 break;
@@ -141,6 +182,27 @@ impl Parser<'_> {
             left = self.push(kind, span);
         }
         Ok(left)
+    }
+
+    /// Reads what stands behind `and` or `or`; apart, to leave room on the stack.
+    #[inline(never)]
+    fn joined(&mut self, joint: Joint, left: Part) -> Result<Part, FormulaError> {
+        let (_, rank) = joint_ranks(joint);
+        let span = self.token.span.clone();
+        self.advance()?;
+        let right = self.nested(&span, |parser| parser.expression(rank))?;
+        let outer = left.outer.start..right.outer.end;
+        let kind = Kind::Joined { joint, span, left: left.node, right: right.node };
+        Ok(self.push(kind, outer))
+    }
+
+    /// The joint that is next: `and` or `or`, which are names where an operand stands.
+    fn joint(&self) -> Option<Joint> {
+        match (self.token.kind, self.slice(&self.token.span)) {
+            (TokenKind::Name, "and") => Some(Joint::And),
+            (TokenKind::Name, "or") => Some(Joint::Or),
+            _ => None,
+        }
     }
 
     /// Reads an operand with its signs and the unit behind it.
@@ -184,6 +246,7 @@ impl Parser<'_> {
     }
 
     /// What stands between brackets.
+    #[inline(never)]
     fn bracket(&self, place: &Range<usize>) -> Result<Kind, FormulaError> {
         let inside = self.slice(place);
         let inside = inside.strip_prefix('[').and_then(|text| text.strip_suffix(']'));
@@ -255,10 +318,14 @@ impl Parser<'_> {
         }
     }
 
+    #[inline(never)]
     fn name_or_call(&mut self) -> Result<Part, FormulaError> {
         let name_span = self.token.span.clone();
         let function = Function::named(self.slice(&name_span));
         self.advance()?;
+        if self.slice(&name_span) == "not" && self.truth_follows() {
+            return self.negated(name_span);
+        }
         if self.token.kind != TokenKind::Open {
             return match function {
                 Some(function) if function.is_reserved() => {
@@ -277,6 +344,9 @@ impl Parser<'_> {
             }
         }
         self.open()?;
+        if let Some(function @ (Function::Table | Function::Solve)) = function {
+            return self.special(function, name_span);
+        }
         let arguments = self.nested(&name_span, Self::arguments)?;
         let span = name_span.start..self.token.span.end;
         self.close(AFTER_ARGUMENT)?;
@@ -286,6 +356,111 @@ impl Parser<'_> {
             return Ok(self.summed(function, &arguments, (name_span, span)));
         }
         Ok(self.push(Kind::Call { function, name_span, arguments }, span))
+    }
+
+    /// Whether something follows that can be a truth, so that `not` is no name.
+    fn truth_follows(&self) -> bool {
+        let begins = matches!(
+            self.token.kind,
+            TokenKind::Name | TokenKind::Number(_) | TokenKind::Open | TokenKind::Pi
+        );
+        begins && self.joint().is_none()
+    }
+
+    /// Reads what stands behind `not`.
+    #[inline(never)]
+    fn negated(&mut self, span: Range<usize>) -> Result<Part, FormulaError> {
+        let of = self.nested(&span, |parser| parser.expression(NOT))?;
+        let outer = span.start..of.outer.end;
+        Ok(self.push(Kind::Not { span, of: of.node }, outer))
+    }
+
+    /// Reads a call whose arguments are not all formulas.
+    #[inline(never)]
+    fn special(&mut self, function: Function, name: Range<usize>) -> Result<Part, FormulaError> {
+        self.nested(&name, |parser| match function {
+            Function::Table => parser.table(&name),
+            _ => parser.solve(&name),
+        })
+    }
+
+    /// Reads the arguments of `table`: the abscissa, then texts.
+    #[inline(never)]
+    fn table(&mut self, name_span: &Range<usize>) -> Result<Part, FormulaError> {
+        let x = self.expression(LOOSEST)?.node;
+        let mut texts: Vec<(String, Range<usize>)> = Vec::new();
+        while self.token.kind == TokenKind::Comma {
+            self.advance()?;
+            if self.token.kind != TokenKind::Text {
+                return Err(self.unexpected(TEXT));
+            }
+            let span = self.token.span.clone();
+            let text = self.slice(&(span.start + 1..span.end - 1)).to_owned();
+            texts.push((text, span));
+            self.advance()?;
+        }
+        let span = name_span.start..self.token.span.end;
+        self.close(AFTER_ARGUMENT)?;
+        let count = |found: usize| FormulaError::ArgumentCount {
+            function: Function::Table.name(),
+            span: name_span.clone(),
+            expected: Function::Table.arity(),
+            found,
+            suggestion: None,
+        };
+        let mut texts = texts.into_iter();
+        let Some((file, _)) = texts.next() else { return Err(count(1)) };
+        let columns = match (texts.next(), texts.next()) {
+            (None, _) => None,
+            (Some(_), None) => return Err(FormulaError::TableColumns { span }),
+            (Some((x, _)), Some((y, _))) => Some([x, y]),
+        };
+        let method = match texts.next() {
+            None => InterpolationMethod::default(),
+            Some((text, span)) => {
+                let named = InterpolationMethod::ALL.into_iter().find(|m| m.name() == text);
+                named.ok_or(FormulaError::TableMethod { found: text, span })?
+            }
+        };
+        if texts.next().is_some() {
+            return Err(count(6));
+        }
+        let call = Box::new(TableCall { file, columns, method, span: span.clone() });
+        Ok(self.push(Kind::Table { x, call }, span))
+    }
+
+    /// Reads the arguments of `solve`: a formula, the name of the unknown, two ends.
+    #[inline(never)]
+    fn solve(&mut self, name_span: &Range<usize>) -> Result<Part, FormulaError> {
+        if self.solves == MAX_SOLVES {
+            let (span, limit) = (name_span.clone(), MAX_SOLVES);
+            return Err(FormulaError::TooManySolves { span, limit });
+        }
+        self.solves += 1;
+        let outer = std::mem::take(&mut self.nodes);
+        self.expression(LOOSEST)?;
+        let body = Box::new(Tree { nodes: std::mem::replace(&mut self.nodes, outer) });
+        self.solves -= 1;
+        self.comma(SOLVE)?;
+        if self.token.kind != TokenKind::Name {
+            return Err(self.unexpected(UNKNOWN));
+        }
+        let unknown = self.token.span.clone();
+        self.advance()?;
+        self.comma(SOLVE)?;
+        let from = self.expression(LOOSEST)?.node;
+        self.comma(SOLVE)?;
+        let to = self.expression(LOOSEST)?.node;
+        let span = name_span.start..self.token.span.end;
+        self.close(AFTER_ARGUMENT)?;
+        Ok(self.push(Kind::Solve { body, unknown, from, to }, span))
+    }
+
+    fn comma(&mut self, expected: &'static str) -> Result<(), FormulaError> {
+        if self.token.kind != TokenKind::Comma {
+            return Err(self.unexpected(expected));
+        }
+        self.advance()
     }
 
     fn curve(&self, name: &str) -> Option<Arc<CurveFunction>> {
@@ -374,6 +549,7 @@ impl Parser<'_> {
     }
 
     /// Reads the arguments of a call up to its closing parenthesis.
+    #[inline(never)]
     fn arguments(&mut self) -> Result<Vec<usize>, FormulaError> {
         let mut arguments = Vec::new();
         if self.token.kind == TokenKind::Close {
@@ -432,6 +608,7 @@ impl Parser<'_> {
     }
 
     /// The error for a next token that cannot stand where it does.
+    #[inline(never)]
     fn unexpected(&self, expected: &'static str) -> FormulaError {
         let Token { kind, span } = &self.token;
         if *kind == TokenKind::End {
@@ -443,6 +620,7 @@ impl Parser<'_> {
         }
         let (hint, suggestion) = match kind {
             _ if expected == OPERAND => self.missing_operand(),
+            _ if matches!(expected, TEXT | UNKNOWN | SOLVE) => (None, None),
             TokenKind::Close => {
                 (Some("this parenthesis closes nothing; remove it or add `(`"), None)
             }
@@ -489,6 +667,7 @@ impl Parser<'_> {
     }
 
     /// The error for a comma between digits, where no comma can stand.
+    #[inline(never)]
     fn decimal_comma(&self) -> Option<FormulaError> {
         let last = self.last.as_ref().filter(|_| self.last_is_number())?;
         let comma = &self.token;
@@ -505,6 +684,7 @@ impl Parser<'_> {
     }
 
     /// The error for a function's name without parentheses behind it.
+    #[inline(never)]
     fn without_arguments(&self, function: Function, span: Range<usize>) -> FormulaError {
         let name = function.name().to_owned();
         let argument = match self.token.kind {

@@ -9,8 +9,6 @@ const ELSEWHERE: &[(&str, &[&str])] = &[
     ("lg", &["log10"]),
     ("lb", &["ln(x)/ln(2)"]),
     ("log2", &["ln(x)/ln(2)"]),
-    ("log1p", &["ln(1 + x)"]),
-    ("expm1", &["exp(x) - 1"]),
     ("exp10", &["10^x"]),
     ("exp2", &["2^x"]),
     ("pow", &["x^y"]),
@@ -33,12 +31,27 @@ const ELSEWHERE: &[(&str, &[&str])] = &[
     ("radians", &["x*pi/180"]),
     ("rad", &["x*pi/180"]),
     ("degrees", &["x*180/pi"]),
-    ("if", &["(x > 0)*y"]),
+    ("iif", &["if"]),
+    ("where", &["if"]),
+    ("fmod", &["mod"]),
+    ("ceiling", &["ceil"]),
+    ("int", &["floor"]),
+    ("trunc", &["floor"]),
+    ("rint", &["round"]),
+    ("tgamma", &["gamma"]),
+    ("erfc", &["1 - erf(x)"]),
+    ("arsinh", &["asinh"]),
+    ("arcosh", &["acosh"]),
+    ("artanh", &["atanh"]),
+    ("arcsinh", &["asinh"]),
+    ("arccosh", &["acosh"]),
+    ("arctanh", &["atanh"]),
+    ("interp", &["table"]),
+    ("lookup", &["table"]),
+    ("and", &["a and b"]),
+    ("or", &["a or b"]),
     ("average", &["mean"]),
     ("avg", &["mean"]),
-    ("floor", &[]),
-    ("ceil", &[]),
-    ("round", &[]),
     ("sign", &["(x > 0) - (x < 0)"]),
     ("sgn", &["(x > 0) - (x < 0)"]),
 ];
@@ -75,6 +88,6 @@ mod tests {
         assert_eq!(functions("Sqrt"), ["sqrt"]);
         assert_eq!(functions("sine"), ["sin", "sinh"]);
         assert_eq!(functions("ArcTan"), ["atan"]);
-        assert!(functions("floor").is_empty());
+        assert_eq!(functions("iif"), ["if"]);
     }
 }

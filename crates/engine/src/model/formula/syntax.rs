@@ -8,6 +8,7 @@ use std::sync::Arc;
 
 use super::constant::DefiningConstant;
 use super::function::Function;
+use crate::model::InterpolationMethod;
 use crate::regression::CurveFunction;
 use gumption_units::Unit;
 
@@ -44,11 +45,69 @@ pub(super) enum Kind {
     Negate(usize),
     /// Two operands with an operator between them.
     Infix { operator: Operator, operator_span: Range<usize>, left: usize, right: usize },
+    /// A call of `table`.
+    Table {
+        /// The abscissa.
+        x: usize,
+        /// Which table.
+        call: Box<TableCall>,
+    },
+    /// A call of `solve`.
+    Solve {
+        /// The formula that is to be 0, whose places are those of the same text.
+        body: Box<Tree>,
+        /// Where the name of the unknown stands.
+        unknown: Range<usize>,
+        /// The ends of the range that is searched.
+        from: usize,
+        to: usize,
+    },
+    /// Two truths of which both, or at least one, is wanted: numbers that are not 0.
+    Joined { joint: Joint, span: Range<usize>, left: usize, right: usize },
+    /// Whether a truth is none.
+    Not { span: Range<usize>, of: usize },
     /// A call. A name that is no function's is kept, because only the names in scope tell what is
     /// wrong with it.
     Call { function: Option<Function>, name_span: Range<usize>, arguments: Vec<usize> },
     /// A calibration function at an argument, or with `inverse` the x that belongs to a value.
     Curve { curve: Arc<CurveFunction>, inverse: bool, argument: usize },
+}
+
+/// A table that a formula names.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct TableCall {
+    /// The file, as written.
+    pub file: String,
+    /// The columns of abscissas and of values; the first two without them.
+    pub columns: Option<[String; 2]>,
+    /// How values between the points are found.
+    pub method: InterpolationMethod,
+    /// Where the call stands in the formula, a half-open range of bytes.
+    pub span: Range<usize>,
+}
+
+impl TableCall {
+    /// Whether both are of the same table.
+    pub fn is_same(&self, other: &Self) -> bool {
+        (&self.file, &self.columns, self.method) == (&other.file, &other.columns, other.method)
+    }
+}
+
+/// What joins two truths.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Joint {
+    And,
+    Or,
+}
+
+impl Joint {
+    /// The joint as it is written.
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            Self::And => "and",
+            Self::Or => "or",
+        }
+    }
 }
 
 /// An operator between two operands.
@@ -92,15 +151,50 @@ impl Operator {
 }
 
 impl Tree {
+    /// The places of the names of quantities, without the unknowns of equations to solve.
+    pub(super) fn names(&self, text: &str, places: &mut Vec<Range<usize>>) {
+        for node in &self.nodes {
+            match &node.kind {
+                Kind::Name => places.push(node.span.clone()),
+                Kind::Solve { body, unknown, .. } => {
+                    let before = places.len();
+                    body.names(text, places);
+                    let is_other =
+                        |span: &Range<usize>| text.get(span.clone()) != text.get(unknown.clone());
+                    let inner: Vec<_> = places.drain(before..).filter(is_other).collect();
+                    places.extend(inner);
+                }
+                _ => {}
+            }
+        }
+    }
+
+    /// The tables.
+    pub(super) fn tables<'t>(&'t self, calls: &mut Vec<&'t TableCall>) {
+        for node in &self.nodes {
+            match &node.kind {
+                Kind::Table { call, .. } => calls.push(call),
+                Kind::Solve { body, .. } => body.tables(calls),
+                _ => {}
+            }
+        }
+    }
+
     /// Whether some value depends on what its parts are: `kelvin(t)` adds 273.15 to a Celsius
     /// temperature, and `t/[degF]` counts from another zero.
     pub(super) fn needs_typings(&self) -> bool {
         self.nodes.iter().any(|node| match &node.kind {
             Kind::Call { function: Some(Function::Kelvin | Function::Celsius), .. } => true,
             Kind::Unit(unit) => unit.offset() != 0.0,
-            Kind::Curve { .. } => true,
+            // the range tells what the unknown is
+            Kind::Solve { .. } | Kind::Curve { .. } => true,
             _ => false,
         })
+    }
+
+    /// Whether there is an equation to solve in it.
+    pub(super) fn has_solve(&self) -> bool {
+        self.nodes.iter().any(|node| matches!(node.kind, Kind::Solve { .. }))
     }
 
     /// The place of a node in the text; empty for a node that is not there.

@@ -1,7 +1,10 @@
 //! What is known about a quantity before its value is.
 
 use std::collections::{HashMap, HashSet};
+use std::sync::Arc;
 
+use super::syntax::TableCall;
+use crate::model::Interpolation;
 use gumption_units::{Dimension, Exponent, Turn, Unit, Zero};
 
 /// The kind of a quantity: its dimension, and what its numbers count.
@@ -101,9 +104,19 @@ impl Typing {
     }
 }
 
+/// A table that formulas may use.
+#[derive(Clone, Debug)]
+pub struct TableData {
+    /// The function, of numbers as formulas have them.
+    pub table: Arc<Interpolation>,
+    /// What its abscissas and its values are.
+    pub units: [Unit; 2],
+}
+
 /// The names that a formula may use.
 #[derive(Clone, Debug, Default)]
 pub struct Scope {
+    tables: Vec<(TableCall, Option<TableData>)>,
     names: Vec<(String, Typing)>,
     index_of: HashMap<String, usize>,
     later: HashSet<String>,
@@ -136,6 +149,17 @@ impl Scope {
         if !self.index_of.contains_key(&name) {
             self.later.insert(name);
         }
+    }
+
+    /// Defines a table; `None` is one that could not be read, which has been reported.
+    pub fn define_table(&mut self, call: TableCall, data: Option<TableData>) {
+        self.tables.push((call, data));
+    }
+
+    /// A table that has been defined.
+    pub fn table(&self, call: &TableCall) -> Option<Option<&TableData>> {
+        let found = self.tables.iter().find(|(known, _)| known.is_same(call))?;
+        Some(found.1.as_ref())
     }
 
     /// What is known about a name; `None` if it is not defined.

@@ -29,7 +29,8 @@ struct Builder {
 }
 
 pub(super) fn build(program: &Program, same: &[Option<f64>], wanted: usize) -> Option<Slopes> {
-    if program.goes_backward() {
+    // functions of several numbers have their derivatives one row after the other
+    if program.goes_backward() || !program.routines.is_empty() {
         return None;
     }
     let needed = needed(program, &vec![None; program.nodes.len()]);
@@ -55,6 +56,7 @@ pub(super) fn build(program: &Program, same: &[Option<f64>], wanted: usize) -> O
             }
             Node::Unary(operation, x) => Some(builder.unary(operation, at(x)?)),
             Node::Binary(operation, x, y) => Some(builder.binary(operation, at(x)?, at(y)?)),
+            Node::Routine(_) => return None,
         };
         known.push(made);
         if builder.steps.len() > MOST_STEPS {
@@ -171,15 +173,11 @@ impl Builder {
             first.gradient.keys().chain(second.gradient.keys()).copied().collect();
         variables.sort_unstable();
         variables.dedup();
-        let flat = matches!(
-            operation,
-            Binary::Less | Binary::LessOrEqual | Binary::Equal | Binary::NotEqual
-        );
-        if variables.is_empty() || flat {
+        if variables.is_empty() || operation.is_flat() {
             return Known { value, gradient: BTreeMap::new() };
         }
         let by_variable = |known: &Known, v: usize| known.gradient.get(&v).copied();
-        let chosen = matches!(operation, Binary::Min | Binary::Max);
+        let chosen = operation.chooses();
         let slopes = if chosen { [x, y] } else { self.slopes(operation, x, y, value) };
         let gradient = variables.into_iter().map(|v| {
             let of = [by_variable(first, v), by_variable(second, v)];
@@ -267,8 +265,9 @@ impl Builder {
             [Operand::Constant(first), Operand::Constant(second)],
         ) = (of, by)
         {
-            let [by_first, _] = derivative::binary(operation, x, y, 0.0);
-            let taken = if by_first == 0.0 { second } else { first };
+            let [by_first, by_second] = derivative::binary(operation, x, y, 0.0);
+            let taken = [(by_first, first), (by_second, second)];
+            let taken = taken.into_iter().find(|(by, _)| *by != 0.0).map_or(0.0, |(_, of)| of);
             return Operand::Constant(derivative::chain(taken, 1.0));
         }
         let [x, y] = of.map(|of| self.fill(Arena::Values, of));

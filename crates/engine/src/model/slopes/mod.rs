@@ -52,7 +52,7 @@ enum Step {
         slopes: [usize; 2],
         out: usize,
     },
-    /// The derivative of the operand that `min` or `max` takes.
+    /// The derivative of the operand that `min`, `max` or a choice takes.
     Choose {
         operation: Binary,
         x: usize,
@@ -211,8 +211,9 @@ fn choose(
     out: &mut [f64; COLUMN],
 ) {
     for i in 0..COLUMN {
-        let [by_first, _] = derivative::binary(operation, x[i], y[i], 0.0);
-        out[i] = chain(if by_first == 0.0 { second[i] } else { first[i] }, 1.0);
+        let [by_first, by_second] = derivative::binary(operation, x[i], y[i], 0.0);
+        let taken = if by_first != 0.0 { first[i] } else { second[i] };
+        out[i] = if by_first == 0.0 && by_second == 0.0 { 0.0 } else { chain(taken, 1.0) };
     }
 }
 

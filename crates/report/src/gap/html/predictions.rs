@@ -1,11 +1,13 @@
-//! Corrected predictions with their uncertainties.
+//! Corrected predictions with their uncertainties, beside the data and the sim as it was.
 
-use plotters::element::{Circle, PathElement};
-use plotters::style::Color;
+use plotters::element::PathElement;
 
+use super::super::groups::Groups;
+use super::super::residuals::Over;
 use super::super::words;
+use super::marks::{Fill, mark};
 use super::{Drawing, WIDTH};
-use crate::plot::{AFTER, Axis, Panel, px, stroke, svg};
+use crate::plot::{AFTER, Axis, BEFORE, INK, Panel, stroke, svg};
 use gumption_gap::{Diagnosis, Predicted};
 
 const HEIGHT: f64 = 240.0;
@@ -13,9 +15,22 @@ const HEIGHT: f64 = 240.0;
 /// So many predictions are drawn at most; more would be one black area.
 const MOST: usize = 400;
 
+/// A prediction: the condition, its value and standard uncertainty, what the sim says, its group.
+struct Point {
+    x: f64,
+    value: f64,
+    u: f64,
+    sim: f64,
+    group: usize,
+}
+
 /// The predictions of an output against the condition with most values; `None` where nothing
 /// varies.
-pub(super) fn draw(diagnosis: &Diagnosis, rows: &[Predicted], output: usize) -> Option<Drawing> {
+pub(in crate::gap) fn draw(
+    diagnosis: &Diagnosis,
+    rows: &[Predicted],
+    output: usize,
+) -> Option<Drawing> {
     let values = |condition: usize| {
         let mut values: Vec<f64> =
             rows.iter().filter_map(|row| row.conditions.get(condition).copied()).collect();
@@ -29,17 +44,31 @@ pub(super) fn draw(diagnosis: &Diagnosis, rows: &[Predicted], output: usize) -> 
         return None;
     }
     let named = &diagnosis.outputs[output];
-    let points: Vec<(f64, f64, f64)> = rows
+    let over = Over::Condition(finest);
+    let groups = Groups::new(diagnosis, over);
+    let points: Vec<Point> = rows
         .iter()
         .filter_map(|row| {
             let (value, u) = *row.outputs.get(output)?;
-            Some((*row.conditions.get(finest)?, value, u))
+            let group = groups.of(&row.conditions);
+            let sim = *row.model.get(output)?;
+            Some(Point { x: *row.conditions.get(finest)?, value, u, sim, group })
         })
-        .filter(|(x, value, u)| [x, value, u].iter().all(|number| number.is_finite()))
+        .filter(|of| [of.x, of.value, of.u, of.sim].iter().all(|number| number.is_finite()))
         .collect();
-    let x = Axis::over(levels);
-    let ends = points.iter().flat_map(|(_, value, u)| [value - 2.0 * u, value + 2.0 * u]);
-    let y = linear_over(ends)?;
+    let measured: Vec<(f64, f64, usize)> = diagnosis
+        .rows
+        .iter()
+        .filter_map(|row| {
+            let value = row.outputs.get(output)?.measured;
+            Some((*row.conditions.get(finest)?, value, groups.of(&row.conditions)))
+        })
+        .take(MOST)
+        .collect();
+    let x = Axis::over(levels.iter().copied().chain(measured.iter().map(|(x, ..)| *x)));
+    let predicted =
+        points.iter().flat_map(|of| [of.value - 2.0 * of.u, of.value + 2.0 * of.u, of.sim]);
+    let y = super::linear_over(predicted.chain(measured.iter().map(|(_, value, _)| *value)))?;
     let drawn = svg(WIDTH, HEIGHT, |area| {
         let along = words::axis(&diagnosis.conditions[finest]);
         let panel = Panel {
@@ -49,25 +78,27 @@ pub(super) fn draw(diagnosis: &Diagnosis, rows: &[Predicted], output: usize) -> 
             title: String::new(),
         };
         let chart = panel.draw(area)?;
-        for (at, value, u) in &points {
-            let at = x.position(*at);
-            let bar = vec![(at, value - 2.0 * u), (at, value + 2.0 * u)];
-            chart.plotting_area().draw(&PathElement::new(bar, stroke(AFTER, 1.25)))?;
-            chart.plotting_area().draw(&Circle::new((at, *value), px(3.0), AFTER.filled()))?;
+        for (at, value, group) in &measured {
+            mark(&chart, *group, (x.position(*at), *value), 2.0, (INK, Fill::Open))?;
+        }
+        let [from, to] = x.ends();
+        let half = 0.01 * (to - from);
+        for of in &points {
+            let at = x.position(of.x);
+            let dash = vec![((at - half).max(from), of.sim), ((at + half).min(to), of.sim)];
+            chart.plotting_area().draw(&PathElement::new(dash, stroke(BEFORE, 2.0)))?;
+            let bar = vec![(at, of.value - 2.0 * of.u), (at, of.value + 2.0 * of.u)];
+            chart.plotting_area().draw(&PathElement::new(bar, stroke(AFTER, 1.75)))?;
+            mark(&chart, of.group, (at, of.value), 3.0, (AFTER, Fill::Full))?;
         }
         Ok(())
     });
     let caption = format!(
-        "Corrected prediction of {} (dot) with two standard uncertainties on either side, averaged \
-         over the hypotheses by their probability.",
-        crate::plain(&named.name)
+        "Corrected prediction of {} (full marks, blue) with two standard uncertainties on either side, \
+         averaged over the hypotheses by their probability; what the sim says as it was (dashes, red) \
+         and what was measured (open marks).{}",
+        crate::plain(&named.name),
+        groups.caption(&crate::plain(&diagnosis.conditions[finest].name))
     );
     Some(Drawing { svg: drawn, caption })
-}
-
-fn linear_over(values: impl Iterator<Item = f64>) -> Option<Axis> {
-    let [from, to] = values
-        .fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], value| [a.min(value), b.max(value)]);
-    let margin = 0.06 * (to - from);
-    (margin.is_finite() && margin > 0.0).then(|| Axis::linear(from - margin, to + margin))
 }

@@ -1,13 +1,15 @@
 //! The residuals of one output before and after the correction, over each condition.
 
-use plotters::element::{Circle, PathElement, Polygon};
+use plotters::element::{PathElement, Polygon};
 use plotters::style::{Color, RGBColor};
 
-use super::super::residuals::{self, Over, Residual};
+use super::super::groups::Groups;
+use super::super::residuals::{self, Residual};
 use super::super::words;
+use super::marks::{Fill, mark};
 use super::{Drawing, WIDTH};
 use crate::plain;
-use crate::plot::{AFTER, Area, Axis, BEFORE, Chart, Drawn, INK, Panel, faded, px, stroke, svg};
+use crate::plot::{AFTER, Area, Axis, BEFORE, Chart, Drawn, INK, Panel, faded, stroke, svg};
 use gumption_gap::Diagnosis;
 
 /// Height of a row of panels in pixels.
@@ -23,21 +25,16 @@ const UNEQUAL: f64 = 10.0;
 const POINTS: usize = 1500;
 const STROKES: usize = 240;
 
-/// A point: the condition, the residual and its standard uncertainty.
-type Point = (f64, f64, f64);
+/// A point: the condition, the residual, its standard uncertainty and its group.
+type Point = (f64, f64, f64, usize);
 
 /// Which residual and standard uncertainty are meant.
 type Of = fn(&Residual) -> (f64, f64);
 
 /// Two panels for each condition that varies; `None` without values.
-pub(super) fn draw(diagnosis: &Diagnosis, output: usize) -> Option<Drawing> {
+pub(in crate::gap) fn draw(diagnosis: &Diagnosis, output: usize) -> Option<Drawing> {
     let named = diagnosis.outputs.get(output)?;
-    let varying = residuals::varying(diagnosis);
-    let over: Vec<Over> = if varying.is_empty() {
-        vec![Over::Row]
-    } else {
-        varying.into_iter().map(Over::Condition).collect()
-    };
+    let over = residuals::panels(diagnosis);
     let own = residuals::of(diagnosis, output, *over.first()?);
     if own.is_empty() {
         return None;
@@ -46,34 +43,44 @@ pub(super) fn draw(diagnosis: &Diagnosis, output: usize) -> Option<Drawing> {
     let label = if divided { "residual / u".to_owned() } else { unit_label(diagnosis, output) };
     let total = HEIGHT * over.len() as f64;
     let many = own.len() > POINTS;
+    let groups: Vec<Groups> = over.iter().map(|over| Groups::new(diagnosis, *over)).collect();
+    let both: [(&str, RGBColor, Of); 2] =
+        [("before", BEFORE, |r| r.before), ("after", AFTER, |r| r.after)];
+    // one scale for both sides of all panels, so that what shrinks is seen to
+    let scaled = |residual: &Residual, of: Of| {
+        let (value, u) = of(residual);
+        let scale = if divided { u } else { 1.0 };
+        (value / scale, u / scale)
+    };
+    let y = scale(both.iter().flat_map(|(.., of)| own.iter().map(|r| scaled(r, *of))));
     let drawn = svg(WIDTH, total, |area| {
-        for (rows, over) in area.split_evenly((over.len(), 1)).iter().zip(&over) {
+        let panels = area.split_evenly((over.len(), 1));
+        for (rows, (over, groups)) in panels.iter().zip(over.iter().zip(&groups)) {
             let points = residuals::of(diagnosis, output, *over);
-            let along = match over {
-                Over::Condition(place) => words::axis(&diagnosis.conditions[*place]),
-                Over::Row => "number of the row".to_owned(),
-            };
+            let along = over.axis(diagnosis);
             let sides = rows.split_evenly((1, 2));
-            let both: [(&str, RGBColor, Of); 2] =
-                [("before", BEFORE, |r| r.before), ("after", AFTER, |r| r.after)];
             for (side, (title, colour, of)) in sides.iter().zip(both) {
                 let points: Vec<Point> = points
                     .iter()
                     .map(|residual| {
-                        let (value, u) = of(residual);
-                        let scale = if divided { u } else { 1.0 };
-                        (residual.x, value / scale, u / scale)
+                        let (value, u) = scaled(residual, of);
+                        (residual.x, value, u, groups.of(&diagnosis.rows[residual.row].conditions))
                     })
                     .collect();
-                half(side, title, &points, (along.clone(), label.clone()), colour)?;
+                half(side, title, &points, &y, (along.clone(), label.clone()), colour)?;
             }
         }
         Ok(())
     });
+    let told_apart = if many {
+        String::new()
+    } else {
+        Groups::captions(diagnosis, over.iter().copied().zip(&groups))
+    };
     let marks = if many {
         "Each stroke spans the residuals of neighbouring values."
     } else {
-        "Full dots lie further from zero than twice their own standard uncertainty."
+        "Full marks lie further from zero than twice their own standard uncertainty."
     };
     let scale = if divided {
         ", over their standard uncertainties, which differ too much between the rows for one scale"
@@ -84,8 +91,7 @@ pub(super) fn draw(diagnosis: &Diagnosis, output: usize) -> Option<Drawing> {
         "Residuals of {}, measured less predicted{scale}, before (left) and after the correction \
          (right, each predicted by a fit without its own block of conditions). Band: two standard \
          uncertainties of the residuals on either side of zero, those of the noise and of the inputs \
-         on the left, of the noise and of what was fitted on the right. The two sides have scales of \
-         their own. {marks}",
+         on the left, of the noise and of what was fitted on the right. {marks}{told_apart}",
         plain(&named.name)
     );
     Some(Drawing { svg: drawn, caption })
@@ -106,19 +112,38 @@ fn is_unequal(residuals: &[Residual]) -> bool {
     least > 0.0 && most > UNEQUAL * least
 }
 
+/// A scale that holds zero, all residuals and the band where it is usual.
+fn scale(points: impl Iterator<Item = (f64, f64)>) -> Axis {
+    let (mut low, mut high) = (0.0_f64, 0.0_f64);
+    let mut bands = Vec::new();
+    for (value, u) in points.filter(|(value, _)| value.is_finite()) {
+        (low, high) = (low.min(value), high.max(value));
+        bands.push(BAND * u);
+    }
+    bands.sort_by(f64::total_cmp);
+    let usual = bands.get(bands.len() / 2).copied().unwrap_or(0.0);
+    let (low, high) = (low.min(-usual), high.max(usual));
+    let margin = 0.05 * (high - low);
+    if margin > 0.0 && margin.is_finite() {
+        Axis::linear(low - margin, high + margin)
+    } else {
+        Axis::about_zero([])
+    }
+}
+
 /// One panel.
 fn half(
     area: &Area<'_>,
     title: &str,
     points: &[Point],
+    y: &Axis,
     (along, label): (String, String),
     colour: RGBColor,
 ) -> Drawn {
     let x = Axis::over(points.iter().map(|(x, ..)| *x));
-    let y = Axis::about_zero(points.iter().flat_map(|(_, value, u)| [*value, BAND * u]));
-    let panel = Panel { x: (&x, along), y: (&y, label), marks: [6, 5], title: title.to_owned() };
+    let panel = Panel { x: (&x, along), y: (y, label), marks: [6, 5], title: title.to_owned() };
     let chart = panel.draw(area)?;
-    band(&chart, &x, points)?;
+    band(&chart, &x, y, points)?;
     let [from, to] = x.ends();
     chart
         .plotting_area()
@@ -126,11 +151,9 @@ fn half(
     if points.len() > POINTS {
         return strokes(&chart, &x, points, colour);
     }
-    for (at, value, u) in points {
-        let place = (x.position(*at), *value);
-        let outside = value.abs() > BAND * u;
-        let style = if outside { colour.filled() } else { stroke(colour, 1.25) };
-        chart.plotting_area().draw(&Circle::new(place, px(2.75), style))?;
+    for (at, value, u, group) in points {
+        let fill = if value.abs() > BAND * u { Fill::Full } else { Fill::Open };
+        mark(&chart, *group, (x.position(*at), *value), 2.75, (colour, fill))?;
     }
     Ok(())
 }
@@ -146,14 +169,14 @@ fn groups(points: &[Point], most: usize) -> Vec<Vec<Point>> {
 }
 
 /// Twice the root mean square of the standard uncertainties at each value of the condition.
-fn band(chart: &Chart<'_>, x: &Axis, points: &[Point]) -> Drawn {
+fn band(chart: &Chart<'_>, x: &Axis, y: &Axis, points: &[Point]) -> Drawn {
     let groups = groups(points, STROKES);
     let edge: Vec<(f64, f64)> = groups
         .iter()
         .map(|group| {
             let count = group.len() as f64;
             let mean = group.iter().map(|(x, ..)| x).sum::<f64>() / count;
-            let square = group.iter().map(|(.., u)| u * u).sum::<f64>() / count;
+            let square = group.iter().map(|(_, _, u, _)| u * u).sum::<f64>() / count;
             (x.position(mean), BAND * square.sqrt())
         })
         .collect();
@@ -164,7 +187,10 @@ fn band(chart: &Chart<'_>, x: &Axis, points: &[Point]) -> Drawn {
         .chain(edge.iter().copied())
         .chain([(to, last.1)])
         .collect();
-    let lower: Vec<(f64, f64)> = upper.iter().map(|(x, y)| (*x, -y)).collect();
+    // a band that is wide somewhere ends at the edge of the panel
+    let [bottom, top] = y.ends();
+    let lower: Vec<(f64, f64)> = upper.iter().map(|(x, y)| (*x, (-y).max(bottom))).collect();
+    let upper: Vec<(f64, f64)> = upper.into_iter().map(|(x, y)| (x, y.min(top))).collect();
     let around: Vec<(f64, f64)> =
         upper.iter().copied().chain(lower.iter().rev().copied()).collect();
     chart.plotting_area().draw(&Polygon::new(around, INK.mix(0.1).filled()))?;
@@ -181,7 +207,7 @@ fn strokes(chart: &Chart<'_>, x: &Axis, points: &[Point], colour: RGBColor) -> D
         let mean = group.iter().map(|(x, ..)| x).sum::<f64>() / group.len() as f64;
         let [least, most] = group
             .iter()
-            .fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], (_, r, _)| [a.min(*r), b.max(*r)]);
+            .fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], (_, r, ..)| [a.min(*r), b.max(*r)]);
         let ends = vec![(x.position(mean), least), (x.position(mean), most)];
         chart.plotting_area().draw(&PathElement::new(ends, stroke(colour, 1.5)))?;
     }

@@ -17,7 +17,7 @@ const RIGHT: f64 = 215.0;
 const MARK: f64 = 4.5;
 
 /// Root mean squares before and after over the noise floor; `None` where no noise floor is known.
-pub(super) fn draw(diagnosis: &Diagnosis) -> Option<Drawing> {
+pub(in crate::gap) fn draw(diagnosis: &Diagnosis) -> Option<Drawing> {
     let shrinkage = &diagnosis.shrinkage;
     let all = (
         "all outputs".to_owned(),

@@ -104,7 +104,7 @@ fn places(levels: &[f64], region: &GapRegion) -> [usize; 2] {
 }
 
 /// A panel for each condition that varies; `None` where none does.
-pub(super) fn draw(diagnosis: &Diagnosis) -> Option<Drawing> {
+pub(in crate::gap) fn draw(diagnosis: &Diagnosis) -> Option<Drawing> {
     let varying = residuals::varying(diagnosis);
     let panels: Vec<Panel<'_>> = varying
         .iter()

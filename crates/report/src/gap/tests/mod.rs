@@ -10,9 +10,10 @@ use serde_json::Value;
 
 use crate::Provenance;
 use gumption_gap::{
-    DepartureForm, DepartureKind, DepartureOver, DepartureShape, Diagnosis, DiagnosisNote,
-    EffectParameter, EstimatedNoise, GapRegion, GapTest, Hypothesis, HypothesisKind, MostProbable,
-    NamedQuantity, NextMeasurement, NoiseEstimate, Predicted, PresentEffect, PriorConflict, RowGap,
+    DepartureForm, DepartureKind, DepartureOver, DepartureShape, DescribedEffect, Diagnosis,
+    DiagnosisNote, EffectParameter, EstimatedNoise, GapRegion, GapTest, Hypothesis, HypothesisKind,
+    MostProbable, NamedQuantity, NextMeasurements, NoiseEstimate, Predicted, PresentEffect,
+    PriorConflict, ProposalKind, ProposedMeasurement, ReplicatedEffect, ReplicatedEffects, RowGap,
     SerialCorrelation, Shrinkage, Shrunk, SuspectValue, UncertaintyFactor, ValueGap,
 };
 
@@ -68,6 +69,8 @@ fn rows(count: usize) -> Vec<RowGap> {
             u_before: 0.06,
             after: noise,
             u_after: 0.055,
+            left: noise,
+            u_corrected: 0.01,
         };
         RowGap { conditions: vec![f, tilt], outputs: vec![value(0.004 * f), value(0.0)] }
     };
@@ -88,6 +91,59 @@ fn noise() -> Vec<NoiseEstimate> {
     vec![stated, estimated]
 }
 
+/// Candidates with everything that is said of them, and with nothing.
+fn candidates() -> Vec<DescribedEffect> {
+    let mut low_pass = DescribedEffect::new("low-pass");
+    low_pass.about = "An amplifier of first order.".to_owned();
+    low_pass.source = "a book on amplifiers".to_owned();
+    low_pass.overrides = vec![("a_x".to_owned(), "a_x/sqrt(1 + (f/fc)^2)".to_owned())];
+    low_pass.parameters = vec![["fc".into(), "Hz".into(), "cut-off frequency".into()]];
+    vec![low_pass, DescribedEffect::new("delay")]
+}
+
+/// Proposals of every kind.
+fn next() -> NextMeasurements {
+    let proposal = |kind, [count, rows]: [usize; 2], loss| {
+        let mut proposal = ProposedMeasurement::new(kind);
+        proposal.count = count;
+        proposal.expected_entropy_loss = loss;
+        proposal.count_for_20_to_1 = (rows > 0).then_some(rows);
+        proposal
+    };
+    let mut next = NextMeasurements::default();
+    next.entropy = 0.5432;
+    next.separates = Some([Some(strings(&["low-pass"])), Some(strings(&["low-pass", "delay"]))]);
+    next.proposals = vec![
+        proposal(
+            ProposalKind::Outside { conditions: vec![300.123_456_789, 35.0] },
+            [4, 12],
+            0.4321,
+        ),
+        proposal(ProposalKind::Repeats { conditions: vec![256.0, 0.0] }, [4, 40], 0.3),
+        proposal(
+            ProposalKind::Input {
+                input: named("a_ref", "m/s^2"),
+                standard_uncertainty: 0.002,
+                stated: 0.01,
+            },
+            [1, 0],
+            0.2,
+        ),
+        proposal(
+            ProposalKind::Output {
+                output: named("phase", "deg"),
+                conditions: vec![1.0, 0.0],
+                standard_uncertainty: 0.5,
+            },
+            [4, 0],
+            0.15,
+        ),
+        proposal(ProposalKind::Row { conditions: vec![256.0, 0.0] }, [1, 40], 0.1),
+    ];
+    next.equivalent = vec![vec![strings(&["low-pass"]), strings(&["slow amplifier"])]];
+    next
+}
+
 /// A diagnosis with everything in it.
 fn diagnosis() -> Diagnosis {
     let low_pass =
@@ -104,6 +160,8 @@ fn diagnosis() -> Diagnosis {
         outputs: vec![named("a_x", "m/s^2"), named("ratio", "")],
         conditions: vec![named("f", "Hz"), named("tilt", "deg")],
         gap: GapTest { present: true, p_value: Some(8.836_58e-47), chi2: 346.237_98, dof: 40.0 },
+        candidates: candidates(),
+        interrupted: false,
         regions: vec![
             GapRegion {
                 output: Some(0),
@@ -147,7 +205,7 @@ fn diagnosis() -> Diagnosis {
             all: shrunk(4.489_181, 1.061_558, 1.053_037, 0.999_054),
             outputs: vec![
                 shrunk(0.343_56, 0.066_662, 0.059_902, 0.992_524),
-                shrunk(0.111_315, 0.053_378, 0.059_902, 1.0),
+                shrunk(0.111_315, 0.053_378, 0.059_902, 0.987),
             ],
             rms_after_interval: [0.851_58, 1.262_605],
             claimed_fraction: 0.998_283,
@@ -156,18 +214,20 @@ fn diagnosis() -> Diagnosis {
             within: [0.5, 0.958_333],
             log_density_gain: 162.715_87,
             blocks: 6,
+            values: 40_000,
         },
-        next: Some(NextMeasurement {
-            separates: [strings(&["low-pass"]), strings(&["low-pass", "delay"])],
-            conditions: vec![300.123_456_789, 35.0],
-            expected_log_odds: 4.2345,
-        }),
+        next: next(),
         prediction: Some(vec![
             Predicted {
                 conditions: vec![1.0, 0.0],
                 outputs: vec![(2.065_512, 0.006_01), (1.0, 0.1)],
+                model: vec![2.1, 1.0],
             },
-            Predicted { conditions: vec![400.0, 35.0], outputs: vec![(1561.2, 13.4), (1.1, 0.12)] },
+            Predicted {
+                conditions: vec![400.0, 35.0],
+                outputs: vec![(1561.2, 13.4), (1.1, 0.12)],
+                model: vec![1580.0, 1.2],
+            },
         ]),
         rows: rows(20),
         noise: noise(),
@@ -176,8 +236,22 @@ fn diagnosis() -> Diagnosis {
             probability: 0.987_777_86,
             parameters: vec![low_pass()],
         }],
+        replication: Some(ReplicatedEffects {
+            condition: named("device", ""),
+            groups: vec![1.0, 2.0],
+            effects: vec![ReplicatedEffect {
+                effect: "low-pass".into(),
+                probability_shared: 0.61,
+                probability_own: 0.31,
+                by_ratios: true,
+                sizes: vec![low_pass(), low_pass()],
+                spread: Some(parameter("low-pass/fc", "", [0.123, 0.045, 0.05, 0.21])),
+            }],
+        }),
         departure: Vec::new(),
         composed: Vec::new(),
+        unlisted: Vec::new(),
+        strength: Vec::new(),
         prior_conflicts: vec![PriorConflict {
             effect: "low-pass".into(),
             parameter: low_pass(),
@@ -216,13 +290,19 @@ fn hostile() -> Diagnosis {
             parameter.unit = name("unit");
         }
     }
+    for candidate in &mut hostile.candidates {
+        candidate.name = name(&candidate.name);
+        candidate.about = name("about");
+        candidate.overrides.iter_mut().for_each(|(of, formula)| *formula = name(of));
+    }
     let groups = hostile.most_probable.indistinguishable.iter_mut().flatten();
     for effect in groups.chain(&mut hostile.most_probable.effects) {
         *effect = name(effect);
     }
-    if let Some(next) = &mut hostile.next {
-        next.separates.iter_mut().flatten().for_each(|effect| *effect = name(effect));
-    }
+    let next = &mut hostile.next;
+    let separated = next.separates.iter_mut().flatten().flatten().flatten();
+    let equivalent = next.equivalent.iter_mut().flatten().flatten();
+    separated.chain(equivalent).for_each(|effect| *effect = name(effect));
     hostile.notes[0].text = name("note");
     hostile
 }
@@ -256,10 +336,12 @@ fn bare() -> Diagnosis {
     bare.shrinkage.outputs = vec![nothing; 2];
     bare.shrinkage.rms_after_interval = [0.0, 0.0];
     bare.shrinkage.meaningful = false;
-    bare.next = None;
+    bare.next = NextMeasurements::default();
     bare.prediction = Some(Vec::new());
     bare.noise.clear();
     bare.present.clear();
+    bare.candidates.clear();
+    bare.replication = None;
     bare.prior_conflicts.clear();
     bare.notes.clear();
     bare
@@ -276,7 +358,7 @@ fn unexplained() -> Diagnosis {
         indistinguishable: Vec::new(),
         indistinguishable_probability: 0.99,
     };
-    unexplained.next = None;
+    unexplained.next = NextMeasurements::default();
     unexplained.departure = vec![
         DepartureForm {
             outputs: strings(&["a_x"]),
@@ -405,9 +487,10 @@ fn assert_sentences(answer: &Value, text: &str) {
     assert_rounded(&after("left out rises by"), &shrinks["log_density_gain"]);
     assert_rounded(&after("is expected to be"), &shrinks["claimed_fraction"]);
     assert_rounded(&after("left its own block of conditions out ("), &shrinks["blocks"]);
-    let next = &answer["next_measurement"];
-    assert_rounded(&after("low-pass + delay is f ="), &next["conditions"]["f"]);
-    assert_rounded(&after("is expected to change by"), &next["expected_log_odds"]);
+    let next = &answer["next_measurement"][0];
+    assert_rounded(&after("Most is expected of this:"), &next["count"]);
+    assert_rounded(&after("rows at f ="), &next["conditions"]["f"]);
+    assert_rounded(&after("the entropy of their probabilities,"), &answer["entropy"]);
     let noise = &answer["noise"]["ratio"];
     assert_rounded(&after("Estimated noise of ratio:"), &noise["standard_uncertainty"]);
     assert_rounded(&after("growing with the power"), &noise["power"]);

@@ -31,8 +31,9 @@ fn numbers_are_those_of_the_json() {
     assert_agreement(&answer, &cells);
     let running = page.split_whitespace().collect::<Vec<_>>().join(" ");
     assert_sentences(&answer, &running);
-    assert!(page.contains("\na_x in m/s^2\n    f    tilt   estimate "), "{page}");
-    assert!(page.contains("\n  400      35  1561           13\n"), "{page}");
+    assert!(page.contains("\na_x in m/s^2\n    f    tilt  corrected "), "{page}");
+    // what was not measured has no mean
+    assert!(page.contains("\n  400      35  1561           13       1580         -\n"), "{page}");
 }
 
 #[test]
@@ -91,4 +92,17 @@ fn plot_of_the_residuals() {
            └───┬────────┬────────┬──────────┬────────┬────────┬──────────┬────────┬────────┬──────
               0.5       1        2          5       10       20         50       100      200
     ");
+}
+
+/// What lies below the noise floor was not removed in full: the bound is what the scatter of the mean
+/// square of 20 values about the floor lets be known, two standard deviations of it.
+#[test]
+fn a_fraction_is_not_above_what_the_noise_allows() {
+    let mut below = diagnosis();
+    below.shrinkage.values = 20;
+    below.shrinkage.all.removed_fraction = 1.0;
+    let page = table(&below);
+    // 2 sqrt(2/20) 1.053^2/(4.489^2 - 1.053^2) = 0.0368
+    let line = page.lines().find(|line| line.starts_with("rms residual, all outputs")).unwrap();
+    assert!(line.trim_end().ends_with(">0.96"), "{line}");
 }

@@ -22,6 +22,17 @@ fn show(tree: &Tree, text: &str, place: usize) -> String {
             let (left, right) = (show(tree, text, *left), show(tree, text, *right));
             format!("({left}{}{right})", operator.name())
         }
+        Kind::Joined { joint, left, right, .. } => {
+            let (left, right) = (show(tree, text, *left), show(tree, text, *right));
+            format!("({left} {} {right})", joint.name())
+        }
+        Kind::Not { of, .. } => format!("(not {})", show(tree, text, *of)),
+        Kind::Table { x, call } => format!("table({},{})", show(tree, text, *x), call.file),
+        Kind::Solve { body, unknown, from, to } => {
+            let whole = show(body, text, body.nodes.len() - 1);
+            let [from, to] = [from, to].map(|end| show(tree, text, *end));
+            format!("solve({whole},{},{from},{to})", &text[unknown.clone()])
+        }
         Kind::Curve { curve, argument, .. } => {
             format!("{}({})", curve.fit.name, show(tree, text, *argument))
         }
@@ -43,6 +54,11 @@ fn ranks_of_operators() {
         ("a/b*c", "((a/b)*c)"),
         ("a*b/c", "((a*b)/c)"),
         ("2^3^2", "(2^(3^2))"),
+        ("a<b and c or not d<e and -f", "(((a<b) and c) or ((not (d<e)) and (-f)))"),
+        ("not a and b", "((not a) and b)"),
+        ("and*or + not", "((and*or)+not)"),
+        ("1 + solve(2*x - 3, x, 0, 1+1)^2", "(1+(solve(((2*x)-3),x,0,(1+1))^2))"),
+        ("table(a+b, 'f.csv', \"x\", 'y')/2", "(table((a+b),f.csv)/2)"),
         ("-2^2", "(-(2^2))"),
         ("2^-1", "(2^(-1))"),
         ("2^-1*3", "((2^(-1))*3)"),
@@ -119,7 +135,7 @@ fn limits() {
     let nested = |depth: usize| format!("{}x{}", "(".repeat(depth), ")".repeat(depth));
     assert!(Formula::parse(&nested(Formula::MAX_DEPTH)).is_ok());
     let one_more = Formula::parse(&nested(Formula::MAX_DEPTH + 1));
-    assert_eq!(one_more, Err(FormulaError::TooDeep { span: 200..201, limit: 200 }));
+    assert_eq!(one_more, Err(FormulaError::TooDeep { span: 100..101, limit: 100 }));
     for unit in ["(", "-", "2^", "sin(", "max(1,", "-(", "1+(", "2^-", "+"] {
         let error = Formula::parse(&unit.repeat(10_000)).unwrap_err();
         assert!(matches!(error, FormulaError::TooDeep { .. }), "{unit}: {error}");

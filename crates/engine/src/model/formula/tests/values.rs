@@ -58,6 +58,14 @@ fn constants() {
         ("kelvin(kelvin(0))", 273.15),
         ("2^kelvin(0)", Number::pow(2.0, 273.15)),
         ("1e-3*1E3", 1.0),
+        ("1 < 2 and 2 < 3 or 1/0", 1.0),
+        ("2 and not 3", 0.0),
+        ("not 1 < 2", 0.0),
+        ("0 or 5", 1.0),
+        ("if(0, 1/0, 7)", 7.0),
+        ("if(2 > 1, 7, sqrt(-1))", 7.0),
+        ("[g_n]/[m]*[s]^2", 9.80665),
+        ("solve(a^2 - 2, a, 0, 2)", std::f64::consts::SQRT_2),
     ];
     for (text, expected) in table {
         assert_eq!(constant(text), expected, "{text}");
@@ -122,7 +130,94 @@ const FORMULAS: &[&str] = &[
     "(x < y) + 2*(x <= y) + 4*(x > y) + 8*(x >= y) + 16*(x == y) + 32*(x != y)",
     "kelvin(x) + pi*kelvin(kelvin(y))",
     "sin(x*y) + sin(x*y) + cos(x*y)",
+    "floor(7*x) + ceil(y) + round(z) + mod(x, z) + mod(-y, x)",
+    "expm1(x) + log1p(y) + asinh(z) + acosh(1 + x) + atanh(y/9) + erf(z) + gamma(x)",
+    "if(x < y, sqrt(y - x), ln(x)) + if(x == y, 1/(x - y), y)*if(not (x < y) and z > 1, x, z)",
+    "solve(q^3 + x*q - y, q, 0, 9) + z*solve(exp(-r) - r/x, r, 0 - z, 5*z)",
+    "solve(solve(p^2 - q - y, p, 0, 99) - 1.5*z - x, q, 0 - y, 999)",
 ];
+
+/// Values and derivatives of mpmath 1.3 (30 digits). libm is good to an ulp or two, its gamma function
+/// to some tens: 5e-15 relative.
+#[test]
+fn functions_of_one_number_against_mpmath() {
+    let scope = Scope::from_iter(["x", "y", "z"].map(|name| (name, Typing::NUMBER)));
+    let table = [
+        ("expm1(x)", 1e-7, 1.000_000_050_000_001_6e-7, 1.000_000_100_000_005),
+        ("log1p(x)", 1e-7, 9.999_999_500_000_033e-8, 0.999_999_900_000_01),
+        ("asinh(x)", 0.7, 0.652_666_566_082_355_8, 0.819_231_920_519_040_5),
+        ("acosh(x)", 1.7, 1.123_230_982_587_295_9, 0.727_392_967_453_308),
+        ("atanh(x)", 0.7, 0.867_300_527_694_053_1, 1.960_784_313_725_49),
+        ("erf(x)", 0.7, 0.677_801_193_837_418_4, 0.691_274_860_410_538_6),
+        ("gamma(x)", 4.3, 8.855_343_360_454_035, 11.847_145_839_698_407),
+        ("gamma(x)", -1.5, 2.363_271_801_207_354_7, 1.661_750_260_668_596_5),
+        ("floor(x)", -1.5, -2.0, 0.0),
+        ("ceil(x)", -1.5, -1.0, 0.0),
+        ("round(x)", -1.5, -2.0, 0.0),
+        ("round(x)", 2.5, 3.0, 0.0),
+        ("mod(x, 2*pi)", 7.0, 7.0 - 2.0 * std::f64::consts::PI, 1.0),
+        ("mod(-7, x)", 4.0, 1.0, 2.0),
+        ("mod(x, -4)", 7.0, -1.0, 1.0),
+        ("if(x > 0, x, -x)", -3.0, 3.0, -1.0),
+    ];
+    for (text, x, value, slope) in table {
+        let program = program(text, &scope);
+        let (values, gradients) = program.gradients(&[x, 1.0, 1.0]);
+        let close = |a: f64, b: f64| (a - b).abs() <= 5e-15 * b.abs();
+        assert!(close(values[0], value), "{text}: {}", values[0]);
+        assert!(close(gradients[0][0], slope), "{text}: slope {}", gradients[0][0]);
+    }
+}
+
+/// What is not taken may be without a value, or steep, and nothing is heard of it.
+#[test]
+fn only_the_branch_that_is_taken_counts() {
+    let scope = Scope::from_iter(["x", "y", "z"].map(|name| (name, Typing::NUMBER)));
+    let of = program("if(x >= 0, sqrt(x), -sqrt(-x)) + 0*y", &scope);
+    let (values, gradients) = of.gradients(&[-4.0, 1.0, 1.0]);
+    assert_eq!((values[0], gradients[0][0]), (-2.0, 0.25));
+    let (values, gradients) = of.gradients(&[4.0, 1.0, 1.0]);
+    assert_eq!((values[0], gradients[0][0]), (2.0, 0.25));
+    assert_eq!(of.first_undefined(&[-4.0, 1.0, 1.0]), None);
+    // of the branch that is taken it is said where it has no value, not of the other
+    let both = program("if(y > 0, ln(z), sqrt(x))", &scope);
+    assert_eq!(both.first_undefined(&[-4.0, 1.0, -1.0]).as_deref(), Some("ln of -1"));
+    assert_eq!(both.first_undefined(&[-4.0, -1.0, -1.0]).as_deref(), Some("sqrt of -4"));
+    // infinitely steep at its end
+    let steep = program("if(x > 0, sqrt(x), y)", &scope);
+    assert_eq!(steep.gradients(&[0.0, 3.0, 1.0]).1[0], [0.0, 1.0, 0.0]);
+    // a condition without a value is no decision
+    assert!(program("if(sqrt(x), 1, 2)", &scope).evaluate(&[-1.0, 0.0, 0.0])[0].is_nan());
+}
+
+/// The measurand of an implicit equation: the derivatives are those of the explicit solution.
+#[test]
+fn implicit_equations() {
+    let scope = Scope::from_iter(["x", "y", "z"].map(|name| (name, Typing::NUMBER)));
+    // w exp(w) = x: Lambert's function, W(1) = 0.567143290409783873 (mpmath), W' = W/(x (1 + W))
+    let of = program("solve(w*exp(w) - x, w, 0, 2)", &scope);
+    let (values, gradients) = of.gradients(&[1.0, 0.0, 0.0]);
+    let w = 0.567_143_290_409_783_9;
+    assert!((values[0] - w).abs() < 3e-16);
+    assert!((gradients[0][0] - w / (1.0 + w)).abs() < 1e-15);
+    // Callendar-Van Dusen below 0 degC (IEC 60751): 60.256 ohm is -100 degC
+    let scope = Scope::from_iter([
+        ("x", Typing::in_unit(&Unit::parse("ohm").unwrap())),
+        ("y", Typing::NUMBER),
+        ("z", Typing::NUMBER),
+    ]);
+    let formula = Formula::parse(
+        "solve(100 [ohm]*(1 + 3.9083e-3*(t/[degC]) - 5.775e-7*(t/[degC])^2 \
+         - 4.183e-12*(t/[degC] - 100)*(t/[degC])^3) - x, t, -200 [degC], 0 [degC])",
+    )
+    .unwrap();
+    let typing = formula.check(&scope).unwrap();
+    assert!(typing.is_celsius());
+    let values = HashMap::from([("x".to_owned(), 60.256)]);
+    let t: f64 = formula.evaluate(&scope, &values).unwrap();
+    // the table of the standard gives whole milliohms: half of one is 1.3 mK
+    assert!((t + 100.0).abs() < 2e-3, "{t}");
+}
 
 fn program(text: &str, scope: &Scope) -> Program {
     let recorder = Recorder::default();

@@ -1,0 +1,46 @@
+//! `gumption import`
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::exit::say;
+use super::output::Place;
+use super::{Exit, Failure, output};
+use gumption_files::import_budget;
+
+/// Make a model file of a budget in a spreadsheet (CSV, or the first sheet of an XLSX file).
+///
+/// Columns are recognized in English and German: quantity, estimate, unit, +-, distribution, divisor,
+/// sensitivity coefficient, degrees of freedom. An equation on the sheet, such as `R = U/I`, is taken;
+/// without one the model is the linear one of the sensitivity coefficients. What was found, and what
+/// had to be guessed, is said on standard error.
+#[derive(Debug, Args)]
+pub(super) struct Import {
+    /// The budget: a CSV or XLSX file
+    file: PathBuf,
+    /// Write the model file here instead of to standard output
+    #[arg(long, value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// Do not say what was found and what was guessed
+    #[arg(long)]
+    quiet: bool,
+}
+
+impl Import {
+    pub(super) fn execute(&self) -> Result<Exit, Failure> {
+        let read = [self.file.clone()];
+        let [file] = output::open([("--output", self.output.as_deref())], &read)?;
+        let budget = import_budget(&self.file)?;
+        if !self.quiet {
+            for said in &budget.understood {
+                say(&format!("understood: {said}\n"));
+            }
+            for said in &budget.guessed {
+                say(&format!("guessed: {said}\n"));
+            }
+        }
+        file.map_or(Place::StandardOutput, Place::File).write(&budget.text)?;
+        Ok(Exit::Done)
+    }
+}

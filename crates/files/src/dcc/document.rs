@@ -1,0 +1,238 @@
+//! The quantities of a Digital Calibration Certificate, versions 2.4 to 3.3.
+//!
+//! Elements are told by their local names, because the versions differ in namespaces and in where
+//! they put things. Only what is asked for is read, so that an element that this program does not
+//! know, or that is damaged, matters where it is wanted.
+
+use std::ops::Range;
+
+use gumption_units::Unit;
+use roxmltree::{Document, Node};
+
+/// What is wrong, and where in the text.
+pub(super) type Fault = (Range<usize>, String);
+
+/// The values of a quantity, with what is stated of their uncertainty.
+#[derive(Clone, Debug)]
+pub(super) struct Measured {
+    /// Where the quantity stands.
+    pub(super) span: Range<usize>,
+    pub(super) unit: Unit,
+    pub(super) values: Vec<f64>,
+    pub(super) uncertainty: Option<Stated>,
+}
+
+/// Uncertainties of the values, in their unit.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Stated {
+    pub(super) expanded: Option<Vec<f64>>,
+    pub(super) standard: Option<Vec<f64>>,
+    pub(super) factors: Option<Vec<f64>>,
+    pub(super) probabilities: Option<Vec<f64>>,
+    pub(super) distributions: Option<Vec<String>>,
+}
+
+/// Reads a text as a certificate.
+pub(super) fn parse(text: &str) -> Result<Document<'_>, Fault> {
+    let document = Document::parse(text).map_err(|error| {
+        let at = error.pos();
+        let line: usize = text
+            .split_inclusive('\n')
+            .take((at.row as usize).saturating_sub(1))
+            .map(str::len)
+            .sum();
+        let rest = text.get(line..).unwrap_or_default();
+        let column = rest.char_indices().nth((at.col as usize).saturating_sub(1));
+        let at = line + column.map_or(0, |(at, _)| at);
+        (at..at, format!("it is no well-formed XML: {error}"))
+    })?;
+    let root = document.root_element();
+    if root.tag_name().name() != "digitalCalibrationCertificate" {
+        let reason = format!(
+            "it is no Digital Calibration Certificate: its root is `{}`, not \
+             `digitalCalibrationCertificate`",
+            root.tag_name().name()
+        );
+        return Err((tag(root), reason));
+    }
+    let version = root.attribute("schemaVersion").unwrap_or_default();
+    let mut numbers = version.split('.').map(|part| part.trim().parse::<u32>().unwrap_or(0));
+    let version_number = (numbers.next().unwrap_or(0), numbers.next().unwrap_or(0));
+    if !((2, 4)..=(3, u32::MAX)).contains(&version_number) {
+        let reason = format!("its schema version is `{version}`; 2.4 to 3.3 can be read");
+        return Err((tag(root), reason));
+    }
+    Ok(document)
+}
+
+/// The start tag of an element.
+pub(super) fn tag(node: Node<'_, '_>) -> Range<usize> {
+    let range = node.range();
+    let text = node.document().input_text();
+    let inside = text.get(range.clone()).unwrap_or_default();
+    let length = inside.find('>').map_or(inside.len(), |at| at + 1);
+    range.start..range.start + length
+}
+
+/// All quantities, in the order of the text.
+pub(super) fn quantities<'d>(document: &'d Document<'d>) -> Vec<Node<'d, 'd>> {
+    document.descendants().filter(|node| node.tag_name().name() == "quantity").collect()
+}
+
+/// Whether one of an element's reference types is this one.
+pub(super) fn has_ref_type(node: Node<'_, '_>, wanted: &str) -> bool {
+    node.attribute("refType").is_some_and(|all| all.split_whitespace().any(|of| of == wanted))
+}
+
+/// The names of a quantity, in all languages.
+pub(super) fn names<'d>(node: Node<'d, 'd>) -> Vec<&'d str> {
+    let named = node.children().filter(|child| child.tag_name().name() == "name");
+    let contents = named.flat_map(|name| name.children());
+    contents.filter_map(|content| content.text()).map(str::trim).collect()
+}
+
+/// What a message calls a quantity.
+pub(super) fn called(node: Node<'_, '_>) -> String {
+    let id = node.attribute("id").map(|id| format!("id `{id}`"));
+    let kind = node.attribute("refType").map(|kind| format!("ref_type `{kind}`"));
+    id.or(kind).unwrap_or_else(|| "one without id and ref_type".to_owned())
+}
+
+/// Reads the values of a quantity.
+pub(super) fn measured(quantity: Node<'_, '_>) -> Result<Measured, Fault> {
+    let fault = |reason: &str| (tag(quantity), format!("this quantity {reason}"));
+    let mut holders = Vec::new();
+    find_holders(quantity, &mut holders);
+    let Some(&first) = holders.first() else {
+        return Err(fault("has no real value (`si:real`, `si:constant` or a list of such)"));
+    };
+    let mut all: Option<Measured> = None;
+    for holder in holders {
+        let next = of_holder(holder, tag(quantity))?;
+        match &mut all {
+            None => all = Some(next),
+            Some(all) if all.unit.text() == next.unit.text() => join(all, next),
+            // a hybrid repeats the values in other units
+            Some(_) if holder.parent().is_some_and(|p| p.tag_name().name() == "hybrid") => {}
+            Some(_) => {
+                return Err((tag(holder), "the values of a list have different units".to_owned()));
+            }
+        }
+        if first.parent().is_some_and(|parent| parent.tag_name().name() == "hybrid") {
+            break;
+        }
+    }
+    let all = all.ok_or_else(|| fault("has no value"))?;
+    if all.values.is_empty() {
+        return Err(fault("has no value"));
+    }
+    Ok(all)
+}
+
+/// The elements that hold values, without those of data about the measurement.
+fn find_holders<'d>(node: Node<'d, 'd>, found: &mut Vec<Node<'d, 'd>>) {
+    for child in node.children().filter(Node::is_element) {
+        match child.tag_name().name() {
+            "real" | "constant" | "realListXMLList" => found.push(child),
+            "hybrid" | "list" => find_holders(child, found),
+            _ => {}
+        }
+    }
+}
+
+fn join(all: &mut Measured, next: Measured) {
+    all.values.extend(next.values);
+    let both = all.uncertainty.as_mut().zip(next.uncertainty);
+    let Some((all, next)) = both else {
+        all.uncertainty = None;
+        return;
+    };
+    let numbers = |all: &mut Option<Vec<f64>>, next: Option<Vec<f64>>| match (all.as_mut(), next) {
+        (Some(all), Some(next)) => all.extend(next),
+        _ => *all = None,
+    };
+    numbers(&mut all.expanded, next.expanded);
+    numbers(&mut all.standard, next.standard);
+    numbers(&mut all.factors, next.factors);
+    numbers(&mut all.probabilities, next.probabilities);
+    match (all.distributions.as_mut(), next.distributions) {
+        (Some(all), Some(next)) => all.extend(next),
+        _ => all.distributions = None,
+    }
+}
+
+/// Reads a `real`, a `constant` or a list in one element.
+fn of_holder(holder: Node<'_, '_>, span: Range<usize>) -> Result<Measured, Fault> {
+    let values = numbers(holder, &["value", "valueXMLList"], None)?
+        .ok_or_else(|| (tag(holder), "this has no value".to_owned()))?;
+    let units = texts(holder, &["unit", "unitXMLList"]);
+    let Some((element, units)) = units else {
+        return Err((tag(holder), "this has no unit".to_owned()));
+    };
+    let written = units.first().copied().unwrap_or_default();
+    if units.iter().any(|unit| *unit != written) {
+        return Err((tag(element), "the values of a list have different units".to_owned()));
+    }
+    let unit = Unit::parse_dsi(written)
+        .ok_or_else(|| (element.range(), format!("`{written}` is no unit of D-SI")))?;
+    let count = Some(values.len());
+    let expanded = ["uncertainty", "valueExpandedMU", "uncertaintyXMLList"];
+    let expanded = [&expanded[..], &["valueExpandedMUXMLList"]].concat();
+    let standard = ["standardUnc", "valueStandardMU", "standardUncXMLList"];
+    let standard = [&standard[..], &["valueStandardMUXMLList"]].concat();
+    let stated = Stated {
+        expanded: numbers(holder, &expanded, count)?,
+        standard: numbers(holder, &standard, count)?,
+        factors: numbers(holder, &["coverageFactor", "coverageFactorXMLList"], count)?,
+        probabilities: {
+            let names = ["coverageProbability", "coverageProbabilityXMLList"];
+            numbers(holder, &names, count)?
+        },
+        distributions: texts(holder, &["distribution", "distributionXMLList"])
+            .map(|(_, texts)| spread(texts.into_iter().map(str::to_lowercase).collect(), count)),
+    };
+    let uncertain = stated.expanded.is_some() || stated.standard.is_some();
+    Ok(Measured { span, unit, values, uncertainty: uncertain.then_some(stated) })
+}
+
+/// One value for all, where a list has one.
+fn spread<T: Clone>(all: Vec<T>, count: Option<usize>) -> Vec<T> {
+    match (all.as_slice(), count) {
+        ([one], Some(count)) => vec![one.clone(); count],
+        _ => all,
+    }
+}
+
+/// The words of the first element below with one of these names.
+fn texts<'d>(holder: Node<'d, 'd>, names: &[&str]) -> Option<(Node<'d, 'd>, Vec<&'d str>)> {
+    let element = holder.descendants().find(|node| names.contains(&node.tag_name().name()))?;
+    Some((element, element.text().unwrap_or_default().split_whitespace().collect()))
+}
+
+fn numbers(
+    holder: Node<'_, '_>,
+    names: &[&str],
+    count: Option<usize>,
+) -> Result<Option<Vec<f64>>, Fault> {
+    let Some((element, words)) = texts(holder, names) else { return Ok(None) };
+    let name = element.tag_name().name();
+    let number = |word: &str| {
+        let value = word.parse::<f64>().ok().filter(|value| value.is_finite());
+        value.ok_or_else(|| {
+            let shown: String = word.chars().take(40).collect();
+            (element.range(), format!("`{shown}` in `{name}` is not a finite number"))
+        })
+    };
+    let found: Vec<f64> = words.into_iter().map(number).collect::<Result<_, Fault>>()?;
+    let found = spread(found, count);
+    if found.is_empty() {
+        return Err((element.range(), format!("`{name}` is empty")));
+    }
+    match count {
+        Some(count) if found.len() != count => {
+            let reason = format!("`{name}` has {} numbers for {count} values", found.len());
+            Err((element.range(), reason))
+        }
+        _ => Ok(Some(found)),
+    }
+}

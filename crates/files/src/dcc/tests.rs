@@ -1,0 +1,144 @@
+//! Certificates of the versions in use, as inputs.
+
+use super::*;
+use crate::{Diagnostics, ModelFile, read as read_model};
+
+/// A model of an input `x` from `ref.xml`.
+fn model(xml: &str, input: &str, more: &str) -> Result<ModelFile, Diagnostics> {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("ref.xml"), xml).unwrap();
+    let text = format!(
+        r#"{{"inputs": {{"x": {{"distribution": "dcc", "file": "ref.xml", {input}}}}}{more},
+        "equations": {{"y": "x"}}, "outputs": {{"y": {{"unit": "mV"}}}}}}"#
+    );
+    std::fs::write(folder.path().join("m.json"), text).unwrap();
+    read_model(&folder.path().join("m.json"), &[])
+}
+
+fn certificate(version: &str, quantities: &str) -> String {
+    format!(
+        r#"<?xml version="1.0"?>
+<dcc:digitalCalibrationCertificate xmlns:dcc="https://ptb.de/dcc" xmlns:si="https://ptb.de/si"
+  schemaVersion="{version}"><dcc:measurementResults><dcc:measurementResult><dcc:results><dcc:result>
+<dcc:data><dcc:list>{quantities}</dcc:list></dcc:data></dcc:result></dcc:results>
+</dcc:measurementResult></dcc:measurementResults></dcc:digitalCalibrationCertificate>"#
+    )
+}
+
+const REAL: &str = r#"<dcc:quantity id="v"><si:real><si:value>5.0112</si:value>
+<si:unit>\volt</si:unit><si:expandedUnc><si:uncertainty>0.0046</si:uncertainty>
+<si:coverageFactor>2</si:coverageFactor><si:coverageProbability>0.95</si:coverageProbability>
+<si:distribution>normal</si:distribution></si:expandedUnc></si:real></dcc:quantity>"#;
+
+const NEWER: &str = r#"<dcc:quantity id="v"><si:real><si:value>5.0112</si:value>
+<si:unit>\volt</si:unit><si:measurementUncertaintyUnivariate><si:expandedMU>
+<si:valueExpandedMU>0.0046</si:valueExpandedMU><si:coverageFactor>2</si:coverageFactor>
+<si:coverageProbability>0.95</si:coverageProbability></si:expandedMU>
+</si:measurementUncertaintyUnivariate></si:real></dcc:quantity>"#;
+
+const TABLE: &str = r#"<dcc:quantity><dcc:name><dcc:content lang="en">f</dcc:content></dcc:name>
+<si:realListXMLList><si:valueXMLList>10 20 40</si:valueXMLList><si:unitXMLList>\hertz</si:unitXMLList>
+</si:realListXMLList></dcc:quantity>
+<dcc:quantity refType="basic_measuredValue"><si:realListXMLList>
+<si:valueXMLList>1 3 4</si:valueXMLList><si:unitXMLList>\milli\volt</si:unitXMLList>
+<si:expandedUncXMLList><si:uncertaintyXMLList>0.2 0.4 0.4</si:uncertaintyXMLList>
+<si:coverageFactorXMLList>2</si:coverageFactorXMLList>
+<si:coverageProbabilityXMLList>0.95</si:coverageProbabilityXMLList></si:expandedUncXMLList>
+</si:realListXMLList></dcc:quantity>"#;
+
+fn known(file: &ModelFile, row: usize) -> [f64; 3] {
+    let of = &file.task.rows[row].distributions[0];
+    [of.mean(), of.standard_uncertainty(), of.dof()]
+}
+
+fn near(found: [f64; 3], expected: [f64; 2]) {
+    for (a, b) in found.into_iter().zip(expected) {
+        assert!((a - b).abs() <= 1e-12 * b.abs(), "{found:?} {expected:?}");
+    }
+}
+
+#[test]
+fn values_of_all_versions() {
+    for version in ["2.4.0", "3.0.0", "3.1.2", "3.2.1", "3.3.0"] {
+        let file = model(&certificate(version, REAL), r#""id": "v""#, "").unwrap();
+        near(known(&file, 0), [5.0112, 0.0023]);
+        assert_eq!(file.files[0].0, "ref.xml");
+    }
+    let file = model(&certificate("3.3.0", NEWER), r#""id": "v", "unit": "mV""#, "").unwrap();
+    near(known(&file, 0), [5011.2, 2.3]);
+    // a t with 4 degrees of freedom has k = 2.87 at 95.45 % (JCGM 100, table G.2)
+    let student = REAL
+        .replace("normal<", "t<")
+        .replace("Factor>2<", "Factor>2.869<")
+        .replace("Probability>0.95<", "Probability>0.9545<");
+    let file = model(&certificate("3.2.1", &student), r#""id": "v""#, "").unwrap();
+    let [_, u, dof] = known(&file, 0);
+    assert!((dof - 4.0).abs() < 0.02 && (u - 0.0046 / 2.869).abs() < 1e-9, "{dof}");
+    let rectangular = REAL.replace("normal<", "uniform<");
+    let file = model(&certificate("3.2.1", &rectangular), r#""id": "v""#, "").unwrap();
+    assert_eq!(file.task.rows[0].distributions[0].name(), "rectangular");
+}
+
+#[test]
+fn lists_and_tables() {
+    let xml = certificate("3.2.1", TABLE);
+    let kind = r#""ref_type": "basic_measuredValue""#;
+    near(known(&model(&xml, &format!(r#"{kind}, "index": 1"#), "").unwrap(), 0), [3.0, 0.2]);
+    let conditions = r#", "conditions": {"f": {"unit": "Hz", "values": [10, 15, "0.03 kHz"]}}"#;
+    let file = model(&xml, &format!(r#"{kind}, "at": "f""#), conditions).unwrap();
+    near(known(&file, 0), [1.0, 0.1]);
+    near(known(&file, 1), [2.0, 0.15]);
+    near(known(&file, 2), [3.5, 0.2]);
+    let outside = conditions.replace("15", "50");
+    let error = model(&xml, &format!(r#"{kind}, "at": "f""#), &outside).unwrap_err().to_string();
+    assert!(error.contains("outside the certificate's range 10 to 40 Hz"), "{error}");
+    let error = model(&xml, kind, "").unwrap_err().to_string();
+    assert!(error.contains("has 3 values"), "{error}");
+    let error = model(&xml, &format!(r#"{kind}, "index": 3"#), "").unwrap_err().to_string();
+    assert!(error.contains("from 0 to 2"), "{error}");
+}
+
+/// One error each, at the element.
+#[test]
+fn damaged_certificates() {
+    let id = r#""id": "v""#;
+    let whole = certificate("3.2.1", REAL);
+    for (xml, part) in [
+        (whole.replace("</si:real>", ""), "ref.xml:"),
+        (whole.replace("5.0112", "five"), "`five` in `value` is not a finite number"),
+        (whole.replace("\\volt", "\\furlong"), "is no unit of D-SI"),
+        (whole.replace("\"3.2.1\"", "\"1.0\""), "schema version"),
+        (whole.replace("digitalCalibrationCertificate", "other"), "its root is `other`"),
+        (whole.replace("Factor>2<", "Factor>-2<"), "above 0"),
+        (whole.replace("0.95<", "95<"), "between 0 and 1"),
+        (whole.replace("id=\"v\"", "id=\"w\""), "no quantity has the id `v`"),
+        (String::new(), "no XML"),
+        ("{}".to_owned(), "no XML"),
+        ("<!DOCTYPE a [<!ENTITY b \"c\">]><a>&b;</a>".to_owned(), "DTD"),
+    ] {
+        let errors = model(&xml, id, "").unwrap_err();
+        assert_eq!(errors.0.len(), 1, "{errors}");
+        assert!(errors.to_string().contains(part), "{part}: {errors}");
+    }
+}
+
+/// Certificates of others, where `GUMPTION_CERTIFICATES` names a folder of them: most quantities are
+/// read.
+#[test]
+fn certificates_of_others() {
+    let Some(folder) = std::env::var_os("GUMPTION_CERTIFICATES") else { return };
+    let folder = std::fs::read_dir(folder).unwrap();
+    for file in folder.flatten().map(|entry| entry.path()) {
+        if file.extension().is_none_or(|extension| extension != "xml") {
+            continue;
+        }
+        let text = std::fs::read_to_string(&file).unwrap();
+        let document = document::parse(&text).unwrap();
+        let all = document::quantities(&document);
+        assert!(!all.is_empty(), "{}", file.display());
+        let read = all.iter().filter(|node| document::measured(**node).is_ok()).count();
+        // one of them is a template without numbers
+        let template = text.contains('§');
+        assert!(template || read > all.len() / 2, "{}: {read} of {}", file.display(), all.len());
+    }
+}

@@ -1,0 +1,594 @@
+//! Budgets that laboratories keep in spreadsheets, as model files.
+//!
+//! A budget is a table somewhere on a sheet: a header, one row for each quantity, perhaps a row of
+//! the result, perhaps the equation. What is found is said, and so is what had to be guessed.
+
+mod columns;
+mod grid;
+
+use std::path::Path;
+
+use super::DiagnosticKind;
+use super::diagnostics::{Collector, Diagnostics};
+use super::reader::read_text;
+use super::source::SourceText;
+use columns::{Column, Header};
+use gumption_engine::model::formula::{Formula, check_name};
+use gumption_units::Unit;
+use serde_json::{Map, Value, json};
+
+/// A model file that was made of a budget.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ImportedBudget {
+    /// The model file, as JSON text that ends in a newline.
+    pub text: String,
+    /// What was found, in sentences.
+    pub understood: Vec<String>,
+    /// What had to be guessed, in sentences.
+    pub guessed: Vec<String>,
+}
+
+/// Reads a budget from a CSV file or from the first sheet of an XLSX file.
+///
+/// # Errors
+/// A file that cannot be read, or in which no budget is found; rows with mistakes, all at once.
+pub fn import_budget(path: &Path) -> Result<ImportedBudget, Diagnostics> {
+    let name = path.display().to_string();
+    let source = |text: &str| SourceText::new(name.clone(), text);
+    let failed = |message: String| {
+        let log = Collector::new(source(""));
+        log.report(&(0..0), DiagnosticKind::Unreadable { message });
+        Err(log.into_diagnostics())
+    };
+    let (cells, text) = match grid::of_file(path) {
+        Ok(read) => read,
+        Err(message) => return failed(message),
+    };
+    let title = path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
+    let log = Collector::new(source(&text));
+    let mut budget = Budget { cells: &cells, log: &log, understood: vec![], guessed: vec![] };
+    let made = budget.model(&title.unwrap_or_default());
+    let (understood, guessed) = (budget.understood, budget.guessed);
+    log.finish(made.map(|text| ImportedBudget { text, understood, guessed }))
+}
+
+/// A row of the budget.
+#[derive(Clone, Debug, Default)]
+struct Row {
+    line: usize,
+    /// The name in formulas.
+    name: String,
+    /// The words of the sheet.
+    about: String,
+    estimate: Option<f64>,
+    unit: String,
+    width: Option<f64>,
+    std: Option<f64>,
+    distribution: Option<&'static str>,
+    divisor: Option<f64>,
+    sensitivity: Option<f64>,
+    dof: Option<f64>,
+}
+
+struct Budget<'a> {
+    cells: &'a grid::Cells,
+    log: &'a Collector,
+    understood: Vec<String>,
+    guessed: Vec<String>,
+}
+
+impl Budget<'_> {
+    fn fail(&self, line: usize, reason: String) {
+        let span = self.cells.line(line);
+        self.log.report(&span, DiagnosticKind::Table { reason });
+    }
+
+    /// The model file of the budget.
+    fn model(&mut self, title: &str) -> Option<String> {
+        let Some(header) = Header::find(self.cells) else {
+            self.fail(
+                0,
+                "no budget is found: a header row names the columns, such as quantity, estimate, \
+                 unit, +-, distribution, divisor, sensitivity, degrees of freedom (or Größe, \
+                 Schätzwert, Einheit, Unsicherheit, Verteilung, Teiler, Sensitivitätskoeffizient, \
+                 Freiheitsgrade)"
+                    .to_owned(),
+            );
+            return None;
+        };
+        let shown: Vec<String> = header
+            .columns
+            .iter()
+            .map(|(place, column)| {
+                format!("`{}` as {}", self.cells.text(header.line, *place), column.name())
+            })
+            .collect();
+        self.understood.push(format!("line {}: columns {}", header.line + 1, shown.join(", ")));
+        for place in &header.unknown {
+            let text = self.cells.text(header.line, *place);
+            self.guessed.push(format!("the column `{text}` is not taken"));
+        }
+        let equation = self.equation();
+        let (rows, result) = self.rows(&header);
+        if rows.is_empty() && self.log.is_clean() {
+            self.fail(header.line, "no row below this header is a quantity".to_owned());
+        }
+        if !self.log.is_clean() {
+            return None;
+        }
+        let measurand = match (&equation, &result) {
+            (Some((name, _)), _) => name.clone(),
+            (None, Some(result)) if !result.name.is_empty() => result.name.clone(),
+            _ => "y".to_owned(),
+        };
+        let taken = rows.iter().any(|row| row.name == measurand);
+        let measurand = if taken { format!("{measurand}_result") } else { measurand };
+        let unit = result.as_ref().map(|result| result.unit.clone()).unwrap_or_default();
+        match &equation {
+            Some((_, formula)) => {
+                self.understood.push(format!("the equation {measurand} = {formula}"));
+                let model = |checked| document(title, &rows, &measurand, &unit, formula, checked);
+                self.checked(model)
+            }
+            None => {
+                let formula = self.linear(&rows, result.as_ref(), &measurand);
+                Some(document(title, &rows, &measurand, &unit, &formula, false))
+            }
+        }
+    }
+
+    /// The model with a check of units where it passes, else without.
+    fn checked(&mut self, model: impl Fn(bool) -> String) -> Option<String> {
+        let with = model(true);
+        let Err(first) = read_text("the model", &with, Path::new(""), &[]) else {
+            return Some(with);
+        };
+        let without = model(false);
+        match read_text("the model", &without, Path::new(""), &[]) {
+            Ok(_) => {
+                let reason = first.0.first().map(|fault| fault.kind.to_string());
+                self.guessed.push(format!(
+                    "units are not checked, because the equation does not pass: {}",
+                    reason.unwrap_or_default()
+                ));
+                Some(without)
+            }
+            Err(faults) => {
+                let reasons: Vec<String> =
+                    faults.0.iter().take(5).map(|fault| fault.kind.to_string()).collect();
+                self.fail(
+                    0,
+                    format!("the model of this budget has mistakes: {}", reasons.join("; ")),
+                );
+                None
+            }
+        }
+    }
+
+    /// A line of the sheet such as `R = U/I`, or a cell behind `equation`.
+    fn equation(&self) -> Option<(String, String)> {
+        const LABELS: [&str; 8] = [
+            "equation",
+            "formula",
+            "model",
+            "model equation",
+            "gleichung",
+            "formel",
+            "modell",
+            "modellgleichung",
+        ];
+        for line in 0..self.cells.lines() {
+            let row = self.cells.row(line);
+            for (place, cell) in row.iter().enumerate() {
+                let label = columns::plain(cell);
+                let written = if LABELS.contains(&label.as_str()) {
+                    row.iter().skip(place + 1).find(|cell| !cell.trim().is_empty())
+                } else {
+                    Some(cell).filter(|cell| cell.contains('='))
+                };
+                let Some(written) = written else { continue };
+                let written = LABELS
+                    .iter()
+                    .find_map(|label| {
+                        let lower = written.to_lowercase();
+                        lower.strip_prefix(label)?.trim_start().strip_prefix(':')?;
+                        written.get(written.find(':')? + 1..)
+                    })
+                    .unwrap_or(written);
+                let Some((name, formula)) = written.split_once('=') else { continue };
+                let (name, formula) = (columns::identifier(name), formula.trim().replace(';', ","));
+                let uses = Formula::parse(&formula).ok();
+                let uses = uses.is_some_and(|formula| formula.names().next().is_some());
+                if check_name(&name).is_ok() && uses {
+                    return Some((name, formula));
+                }
+            }
+        }
+        None
+    }
+
+    /// The rows of the quantities, and that of the result.
+    fn rows(&mut self, header: &Header) -> (Vec<Row>, Option<Row>) {
+        let (mut rows, mut result): (Vec<Row>, Option<Row>) = (Vec::new(), None);
+        let mut empty = 0;
+        for line in header.line + 1..self.cells.lines() {
+            let label = header.cell(self.cells, line, Column::Quantity).trim().to_owned();
+            let is_blank = self.cells.row(line).iter().all(|cell| cell.trim().is_empty());
+            if is_blank {
+                // a budget may have one empty line, not two
+                empty += 1;
+                if empty > 1 && !rows.is_empty() {
+                    break;
+                }
+                continue;
+            }
+            empty = 0;
+            let mut row = Row { line, about: label.clone(), ..Row::default() };
+            let is_result = columns::is_result(&label);
+            let number = |column: Column| self.number(header, line, column, is_result);
+            row.estimate = number(Column::Estimate);
+            row.width = number(Column::Width);
+            row.std = number(Column::Std);
+            row.sensitivity = number(Column::Sensitivity);
+            row.divisor = self.divisor(header, line);
+            row.dof = number(Column::Dof).filter(|dof| dof.is_finite() && *dof < 1e6);
+            row.unit = self.unit(header, line, is_result);
+            let nothing = row.estimate.is_none() && row.width.is_none() && row.std.is_none();
+            if label.is_empty() && nothing {
+                continue;
+            }
+            if is_result || label.contains('=') {
+                let known = result.get_or_insert_with(|| row.clone());
+                known.estimate = known.estimate.or(row.estimate);
+                if known.unit.is_empty() {
+                    known.unit.clone_from(&row.unit);
+                }
+                continue;
+            }
+            if nothing {
+                self.guessed.push(format!("line {}: `{label}` has no numbers; left out", line + 1));
+                continue;
+            }
+            let symbol = header.cell(self.cells, line, Column::Symbol).trim().to_owned();
+            let words = if symbol.is_empty() { &label } else { &symbol };
+            row.name = self.name(words, &rows, line);
+            row.distribution = self.distribution(header, line);
+            // the measurand stands below the quantities without an uncertainty of its own
+            rows.push(row);
+        }
+        // the last row without an uncertainty is the result, where every other one has one
+        let bare = |row: &Row| row.width.is_none() && row.std.is_none();
+        if result.is_none()
+            && rows.len() > 1
+            && rows.last().is_some_and(bare)
+            && rows.iter().rev().skip(1).all(|row| !bare(row))
+        {
+            result = rows.pop();
+            if let Some(result) = &result {
+                self.guessed.push(format!(
+                    "line {}: `{}` has no uncertainty of its own and is taken for the result",
+                    result.line + 1,
+                    result.about
+                ));
+            }
+        }
+        if let Some(result) = &mut result
+            && columns::is_result(&result.about)
+        {
+            result.name = String::new();
+        }
+        (rows, result)
+    }
+
+    /// A name for formulas.
+    fn name(&mut self, words: &str, rows: &[Row], line: usize) -> String {
+        let mut name = columns::identifier(words);
+        if check_name(&name).is_err() {
+            name = format!("x_{}", rows.len() + 1);
+        }
+        let wanted = name.clone();
+        let mut number = 2;
+        while rows.iter().any(|row| row.name == name) {
+            name = format!("{wanted}_{number}");
+            number += 1;
+        }
+        if name != words {
+            self.guessed.push(format!("line {}: `{words}` is called `{name}`", line + 1));
+        }
+        name
+    }
+
+    fn number(&self, header: &Header, line: usize, column: Column, lenient: bool) -> Option<f64> {
+        let text = header.cell(self.cells, line, column).trim();
+        if text.is_empty() || matches!(text, "-" | "–" | "—") {
+            return None;
+        }
+        if column == Column::Dof
+            && ["inf", "infinity", "∞", "unendlich", "infinite"]
+                .contains(&text.to_lowercase().as_str())
+        {
+            return None;
+        }
+        let read = grid::number(text, self.cells.decimal_comma());
+        if read.is_none() && !lenient {
+            let reason = format!("`{text}` in the column of the {} is no number", column.name());
+            self.fail(line, reason);
+        }
+        read
+    }
+
+    /// A divisor: a number, or a root such as `√3` or `sqrt(3)`.
+    fn divisor(&self, header: &Header, line: usize) -> Option<f64> {
+        let text = header.cell(self.cells, line, Column::Divisor).trim().to_lowercase();
+        if text.is_empty() || matches!(text.as_str(), "-" | "–" | "—") {
+            return None;
+        }
+        let radicand = text
+            .strip_prefix('√')
+            .or_else(|| text.strip_prefix("sqrt"))
+            .or_else(|| text.strip_prefix("wurzel"))
+            .map(|rest| rest.trim().trim_start_matches('(').trim_end_matches(')').trim());
+        let comma = self.cells.decimal_comma();
+        let read = match radicand {
+            Some(radicand) => grid::number(radicand, comma).map(f64::sqrt),
+            None => grid::number(&text, comma),
+        };
+        match read {
+            Some(divisor) if divisor > 0.0 => Some(divisor),
+            _ => {
+                self.fail(line, format!("the divisor `{text}` is no number above 0"));
+                None
+            }
+        }
+    }
+
+    fn unit(&mut self, header: &Header, line: usize, lenient: bool) -> String {
+        let text = header.cell(self.cells, line, Column::Unit).trim();
+        if text.is_empty() || matches!(text, "-" | "–" | "1") {
+            return String::new();
+        }
+        match Unit::parse(text) {
+            Ok(_) => text.to_owned(),
+            Err(_) if lenient => String::new(),
+            Err(error) => {
+                self.guessed.push(format!(
+                    "line {}: `{text}` is taken for a plain number, because it is no unit known \
+                     here ({error})",
+                    line + 1
+                ));
+                String::new()
+            }
+        }
+    }
+
+    fn distribution(&mut self, header: &Header, line: usize) -> Option<&'static str> {
+        let text = header.cell(self.cells, line, Column::Distribution).trim();
+        let found = columns::distribution(text);
+        if found.is_none() && !text.is_empty() && !matches!(text, "-" | "–") {
+            self.guessed.push(format!(
+                "line {}: the distribution `{text}` is not known; the divisor decides",
+                line + 1
+            ));
+        }
+        found
+    }
+
+    /// The linear model of the sensitivity coefficients.
+    fn linear(&mut self, rows: &[Row], result: Option<&Row>, measurand: &str) -> String {
+        let with = rows.iter().filter(|row| row.sensitivity.is_some()).count();
+        if with == 0 {
+            self.guessed.push(format!(
+                "there is neither an equation nor a column of sensitivity coefficients: {measurand} \
+                 is taken for the sum of the quantities"
+            ));
+        } else {
+            let said = "the linear model of the sensitivity coefficients, which are in units of the \
+                        result per unit of the quantity";
+            self.understood.push(said.to_owned());
+            for row in rows.iter().filter(|row| row.sensitivity.is_none()) {
+                self.guessed.push(format!(
+                    "line {}: `{}` has no sensitivity coefficient; 1 is taken",
+                    row.line + 1,
+                    row.name
+                ));
+            }
+        }
+        let number = |x: f64| gumption_engine::number::Shortest(x).to_string();
+        let sum: f64 = rows
+            .iter()
+            .map(|row| row.sensitivity.unwrap_or(1.0) * row.estimate.unwrap_or(0.0))
+            .sum();
+        let estimate = result.and_then(|result| result.estimate);
+        let mut terms = Vec::new();
+        match estimate {
+            Some(estimate) if (estimate - sum).abs() > 1e-9 * estimate.abs().max(sum.abs()) => {
+                terms.push(number(estimate - sum));
+            }
+            Some(_) => {}
+            None if with > 0 => self.guessed.push(format!(
+                "the estimate of {measurand} is not given: that of the linear model is taken, {}",
+                number(sum)
+            )),
+            None => {}
+        }
+        for row in rows {
+            terms.push(match row.sensitivity.unwrap_or(1.0) {
+                1.0 => row.name.clone(),
+                factor => format!("({})*{}", number(factor), row.name),
+            });
+        }
+        terms.join(" + ")
+    }
+}
+
+/// What an input of the model file says of a row.
+fn input(row: &Row) -> Value {
+    let mut input = Map::new();
+    if !row.unit.is_empty() {
+        input.insert("unit".to_owned(), row.unit.as_str().into());
+    }
+    let mut put = |key: &str, value: Value| input.insert(key.to_owned(), value);
+    let mean = row.estimate.unwrap_or(0.0);
+    let near = |a: f64, b: f64| (a / b - 1.0).abs() < 0.01;
+    let uncertain = row.std.filter(|std| *std > 0.0).or(row.width.filter(|width| *width > 0.0));
+    if uncertain.is_none() {
+        put("distribution", "constant".into());
+        put("value", json!(mean));
+    } else if let (Some(width), divisor) = (row.width.filter(|width| *width > 0.0), row.divisor) {
+        // a divisor of root 3, 6 or 2 stands for a shape where none is named
+        let of_divisor = divisor.and_then(|divisor| {
+            [(3.0_f64, "rectangular"), (6.0, "triangular"), (2.0, "arcsine")]
+                .into_iter()
+                .find(|(square, _)| near(divisor, square.sqrt()))
+                .map(|(_, name)| name)
+        });
+        let named = row.distribution.or(of_divisor).unwrap_or("normal");
+        let usual = match named {
+            "rectangular" => 3.0_f64.sqrt(),
+            "triangular" => 6.0_f64.sqrt(),
+            "arcsine" => 2.0_f64.sqrt(),
+            _ => 1.0,
+        };
+        match named {
+            "rectangular" | "triangular" | "arcsine"
+                if divisor.is_none_or(|divisor| near(divisor, usual)) =>
+            {
+                put("distribution", named.into());
+                put("mean", json!(mean));
+                put("half_width", json!(width));
+            }
+            _ => {
+                put("distribution", "normal".into());
+                put("mean", json!(mean));
+                match divisor {
+                    Some(divisor) if divisor != 1.0 => {
+                        put("expanded", json!(width));
+                        put("k", json!(divisor));
+                    }
+                    _ => {
+                        put("std", json!(width));
+                    }
+                }
+            }
+        }
+    } else {
+        put("distribution", "normal".into());
+        put("mean", json!(mean));
+        put("std", json!(row.std));
+    }
+    let shaped = input.get("distribution").and_then(Value::as_str).map(str::to_owned);
+    if let Some(dof) = row.dof
+        && matches!(shaped.as_deref(), Some("normal" | "rectangular" | "triangular"))
+    {
+        input.insert("dof".to_owned(), json!(dof));
+    }
+    if !row.about.is_empty() && row.about != row.name {
+        input.insert("about".to_owned(), row.about.as_str().into());
+    }
+    Value::Object(input)
+}
+
+/// The model file as text, an input in each line.
+fn document(
+    title: &str,
+    rows: &[Row],
+    measurand: &str,
+    unit: &str,
+    formula: &str,
+    checked: bool,
+) -> String {
+    let mut text = String::from("{\n");
+    let mut line = |key: &str, value: &Value, last: bool| {
+        text.push_str(&format!("  {}: {value}{}\n", json!(key), if last { "" } else { "," }));
+    };
+    line("format", &json!(2), false);
+    line("title", &json!(title), false);
+    if !checked {
+        line("check_units", &json!(false), false);
+    }
+    text.push_str("  \"inputs\": {\n");
+    for (place, row) in rows.iter().enumerate() {
+        let comma = if place + 1 == rows.len() { "" } else { "," };
+        text.push_str(&format!("    {}: {}{comma}\n", json!(row.name), input(row)));
+    }
+    text.push_str("  },\n");
+    let output = if unit.is_empty() { json!({}) } else { json!({ "unit": unit }) };
+    let mut equations = Map::new();
+    equations.insert(measurand.to_owned(), formula.into());
+    let mut outputs = Map::new();
+    outputs.insert(measurand.to_owned(), output);
+    text.push_str(&format!("  \"equations\": {},\n", Value::Object(equations)));
+    text.push_str(&format!("  \"outputs\": {}\n}}\n", Value::Object(outputs)));
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn import(name: &str, content: &[u8]) -> Result<ImportedBudget, Diagnostics> {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join(name);
+        std::fs::write(&path, content).unwrap();
+        import_budget(&path)
+    }
+
+    fn task(budget: &ImportedBudget) -> gumption_engine::task::Task {
+        read_text("m", &budget.text, Path::new(""), &[])
+            .unwrap_or_else(|faults| panic!("{}\n{faults}", budget.text))
+            .task
+    }
+
+    /// EA-4/02, S2: calibration of a weight of 10 kg. Published: 10 000.025 g, u = 29.3 mg, of parts
+    /// that are rounded to a tenth of a milligram.
+    #[test]
+    fn a_budget_with_sensitivities() {
+        let text = "Calibration of a weight\n\nQuantity,Estimate,Unit,Standard uncertainty,\
+            Distribution,Sensitivity coefficient c_i\n\
+            m_S,10000.005,g,0.0225,normal,1\n\
+            Delta m_D,0,g,0.00866,rectangular,1\n\
+            dm,0.020,g,0.0144,normal,1\n\
+            dm_C,0,g,0.00577,rectangular,1\n\
+            dB,0,g,0.00577,rectangular,1\n\n\
+            m_X,10000.025,g,,,\n";
+        let budget = import("S2.csv", text.as_bytes()).unwrap();
+        let task = task(&budget);
+        let of = &task.rows[0].distributions;
+        let variance: f64 = of.iter().map(|d| d.standard_uncertainty().powi(2)).sum();
+        assert!((variance.sqrt() - 0.0293).abs() < 1e-4);
+        assert!(budget.guessed.iter().any(|said| said.contains("Delta_m_D")));
+    }
+
+    /// A German sheet with semicolons, decimal commas, a formula and divisors as roots.
+    #[test]
+    fn a_german_budget_with_an_equation() {
+        let text = "R = U/I;;;;;;\n\nGröße;Schätzwert;Einheit;Halbbreite;Verteilung;Teiler;\
+            Freiheitsgrade\nU;5,0112;V;0,0046;Normal;2;50\nI;0,01;A;0,00001;Rechteck;√3;∞\n";
+        let budget = import("r.csv", text.as_bytes()).unwrap();
+        let task = task(&budget);
+        assert_eq!(task.model.outputs[0].quantity.name, "R");
+        let of = &task.rows[0].distributions;
+        assert_eq!(
+            [of[0].mean(), of[0].standard_uncertainty(), of[0].dof()],
+            [5.0112, 0.0023, 50.0]
+        );
+        assert_eq!(of[1].name(), "rectangular");
+        assert!(budget.text.contains(r#""R":"U/I""#), "{}", budget.text);
+    }
+
+    #[test]
+    fn what_is_no_budget() {
+        for (content, part) in [
+            ("a,b\n1,2\n", "no budget is found"),
+            ("", "no budget is found"),
+            ("quantity,estimate,+-\n", "no row below"),
+            ("quantity,estimate,+-\nx,one,2\n", "no number"),
+            ("quantity,estimate,+-,divisor\nx,1,2,zero\n", "divisor"),
+        ] {
+            let error = import("x.csv", content.as_bytes()).unwrap_err().to_string();
+            assert!(error.contains(part), "{content}: {error}");
+        }
+        let error = import("x.xlsx", b"no workbook").unwrap_err().to_string();
+        assert!(error.contains("no workbook"), "{error}");
+    }
+}

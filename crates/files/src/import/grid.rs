@@ -1,0 +1,115 @@
+//! The cells of a sheet, whatever stands in them.
+
+use std::ops::Range;
+use std::path::Path;
+
+use crate::{bytes, workbook};
+
+/// Lines and cells, at most.
+const MOST_LINES: usize = 10_000;
+
+/// The cells of a sheet, line by line.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Cells {
+    rows: Vec<Vec<String>>,
+    /// Where each line stands in the text.
+    spans: Vec<Range<usize>>,
+    decimal_comma: bool,
+}
+
+impl Cells {
+    pub(super) fn lines(&self) -> usize {
+        self.rows.len()
+    }
+
+    /// The cells of a line.
+    pub(super) fn row(&self, line: usize) -> &[String] {
+        self.rows.get(line).map_or(&[], Vec::as_slice)
+    }
+
+    /// A cell; empty where there is none.
+    pub(super) fn text(&self, line: usize, place: usize) -> &str {
+        self.row(line).get(place).map_or("", String::as_str)
+    }
+
+    /// The place of a line in the text.
+    pub(super) fn line(&self, line: usize) -> Range<usize> {
+        self.spans.get(line).cloned().unwrap_or(0..0)
+    }
+
+    /// Whether numbers have a decimal comma.
+    pub(super) fn decimal_comma(&self) -> bool {
+        self.decimal_comma
+    }
+}
+
+/// The cells of a CSV file or of the first sheet of an XLSX file, and the text of messages.
+pub(super) fn of_file(path: &Path) -> Result<(Cells, String), String> {
+    let content = bytes::of_file(path, bytes::MOST)?;
+    let is_workbook =
+        path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("xlsx"));
+    if is_workbook {
+        let rows = workbook::rows(content)?;
+        return Ok(of_rows(rows));
+    }
+    let text = bytes::text(&content)?;
+    let count = |sign: char| text.matches(sign).count();
+    let separator = if count('\t') > count(';') && count('\t') > count(',') {
+        b'\t'
+    } else if count(';') > 0 {
+        b';'
+    } else {
+        b','
+    };
+    let mut rows = Vec::new();
+    let mut reader = csv::ReaderBuilder::new()
+        .delimiter(separator)
+        .has_headers(false)
+        .flexible(true)
+        .from_reader(text.as_bytes());
+    let mut last = 0;
+    for record in reader.records() {
+        let record = record.map_err(|error| format!("it is no CSV: {error}"))?;
+        // empty lines are no records, and count here
+        let line = record.position().map_or(last + 1, |place| place.line() as usize);
+        while last + 1 < line {
+            rows.push(Vec::new());
+            last += 1;
+        }
+        rows.push(record.iter().map(str::to_owned).collect());
+        last = line;
+        if rows.len() > MOST_LINES {
+            return Err(format!("it has more than {MOST_LINES} lines; a budget has fewer"));
+        }
+    }
+    let (mut cells, text) = of_rows(rows);
+    cells.decimal_comma = separator != b',';
+    Ok((cells, text))
+}
+
+fn of_rows(mut rows: Vec<Vec<String>>) -> (Cells, String) {
+    rows.truncate(MOST_LINES);
+    let (mut text, mut spans) = (String::new(), Vec::new());
+    for row in &rows {
+        let start = text.len();
+        let line: Vec<String> = row.iter().map(|cell| cell.replace(['\n', '\r'], " ")).collect();
+        text.push_str(line.join(" | ").trim_end_matches([' ', '|']));
+        spans.push(start..text.len());
+        text.push('\n');
+    }
+    (Cells { rows, spans, decimal_comma: true }, text)
+}
+
+/// A number as spreadsheets write them; `1,5` where commas are decimal ones.
+pub(super) fn number(text: &str, decimal_comma: bool) -> Option<f64> {
+    let text = text.trim().replace(['\u{a0}', '\u{202f}'], "").replace('−', "-");
+    if let Some(percent) = text.strip_suffix('%') {
+        return number(percent, decimal_comma).map(|share| share / 100.0);
+    }
+    let plain = text.parse::<f64>().ok();
+    let with_comma = || {
+        let one = decimal_comma && text.matches(',').count() == 1 && !text.contains('.');
+        one.then(|| text.replace(',', ".").parse::<f64>().ok()).flatten()
+    };
+    plain.or_else(with_comma).filter(|value| value.is_finite())
+}

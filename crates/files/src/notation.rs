@@ -1,0 +1,362 @@
+//! Quantities as people write them, a whole input in one text: `5.0112(23) V`,
+//! `5.0112 V ± 0.0046 V (k=2)`, `5 +0.2 -0.1 mm`.
+//!
+//! Such a text becomes the object that the file could have had in its place, before anything reads
+//! it; whatever is wrong with that object is reported at the text.
+
+use std::ops::Range;
+
+use super::DiagnosticKind;
+use super::diagnostics::Collector;
+use super::json::{Json, Member, Node};
+
+/// What a text says of a quantity: numbers as written, without the unit.
+#[derive(Clone, Debug, PartialEq)]
+enum Stated {
+    /// A value alone.
+    Exact(String),
+    /// A value and its standard uncertainty.
+    Standard(String, String),
+    /// A value and its expanded uncertainty, with `k` or `p` and its number.
+    Expanded { value: String, expanded: String, key: &'static str, factor: String },
+    /// A most probable value, and standard uncertainties below and above it.
+    Asymmetric { mode: String, low: String, high: String },
+}
+
+/// Puts objects in the place of inputs and components that are written as texts or numbers.
+pub(super) fn apply(log: &Collector, root: &mut Node) {
+    let Json::Object(members) = &mut root.value else { return };
+    let Some(inputs) = members.iter_mut().find(|member| member.key == "inputs") else { return };
+    let Json::Object(inputs) = &mut inputs.value.value else { return };
+    for input in inputs {
+        quantity(log, &input.key, &mut input.value);
+        let Json::Object(fields) = &mut input.value.value else { continue };
+        let parts = fields.iter_mut().find(|field| field.key == "components");
+        if let Some(Json::List(parts)) = parts.map(|parts| &mut parts.value.value) {
+            for part in parts {
+                if let Json::Object(_) = part.value {
+                    quantity(log, &input.key, part);
+                }
+            }
+        }
+    }
+}
+
+/// An input or a component that is a text or a number, or whose `value` is a text and which has no
+/// distribution.
+fn quantity(log: &Collector, name: &str, node: &mut Node) {
+    match &mut node.value {
+        Json::Number(number) => {
+            let number = number.clone();
+            node.value = Json::Object(members(&node.span, None, Stated::Exact(number)));
+        }
+        Json::Text(text) => {
+            let read = stated(text);
+            if let Some((unit, stated)) = reported(log, name, text, &node.span, read) {
+                node.value = Json::Object(members(&node.span, Some(unit), stated));
+            } else {
+                // one mistake is enough
+                node.value = Json::Object(members(&node.span, None, Stated::Exact("1".into())));
+            }
+        }
+        Json::Object(fields) => {
+            let has = |key: &str| fields.iter().any(|field| field.key == key);
+            if has("distribution") || has("components") {
+                return;
+            }
+            let Some(place) = fields.iter().position(|field| field.key == "value") else { return };
+            let span = fields[place].value.span.clone();
+            let found = match &fields[place].value.value {
+                Json::Number(number) => Some((String::new(), Stated::Exact(number.clone()))),
+                Json::Text(text) => reported(log, name, text, &span, stated(text)),
+                _ => return,
+            };
+            let (unit, stated) =
+                found.unwrap_or_else(|| (String::new(), Stated::Exact("1".to_owned())));
+            fields.remove(place);
+            let own = fields.iter().find(|field| field.key == "unit");
+            let own = own.and_then(|field| match &field.value.value {
+                Json::Text(text) => Some(text.trim().to_owned()),
+                _ => None,
+            });
+            let same = own.as_ref().is_none_or(|own| *own == unit);
+            // numbers in another unit keep it, and are converted where they are read
+            let behind = if same || unit.is_empty() { String::new() } else { format!(" {unit}") };
+            let unit = (own.is_none() && !unit.is_empty()).then_some(unit);
+            let mut made = members(&span, unit, stated);
+            if !behind.is_empty() {
+                for member in &mut made {
+                    if let Json::Number(number) = &member.value.value
+                        && !matches!(member.key.as_str(), "k" | "p")
+                    {
+                        member.value.value = Json::Text(format!("{number}{behind}"));
+                    }
+                }
+            }
+            fields.extend(made);
+        }
+        _ => {}
+    }
+}
+
+fn reported(
+    log: &Collector,
+    name: &str,
+    text: &str,
+    span: &Range<usize>,
+    read: Result<(String, Stated), String>,
+) -> Option<(String, Stated)> {
+    read.map_err(|reason| {
+        let (key, found) = (name.to_owned(), text.to_owned());
+        log.report(span, DiagnosticKind::Value { key, found, reason });
+    })
+    .ok()
+}
+
+/// The members of the object that a text stands for, all at its place.
+fn members(span: &Range<usize>, unit: Option<String>, stated: Stated) -> Vec<Member> {
+    let member = |key: &str, value: Json| Member {
+        key: key.to_owned(),
+        key_span: span.clone(),
+        value: Node { span: span.clone(), value },
+    };
+    let text = |key: &str, value: &str| member(key, Json::Text(value.to_owned()));
+    let number = |key: &str, value: String| member(key, Json::Number(value));
+    let mut made: Vec<Member> =
+        unit.filter(|unit| !unit.is_empty()).map(|unit| text("unit", &unit)).into_iter().collect();
+    made.extend(match stated {
+        Stated::Exact(value) => vec![text("distribution", "constant"), number("value", value)],
+        Stated::Standard(mean, std) => {
+            vec![text("distribution", "normal"), number("mean", mean), number("std", std)]
+        }
+        Stated::Expanded { value, expanded, key, factor } => vec![
+            text("distribution", "normal"),
+            number("mean", value),
+            number("expanded", expanded),
+            number(key, factor),
+        ],
+        Stated::Asymmetric { mode, low, high } => vec![
+            text("distribution", "split-normal"),
+            number("mode", mode),
+            number("std_low", low),
+            number("std_high", high),
+        ],
+    });
+    made
+}
+
+/// Reads a text: its unit (empty without one) and what it says.
+fn stated(text: &str) -> Result<(String, Stated), String> {
+    const FORMS: &str = "write it as `5.0112 V`, `5.0112(23) V`, `5.0112 V ± 0.0046 V (k=2)` or \
+                         `5 +0.2 -0.1 mm`";
+    let text = text.trim().replace('−', "-").replace("+/-", "±").replace("+-", "±");
+    // (5.0112 ± 0.0046) V (k=2)
+    let (inner, outer) = match text.strip_prefix('(').and_then(|rest| rest.split_once(')')) {
+        Some((inner, outer)) if inner.contains('±') => (inner.trim().to_owned(), Some(outer)),
+        _ => (text.clone(), None),
+    };
+    let (value, rest) = digits(&inner).ok_or_else(|| {
+        let first = "it does not begin with a number";
+        format!("{first}; {FORMS}")
+    })?;
+    if rest.starts_with(',') {
+        return Err("a decimal fraction is written with a point, such as `5.01`".to_owned());
+    }
+    if let Some(after) = rest.strip_prefix('(') {
+        let (inside, after) = after.split_once(')').ok_or("the parenthesis is not closed")?;
+        let (power, after) = exponent(after);
+        let shift: i32 = match power.get(1..).filter(|power| !power.is_empty()) {
+            Some(power) => power.parse().map_err(|_| FORMS.to_owned())?,
+            None => 0,
+        };
+        let std = in_parentheses(&value, inside.trim(), shift)?;
+        let value = format!("{value}{power}");
+        return Ok((unit(after)?, Stated::Standard(value, std)));
+    }
+    if let Some((before, after)) = rest.split_once('±') {
+        let (expanded, behind) =
+            digits(after.trim()).ok_or("a number is needed behind `±`".to_owned())?;
+        let behind = match outer {
+            Some(outer) if behind.trim().is_empty() => outer,
+            Some(_) => return Err(format!("the unit stands behind the parenthesis; {FORMS}")),
+            None => behind,
+        };
+        let (own, coverage) = match behind.find('(') {
+            Some(at) => (behind[..at].trim(), behind[at..].trim()),
+            None => (behind.trim(), ""),
+        };
+        let first = before.trim();
+        if !first.is_empty() && first != own {
+            return Err(format!("value and uncertainty have different units; {FORMS}"));
+        }
+        let (key, factor) = coverage_of(coverage)?;
+        return Ok((unit(own)?, Stated::Expanded { value, expanded, key, factor }));
+    }
+    if rest.starts_with('+') || (rest.starts_with('-') && rest.contains('+')) {
+        let (first, rest) = signed(rest).ok_or_else(|| FORMS.to_owned())?;
+        let (second, rest) = signed(rest.trim()).ok_or_else(|| FORMS.to_owned())?;
+        let (low, high) = match (first.strip_prefix('-'), second.strip_prefix('-')) {
+            (None, Some(low)) => (low.to_owned(), first),
+            (Some(low), None) => (low.to_owned(), second),
+            _ => return Err(format!("one of the two is above and one below; {FORMS}")),
+        };
+        return Ok((unit(rest)?, Stated::Asymmetric { mode: value, low, high }));
+    }
+    Ok((unit(rest)?, Stated::Exact(value)))
+}
+
+/// What stands behind `±`: `(k=2)`, `(p=95 %)`, `(p=0.95)`, `(95 %)`.
+fn coverage_of(text: &str) -> Result<(&'static str, String), String> {
+    let inside = text.strip_prefix('(').and_then(|rest| rest.strip_suffix(')'));
+    let missing = || {
+        "what is behind `±` must be said: `(k=2)`, `(p=95 %)`, or `(k=1)` for a standard uncertainty"
+            .to_owned()
+    };
+    let inside = inside.ok_or_else(missing)?.trim();
+    let (key, number) = match inside.split_once('=') {
+        Some((key, number)) if key.trim() == "k" => ("k", number.trim()),
+        Some((key, number)) if key.trim() == "p" => ("p", number.trim()),
+        Some(_) => return Err(missing()),
+        None => ("p", inside),
+    };
+    match number.strip_suffix('%') {
+        Some(percent) if key == "p" => {
+            let share: f64 = percent.trim().parse().map_err(|_| missing())?;
+            Ok((key, gumption_engine::decimal::exact(share / 100.0)))
+        }
+        _ => {
+            let _: f64 = number.parse().map_err(|_| missing())?;
+            Ok((key, number.to_owned()))
+        }
+    }
+}
+
+/// The uncertainty in parentheses: in the last digits of the value, or with a point of its own.
+fn in_parentheses(value: &str, inside: &str, shift: i32) -> Result<String, String> {
+    let is_number = inside.parse::<f64>().is_ok_and(|x| x > 0.0 && x.is_finite());
+    let plain = inside.chars().all(|c| c.is_ascii_digit() || c == '.');
+    if !is_number || !plain {
+        return Err(format!("`({inside})` is no uncertainty in the last digits, such as `(23)`"));
+    }
+    let power = match value.split_once(['e', 'E']) {
+        Some((_, power)) => power.parse().unwrap_or(0),
+        None => shift,
+    };
+    let mantissa = value.split(['e', 'E']).next().unwrap_or_default();
+    let decimals = mantissa.split_once('.').map_or(0, |(_, decimals)| decimals.len() as i32);
+    let (digits, _) = digits(inside).ok_or_else(|| format!("`({inside})` is no number"))?;
+    let power = if inside.contains('.') { power } else { power - decimals };
+    Ok(if power == 0 { digits } else { format!("{digits}e{power}") })
+}
+
+/// A number at the start, as JSON has it, and what follows it.
+fn digits(text: &str) -> Option<(String, &str)> {
+    let text = text.strip_prefix('+').unwrap_or(text);
+    let sign = usize::from(text.starts_with('-'));
+    let end_of = |from: usize| {
+        let rest = text.get(from..).unwrap_or_default();
+        from + rest.find(|c: char| !c.is_ascii_digit()).unwrap_or(rest.len())
+    };
+    let whole = end_of(sign);
+    let mut end = whole;
+    if text.get(whole..)?.starts_with('.') {
+        end = end_of(whole + 1);
+    }
+    let mantissa = text.get(sign..end)?;
+    if !mantissa.contains(|c: char| c.is_ascii_digit()) {
+        return None;
+    }
+    let (power, rest) = exponent(text.get(end..)?);
+    // JSON wants a digit on both sides of the point, and no zeros in front
+    let (before, after) = mantissa.split_once('.').unwrap_or((mantissa, ""));
+    let before = before.trim_start_matches('0');
+    let before = if before.is_empty() { "0" } else { before };
+    let after = if after.is_empty() { String::new() } else { format!(".{after}") };
+    let sign = if sign == 1 { "-" } else { "" };
+    Some((format!("{sign}{before}{after}{power}"), rest.trim_start()))
+}
+
+/// An exponent at the start, `e-3`; the empty text if there is none.
+fn exponent(text: &str) -> (&str, &str) {
+    let Some(rest) = text.strip_prefix(['e', 'E']) else { return ("", text) };
+    let signed = rest.strip_prefix(['+', '-']).unwrap_or(rest);
+    let end = signed.find(|c: char| !c.is_ascii_digit()).unwrap_or(signed.len());
+    if end == 0 {
+        return ("", text);
+    }
+    text.split_at(text.len() - signed.len() + end)
+}
+
+/// A number with its sign; a plus sign is left out.
+fn signed(text: &str) -> Option<(String, &str)> {
+    text.starts_with(['+', '-']).then(|| digits(text)).flatten()
+}
+
+/// The unit that is left; whether there is such a unit is seen where it is read.
+fn unit(text: &str) -> Result<String, String> {
+    let text = text.trim();
+    if text.contains(['±', '+', '=']) {
+        return Err(format!("`{text}` is no unit"));
+    }
+    Ok(text.to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(text: &str) -> (String, Stated) {
+        stated(text).unwrap_or_else(|error| panic!("{text}: {error}"))
+    }
+
+    #[test]
+    fn what_people_write() {
+        let standard = |v: &str, u: &str| Stated::Standard(v.into(), u.into());
+        let expanded = |value: &str, expanded: &str, key, factor: &str| Stated::Expanded {
+            value: value.into(),
+            expanded: expanded.into(),
+            key,
+            factor: factor.into(),
+        };
+        let table = [
+            ("5.0112 V", "V", Stated::Exact("5.0112".into())),
+            ("3", "", Stated::Exact("3".into())),
+            ("-5e-3 m/s^2", "m/s^2", Stated::Exact("-5e-3".into())),
+            ("5.0112(23) V", "V", standard("5.0112", "23e-4")),
+            ("100(2) ohm", "ohm", standard("100", "2")),
+            ("1.2345(6)e-3 kg", "kg", standard("1.2345e-3", "6e-7")),
+            ("5.0112(0.0023) V", "V", standard("5.0112", "0.0023")),
+            ("5.0112 V ± 0.0046 V (k=2)", "V", expanded("5.0112", "0.0046", "k", "2")),
+            ("5.0112 +- 0.0046 V (k = 2)", "V", expanded("5.0112", "0.0046", "k", "2")),
+            ("(5.0112 +/- 0.0046) V (p = 95 %)", "V", expanded("5.0112", "0.0046", "p", "0.95")),
+            ("20.0 degC ± 0.2 degC (95 %)", "degC", expanded("20.0", "0.2", "p", "0.95")),
+        ];
+        for (text, unit, expected) in table {
+            assert_eq!(read(text), (unit.to_owned(), expected), "{text}");
+        }
+        let of = |mode: &str, low: &str, high: &str| Stated::Asymmetric {
+            mode: mode.into(),
+            low: low.into(),
+            high: high.into(),
+        };
+        assert_eq!(read("5 +0.2 -0.1 mm"), ("mm".to_owned(), of("5", "0.1", "0.2")));
+        assert_eq!(read("5 -0.1 +0.2"), (String::new(), of("5", "0.1", "0.2")));
+    }
+
+    #[test]
+    fn what_is_not_clear_is_asked() {
+        for (text, part) in [
+            ("5.0112 V ± 0.0046 V", "must be said"),
+            ("5.0112 V ± 0.0046 mV (k=2)", "different units"),
+            ("5,0112 V", "point"),
+            ("about 5 V", "begin with a number"),
+            ("5.01(2", "not closed"),
+            ("5.01(x) V", "last digits"),
+            ("5 +0.2 +0.1", "one below"),
+            ("5.0112 V ± 0.0046 V (n=2)", "must be said"),
+        ] {
+            let error = stated(text).unwrap_err();
+            assert!(error.contains(part), "{text}: {error}");
+        }
+    }
+}

@@ -1,0 +1,389 @@
+//! Readings as laboratories have them: in the model file, in columns of the conditions' table, in a
+//! file, in groups; and whether they look independent.
+
+use super::DiagnosticKind;
+use super::folder::Folder;
+use super::json::{Json, Node};
+use super::object::Object;
+use super::table::{self, Table};
+use super::value_text::with_unit;
+use super::{keys, samples};
+use gumption_engine::decimal;
+use gumption_engine::special;
+use gumption_units::nearest;
+
+/// Readings of a file, with what is to be said of them.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct FileReadings {
+    /// The readings, or the means of the groups.
+    pub(super) values: Vec<f64>,
+    pub(super) note: Option<String>,
+}
+
+/// Whether the readings are named by columns of the conditions, so that every row has its own.
+pub(super) fn are_of_rows(object: &Object<'_>) -> bool {
+    let Some(Json::List(list)) = object.get("values").map(|member| &member.value.value) else {
+        return false;
+    };
+    list.iter().any(is_formula)
+}
+
+/// Whether a reading is a text that is no value with a unit.
+pub(super) fn is_formula(node: &Node) -> bool {
+    matches!(&node.value, Json::Text(text) if with_unit(text).is_none())
+}
+
+/// Reads the readings of the object's `file`, if it names one, and adds its content to `files`.
+/// Outside `None` without a file, inside after a mistake.
+#[allow(clippy::option_option)]
+pub(super) fn of_file(
+    object: &Object<'_>,
+    name: &str,
+    folder: Folder<'_>,
+    files: &mut Vec<(String, Vec<u8>)>,
+) -> Option<Option<FileReadings>> {
+    let file = object.get("file")?;
+    if object.get("column").is_none() && object.get("groups").is_none() {
+        let numbers = samples::numbers(object, name, folder, files);
+        return Some(numbers.map(|(values, _)| FileReadings { values, note: None }));
+    }
+    if let Some(second) = object.get("values") {
+        let diagnostic = DiagnosticKind::Exclusive { first: "file", second: "values" };
+        object.log.report(&second.key_span, diagnostic);
+        return Some(None);
+    }
+    let mut read = || {
+        object.required("column")?;
+        let path = object.text("file")?;
+        let (table, bytes) = table::read(object.log, folder, path, &file.value.span)?;
+        if !files.iter().any(|(known, _)| known == path) {
+            files.push((path.to_owned(), bytes));
+        }
+        let values = column(object, "column", &table)?;
+        if object.get("groups").is_none() {
+            return Some(FileReadings { values, note: None });
+        }
+        let groups = column(object, "groups", &table)?;
+        grouped(object, name, &values, &groups)
+    };
+    Some(read())
+}
+
+/// The numbers of the column that `key` names.
+fn column(object: &Object<'_>, key: &'static str, table: &Table) -> Option<Vec<f64>> {
+    let name = object.text(key)?;
+    let Some(place) = table.columns.iter().position(|column| column == name) else {
+        let near = nearest(name, table.columns.iter().map(String::as_str));
+        let reason = format!(
+            "`{}` has no column `{name}`{}",
+            table.source.name,
+            match near {
+                Some(near) => format!("; did you mean `{near}`?"),
+                None => format!("; its columns are {}", table.columns.join(", ")),
+            }
+        );
+        let span = object.get(key).map_or(object.place(), |member| &member.value.span);
+        object.log.report(span, DiagnosticKind::Table { reason });
+        return None;
+    };
+    Some(table.rows.iter().filter_map(|row| row.get(place)).copied().collect())
+}
+
+/// The mean of each group, with the analysis of variance (JCGM 100, H.5).
+fn grouped(
+    object: &Object<'_>,
+    name: &str,
+    values: &[f64],
+    labels: &[f64],
+) -> Option<FileReadings> {
+    let mut groups: Vec<(f64, Vec<f64>)> = Vec::new();
+    for (&value, &label) in values.iter().zip(labels) {
+        match groups.iter_mut().find(|(known, _)| *known == label) {
+            Some((_, members)) => members.push(value),
+            None => groups.push((label, vec![value])),
+        }
+    }
+    let count = groups.len();
+    if count < 2 {
+        let reason = format!("`{name}` has {count} group of readings; a nested design needs two");
+        let span = object.get("groups").map_or(object.place(), |member| &member.value.span);
+        object.log.report(span, DiagnosticKind::Table { reason });
+        return None;
+    }
+    let mean = |of: &[f64]| of.iter().sum::<f64>() / of.len() as f64;
+    let squares = |of: &[f64], about: f64| of.iter().map(|x| (x - about).powi(2)).sum::<f64>();
+    let means: Vec<f64> = groups.iter().map(|(_, members)| mean(members)).collect();
+    let within: f64 = groups.iter().zip(&means).map(|((_, of), mean)| squares(of, *mean)).sum();
+    let within_dof = (values.len() - count) as f64;
+    let whole = mean(&means);
+    let of_means = squares(&means, whole) / (count as f64 - 1.0);
+    let shown = |x: f64| decimal::significant(x, 3);
+    let sizes: Vec<usize> = groups.iter().map(|(_, members)| members.len()).collect();
+    let size = sizes.first().copied().unwrap_or(0);
+    let balanced = sizes.iter().all(|of| *of == size);
+    let repeatability = (within / within_dof).sqrt();
+    let mut note = format!(
+        "`{name}` is the mean of {count} groups of readings; its standard uncertainty is that of the \
+         means of the groups, with {} degrees of freedom (JCGM 100, H.5)",
+        count - 1
+    );
+    if within_dof > 0.0 && repeatability > 0.0 {
+        note.push_str(&format!("; standard deviation within groups {}", shown(repeatability)));
+        if balanced {
+            let ratio = size as f64 * of_means / (repeatability * repeatability);
+            let between = (of_means - repeatability * repeatability / size as f64).max(0.0).sqrt();
+            let p = f_upper(ratio, count as f64 - 1.0, within_dof);
+            note.push_str(&format!(
+                ", between groups {}, F = {} (probability of a larger one without an effect of the \
+                 groups {})",
+                shown(between),
+                shown(ratio),
+                decimal::significant(p, 2)
+            ));
+        } else {
+            note.push_str("; the groups are not equally large, and their means count alike");
+        }
+    }
+    Some(FileReadings { values: means, note: Some(note) })
+}
+
+/// The probability of a larger F with these degrees of freedom.
+fn f_upper(f: f64, first: f64, second: f64) -> f64 {
+    special::beta::cdf(second / (second + first * f), 0.5 * second, 0.5 * first)
+}
+
+/// Readings from which on a drift or an autocorrelation is looked for.
+const LEAST_FOR_DRIFT: usize = 6;
+const LEAST_FOR_AUTOCORRELATION: usize = 10;
+
+/// What speaks against independent readings in the order in which they were taken: a drift (the t
+/// test of the slope of a straight line, two-sided), or a positive autocorrelation (von Neumann's
+/// ratio, by its normal approximation). Each finds something in one of 100 sets of independent normal
+/// readings.
+pub(super) fn dependence(name: &str, values: &[f64]) -> Option<String> {
+    let n = values.len() as f64;
+    if values.len() < LEAST_FOR_DRIFT {
+        return None;
+    }
+    let mean = values.iter().sum::<f64>() / n;
+    let middle = 0.5 * (n - 1.0);
+    let times = || (0..values.len()).map(|i| i as f64 - middle);
+    let squares: f64 = values.iter().map(|x| (x - mean).powi(2)).sum();
+    if squares <= 0.0 {
+        return None;
+    }
+    let of_times: f64 = times().map(|t| t * t).sum();
+    let slope = times().zip(values).map(|(t, x)| t * (x - mean)).sum::<f64>() / of_times;
+    let left = (squares - slope * slope * of_times).max(0.0);
+    let critical = special::student::two_sided_factor(0.99, n - 2.0);
+    if slope * slope * of_times * (n - 2.0) > critical * critical * left {
+        return Some(format!(
+            "`{name}`: the {} readings drift: a straight line through them changes by {} from the \
+             first to the last; one as steep comes from independent readings in at most 1 case of \
+             100. s/sqrt(n) holds for independent readings only (JCGM 100, 4.2.7): correct the drift, \
+             or state what it leaves",
+            values.len(),
+            decimal::significant(slope * (n - 1.0), 3)
+        ));
+    }
+    if values.len() < LEAST_FOR_AUTOCORRELATION {
+        return None;
+    }
+    let steps: f64 = values.windows(2).map(|pair| (pair[1] - pair[0]).powi(2)).sum();
+    let score = (steps / squares - 2.0) / (4.0 * (n - 2.0) / (n * n - 1.0)).sqrt();
+    let critical = special::normal::quantile(0.01);
+    (score < critical).then(|| {
+        format!(
+            "`{name}`: the {} readings are not independent: each is near the one before it (von \
+             Neumann's ratio {}, 2 for independent readings; one as small comes from those in at most \
+             1 case of 100). s/sqrt(n) is too small then (JCGM 100, 4.2.7): take readings further \
+             apart, or means of groups",
+            values.len(),
+            decimal::significant(steps / squares, 3)
+        )
+    })
+}
+
+/// The standard deviation and its degrees of freedom that stand in place of the scatter.
+pub(super) fn pooled(object: &Object<'_>) -> Option<Option<(f64, f64)>> {
+    let Some(member) = object.get("pooled") else { return Some(None) };
+    let pooled = Object::new(object.log, "`pooled`", &member.value, &member.key_span)?;
+    pooled.check_keys(keys::POOLED);
+    pooled.required("std")?;
+    pooled.required("dof")?;
+    let positive = |key: &'static str| {
+        let found = pooled.number(key)?;
+        if found > 0.0 {
+            return Some(found);
+        }
+        let span = pooled.get(key).map_or(pooled.place(), |member| &member.value.span);
+        let key = key.to_owned();
+        pooled.log.report(span, DiagnosticKind::NotPositive { key, found });
+        None
+    };
+    let (std, dof) = (positive("std"), positive("dof"));
+    Some(Some((std?, dof?)))
+}
+
+#[cfg(test)]
+mod tests {
+    use gumption_engine::number::elementary;
+
+    use super::*;
+    use crate::{Diagnostics, ModelFile, read as read_model};
+
+    /// A model of an input `x`, in a folder with these files.
+    fn model(input: &str, more: &str, files: &[(&str, &str)]) -> Result<ModelFile, Diagnostics> {
+        let folder = tempfile::tempdir().unwrap();
+        for (name, content) in files {
+            std::fs::write(folder.path().join(name), content).unwrap();
+        }
+        let text = format!(
+            r#"{{"inputs": {{"x": {input}}}{more}, "equations": {{"y": "x"}},
+            "outputs": {{"y": {{"unit": "V"}}}}}}"#
+        );
+        std::fs::write(folder.path().join("m.json"), text).unwrap();
+        read_model(&folder.path().join("m.json"), &[])
+    }
+
+    /// Estimate, standard uncertainty and degrees of freedom of the input in a row.
+    fn known(file: &ModelFile, row: usize) -> [f64; 3] {
+        let of = &file.task.rows[row].distributions[0];
+        [of.mean(), of.standard_uncertainty(), of.dof()]
+    }
+
+    /// JCGM 100, H.5 (table H.9): ten days with five readings each, rebuilt to the published mean and
+    /// standard deviation of each day by the pattern -2, -1, 0, 1, 2 over sqrt(2.5). Published:
+    /// 10.000 097 V, 18 uV with 9 degrees of freedom, s_a 128 uV over s_b 85 uV, F = 2.25.
+    #[test]
+    fn nested_readings_of_the_guide() {
+        const MEANS: [f64; 10] = [172., 116., 13., 144., 106., 31., 60., 125., 163., 41.];
+        const DEVIATIONS: [f64; 10] = [60., 77., 111., 101., 67., 93., 80., 73., 88., 86.];
+        let mut table = "day,v\n".to_owned();
+        for (day, (mean, deviation)) in MEANS.iter().zip(DEVIATIONS).enumerate() {
+            for step in -2..=2 {
+                let offset = mean + deviation * f64::from(step) / 2.5_f64.sqrt();
+                table.push_str(&format!("{},{:.12}\n", day + 1, 10.0 + 1e-6 * offset));
+            }
+        }
+        let input = r#"{"unit": "V", "distribution": "readings", "file": "h5.csv", "column": "v",
+            "groups": "day"}"#;
+        let file = model(input, "", &[("h5.csv", &table)]).unwrap();
+        let [mean, u, dof] = known(&file, 0);
+        assert!((mean - 10.000_097).abs() < 0.5e-6, "{mean}");
+        assert!((u - 18e-6).abs() < 0.5e-6 && dof == 9.0, "{u} {dof}");
+        let note = file.warnings[0].text.as_str();
+        // published: 85 uV within days, 43 uV between them, F = 2.25 by rounded numbers
+        assert!(note.contains("within groups 0.0000849, between groups 0.0000426"), "{note}");
+        assert!(note.contains("F = 2.26"), "{note}");
+    }
+
+    /// Columns of the conditions' table, and degrees of freedom by a formula.
+    #[test]
+    fn readings_in_columns_of_the_conditions() {
+        let table = "f,r1,r2,r3,n\n10,1,2,3,3\n20,4,4,7,5\n";
+        let conditions = r#", "conditions": {"file": "c.csv", "units": {"f": "Hz", "r1": "mV",
+            "r2": "mV", "r3": "mV"}}"#;
+        let input = r#"{"unit": "V", "distribution": "readings", "values": ["r1", "r2", "r3"]}"#;
+        let file = model(input, conditions, &[("c.csv", table)]).unwrap();
+        let close = |a: f64, b: f64| (a - b).abs() < 1e-15;
+        let [first, second] = [known(&file, 0), known(&file, 1)];
+        assert!(close(first[0], 2e-3) && close(first[1], 1e-3 / 3.0_f64.sqrt()));
+        assert!(close(second[0], 5e-3) && close(second[1], 1e-3) && second[2] == 2.0);
+        let input = r#"{"unit": "V", "distribution": "normal", "mean": 1, "std": 1, "dof": "n-1"}"#;
+        let file = model(input, conditions, &[("c.csv", table)]).unwrap();
+        assert_eq!([known(&file, 0)[2], known(&file, 1)[2]], [2.0, 4.0]);
+        let wrong = r#"{"unit": "V", "distribution": "readings", "values": ["r1", "r9"]}"#;
+        let error = model(wrong, conditions, &[("c.csv", table)]).unwrap_err().to_string();
+        assert!(error.contains("`r9` is not defined"), "{error}");
+    }
+
+    /// Three equal readings of a digital instrument: half a step over sqrt(3) (JCGM 100, F.2.2.1).
+    #[test]
+    fn resolution_and_pooled_scatter() {
+        let of = |fields: &str| {
+            let input = format!(r#"{{"unit": "V", "distribution": "readings", {fields}}}"#);
+            known(&model(&input, "", &[]).unwrap(), 0)
+        };
+        let equal = of(r#""values": [1, 1, 1], "resolution": 0.1"#);
+        assert_eq!(equal[0], 1.0);
+        assert!((equal[1] - 0.05 / 3.0_f64.sqrt()).abs() < 1e-16 && equal[2].is_infinite());
+        let scattered = of(r#""values": [1, 2, 3], "resolution": "100 mV""#);
+        assert!((scattered[1] - 1.0 / 3.0_f64.sqrt()).abs() < 1e-15 && scattered[2] == 2.0);
+        // EA-4/02 S2: a pooled standard deviation of 25 mg of earlier readings, three readings
+        let pooled = of(r#""values": [1, 2, 3], "pooled": {"std": 0.025, "dof": 30}"#);
+        assert!((pooled[1] - 0.025 / 3.0_f64.sqrt()).abs() < 1e-16 && pooled[2] == 30.0);
+        // JCGM 101, 6.4.9.4: sqrt((n - 1)/(n - 3)) s/sqrt(n)
+        let bayesian = of(r#""values": [1, 2, 3, 4, 5], "evaluation": "bayesian""#);
+        let expected = (2.5_f64 / 5.0).sqrt() * 2.0_f64.sqrt();
+        assert!((bayesian[1] - expected).abs() < 1e-14 && bayesian[2].is_infinite());
+        let components = r#"{"unit": "V", "components": [
+            {"name": "rep", "distribution": "readings", "values": [1, 1, 1]},
+            {"name": "res", "distribution": "rectangular", "half_width": 0.05}]}"#;
+        let file = model(components, "", &[]).unwrap();
+        assert!(file.warnings[0].text.contains("no scatter"));
+        let alone = r#"{"unit": "V", "distribution": "readings", "values": [1, 1, 1]}"#;
+        assert!(model(alone, "", &[]).unwrap_err().to_string().contains("no scatter"));
+    }
+
+    /// Inputs in one text, asymmetric ones, and limits.
+    #[test]
+    fn values_as_people_write_them() {
+        let of = |input: &str| known(&model(input, "", &[]).unwrap(), 0);
+        assert_eq!(of("\"5.0112(23) V\""), [5.0112, 0.0023, f64::INFINITY]);
+        assert_eq!(of("\"5.0112 V ± 0.0046 V (k=2)\"")[1], 0.0023);
+        let asymmetric = of("\"5 +0.2 -0.1 V\"");
+        assert!((asymmetric[0] - 5.079_788_456_080_286_5).abs() < 1e-14);
+        let milli = of(r#"{"unit": "V", "value": "5011.2(23) mV", "about": "reference"}"#);
+        assert!((milli[0] - 5.0112).abs() < 1e-15 && (milli[1] - 0.0023).abs() < 1e-15);
+        // half a normal: sqrt(2/pi)
+        let half = of(
+            r#"{"unit": "V", "distribution": "normal", "mean": 0, "std": 1, "limits": [0, null]}"#,
+        );
+        assert!((half[0] - (2.0 / std::f64::consts::PI).sqrt()).abs() < 1e-10);
+        let quantiles =
+            of(r#"{"unit": "V", "distribution": "quantiles", "probabilities": [0.025, 0.5, 0.975],
+            "values": ["8.040036015459947 V", 10, 11.959963984540053]}"#);
+        assert!((quantiles[0] - 10.0).abs() < 1e-9 && (quantiles[1] - 1.0).abs() < 1e-9);
+        let error = model("\"5.0112 V ± 0.0046 V\"", "", &[]).unwrap_err().to_string();
+        assert!(error.contains("must be said"), "{error}");
+    }
+
+    /// Twelve readings in a straight line, and a random walk.
+    #[test]
+    fn drifting_readings_are_noticed() {
+        let drift: Vec<f64> = (1..=12).map(|i| 1.0 + f64::from(i) / 1000.0).collect();
+        let note = dependence("x", &drift).unwrap();
+        assert!(note.contains("drift") && note.contains("0.0110"), "{note}");
+        let wave: Vec<f64> = (0..24).map(|i| elementary::sin(f64::from(i) * 0.5)).collect();
+        assert!(dependence("x", &wave).unwrap().contains("von Neumann"));
+        let alternating: Vec<f64> = (0..12).map(|i| f64::from(i % 2)).collect();
+        assert_eq!(dependence("x", &alternating), None);
+        assert_eq!(dependence("x", &drift[..5]), None);
+    }
+
+    /// 4000 sets of 12 independent normal readings: each test finds 1 % of them (the approximation of
+    /// von Neumann's ratio some 0.8 %), both together below 2 %. Five standard errors of 2 % are
+    /// 1.1 %, so that the test fails in fewer than one of a million other seeds.
+    #[test]
+    fn independent_readings_are_seldom_suspected() {
+        use gumption_engine::distribution::StreamKey;
+        let mut suspected = 0;
+        for set in 0..4000 {
+            let mut uniforms = [0.0; 16];
+            StreamKey::new(11, "readings").block(set).uniform(&mut uniforms);
+            let readings: Vec<f64> =
+                uniforms[..12].iter().map(|u| special::normal::quantile(*u)).collect();
+            suspected += usize::from(dependence("x", &readings).is_some());
+        }
+        assert!((20..=124).contains(&suspected), "{suspected}");
+    }
+
+    /// F of 2.25 with 9 and 40 degrees of freedom: scipy.stats.f.sf gives 0.0383189 (JCGM 100, H.5.2.4
+    /// has F = 2.25 between the points 2.12 of 5 % and 2.45 of 2.5 %).
+    #[test]
+    fn tails_of_f() {
+        let p = f_upper(2.25, 9.0, 40.0);
+        assert!((p - 0.038_318_870_739).abs() < 1e-11, "{p}");
+    }
+}

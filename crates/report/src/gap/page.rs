@@ -1,0 +1,143 @@
+//! The page of a diagnosis as a document, which HTML and Markdown draw.
+
+use super::{composed, departure, digits, html, sheets, strength, words};
+use crate::Provenance;
+use crate::document::{Block, Document};
+use crate::plain;
+use crate::sheet::Sheet;
+use gumption_gap::Diagnosis;
+
+/// All that the page says, with figures.
+pub(super) fn document(diagnosis: &Diagnosis, provenance: &Provenance) -> Document {
+    let mut page = Document {
+        title: words::title(diagnosis),
+        subtitle: vec![words::settings(diagnosis)],
+        ..Document::default()
+    };
+    let mut verdict = vec![words::verdict(diagnosis)];
+    verdict.extend(words::interrupted(diagnosis));
+    verdict.extend(words::conflicts(diagnosis));
+    verdict.extend(words::noise_verdict(diagnosis));
+    verdict.extend(words::present(diagnosis));
+    verdict.extend(words::look_alikes(diagnosis));
+    page.blocks.push(Block::Verdict(verdict));
+    page.section("What was measured, and what the sim says");
+    for output in 0..diagnosis.outputs.len() {
+        page.figure(html::overlay(diagnosis, output));
+    }
+    effect(&mut page, diagnosis);
+    page.section("Is there a gap?");
+    page.text(words::gap(diagnosis));
+    page.section("Where?");
+    match sheets::regions(diagnosis) {
+        Some(sheet) => {
+            page.table(sheet);
+            page.text(words::REGIONS);
+            strength::sentences(diagnosis).into_iter().for_each(|said| page.text(said));
+        }
+        None => page.text(words::NO_REGION),
+    }
+    page.figure(html::where_map(diagnosis));
+    if let Some(sheet) = sheets::present(diagnosis) {
+        page.section("Which effects are there?");
+        page.table(sheet);
+    }
+    if let Some(sheet) = sheets::replication(diagnosis) {
+        page.section("Is it the same for all?");
+        page.text(words::REPLICATION);
+        page.table(sheet);
+    }
+    page.section("Which together?");
+    page.table(sheets::hypotheses(diagnosis));
+    page.text(words::ODDS);
+    if let Some(said) = sheets::left_out(diagnosis) {
+        page.text(said);
+    }
+    page.figure(Some(html::bars(diagnosis)));
+    page.figure(html::intervals(diagnosis));
+    let departure = departure::sentences(diagnosis);
+    if !departure.is_empty() {
+        page.section("What the departure looks like");
+        page.blocks.push(Block::List(departure));
+    }
+    let composed = composed::sentences(diagnosis);
+    if !composed.is_empty() {
+        page.section("What would explain it: composed, not from your list");
+        page.blocks.push(Block::List(composed));
+        page.text(composed::HOW_TO_USE);
+        composed::unlisted(diagnosis).into_iter().for_each(|said| page.text(said));
+    }
+    page.section("How far does it shrink?");
+    page.table(sheets::shrinkage(diagnosis));
+    words::shrinkage(diagnosis).into_iter().for_each(|said| page.text(said));
+    words::noise(diagnosis).into_iter().for_each(|said| page.text(said));
+    page.figure(html::shrinkage(diagnosis));
+    for output in 0..diagnosis.outputs.len() {
+        page.figure(html::residuals(diagnosis, output));
+    }
+    page.section("What to measure next");
+    words::next(diagnosis).into_iter().for_each(|said| page.text(said));
+    if let Some(sheet) = sheets::next(diagnosis) {
+        page.table(sheet);
+    }
+    predictions(&mut page, diagnosis);
+    let notes = words::notes(diagnosis);
+    if !notes.is_empty() {
+        page.section("Notes");
+        page.blocks.push(Block::List(notes));
+    }
+    page.section("To repeat this");
+    page.table(repeat(diagnosis, provenance));
+    page.text("The same program, files and seed give the same figures on any number of threads.");
+    page
+}
+
+/// What the effects of the verdict are, and what else was looked for.
+fn effect(page: &mut Document, diagnosis: &Diagnosis) {
+    let described = words::effects(diagnosis);
+    if !described.is_empty() {
+        page.section("What the effect is");
+    }
+    for words::DescribedInWords { sentences, equations } in described {
+        sentences.into_iter().for_each(|said| page.text(said));
+        if !equations.is_empty() {
+            let about = words::EQUATIONS.to_owned();
+            page.blocks.push(Block::Listing { about, text: equations });
+        }
+    }
+    if let Some(sheet) = sheets::parameters(diagnosis) {
+        page.section("Parameters of the verdict");
+        page.table(sheet);
+    }
+    if let Some(sheet) = sheets::candidates(diagnosis) {
+        page.section("What was looked for");
+        page.table(sheet);
+    }
+}
+
+fn predictions(page: &mut Document, diagnosis: &Diagnosis) {
+    let Some(rows) = &diagnosis.prediction else { return };
+    page.section("Corrected prediction");
+    for output in 0..diagnosis.outputs.len() {
+        page.text(format!("{}:", words::axis(&diagnosis.outputs[output])));
+        page.table(sheets::prediction(diagnosis, rows, output, false));
+        page.figure(html::predictions(diagnosis, rows, output));
+    }
+}
+
+/// Everything that is needed to get the same answer again.
+fn repeat(diagnosis: &Diagnosis, provenance: &Provenance) -> Sheet {
+    let mut lines = vec![
+        ["program".to_owned(), format!("gumption {}", env!("CARGO_PKG_VERSION"))],
+        ["seed".to_owned(), diagnosis.seed.to_string()],
+        ["coverage probability".to_owned(), digits::percent(diagnosis.probability)],
+        ["case file, SHA-256".to_owned(), provenance.model_sha256.clone()],
+    ];
+    let files = provenance.files.iter();
+    lines.extend(files.map(|(name, digest)| [format!("{}, SHA-256", plain(name)), digest.clone()]));
+    let mut sheet = Sheet::default();
+    for (place, header) in ["what", "value"].into_iter().enumerate() {
+        sheet.text(header, lines.iter().map(|line| line[place].clone()));
+    }
+    sheet
+}
