@@ -321,7 +321,7 @@ impl<'a> Lines<'a> {
         let mut grid = Grid::default();
         grid.text("", self.names(0));
         for (heading, texts) in self.columns() {
-            grid.numbers(heading, texts.into_iter());
+            grid.numbers(heading, texts);
         }
         grid
     }
@@ -342,7 +342,7 @@ pub(crate) fn sheet(figures: &OutputEvaluation, digits: u32) -> Option<Sheet> {
     let mut sheet = Sheet::default();
     sheet.text("figure", lines.names(1));
     for (heading, texts) in lines.columns() {
-        sheet.numbers(heading, texts.into_iter());
+        sheet.numbers(heading, texts);
     }
     Some(sheet)
 }
