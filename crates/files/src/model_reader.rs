@@ -165,7 +165,8 @@ impl<'a> ModelReader<'a> {
         let title = root.text("title").unwrap_or("").to_owned();
         let source = root.text("source").unwrap_or("").to_owned();
         let check_units = root.truth("check_units").unwrap_or(true);
-        let settings = settings::read(root);
+        let mut settings = settings::read(root);
+        settings.method = settings::method(root);
 
         let Data { mut observations, conditions, simulated } = self.data()?;
         let fits = self.fits(check_units)?;

@@ -31,7 +31,6 @@ pub(super) fn read(root: &Object<'_>) -> Settings {
             root.log.report(&member.value.span, diagnostic);
         }
     }
-    settings.method = method(root);
     let Some(member) = root.get("monte_carlo") else {
         return settings;
     };
@@ -88,8 +87,8 @@ fn trials(object: &Object<'_>) -> Option<Trials> {
     }
 }
 
-/// Which figures without noise are wanted, if the file says so.
-fn method(root: &Object<'_>) -> Option<MethodChoice> {
+/// Which figures without noise are wanted, if a model file says so.
+pub(super) fn method(root: &Object<'_>) -> Option<MethodChoice> {
     let name = root.get("method").and_then(|_| root.text("method"))?;
     let choice = MethodChoice::named(name);
     if let (None, Some(member)) = (choice, root.get("method")) {
