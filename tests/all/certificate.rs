@@ -564,8 +564,9 @@ fn the_worked_day_has_the_sensitivities_of_the_paper() {
 }
 
 /// What is stated depends on no seed: of 20 seeds, each with so few trials that their own last digits
-/// move, the worked day has the same line for every row. That of the trials does move.
+/// move, the worked day has the same line for every row.
 #[test]
+#[ignore = "20 certificates; the quick form is the next test"]
 fn the_worked_day_has_the_same_digits_with_any_seed() {
     let stated = |seed: u32, method: &str| {
         let seed = seed.to_string();

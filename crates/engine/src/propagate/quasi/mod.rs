@@ -2,13 +2,15 @@
 //! monotone whatever the others, is integrated exactly through its distribution function, and the
 //! others run over scrambled nets (Griewank, Kuo, Leoevey, Sloan 2018; L'Ecuyer, Puchhammer, Ben Abdellah
 //! 2022). An indicator is then a smooth function of the points, and errors fall as their number, not as
-//! its root. Standard errors are those of independent scramblings.
+//! its root. Standard errors are those of independent scramblings. Where no input has a monotone effect, one
+//! whose effect is so in parts is integrated part by part ([`pieces`]).
 //!
 //! The scramblings are the same whatever the seed of the trials.
 
 mod cdf;
 mod directions;
 mod net;
+mod pieces;
 mod points;
 #[cfg(test)]
 mod tests;
@@ -16,6 +18,7 @@ mod tests;
 use rayon::prelude::*;
 
 use self::cdf::Cdf;
+use self::pieces::Parts;
 use self::points::Inputs;
 use super::exact::{Accuracy, Noiseless, Problem, Scatter};
 use crate::model::{Program, Schedule, ScheduledOutput};
@@ -63,9 +66,9 @@ pub(super) fn evaluate_with(
         .map(|r| setup.net(seed.wrapping_add(u64::from(r)), log2))
         .collect::<Option<_>>()
         .ok_or("the output has no finite value at some points")?;
-    let (integrated, cdf) = setup.candidate(&nets)?;
-    let name = problem.task.variables[setup.varying[integrated]].name.clone();
-    let mut solved = Solved::new(&setup, nets, integrated, cdf);
+    let Candidate { place, cdf, parts } = setup.candidate(&nets)?;
+    let name = problem.task.variables[setup.varying[place]].name.clone();
+    let mut solved = Solved::new(&setup, nets, place, cdf, parts);
     solved.figures(problem, name, 1 << log2)
 }
 
@@ -87,6 +90,14 @@ struct Setup {
 struct Net {
     columns: Vec<Vec<Column>>,
     outputs: Vec<Column>,
+}
+
+/// The input that is integrated.
+struct Candidate {
+    place: usize,
+    cdf: Cdf,
+    /// Where its effect is monotone, in each net; `None` where it is so everywhere.
+    parts: Option<Vec<Vec<Parts>>>,
 }
 
 impl Setup {
@@ -180,24 +191,32 @@ impl Setup {
     }
 
     /// The input that is integrated: of those with the largest contributions the first in which the
-    /// output is monotone at all points that are looked at.
-    fn candidate(&self, nets: &[Net]) -> Result<(usize, Cdf), String> {
+    /// output is monotone at all points that are looked at, or else monotone in parts.
+    fn candidate(&self, nets: &[Net]) -> Result<Candidate, String> {
+        let own = self.order.iter().copied().filter(|&place| !self.linked[place]);
         let mut tried = Vec::new();
-        for &place in self.order.iter().filter(|&&place| !self.linked[place]).take(MOST_CANDIDATES)
-        {
+        for place in own.take(MOST_CANDIDATES) {
             let Some(cdf) = Cdf::of(&self.distributions[place]) else {
                 continue;
             };
             if nets.par_iter().all(|net| self.is_monotone(net, place)) {
-                return Ok((place, cdf));
+                return Ok(Candidate { place, cdf, parts: None });
             }
-            tried.push(place);
+            tried.push((place, cdf));
         }
-        Err(if tried.is_empty() {
-            "no input of its own has a distribution function that is integrated".to_owned()
-        } else {
-            "no input has an effect that is monotone whatever the values of the others".to_owned()
-        })
+        if tried.is_empty() {
+            return Err(
+                "no input of its own has a distribution function that is integrated".to_owned()
+            );
+        }
+        for (place, cdf) in tried {
+            let parts = nets.par_iter().map(|net| pieces::parts(self, net, place, &cdf));
+            if let Some(parts) = parts.collect() {
+                return Ok(Candidate { place, cdf, parts: Some(parts) });
+            }
+        }
+        Err("no input has an effect that is monotone in a few parts whatever the values of the others"
+            .to_owned())
     }
 
     fn is_monotone(&self, net: &Net, place: usize) -> bool {
@@ -241,36 +260,59 @@ struct Solved<'s> {
 
 struct SolvedNet {
     net: Net,
-    /// Where each point was found last: the value of the input, the output there, and the slope.
-    last: Vec<[Column; 3]>,
+    way: Way,
     registers: Vec<Column>,
+}
+
+/// How the integrated input is solved for.
+enum Way {
+    /// The output is monotone in it. Where each point was found last: the value of the input, the
+    /// output there, and the slope.
+    Whole(Vec<[Column; 3]>),
+    /// It is so in parts.
+    Parts(Vec<Parts>),
 }
 
 /// Distribution function and density of the output by one randomization.
 type OfNet = [f64; 2];
 
 impl<'s> Solved<'s> {
-    fn new(setup: &'s Setup, nets: Vec<Net>, place: usize, cdf: Cdf) -> Self {
+    fn new(
+        setup: &'s Setup,
+        nets: Vec<Net>,
+        place: usize,
+        cdf: Cdf,
+        parts: Option<Vec<Vec<Parts>>>,
+    ) -> Self {
         let distribution = &setup.distributions[place];
         let width = distribution.quantile_upper(0.16) - distribution.quantile(0.16);
         let middle = distribution.quantile(0.5);
-        let prepared = nets.into_par_iter().map(|net| {
-            let mut registers = setup.registers();
-            let last = net.columns.iter().map(|column| {
+        let starts = |net: &Net, registers: &mut [Column]| {
+            let start = |column: &Vec<Column>| {
                 let mut at = |value: f64| {
                     registers[..column.len()].clone_from_slice(column);
                     registers[place].0.fill(value);
                     let mut out = Column::ZERO;
-                    setup.run(&mut registers, &mut out);
+                    setup.run(registers, &mut out);
                     out
                 };
                 let high = middle + 0.25 * width;
                 let (a, b) = (at(middle), at(high));
                 let slope = std::array::from_fn(|i| (b.0[i] - a.0[i]) / (high - middle));
                 [Column([middle; COLUMN]), a, Column(slope)]
-            });
-            let last = last.collect();
-            SolvedNet { net, last, registers }
+            };
+            net.columns.iter().map(start).collect()
+        };
+        let mut parts = parts.map(Vec::into_iter);
+        let ways: Vec<Option<Vec<Parts>>> =
+            nets.iter().map(|_| parts.as_mut().and_then(Iterator::next)).collect();
+        let prepared = nets.into_par_iter().zip(ways).map(|(net, parts)| {
+            let mut registers = setup.registers();
+            let way = match parts {
+                Some(parts) => Way::Parts(parts),
+                None => Way::Whole(starts(&net, &mut registers)),
+            };
+            SolvedNet { net, way, registers }
         });
         let nets = prepared.collect();
         Self { setup, place, cdf, nets, width }
@@ -280,7 +322,11 @@ impl<'s> Solved<'s> {
     /// `columns` columns of points are used.
     fn at(&mut self, y: f64, columns: usize) -> Vec<OfNet> {
         let Self { setup, place, ref cdf, ref mut nets, width } = *self;
-        let of = |net: &mut SolvedNet| of_net(setup, place, cdf, width, net, y, columns);
+        let integrated = Integrated { setup, place, cdf, width };
+        let of = |SolvedNet { net, way, registers }: &mut SolvedNet| match way {
+            Way::Whole(last) => integrated.whole(net, last, registers, y, columns),
+            Way::Parts(parts) => integrated.in_parts(net, parts, registers, y, columns),
+        };
         nets.par_iter_mut().map(of).collect()
     }
 }
@@ -292,65 +338,76 @@ const STEPS: u32 = 60;
 /// is its square.
 const ENDED: f64 = 1e-7;
 
-fn of_net(
-    setup: &Setup,
+/// What is integrated, and how wide it is.
+struct Integrated<'a> {
+    setup: &'a Setup,
     place: usize,
-    cdf: &Cdf,
+    cdf: &'a Cdf,
     width: f64,
-    of: &mut SolvedNet,
-    y: f64,
-    columns: usize,
-) -> OfNet {
-    let [low, high] = cdf.ends();
-    let (mut sums, mut count) = ([0.0; 2], 0.0);
-    let SolvedNet { net, last, registers } = of;
-    for (column, last) in net.columns.iter().zip(last).take(columns) {
-        registers[..column.len()].clone_from_slice(column);
-        let [at, output, slope] = last;
-        let mut out = Column::ZERO;
-        // what lies beyond the limits of the input, or as far as no value is
-        let (least, most) = (low.max(-1e300), high.min(1e300));
-        for step in 0..STEPS {
-            let mut moved: f64 = 0.0;
-            let mut next = [0.0; COLUMN];
-            for (i, next) in next.iter_mut().enumerate() {
-                let newton = (y - output.0[i]) / slope.0[i];
-                // far steps would leave the range where the slope says anything
-                let limit = 8.0 * width;
-                let to = (at.0[i] + newton.clamp(-limit, limit)).clamp(least, most);
-                moved = moved.max((to - at.0[i]).abs());
-                *next = to;
-            }
-            if moved <= 1e-13 * width {
-                break;
-            }
-            registers[place].0 = next;
-            setup.run(registers, &mut out);
-            for (i, next) in next.into_iter().enumerate() {
-                let dx = next - at.0[i];
-                let dy = out.0[i] - output.0[i];
-                let secant = dy / dx;
-                if dx.abs() > 1e-9 * width && secant.is_finite() && secant != 0.0 {
-                    slope.0[i] = secant;
+}
+
+impl Integrated<'_> {
+    /// Distribution function and density of the output at `y`, over the first `columns` columns, where the
+    /// output is monotone.
+    fn whole(
+        &self,
+        net: &Net,
+        last: &mut [[Column; 3]],
+        registers: &mut [Column],
+        y: f64,
+        columns: usize,
+    ) -> OfNet {
+        let Self { setup, place, cdf, width } = *self;
+        let [low, high] = cdf.ends();
+        let (mut sums, mut count) = ([0.0; 2], 0.0);
+        for (column, last) in net.columns.iter().zip(last).take(columns) {
+            registers[..column.len()].clone_from_slice(column);
+            let [at, output, slope] = last;
+            let mut out = Column::ZERO;
+            // what lies beyond the limits of the input, or as far as no value is
+            let (least, most) = (low.max(-1e300), high.min(1e300));
+            for step in 0..STEPS {
+                let mut moved: f64 = 0.0;
+                let mut next = [0.0; COLUMN];
+                for (i, next) in next.iter_mut().enumerate() {
+                    let newton = (y - output.0[i]) / slope.0[i];
+                    // far steps would leave the range where the slope says anything
+                    let limit = 8.0 * width;
+                    let to = (at.0[i] + newton.clamp(-limit, limit)).clamp(least, most);
+                    moved = moved.max((to - at.0[i]).abs());
+                    *next = to;
                 }
-                at.0[i] = next;
-                output.0[i] = out.0[i];
+                if moved <= 1e-13 * width {
+                    break;
+                }
+                registers[place].0 = next;
+                setup.run(registers, &mut out);
+                for (i, next) in next.into_iter().enumerate() {
+                    let dx = next - at.0[i];
+                    let dy = out.0[i] - output.0[i];
+                    let secant = dy / dx;
+                    if dx.abs() > 1e-9 * width && secant.is_finite() && secant != 0.0 {
+                        slope.0[i] = secant;
+                    }
+                    at.0[i] = next;
+                    output.0[i] = out.0[i];
+                }
+                if moved <= ENDED * width && step > 0 {
+                    break;
+                }
             }
-            if moved <= ENDED * width && step > 0 {
-                break;
+            for i in 0..COLUMN {
+                let steep = slope.0[i];
+                // the last step, which is not worth an evaluation
+                let x = at.0[i] + ((y - output.0[i]) / steep).clamp(-width, width);
+                let [p, density] = cdf.at(x);
+                sums[0] += if steep > 0.0 { p } else { 1.0 - p };
+                sums[1] += density / steep.abs();
             }
+            count += COLUMN as f64;
         }
-        for i in 0..COLUMN {
-            let steep = slope.0[i];
-            // the last step, which is not worth an evaluation
-            let x = at.0[i] + ((y - output.0[i]) / steep).clamp(-width, width);
-            let [p, density] = cdf.at(x);
-            sums[0] += if steep > 0.0 { p } else { 1.0 - p };
-            sums[1] += density / steep.abs();
-        }
-        count += COLUMN as f64;
+        sums.map(|sum| sum / count)
     }
-    sums.map(|sum| sum / count)
 }
 
 /// Mean and its standard error.
@@ -363,6 +420,15 @@ fn mean(values: impl Iterator<Item = f64> + Clone) -> [f64; 2] {
 
 /// A figure with its standard error.
 type Figure = [f64; 2];
+
+/// The distance, in widths of the output, over which the slope of its density is taken.
+const SLOPE_STEP: f64 = 0.05;
+
+/// Newton's steps towards the shortest interval at most.
+const MOST_NEWTON: u32 = 8;
+
+/// A last step of Newton's that is longer than this share of the width has not found the interval.
+const NEARLY: f64 = 1e-3;
 
 impl Solved<'_> {
     /// The quantile of `p`, and its standard error.
@@ -475,25 +541,74 @@ impl Solved<'_> {
     /// The shortest interval of probability `p`, where its ends have the same density; `None` where
     /// there is no such interval beside the symmetric one.
     fn shortest(&mut self, p: f64, symmetric: [Figure; 2], scale: f64) -> Option<[Figure; 2]> {
+        let ends = self.nearly_shortest(p, symmetric.map(|end| end[0]), scale)?;
+        // from there with all points: F(high) - F(low) = p, and the same density at both
+        let all = usize::MAX;
+        let [mut low, mut high] = ends;
+        let density = |of: &[OfNet]| mean(of.iter().map(|of| of[1]))[0];
+        let step = SLOPE_STEP * scale;
+        let steepness = |this: &mut Self, y: f64| {
+            let [before, after] =
+                [y - 0.5 * step, y + 0.5 * step].map(|y| density(&this.at(y, all)));
+            (after - before) / step
+        };
+        let (rise, fall) = (steepness(self, low), steepness(self, high));
+        // where a longer interval is not less dense at both ends there is no shortest one here
+        if rise.is_nan() || fall.is_nan() || rise <= fall {
+            return None;
+        }
+        let mut found = None;
+        for _ in 0..MOST_NEWTON {
+            let (of_low, of_high) = (self.at(low, all), self.at(high, all));
+            let (dense_low, dense_high) = (density(&of_low), density(&of_high));
+            let determinant = dense_low * fall - dense_high * rise;
+            // what each randomization moves the ends by
+            let moves = of_low.iter().zip(&of_high).map(|(l, h)| {
+                let (missing, excess) = (p - (h[0] - l[0]), l[1] - h[1]);
+                [
+                    (excess * dense_high - missing * fall) / determinant,
+                    (excess * dense_low - missing * rise) / determinant,
+                ]
+            });
+            let moves: Vec<[f64; 2]> = moves.collect();
+            let [of_low, of_high] = [0, 1].map(|end| mean(moves.iter().map(|of| of[end])));
+            low += of_low[0].clamp(-scale, scale);
+            high += of_high[0].clamp(-scale, scale);
+            let moved = of_low[0].abs().max(of_high[0].abs());
+            if moved.is_nan() {
+                return None;
+            }
+            // what the last step leaves is far less than itself
+            let error = |end: Figure| crate::number::elementary::hypot(end[1], moved);
+            found =
+                (moved <= NEARLY * scale).then(|| [[low, error(of_low)], [high, error(of_high)]]);
+            if moved <= 0.1 * of_low[1].min(of_high[1]) {
+                break;
+            }
+        }
+        found
+    }
+
+    /// The same from a few of the points, to a hundredth of the probability outside.
+    fn nearly_shortest(&mut self, p: f64, symmetric: [f64; 2], scale: f64) -> Option<[f64; 2]> {
         let tail = 1.0 - p;
-        // on a quarter of the points first, then once more on all of them
-        let few = self.nets.first().map_or(1, |of| of.net.columns.len().div_ceil(4));
-        let mut ends = symmetric.map(|end| end[0]);
-        let mut excess = |this: &mut Self, share: f64, columns: usize| -> Option<[f64; 3]> {
-            let low = this.quantile(share * tail, ends[0], scale, columns)?[0];
-            let high = this.quantile(share * tail + p, ends[1], scale, columns)?[0];
+        let few = self.nets.first().map_or(1, |of| of.net.columns.len().div_ceil(16));
+        let mut ends = symmetric;
+        let mut excess = |share: f64| -> Option<(f64, [f64; 2])> {
+            let low = self.quantile(share * tail, ends[0], scale, few)?[0];
+            let high = self.quantile(share * tail + p, ends[1], scale, few)?[0];
             ends = [low, high];
-            let density = |this: &mut Self, y| mean(this.at(y, columns).iter().map(|of| of[1]))[0];
-            Some([density(this, low) - density(this, high), low, high])
+            let [at_low, at_high] = ends.map(|y| mean(self.at(y, few).iter().map(|of| of[1]))[0]);
+            Some((at_low - at_high, ends))
         };
         let (mut a, mut b) = (0.02, 0.98);
-        let (mut at_a, mut at_b) = (excess(self, a, few)?[0], excess(self, b, few)?[0]);
+        let (mut at_a, mut at_b) = (excess(a)?.0, excess(b)?.0);
         if at_a >= 0.0 || at_b <= 0.0 {
             return None;
         }
-        let mut share = 0.5;
+        let (mut share, mut nearly) = (0.5, symmetric);
         for _ in 0..24 {
-            let here = excess(self, share, few)?[0];
+            let (here, found) = excess(share)?;
             if here < 0.0 {
                 if at_a < 0.0 && share > a {
                     at_b *= 0.5;
@@ -504,33 +619,12 @@ impl Solved<'_> {
                 at_a *= 0.5;
             }
             let next = a - at_a * (b - a) / (at_b - at_a);
-            let done = (next - share).abs() < 1e-4;
-            share = next;
-            if done {
+            nearly = found;
+            if (next - share).abs() < 0.01 {
                 break;
             }
+            share = next;
         }
-        // one step of Newton's with all points, whose residuals tell the scatter as well
-        let step = 0.02 * share.min(1.0 - share);
-        let all = usize::MAX;
-        let (before, after) = (excess(self, share - step, all)?, excess(self, share + step, all)?);
-        let steepness = (after[0] - before[0]) / (2.0 * step);
-        let middle = excess(self, share, all)?;
-        let exact = (share - middle[0] / steepness).clamp(a.min(share), b.max(share));
-        let [_, low, high] = excess(self, exact, all)?;
-        let (of_low, of_high) = (self.at(low, all), self.at(high, all));
-        let slope = |i: usize| (after[i] - before[i]) / (2.0 * step);
-        let density = [&of_low, &of_high].map(|of| mean(of.iter().map(|of| of[1]))[0]);
-        let errors = [(1, 0usize), (2, 1usize)].map(|(i, which)| {
-            // each randomization moves the share, and the quantile at a share
-            let of = of_low.iter().zip(&of_high).map(|(l, h)| {
-                let excess = l[1] - h[1];
-                let own = if which == 0 { l[0] } else { h[0] };
-                -slope(i) * excess / steepness - own / density[which]
-            });
-            let of: Vec<f64> = of.collect();
-            mean(of.iter().copied())[1]
-        });
-        Some([[low, errors[0]], [high, errors[1]]])
+        Some(nearly)
     }
 }

@@ -54,8 +54,8 @@ pub(super) const WORDS: Words = Words {
     fixed: "The expanded uncertainty U is the standard uncertainty multiplied by the agreed coverage \
         factor k = {k}. No distribution is supposed, so that no coverage probability is stated.",
     shortest: "The result is not normally distributed. The interval from - to in the table is the shortest one \
-        with a coverage probability of {p}, found by the Monte Carlo method (JCGM 101:2008). U is the \
-        distance of the value from its farther end, and k is U over the standard uncertainty.",
+        with a coverage probability of {p}, found by propagation of distributions (JCGM 101:2008). U is \
+        the distance of the value from its farther end, and k is U over the standard uncertainty.",
     propagation: "The standard uncertainty was evaluated by the law of propagation of uncertainty \
         (JCGM 100:2008), as EA-4/02 M:2022 asks.",
     time: "The uncertainties do not include how the device will behave over time.",

@@ -56,7 +56,7 @@ pub(super) const WORDS: Words = Words {
         vereinbarten Erweiterungsfaktor k = {k}. Es wird keine Verteilung vorausgesetzt und daher keine \
         Überdeckungswahrscheinlichkeit angegeben.",
     shortest: "Das Ergebnis ist nicht normalverteilt. Das Intervall von - bis der Tabelle ist das kürzeste mit \
-        einer Überdeckungswahrscheinlichkeit von {p}, ermittelt mit dem Monte-Carlo-Verfahren (JCGM \
+        einer Überdeckungswahrscheinlichkeit von {p}, ermittelt durch Fortpflanzung von Verteilungen (JCGM \
         101:2008). U ist der Abstand des Werts vom weiter entfernten Ende, und k ist U geteilt durch \
         die Standardmessunsicherheit.",
     propagation: "Die Standardmessunsicherheit wurde nach dem Fortpflanzungsgesetz der \
