@@ -20,6 +20,7 @@ mod new;
 mod observe;
 mod options;
 mod output;
+mod parted_run;
 mod parts;
 mod plan;
 mod progress;
@@ -27,6 +28,7 @@ mod replacement;
 mod run;
 mod save;
 mod schema;
+mod shared_draws;
 mod signals;
 mod surroundings;
 mod verify;
@@ -42,6 +44,8 @@ use gumption_files::FileReader;
 
 pub use check::Mistake;
 pub use exit::{Exit, Failure};
+pub use parted_run::{MergedRun, PartedMerging, PartedRun, PassOfRun};
+pub use parts::PartsFolder;
 pub use surroundings::GivenFile;
 pub use verify::PublishedExamples;
 

@@ -17,8 +17,8 @@ use super::reader::FileReader;
 use super::source::SourceText;
 use super::{DiagnosticKind, settings};
 use crate::folder::Folder;
-use gumption_analysis::certificate::contents::{Certificate, Language, Rounding};
-use gumption_engine::task::{Coverage, MethodChoice, Settings, Warning};
+use gumption_analysis::certificate::contents::{Certificate, DecimalMark, Language, Rounding};
+use gumption_engine::task::{Coverage, Settings, Warning};
 use rows::Rows;
 
 /// The most significant digits of a stated uncertainty.
@@ -118,8 +118,7 @@ struct Asking {
 
 impl Asking {
     fn apply(self, settings: &mut Settings) {
-        // no digit of a certificate is to depend on a seed
-        settings.method = settings.method.or(Some(MethodChoice::Auto));
+        // no digit of a certificate is to depend on a seed, where such figures are asked for
         settings.quasi_otherwise = true;
         if let Some(own) = self.trials {
             settings.trials = own.trials;
@@ -151,6 +150,8 @@ fn certificate<'a>(
     let administrative = administrative::read(&root);
     let languages = languages(&root);
     let rounding = named(&root, "rounding", Rounding::named, &Rounding::ALL.map(Rounding::name));
+    let mark =
+        named(&root, "decimal_mark", DecimalMark::named, &DecimalMark::ALL.map(DecimalMark::name));
     let digits = root.whole("digits", 1, MOST_DIGITS).unwrap_or(2);
     let coverage = settings::coverage(&root);
     let trials = root.get("monte_carlo").map(|_| settings::read(&root));
@@ -167,6 +168,9 @@ fn certificate<'a>(
         Some(list) => rows.read(list),
         None => {}
     }
+    if root.get("functions").is_some() {
+        root.list("functions").unwrap_or_default().iter().for_each(|node| rows.function(node));
+    }
     let shown = texts(&root, "conditions");
     for (name, span) in &shown {
         rows.check_condition(name, span);
@@ -180,14 +184,18 @@ fn certificate<'a>(
             format!("`{name}` is in `shared_inputs` and in `separate_inputs`; take it out of one");
         root.log.report(span, DiagnosticKind::Certificate { reason });
     }
-    let rows::Read { evaluations, lines, models, warnings, places } = rows.finish()?;
+    let rows::Read { evaluations, lines, functions, models, warnings, places } = rows.finish()?;
     let certificate = Certificate {
         administrative: administrative?,
+        decimal_mark: mark.unwrap_or_else(|| {
+            languages.first().map_or(DecimalMark::Point, |language| language.decimal_mark())
+        }),
         languages,
         rounding: rounding.unwrap_or_default(),
         digits: u32::try_from(digits).unwrap_or(2),
         evaluations,
         lines,
+        functions,
         shown: shown.into_iter().map(|(name, _)| name).collect(),
         shared: shared.into_keys().collect(),
         separate: separate.into_keys().collect(),

@@ -2,6 +2,8 @@
 //! quantity, or a table of it interpolated over a condition.
 
 mod document;
+mod own;
+mod quantities;
 
 use std::collections::HashMap;
 use std::ops::Range;
@@ -13,19 +15,25 @@ use super::object::Object;
 use super::source::{Place, SourceText};
 use super::value_text::ValueOf;
 use super::{DiagnosticKind, bytes};
-use document::{Fault, Measured, Stated};
+pub(super) use document::{Fault, parse, tag};
+use document::{Measured, Stated};
 use gumption_engine::distribution::{
     Constant, Distribution, Invalid, Normal, Rectangular, Triangular,
 };
 use gumption_engine::model::formula::Formula;
 use gumption_engine::special;
 use gumption_units::{Unit, nearest};
+pub(super) use own::Certified;
+use own::OwnCertificate;
+pub(super) use quantities::inputs;
 use roxmltree::Node;
 
 /// The certificates that a model file names: name, text if it could be read, content.
 #[derive(Debug, Default)]
 pub(super) struct Certificates {
     read: HashMap<String, Option<Arc<SourceText>>>,
+    /// Those that this program has made, by name.
+    own: HashMap<String, Option<Arc<OwnCertificate>>>,
     /// Their content, by name.
     pub(super) files: Vec<(String, Vec<u8>)>,
 }
@@ -39,12 +47,11 @@ impl Certificates {
             return known.clone();
         }
         let read = || {
-            let path = folder.file(name)?;
             let unreadable = |message: String| {
                 let message = format!("`{name}`: {message}");
                 DiagnosticKind::Unreadable { message }
             };
-            let bytes = bytes::of_file(&path, bytes::MOST).map_err(unreadable)?;
+            let bytes = folder.content(name, bytes::MOST)?;
             let text = bytes::text(&bytes).map_err(unreadable)?.into_owned();
             if !text.trim_start().starts_with('<') {
                 return Err(unreadable("it is no XML".to_owned()));
@@ -74,6 +81,8 @@ pub(super) struct FromCertificate {
     taken: Taken,
     source: Arc<SourceText>,
     span: Range<usize>,
+    /// Which result of a certificate of our own it is.
+    pub(super) certified: Option<Certified>,
 }
 
 #[derive(Clone, Debug)]
@@ -93,7 +102,7 @@ pub(super) fn read(
     certificates: &mut Certificates,
 ) -> Option<FromCertificate> {
     let source = certificates.text(object, folder)?;
-    let found = parsed(object, &source);
+    let found = parsed(object, &source, &mut certificates.own);
     match found {
         Ok(found) => found,
         Err((span, reason)) => {
@@ -105,8 +114,12 @@ pub(super) fn read(
 }
 
 /// Outside the fault of a certificate; inside `None` where the model file's has been reported.
-fn parsed(object: &Object<'_>, source: &Arc<SourceText>) -> Result<Option<FromCertificate>, Fault> {
-    let document = document::parse(&source.text)?;
+fn parsed(
+    object: &Object<'_>,
+    source: &Arc<SourceText>,
+    own: &mut HashMap<String, Option<Arc<OwnCertificate>>>,
+) -> Result<Option<FromCertificate>, Fault> {
+    let document = parse(&source.text)?;
     let all = document::quantities(&document);
     let Some(chosen) = chosen(object, &all) else { return Ok(None) };
     let measured: Vec<Measured> =
@@ -120,7 +133,7 @@ fn parsed(object: &Object<'_>, source: &Arc<SourceText>) -> Result<Option<FromCe
     if object.get("at").is_some() {
         let Some(table) = table(object, &chosen, &measured, &all)? else { return Ok(None) };
         let source = Arc::clone(source);
-        return Ok(Some(FromCertificate { unit, taken: table, source, span }));
+        return Ok(Some(FromCertificate { unit, taken: table, source, span, certified: None }));
     }
     let count: usize = measured.iter().map(|of| of.values.len()).sum();
     let index = match object.get("index") {
@@ -148,11 +161,14 @@ fn parsed(object: &Object<'_>, source: &Arc<SourceText>) -> Result<Option<FromCe
         }
     };
     let mut left = index;
-    for of in measured {
+    for (node, of) in chosen.iter().zip(measured) {
         if left < of.values.len() {
             let (source, span) = (Arc::clone(source), of.span.clone());
             let taken = Taken::One(Box::new(of), left);
-            return Ok(Some(FromCertificate { unit, taken, source, span }));
+            let own = own.entry(source.name.clone());
+            let own = own.or_insert_with(|| OwnCertificate::of(&document).map(Arc::new));
+            let certified = own.as_ref().and_then(|own| own.part(*node, left));
+            return Ok(Some(FromCertificate { unit, taken, source, span, certified }));
         }
         left -= of.values.len();
     }
@@ -176,6 +192,20 @@ fn chosen<'d>(object: &Object<'_>, all: &[Node<'d, 'd>]) -> Option<Vec<Node<'d, 
         None if known.is_empty() => String::new(),
         None => format!("; there are {}", known[..known.len().min(12)].join(", ")),
     };
+    if let Some(member) = object.get("quantity") {
+        let others = ["id", "ref_type"].into_iter().find(|key| object.get(key).is_some());
+        if let Some(first) = others {
+            let diagnostic = DiagnosticKind::Exclusive { first, second: "quantity" };
+            object.log.report(&member.key_span, diagnostic);
+            return None;
+        }
+        let place = object.whole("quantity", 0, 1 << 32)? as usize;
+        let Some(one) = all.get(place) else {
+            let reason = format!("the certificate has {} quantities, counted from 0", all.len());
+            return report("quantity", reason);
+        };
+        return Some(vec![*one]);
+    }
     if object.get("id").is_some() {
         let wanted = object.text("id")?;
         let has = |node: &&Node<'d, 'd>| {
@@ -211,7 +241,8 @@ fn chosen<'d>(object: &Object<'_>, all: &[Node<'d, 'd>]) -> Option<Vec<Node<'d, 
         _ => {
             let shown: Vec<String> = all.iter().take(8).map(|of| document::called(*of)).collect();
             let reason = format!(
-                "the certificate has {} quantities; name one by its `id` or `ref_type`: {}{}",
+                "the certificate has {} quantities; name one by its `id` or `ref_type`, or by its place as \
+                 `quantity`, from 0: {}{}",
                 all.len(),
                 shown.join(", "),
                 if all.len() > 8 { ", ..." } else { "" }

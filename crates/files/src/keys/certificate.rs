@@ -2,13 +2,23 @@
 
 use super::node::{With, object, reference, texts};
 use super::{Key, closed, closed_of, described, keys, referenced, text_of};
-use gumption_analysis::certificate::contents::{Language, PerformanceLocation, Rounding};
+use gumption_analysis::certificate::contents::{
+    DecimalMark, Language, PerformanceLocation, Rounding,
+};
 use serde_json::Value;
 
 pub(super) fn definitions() -> Vec<(String, Value)> {
     let definitions = [
         ("certificate", certificate()),
         ("certificate-row", row()),
+        (
+            "certificate-function",
+            closed(
+                "A calibration function of a certificate.",
+                CERTIFICATE_FUNCTION,
+                &["model", "fit"],
+            ),
+        ),
         ("device", device()),
         ("party", party()),
         ("localized", localized()),
@@ -57,6 +67,7 @@ pub(crate) const CERTIFICATE: &[Key] = keys![
     "laboratory" => either("The laboratory.", "party"),
     "responsible" => text_of("Who is responsible."),
     "calibration_date" => days(),
+    "receipt_date" => day("Day on which the device was received."),
     "issue_date" => day("Day of issue."),
     "place" => described("string", "Where the calibration was made; in the laboratory unless given.")
                 .with("enum", texts(PerformanceLocation::ALL.map(PerformanceLocation::name))),
@@ -65,6 +76,11 @@ pub(crate) const CERTIFICATE: &[Key] = keys![
     "traceability" => referenced("localized", "How the results are traceable to the SI."),
     "remarks" => remarks(),
     "language" => languages(),
+    "decimal_mark" => described(
+                "string",
+                "Decimal mark of the pages; that of the first language unless given.",
+            )
+            .with("enum", texts(DecimalMark::ALL.map(DecimalMark::name))),
     "coverage_factor" => described(
                 "number",
                 "Coverage factor for infinite degrees of freedom, for all rows; 2 unless given.",
@@ -89,6 +105,11 @@ pub(crate) const CERTIFICATE: &[Key] = keys![
     "rows" => described("array", "The rows of the table; one for each row of a model's conditions.")
                 .with("items", reference("certificate-row"))
                 .with("minItems", 1),
+    "functions" => described(
+                "array",
+                "Calibration functions that are stated with U over their range, after the table.",
+            )
+            .with("items", reference("certificate-function")),
 ];
 
 fn certificate() -> Value {
@@ -117,6 +138,13 @@ fn nominal() -> Value {
         "Nominal value in the output's unit, or the name of a condition or an input.",
     )
 }
+
+/// Keys of a calibration function of a certificate.
+pub(crate) const CERTIFICATE_FUNCTION: &[Key] = keys![
+    "model" => referenced("file", "The model file."),
+    "fit" => text_of("Its calibration function."),
+    "label" => referenced("localized", "What it is called instead of its name."),
+];
 
 /// Keys of a row of a certificate.
 pub(crate) const CERTIFICATE_ROW: &[Key] = keys![
@@ -147,6 +175,7 @@ pub(crate) const DEVICE: &[Key] = keys![
     "name" => referenced("localized", "What it is."),
     "manufacturer" => text_of("Who made it."),
     "model" => text_of("Its model or type."),
+    "condition" => referenced("localized", "Its condition when it was received."),
     "serial_number" => text_of("Its serial number."),
     "customer_number" => text_of("The customer's number for it."),
 ];

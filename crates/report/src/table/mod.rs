@@ -127,11 +127,7 @@ pub(super) fn at(task: &Task, evaluation: &Evaluation) -> Option<String> {
 
 /// The sources and the equations.
 fn equations(task: &Task) -> Option<String> {
-    let sources = statement::sources(task).into_iter();
-    let equations = statement::equations(task).into_iter();
-    let equations = equations.map(|(name, text)| format!("{name} = {text}"));
-    let lines = sources.chain(equations).chain(statement::left_out(task));
-    let page: String = lines.map(|line| wrapped(&line)).collect();
+    let page: String = statement::lines(task).iter().map(|line| wrapped(line)).collect();
     (!page.is_empty()).then_some(page)
 }
 
@@ -251,7 +247,7 @@ pub(crate) fn conditions_text(conditions: &[Quantity], values: &[f64]) -> String
 }
 
 /// A number with its unit, if that has a name.
-pub(super) fn in_unit(number: &str, unit: &Unit) -> String {
+pub(crate) fn in_unit(number: &str, unit: &Unit) -> String {
     if has_name(unit) { format!("{number} {}", plain(unit.text())) } else { number.to_owned() }
 }
 

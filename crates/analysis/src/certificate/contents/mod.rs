@@ -4,10 +4,13 @@ mod administrative;
 mod form;
 
 pub use administrative::{AdministrativeData, Device, Party, PerformanceLocation};
-pub use form::{Language, Localized, Rounding};
+pub use form::{DecimalMark, Language, Localized, Rounding};
+
+use std::sync::Arc;
 
 use gumption_engine::model::Capability;
-use gumption_engine::task::Task;
+use gumption_engine::regression::CurveFunction;
+use gumption_engine::task::{Coverage, Task};
 
 /// A certificate that is to be made.
 #[derive(Clone, Debug)]
@@ -16,6 +19,9 @@ pub struct Certificate {
     pub administrative: AdministrativeData,
     /// The languages of its sentences; at least one.
     pub languages: Vec<Language>,
+    /// The decimal mark of all pages: one for the whole certificate, so that a number looks the same
+    /// in its table and in every language's sentences.
+    pub decimal_mark: DecimalMark,
     /// How expanded uncertainties are rounded.
     pub rounding: Rounding,
     /// Significant digits of a rounded expanded uncertainty.
@@ -24,6 +30,8 @@ pub struct Certificate {
     pub evaluations: Vec<Asked>,
     /// The rows of the table, in order.
     pub lines: Vec<Line>,
+    /// The calibration functions that are stated, in order.
+    pub functions: Vec<StatedFunction>,
     /// Names of the conditions that the table shows; all of them if there are none.
     pub shown: Vec<String>,
     /// Names of inputs that are one and the same quantity in all model files.
@@ -43,6 +51,19 @@ pub struct Asked {
     pub set: Vec<(String, String)>,
     /// The evaluation.
     pub task: Task,
+}
+
+/// A calibration function that is stated with its expanded uncertainty over its range.
+#[derive(Clone, Debug)]
+pub struct StatedFunction {
+    /// The place of the model file among those of the certificate.
+    pub file: usize,
+    /// The function.
+    pub curve: Arc<CurveFunction>,
+    /// The coverage that is asked for.
+    pub coverage: Coverage,
+    /// What it is called instead of its name.
+    pub label: Option<Localized>,
 }
 
 /// A row of the table.

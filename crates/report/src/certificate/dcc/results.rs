@@ -3,15 +3,18 @@
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 
-use super::people::both;
 use super::unit::{is_of_the_si, unit};
 use super::xml::Xml;
+use crate::certificate::functions::{self, At};
 use crate::certificate::stated;
 use crate::certificate::stated::Stated;
-use crate::certificate::{CertificateReport, json, sentences, words};
+use crate::certificate::words::{self, Words, localized};
+use crate::certificate::{CertificateReport, file_name, json, sentences};
+use crate::fits;
 use crate::number::exact;
+use crate::sheet::Figure;
 use gumption_analysis::certificate::Basis;
-use gumption_analysis::certificate::contents::{Language, Localized};
+use gumption_analysis::certificate::contents::{Language, Localized, StatedFunction};
 use gumption_engine::model::Quantity;
 use gumption_units::Unit;
 
@@ -21,25 +24,29 @@ pub(super) fn write(xml: &mut Xml, report: &CertificateReport<'_>, languages: &[
         xml.text("dcc:name", &super::title(report), languages);
         xml.element("dcc:usedMethods", |xml| {
             if let Some(method) = &of.method {
-                let name = both(["Method of calibration", "Kalibrierverfahren"]);
+                let name = localized(languages, |w| w.method);
                 xml.element("dcc:usedMethod", |xml| {
                     xml.text("dcc:name", &name, languages);
                     xml.text("dcc:description", method, languages);
                 });
             }
-            xml.within("dcc:usedMethod", &[("refType", "basic_uncertainty")], |xml| {
-                let name = both(["Uncertainty of measurement", "Messunsicherheit"]);
-                xml.text("dcc:name", &name, languages);
-                for norm in ["JCGM 100:2008", "JCGM 101:2008", "EA-4/02 M:2022"] {
-                    xml.leaf("dcc:norm", norm);
-                }
-            });
+            xml.within(
+                "dcc:usedMethod",
+                &[("refType", "basic_methodMeasurementUncertainty")],
+                |xml| {
+                    let name = localized(languages, |w| w.uncertainty);
+                    xml.text("dcc:name", &name, languages);
+                    for norm in ["JCGM 100:2008", "JCGM 101:2008", "EA-4/02 M:2022"] {
+                        xml.leaf("dcc:norm", norm);
+                    }
+                },
+            );
         });
         xml.element("dcc:usedSoftware", super::software);
         if let Some(environment) = &of.environment {
             xml.element("dcc:influenceConditions", |xml| {
                 xml.element("dcc:influenceCondition", |xml| {
-                    xml.text("dcc:name", &both(["Environment", "Umgebungsbedingungen"]), languages);
+                    xml.text("dcc:name", &localized(languages, |w| w.environment), languages);
                     xml.element("dcc:data", |xml| xml.text("dcc:text", environment, languages));
                 });
             });
@@ -47,6 +54,9 @@ pub(super) fn write(xml: &mut Xml, report: &CertificateReport<'_>, languages: &[
         xml.element("dcc:results", |xml| {
             for rows in groups(report) {
                 xml.element("dcc:result", |xml| result(xml, report, &rows, languages));
+            }
+            for of in &report.certificate.functions {
+                xml.element("dcc:result", |xml| function(xml, report, of, languages));
             }
             xml.element("dcc:result", |xml| attachments(xml, report, languages));
         });
@@ -161,7 +171,7 @@ fn nominal(xml: &mut Xml, rows: &[Stated<'_>], languages: &[Language]) {
     let values: Option<Vec<String>> = rows.iter().map(|row| row.line.nominal.map(exact)).collect();
     let (Some(values), Some(first)) = (values, rows.first()) else { return };
     xml.within("dcc:quantity", &[("refType", "basic_nominalValue")], |xml| {
-        xml.text("dcc:name", &both(["Nominal value", "Nennwert"]), languages);
+        xml.text("dcc:name", &localized(languages, |w| w.nominal_value), languages);
         list(xml, &values, &first.quantity.unit, |_| ());
         explained(xml, &first.quantity.unit);
     });
@@ -172,7 +182,7 @@ fn measured(xml: &mut Xml, rows: &[Stated<'_>], languages: &[Language]) {
     let Some(first) = rows.first() else { return };
     let texts = |of: fn(&Stated<'_>) -> String| -> Vec<String> { rows.iter().map(of).collect() };
     xml.within("dcc:quantity", &[("refType", "basic_measuredValue")], |xml| {
-        xml.text("dcc:name", &both(["Measured value", "Messwert"]), languages);
+        xml.text("dcc:name", &localized(languages, |w| w.measured_value), languages);
         list(xml, &texts(|row| row.value().text), &first.quantity.unit, |xml| {
             // D-SI has no coverage factor below 1
             if rows.iter().any(|row| row.statement.coverage_factor < 1.0) {
@@ -224,7 +234,7 @@ fn intervals(
             let said = sentences::about(&numbers, words::of(*language));
             (Some(*language), said.trim_end_matches([':', ' ']).to_owned())
         };
-        let name = both(["Coverage interval", "Überdeckungsintervall"]);
+        let name = localized(languages, |w| w.coverage_interval);
         xml.text("dcc:name", &name, languages);
         let about = Localized { texts: languages.iter().map(rows_of).collect() };
         xml.text("dcc:description", &about, languages);
@@ -247,34 +257,91 @@ fn intervals(
     });
 }
 
+/// A calibration function: values with U over its range, and its parameters.
+fn function(
+    xml: &mut Xml,
+    report: &CertificateReport<'_>,
+    of: &StatedFunction,
+    languages: &[Language],
+) {
+    let curve = &*of.curve;
+    let each = |text: &dyn Fn(Language) -> String| Localized {
+        texts: languages.iter().map(|language| (Some(*language), text(*language))).collect(),
+    };
+    let title = each(&|language| functions::title(of, &[language]));
+    xml.text("dcc:name", &title, languages);
+    let said = each(&|language| functions::sentences(report, of, language).join(" "));
+    xml.text("dcc:description", &said, languages);
+    let probability = exact(of.coverage.probability());
+    let dof = curve.fit.degrees_of_freedom();
+    let law = if dof.is_finite() { "t" } else { "normal" };
+    let uncertain = |xml: &mut Xml, expanded: &[String]| {
+        let all = |text: &str| vec![text; expanded.len()].join(" ");
+        let k = functions::factor(of);
+        // D-SI has no coverage factor below 1
+        if fits::factor(curve, of.coverage) < 1.0 {
+            return;
+        }
+        xml.element("si:expandedUncXMLList", |xml| {
+            xml.leaf("si:uncertaintyXMLList", &expanded.join(" "));
+            xml.leaf("si:coverageFactorXMLList", &all(&k));
+            xml.leaf("si:coverageProbabilityXMLList", &all(&probability));
+            xml.leaf("si:distributionXMLList", &all(law));
+        });
+    };
+    let stated = functions::stated(report, of);
+    let texts = |of: fn(&At) -> &Figure| stated.iter().map(|at| of(at).text.clone()).collect();
+    let (x, values): (Vec<String>, Vec<String>) = (texts(|at| &at.x), texts(|at| &at.value));
+    let expanded: Vec<String> = texts(|at| &at.expanded);
+    xml.element("dcc:data", |xml| {
+        xml.element("dcc:list", |xml| {
+            xml.element("dcc:quantity", |xml| {
+                xml.text("dcc:name", &Localized::plain("x"), languages);
+                list(xml, &x, &curve.x, |_| ());
+                explained(xml, &curve.x);
+            });
+            xml.element("dcc:quantity", |xml| {
+                let name = format!("{}(x)", curve.fit.name);
+                xml.text("dcc:name", &Localized::plain(name), languages);
+                list(xml, &values, &curve.y, |xml| uncertain(xml, &expanded));
+                explained(xml, &curve.y);
+            });
+        });
+        let k = fits::factor(curve, of.coverage);
+        for (number, (name, unit)) in curve.parameters.iter().enumerate() {
+            xml.element("dcc:quantity", |xml| {
+                xml.text("dcc:name", &Localized::plain(name.clone()), languages);
+                let (value, u) =
+                    (curve.fit.estimate(number), curve.fit.standard_uncertainty(number));
+                list(xml, &[exact(value)], unit, |xml| uncertain(xml, &[exact(k * u)]));
+                explained(xml, unit);
+            });
+        }
+    });
+}
+
 /// The files that the certificate was made of, and its answer for programs.
 fn attachments(xml: &mut Xml, report: &CertificateReport<'_>, languages: &[Language]) {
-    let name = both(["Files of the evaluation", "Dateien der Auswertung"]);
+    let name = localized(languages, |w| w.files);
     xml.text("dcc:name", &name, languages);
     xml.element("dcc:data", |xml| {
         let answer = json(report);
-        let mut add = |about: [&str; 2], name: &str, kind: &str, bytes: &[u8]| {
+        let mut add = |about: fn(&Words) -> &'static str, name: &str, kind: &str, bytes: &[u8]| {
             xml.element("dcc:byteData", |xml| {
-                xml.text("dcc:name", &both(about), languages);
+                xml.text("dcc:name", &localized(languages, about), languages);
                 // the name of the file alone: who saves it chooses the folder
-                let file = name.rsplit(['/', '\\']).next().unwrap_or(name);
-                if file != name {
-                    let named = Localized::plain(name);
-                    xml.text("dcc:description", &named, languages);
-                }
-                xml.leaf("dcc:fileName", file);
+                xml.leaf("dcc:fileName", file_name(name));
                 xml.leaf("dcc:mimeType", kind);
                 xml.leaf("dcc:dataBase64", &STANDARD.encode(bytes));
             });
         };
         const JSON: &str = "application/json";
-        add(["Result", "Ergebnis"], "result.json", JSON, answer.as_bytes());
-        let certificate = ["Certificate file", "Kalibrierscheindatei"];
-        add(certificate, "certificate.json", JSON, report.text.as_bytes());
+        add(|w| w.answer, "result.json", JSON, answer.as_bytes());
+        add(|w| w.certificate_name, "certificate.json", JSON, report.text.as_bytes());
         for model in report.models {
-            add(["Model file", "Modelldatei"], model.name, JSON, model.text.as_bytes());
+            add(|w| w.model_file, model.name, JSON, model.text.as_bytes());
             for (name, bytes) in model.tables {
-                add(["Table", "Tabelle"], name, "application/octet-stream", bytes);
+                add(|w| w.table, name, "application/octet-stream", bytes);
             }
         }
     });

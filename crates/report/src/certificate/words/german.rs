@@ -8,6 +8,7 @@ pub(super) const WORDS: Words = Words {
     device: "Gegenstand",
     manufacturer: "Hersteller",
     model: "Typ",
+    condition: "Zustand bei Eingang",
     serial_number: "Seriennummer",
     customer_number: "Nummer des Auftraggebers",
     customer: "Auftraggeber",
@@ -16,6 +17,7 @@ pub(super) const WORDS: Words = Words {
     responsible: "Verantwortlich",
     calibrated: "Datum der Kalibrierung",
     period: "{first} bis {last}",
+    received: "Eingangsdatum",
     issued: "Ausstellungsdatum",
     place: "Ort der Kalibrierung",
     places: [
@@ -56,9 +58,9 @@ pub(super) const WORDS: Words = Words {
         vereinbarten Erweiterungsfaktor k = {k}. Es wird keine Verteilung vorausgesetzt und daher keine \
         Überdeckungswahrscheinlichkeit angegeben.",
     shortest: "Das Ergebnis ist nicht normalverteilt. Das Intervall von - bis der Tabelle ist das kürzeste mit \
-        einer Überdeckungswahrscheinlichkeit von {p}, ermittelt durch Fortpflanzung von Verteilungen (JCGM \
+        einer Überdeckungswahrscheinlichkeit von {p}, ermittelt mit dem Monte-Carlo-Verfahren (JCGM \
         101:2008). U ist der Abstand des Werts vom weiter entfernten Ende, und k ist U geteilt durch \
-        die Standardmessunsicherheit.",
+        die Standardmessunsicherheit, auf die Stellen, die die Versuche hergeben.",
     propagation: "Die Standardmessunsicherheit wurde nach dem Fortpflanzungsgesetz der \
         Messunsicherheit (JCGM 100:2008) ermittelt, wie EA-4/02 M:2022 es verlangt.",
     time: "Wie sich der Gegenstand auf Dauer verhält, ist in den Unsicherheiten nicht enthalten.",
@@ -71,9 +73,19 @@ pub(super) const WORDS: Words = Words {
     ],
     digits: ["eine signifikante Stelle", "{digits} signifikante Stellen"],
     raised: "Die ermittelte Messunsicherheit ist kleiner als die kleinste angebbare Messunsicherheit \
-        (CMC) des Laboratoriums; diese ist stattdessen angegeben (ILAC-P14:09/2020).",
+        (CMC) des Laboratoriums; diese ist stattdessen als U angegeben (ILAC-P14:09/2020). Das Intervall \
+        von Wert - U bis Wert + U hat eine Überdeckungswahrscheinlichkeit von mindestens {p}.",
     approximately: "annähernd {p}",
 
+    function: "Kalibrierfunktion {name}",
+    in_range: "{equation} für {low} ≤ x ≤ {high}, mit x und {name} als Zahlen in den Einheiten der Tabelle.",
+    band: "U ist die erweiterte Messunsicherheit der Funktion an der Stelle x mit dem Erweiterungsfaktor \
+        k = {k}; die einer weiteren Ablesung ist nicht enthalten. Zwischen den Zeilen der Tabelle folgt \
+        sie aus u(x)² = g(x)' V g(x) mit den Ableitungen g nach den Parametern und deren \
+        Kovarianzmatrix V, die aus den Standardmessunsicherheiten und den Korrelationskoeffizienten r \
+        der Parameter besteht.",
+    parameter: "Parameter",
+    standard: "u",
     correlation: "Korrelation der Zeilen",
     correlated: "Zeilen mit gemeinsamen Eingangsgrößen sind korreliert. Die Standardmessunsicherheit \
         der Differenz der Zeilen i und j folgt aus u² = u_i² + u_j² - 2 r u_i u_j mit u_i = U_i / k_i \
@@ -81,10 +93,40 @@ pub(super) const WORDS: Words = Words {
     many: "Die {rows} Zeilen haben gemeinsame Eingangsgrößen; ihre Korrelationskoeffizienten stehen in \
         der JSON-Ausgabe und in der Arbeitsmappe.",
     conformity: "Konformität",
+    decisions: [
+        "Das Ergebnis hält die Toleranz {limits} ein: konform.",
+        "Das Ergebnis hält die Toleranz {limits} nicht ein: nicht konform.",
+    ],
+    limits: ["von {low} bis {high}{unit}", "ab {low}{unit}", "bis {high}{unit}"],
+    conforming: "Der Wert ist mit einer Wahrscheinlichkeit von {p} % konform.",
+    simple: "Entscheidungsregel: einfache Annahme (JCGM 106:2012, 8.2).",
+    guarded: "Entscheidungsregel: Annahme mit Sicherheitsband (JCGM 106:2012, 8.3) für {kind} von \
+        höchstens {risk} %; Sicherheitsband {guard}, angenommen {limits}.",
+    never: "Entscheidungsregel: Annahme mit Sicherheitsband (JCGM 106:2012, 8.3) für {kind} von \
+        höchstens {risk} %, das kein Wert hat.",
+    kinds: [
+        "ein spezifisches Risiko der irrtümlichen Annahme",
+        "ein globales Risiko der irrtümlichen Annahme",
+    ],
+
+    page: "Seite {page} von {pages}",
+    end: "Ende des Kalibrierscheins",
+    signed: ["Ort, Datum", "Unterschrift"],
+    relates: "Die Ergebnisse beziehen sich nur auf den kalibrierten Gegenstand.",
+    copies: "Dieser Kalibrierschein darf ohne Genehmigung des Laboratoriums nur vollständig vervielfältigt werden.",
     provenance: "Herkunft",
     program: "Programm",
     certificate_file: "Kalibrierscheindatei, SHA-256",
+    certificate_name: "Kalibrierscheindatei",
+    model_file: "Modelldatei",
+    table: "Tabelle",
     seed: "Startwert",
     trials: "Monte-Carlo-Versuche",
     adaptive: "adaptiv",
+
+    nominal_value: "Nennwert",
+    measured_value: "Messwert",
+    coverage_interval: "Überdeckungsintervall",
+    files: "Dateien der Auswertung",
+    answer: "Ergebnis",
 };
