@@ -180,16 +180,16 @@ fn turned(
             }
         }
         let at_next = run(setup, column, place, &next, registers);
-        for i in 0..COLUMN {
-            if left[i] {
+        for (i, left) in left.into_iter().enumerate() {
+            if left {
                 (a.0[i], at_a.0[i]) = (next.0[i], at_next.0[i]);
             } else {
                 (b.0[i], at_b.0[i]) = (next.0[i], at_next.0[i]);
             }
         }
     }
-    for i in 0..COLUMN {
-        if sign[i] * at_b.0[i] > sign[i] * at_a.0[i] {
+    for (i, sign) in sign.into_iter().enumerate() {
+        if sign * at_b.0[i] > sign * at_a.0[i] {
             (a.0[i], at_a.0[i]) = (b.0[i], at_b.0[i]);
         }
     }
@@ -233,9 +233,9 @@ impl Integrated<'_> {
     ) -> [f64; 2] {
         let mut sums = [0.0; 2];
         let mut inside = [false; COLUMN];
-        for i in 0..COLUMN {
+        for (i, inside) in inside.iter_mut().enumerate() {
             let (low, high) = (from[1].0[i].min(to[1].0[i]), from[1].0[i].max(to[1].0[i]));
-            inside[i] = y > low && y < high;
+            *inside = y > low && y < high;
             if y >= high && high > low {
                 sums[0] += to[2].0[i] - from[2].0[i];
             }
