@@ -6,11 +6,11 @@ use super::folder::Folder;
 use super::json::{Json, Node};
 use super::object::Object;
 use super::table::{self, Table};
-use super::value_text::with_unit;
+use super::value_text::{ValueOf, with_unit};
 use super::{keys, samples};
 use gumption_engine::decimal;
 use gumption_engine::special;
-use gumption_units::nearest;
+use gumption_units::{Unit, nearest};
 
 /// Readings of a file, with what is to be said of them.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -44,7 +44,9 @@ pub(super) fn of_file(
 ) -> Option<Option<FileReadings>> {
     let file = object.get("file")?;
     if object.get("column").is_none() && object.get("groups").is_none() {
-        let numbers = samples::numbers(object, name, folder, files);
+        // a file has numbers alone
+        let unit = (&Unit::one(), ValueOf::Quantity);
+        let numbers = samples::numbers(object, name, unit, folder, files);
         return Some(numbers.map(|(values, _)| FileReadings { values, note: None }));
     }
     if let Some(second) = object.get("values") {
@@ -205,14 +207,14 @@ pub(super) fn dependence(name: &str, values: &[f64]) -> Option<String> {
 }
 
 /// The standard deviation and its degrees of freedom that stand in place of the scatter.
-pub(super) fn pooled(object: &Object<'_>) -> Option<Option<(f64, f64)>> {
+pub(super) fn pooled(object: &Object<'_>, unit: &Unit) -> Option<Option<(f64, f64)>> {
     let Some(member) = object.get("pooled") else { return Some(None) };
     let pooled = Object::new(object.log, "`pooled`", &member.value, &member.key_span)?;
     pooled.check_keys(keys::POOLED);
     pooled.required("std")?;
     pooled.required("dof")?;
-    let positive = |key: &'static str| {
-        let found = pooled.number(key)?;
+    let positive = |key: &'static str, found: Option<f64>| {
+        let found = found?;
         if found > 0.0 {
             return Some(found);
         }
@@ -221,7 +223,8 @@ pub(super) fn pooled(object: &Object<'_>) -> Option<Option<(f64, f64)>> {
         pooled.log.report(span, DiagnosticKind::NotPositive { key, found });
         None
     };
-    let (std, dof) = (positive("std"), positive("dof"));
+    let std = positive("std", pooled.value("std", unit, ValueOf::Difference));
+    let dof = positive("dof", pooled.number("dof"));
     Some(Some((std?, dof?)))
 }
 

@@ -17,7 +17,6 @@ use document::{Fault, Measured, Stated};
 use gumption_engine::distribution::{
     Constant, Distribution, Invalid, Normal, Rectangular, Triangular,
 };
-use gumption_engine::model::formula::Formula;
 use gumption_engine::special;
 use gumption_units::{Unit, nearest};
 use roxmltree::Node;
@@ -440,7 +439,8 @@ impl FromCertificate {
         (conditions, row): (&dyn ConditionValues, usize),
     ) -> Option<f64> {
         let place = object.get("at").map_or(object.place(), |member| &member.value.span);
-        let formula = Formula::parse(condition).map_err(|error| DiagnosticKind::Formula { error });
+        let formula = object.log.formula(condition);
+        let formula = formula.map_err(|error| DiagnosticKind::Formula { error });
         let formula = object.log.value(place, formula)?;
         if let Err(kinds) = conditions.check(&formula, unit, ValueOf::Quantity) {
             if row == 0 {
