@@ -50,3 +50,5 @@ mod temperatures;
 mod units;
 mod verify;
 mod workspace;
+mod wrong_files;
+mod wrong_numbers;

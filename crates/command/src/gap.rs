@@ -5,7 +5,7 @@ use std::sync::atomic::AtomicBool;
 
 use clap::{Args, ValueEnum};
 
-use super::options::{self, Answer, Seed, Threads, Trust};
+use super::options::{self, Answer, CoverageOption, Seed, Threads, Trust};
 use super::{CommandLine, Exit, Failure, progress, run, signals};
 use gumption_engine::task::Row;
 use gumption_files::CaseFile;
@@ -30,6 +30,8 @@ pub(super) struct Gap {
     seed: Seed,
     #[command(flatten)]
     threads: Threads,
+    #[command(flatten)]
+    coverage: CoverageOption,
 }
 
 /// The format of the answer.
@@ -50,7 +52,9 @@ enum Format {
 impl Gap {
     pub(super) fn execute(&self, program: &CommandLine) -> Result<Exit, Failure> {
         let files = self.trust.files(program);
-        let file = files.case(&self.case)?;
+        let mut file = files.case(&self.case)?;
+        let settings = &mut file.case.task.settings;
+        settings.coverage = self.coverage.or(settings.coverage);
         let at = match &self.predict {
             Some(path) => Some(files.case_at(&self.case, path)?),
             None => None,

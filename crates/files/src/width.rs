@@ -42,8 +42,10 @@ impl Width {
             }
             Json::Text(text) => {
                 let read = Self::specification(text, unit, &log.own_units());
-                read.map_err(|reason| {
-                    DiagnosticKind::Width { name: name.to_owned(), found: text.clone(), reason }
+                read.map_err(|reason| DiagnosticKind::Width {
+                    name: name.to_owned(),
+                    found: text.clone(),
+                    reason,
                 })
             }
             other => Err(DiagnosticKind::WrongType {
@@ -74,7 +76,8 @@ impl Width {
                 Some((factor, "reading")) => width.relative += value * factor,
                 Some((factor, range)) => {
                     let (full, range_unit) = number(range)?;
-                    width.absolute += value * factor * converted(full, (range_unit, own), unit, range)?;
+                    width.absolute +=
+                        value * factor * converted(full, (range_unit, own), unit, range)?;
                 }
                 None => width.absolute += converted(value, (rest, own), unit, term)?,
             }
