@@ -419,7 +419,7 @@ impl<'a> Fields<'a> {
             return self.object.number("rate");
         }
         let unit = match self.unit.text().trim() {
-            "" => "1".to_owned(),
+            "" | "1" => "1".to_owned(),
             text => format!("1/({text})"),
         };
         let unit = self.object.log.unit(&unit);
