@@ -264,7 +264,10 @@ pub use application::Application;
 /// The command line as a function ([`Application::call`]): what it takes and gives.
 #[cfg(feature = "cli")]
 pub mod command {
-    pub use gumption_command::{Answered, Exit, Failure, GivenFile, Mistake};
+    pub use gumption_command::{
+        Answered, Exit, Failure, GivenFile, MergedRun, Mistake, PartedMerging, PartedRun,
+        PartsFolder, PassOfRun,
+    };
 }
 pub use templates::catalogue;
 

@@ -503,6 +503,141 @@ fn the_digital_certificate_reads_back() {
     assert_eq!(result["rows"], found["rows"]);
 }
 
+/// Each version of the digital certificate names its schema; the older one has no place for the day
+/// of issue.
+#[test]
+fn both_versions_of_the_digital_certificate() {
+    let mut files = small();
+    files[0].1["issue_date"] = json!("2026-03-09");
+    files[0].1["receipt_date"] = json!("2026-02-26");
+    files[0].1["traceability"] = json!("to the SI");
+    let folder = folder(&files);
+    let name = path(folder.path(), "c.json");
+    for (version, issued) in [("3.2.1", true), ("3.1.2", false)] {
+        let arguments = ["certificate", &name, "--format", "dcc", "--quiet", "--trials", "2000"];
+        let chosen = [&arguments[..], &["--dcc-version", version]].concat();
+        let text = output(&chosen);
+        if issued {
+            assert_eq!(output(&arguments), text, "the newest is the default");
+        }
+        let document = roxmltree::Document::parse(&text).expect("XML");
+        let root = document.root_element();
+        assert_eq!(root.attribute("schemaVersion"), Some(version));
+        let place = ("http://www.w3.org/2001/XMLSchema-instance", "schemaLocation");
+        assert!(root.attribute(place).is_some_and(|of| of.contains(&format!("v{version}/"))));
+        let has = |name: &str| {
+            document.descendants().any(|node| node.has_tag_name(("https://ptb.de/dcc", name)))
+        };
+        assert!(has("receiptDate") && has("issueDate") == issued, "{version}");
+        let kinds: Vec<&str> =
+            document.descendants().filter_map(|n| n.attribute("refType")).collect();
+        assert!(kinds.contains(&"basic_conformity"), "{kinds:?}");
+        assert!(kinds.contains(&"basic_metrologicallyTraceableToSI"), "{kinds:?}");
+    }
+    let refused = gumption()
+        .args(["certificate", &name, "--format", "html", "--dcc-version", "3.1.2"])
+        .assert()
+        .code(2);
+    let said = String::from_utf8_lossy(&refused.get_output().stderr).into_owned();
+    assert!(said.contains("`--dcc-version` goes with `--format dcc`"), "{said}");
+}
+
+/// A certificate that is printed in Italian and French: one decimal mark, statements of conformity in
+/// its languages, its number and the page at the foot of each page, an end, a place to sign, and
+/// nobody's folders.
+#[test]
+fn a_paper_for_a_customer() {
+    let mut files = small();
+    files[0].1["language"] = json!(["it", "fr"]);
+    files[0].1["rows"][0]["model"] = json!("sub/m.json");
+    files[0].1["rows"][1]["model"] = json!("sub/m.json");
+    let folder = folder(&files[..1]);
+    fs::create_dir(folder.path().join("sub")).expect("a folder");
+    fs::write(folder.path().join("sub/m.json"), files[1].1.to_string()).expect("a file");
+    let name = path(folder.path(), "c.json");
+    let page = |format: &str| {
+        output(&["certificate", &name, "--format", format, "--quiet", "--trials", "50000"])
+    };
+    for format in ["table", "markdown", "html", "latex"] {
+        let page = page(format);
+        assert!(!page.contains("sub/m.json") && page.contains("m.json"), "{format}");
+        let lines = page.split_whitespace().collect::<Vec<_>>().join(" ").replace("&#39;", "'");
+        for said in [
+            "conforme alla tolleranza",
+            "da 9,5 m/s",
+            "accettazione semplice (JCGM 106:2012, 8.2)",
+            "acceptation simple (JCGM 106:2012, 8.2)",
+            "Fine del certificato di taratura",
+            "Firma / Signature: R",
+            "si riferiscono soltanto all'oggetto tarato",
+        ] {
+            assert!(lines.contains(said), "{format} does not say {said}\n{page}");
+        }
+        let value = if format == "latex" { "9.810" } else { "9,810" };
+        assert!(page.contains(value), "{format}\n{page}");
+        assert!(lines.contains("k = 2,00"), "{format}\n{page}");
+    }
+    let html = page("html");
+    let foot = r#"@bottom-left { content: "Numero del certificato / Numéro du certificat: C-1"; }"#;
+    assert!(html.contains(foot), "{html}");
+    assert!(html.contains(r#"content: "Pagina " counter(page) " di " counter(pages)"#), "{html}");
+    let latex = page("latex");
+    assert!(latex.contains(r"Pagina \thepage{} di \pageref{end}"), "{latex}");
+    assert!(latex.contains("output-decimal-marker={,}"));
+    // spreadsheets and digital certificates are for programs
+    assert!(page("csv").contains("9.810") && page("dcc").contains("9.810"));
+    files[0].1["decimal_mark"] = json!("point");
+    fs::write(folder.path().join("c.json"), files[0].1.to_string()).expect("a file");
+    assert!(page("markdown").contains("9.810"));
+}
+
+/// Like rows print like coverage factors: the last digit is one that another seed does not change.
+#[test]
+fn coverage_factors_do_not_scatter() {
+    let input = json!({"distribution": "rectangular", "mean": 5, "half_width": 0.3});
+    let model = json!({"inputs": {"r": input}, "equations": {"y": "r"}, "outputs": {"y": {}}});
+    let file = json!({"rows": [{"model": "m.json", "output": "y"}]});
+    let files = [("c.json", file), ("m.json", model)];
+    let factor = |trials: &str, seed: &str| {
+        let found = answer(&files, &["--trials", trials, "--seed", seed]);
+        assert_eq!(found["rows"][0]["basis"], "monte-carlo");
+        found["rows"][0]["stated"]["coverage_factor"].as_str().expect("a text").to_owned()
+    };
+    for seed in ["1", "2", "3", "4"] {
+        // 0.9545 sqrt(3) = 1.653; the numerical standard error is 0.0005 with a million trials, and
+        // 0.007 with 20 000, where both neighbours in tenths are as near
+        assert!(["1.6", "1.7"].contains(&factor("20000", seed).as_str()));
+        assert_eq!(factor("1000000", seed), "1.65");
+    }
+}
+
+/// What is raised to the capability states no interval that is narrower than it, and no factor's
+/// sentence.
+#[test]
+fn what_is_raised_to_the_capability_states_nothing_narrower() {
+    let input = json!({"distribution": "rectangular", "mean": 5, "half_width": 0.3});
+    let model = json!({"inputs": {"r": input}, "equations": {"y": "r"}, "outputs": {"y": {}}});
+    let rows = json!([{"model": "m.json", "output": "y", "cmc": 0.5, "cmc_floor": true}]);
+    let found = answer(&[("c.json", json!({"rows": rows})), ("m.json", model)], &[]);
+    let row = &found["rows"][0];
+    assert_eq!(row["limit"]["raised"], true);
+    assert_eq!(row["stated"]["expanded_uncertainty"], "0.50");
+    assert_eq!(row["stated"]["interval"], Value::Null);
+    let said = found["statements"]["en"].to_string();
+    assert!(said.contains("at least approximately 95 %") && !said.contains("shortest"), "{said}");
+}
+
+/// A certificate with a number is one that leaves the house, and says what a laboratory has to.
+#[test]
+fn what_a_laboratory_has_to_say_and_does_not_is_noted() {
+    let files = small();
+    let found = answer(&files, &["--trials", "0"]);
+    let notes: Vec<&Value> = found["warnings"].as_array().expect("a list").iter().collect();
+    let note = notes.iter().find(|note| note["code"] == "not-stated").expect("a note");
+    let text = note["text"].as_str().expect("a text");
+    assert!(text.ends_with("`issue_date`, `traceability`"), "{text}");
+}
+
 #[test]
 fn certificates_are_the_same_bytes_on_any_number_of_threads_and_at_any_place() {
     let files = small();
@@ -573,6 +708,8 @@ fn the_worked_day_is_the_one_in_reports() {
 fn the_worked_day_has_the_sensitivities_of_the_paper() {
     let said = output(&["certificate", WORKED_DAY, "--format", "json", "--quiet", "--trials", "0"]);
     let found: Value = serde_json::from_str(&said).expect("JSON");
+    let below = |row: &Value| row["limit"]["below"] == true;
+    assert!(!found["rows"].as_array().expect("rows").iter().any(below), "within the capability");
     let rows = found["rows"].as_array().expect("rows");
     let stated: Vec<(&str, &str)> = rows[rows.len() - 3..]
         .iter()

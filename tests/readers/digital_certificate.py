@@ -41,7 +41,7 @@ def find(tree, name):
 
 answer = json.load(open(sys.argv[1]))
 certificate = dcc.dcc.DCC(sys.argv[2])
-assert certificate.is_loaded() and certificate.version() == "3.1.2"
+assert certificate.is_loaded() and certificate.version() == "3.2.1"
 print("pydcc reads", certificate.uid(), "of", certificate.calibration_laboratory_name())
 
 groups = {}

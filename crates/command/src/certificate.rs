@@ -13,7 +13,7 @@ use gumption_analysis::certificate::{Failed, Issued, issue};
 use gumption_engine::propagate::{EvaluationError, warnings};
 use gumption_engine::task::{Trials, Warning};
 use gumption_files::{CertificateFile, Diagnostic, DiagnosticKind, Diagnostics};
-use gumption_report::certificate::{self as report, CertificateReport, ModelSource};
+use gumption_report::certificate::{self as report, CertificateReport, DccVersion, ModelSource};
 
 /// Make a calibration certificate.
 #[derive(Debug, Args)]
@@ -29,6 +29,9 @@ pub(super) struct Certificate {
     /// Number of Monte Carlo trials for each row; 0 for the law of propagation alone
     #[arg(long, value_name = "N|adaptive", value_parser = options::trials)]
     trials: Option<Trials>,
+    /// Version of the digital certificate, with `--format dcc`; 3.2.1 unless given
+    #[arg(long, value_name = "VERSION")]
+    dcc_version: Option<Version>,
     #[command(flatten)]
     coverage: CoverageOption,
     #[command(flatten)]
@@ -52,8 +55,28 @@ enum Format {
     Html,
     /// A workbook
     Xlsx,
-    /// A Digital Calibration Certificate of the PTB, version 3.1.2
+    /// A Digital Calibration Certificate of the PTB
     Dcc,
+}
+
+/// The version of a digital certificate.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Version {
+    /// The newest version that can be written
+    #[value(name = "3.2.1")]
+    V3_2_1,
+    /// For readers that do not know newer ones
+    #[value(name = "3.1.2")]
+    V3_1_2,
+}
+
+impl From<Version> for DccVersion {
+    fn from(version: Version) -> Self {
+        match version {
+            Version::V3_2_1 => Self::V3_2_1,
+            Version::V3_1_2 => Self::V3_1_2,
+        }
+    }
 }
 
 impl Certificate {
@@ -113,7 +136,9 @@ impl Certificate {
             Format::Markdown => report::markdown(&report),
             Format::Latex => report::latex(&report),
             Format::Html => report::html(&report),
-            Format::Dcc => report::dcc(&report),
+            Format::Dcc => {
+                report::dcc(&report, self.dcc_version.map_or_else(Default::default, Into::into))
+            }
             Format::Xlsx => {
                 let bytes = report::xlsx(&report)
                     .map_err(|error| Failure::System(format!("no workbook: {error}")))?;
@@ -146,6 +171,10 @@ impl Certificate {
     fn check_format(&self, file: &CertificateFile) -> Result<(), Failure> {
         if self.answer.format == Format::Xlsx && self.answer.is_terminal() {
             return Err(options::workbook_in_terminal());
+        }
+        if self.dcc_version.is_some() && self.answer.format != Format::Dcc {
+            let said = "`--dcc-version` goes with `--format dcc`".to_owned();
+            return Err(Failure::Argument(said));
         }
         if self.answer.format == Format::Dcc {
             let needed = report::needed(&file.certificate);
@@ -193,6 +222,7 @@ fn notes(file: &CertificateFile, issued: &Issued) -> Vec<Warning> {
     // said here for each row instead
     const OF_ROWS: [&str; 2] = ["below-cmc", "raised-to-cmc"];
     let mut notes = file.warnings.clone();
+    notes.extend(not_stated(&file.certificate));
     let evaluations = file.certificate.evaluations.iter().zip(&issued.evaluations);
     for (asked, evaluation) in evaluations {
         let found = warnings(&asked.task, evaluation).into_iter();
@@ -222,6 +252,34 @@ fn notes(file: &CertificateFile, issued: &Issued) -> Vec<Warning> {
         notes.push(Warning::new(code, format!("row {row}"), text));
     }
     notes
+}
+
+/// What ISO/IEC 17025 asks of a certificate and this one does not say. A file without a number is no
+/// certificate that leaves the house.
+fn not_stated(certificate: &Asked) -> Option<Warning> {
+    let of = &certificate.administrative;
+    of.number.as_ref()?;
+    let stated = [
+        ("laboratory", of.laboratory.is_some()),
+        ("customer", of.customer.is_some()),
+        ("device", of.device.is_some()),
+        ("method", of.method.is_some()),
+        ("calibration_date", of.calibrated.is_some()),
+        ("issue_date", of.issued.is_some()),
+        ("responsible", of.responsible.is_some()),
+        ("environment", of.environment.is_some()),
+        ("traceability", of.traceability.is_some()),
+    ];
+    let missing: Vec<String> = stated
+        .into_iter()
+        .filter(|(_, stated)| !stated)
+        .map(|(key, _)| format!("`{key}`"))
+        .collect();
+    let text = format!(
+        "the certificate does not say what ISO/IEC 17025:2017, 7.8.2.1 and 7.8.4.1 ask for: {}",
+        missing.join(", ")
+    );
+    (!missing.is_empty()).then(|| Warning::new("not-stated", "certificate".to_owned(), text))
 }
 
 /// A certificate that cannot be made, as a mistake with its place where it is the user's.

@@ -5,7 +5,7 @@ use std::sync::atomic::AtomicBool;
 
 use clap::{Args, ValueEnum};
 
-use super::options::{self, Answer, CoverageOption, Seed, Threads, Trust};
+use super::options::{Answer, Case, CoverageOption, Seed, Threads};
 use super::{CommandLine, Exit, Failure, progress, run, signals};
 use gumption_engine::task::Row;
 use gumption_files::CaseFile;
@@ -17,13 +17,11 @@ use gumption_report::Provenance;
 /// Diagnose where measured data depart from a sim, and which effect is missing.
 #[derive(Debug, Args)]
 pub(super) struct Gap {
-    /// The case: a model file with observations and candidate effects
-    case: PathBuf,
+    #[command(flatten)]
+    case: Case,
     /// Conditions (CSV) at which to give the corrected prediction as well
     #[arg(long, value_name = "CONDITIONS.csv")]
     predict: Option<PathBuf>,
-    #[command(flatten)]
-    trust: Trust,
     #[command(flatten)]
     answer: Answer<Format>,
     #[command(flatten)]
@@ -51,15 +49,11 @@ enum Format {
 
 impl Gap {
     pub(super) fn execute(&self, program: &CommandLine) -> Result<Exit, Failure> {
-        let files = self.trust.files(program);
-        let mut file = files.case(&self.case)?;
+        let mut file = self.case.read(program)?;
         let settings = &mut file.case.task.settings;
         settings.coverage = self.coverage.or(settings.coverage);
-        let at = match &self.predict {
-            Some(path) => Some(files.case_at(&self.case, path)?),
-            None => None,
-        };
-        let mut read = options::with_named(&self.case, file.files.iter().map(|(name, _)| name));
+        let at = self.predict.as_ref().map(|path| self.case.at(program, path)).transpose()?;
+        let mut read = self.case.paths(&file);
         read.extend(self.predict.clone());
         let place = self.answer.open(&read)?;
         // from the first word on, who interrupts gets what there is

@@ -3,30 +3,32 @@
 //! Three separate steps: cases are written with their data, and the truths sealed beside them; each
 //! case is read and diagnosed from its own folder alone; only then are the truths opened and scored.
 
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use clap::{Args, ValueEnum};
 use rayon::prelude::*;
 
-use super::options::{self, Answer, Seed, Threads, Trust};
+use super::options::{Answer, Case, Seed, Threads};
+use super::shared_draws::SharedCheck;
 use super::signals::{self, Temporary};
-use super::{CommandLine, Exit, Failure, progress, run};
+use super::{CommandLine, Exit, Failure, output, parts, progress, run};
 use gumption_files::CaseFile;
 use gumption_gap as gap;
-use gumption_gap::check::{BlindCheckScores, BlindDraw, Truth, score, truth};
+use gumption_gap::check::{BlindDraw, Truth, score, truth};
 use gumption_report as report;
 
 /// Check the diagnosis blindly at a case's own design.
+///
+/// The case's design, uncertainties and candidate effects are used, not its data.
 #[derive(Debug, Args)]
 pub(super) struct GapCheck {
-    /// The case: its design, uncertainties and candidate effects are used, not its data
-    case: PathBuf,
+    #[command(flatten)]
+    case: Case,
     /// Number of truths to draw
     #[arg(long, value_name = "N", default_value = "200", value_parser = draws)]
     draws: u64,
-    #[command(flatten)]
-    trust: Trust,
     #[command(flatten)]
     answer: Answer<Format>,
     #[command(flatten)]
@@ -36,6 +38,18 @@ pub(super) struct GapCheck {
     /// Keep the drawn cases and, in its folder `sealed`, their truths
     #[arg(long, value_name = "FOLDER")]
     keep: Option<PathBuf>,
+    /// Make some of the draws, for `--parts`: those from A to B - 1 of the N, or the K-th of M parts
+    #[arg(
+        long, value_name = "A..B|K/M", value_parser = parts::blocks, requires = "partial",
+        conflicts_with = "output"
+    )]
+    share: Option<parts::Blocks>,
+    /// Write those draws to a file
+    #[arg(long, value_name = "FILE", requires = "share")]
+    partial: Option<PathBuf>,
+    /// Take the draws from the files of `--partial` in a folder: the answer is that of one machine
+    #[arg(long, value_name = "DIR", conflicts_with_all = ["share", "keep"])]
+    parts: Option<PathBuf>,
 }
 
 /// The format of the answer.
@@ -58,28 +72,30 @@ fn draws(text: &str) -> Result<u64, String> {
 
 impl GapCheck {
     pub(super) fn execute(&self, program: &CommandLine) -> Result<Exit, Failure> {
-        let file = self.trust.files(program).case(&self.case)?;
-        let read = options::with_named(&self.case, file.files.iter().map(|(name, _)| name));
+        let file = self.case.read(program)?;
+        let read = self.case.paths(&file);
         let place = self.answer.open(&read)?;
+        let [partial] = output::open([("--partial", self.partial.as_deref())], &read)?;
         // from the first word on, an interrupt leaves nothing behind
         let stop = signals::stop_flag();
         self.answer.say(&file.warnings);
         let seed = self.seed.or(file.case.task.settings.seed);
-        let kept;
-        let folder: &Path = match &self.keep {
-            Some(folder) => folder,
-            None => {
-                let made = tempfile::tempdir().map_err(|error| {
-                    Failure::System(format!("cannot make a temporary folder: {error}"))
-                })?;
-                kept = Temporary::new(made.keep());
-                kept.path()
-            }
+        let range = match &self.share {
+            Some(share) => share.of(self.draws, ("--share", "draws"))?,
+            None => 0..self.draws,
         };
-        let scores = || self.scores(program, &file, folder, seed, &stop);
-        let Some(scores) = self.threads.install(scores)?? else {
-            return Ok(Exit::Interrupted);
+        let shared = || SharedCheck::new(&file, seed, self.draws);
+        let checked = match &self.parts {
+            Some(folder) => Some(shared().together(folder)?),
+            None => self.made(program, &file, seed, range.clone(), &stop)?,
         };
+        let Some(checked) = checked else { return Ok(Exit::Interrupted) };
+        if let Some(partial) = partial {
+            let content = shared().file(&range, checked)?;
+            partial.write_with(|out| out.write_all(content.as_bytes()).map(|()| true))?;
+            return Ok(Exit::Done);
+        }
+        let scores = self.threads.install(|| score(&file.case, checked, seed))?;
         let design = report::gap::check::CheckedDesign::of(&file.case);
         let answer = match self.answer.format {
             Format::Table => report::gap::check::table(&design, &scores),
@@ -93,31 +109,50 @@ impl GapCheck {
         Ok(Exit::Done)
     }
 
+    /// Makes draws, in a folder that is kept or not; `None` if it was interrupted.
+    fn made(
+        &self,
+        program: &CommandLine,
+        file: &CaseFile,
+        seed: u64,
+        range: Range<u64>,
+        stop: &AtomicBool,
+    ) -> Result<Option<Vec<BlindDraw>>, Failure> {
+        let kept;
+        let folder: &Path = match &self.keep {
+            Some(folder) => folder,
+            None => {
+                let made = tempfile::tempdir().map_err(|error| {
+                    Failure::System(format!("cannot make a temporary folder: {error}"))
+                })?;
+                kept = Temporary::new(made.keep());
+                kept.path()
+            }
+        };
+        self.threads.install(|| self.checked(program, file, folder, (seed, range), stop))?
+    }
+
     /// The three steps in turn: truths and data, diagnoses, comparison; `None` if they were
     /// interrupted.
-    fn scores(
+    fn checked(
         &self,
         program: &CommandLine,
         file: &CaseFile,
         folder: &Path,
-        seed: u64,
+        (seed, range): (u64, Range<u64>),
         stop: &AtomicBool,
-    ) -> Result<Option<BlindCheckScores>, Failure> {
+    ) -> Result<Option<Vec<BlindDraw>>, Failure> {
         let noise = gap::noise(&file.case, seed).map_err(impossible)?;
-        self.write(file, &noise, folder, seed)?;
-        let Some(answers) = self.diagnose(program, folder, seed, stop)? else {
+        self.write(file, &noise, folder, (seed, range.clone()))?;
+        let Some(answers) = self.diagnose(program, folder, (seed, range.clone()), stop)? else {
             return Ok(None);
         };
         let sim = gap::nominal(&file.case);
-        let checked = answers
-            .iter()
-            .enumerate()
-            .map(|(number, answer)| {
-                let sealed = open(&folder.join("sealed").join(format!("{number:05}.json")))?;
-                Ok(BlindDraw::new(&sealed, answer, &sim, &noise))
-            })
-            .collect::<Result<Vec<_>, Failure>>()?;
-        Ok(Some(score(&file.case, checked, seed)))
+        let checked = range.zip(&answers).map(|(number, answer)| {
+            let sealed = open(&folder.join("sealed").join(format!("{number:05}.json")))?;
+            Ok(BlindDraw::new(&sealed, answer, &sim, &noise))
+        });
+        checked.collect::<Result<Vec<_>, Failure>>().map(Some)
     }
 
     /// Draws the truths: each case in a folder of its own, its truth in the folder `sealed`.
@@ -126,7 +161,7 @@ impl GapCheck {
         file: &CaseFile,
         noise: &[Vec<f64>],
         folder: &Path,
-        seed: u64,
+        (seed, range): (u64, Range<u64>),
     ) -> Result<(), Failure> {
         let make = |path: &Path| {
             std::fs::create_dir_all(path).map_err(|error| {
@@ -135,7 +170,7 @@ impl GapCheck {
         };
         let sealed = folder.join("sealed");
         make(&sealed)?;
-        (0..self.draws).into_par_iter().try_for_each(|number| {
+        range.into_par_iter().try_for_each(|number| {
             let (truth, measured) = truth(&file.case, noise, seed, number).map_err(impossible)?;
             let own = folder.join(format!("{number:05}"));
             make(&own)?;
@@ -161,11 +196,11 @@ impl GapCheck {
         &self,
         program: &CommandLine,
         folder: &Path,
-        seed: u64,
+        (seed, range): (u64, Range<u64>),
         stop: &AtomicBool,
     ) -> Result<Option<Vec<gap::ModelSelection>>, Failure> {
-        let bar = progress::counted(self.draws, "draws", self.answer.quiet);
-        let answers: Result<Vec<Option<gap::ModelSelection>>, Failure> = (0..self.draws)
+        let bar = progress::counted(range.end - range.start, "draws", self.answer.quiet);
+        let answers: Result<Vec<Option<gap::ModelSelection>>, Failure> = range
             .into_par_iter()
             .map(|number| {
                 if stop.load(Ordering::Relaxed) {

@@ -20,6 +20,7 @@ mod new;
 mod observe;
 mod options;
 mod output;
+mod parted_run;
 mod parts;
 mod plan;
 mod progress;
@@ -27,6 +28,7 @@ mod replacement;
 mod run;
 mod save;
 mod schema;
+mod shared_draws;
 mod signals;
 mod surroundings;
 mod verify;
@@ -45,6 +47,8 @@ use gumption_units::all_nearest;
 
 pub use check::Mistake;
 pub use exit::{Exit, Failure};
+pub use parted_run::{MergedRun, PartedMerging, PartedRun, PassOfRun};
+pub use parts::PartsFolder;
 pub use surroundings::GivenFile;
 pub use verify::PublishedExamples;
 

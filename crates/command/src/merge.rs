@@ -7,7 +7,8 @@ use clap::Args;
 
 use super::evaluated::Evaluated;
 use super::options::{Threads, Trust};
-use super::parts::{Folder, NEXT_PASS, Together};
+use super::parted_run::{MergedRun, PartedRun};
+use super::parts::{NEXT_PASS, PartsFolder};
 use super::{CommandLine, Exit, Failure, signals};
 use gumption_files::{SharedModelError, SharedRun};
 
@@ -33,7 +34,7 @@ pub(super) struct Merge {
 
 impl Merge {
     pub(super) fn execute(&self, program: &CommandLine) -> Result<Exit, Failure> {
-        let folder = Folder::open(&self.folder)?;
+        let folder = PartsFolder::open(&self.folder)?;
         let run = folder.run()?;
         if run.version != env!("CARGO_PKG_VERSION") {
             return Err(Failure::Argument(format!(
@@ -58,17 +59,17 @@ impl Merge {
         // a signal ends it at once: the parts are there
         let never = AtomicBool::new(false);
         let control = self.threads.control(&never).with_memory(run.memory);
-        match folder.merge(&file, &task, &run, self.evaluated.saves(), &control)? {
-            Together::Evaluation(evaluation, quantiles) => {
+        match folder.merge(&PartedRun::new(&file, &task, &run), self.evaluated.saves(), &control)? {
+            MergedRun::Evaluation(evaluation, quantiles) => {
                 let SharedRun { set, .. } = &run;
                 let found = (&file, &task, &*evaluation, quantiles);
                 let stop = signals::stop_flag();
                 let control = control.with_stop(&stop);
                 self.evaluated.give(found, set, places, (&control, &stop))
             }
-            Together::Again(next) => {
+            MergedRun::Again(next) => {
                 let number = next.number();
-                folder.write_next(run, next)?;
+                folder.write_next(&run, &next)?;
                 let path = self.folder.join(NEXT_PASS);
                 self.evaluated.answer.note([format!(
                     "pass {number} over the blocks is needed: make each part again with `--pass {}`, \

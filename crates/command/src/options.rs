@@ -14,8 +14,8 @@ use super::output::Place;
 use super::surroundings::{GivenFile, in_call};
 use super::{CommandLine, Failure, output};
 use gumption_engine::propagate::Control;
-use gumption_engine::task::{Coverage, StoppingRule, Trials, Warning};
-use gumption_files::{FileReader, ModelFile, Override, bytes};
+use gumption_engine::task::{Coverage, Row, StoppingRule, Trials, Warning};
+use gumption_files::{CaseFile, FileReader, ModelFile, Override, bytes};
 use gumption_report::{BudgetColumn, plain};
 
 /// The format of an answer.
@@ -229,12 +229,10 @@ impl Model {
                 )));
             }
         }
-        if let Some(of) = given_file(&self.model) {
-            let files = files.holding(&of.held);
-            return Ok(files.model_text(&of.name, &of.text, &of.folder, replaced)?);
-        }
-        let text = |text: &str| files.model_text("<stdin>", text, Path::new(""), replaced);
-        Ok(given(&self.model, text, |path| files.model(path, replaced))??)
+        let text = |files: FileReader<'_>, name: &str, text: &str, folder: &Path| {
+            files.model_text(name, text, folder, replaced)
+        };
+        Ok(opened(files, &self.model, text, |path| files.model(path, replaced))??)
     }
 
     /// Its path; `None` of standard input.
@@ -260,6 +258,54 @@ pub(super) fn given<T>(
     file: impl FnOnce(&Path) -> T,
 ) -> Result<T, Failure> {
     if path == Path::new("-") { Ok(text(&standard_input()?)) } else { Ok(file(path)) }
+}
+
+/// What a file argument names, read by what may name files: as [`given`], and a file that a program
+/// gives in place of standard input has a name, a folder and files of its own.
+pub(super) fn opened<T>(
+    files: FileReader<'_>,
+    path: &Path,
+    text: impl FnOnce(FileReader<'_>, &str, &str, &Path) -> T,
+    file: impl FnOnce(&Path) -> T,
+) -> Result<T, Failure> {
+    if let Some(of) = given_file(path) {
+        return Ok(text(files.holding(&of.held), &of.name, &of.text, &of.folder));
+    }
+    given(path, |read| text(files, "<stdin>", read, Path::new("")), file)
+}
+
+/// The case of a diagnosis of the gap.
+#[derive(Debug, Args)]
+pub(super) struct Case {
+    /// The case: a model file with observations and candidate effects; - for standard input
+    case: PathBuf,
+    #[command(flatten)]
+    trust: Trust,
+}
+
+impl Case {
+    /// The case.
+    pub(super) fn read(&self, program: &CommandLine) -> Result<CaseFile, Failure> {
+        let files = self.trust.files(program);
+        let text = |files: FileReader<'_>, name: &str, text: &str, folder: &Path| {
+            files.case_text(name, text, folder)
+        };
+        Ok(opened(files, &self.case, text, |path| files.case(path))??)
+    }
+
+    /// What its sim has in the rows of a table of conditions.
+    pub(super) fn at(&self, program: &CommandLine, rows: &Path) -> Result<Vec<Row>, Failure> {
+        let files = self.trust.files(program);
+        let text = |files: FileReader<'_>, name: &str, text: &str, folder: &Path| {
+            files.case_text_at(name, text, folder, rows)
+        };
+        Ok(opened(files, &self.case, text, |path| files.case_at(path, rows))??)
+    }
+
+    /// The paths of the file and of those that it names.
+    pub(super) fn paths(&self, file: &CaseFile) -> Vec<PathBuf> {
+        with_named(&self.case, file.files.iter().map(|(name, _)| name))
+    }
 }
 
 /// A number of threads.

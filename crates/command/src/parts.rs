@@ -7,13 +7,11 @@ use std::path::{Path, PathBuf};
 
 use super::exit::say;
 use super::output::{self, Destination};
-use super::{Exit, Failure, progress, run};
-use gumption_engine::propagate::parts::{Merged, Merging, SharedPass, blocks as blocks_of};
-use gumption_engine::propagate::{Control, Evaluation, EvaluationError};
-use gumption_engine::task::Task;
+use super::parted_run::{MergedRun, PartedRun, PassOfRun, refused};
+use super::{Exit, Failure, progress};
+use gumption_engine::propagate::{Control, Evaluation};
 use gumption_files::{
-    ModelFile, SharedFileError, SharedFileHeader, SharedFileKind, SharedRun, shared_file,
-    shared_file_bytes,
+    SharedFileError, SharedFileHeader, SharedFileKind, SharedRun, shared_file, shared_file_bytes,
 };
 use gumption_report::plain;
 
@@ -26,7 +24,7 @@ const KEPT_PARTS: u64 = 64;
 /// Ranges of blocks that a message lists, at most.
 const MOST_LISTED: usize = 8;
 
-/// Which blocks a part is to make.
+/// Which blocks, or which of other things that are counted, a part is to make.
 #[derive(Clone, Debug)]
 pub(super) enum Blocks {
     /// From the first to before the second.
@@ -53,15 +51,16 @@ pub(super) fn blocks(text: &str) -> Result<Blocks, String> {
 }
 
 impl Blocks {
-    /// The range among so many blocks; a range that reaches beyond the last block ends with it.
-    fn of(&self, all: u64) -> Result<Range<u64>, Failure> {
+    /// The range among so many; a range that reaches beyond the last one ends with it. The option and
+    /// the word for what is counted are for messages.
+    pub(super) fn of(&self, all: u64, (option, what): (&str, &str)) -> Result<Range<u64>, Failure> {
         match *self {
             Self::Range(from, _) if from >= all => Err(Failure::Argument(format!(
-                "`--blocks`: the run has {all} blocks (0..{all}), none of them from {from} on"
+                "`{option}`: the run has {all} {what} (0..{all}), none of them from {from} on"
             ))),
             Self::Range(from, to) => Ok(from..to.min(all)),
             Self::Share(part, of) if of > all => Err(Failure::Argument(format!(
-                "`--blocks {part}/{of}`: the run has no more than {all} blocks to share"
+                "`{option} {part}/{of}`: the run has no more than {all} {what} to share"
             ))),
             Self::Share(part, of) => {
                 let at = |k: u64| (u128::from(all) * u128::from(k) / u128::from(of)) as u64;
@@ -82,86 +81,47 @@ pub(super) struct Asked<'a> {
     pub(super) quiet: bool,
 }
 
-/// A pass, and its bytes.
-struct CurrentPass {
-    pass: SharedPass,
-    bytes: Vec<u8>,
-}
-
-impl CurrentPass {
-    fn of(pass: SharedPass) -> Self {
-        let bytes = pass.to_bytes();
-        Self { pass, bytes }
-    }
-
-    fn first(file: &ModelFile, task: &Task, control: &Control<'_>) -> Result<Self, Failure> {
-        let pass = SharedPass::first(task, control).map_err(|error| run::failure(file, error))?;
-        Ok(Self::of(pass))
-    }
-
-    /// From a file, which must be of this run.
-    fn read(path: &Path, task: &Task, run: &SharedRun) -> Result<Self, Failure> {
-        let bytes = shared_file_bytes(path).map_err(|error| refused(path, &error))?;
-        let (header, content) = shared_file(&bytes).map_err(|error| refused(path, &error))?;
-        if header.kind != SharedFileKind::Pass {
-            return Err(refused(path, &"it is a part of a run, not the file `next-pass`"));
-        }
-        if let Some(difference) = run.difference(&header.run) {
-            return Err(refused(path, &format!("this file {difference}")));
-        }
-        let pass = SharedPass::from_bytes(content, task).map_err(|error| refused(path, &error))?;
-        Ok(Self { pass, bytes: content.to_owned() })
-    }
-
-    /// The header of a file of this pass.
-    fn header(&self, run: SharedRun, kind: SharedFileKind) -> SharedFileHeader {
-        SharedFileHeader::new(run, self.pass.number(), &self.bytes, kind)
-    }
-}
-
-/// Why a file is not taken.
-fn refused(path: &Path, reason: &dyn std::fmt::Display) -> Failure {
-    Failure::Argument(format!("{}: {reason}", path.display()))
-}
-
-fn shared_blocks(task: &Task) -> Result<u64, Failure> {
-    blocks_of(task).map_err(|reason| Failure::Argument(reason.to_string()))
-}
-
 /// `gumption run --blocks`
 pub(super) fn make(
-    file: &ModelFile,
-    task: &Task,
-    run: SharedRun,
+    run: PartedRun<'_>,
     asked: Asked<'_>,
     control: &Control<'_>,
 ) -> Result<Exit, Failure> {
-    let range = asked.blocks.of(shared_blocks(task)?)?;
+    let range = asked.blocks.of(run.blocks()?, ("--blocks", "blocks"))?;
     let mut read = asked.read;
     read.extend(asked.pass.map(Path::to_owned));
     let [destination] = output::open([("--partial", Some(asked.partial))], &read)?;
-    let current = match asked.pass {
-        Some(path) => CurrentPass::read(path, task, &run)?,
-        None => CurrentPass::first(file, task, control)?,
+    let pass = match asked.pass {
+        Some(path) => pass_of(&run, path)?,
+        None => run.first(control)?,
     };
     let bar = progress::bar(None, asked.quiet);
     let advance = |trials: u64| bar.inc(trials);
-    let found = current.pass.part(task, range.clone(), &control.with_progress(&advance));
+    let found = run.part(&pass, range, &control.with_progress(&advance));
     bar.finish_and_clear();
-    let Some(part) = found.map_err(|error| run::failure(file, error))? else {
+    let Some(part) = found? else {
         say("gumption: interrupted, the part is not written\n");
         return Ok(Exit::Interrupted);
     };
-    let content = current.header(run, SharedFileKind::Part(range)).file(&part);
     if let Some(destination) = destination {
-        destination.write_with(|out| out.write_all(&content).map(|()| true))?;
+        destination.write_with(|out| out.write_all(&part).map(|()| true))?;
     }
     Ok(Exit::Done)
 }
 
+/// The content of a file of a shared run.
+fn content(path: &Path) -> Result<Vec<u8>, Failure> {
+    shared_file_bytes(path).map_err(|error| refused(&path.display(), &error))
+}
+
+/// The pass of a file, which must be of this run.
+fn pass_of(run: &PartedRun<'_>, path: &Path) -> Result<PassOfRun, Failure> {
+    run.pass(&path.display(), &content(path)?)
+}
+
 /// The parts of a run that are in a folder.
 #[derive(Debug)]
-pub(super) struct Folder {
+pub struct PartsFolder {
     path: PathBuf,
     /// Whether there is a file that says what the pass is to count.
     has_pass: bool,
@@ -173,17 +133,12 @@ pub(super) struct Folder {
 /// An evaluation with the quantiles that a result file holds, where they took passes.
 pub(super) type WithQuantiles = (Box<Evaluation>, Option<Vec<Vec<f64>>>);
 
-/// What was made of the parts.
-pub(super) enum Together {
-    /// With the quantiles that a result file holds, where they took passes.
-    Evaluation(Box<Evaluation>, Option<Vec<Vec<f64>>>),
-    /// The next pass.
-    Again(SharedPass),
-}
-
-impl Folder {
+impl PartsFolder {
     /// Looks at the headers of all files in a folder.
-    pub(super) fn open(path: &Path) -> Result<Self, Failure> {
+    ///
+    /// # Errors
+    /// A folder or a file of it that cannot be read; damaged parts.
+    pub fn open(path: &Path) -> Result<Self, Failure> {
         let failed = |error: std::io::Error| {
             Failure::Argument(format!("cannot read the folder `{}`: {error}", path.display()))
         };
@@ -196,25 +151,39 @@ impl Folder {
         let mut found =
             Self { path: path.to_owned(), has_pass: false, parts: Vec::new(), others: 0 };
         for name in names.into_iter().filter(|name| name.is_file()) {
-            let file = File::open(&name).map_err(|error| refused(&name, &error))?;
+            let file = File::open(&name).map_err(|error| refused(&name.display(), &error))?;
             match SharedFileHeader::read(&mut BufReader::new(file)) {
                 Ok(header) if header.kind == SharedFileKind::Pass => {
                     found.has_pass |= name.ends_with(NEXT_PASS);
                 }
                 Ok(header) => found.parts.push((name, header)),
                 Err(SharedFileError::Other) => found.others += 1,
-                Err(error) => return Err(refused(&name, &error)),
+                Err(error) => return Err(refused(&name.display(), &error)),
             }
         }
         Ok(found)
+    }
+
+    /// The same of a folder that is made where there is none.
+    ///
+    /// # Errors
+    /// As of [`PartsFolder::open`], and a folder that cannot be made.
+    pub fn made(path: &Path) -> Result<Self, Failure> {
+        fs::create_dir_all(path).map_err(|error| {
+            let path = plain(&path.display().to_string());
+            Failure::System(format!("cannot make the folder `{path}`: {error}"))
+        })?;
+        Self::open(path)
     }
 
     /// The run that the folder is of.
     pub(super) fn run(&self) -> Result<SharedRun, Failure> {
         if self.has_pass {
             let path = self.next_pass();
-            let bytes = shared_file_bytes(&path).map_err(|error| refused(&path, &error))?;
-            let (header, _) = shared_file(&bytes).map_err(|error| refused(&path, &error))?;
+            let bytes =
+                shared_file_bytes(&path).map_err(|error| refused(&path.display(), &error))?;
+            let (header, _) =
+                shared_file(&bytes).map_err(|error| refused(&path.display(), &error))?;
             return Ok(header.run);
         }
         let Some((_, header)) = self.parts.first() else {
@@ -241,51 +210,27 @@ impl Folder {
     }
 
     /// The pass that is under way.
-    fn current(
-        &self,
-        file: &ModelFile,
-        task: &Task,
-        run: &SharedRun,
-        control: &Control<'_>,
-    ) -> Result<CurrentPass, Failure> {
-        if self.has_pass {
-            CurrentPass::read(&self.next_pass(), task, run)
-        } else {
-            CurrentPass::first(file, task, control)
-        }
+    ///
+    /// # Errors
+    /// A file `next-pass` of another run.
+    pub fn pass(&self, run: &PartedRun<'_>, control: &Control<'_>) -> Result<PassOfRun, Failure> {
+        if self.has_pass { pass_of(run, &self.next_pass()) } else { run.first(control) }
     }
 
     /// The parts of that pass in the order of their blocks; those of passes before it are not needed.
-    fn parts_of(
+    ///
+    /// # Errors
+    /// Parts of another run, and blocks that are there twice.
+    pub fn parts(
         &self,
-        current: &CurrentPass,
-        run: &SharedRun,
-        all: u64,
+        run: &PartedRun<'_>,
+        pass: &PassOfRun,
     ) -> Result<Vec<(&Path, Range<u64>)>, Failure> {
-        let number = current.pass.number();
-        let digest = current.header(run.clone(), SharedFileKind::Pass).pass_digest;
+        let again = format!(" with `--pass {}`", self.next_pass().display());
         let mut found: Vec<(&Path, Range<u64>)> = Vec::new();
         for (path, header) in &self.parts {
-            if let Some(difference) = run.difference(&header.run) {
-                return Err(refused(path, &format!("this part {difference}")));
-            }
-            let SharedFileKind::Part(range) = &header.kind else { continue };
-            if header.pass < number {
-                continue;
-            }
-            if header.pass != number || header.pass_digest != digest {
-                let reason = format!(
-                    "this part is of another pass over the blocks (number {}, and the folder is at \
-                     number {number}); make it again with `--pass {}`",
-                    header.pass,
-                    self.next_pass().display()
-                );
-                return Err(refused(path, &reason));
-            }
-            if range.is_empty() || range.end > all {
-                return Err(refused(path, &format!("it has blocks that the run of {all} has not")));
-            }
-            found.push((path, range.clone()));
+            let range = run.range(pass, &path.display(), header, &again)?;
+            found.extend(range.map(|range| (path.as_path(), range)));
         }
         found.sort_by_key(|(_, range)| range.start);
         for pair in found.windows(2) {
@@ -297,7 +242,7 @@ impl Folder {
                     a.end.min(b.end),
                     first.display()
                 );
-                return Err(refused(second, &reason));
+                return Err(refused(&second.display(), &reason));
             }
         }
         Ok(found)
@@ -306,75 +251,93 @@ impl Folder {
     /// Puts the parts together.
     pub(super) fn merge(
         &self,
-        file: &ModelFile,
-        task: &Task,
-        run: &SharedRun,
+        run: &PartedRun<'_>,
         with_quantiles: bool,
         control: &Control<'_>,
-    ) -> Result<Together, Failure> {
-        let all = shared_blocks(task)?;
-        let current = self.current(file, task, run, control)?;
-        let parts = self.parts_of(&current, run, all)?;
+    ) -> Result<MergedRun, Failure> {
+        let pass = self.pass(run, control)?;
+        let parts = self.parts(run, &pass)?;
+        let all = run.blocks()?;
         let missing = missing(&parts, all);
         if !missing.is_empty() {
-            return Err(self.incomplete(&missing, all, current.pass.number()));
+            return Err(self.incomplete(&missing, all, pass.number()));
         }
-        let evaluated = |error: EvaluationError| run::failure(file, error);
         // half an answer would be none
         let mut whole = *control;
         whole.stop = None;
-        let mut merging = Merging::new(task, &current.pass, whole).map_err(evaluated)?;
-        for (path, range) in parts {
-            let bytes = shared_file_bytes(path).map_err(|error| refused(path, &error))?;
-            let (_, content) = shared_file(&bytes).map_err(|error| refused(path, &error))?;
-            merging.add(range, content).map_err(|error| refused(path, &error))?;
+        let mut merging = run.merging(&pass, whole)?;
+        for (path, _) in parts {
+            merging.add(&path.display(), &content(path)?)?;
         }
-        Ok(match merging.finish(with_quantiles).map_err(evaluated)? {
-            Merged::Evaluation(evaluation, quantiles) => {
-                Together::Evaluation(evaluation, quantiles)
-            }
-            Merged::Again(next) => Together::Again(next),
-            other => {
-                return Err(Failure::System(format!("parts gave what is not known: {other:?}")));
-            }
-        })
+        merging.finish(with_quantiles)
     }
 
     /// Says which blocks are missing.
     fn incomplete(&self, missing: &[Range<u64>], all: u64, number: u64) -> Failure {
-        let listed: Vec<String> = missing
-            .iter()
-            .take(MOST_LISTED)
-            .map(|range| format!("{}..{}", range.start, range.end))
-            .collect();
-        let more = match missing.len().saturating_sub(MOST_LISTED) {
-            0 => String::new(),
-            more => format!(" and {more} more ranges"),
-        };
+        let first =
+            missing.first().map_or_else(String::new, |of| format!("{}..{}", of.start, of.end));
         let pass = if self.has_pass {
             format!(" --pass {}", self.next_pass().display())
         } else {
             String::new()
         };
         Failure::Argument(format!(
-            "the folder `{}` lacks blocks of pass {number} over the run's {all}: {}{more}; make them \
-             with `gumption run MODEL --blocks {} --partial FILE{pass}`",
+            "the folder `{}` lacks blocks of pass {number} over the run's {all}: {}; make them with \
+             `gumption run MODEL --blocks {first} --partial FILE{pass}`",
             self.path.display(),
-            listed.join(", "),
-            listed.first().map_or("", String::as_str)
+            ranges(missing),
         ))
     }
 
     /// Writes what the next pass is to count.
-    pub(super) fn write_next(&self, run: SharedRun, next: SharedPass) -> Result<(), Failure> {
-        let next = CurrentPass::of(next);
-        let content = next.header(run, SharedFileKind::Pass).file(&next.bytes);
-        write(&self.next_pass(), &content)
+    ///
+    /// # Errors
+    /// What the system says.
+    pub fn write_next(&self, run: &SharedRun, next: &PassOfRun) -> Result<(), Failure> {
+        write(&self.next_pass(), &next.file(run))
+    }
+
+    /// Removes the parts that were kept for a pass that is merged.
+    ///
+    /// # Errors
+    /// What the system says.
+    pub fn remove_kept(&self, number: u64) -> Result<(), Failure> {
+        let prefix = kept_prefix(number);
+        for (path, header) in &self.parts {
+            let name = path.file_name().unwrap_or_default().to_string_lossy();
+            if header.pass == number && name.starts_with(&prefix) {
+                fs::remove_file(path).map_err(|error| {
+                    Failure::System(format!("cannot remove `{}`: {error}", path.display()))
+                })?;
+            }
+        }
+        Ok(())
     }
 }
 
+impl PartedRun<'_> {
+    /// Keeps the file of a part in a folder, under a name that says which one it is.
+    ///
+    /// # Errors
+    /// A file that is no part; what the system says.
+    pub fn keep(&self, folder: &Path, part: &[u8]) -> Result<(), Failure> {
+        let header = SharedFileHeader::read(&mut &*part);
+        let header = header.map_err(|error| refused(&"a part", &error))?;
+        let SharedFileKind::Part(range) = &header.kind else {
+            return Err(refused(&"a part", &"it is a pass"));
+        };
+        let name = format!("{}{}-{}", kept_prefix(header.pass), range.start, range.end);
+        write(&folder.join(name), part)
+    }
+}
+
+/// How the names of the parts begin that are kept for a pass.
+fn kept_prefix(pass: u64) -> String {
+    format!("part-{pass}-")
+}
+
 /// Which of all blocks no part has; the parts are in order.
-fn missing(parts: &[(&Path, Range<u64>)], all: u64) -> Vec<Range<u64>> {
+pub(super) fn missing<T>(parts: &[(T, Range<u64>)], all: u64) -> Vec<Range<u64>> {
     let mut missing = Vec::new();
     let mut next = 0;
     for (_, range) in parts {
@@ -389,8 +352,19 @@ fn missing(parts: &[(&Path, Range<u64>)], all: u64) -> Vec<Range<u64>> {
     missing
 }
 
+/// Ranges as a message lists them.
+pub(super) fn ranges(of: &[Range<u64>]) -> String {
+    let shown = |range: &Range<u64>| format!("{}..{}", range.start, range.end);
+    let listed: Vec<String> = of.iter().take(MOST_LISTED).map(shown).collect();
+    let more = match of.len().saturating_sub(MOST_LISTED) {
+        0 => String::new(),
+        more => format!(" and {more} more ranges"),
+    };
+    listed.join(", ") + &more
+}
+
 /// Writes a file that is there whole or not at all.
-fn write(path: &Path, content: &[u8]) -> Result<(), Failure> {
+pub(super) fn write(path: &Path, content: &[u8]) -> Result<(), Failure> {
     let destination = Destination::open(path)?;
     destination.write_with(|out| out.write_all(content).map(|()| true))
 }
@@ -398,67 +372,41 @@ fn write(path: &Path, content: &[u8]) -> Result<(), Failure> {
 /// Makes a run in parts that are kept in a folder, from those that are there on; `None` if it was
 /// stopped.
 pub(super) fn resume(
-    file: &ModelFile,
-    task: &Task,
-    run: SharedRun,
+    run: PartedRun<'_>,
     (path, with_quantiles): (&Path, bool),
     control: &Control<'_>,
     quiet: bool,
 ) -> Result<Option<WithQuantiles>, Failure> {
-    let all = shared_blocks(task)?;
-    fs::create_dir_all(path).map_err(|error| {
-        let path = plain(&path.display().to_string());
-        Failure::System(format!("cannot make the folder `{path}`: {error}"))
-    })?;
+    let all = run.blocks()?;
     loop {
-        let folder = Folder::open(path)?;
-        let current = folder.current(file, task, &run, control)?;
-        let number = current.pass.number();
-        let missing = missing(&folder.parts_of(&current, &run, all)?, all);
+        let folder = PartsFolder::made(path)?;
+        let pass = folder.pass(&run, control)?;
+        let missing = missing(&folder.parts(&run, &pass)?, all);
         let length = all.div_ceil(KEPT_PARTS).max(1);
         let pieces: Vec<Range<u64>> =
             missing.into_iter().flat_map(|range| pieces(range, length)).collect();
         let bar = progress::counted(pieces.len() as u64, "parts", quiet);
         for range in pieces {
-            let part = current.pass.part(task, range.clone(), control);
-            let Some(part) = part.map_err(|error| run::failure(file, error))? else {
+            let Some(part) = run.part(&pass, range, control)? else {
                 bar.finish_and_clear();
                 let path = plain(&path.display().to_string());
                 say(&format!("gumption: interrupted; what was made is in `{path}`\n"));
                 return Ok(None);
             };
-            let name = path.join(format!("part-{number}-{}-{}", range.start, range.end));
-            let header = current.header(run.clone(), SharedFileKind::Part(range));
-            write(&name, &header.file(&part))?;
+            run.keep(path, &part)?;
             bar.inc(1);
         }
         bar.finish_and_clear();
-        match Folder::open(path)?.merge(file, task, &run, with_quantiles, control)? {
-            Together::Evaluation(evaluation, quantiles) => {
+        let folder = PartsFolder::open(path)?;
+        match folder.merge(&run, with_quantiles, control)? {
+            MergedRun::Evaluation(evaluation, quantiles) => {
                 return Ok(Some((evaluation, quantiles)));
             }
-            Together::Again(next) => {
-                let folder = Folder::open(path)?;
-                folder.write_next(run.clone(), next)?;
-                folder.remove_made_before(number)?;
+            MergedRun::Again(next) => {
+                folder.write_next(run.run, &next)?;
+                folder.remove_kept(pass.number())?;
             }
         }
-    }
-}
-
-impl Folder {
-    /// Removes the parts that [`resume`] made for a pass that is merged.
-    fn remove_made_before(&self, number: u64) -> Result<(), Failure> {
-        let prefix = format!("part-{number}-");
-        for (path, header) in &self.parts {
-            let name = path.file_name().unwrap_or_default().to_string_lossy();
-            if header.pass == number && name.starts_with(&prefix) {
-                fs::remove_file(path).map_err(|error| {
-                    Failure::System(format!("cannot remove `{}`: {error}", path.display()))
-                })?;
-            }
-        }
-        Ok(())
     }
 }
 
@@ -478,7 +426,7 @@ mod tests {
 
     #[test]
     fn blocks_are_ranges_or_shares() {
-        let of = |text: &str| blocks(text).unwrap().of(977).ok();
+        let of = |text: &str| blocks(text).unwrap().of(977, ("--blocks", "blocks")).ok();
         assert_eq!(of("0..500"), Some(0..500));
         assert_eq!(of("500..2000"), Some(500..977));
         assert_eq!(of("977..978"), None);

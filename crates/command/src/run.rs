@@ -7,6 +7,7 @@ use clap::{Args, ValueEnum};
 
 use super::evaluated::Evaluated;
 use super::options::{self, CoverageOption, Model, Seed, Threads};
+use super::parted_run::PartedRun;
 use super::{CommandLine, Exit, Failure, parts, progress, signals};
 use gumption_engine::propagate::{Control, Evaluation, EvaluationError, evaluate};
 use gumption_engine::task::{SettingsChanges, StoppingRule, Task, Trials};
@@ -92,14 +93,17 @@ impl Run {
         if let (Some(blocks), Some(partial)) = (&self.blocks, &self.partial) {
             let read = self.model.paths(&file);
             let asked = parts::Asked { blocks, partial, pass: self.pass.as_deref(), read, quiet };
-            return parts::make(&file, &task, shared(), asked, &control);
+            let run = shared();
+            return parts::make(PartedRun::new(&file, &task, &run), asked, &control);
         }
         self.evaluated.check(&task)?;
         let places = self.evaluated.open(&self.model.paths(&file))?;
         let (evaluation, quantiles) = match &self.resume {
             Some(folder) => {
                 let asked = (folder.as_path(), self.evaluated.saves());
-                let found = parts::resume(&file, &task, shared(), asked, &control, quiet)?;
+                let run = shared();
+                let run = PartedRun::new(&file, &task, &run);
+                let found = parts::resume(run, asked, &control, quiet)?;
                 let Some((evaluation, quantiles)) = found else { return Ok(Exit::Interrupted) };
                 (*evaluation, quantiles)
             }

@@ -7,6 +7,7 @@
 
 mod answer;
 pub mod bytes;
+mod carried;
 mod case;
 mod catalogue;
 mod certificate;
@@ -71,6 +72,7 @@ mod variant;
 mod width;
 mod workbook;
 
+pub use carried::{CarriedModel, carried_models};
 pub use case::CaseFile;
 pub use catalogue::{EffectListing, ListedEffect, ListedParameter, catalogue};
 pub use certificate::{CertificateFile, CertifiedModel};

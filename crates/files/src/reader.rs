@@ -144,7 +144,19 @@ impl<'c> FileReader<'c> {
     /// What a case's sim has in the rows of a table of conditions, which stands in the current
     /// folder.
     pub fn case_at(self, path: &Path, conditions: &Path) -> Result<Vec<Row>, Diagnostics> {
-        open(path, |name, text, folder| case::read_at(self, name, text, folder, conditions))
+        open(path, |name, text, folder| self.case_text_at(name, text, folder, conditions))
+    }
+
+    /// What the sim of a case's text has in the rows of a table of conditions, which stands in the
+    /// current folder.
+    pub fn case_text_at(
+        self,
+        name: &str,
+        text: &str,
+        folder: &Path,
+        conditions: &Path,
+    ) -> Result<Vec<Row>, Diagnostics> {
+        case::read_at(self, name, text, folder, conditions)
     }
 
     /// A saved result's text.

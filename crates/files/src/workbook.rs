@@ -37,7 +37,7 @@ type Cells = BTreeMap<u32, BTreeMap<u32, String>>;
 /// What is wrong with the workbook, as a sentence about it.
 pub(super) fn first_sheet(bytes: Vec<u8>) -> Result<String, String> {
     check_parts(&bytes)?;
-    csv(&cells(bytes)?)
+    csv(&cells(bytes, Sheet::First)?)
 }
 
 /// All cells of the first sheet, row by row from its first one, empty where nothing stands.
@@ -45,12 +45,29 @@ pub(super) fn first_sheet(bytes: Vec<u8>) -> Result<String, String> {
 /// # Errors
 /// What is wrong with the workbook, as a sentence about it.
 pub(super) fn rows(bytes: Vec<u8>) -> Result<Vec<Vec<String>>, String> {
+    rows_of(bytes, Sheet::First)
+}
+
+/// A sheet of a workbook.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Sheet {
+    /// The first one.
+    First,
+    /// The last one.
+    Last,
+}
+
+/// The same of another sheet.
+///
+/// # Errors
+/// What is wrong with the workbook, as a sentence about it.
+pub(super) fn rows_of(bytes: Vec<u8>, sheet: Sheet) -> Result<Vec<Vec<String>>, String> {
     /// Beyond it nobody keeps a budget.
     const MOST_ROWS: u32 = 10_000;
     const MOST_COLUMNS: u32 = 256;
     check_parts(&bytes)?;
     let mut rows: Vec<Vec<String>> = Vec::new();
-    for (row, cells) in cells(bytes)?.range(..MOST_ROWS) {
+    for (row, cells) in cells(bytes, sheet)?.range(..MOST_ROWS) {
         rows.resize(*row as usize, Vec::new());
         let mut line: Vec<String> = Vec::new();
         for (column, text) in cells.range(..MOST_COLUMNS) {
@@ -179,9 +196,13 @@ fn letters(column: u32) -> String {
     name
 }
 
-fn cells(bytes: Vec<u8>) -> Result<Cells, String> {
+fn cells(bytes: Vec<u8>, sheet: Sheet) -> Result<Cells, String> {
     let mut workbook: Xlsx<_> = Xlsx::new(Cursor::new(bytes)).map_err(is_none)?;
-    let sheet = workbook.sheet_names().first().cloned();
+    let names = workbook.sheet_names();
+    let sheet = match sheet {
+        Sheet::First => names.first().cloned(),
+        Sheet::Last => names.last().cloned(),
+    };
     let sheet = sheet.ok_or_else(|| "the workbook has no sheet".to_owned())?;
     let mut reader = workbook.worksheet_cells_reader(&sheet).map_err(is_none)?;
     let (mut cells, mut size) = (Cells::new(), 0);

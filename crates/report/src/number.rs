@@ -64,7 +64,7 @@ pub fn with_uncertainty(estimate: f64, uncertainty: f64, digits: u32) -> (String
 pub fn align<S: AsRef<str>>(texts: &[S]) -> Vec<String> {
     let split = |text: &S| {
         let text = text.as_ref();
-        let whole = text.find(['.', 'e']).unwrap_or(text.len());
+        let whole = text.find(['.', ',', 'e']).unwrap_or(text.len());
         (text[..whole].chars().count(), text[whole..].chars().count())
     };
     let sizes: Vec<(usize, usize)> = texts.iter().map(split).collect();

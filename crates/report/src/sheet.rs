@@ -95,6 +95,16 @@ impl Sheet {
         self.columns.push(Column { header: header.to_owned(), cells, values: Vec::new(), kind });
     }
 
+    /// The same with decimal commas in its numbers.
+    pub(crate) fn with_commas(mut self) -> Self {
+        for column in self.columns.iter_mut().filter(|column| column.kind == Kind::Numbers) {
+            for cell in &mut column.cells {
+                *cell = super::document::with_comma(cell);
+            }
+        }
+        self
+    }
+
     /// Whether something stands above the columns.
     pub(crate) fn has_headers(&self) -> bool {
         self.columns.iter().any(|column| !column.header.is_empty())

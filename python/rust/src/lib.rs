@@ -9,6 +9,7 @@ mod columns;
 mod errors;
 mod function;
 mod model;
+mod parts;
 mod run;
 mod supervised;
 
@@ -27,11 +28,14 @@ fn _gumption(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     module.add("ModelError", module.py().get_type::<errors::ModelError>())?;
     module.add_class::<model::Model>()?;
+    module.add_class::<parts::Parts>()?;
     module.add_class::<run::Run>()?;
     module.add_function(wrap_pyfunction!(arrow::arrow_array, module)?)?;
     module.add_function(wrap_pyfunction!(arrow::arrow_stream, module)?)?;
     module.add_function(wrap_pyfunction!(budgets::budgets, module)?)?;
     module.add_function(wrap_pyfunction!(call::call, module)?)?;
+    module.add_function(wrap_pyfunction!(call::carried_models, module)?)?;
+    module.add_function(wrap_pyfunction!(call::case_source, module)?)?;
     module.add_function(wrap_pyfunction!(call::main, module)?)?;
     module.add_function(wrap_pyfunction!(call::unit_scale, module)?)?;
     module.add_function(wrap_pyfunction!(call::units_fit, module)?)?;

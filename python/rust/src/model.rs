@@ -14,6 +14,7 @@ use pyo3::types::{PyDict, PyTuple};
 use crate::application;
 use crate::errors::{argument, failed};
 use crate::function::PythonFunction;
+use crate::parts::Parts;
 use crate::run::{Ran, Run};
 use crate::supervised::{Watch, supervised};
 
@@ -25,8 +26,10 @@ pub(crate) struct Source {
     pub(crate) folder: PathBuf,
     pub(crate) held: Vec<(String, Vec<u8>)>,
     allowed: Vec<PathBuf>,
-    replaced: Vec<String>,
+    pub(crate) replaced: Vec<String>,
     accept_changed: bool,
+    /// Where the file is, if it is one.
+    pub(crate) path: Option<PathBuf>,
 }
 
 /// A model file, read and checked.
@@ -153,7 +156,11 @@ impl Model {
     ) -> PyResult<Self> {
         let (name, text) = (name.to_owned(), text.to_owned());
         let folder = PathBuf::from(folder);
-        let source = Source { name, text, folder, held, allowed: allow, replaced, accept_changed };
+        // a text of another name than a file's is none
+        let path = Some(Path::new(&name)).filter(|path| path.is_file()).map(Path::to_owned);
+        let (allowed, of) = (allow, replaced);
+        let source =
+            Source { name, text, folder, held, allowed, replaced: of, accept_changed, path };
         let overrides = source.replaced.iter().map(|text| {
             let needed =
                 || argument(py, format!("`{text}`: NAME=VALUE or NAME.field=VALUE is needed"));
@@ -204,7 +211,8 @@ impl Model {
     /// are there with the content that was read, so that it can be read again elsewhere.
     #[getter]
     fn source<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
-        let Source { name, text, folder, held, allowed, replaced, accept_changed } = &*self.source;
+        let Source { name, text, folder, held, allowed, replaced, accept_changed, .. } =
+            &*self.source;
         let known = |name: &str| held.iter().any(|(held, _)| held == name);
         let read = self.file.files.iter().filter(|(name, _)| !known(name));
         let held: Vec<(String, Bound<'_, pyo3::types::PyBytes>)> = held
@@ -270,12 +278,7 @@ impl Model {
         function: Option<Py<PyAny>>,
     ) -> PyResult<Run> {
         let asked = Asked::of(py, options)?;
-        let mut task = self.file.task.clone();
-        asked.settings(&mut task);
-        if asked.changes.rule.is_some() && task.settings.trials != Trials::Adaptive {
-            let reason = "`rule` is about adaptive runs; add `trials=\"adaptive\"`";
-            return Err(argument(py, reason));
-        }
+        let task = self.asked_task(py, &asked)?;
         let file = Arc::clone(&self.file);
         let counted = progress.is_some();
         let work = move |watch: &Watch| evaluated(&file, task, &asked, counted, function, watch);
@@ -287,11 +290,41 @@ impl Model {
         let Evaluated { task, evaluation, notes, threads, memory } = found;
         let provenance = Arc::clone(&self.provenance);
         let (file, replaced) = (Arc::clone(&self.file), self.source.replaced.clone());
-        Ok(Run::of(Ran { file, task, evaluation, notes, provenance, replaced, threads, memory }))
+        let quantiles = None;
+        let ran =
+            Ran { file, task, evaluation, quantiles, notes, provenance, replaced, threads, memory };
+        Ok(Run::of(ran))
+    }
+
+    /// The run in parts, for executors.
+    #[pyo3(signature = (options, function=None))]
+    fn parts(
+        &self,
+        py: Python<'_>,
+        options: &Bound<'_, PyDict>,
+        function: Option<Py<PyAny>>,
+    ) -> PyResult<Parts> {
+        let asked = Asked::of(py, options)?;
+        let task = self.asked_task(py, &asked)?;
+        let of = (&self.file, task, &self.provenance);
+        Ok(Parts::new(of, &self.source, (asked.threads, asked.memory), function))
     }
 
     fn __repr__(&self) -> String {
         format!("<gumption._gumption.Model {:?}>", self.source.name)
+    }
+}
+
+impl Model {
+    /// The task with what is asked for.
+    fn asked_task(&self, py: Python<'_>, asked: &Asked) -> PyResult<Task> {
+        let mut task = self.file.task.clone();
+        asked.settings(&mut task);
+        if asked.changes.rule.is_some() && task.settings.trials != Trials::Adaptive {
+            let reason = "`rule` is about adaptive runs; add `trials=\"adaptive\"`";
+            return Err(argument(py, reason));
+        }
+        Ok(task)
     }
 }
 

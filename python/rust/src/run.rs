@@ -25,6 +25,8 @@ pub(crate) struct Ran {
     pub(crate) file: Arc<ModelFile>,
     pub(crate) task: Task,
     pub(crate) evaluation: Evaluation,
+    /// Of a result file, where they are known already.
+    pub(crate) quantiles: Option<Vec<Vec<f64>>>,
     pub(crate) notes: Vec<Warning>,
     pub(crate) provenance: Arc<Provenance>,
     pub(crate) replaced: Vec<String>,
@@ -161,8 +163,9 @@ impl Run {
 
     /// The result file of the run, from which inputs of other models are taken.
     fn saved(&self, py: Python<'_>) -> PyResult<String> {
-        let found =
-            self.made(py, |ran, control| report::saved_result(&ran.report(), None, control))?;
+        let found = self.made(py, |ran, control| {
+            report::saved_result(&ran.report(), ran.quantiles.as_deref(), control)
+        })?;
         match found {
             Ok(Some(text)) => Ok(text),
             Ok(None) => Err(PyOSError::new_err("the run was stopped")),

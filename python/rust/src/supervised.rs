@@ -92,6 +92,48 @@ pub(crate) fn supervised<T: Send + 'static>(
     }
 }
 
+/// The same for work that borrows: it is waited for also where an exception is raised, which the flag
+/// makes short.
+///
+/// # Errors
+/// What a handler of signals raises; a panic of the work.
+pub(crate) fn supervised_within<T: Send>(
+    py: Python<'_>,
+    stop: &AtomicBool,
+    work: impl FnOnce() -> T + Send,
+) -> PyResult<T> {
+    if rayon::current_thread_index().is_some() {
+        return Ok(py.detach(work));
+    }
+    let pool = pool()?;
+    let (give, take) = sync_channel(1);
+    pool.in_place_scope(|scope| {
+        scope.spawn(move |_| {
+            let _ = give.send(catch_unwind(AssertUnwindSafe(work)));
+        });
+        let take = Mutex::new(take);
+        let wait = |time: Duration| {
+            let take = take.lock().unwrap_or_else(PoisonError::into_inner);
+            take.recv_timeout(time)
+        };
+        let mut signalled = Ok(());
+        loop {
+            match py.detach(|| wait(LOOK)) {
+                Ok(Ok(found)) => return signalled.map(|()| found),
+                Ok(Err(_)) | Err(RecvTimeoutError::Disconnected) => {
+                    return Err(PyRuntimeError::new_err("an internal error of gumption"));
+                }
+                Err(RecvTimeoutError::Timeout) => {
+                    if signalled.is_ok() {
+                        signalled = py.check_signals();
+                        stop.fetch_or(signalled.is_err(), Ordering::Relaxed);
+                    }
+                }
+            }
+        }
+    })
+}
+
 fn tell(progress: Option<&Bound<'_, PyAny>>, watch: &Watch) -> PyResult<()> {
     match progress {
         Some(progress) => progress.call1((watch.done.load(Ordering::Relaxed),)).map(|_| ()),

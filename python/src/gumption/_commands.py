@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import json
 import os
+import tempfile
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -94,6 +95,31 @@ def _asked_again(arguments: Sequence[str], source: Any, text: str | None) -> Ans
     return Answer(arguments, None if source is None else _gumption.Model(*source), text)
 
 
+class _Together(Answer):
+    """An answer of parts that others made."""
+
+    def __init__(
+        self,
+        arguments: Sequence[str],
+        text: str,
+        held: Sequence[tuple[str, bytes]],
+        parts: Sequence[bytes],
+    ) -> None:
+        self._made = (list(arguments), text, list(held), list(parts))
+        self._folder = tempfile.TemporaryDirectory()
+        for number, part in enumerate(parts):
+            with open(os.path.join(self._folder.name, f"{number:06}"), "wb") as file:
+                file.write(part)
+        super().__init__([*arguments, "--parts", self._folder.name], None, text)
+
+    def _call(self, more: Sequence[str]) -> tuple[bytes, str, bool]:
+        arguments, model, text = self._asked
+        return _gumption.call([*arguments, *more], model, text, self._made[2])
+
+    def __reduce__(self) -> Any:
+        return _Together, self._made
+
+
 class Certificate(Answer):
     """A calibration certificate; `Answer.save` writes it, as ``.xml`` a DCC."""
 
@@ -123,7 +149,7 @@ def _given(file: Any) -> tuple[str, str | None]:
 
 
 def gap(
-    case: str | os.PathLike[str],
+    case: str | os.PathLike[str] | Mapping[str, Any],
     *,
     predict: str | os.PathLike[str] | None = None,
     seed: int | None = None,
@@ -134,38 +160,54 @@ def gap(
 
     Parameters
     ----------
-    case : path-like
-        The case: a model file with observations and candidate effects.
+    case : path-like or mapping
+        The case: a model file with observations and candidate effects, or its content. Files that the
+        content names are looked for in the current folder.
     predict : path-like, optional
         A table of conditions at which to give the corrected prediction as well.
     seed, threads, allow_path : optional
         As on the command line.
     """
     options = _options(predict=predict, seed=seed, threads=threads, allow_path=allow_path)
-    return Answer(["gap", os.fspath(case), *options])
+    path, text = _given(case)
+    return Answer(["gap", path, *options], None, text)
 
 
 def gap_check(
-    case: str | os.PathLike[str],
+    case: str | os.PathLike[str] | Mapping[str, Any],
     draws: int | None = None,
     *,
     seed: int | None = None,
     threads: int | None = None,
     keep: str | os.PathLike[str] | None = None,
+    executor: Any = None,
 ) -> Answer:
     """Check the diagnosis blindly at a case's own design: how far its answers can be trusted.
 
     Parameters
     ----------
-    case : path-like
-        The case; its data are not used.
+    case : path-like or mapping
+        The case, a file or its content; its data are not used.
     draws : int, optional
         Number of truths to draw.
     seed, threads, keep : optional
         As on the command line.
+    executor : concurrent.futures.Executor or distributed.Client, optional
+        What shares the draws; the answer has the bytes of one made on this machine.
     """
     options = _options(draws=draws, seed=seed, threads=threads, keep=keep)
-    return Answer(["gap-check", os.fspath(case), *options])
+    path, text = _given(case)
+    if executor is not None:
+        if keep is not None:
+            raise _gumption.ModelError("`keep` and `executor` exclude each other")
+        from gumption._executors import drawn_on
+
+        text, held = _gumption.case_source(path, text)
+        shared = _options(draws=draws, seed=seed)
+        count = 200 if draws is None else draws
+        parts = drawn_on(text, held, shared, count, threads or 1, executor)
+        return _Together(["gap-check", "-", *options], text, held, parts)
+    return Answer(["gap-check", path, *options], None, text)
 
 
 def observe(recipe: str | os.PathLike[str] | Mapping[str, Any], *, seed: int | None = None) -> Answer:
@@ -306,6 +348,7 @@ def verify() -> Answer:
     return Answer(["verify"])
 
 
-def check(file: str | os.PathLike[str]) -> Answer:
-    """List all mistakes of a file: ``{"ok": ..., "errors": [...]}``."""
-    return Answer(["check", os.fspath(file)])
+def check(file: str | os.PathLike[str] | Mapping[str, Any]) -> Answer:
+    """List all mistakes of a file, or of its content: ``{"ok": ..., "errors": [...]}``."""
+    path, text = _given(file)
+    return Answer(["check", path], None, text)

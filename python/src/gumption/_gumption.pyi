@@ -1,7 +1,7 @@
 """The extension module: what is made in Rust."""
 
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from typing import Any, final
 
 import numpy as np
@@ -10,12 +10,15 @@ import numpy.typing as npt
 __all__ = [
     "Model",
     "ModelError",
+    "Parts",
     "Run",
     "__version__",
     "arrow_array",
     "arrow_stream",
     "budgets",
     "call",
+    "carried_models",
+    "case_source",
     "main",
     "unit_scale",
     "units_fit",
@@ -81,6 +84,26 @@ class Model:
         progress: Callable[[int], object] | None = None,
         function: Callable[[list[npt.NDArray[np.float64]]], list[Any]] | None = None,
     ) -> Run: ...
+    def parts(
+        self,
+        options: dict[str, Any],
+        function: Callable[[list[npt.NDArray[np.float64]]], list[Any]] | None = None,
+    ) -> Parts: ...
+
+@final
+class Parts:
+    @property
+    def blocks(self) -> int: ...
+    @property
+    def trials_of_block(self) -> float: ...
+    def first(self) -> bytes: ...
+    def part(self, current: bytes, start: int, end: int) -> bytes: ...
+    def merge(
+        self, current: bytes, parts: Iterable[bytes], with_quantiles: bool
+    ) -> Run | bytes: ...
+    def kept(self, folder: str) -> tuple[bytes, list[tuple[str, int, int]]]: ...
+    def keep(self, folder: str, part: bytes) -> None: ...
+    def go_on(self, folder: str, following: bytes) -> None: ...
 
 @final
 class Run:
@@ -120,8 +143,13 @@ def budgets(
     real_dof: bool = False,
 ) -> list[dict[str, Any]]: ...
 def call(
-    arguments: list[str], model: Model | None = None, text: str | None = None
+    arguments: list[str],
+    model: Model | None = None,
+    text: str | None = None,
+    held: list[tuple[str, bytes]] = ...,
 ) -> tuple[bytes, str, bool]: ...
+def carried_models(path: str) -> list[tuple[str, str, list[tuple[str, bytes]]]]: ...
+def case_source(path: str, text: str | None = None) -> tuple[str, list[tuple[str, bytes]]]: ...
 def main(arguments: list[str]) -> int: ...
 def unit_scale(unit: str) -> tuple[float, float]: ...
 def units_fit(first: str, second: str) -> bool: ...

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
 from gumption import _gumption
@@ -91,6 +92,10 @@ class Model:
         threads: int | None = None,
         memory: int | None = None,
         progress: bool | Callable[[int], object] = False,
+        executor: Any = None,
+        parts: int | None = None,
+        resume: str | os.PathLike[str] | None = None,
+        to_save: bool = False,
     ) -> Result:
         """Evaluate by the law of propagation (JCGM 100) and by Monte Carlo (JCGM 101).
 
@@ -125,6 +130,21 @@ class Model:
             Bytes for kept values of trials; 64 MiB unless given.
         progress : bool or callable, default False
             Show a bar of ``tqdm``, or call this now and then with the trials that are made.
+        executor : concurrent.futures.Executor or distributed.Client, optional
+            What shares the run: a process pool, a Dask client. Ranges of blocks of trials are made by
+            its workers, on one thread each unless `threads` says otherwise, and merged here as they
+            come; rows of conditions are shared likewise. The result has the bits of a run on this
+            machine, and a part that is lost with its worker is made again.
+        parts : int, optional
+            With `executor`, into how many parts each pass over the trials is cut; 64, or 8 for each
+            worker if these are more, unless given.
+        resume : path-like, optional
+            With `executor`, a folder in which the parts are kept: a run that was stopped goes on from
+            those that are there. ``gumption run --resume`` and ``gumption merge`` take it as well.
+        to_save : bool, default False
+            With `executor`, let the workers also make what `Result.save` and inputs of other models
+            need, which takes a pass more where the trials do not fit into `memory`; else it is made on
+            this machine when it is asked for.
 
         Returns
         -------
@@ -143,23 +163,53 @@ class Model:
             "max_trials": max_trials, "threads": threads, "memory": memory,
         }  # fmt: skip
         given = {name: value for name, value in options.items() if value is not None}
-        return Result(self, given, self._evaluated(given, progress))
+        if executor is None:
+            if parts is not None or resume is not None or to_save:
+                raise _gumption.ModelError(
+                    "`parts`, `resume` and `to_save` are about runs that an executor shares; give "
+                    "`executor`"
+                )
+            return Result(self, given, self._evaluated(given, progress))
+        from gumption._executors import run_on
+
+        with self._bar(given, progress) as told:
+            run = run_on(
+                self, given, executor,
+                parts=parts, resume=resume, with_quantiles=to_save, told=told,
+            )  # fmt: skip
+        return Result(self, given, run)
+
+    def _parts(self, options: dict[str, Any]) -> _gumption.Parts:
+        """The run in parts."""
+        return self._rust.parts(options, self._columns())
+
+    def _columns(self) -> Callable[[list[Any]], list[Any]] | None:
+        """The function over columns of a model that is not traced."""
+        return None if self._function is None else self._function.of(self._rust)
+
+    @contextmanager
+    def _bar(
+        self, options: Mapping[str, Any], progress: bool | Callable[[int], object]
+    ) -> Iterator[Callable[[int], object] | None]:
+        """What is told of the trials that are made."""
+        if progress is False:
+            yield None
+        elif callable(progress):
+            yield progress
+        else:
+            from tqdm.auto import tqdm
+
+            trials = options.get("trials")
+            total = int(trials) * self.rows if isinstance(trials, (int, float)) and trials else None
+            with tqdm(total=total, unit="trials", unit_scale=True) as bar:
+                yield lambda done: bar.update(done - bar.n)
 
     def _evaluated(
         self, options: dict[str, Any], progress: bool | Callable[[int], object] = False
     ) -> _gumption.Run:
         """The run on this machine's threads."""
-        function = self._function.of(self._rust) if self._function is not None else None
-        if progress is False:
-            return self._rust.run(options, None, function)
-        if callable(progress):
-            return self._rust.run(options, progress, function)
-        from tqdm.auto import tqdm
-
-        trials = options.get("trials")
-        total = int(trials) * self.rows if isinstance(trials, (int, float)) and trials else None
-        with tqdm(total=total, unit="trials", unit_scale=True) as bar:
-            return self._rust.run(options, lambda done: bar.update(done - bar.n), function)
+        with self._bar(options, progress) as told:
+            return self._rust.run(options, told, self._columns())
 
     def set(self, *replacements: str, **values: Any) -> Model:
         """The model with other estimates or fields of inputs, as ``--set`` has them.
@@ -276,16 +326,23 @@ def _json(file: Mapping[str, Any]) -> str:
 def load(
     path: str | os.PathLike[str],
     *,
+    model: str | None = None,
     set: Mapping[str, Any] | Sequence[str] = (),  # noqa: A002 - the name that the command line has
     allow_path: Sequence[str | os.PathLike[str]] = (),
     accept_changed: bool = False,
 ) -> Model:
-    """Read a model file.
+    """Read a model file, or the model that another file carries.
+
+    A workbook of a run (``--format xlsx``) carries its model file, and a Digital Calibration
+    Certificate of gumption those of its results; what people changed in cells or values is not taken.
+    Of any other certificate (2.4 to 3.3) every stated value is an input and an output.
 
     Parameters
     ----------
     path : path-like
         The file. What it names is looked for in its folder.
+    model : str, optional
+        Which one of several models that a certificate carries.
     set : mapping or sequence of str, optional
         Other estimates or fields of inputs, as ``--set`` has them: ``{"tilt": "36 deg"}`` or
         ``["tilt.half_width=0.2"]``.
@@ -305,7 +362,36 @@ def load(
     """
     items = [f"{name}={value}" for name, value in set.items()] if isinstance(set, Mapping) else set
     allowed = [os.fspath(folder) for folder in allow_path]
+    if _carries(path):
+        name, text, held = _carried(os.fspath(path), model)
+        folder = os.path.dirname(os.fspath(path))
+        of = (f"{os.fspath(path)} ({name})", text, folder, held)
+        return Model._of(_gumption.Model(*of, allowed, list(items), accept_changed))
+    if model is not None:
+        raise _gumption.ModelError("`model` is about a certificate that carries several")
     return Model._of(_gumption.Model.load(os.fspath(path), allowed, list(items), accept_changed))
+
+
+def _carries(path: str | os.PathLike[str]) -> bool:
+    """Whether a file is a workbook or XML."""
+    try:
+        with open(path, "rb") as file:
+            start = file.read(64)
+    except OSError:
+        return False
+    return start.startswith(b"PK") or start.removeprefix(b"\xef\xbb\xbf").lstrip().startswith(b"<")
+
+
+def _carried(path: str, wanted: str | None) -> tuple[str, str, list[tuple[str, bytes]]]:
+    """The model that a file carries."""
+    found = _gumption.carried_models(path)
+    if wanted is None and len(found) == 1:
+        return found[0]
+    for one in found:
+        if wanted in (one[0], os.path.splitext(os.path.basename(one[0]))[0]):
+            return one
+    names = ", ".join(f"`{name}`" for name, _, _ in found)
+    raise _gumption.ModelError(f"{path}: it carries {names}; say which with `model=`")
 
 
 def from_json(text: str, *, name: str = "<json>", folder: str | os.PathLike[str] = "") -> Model:

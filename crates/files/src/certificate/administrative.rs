@@ -32,6 +32,7 @@ pub(super) fn read(root: &Object<'_>) -> Option<AdministrativeData> {
         laboratory: party(root, "laboratory"),
         responsible: owned(root, "responsible"),
         calibrated: calibrated(root),
+        received: date(root, "receipt_date"),
         issued: date(root, "issue_date"),
         place: place.unwrap_or_default(),
         environment: localized(root, "environment"),
@@ -41,8 +42,9 @@ pub(super) fn read(root: &Object<'_>) -> Option<AdministrativeData> {
     })
 }
 
+/// A text; one without a letter says nothing.
 fn owned(object: &Object<'_>, key: &str) -> Option<String> {
-    object.text(key).map(str::to_owned)
+    object.text(key).filter(|text| !text.trim().is_empty()).map(str::to_owned)
 }
 
 /// A text, or an object with a text for each language.
@@ -78,6 +80,7 @@ fn device(root: &Object<'_>) -> Option<Device> {
         name: localized(&object, "name")?,
         manufacturer: owned(&object, "manufacturer"),
         model: owned(&object, "model"),
+        condition: localized(&object, "condition"),
         serial_number: owned(&object, "serial_number"),
         customer_number: owned(&object, "customer_number"),
     })

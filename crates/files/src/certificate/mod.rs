@@ -17,7 +17,7 @@ use super::reader::FileReader;
 use super::source::SourceText;
 use super::{DiagnosticKind, settings};
 use crate::folder::Folder;
-use gumption_analysis::certificate::contents::{Certificate, Language, Rounding};
+use gumption_analysis::certificate::contents::{Certificate, DecimalMark, Language, Rounding};
 use gumption_engine::task::{Coverage, Settings, Warning};
 use rows::Rows;
 
@@ -148,6 +148,8 @@ fn certificate<'a>(
     let administrative = administrative::read(&root);
     let languages = languages(&root);
     let rounding = named(&root, "rounding", Rounding::named, &Rounding::ALL.map(Rounding::name));
+    let mark =
+        named(&root, "decimal_mark", DecimalMark::named, &DecimalMark::ALL.map(DecimalMark::name));
     let digits = root.whole("digits", 1, MOST_DIGITS).unwrap_or(2);
     let coverage = settings::coverage(&root);
     let trials = root.get("monte_carlo").map(|_| settings::read(&root));
@@ -180,6 +182,9 @@ fn certificate<'a>(
     let rows::Read { evaluations, lines, models, warnings, places } = rows.finish()?;
     let certificate = Certificate {
         administrative: administrative?,
+        decimal_mark: mark.unwrap_or_else(|| {
+            languages.first().map_or(DecimalMark::Point, |language| language.decimal_mark())
+        }),
         languages,
         rounding: rounding.unwrap_or_default(),
         digits: u32::try_from(digits).unwrap_or(2),

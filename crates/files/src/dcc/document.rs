@@ -10,7 +10,7 @@ use gumption_units::Unit;
 use roxmltree::{Document, Node};
 
 /// What is wrong, and where in the text.
-pub(super) type Fault = (Range<usize>, String);
+pub(crate) type Fault = (Range<usize>, String);
 
 /// The values of a quantity, with what is stated of their uncertainty.
 #[derive(Clone, Debug)]
@@ -33,7 +33,7 @@ pub(super) struct Stated {
 }
 
 /// Reads a text as a certificate.
-pub(super) fn parse(text: &str) -> Result<Document<'_>, Fault> {
+pub(crate) fn parse(text: &str) -> Result<Document<'_>, Fault> {
     let document = Document::parse(text).map_err(|error| {
         let at = error.pos();
         let line: usize = text
@@ -66,7 +66,7 @@ pub(super) fn parse(text: &str) -> Result<Document<'_>, Fault> {
 }
 
 /// The start tag of an element.
-pub(super) fn tag(node: Node<'_, '_>) -> Range<usize> {
+pub(crate) fn tag(node: Node<'_, '_>) -> Range<usize> {
     let range = node.range();
     let text = node.document().input_text();
     let inside = text.get(range.clone()).unwrap_or_default();

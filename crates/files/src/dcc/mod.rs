@@ -2,6 +2,7 @@
 //! quantity, or a table of it interpolated over a condition.
 
 mod document;
+mod quantities;
 
 use std::collections::HashMap;
 use std::ops::Range;
@@ -13,12 +14,14 @@ use super::object::Object;
 use super::source::{Place, SourceText};
 use super::value_text::ValueOf;
 use super::{DiagnosticKind, bytes};
-use document::{Fault, Measured, Stated};
+pub(super) use document::{Fault, parse, tag};
+use document::{Measured, Stated};
 use gumption_engine::distribution::{
     Constant, Distribution, Invalid, Normal, Rectangular, Triangular,
 };
 use gumption_engine::special;
 use gumption_units::{Unit, nearest};
+pub(super) use quantities::inputs;
 use roxmltree::Node;
 
 /// The certificates that a model file names: name, text if it could be read, content.
@@ -38,12 +41,11 @@ impl Certificates {
             return known.clone();
         }
         let read = || {
-            let path = folder.file(name)?;
             let unreadable = |message: String| {
                 let message = format!("`{name}`: {message}");
                 DiagnosticKind::Unreadable { message }
             };
-            let bytes = bytes::of_file(&path, bytes::MOST).map_err(unreadable)?;
+            let bytes = folder.content(name, bytes::MOST)?;
             let text = bytes::text(&bytes).map_err(unreadable)?.into_owned();
             if !text.trim_start().starts_with('<') {
                 return Err(unreadable("it is no XML".to_owned()));
@@ -105,7 +107,7 @@ pub(super) fn read(
 
 /// Outside the fault of a certificate; inside `None` where the model file's has been reported.
 fn parsed(object: &Object<'_>, source: &Arc<SourceText>) -> Result<Option<FromCertificate>, Fault> {
-    let document = document::parse(&source.text)?;
+    let document = parse(&source.text)?;
     let all = document::quantities(&document);
     let Some(chosen) = chosen(object, &all) else { return Ok(None) };
     let measured: Vec<Measured> =
@@ -175,6 +177,20 @@ fn chosen<'d>(object: &Object<'_>, all: &[Node<'d, 'd>]) -> Option<Vec<Node<'d, 
         None if known.is_empty() => String::new(),
         None => format!("; there are {}", known[..known.len().min(12)].join(", ")),
     };
+    if let Some(member) = object.get("quantity") {
+        let others = ["id", "ref_type"].into_iter().find(|key| object.get(key).is_some());
+        if let Some(first) = others {
+            let diagnostic = DiagnosticKind::Exclusive { first, second: "quantity" };
+            object.log.report(&member.key_span, diagnostic);
+            return None;
+        }
+        let place = object.whole("quantity", 0, 1 << 32)? as usize;
+        let Some(one) = all.get(place) else {
+            let reason = format!("the certificate has {} quantities, counted from 0", all.len());
+            return report("quantity", reason);
+        };
+        return Some(vec![*one]);
+    }
     if object.get("id").is_some() {
         let wanted = object.text("id")?;
         let has = |node: &&Node<'d, 'd>| {
@@ -210,7 +226,8 @@ fn chosen<'d>(object: &Object<'_>, all: &[Node<'d, 'd>]) -> Option<Vec<Node<'d, 
         _ => {
             let shown: Vec<String> = all.iter().take(8).map(|of| document::called(*of)).collect();
             let reason = format!(
-                "the certificate has {} quantities; name one by its `id` or `ref_type`: {}{}",
+                "the certificate has {} quantities; name one by its `id` or `ref_type`, or by its place as \
+                 `quantity`, from 0: {}{}",
                 all.len(),
                 shown.join(", "),
                 if all.len() > 8 { ", ..." } else { "" }

@@ -133,12 +133,51 @@ fn certificates_of_others() {
             continue;
         }
         let text = std::fs::read_to_string(&file).unwrap();
-        let document = document::parse(&text).unwrap();
+        let document = parse(&text).unwrap();
         let all = document::quantities(&document);
         assert!(!all.is_empty(), "{}", file.display());
         let read = all.iter().filter(|node| document::measured(**node).is_ok()).count();
         // one of them is a template without numbers
         let template = text.contains('§');
         assert!(template || read > all.len() / 2, "{}: {read} of {}", file.display(), all.len());
+    }
+}
+
+#[test]
+fn a_quantity_is_named_by_its_place() {
+    let xml = certificate("3.2.1", &TABLE.replace("refType=\"basic_measuredValue\"", ""));
+    let file = model(&xml, r#""quantity": 1, "index": 2"#, "").unwrap();
+    near(known(&file, 0), [4.0, 0.2]);
+    let told = |input: &str| model(&xml, input, "").unwrap_err().to_string();
+    assert!(told(r#""quantity": 2"#).contains("has 2 quantities, counted from 0"));
+    assert!(told(r#""quantity": 1, "id": "v""#).contains("`quantity`"));
+    assert!(told(r#""quantity": "one""#).contains("a number"));
+}
+
+/// What a certificate states is a model of its own.
+#[test]
+fn the_quantities_of_a_certificate_are_a_model() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("ref.xml");
+    std::fs::write(&path, certificate("3.2.1", &[REAL, TABLE].concat())).unwrap();
+    let carried = crate::carried_models(&path).unwrap();
+    let [one] = &carried[..] else { panic!("{carried:?}") };
+    let reader = crate::FileReader::default().holding(&one.files);
+    let file = reader.model_text("m", &one.text, std::path::Path::new(""), &[]).unwrap();
+    let outputs: Vec<(&str, &str)> = file
+        .task
+        .model
+        .outputs
+        .iter()
+        .map(|of| (of.quantity.name.as_str(), of.quantity.unit.text()))
+        .collect();
+    let expected = [("q", "V"), ("f_1", "Hz"), ("f_2", "Hz"), ("f_3", "Hz")];
+    assert_eq!(outputs[..4], expected);
+    assert_eq!(outputs[4..], [("q_1", "mV"), ("q_2", "mV"), ("q_3", "mV")]);
+    near(known(&file, 0), [5.0112, 0.0023]);
+    for (name, content) in [("n.xml", "<a/>"), ("n.xlsx", "PK"), ("n.xml", "{}")] {
+        let other = folder.path().join(name);
+        std::fs::write(&other, content).unwrap();
+        assert!(crate::carried_models(&other).is_err(), "{content}");
     }
 }

@@ -2,7 +2,9 @@
 
 use super::node::{With, object, reference, texts};
 use super::{Key, closed, closed_of, described, keys, referenced, text_of};
-use gumption_analysis::certificate::contents::{Language, PerformanceLocation, Rounding};
+use gumption_analysis::certificate::contents::{
+    DecimalMark, Language, PerformanceLocation, Rounding,
+};
 use serde_json::Value;
 
 pub(super) fn definitions() -> Vec<(String, Value)> {
@@ -57,6 +59,7 @@ pub(crate) const CERTIFICATE: &[Key] = keys![
     "laboratory" => either("The laboratory.", "party"),
     "responsible" => text_of("Who is responsible."),
     "calibration_date" => days(),
+    "receipt_date" => day("Day on which the device was received."),
     "issue_date" => day("Day of issue."),
     "place" => described("string", "Where the calibration was made; in the laboratory unless given.")
                 .with("enum", texts(PerformanceLocation::ALL.map(PerformanceLocation::name))),
@@ -65,6 +68,11 @@ pub(crate) const CERTIFICATE: &[Key] = keys![
     "traceability" => referenced("localized", "How the results are traceable to the SI."),
     "remarks" => remarks(),
     "language" => languages(),
+    "decimal_mark" => described(
+                "string",
+                "Decimal mark of the pages; that of the first language unless given.",
+            )
+            .with("enum", texts(DecimalMark::ALL.map(DecimalMark::name))),
     "coverage_factor" => described(
                 "number",
                 "Coverage factor for infinite degrees of freedom, for all rows; 2 unless given.",
@@ -147,6 +155,7 @@ pub(crate) const DEVICE: &[Key] = keys![
     "name" => referenced("localized", "What it is."),
     "manufacturer" => text_of("Who made it."),
     "model" => text_of("Its model or type."),
+    "condition" => referenced("localized", "Its condition when it was received."),
     "serial_number" => text_of("Its serial number."),
     "customer_number" => text_of("The customer's number for it."),
 ];

@@ -180,7 +180,7 @@ pub(crate) static SHAPES: [Shape; 20] = [
         aliases: &[],
         about: "A quantity of a Digital Calibration Certificate (2.4 to 3.3): value, uncertainty, k, \
                 p, distribution and unit.",
-        fields: &["file", "id", "ref_type", "index", "at"],
+        fields: &["file", "id", "ref_type", "quantity", "index", "at"],
         rule: Rule::All(&["file"]),
     },
     Shape {
@@ -283,6 +283,11 @@ fn field(shape: &str, key: &str) -> Value {
         ("dcc", "file") => referenced("file", "A Digital Calibration Certificate (XML)."),
         (_, "id") => text_of("The `id` of the quantity."),
         (_, "ref_type") => text_of("The `refType` of the quantity, such as `basic_measuredValue`."),
+        (_, "quantity") => described(
+            "integer",
+            "The place of the quantity among all of the certificate, counted from 0.",
+        )
+        .with("minimum", 0),
         (_, "index") => {
             described("integer", "Which of several values, counted from 0.").with("minimum", 0)
         }

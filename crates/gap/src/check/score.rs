@@ -1,6 +1,6 @@
 //! Answers compared with the truths that were sealed.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::truth::{Truth, TruthKind};
 use crate::Case;
@@ -18,7 +18,7 @@ const BINS: usize = 10;
 const MEANINGFUL: f64 = 3.0;
 
 /// The result of one blind draw.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BlindDraw {
     /// The true label: effects joined by `+`, `none`, or `unexplained` where the effect was withheld.
     pub truth: String,

@@ -41,6 +41,7 @@ pub(super) fn lines(report: &CertificateReport<'_>) -> Vec<(String, String)> {
         add(|w| w.device, Some(local(&device.name)));
         add(|w| w.manufacturer, device.manufacturer.clone());
         add(|w| w.model, device.model.clone());
+        add(|w| w.condition, device.condition.as_ref().map(local));
         add(|w| w.serial_number, device.serial_number.clone());
         add(|w| w.customer_number, device.customer_number.clone());
     }
@@ -58,17 +59,22 @@ pub(super) fn lines(report: &CertificateReport<'_>) -> Vec<(String, String)> {
             texts.collect::<Vec<_>>().join(" / ")
         }
     });
+    add(|w| w.received, of.received.clone());
     add(|w| w.calibrated, period);
     add(|w| w.issued, of.issued.clone());
     let place = PerformanceLocation::ALL.iter().position(|place| *place == of.place).unwrap_or(0);
-    add(|w| w.place, (place > 0).then(|| beside(languages, |w| w.places[place])));
+    // a certificate with a number says where the calibration was made (ISO/IEC 17025, 7.8.2.1 c)
+    let stated = place > 0 || of.number.is_some();
+    add(|w| w.place, stated.then(|| beside(languages, |w| w.places[place])));
     add(|w| w.environment, of.environment.as_ref().map(local));
     add(|w| w.method, of.method.as_ref().map(local));
     add(|w| w.traceability, of.traceability.as_ref().map(local));
     lines
 }
 
+/// Name, address and contact (ISO/IEC 17025, 7.8.2.1 b and e).
 fn party(party: &Party) -> String {
-    let parts = [party.name.clone(), party.address()];
-    parts.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(", ")
+    let contact = [&party.phone, &party.email].map(|way| way.clone().unwrap_or_default());
+    let parts = [party.name.clone(), party.address()].into_iter().chain(contact);
+    parts.filter(|part| !part.is_empty()).collect::<Vec<_>>().join(", ")
 }

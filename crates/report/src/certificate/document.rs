@@ -1,12 +1,10 @@
 //! The certificate as a document.
 
-use super::stated;
-use super::words::{self, beside};
-use super::{CertificateReport, administrative, sentences, sheets};
-use crate::document::{Block, Document};
+use super::words::{self, Words, beside};
+use super::{CertificateReport, administrative, conformity, file_name, sentences, sheets};
+use crate::document::{Block, Document, Foot};
 use crate::plain;
-use crate::sheet::Sheet;
-use crate::table::comparison;
+use gumption_analysis::certificate::contents::DecimalMark;
 use gumption_engine::task::Trials;
 
 /// The whole document.
@@ -16,6 +14,8 @@ pub(super) fn of(report: &CertificateReport<'_>) -> Document {
     let mut document = Document {
         title: administrative::title(report),
         language: languages.first().map_or("en", |language| language.code()),
+        comma: certificate.decimal_mark == DecimalMark::Comma,
+        foot: Some(foot(report)),
         ..Document::default()
     };
     let about = administrative::sheet(report);
@@ -42,62 +42,66 @@ pub(super) fn of(report: &CertificateReport<'_>) -> Document {
             }
         }
     }
-    conformity(&mut document, report);
-    let remarks = &certificate.administrative.remarks;
-    if !remarks.is_empty() {
-        document.section(beside(languages, |w| w.remarks));
-        let texts = remarks.iter().flat_map(|remark| remark.all(languages));
-        document.blocks.push(Block::List(texts.map(plain).collect()));
+    let decided = languages.iter().flat_map(|language| conformity::statements(report, *language));
+    let decided: Vec<String> = decided.collect();
+    if !decided.is_empty() {
+        document.section(beside(languages, |w| w.conformity));
+        document.blocks.push(Block::List(decided));
     }
+    document.section(beside(languages, |w| w.remarks));
+    let remarks = certificate.administrative.remarks.iter();
+    let remarks = remarks.flat_map(|remark| remark.all(languages)).map(plain);
+    let asked: [fn(&Words) -> &'static str; 2] = [|w| w.relates, |w| w.copies];
+    let asked = asked.into_iter().flat_map(|word| {
+        languages.iter().map(move |language| word(words::of(*language)).to_owned())
+    });
+    document.blocks.push(Block::List(remarks.chain(asked).collect()));
+    let signer = certificate.administrative.responsible.as_ref().map(|name| plain(name));
+    let [place, signature] = [0, 1].map(|place| beside(languages, |w| w.signed[place]));
+    let signature = signer.map_or(signature.clone(), |name| format!("{signature}: {name}"));
+    document.blocks.push(Block::Signature(vec![place, signature]));
     document.section(beside(languages, |w| w.provenance));
-    document.table(provenance(report));
+    document.blocks.push(Block::List(provenance(report)));
+    document.blocks.push(Block::End(beside(languages, |w| w.end)));
     document
 }
 
-/// What is decided about rows with a tolerance.
-fn conformity(document: &mut Document, report: &CertificateReport<'_>) {
-    let languages = &report.certificate.languages;
-    let rows = stated::rows(report);
-    let mut texts = Vec::new();
-    for row in &rows {
-        for said in
-            row.found.conformity.iter().flat_map(|of| comparison::conformity(row.quantity, of))
-        {
-            texts.push(format!("{} {}: {said}", beside(languages, |w| w.row), row.number));
-        }
-    }
-    if !texts.is_empty() {
-        document.section(beside(languages, |w| w.conformity));
-        document.blocks.push(Block::List(texts));
-    }
+/// Every page names the certificate and says which of its pages it is (ISO/IEC 17025, 7.8.2.1 d).
+fn foot(report: &CertificateReport<'_>) -> Foot {
+    let languages = report.certificate.languages.as_slice();
+    let about = match &report.certificate.administrative.number {
+        Some(number) => format!("{}: {}", beside(languages, |w| w.number), plain(number)),
+        None => administrative::title(report),
+    };
+    Foot { about, page: beside(languages, |w| w.page) }
 }
 
 /// Program, settings and digests.
-fn provenance(report: &CertificateReport<'_>) -> Sheet {
+fn provenance(report: &CertificateReport<'_>) -> Vec<String> {
     let languages = report.certificate.languages.as_slice();
+    let word = |word: fn(&Words) -> &'static str| beside(languages, word);
     let mut lines = vec![
-        (beside(languages, |w| w.program), format!("gumption {}", env!("CARGO_PKG_VERSION"))),
-        (beside(languages, |w| w.certificate_file), report.digest.to_owned()),
+        format!("{}: gumption {}", word(|w| w.program), env!("CARGO_PKG_VERSION")),
+        format!("{}: {}", word(|w| w.certificate_file), report.digest),
     ];
+    // folders are the laboratory's own business: a customer's paper has names alone
     for (number, model) in report.models.iter().enumerate() {
-        lines.push((format!("{}, SHA-256", plain(model.name)), model.digest.clone()));
-        let files = model.files.iter();
-        lines.extend(
-            files.map(|(name, digest)| (format!("{}, SHA-256", plain(name)), digest.clone())),
-        );
+        let name = plain(file_name(model.name));
+        let mut line = format!("{} {name}, SHA-256: {}", word(|w| w.model_file), model.digest);
         let asked = report.certificate.evaluations.iter().find(|asked| asked.file == number);
         if let Some(settings) = asked.map(|asked| asked.task.settings) {
             let trials = match settings.trials {
                 Trials::Fixed(trials) => trials.to_string(),
-                Trials::Adaptive => beside(languages, |w| w.adaptive),
+                Trials::Adaptive => word(|w| w.adaptive),
             };
-            let of = |word: String| format!("{}: {word}", plain(model.name));
-            lines.push((of(beside(languages, |w| w.trials)), trials));
-            lines.push((of(beside(languages, |w| w.seed)), settings.seed.to_string()));
+            let (of_trials, of_seed) = (word(|w| w.trials), word(|w| w.seed));
+            line += &format!("; {of_trials}: {trials}; {of_seed}: {}", settings.seed);
         }
+        lines.push(line);
+        lines.extend(model.files.iter().map(|(table, digest)| {
+            let name = plain(file_name(table));
+            format!("{} {name}, SHA-256: {digest}", word(|w| w.table))
+        }));
     }
-    let mut sheet = Sheet::default();
-    sheet.text("", lines.iter().map(|(name, _)| name.clone()));
-    sheet.text("", lines.into_iter().map(|(_, value)| value));
-    sheet
+    lines
 }

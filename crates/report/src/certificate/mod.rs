@@ -1,6 +1,7 @@
 //! Calibration certificates, one file for each format; all of them state the same rounded figures.
 
 mod administrative;
+mod conformity;
 mod csv;
 mod dcc;
 mod document;
@@ -14,7 +15,7 @@ mod workbook;
 pub use csv::csv;
 #[cfg(test)]
 pub(crate) use dcc::unit::unit as dcc_unit;
-pub use dcc::{Needed, dcc, needed};
+pub use dcc::{DccVersion, Needed, dcc, needed};
 pub use json::json;
 pub use workbook::xlsx;
 
@@ -53,6 +54,11 @@ pub struct ModelSource<'a> {
     pub tables: &'a [(String, Vec<u8>)],
     /// SHA-256 of every one of them, by name.
     pub files: Vec<(String, String)>,
+}
+
+/// The name of a file without its folders.
+fn file_name(path: &str) -> &str {
+    path.rsplit(['/', '\\']).next().unwrap_or(path)
 }
 
 /// The names of the files that a digital calibration certificate has attached.

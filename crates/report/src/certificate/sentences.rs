@@ -3,9 +3,10 @@
 use super::CertificateReport;
 use super::stated::{self, Stated};
 use super::words::{self, Words};
+use crate::document::with_comma;
 use crate::number::exact;
 use gumption_analysis::certificate::Basis;
-use gumption_analysis::certificate::contents::{Language, Rounding};
+use gumption_analysis::certificate::contents::{DecimalMark, Language, Rounding};
 
 /// The statement of coverage in a language.
 pub(super) fn coverage(report: &CertificateReport<'_>, language: Language) -> Vec<String> {
@@ -20,15 +21,38 @@ pub(super) fn coverage(report: &CertificateReport<'_>, language: Language) -> Ve
             _ => said.push(about(&of, words) + sentence),
         }
     };
+    let raised = |row: &Stated<'_>| row.is_raised();
     for kind in kinds(&rows) {
-        say(&kind.sentence(words), &|row| kind.holds(row));
+        say(&kind.sentence(report, words), &|row| kind.holds(row));
     }
     say(words.propagation, &|row| row.statement.basis != Basis::Shortest);
-    say(words.raised, &|row| row.statement.limit.is_some_and(|limit| limit.raised));
+    for probability in raised_probabilities(&rows) {
+        let sentence = words.raised.replace("{p}", &self::probability(report, probability, words));
+        say(&sentence, &|row| raised(row) && row.statement.coverage_probability == probability);
+    }
     say(words.confirmed, &|row| row.found.validation.is_some_and(|v| v.gum_valid == Some(true)));
     said.push(words.time.to_owned());
     said.push(rounding(report, words));
     said
+}
+
+/// Numbers with the decimal mark of the certificate; clauses of norms keep their points.
+pub(super) fn in_marks(report: &CertificateReport<'_>, numbers: &str) -> String {
+    match report.certificate.decimal_mark {
+        DecimalMark::Point => numbers.to_owned(),
+        DecimalMark::Comma => with_comma(numbers),
+    }
+}
+
+/// The coverage probabilities of rows whose uncertainty is the laboratory's capability.
+fn raised_probabilities(rows: &[Stated<'_>]) -> Vec<Option<f64>> {
+    let mut found = Vec::new();
+    for row in rows.iter().filter(|row| row.is_raised()) {
+        if !found.contains(&row.statement.coverage_probability) {
+            found.push(row.statement.coverage_probability);
+        }
+    }
+    found
 }
 
 /// A kind of statement: rows of one kind share a sentence.
@@ -51,24 +75,27 @@ impl Kind {
     }
 
     fn holds(&self, row: &Stated<'_>) -> bool {
-        Self::of(row) == *self
+        !row.is_raised() && Self::of(row) == *self
     }
 
-    fn sentence(&self, words: &Words) -> String {
+    fn sentence(&self, report: &CertificateReport<'_>, words: &Words) -> String {
         let sentence = match self.basis {
             Basis::Normal => words.normal,
             Basis::Student => words.student,
             Basis::Fixed => words.fixed,
             Basis::Shortest => words.shortest,
         };
-        let factor = self.factor.as_deref().unwrap_or_default();
-        sentence.replace("{k}", factor).replace("{p}", &probability(self.probability, words))
+        let factor = in_marks(report, self.factor.as_deref().unwrap_or_default());
+        sentence
+            .replace("{k}", &factor)
+            .replace("{p}", &probability(report, self.probability, words))
     }
 }
 
 fn kinds(rows: &[Stated<'_>]) -> Vec<Kind> {
     let mut kinds: Vec<Kind> = Vec::new();
-    for kind in rows.iter().map(Kind::of) {
+    // a capability is no multiple of an evaluated uncertainty
+    for kind in rows.iter().filter(|row| !row.is_raised()).map(Kind::of) {
         if !kinds.contains(&kind) {
             kinds.push(kind);
         }
@@ -77,10 +104,10 @@ fn kinds(rows: &[Stated<'_>]) -> Vec<Kind> {
 }
 
 /// "approximately 95 %" for 0.9545, which accreditation practice prints so (EA-4/02, 5.1).
-fn probability(p: Option<f64>, words: &Words) -> String {
+fn probability(report: &CertificateReport<'_>, p: Option<f64>, words: &Words) -> String {
     match p {
         Some(0.9545) => words.approximately.replace("{p}", "95 %"),
-        Some(p) => format!("{} %", exact(stated::percent(p))),
+        Some(p) => format!("{} %", in_marks(report, &exact(stated::percent(p)))),
         None => String::new(),
     }
 }

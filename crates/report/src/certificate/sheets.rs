@@ -1,6 +1,7 @@
 //! The tables of a certificate.
 
 use super::CertificateReport;
+use super::sentences::in_marks;
 use super::stated::{self, Stated};
 use super::words::{Words, stacked};
 use crate::number::{exact, rounded};
@@ -31,7 +32,10 @@ pub(super) fn results(report: &CertificateReport<'_>) -> Sheet {
     sheet.figures(&header(|w| w.expanded), rows.iter().map(Stated::expanded));
     sheet.units(&header(|w| w.unit), rows.iter().map(|row| plain(row.quantity.unit.text())));
     sheet.figures("k", rows.iter().map(Stated::factor));
-    sheet.figures("ν_eff", rows.iter().map(Stated::dof));
+    // degrees of freedom play a part only where k follows from them
+    if rows.iter().any(|row| !row.dof().text.is_empty()) {
+        sheet.figures("ν_eff", rows.iter().map(Stated::dof));
+    }
     sheet.figures(&header(|w| w.probability), rows.iter().map(Stated::percent));
     let ends: Vec<Option<[Figure; 2]>> = rows.iter().map(|row| row.interval(report)).collect();
     if ends.iter().any(Option::is_some) {
@@ -71,13 +75,13 @@ fn conditions(
         }
     }
     if names.len() > MOST_COLUMNS {
-        let text = |row: &Stated<'_>| row.circumstances(report).join(", ");
+        let text = |row: &Stated<'_>| in_marks(report, &row.circumstances(report).join(", "));
         sheet.text(header, rows.iter().map(text));
         return;
     }
     let replaced = |row: &Stated<'_>| match row.line.label {
         Some(_) => String::new(),
-        None => row.replaced().join(", "),
+        None => in_marks(report, &row.replaced().join(", ")),
     };
     if rows.iter().any(|row| !replaced(row).is_empty()) {
         sheet.text(header, rows.iter().map(replaced));

@@ -4,8 +4,8 @@ use super::CertificateReport;
 use crate::number::{exact, rounded};
 use crate::sheet::Figure;
 use crate::{conditions_text, plain};
-use gumption_analysis::certificate::Statement;
 use gumption_analysis::certificate::contents::{Asked, Language, Line};
+use gumption_analysis::certificate::{Basis, Statement};
 use gumption_engine::decimal::{Decimal, to_digits, to_position};
 use gumption_engine::model::Quantity;
 use gumption_engine::propagate::OutputEvaluation;
@@ -13,6 +13,10 @@ use gumption_engine::propagate::gum::Dof;
 
 /// Position of the last digit of coverage factors.
 const FACTOR: i32 = -2;
+
+/// Numerical standard errors of a coverage factor within one unit of its last digit: three on either
+/// side.
+const SCATTER: f64 = 6.0;
 
 /// Significant digits of percentages; more would show binary rounding.
 const PERCENT_DIGITS: u32 = 12;
@@ -76,9 +80,15 @@ impl Stated<'_> {
         self.statement.rounded.map_or_else(|| Figure::of(0.0, "0".to_owned()), figure)
     }
 
-    /// The ends of the interval, where there is one.
+    /// Whether the uncertainty is the laboratory's capability.
+    pub(super) fn is_raised(&self) -> bool {
+        self.statement.limit.is_some_and(|limit| limit.raised)
+    }
+
+    /// The ends of the interval, where there is one that may be stated: not one that is narrower than
+    /// the laboratory's capability.
     pub(super) fn interval(&self, report: &CertificateReport<'_>) -> Option<[Figure; 2]> {
-        let ends = self.statement.interval?;
+        let ends = self.statement.interval.filter(|_| !self.is_raised())?;
         let rounded = self.statement.rounded_interval(report.certificate.rounding);
         Some(match rounded {
             Some(ends) => ends.map(figure),
@@ -88,11 +98,33 @@ impl Stated<'_> {
 
     pub(super) fn factor(&self) -> Figure {
         let factor = self.statement.coverage_factor;
-        Figure::of(to_position(factor, FACTOR), rounded(factor, FACTOR))
+        let place = self.factor_place();
+        Figure::of(to_position(factor, place), rounded(factor, place))
     }
 
-    /// Effective degrees of freedom, their integer part (JCGM 100, G.4.1).
+    /// The last digit of the coverage factor: with trials the one that another seed would not change,
+    /// or like rows would seem to differ.
+    fn factor_place(&self) -> i32 {
+        let trials = self.found.monte_carlo.as_ref();
+        let (Basis::Shortest, Some(trials)) = (self.statement.basis, trials) else { return FACTOR };
+        let interval = trials.stated_interval();
+        let farther = interval.errors.into_iter().fold(0.0, f64::max);
+        let error = farther / self.statement.standard_uncertainty;
+        // an error that is not known leaves the digits as they are
+        let unsettled = |place: &i32| SCATTER * error > Decimal::new(1, *place).value();
+        (FACTOR..0).find(|place| !unsettled(place)).unwrap_or(0)
+    }
+
+    /// Effective degrees of freedom, where k follows from them.
     pub(super) fn dof(&self) -> Figure {
+        if self.statement.basis != Basis::Student || self.is_raised() {
+            return Figure { text: String::new(), value: None };
+        }
+        self.evaluated_dof()
+    }
+
+    /// Effective degrees of freedom, their integer part (JCGM 100, G.4.1), of any row.
+    pub(super) fn evaluated_dof(&self) -> Figure {
         match self.statement.dof {
             Dof::Finite(dof) if dof >= MOST_DOF => Figure { text: "∞".to_owned(), value: None },
             Dof::Infinite => Figure { text: "∞".to_owned(), value: None },

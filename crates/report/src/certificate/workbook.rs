@@ -2,7 +2,7 @@
 
 use std::io;
 
-use super::{CertificateReport, administrative, sentences, sheets};
+use super::{CertificateReport, administrative, conformity, file_name, sentences, sheets};
 use crate::workbook::{Book, failed};
 
 /// The certificate as a workbook: a sheet with the certificate, whose cells hold the stated figures,
@@ -28,13 +28,18 @@ pub fn xlsx(report: &CertificateReport<'_>) -> io::Result<Vec<u8>> {
                 leaf.line(row, &said)?;
                 row += 1;
             }
+            for said in conformity::statements(report, *language) {
+                leaf.line(row, &said)?;
+                row += 1;
+            }
             row += 1;
         }
         leaf.line(row, &format!("gumption {}", env!("CARGO_PKG_VERSION")))?;
         leaf.line(row + 1, &format!("certificate file, SHA-256: {}", report.digest))?;
         row += 2;
         for model in report.models {
-            leaf.line(row, &format!("{}, SHA-256: {}", model.name, model.digest))?;
+            let name = file_name(model.name);
+            leaf.line(row, &format!("{name}, SHA-256: {}", model.digest))?;
             row += 1;
         }
         book.push(leaf)?;

@@ -11,13 +11,13 @@ pub(crate) fn html(document: &Document) -> String {
     let body = html! {
         h1 { (document.title) }
         @for line in &document.subtitle { p.settings { (line) } }
-        @for part in &document.blocks { (block(part, &mut figures)) }
+        @for part in &document.blocks { (block(part, document.comma, &mut figures)) }
     };
     let language = if document.language.is_empty() { "en" } else { document.language };
-    page_in(language, &document.title, &body)
+    page_in(language, &document.title, &document.foot(), &body)
 }
 
-fn block(block: &Block, figures: &mut usize) -> Markup {
+fn block(block: &Block, comma: bool, figures: &mut usize) -> Markup {
     match block {
         Block::Section(title) => html! { h2 { (raised(title)) } },
         Block::Text(text) => html! { p { (raised(text)) } },
@@ -30,11 +30,16 @@ fn block(block: &Block, figures: &mut usize) -> Markup {
             }
         },
         Block::List(items) => html! { ul { @for item in items { li { (raised(item)) } } } },
+        Block::Table(sheet) if comma => table(&sheet.clone().with_commas()),
         Block::Table(sheet) => table(sheet),
         Block::Figure(drawing) => {
             *figures += 1;
             figure(*figures, drawing.svg.clone(), &drawing.caption)
         }
+        Block::Signature(places) => html! {
+            div.signature { @for place in places { p { (place) } } }
+        },
+        Block::End(text) => html! { p.end { (text) } },
         Block::Listing { about, text } => html! {
             p { (about) }
             pre { code { (text) } }

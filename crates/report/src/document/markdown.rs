@@ -15,6 +15,9 @@ pub(crate) fn markdown_with_code(document: &Document) -> String {
     written(document, with_code)
 }
 
+/// Where somebody signs: escaped, as a line of underscores alone would be a rule across the page.
+const RULE: &str = r"\_\_\_\_\_\_\_\_\_\_\_\_\_\_\_\_\_\_\_\_";
+
 /// How texts are written so that they say what they are.
 type Escape = fn(&str) -> String;
 
@@ -23,13 +26,14 @@ fn written(document: &Document, escape: Escape) -> String {
     // two spaces at the end of a line break it
     let lines: Vec<String> = document.subtitle.iter().map(|line| escape(line)).collect();
     parts.push(lines.join("  \n"));
-    parts.extend(document.blocks.iter().map(|of| block(of, escape)));
+    parts.extend(document.blocks.iter().map(|of| block(of, document.comma, escape)));
     parts.retain(|part| !part.is_empty());
     parts.join("\n\n") + "\n"
 }
 
-fn block(block: &Block, escape: Escape) -> String {
+fn block(block: &Block, comma: bool, escape: Escape) -> String {
     match block {
+        Block::Table(sheet) if comma => table(&sheet.clone().with_commas(), escape),
         Block::Section(title) => format!("## {}", escape(title)),
         Block::Text(text) => escape(text),
         Block::Verdict(sentences) => {
@@ -47,6 +51,11 @@ fn block(block: &Block, escape: Escape) -> String {
         }
         Block::Table(sheet) => table(sheet, escape),
         Block::Figure(_) => String::new(),
+        Block::Signature(places) => {
+            let line = |place: &String| format!("{}: {RULE}", escape(place));
+            places.iter().map(line).collect::<Vec<_>>().join("\n\n")
+        }
+        Block::End(text) => format!("— {} —", escape(text)),
         Block::Listing { about, text } => listing(about, text, escape),
     }
 }

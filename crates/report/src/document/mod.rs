@@ -25,8 +25,54 @@ pub(crate) struct Document {
     pub(crate) subtitle: Vec<String>,
     /// The language of its texts, as ISO 639-1 has it; English if that is empty.
     pub(crate) language: &'static str,
+    /// Whether numbers in tables have a decimal comma; the cells of [`Sheet`]s have points.
+    pub(crate) comma: bool,
+    /// What stands at the foot of each printed page; the title unless there is something else.
+    pub(crate) foot: Option<Foot>,
     /// What it says.
     pub(crate) blocks: Vec<Block>,
+}
+
+/// What stands at the foot of each printed page.
+#[derive(Clone, Debug)]
+pub(crate) struct Foot {
+    /// What the page belongs to.
+    pub(crate) about: String,
+    /// Which page it is: `{page}`, `{pages}`.
+    pub(crate) page: String,
+}
+
+impl Foot {
+    /// The foot of a document that is known by its title.
+    pub(crate) fn of_title(title: &str) -> Self {
+        Self { about: title.to_owned(), page: "{page} / {pages}".to_owned() }
+    }
+
+    /// The parts of the text that says which page it is.
+    pub(crate) fn parts(&self) -> Vec<FootPart<'_>> {
+        let mut parts = Vec::new();
+        let mut rest = self.page.as_str();
+        while let Some((before, after)) = rest.split_once('{') {
+            parts.push(FootPart::Text(before));
+            let (name, behind) = after.split_once('}').unwrap_or((after, ""));
+            parts.push(if name == "pages" { FootPart::Pages } else { FootPart::Page });
+            rest = behind;
+        }
+        parts.push(FootPart::Text(rest));
+        parts.retain(|part| !matches!(part, FootPart::Text("")));
+        parts
+    }
+}
+
+/// A part of a [`Foot`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum FootPart<'a> {
+    /// A text.
+    Text(&'a str),
+    /// The number of the page.
+    Page,
+    /// How many pages there are.
+    Pages,
 }
 
 /// A part of a document.
@@ -44,6 +90,10 @@ pub(crate) enum Block {
     Table(Sheet),
     /// A figure, which only pages of a browser show.
     Figure(Drawing),
+    /// Places to be filled in by hand, each with what goes there.
+    Signature(Vec<String>),
+    /// The mark behind which nothing more belongs to the document.
+    End(String),
     /// A text that stands as it is, with what it is.
     Listing {
         /// What it is.
@@ -54,6 +104,11 @@ pub(crate) enum Block {
 }
 
 impl Document {
+    /// What stands at the foot of each printed page.
+    pub(crate) fn foot(&self) -> Foot {
+        self.foot.clone().unwrap_or_else(|| Foot::of_title(&self.title))
+    }
+
     /// Adds a section with its title.
     pub(crate) fn section(&mut self, title: impl Into<String>) {
         self.blocks.push(Block::Section(title.into()));
@@ -89,5 +144,37 @@ pub(crate) fn sentence(text: &str) -> String {
             format!("{}{}.", first.to_ascii_uppercase(), letters.as_str())
         }
         _ => format!("{text}."),
+    }
+}
+
+/// A number with a decimal comma in place of its point.
+pub(crate) fn with_comma(text: &str) -> String {
+    let letters: Vec<char> = text.chars().collect();
+    let is_digit = |place: Option<usize>| {
+        place.and_then(|place| letters.get(place)).is_some_and(char::is_ascii_digit)
+    };
+    let letters = letters.iter().enumerate().map(|(place, letter)| match letter {
+        '.' if is_digit(place.checked_sub(1)) && is_digit(Some(place + 1)) => ',',
+        letter => *letter,
+    });
+    letters.collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_point_between_digits_becomes_a_comma() {
+        assert_eq!(with_comma("k = 2.00, up to -0.5e-3."), "k = 2,00, up to -0,5e-3.");
+        assert_eq!(with_comma("z.re = 5. Then"), "z.re = 5. Then");
+    }
+
+    #[test]
+    fn a_foot_says_which_page_it_is() {
+        let foot = Foot { about: String::new(), page: "Page {page} of {pages}".to_owned() };
+        let parts =
+            [FootPart::Text("Page "), FootPart::Page, FootPart::Text(" of "), FootPart::Pages];
+        assert_eq!(foot.parts(), parts);
     }
 }

@@ -4,6 +4,9 @@ use super::{Block, Document};
 use crate::sheet::{Kind, Sheet};
 use crate::{Grid, WIDTH, plain, wrapped};
 
+/// Where somebody signs.
+const RULE: &str = "________________________________";
+
 /// Letters that a text keeps on a line, however narrow the page is.
 const LEAST_TEXT: usize = 10;
 
@@ -18,7 +21,8 @@ pub(crate) fn text(document: &Document) -> String {
 
 /// What stands below title and subtitle.
 pub(crate) fn below(document: &Document) -> String {
-    let mut parts: Vec<String> = document.blocks.iter().map(block).collect();
+    let mut parts: Vec<String> =
+        document.blocks.iter().map(|part| block(part, document.comma)).collect();
     parts.retain(|part| !part.is_empty());
     parts.join("\n")
 }
@@ -29,8 +33,11 @@ fn heading(title: &str, rule: char) -> String {
     format!("{}{rule}\n", wrapped(&title))
 }
 
-fn block(block: &Block) -> String {
+fn block(block: &Block, comma: bool) -> String {
     match block {
+        Block::Table(sheet) if comma => {
+            self::block(&Block::Table(sheet.clone().with_commas()), false)
+        }
         Block::Section(title) => heading(title, '─'),
         Block::Text(text) => wrapped(text),
         Block::Verdict(sentences) => sentences.iter().map(|said| wrapped(said)).collect(),
@@ -38,6 +45,11 @@ fn block(block: &Block) -> String {
         Block::Table(sheet) if !sheet.has_headers() => Grid::of(sheet).bare(WIDTH),
         Block::Table(sheet) => grid(sheet).render(WIDTH),
         Block::Figure(_) => String::new(),
+        Block::Signature(places) => {
+            let line = |place: &String| format!("\n{RULE}\n{}", wrapped(place));
+            places.iter().map(line).collect()
+        }
+        Block::End(text) => wrapped(&format!("— {text} —")),
         Block::Listing { about, text } => format!("{}{}\n", wrapped(about), text.trim_end()),
     }
 }

@@ -6,6 +6,9 @@ use super::raised;
 use crate::number::align;
 use crate::sheet::{Column, Kind, Sheet};
 
+/// Rows up to which a table is kept on one printed page.
+const UNBROKEN: usize = 12;
+
 /// A table; numbers are padded so that their decimal points stand under each other.
 pub(crate) fn table(sheet: &Sheet) -> Markup {
     let class = |column: &Column| column.is_numeric().then_some("number");
@@ -17,8 +20,9 @@ pub(crate) fn table(sheet: &Sheet) -> Markup {
         )
         .collect();
     let is_total = |row: usize| sheet.footer && row + 1 == sheet.rows();
+    let class_of_table = if sheet.rows() > UNBROKEN { "table long" } else { "table" };
     html! {
-        div.table {
+        div class=(class_of_table) {
             table {
                 @if sheet.has_headers() {
                     thead {

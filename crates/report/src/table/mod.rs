@@ -251,7 +251,7 @@ pub(crate) fn conditions_text(conditions: &[Quantity], values: &[f64]) -> String
 }
 
 /// A number with its unit, if that has a name.
-pub(super) fn in_unit(number: &str, unit: &Unit) -> String {
+pub(crate) fn in_unit(number: &str, unit: &Unit) -> String {
     if has_name(unit) { format!("{number} {}", plain(unit.text())) } else { number.to_owned() }
 }
 

@@ -19,6 +19,8 @@ pub struct AdministrativeData {
     pub responsible: Option<String>,
     /// First and last day of the calibration, as ISO 8601 writes them: 2026-03-02.
     pub calibrated: Option<[String; 2]>,
+    /// Day on which the device was received.
+    pub received: Option<String>,
     /// Day of issue.
     pub issued: Option<String>,
     /// Where the calibration was made.
@@ -42,6 +44,8 @@ pub struct Device {
     pub manufacturer: Option<String>,
     /// Its model or type.
     pub model: Option<String>,
+    /// Its condition when it was received.
+    pub condition: Option<Localized>,
     /// Its serial number.
     pub serial_number: Option<String>,
     /// The customer's number for it.

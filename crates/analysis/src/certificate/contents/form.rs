@@ -7,23 +7,64 @@ pub enum Language {
     English,
     /// German.
     German,
+    /// Italian.
+    Italian,
+    /// French.
+    French,
 }
 
 impl Language {
     /// All of them.
-    pub const ALL: [Self; 2] = [Self::English, Self::German];
+    pub const ALL: [Self; 4] = [Self::English, Self::German, Self::Italian, Self::French];
 
     /// The code of ISO 639-1, two lower case letters.
     pub fn code(self) -> &'static str {
         match self {
             Self::English => "en",
             Self::German => "de",
+            Self::Italian => "it",
+            Self::French => "fr",
+        }
+    }
+
+    /// The decimal mark that is usual in it.
+    pub fn decimal_mark(self) -> DecimalMark {
+        match self {
+            Self::English => DecimalMark::Point,
+            Self::German | Self::Italian | Self::French => DecimalMark::Comma,
         }
     }
 
     /// The language of that code.
     pub fn of_code(code: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|language| language.code() == code)
+    }
+}
+
+/// What stands between a number's whole and its decimals (ISO 80000-1 allows both).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DecimalMark {
+    /// A point: 0.5.
+    Point,
+    /// A comma: 0,5.
+    Comma,
+}
+
+impl DecimalMark {
+    /// Both of them.
+    pub const ALL: [Self; 2] = [Self::Point, Self::Comma];
+
+    /// The name that files use.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Point => "point",
+            Self::Comma => "comma",
+        }
+    }
+
+    /// The mark of that name.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|mark| mark.name() == name)
     }
 }
 

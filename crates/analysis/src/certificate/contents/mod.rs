@@ -4,7 +4,7 @@ mod administrative;
 mod form;
 
 pub use administrative::{AdministrativeData, Device, Party, PerformanceLocation};
-pub use form::{Language, Localized, Rounding};
+pub use form::{DecimalMark, Language, Localized, Rounding};
 
 use gumption_engine::model::Capability;
 use gumption_engine::task::Task;
@@ -16,6 +16,9 @@ pub struct Certificate {
     pub administrative: AdministrativeData,
     /// The languages of its sentences; at least one.
     pub languages: Vec<Language>,
+    /// The decimal mark of all pages: one for the whole certificate, so that a number looks the same
+    /// in its table and in every language's sentences.
+    pub decimal_mark: DecimalMark,
     /// How expanded uncertainties are rounded.
     pub rounding: Rounding,
     /// Significant digits of a rounded expanded uncertainty.

@@ -1,5 +1,5 @@
 //! The certificate as a Digital Calibration Certificate (DCC) of the Physikalisch-Technische
-//! Bundesanstalt, version 3.1.2, with numbers and units in D-SI.
+//! Bundesanstalt, version 3.2.1 or 3.1.2, with numbers and units in D-SI.
 //!
 //! Each output is one result with a list of quantities over its rows: conditions and nominal values,
 //! the measured values with their expanded uncertainties, and for rows whose distribution is not
@@ -13,7 +13,7 @@ pub(super) mod unit;
 mod xml;
 
 use super::{CertificateReport, administrative};
-use gumption_analysis::certificate::contents::{Certificate, Language, Localized};
+use gumption_analysis::certificate::contents::{Certificate, Localized};
 use people::contact;
 use xml::Xml;
 
@@ -58,26 +58,52 @@ pub fn needed(certificate: &Certificate) -> Needed {
     missing
 }
 
-/// The certificate as XML, valid against the schema of DCC 3.1.2 if nothing is
+/// A version of the digital certificate's schema.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum DccVersion {
+    /// 3.2.1, which has the day of issue among the data of the certificate.
+    #[default]
+    V3_2_1,
+    /// 3.1.2, for readers that do not know the newer ones.
+    V3_1_2,
+}
+
+impl DccVersion {
+    /// The versions that can be written, the newest first.
+    pub const ALL: [Self; 2] = [Self::V3_2_1, Self::V3_1_2];
+
+    /// The number of the version.
+    pub fn number(self) -> &'static str {
+        match self {
+            Self::V3_2_1 => "3.2.1",
+            Self::V3_1_2 => "3.1.2",
+        }
+    }
+}
+
+/// The certificate as XML, valid against the schema of that version if nothing is
 /// [`needed`]. It ends in a newline.
-pub fn dcc(report: &CertificateReport<'_>) -> String {
+pub fn dcc(report: &CertificateReport<'_>, version: DccVersion) -> String {
+    let number = version.number();
+    let schema = format!("https://ptb.de/dcc https://ptb.de/dcc/v{number}/dcc.xsd");
     let languages = report.certificate.languages.as_slice();
     let mut xml = Xml::new();
     let root = [
         ("xmlns:dcc", "https://ptb.de/dcc"),
         ("xmlns:si", "https://ptb.de/si"),
         ("xmlns:xsi", "http://www.w3.org/2001/XMLSchema-instance"),
-        ("xsi:schemaLocation", "https://ptb.de/dcc https://ptb.de/dcc/v3.1.2/dcc.xsd"),
-        ("schemaVersion", "3.1.2"),
+        ("xsi:schemaLocation", schema.as_str()),
+        ("schemaVersion", number),
     ];
     xml.within("dcc:digitalCalibrationCertificate", &root, |xml| {
-        xml.element("dcc:administrativeData", |xml| administrative(xml, report, languages));
+        xml.element("dcc:administrativeData", |xml| administrative(xml, report, version));
         xml.element("dcc:measurementResults", |xml| results::write(xml, report, languages));
     });
     xml.finish()
 }
 
-fn administrative(xml: &mut Xml, report: &CertificateReport<'_>, languages: &[Language]) {
+fn administrative(xml: &mut Xml, report: &CertificateReport<'_>, version: DccVersion) {
+    let languages = report.certificate.languages.as_slice();
     let of = &report.certificate.administrative;
     xml.element("dcc:dccSoftware", software);
     xml.element("dcc:coreData", |xml| {
@@ -89,11 +115,18 @@ fn administrative(xml: &mut Xml, report: &CertificateReport<'_>, languages: &[La
         let first = languages.first().map_or("en", |language| language.code());
         xml.leaf("dcc:mandatoryLangCodeISO639_1", first);
         xml.leaf("dcc:uniqueIdentifier", of.number.as_deref().unwrap_or_default());
+        if let Some(day) = &of.received {
+            xml.leaf("dcc:receiptDate", day);
+        }
         if let Some([first, last]) = &of.calibrated {
             xml.leaf("dcc:beginPerformanceDate", first);
             xml.leaf("dcc:endPerformanceDate", last);
         }
         xml.leaf("dcc:performanceLocation", of.place.name());
+        // the older schema has no place for it
+        if let (DccVersion::V3_2_1, Some(day)) = (version, &of.issued) {
+            xml.leaf("dcc:issueDate", day);
+        }
     });
     xml.element("dcc:items", |xml| xml.element("dcc:item", |xml| people::item(xml, of, languages)));
     xml.element("dcc:calibrationLaboratory", |xml| {

@@ -1,20 +1,31 @@
 //! The device, and whom to ask.
 
 use super::xml::Xml;
+use crate::certificate::words::{self, Words, localized};
 use gumption_analysis::certificate::contents::{AdministrativeData, Language, Localized, Party};
 
 /// The device that was calibrated.
 pub(super) fn item(xml: &mut Xml, of: &AdministrativeData, languages: &[Language]) {
     let Some(device) = &of.device else { return };
     xml.text("dcc:name", &device.name, languages);
+    if let Some(condition) = &device.condition {
+        let said = |language: &Language| {
+            let word = words::of(*language).condition;
+            (Some(*language), format!("{word}: {}", condition.get(*language)))
+        };
+        let about = Localized { texts: languages.iter().map(said).collect() };
+        xml.text("dcc:description", &about, languages);
+    }
     let manufacturer = Localized::plain(device.manufacturer.clone().unwrap_or_default());
     xml.element("dcc:manufacturer", |xml| xml.text("dcc:name", &manufacturer, languages));
     if let Some(model) = &device.model {
         xml.leaf("dcc:model", model);
     }
+    let serial: fn(&Words) -> &'static str = |w| w.serial_number;
+    let customers: fn(&Words) -> &'static str = |w| w.customer_number;
     let numbers = [
-        ("manufacturer", &device.serial_number, ["Serial number", "Seriennummer"]),
-        ("customer", &device.customer_number, ["Customer's number", "Nummer des Auftraggebers"]),
+        ("manufacturer", &device.serial_number, serial),
+        ("customer", &device.customer_number, customers),
     ];
     xml.element("dcc:identifications", |xml| {
         for (issuer, number, name) in numbers {
@@ -22,7 +33,7 @@ pub(super) fn item(xml: &mut Xml, of: &AdministrativeData, languages: &[Language
             xml.element("dcc:identification", |xml| {
                 xml.leaf("dcc:issuer", issuer);
                 xml.leaf("dcc:value", number);
-                xml.text("dcc:name", &both(name), languages);
+                xml.text("dcc:name", &localized(languages, name), languages);
             });
         }
     });
@@ -49,11 +60,4 @@ pub(super) fn contact(xml: &mut Xml, party: &Party, languages: &[Language]) {
             }
         }
     });
-}
-
-/// A text in English and in German.
-pub(super) fn both(texts: [&str; 2]) -> Localized {
-    let languages = [Language::English, Language::German];
-    let texts = languages.into_iter().zip(texts);
-    Localized { texts: texts.map(|(of, text)| (Some(of), text.to_owned())).collect() }
 }

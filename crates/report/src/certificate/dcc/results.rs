@@ -3,12 +3,12 @@
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 
-use super::people::both;
 use super::unit::{is_of_the_si, unit};
 use super::xml::Xml;
 use crate::certificate::stated;
 use crate::certificate::stated::Stated;
-use crate::certificate::{CertificateReport, json, sentences, words};
+use crate::certificate::words::{self, Words, localized};
+use crate::certificate::{CertificateReport, file_name, json, sentences};
 use crate::number::exact;
 use gumption_analysis::certificate::Basis;
 use gumption_analysis::certificate::contents::{Language, Localized};
@@ -21,25 +21,29 @@ pub(super) fn write(xml: &mut Xml, report: &CertificateReport<'_>, languages: &[
         xml.text("dcc:name", &super::title(report), languages);
         xml.element("dcc:usedMethods", |xml| {
             if let Some(method) = &of.method {
-                let name = both(["Method of calibration", "Kalibrierverfahren"]);
+                let name = localized(languages, |w| w.method);
                 xml.element("dcc:usedMethod", |xml| {
                     xml.text("dcc:name", &name, languages);
                     xml.text("dcc:description", method, languages);
                 });
             }
-            xml.within("dcc:usedMethod", &[("refType", "basic_uncertainty")], |xml| {
-                let name = both(["Uncertainty of measurement", "Messunsicherheit"]);
-                xml.text("dcc:name", &name, languages);
-                for norm in ["JCGM 100:2008", "JCGM 101:2008", "EA-4/02 M:2022"] {
-                    xml.leaf("dcc:norm", norm);
-                }
-            });
+            xml.within(
+                "dcc:usedMethod",
+                &[("refType", "basic_methodMeasurementUncertainty")],
+                |xml| {
+                    let name = localized(languages, |w| w.uncertainty);
+                    xml.text("dcc:name", &name, languages);
+                    for norm in ["JCGM 100:2008", "JCGM 101:2008", "EA-4/02 M:2022"] {
+                        xml.leaf("dcc:norm", norm);
+                    }
+                },
+            );
         });
         xml.element("dcc:usedSoftware", super::software);
         if let Some(environment) = &of.environment {
             xml.element("dcc:influenceConditions", |xml| {
                 xml.element("dcc:influenceCondition", |xml| {
-                    xml.text("dcc:name", &both(["Environment", "Umgebungsbedingungen"]), languages);
+                    xml.text("dcc:name", &localized(languages, |w| w.environment), languages);
                     xml.element("dcc:data", |xml| xml.text("dcc:text", environment, languages));
                 });
             });
@@ -161,7 +165,7 @@ fn nominal(xml: &mut Xml, rows: &[Stated<'_>], languages: &[Language]) {
     let values: Option<Vec<String>> = rows.iter().map(|row| row.line.nominal.map(exact)).collect();
     let (Some(values), Some(first)) = (values, rows.first()) else { return };
     xml.within("dcc:quantity", &[("refType", "basic_nominalValue")], |xml| {
-        xml.text("dcc:name", &both(["Nominal value", "Nennwert"]), languages);
+        xml.text("dcc:name", &localized(languages, |w| w.nominal_value), languages);
         list(xml, &values, &first.quantity.unit, |_| ());
         explained(xml, &first.quantity.unit);
     });
@@ -172,7 +176,7 @@ fn measured(xml: &mut Xml, rows: &[Stated<'_>], languages: &[Language]) {
     let Some(first) = rows.first() else { return };
     let texts = |of: fn(&Stated<'_>) -> String| -> Vec<String> { rows.iter().map(of).collect() };
     xml.within("dcc:quantity", &[("refType", "basic_measuredValue")], |xml| {
-        xml.text("dcc:name", &both(["Measured value", "Messwert"]), languages);
+        xml.text("dcc:name", &localized(languages, |w| w.measured_value), languages);
         list(xml, &texts(|row| row.value().text), &first.quantity.unit, |xml| {
             // D-SI has no coverage factor below 1
             if rows.iter().any(|row| row.statement.coverage_factor < 1.0) {
@@ -224,7 +228,7 @@ fn intervals(
             let said = sentences::about(&numbers, words::of(*language));
             (Some(*language), said.trim_end_matches([':', ' ']).to_owned())
         };
-        let name = both(["Coverage interval", "Überdeckungsintervall"]);
+        let name = localized(languages, |w| w.coverage_interval);
         xml.text("dcc:name", &name, languages);
         let about = Localized { texts: languages.iter().map(rows_of).collect() };
         xml.text("dcc:description", &about, languages);
@@ -249,32 +253,26 @@ fn intervals(
 
 /// The files that the certificate was made of, and its answer for programs.
 fn attachments(xml: &mut Xml, report: &CertificateReport<'_>, languages: &[Language]) {
-    let name = both(["Files of the evaluation", "Dateien der Auswertung"]);
+    let name = localized(languages, |w| w.files);
     xml.text("dcc:name", &name, languages);
     xml.element("dcc:data", |xml| {
         let answer = json(report);
-        let mut add = |about: [&str; 2], name: &str, kind: &str, bytes: &[u8]| {
+        let mut add = |about: fn(&Words) -> &'static str, name: &str, kind: &str, bytes: &[u8]| {
             xml.element("dcc:byteData", |xml| {
-                xml.text("dcc:name", &both(about), languages);
+                xml.text("dcc:name", &localized(languages, about), languages);
                 // the name of the file alone: who saves it chooses the folder
-                let file = name.rsplit(['/', '\\']).next().unwrap_or(name);
-                if file != name {
-                    let named = Localized::plain(name);
-                    xml.text("dcc:description", &named, languages);
-                }
-                xml.leaf("dcc:fileName", file);
+                xml.leaf("dcc:fileName", file_name(name));
                 xml.leaf("dcc:mimeType", kind);
                 xml.leaf("dcc:dataBase64", &STANDARD.encode(bytes));
             });
         };
         const JSON: &str = "application/json";
-        add(["Result", "Ergebnis"], "result.json", JSON, answer.as_bytes());
-        let certificate = ["Certificate file", "Kalibrierscheindatei"];
-        add(certificate, "certificate.json", JSON, report.text.as_bytes());
+        add(|w| w.answer, "result.json", JSON, answer.as_bytes());
+        add(|w| w.certificate_name, "certificate.json", JSON, report.text.as_bytes());
         for model in report.models {
-            add(["Model file", "Modelldatei"], model.name, JSON, model.text.as_bytes());
+            add(|w| w.model_file, model.name, JSON, model.text.as_bytes());
             for (name, bytes) in model.tables {
-                add(["Table", "Tabelle"], name, "application/octet-stream", bytes);
+                add(|w| w.table, name, "application/octet-stream", bytes);
             }
         }
     });

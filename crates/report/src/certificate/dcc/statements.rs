@@ -1,8 +1,8 @@
 //! The statements of a DCC: coverage, traceability, conformity, remarks.
 
 use super::xml::Xml;
-use crate::certificate::{CertificateReport, sentences, stated};
-use crate::table::comparison;
+use crate::certificate::words::{self, Words};
+use crate::certificate::{CertificateReport, conformity, sentences};
 use gumption_analysis::certificate::contents::{Language, Localized};
 
 pub(super) fn write(xml: &mut Xml, report: &CertificateReport<'_>, languages: &[Language]) {
@@ -11,28 +11,51 @@ pub(super) fn write(xml: &mut Xml, report: &CertificateReport<'_>, languages: &[
         .iter()
         .map(|language| (Some(*language), sentences::coverage(report, *language).join(" ")));
     let norms = ["JCGM 100:2008", "JCGM 101:2008", "EA-4/02 M:2022"];
-    statement(xml, &Localized { texts: coverage.collect() }, &norms, languages);
+    statement(xml, &Localized { texts: coverage.collect() }, (None, &norms, None), languages);
     if let Some(traceability) = &of.traceability {
-        statement(xml, traceability, &[], languages);
+        statement(
+            xml,
+            traceability,
+            (Some("basic_metrologicallyTraceableToSI"), &[], None),
+            languages,
+        );
     }
-    for row in stated::rows(report) {
-        for said in
-            row.found.conformity.iter().flat_map(|of| comparison::conformity(row.quantity, of))
-        {
-            let said = Localized::plain(format!("{} {}: {said}", "row", row.number));
-            statement(xml, &said, &["JCGM 106:2012"], languages);
-        }
+    let decided: Vec<Vec<String>> =
+        languages.iter().map(|language| conformity::statements(report, *language)).collect();
+    for (place, conforms) in conformity::decisions(report).into_iter().enumerate() {
+        let texts = languages
+            .iter()
+            .zip(&decided)
+            .filter_map(|(language, said)| Some((Some(*language), said.get(place)?.clone())));
+        let said = Localized { texts: texts.collect() };
+        let of = (Some("basic_conformity"), &["JCGM 106:2012"][..], Some(conforms));
+        statement(xml, &said, of, languages);
     }
-    for remark in &of.remarks {
-        statement(xml, remark, &[], languages);
+    let asked: [fn(&Words) -> &'static str; 2] = [|w| w.relates, |w| w.copies];
+    let asked = asked.map(|word| words::localized(languages, word));
+    for remark in of.remarks.iter().chain(&asked) {
+        statement(xml, remark, (None, &[], None), languages);
     }
 }
 
-fn statement(xml: &mut Xml, text: &Localized, norms: &[&str], languages: &[Language]) {
-    xml.element("dcc:statement", |xml| {
+/// What a statement is for readers that know the names of the good practice, the norms that it goes
+/// by, and whether something conforms.
+type Kind<'a> = (Option<&'a str>, &'a [&'a str], Option<bool>);
+
+fn statement(
+    xml: &mut Xml,
+    text: &Localized,
+    (name, norms, conforms): Kind<'_>,
+    languages: &[Language],
+) {
+    let attributes: Vec<(&str, &str)> = name.iter().map(|name| ("refType", *name)).collect();
+    xml.within("dcc:statement", &attributes, |xml| {
         for norm in norms {
             xml.leaf("dcc:norm", norm);
         }
         xml.text("dcc:declaration", text, languages);
+        if let Some(conforms) = conforms {
+            xml.leaf("dcc:conformity", if conforms { "pass" } else { "fail" });
+        }
     });
 }

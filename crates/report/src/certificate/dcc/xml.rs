@@ -56,7 +56,8 @@ impl Xml {
 
     /// An element with attributes and a text.
     pub(super) fn leaf_with(&mut self, name: &str, attributes: &[(&str, &str)], text: &str) {
-        let text: String = text.chars().filter(|c| is_allowed(*c)).collect();
+        // the schema refuses spaces at the ends of many texts
+        let text: String = text.trim().chars().filter(|c| is_allowed(*c)).collect();
         let start = BytesStart::new(name).with_attributes(attributes.iter().copied());
         self.put(Event::Start(start));
         self.put(Event::Text(BytesText::new(&text)));

@@ -8,6 +8,7 @@ pub(super) const WORDS: Words = Words {
     device: "Device",
     manufacturer: "Manufacturer",
     model: "Type",
+    condition: "Condition as received",
     serial_number: "Serial number",
     customer_number: "Customer's number",
     customer: "Customer",
@@ -16,8 +17,9 @@ pub(super) const WORDS: Words = Words {
     responsible: "Responsible",
     calibrated: "Date of calibration",
     period: "{first} to {last}",
+    received: "Date of receipt",
     issued: "Date of issue",
-    place: "PerformanceLocation of calibration",
+    place: "Place of calibration",
     places: [
         "laboratory",
         "at the customer's",
@@ -55,7 +57,8 @@ pub(super) const WORDS: Words = Words {
         factor k = {k}. No distribution is supposed, so that no coverage probability is stated.",
     shortest: "The result is not normally distributed. The interval from - to in the table is the shortest one \
         with a coverage probability of {p}, found by the Monte Carlo method (JCGM 101:2008). U is the \
-        distance of the value from its farther end, and k is U over the standard uncertainty.",
+        distance of the value from its farther end, and k is U over the standard uncertainty, to the \
+        digits that the trials justify.",
     propagation: "The standard uncertainty was evaluated by the law of propagation of uncertainty \
         (JCGM 100:2008), as EA-4/02 M:2022 asks.",
     time: "The uncertainties do not include how the device will behave over time.",
@@ -68,7 +71,8 @@ pub(super) const WORDS: Words = Words {
     ],
     digits: ["one significant digit", "{digits} significant digits"],
     raised: "The evaluated uncertainty is smaller than the laboratory's calibration and measurement \
-        capability (CMC), which is stated instead (ILAC-P14:09/2020).",
+        capability (CMC), which is stated as U instead (ILAC-P14:09/2020); the interval from value - U \
+        to value + U has a coverage probability of at least {p}.",
     approximately: "approximately {p}",
 
     correlation: "Correlation of the rows",
@@ -78,10 +82,37 @@ pub(super) const WORDS: Words = Words {
     many: "The {rows} rows share inputs; their correlation coefficients are in the JSON answer and in \
         the workbook.",
     conformity: "Conformity",
+    decisions: [
+        "The result conforms to the tolerance {limits}.",
+        "The result does not conform to the tolerance {limits}.",
+    ],
+    limits: ["from {low} to {high}{unit}", "from {low}{unit} on", "up to {high}{unit}"],
+    conforming: "The value conforms with a probability of {p} %.",
+    simple: "Decision rule: simple acceptance (JCGM 106:2012, 8.2).",
+    guarded: "Decision rule: guarded acceptance (JCGM 106:2012, 8.3) for {kind} of at most {risk} %; \
+        guard band {guard}, accepted {limits}.",
+    never: "Decision rule: guarded acceptance (JCGM 106:2012, 8.3) for {kind} of at most {risk} %, \
+        which no value has.",
+    kinds: ["a specific risk of false acceptance", "a global risk of false acceptance"],
+
+    page: "Page {page} of {pages}",
+    end: "End of the calibration certificate",
+    signed: ["Place, date", "Signature"],
+    relates: "The results relate only to the item that was calibrated.",
+    copies: "This certificate shall not be reproduced except in full without approval of the laboratory.",
     provenance: "Provenance",
     program: "program",
     certificate_file: "certificate file, SHA-256",
+    certificate_name: "certificate file",
+    model_file: "model file",
+    table: "table",
     seed: "seed",
     trials: "Monte Carlo trials",
     adaptive: "adaptive",
+
+    nominal_value: "Nominal value",
+    measured_value: "Measured value",
+    coverage_interval: "Coverage interval",
+    files: "Files of the evaluation",
+    answer: "Result",
 };

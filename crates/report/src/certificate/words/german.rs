@@ -8,6 +8,7 @@ pub(super) const WORDS: Words = Words {
     device: "Gegenstand",
     manufacturer: "Hersteller",
     model: "Typ",
+    condition: "Zustand bei Eingang",
     serial_number: "Seriennummer",
     customer_number: "Nummer des Auftraggebers",
     customer: "Auftraggeber",
@@ -16,6 +17,7 @@ pub(super) const WORDS: Words = Words {
     responsible: "Verantwortlich",
     calibrated: "Datum der Kalibrierung",
     period: "{first} bis {last}",
+    received: "Eingangsdatum",
     issued: "Ausstellungsdatum",
     place: "Ort der Kalibrierung",
     places: [
@@ -58,7 +60,7 @@ pub(super) const WORDS: Words = Words {
     shortest: "Das Ergebnis ist nicht normalverteilt. Das Intervall von - bis der Tabelle ist das kürzeste mit \
         einer Überdeckungswahrscheinlichkeit von {p}, ermittelt mit dem Monte-Carlo-Verfahren (JCGM \
         101:2008). U ist der Abstand des Werts vom weiter entfernten Ende, und k ist U geteilt durch \
-        die Standardmessunsicherheit.",
+        die Standardmessunsicherheit, auf die Stellen, die die Versuche hergeben.",
     propagation: "Die Standardmessunsicherheit wurde nach dem Fortpflanzungsgesetz der \
         Messunsicherheit (JCGM 100:2008) ermittelt, wie EA-4/02 M:2022 es verlangt.",
     time: "Wie sich der Gegenstand auf Dauer verhält, ist in den Unsicherheiten nicht enthalten.",
@@ -71,7 +73,8 @@ pub(super) const WORDS: Words = Words {
     ],
     digits: ["eine signifikante Stelle", "{digits} signifikante Stellen"],
     raised: "Die ermittelte Messunsicherheit ist kleiner als die kleinste angebbare Messunsicherheit \
-        (CMC) des Laboratoriums; diese ist stattdessen angegeben (ILAC-P14:09/2020).",
+        (CMC) des Laboratoriums; diese ist stattdessen als U angegeben (ILAC-P14:09/2020). Das Intervall \
+        von Wert - U bis Wert + U hat eine Überdeckungswahrscheinlichkeit von mindestens {p}.",
     approximately: "annähernd {p}",
 
     correlation: "Korrelation der Zeilen",
@@ -81,10 +84,40 @@ pub(super) const WORDS: Words = Words {
     many: "Die {rows} Zeilen haben gemeinsame Eingangsgrößen; ihre Korrelationskoeffizienten stehen in \
         der JSON-Ausgabe und in der Arbeitsmappe.",
     conformity: "Konformität",
+    decisions: [
+        "Das Ergebnis hält die Toleranz {limits} ein: konform.",
+        "Das Ergebnis hält die Toleranz {limits} nicht ein: nicht konform.",
+    ],
+    limits: ["von {low} bis {high}{unit}", "ab {low}{unit}", "bis {high}{unit}"],
+    conforming: "Der Wert ist mit einer Wahrscheinlichkeit von {p} % konform.",
+    simple: "Entscheidungsregel: einfache Annahme (JCGM 106:2012, 8.2).",
+    guarded: "Entscheidungsregel: Annahme mit Sicherheitsband (JCGM 106:2012, 8.3) für {kind} von \
+        höchstens {risk} %; Sicherheitsband {guard}, angenommen {limits}.",
+    never: "Entscheidungsregel: Annahme mit Sicherheitsband (JCGM 106:2012, 8.3) für {kind} von \
+        höchstens {risk} %, das kein Wert hat.",
+    kinds: [
+        "ein spezifisches Risiko der irrtümlichen Annahme",
+        "ein globales Risiko der irrtümlichen Annahme",
+    ],
+
+    page: "Seite {page} von {pages}",
+    end: "Ende des Kalibrierscheins",
+    signed: ["Ort, Datum", "Unterschrift"],
+    relates: "Die Ergebnisse beziehen sich nur auf den kalibrierten Gegenstand.",
+    copies: "Dieser Kalibrierschein darf ohne Genehmigung des Laboratoriums nur vollständig vervielfältigt werden.",
     provenance: "Herkunft",
     program: "Programm",
     certificate_file: "Kalibrierscheindatei, SHA-256",
+    certificate_name: "Kalibrierscheindatei",
+    model_file: "Modelldatei",
+    table: "Tabelle",
     seed: "Startwert",
     trials: "Monte-Carlo-Versuche",
     adaptive: "adaptiv",
+
+    nominal_value: "Nennwert",
+    measured_value: "Messwert",
+    coverage_interval: "Überdeckungsintervall",
+    files: "Dateien der Auswertung",
+    answer: "Ergebnis",
 };

@@ -1,10 +1,13 @@
 //! The words of a certificate, one file for each language. Sentences are the project's own; what they
-//! have to say is asked by EA-4/02 M:2022, clause 6, and ILAC-P14:09/2020, clause 5.
+//! have to say is asked by EA-4/02 M:2022, clause 6, ILAC-P14:09/2020, clause 5, and
+//! ISO/IEC 17025:2017, 7.8.
 
 mod english;
+mod french;
 mod german;
+mod italian;
 
-use gumption_analysis::certificate::contents::Language;
+use gumption_analysis::certificate::contents::{Language, Localized};
 
 /// The words of a language. Names in braces are filled in.
 #[derive(Debug)]
@@ -14,6 +17,8 @@ pub(super) struct Words {
     pub(super) device: &'static str,
     pub(super) manufacturer: &'static str,
     pub(super) model: &'static str,
+    /// In what condition the device came.
+    pub(super) condition: &'static str,
     pub(super) serial_number: &'static str,
     pub(super) customer_number: &'static str,
     pub(super) customer: &'static str,
@@ -23,6 +28,8 @@ pub(super) struct Words {
     pub(super) calibrated: &'static str,
     /// From one day to another: `{first}`, `{last}`.
     pub(super) period: &'static str,
+    /// Day on which the device came.
+    pub(super) received: &'static str,
     pub(super) issued: &'static str,
     pub(super) place: &'static str,
     /// In the order of [`PerformanceLocation::ALL`](gumption_analysis::certificate::contents::PerformanceLocation::ALL).
@@ -66,6 +73,7 @@ pub(super) struct Words {
     pub(super) rules: [&'static str; 3],
     /// One digit, and `{digits}` digits.
     pub(super) digits: [&'static str; 2],
+    /// `{p}`
     pub(super) raised: &'static str,
     /// `{p}`
     pub(super) approximately: &'static str,
@@ -75,12 +83,43 @@ pub(super) struct Words {
     /// `{rows}`: how many.
     pub(super) many: &'static str,
     pub(super) conformity: &'static str,
+    /// That a value conforms to a tolerance, and that it does not: `{limits}`.
+    pub(super) decisions: [&'static str; 2],
+    /// Limits with their unit: both, the lower one, the upper one; `{low}`, `{high}`, `{unit}`.
+    pub(super) limits: [&'static str; 3],
+    /// `{p}`
+    pub(super) conforming: &'static str,
+    pub(super) simple: &'static str,
+    /// `{kind}`, `{risk}`, `{guard}`, `{limits}`
+    pub(super) guarded: &'static str,
+    /// A guarded rule by which no value is accepted: `{kind}`, `{risk}`.
+    pub(super) never: &'static str,
+    /// Of one value, and of all that are decided upon.
+    pub(super) kinds: [&'static str; 2],
+
+    /// `{page}`, `{pages}`
+    pub(super) page: &'static str,
+    pub(super) end: &'static str,
+    pub(super) signed: [&'static str; 2],
+    /// ISO/IEC 17025, 7.8.2.1 l.
+    pub(super) relates: &'static str,
+    /// ISO/IEC 17025, 7.8.2.1, note 1.
+    pub(super) copies: &'static str,
     pub(super) provenance: &'static str,
     pub(super) program: &'static str,
     pub(super) certificate_file: &'static str,
+    pub(super) certificate_name: &'static str,
+    pub(super) model_file: &'static str,
+    pub(super) table: &'static str,
     pub(super) seed: &'static str,
     pub(super) trials: &'static str,
     pub(super) adaptive: &'static str,
+
+    pub(super) nominal_value: &'static str,
+    pub(super) measured_value: &'static str,
+    pub(super) coverage_interval: &'static str,
+    pub(super) files: &'static str,
+    pub(super) answer: &'static str,
 }
 
 /// The words of a language.
@@ -88,6 +127,8 @@ pub(super) fn of(language: Language) -> &'static Words {
     match language {
         Language::English => &english::WORDS,
         Language::German => &german::WORDS,
+        Language::Italian => &italian::WORDS,
+        Language::French => &french::WORDS,
     }
 }
 
@@ -101,6 +142,15 @@ pub(super) fn beside(languages: &[Language], word: impl Fn(&Words) -> &'static s
     each(languages, word).join(" / ")
 }
 
+/// A word as a text of which every language has its own.
+pub(super) fn localized(
+    languages: &[Language],
+    word: impl Fn(&Words) -> &'static str,
+) -> Localized {
+    let texts = languages.iter().map(|language| (Some(*language), word(of(*language)).to_owned()));
+    Localized { texts: texts.collect() }
+}
+
 fn each(languages: &[Language], word: impl Fn(&Words) -> &'static str) -> Vec<&'static str> {
     let mut words: Vec<&'static str> = Vec::new();
     for language in languages {
@@ -110,4 +160,47 @@ fn each(languages: &[Language], word: impl Fn(&Words) -> &'static str) -> Vec<&'
         }
     }
     words
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A sentence of another language that leaves a figure out would state less in it.
+    #[test]
+    fn every_language_fills_in_the_same() {
+        fn marks(text: &str) -> Vec<&str> {
+            let mut marks: Vec<&str> =
+                text.split('{').skip(1).filter_map(|rest| rest.split('}').next()).collect();
+            marks.sort_unstable();
+            marks
+        }
+        let templates: [fn(&Words) -> &'static str; 15] = [
+            |w| w.period,
+            |w| w.rows[0],
+            |w| w.rows[1],
+            |w| w.normal,
+            |w| w.student,
+            |w| w.fixed,
+            |w| w.shortest,
+            |w| w.rounding,
+            |w| w.raised,
+            |w| w.approximately,
+            |w| w.many,
+            |w| w.conforming,
+            |w| w.guarded,
+            |w| w.never,
+            |w| w.page,
+        ];
+        for language in Language::ALL {
+            for template in templates {
+                let (own, english) = (template(of(language)), template(of(Language::English)));
+                assert_eq!(marks(own), marks(english), "{own}");
+            }
+            for place in 0..3 {
+                let limits = [of(language), of(Language::English)].map(|w| marks(w.limits[place]));
+                assert_eq!(limits[0], limits[1]);
+            }
+        }
+    }
 }

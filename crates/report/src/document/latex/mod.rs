@@ -4,14 +4,15 @@
 mod text;
 pub(super) mod unit;
 
-use super::{Block, Document};
+use super::{Block, Document, FootPart};
 use crate::sheet::{Column, Kind, Sheet};
 use text::escaped;
 
-/// Rows from which on a table may break over pages.
-const LONG: usize = 30;
+/// Rows up to which a table is kept on one page.
+const LONG: usize = 12;
 
-/// Letters in a text column before it becomes a paragraph of this many.
+/// Letters in a text column before it becomes a paragraph of this many, or of more where the line has
+/// room.
 const PARAGRAPH: usize = 30;
 
 /// Width of a letter at the usual size of tables, in millimetres.
@@ -19,6 +20,33 @@ const LETTER: f64 = 1.65;
 
 /// Letters in a line at each size of a table, at most.
 const SIZES: [(usize, &str); 3] = [(98, "\\small"), (116, "\\footnotesize"), (136, "\\scriptsize")];
+
+/// Numbers with a decimal comma.
+const COMMA: &str = ",output-decimal-marker={,}";
+
+/// A style of pages that says what they belong to and which of them each is. Packages for it are not
+/// in every TeX Live.
+fn foot(document: &Document) -> String {
+    let foot = document.foot();
+    let page = foot.parts().into_iter().map(|part| match part {
+        FootPart::Text(text) => spaced(text),
+        FootPart::Page => "\\thepage{}".to_owned(),
+        FootPart::Pages => "\\pageref{end}".to_owned(),
+    });
+    let page: String = page.collect();
+    format!(
+        "\\makeatletter\n\\def\\ps@foot{{\\def\\@oddhead{{}}\\let\\@evenhead\\@oddhead\n  \
+         \\def\\@oddfoot{{\\footnotesize\\parbox[t]{{0.75\\textwidth}}{{\\raggedright {}}}\\hfil {page}}}\
+         \\let\\@evenfoot\\@oddfoot}}\n\\makeatother\n\\pagestyle{{foot}}",
+        escaped(&foot.about)
+    )
+}
+
+/// A text that keeps the spaces at its ends.
+fn spaced(text: &str) -> String {
+    let end = |is: bool| if is { " " } else { "" };
+    format!("{}{}{}", end(text.starts_with(' ')), escaped(text), end(text.ends_with(' ')))
+}
 
 /// The whole document, ending in a newline.
 pub(crate) fn latex(document: &Document) -> String {
@@ -35,7 +63,10 @@ pub(crate) fn latex(document: &Document) -> String {
     ];
     parts.extend(units.lines());
     parts.extend([
-        "\\sisetup{table-align-exponent=false}".to_owned(),
+        format!(
+            "\\sisetup{{table-align-exponent=false{}}}",
+            if document.comma { COMMA } else { "" }
+        ),
         "\\setlength{\\parindent}{0pt}".to_owned(),
         "\\setlength{\\parskip}{0.6ex plus 0.2ex}".to_owned(),
         "\\setlength{\\LTleft}{0pt}".to_owned(),
@@ -44,11 +75,13 @@ pub(crate) fn latex(document: &Document) -> String {
         format!("\\title{{{}}}", escaped(&document.title)),
         format!("\\author{{\\normalsize {}}}", subtitle.join(" \\\\ \\normalsize ")),
         "\\date{}".to_owned(),
+        foot(document),
         "\\begin{document}".to_owned(),
         "\\maketitle".to_owned(),
+        "\\thispagestyle{foot}".to_owned(),
         String::new(),
     ]);
-    parts.join("\n") + "\n" + &body.join("\n\n") + "\n\n\\end{document}\n"
+    parts.join("\n") + "\n" + &body.join("\n\n") + "\n\n\\label{end}\n\\end{document}\n"
 }
 
 fn block(block: &Block, units: &mut unit::Declared) -> String {
@@ -70,6 +103,14 @@ fn block(block: &Block, units: &mut unit::Declared) -> String {
         }
         Block::Table(sheet) => table(sheet, units),
         Block::Figure(_) => String::new(),
+        Block::Signature(places) => {
+            let line = |place: &String| {
+                format!("\\parbox[t]{{70mm}}{{\\rule{{70mm}}{{0.4pt}}\\\\{}}}", escaped(place))
+            };
+            let lines: Vec<String> = places.iter().map(line).collect();
+            format!("\\nopagebreak\\vspace{{18mm}}\n{}", lines.join("\\hfill\n"))
+        }
+        Block::End(text) => format!("\\begin{{center}}--- {} ---\\end{{center}}", escaped(text)),
         Block::Listing { about, text } => {
             let lines: Vec<String> = text.lines().map(listed).collect();
             format!(
@@ -89,7 +130,7 @@ fn listed(line: &str) -> String {
 }
 
 fn table(sheet: &Sheet, units: &mut unit::Declared) -> String {
-    let widths: Vec<usize> = sheet.columns.iter().map(width).collect();
+    let widths = widths(sheet);
     let letters = widths.iter().sum::<usize>() + 2 * widths.len().saturating_sub(1);
     let size = SIZES.iter().find(|(most, _)| letters <= *most).map_or("\\tiny", |(_, size)| size);
     let columns: Vec<String> =
@@ -118,6 +159,27 @@ fn table(sheet: &Sheet, units: &mut unit::Declared) -> String {
              \\bottomrule\n\\end{{tabular}}\\par}}\n\\medskip"
         )
     }
+}
+
+/// Letters of each column: what they need, and for paragraphs what the others leave.
+fn widths(sheet: &Sheet) -> Vec<usize> {
+    let mut widths: Vec<usize> = sheet.columns.iter().map(width).collect();
+    let longest = |column: &Column| column.cells.iter().map(|cell| cell.chars().count()).max();
+    let longest: Vec<usize> =
+        sheet.columns.iter().map(|column| longest(column).unwrap_or(0)).collect();
+    let is_cut = |place: usize, width: usize| {
+        sheet.columns[place].kind == Kind::Text && longest[place] > width
+    };
+    let gaps = 2 * widths.len().saturating_sub(1);
+    let used = widths.iter().sum::<usize>() + gaps;
+    let cut = widths.iter().enumerate().filter(|(place, width)| is_cut(*place, **width)).count();
+    let room = SIZES[0].0.saturating_sub(used).checked_div(cut).unwrap_or(0);
+    for (place, width) in widths.iter_mut().enumerate() {
+        if is_cut(place, *width) {
+            *width = longest[place].min(*width + room);
+        }
+    }
+    widths
 }
 
 /// Letters that a column needs.

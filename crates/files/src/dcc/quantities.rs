@@ -1,0 +1,56 @@
+//! The quantities of a certificate as inputs of a model.
+
+use gumption_engine::model::formula::check_name;
+use roxmltree::{Document, Node};
+use serde_json::{Value, json};
+
+use super::document::{measured, names, quantities};
+
+/// The name of a quantity that has none.
+const NAMELESS: &str = "q";
+
+/// Whether a quantity is among the results, and not an influence condition or the like.
+fn in_results(node: &Node<'_, '_>) -> bool {
+    node.ancestors().any(|of| of.tag_name().name() == "results")
+}
+
+/// Name, unit and input of each value of the certificate's results (of all of it, if it has none), in a
+/// model that names the certificate as `file`; what is no real quantity is left out.
+pub(crate) fn inputs(document: &Document<'_>, file: &str) -> Vec<(String, String, Value)> {
+    let all = quantities(document);
+    let some = all.iter().any(in_results);
+    let mut found: Vec<(String, String, Value)> = Vec::new();
+    for (place, node) in all.iter().enumerate().filter(|(_, node)| !some || in_results(node)) {
+        let Ok(of) = measured(*node) else { continue };
+        let count = of.values.len();
+        let called = names(*node);
+        let stem = identifier(called.first().copied().unwrap_or_default());
+        for index in 0..count {
+            let wanted = if count > 1 { format!("{stem}_{}", index + 1) } else { stem.clone() };
+            let taken = |name: &str| found.iter().any(|(known, ..)| known == name);
+            let name = (1..)
+                .map(|n| if n == 1 { wanted.clone() } else { format!("{wanted}_{n}") })
+                .find(|name| !taken(name));
+            let Some(name) = name else { continue };
+            let mut input = json!({ "distribution": "dcc", "file": file, "quantity": place });
+            if count > 1 {
+                input["index"] = json!(index);
+            }
+            if !called.is_empty() {
+                input["about"] = json!(called.join(" / "));
+            }
+            found.push((name, of.unit.text().to_owned(), input));
+        }
+    }
+    found
+}
+
+/// A text as the name of a quantity.
+fn identifier(text: &str) -> String {
+    let sign = |c: char| if c.is_alphanumeric() { c } else { '_' };
+    let name: String = text.trim().chars().take(40).map(sign).collect();
+    let name = name.trim_matches('_').to_owned();
+    let candidates = [name.clone(), format!("{NAMELESS}_{name}"), format!("{name}_")];
+    let right = candidates.into_iter().find(|name| check_name(name).is_ok());
+    right.unwrap_or_else(|| NAMELESS.to_owned())
+}

@@ -1,0 +1,118 @@
+//! French.
+
+use super::Words;
+
+pub(super) const WORDS: Words = Words {
+    title: "Certificat d'étalonnage",
+    number: "Numéro du certificat",
+    device: "Objet",
+    manufacturer: "Constructeur",
+    model: "Type",
+    condition: "État à la réception",
+    serial_number: "Numéro de série",
+    customer_number: "Numéro du client",
+    customer: "Client",
+    laboratory: "Laboratoire",
+    code: "Code du laboratoire",
+    responsible: "Responsable",
+    calibrated: "Date de l'étalonnage",
+    period: "du {first} au {last}",
+    received: "Date de réception",
+    issued: "Date d'émission",
+    place: "Lieu de l'étalonnage",
+    places: [
+        "laboratoire",
+        "chez le client",
+        "site annexe du laboratoire",
+        "site annexe du client",
+        "ailleurs",
+    ],
+    environment: "Conditions d'environnement",
+    method: "Méthode",
+    traceability: "Traçabilité métrologique",
+    remarks: "Remarques",
+
+    results: "Résultats",
+    row: "ligne",
+    quantity: "grandeur",
+    conditions: "conditions",
+    nominal: "valeur nominale",
+    value: "valeur",
+    expanded: "U",
+    unit: "unité",
+    probability: "p en %",
+    low: "de",
+    high: "à",
+
+    uncertainty: "Incertitude de mesure",
+    rows: ["Ligne {rows} : ", "Lignes {rows} : "],
+    and: " et ",
+    normal: "L'incertitude élargie U est l'incertitude-type multipliée par le facteur d'élargissement \
+        k = {k} ; le résultat suit une loi normale, de sorte que l'intervalle de valeur - U à valeur + U a \
+        une probabilité de couverture de {p}.",
+    student: "L'incertitude élargie U est l'incertitude-type multipliée par le facteur d'élargissement k du \
+        tableau. Le résultat suit une loi de Student avec les degrés de liberté effectifs ν_eff du tableau, \
+        et k est choisi de façon que la probabilité de couverture soit {p}.",
+    fixed: "L'incertitude élargie U est l'incertitude-type multipliée par le facteur d'élargissement convenu \
+        k = {k}. Aucune loi n'est supposée, et aucune probabilité de couverture n'est donc déclarée.",
+    shortest: "Le résultat ne suit pas une loi normale. L'intervalle de - à du tableau est le plus court \
+        ayant une probabilité de couverture de {p}, trouvé par la méthode de Monte-Carlo (JCGM 101:2008). U \
+        est la distance de la valeur à l'extrémité la plus éloignée, et k est U divisé par \
+        l'incertitude-type, avec les chiffres que les tirages justifient.",
+    propagation: "L'incertitude-type a été évaluée par la loi de propagation des incertitudes \
+        (JCGM 100:2008), comme le demande EA-4/02 M:2022.",
+    time: "Les incertitudes ne comprennent pas le comportement de l'objet dans le temps.",
+    confirmed: "La méthode de Monte-Carlo (JCGM 101:2008, article 8) confirme ces intervalles.",
+    rounding: "U a {digits} ({rule}) ; la valeur est arrondie au même rang.",
+    rules: [
+        "arrondi au plus proche",
+        "arrondi au plus proche, mais par excès là où plus de 5 % seraient perdus, EA-4/02 M:2022",
+        "arrondi par excès",
+    ],
+    digits: ["un chiffre significatif", "{digits} chiffres significatifs"],
+    raised: "L'incertitude évaluée est inférieure à l'aptitude en matière de mesures et d'étalonnages (CMC) du \
+        laboratoire, qui est déclarée comme U à sa place (ILAC-P14:09/2020) ; l'intervalle de valeur - U à \
+        valeur + U a une probabilité de couverture d'au moins {p}.",
+    approximately: "{p} environ",
+
+    correlation: "Corrélation des lignes",
+    correlated: "Les lignes qui ont des grandeurs d'entrée en commun sont corrélées. L'incertitude-type de la \
+        différence des lignes i et j découle de u² = u_i² + u_j² - 2 r u_i u_j, avec u_i = U_i / k_i et le \
+        coefficient r du tableau (par la loi de propagation).",
+    many: "Les {rows} lignes ont des grandeurs d'entrée en commun ; leurs coefficients de corrélation sont dans \
+        la réponse JSON et dans le classeur.",
+    conformity: "Conformité",
+    decisions: [
+        "Le résultat est conforme à la tolérance {limits}.",
+        "Le résultat n'est pas conforme à la tolérance {limits}.",
+    ],
+    limits: ["de {low} à {high}{unit}", "à partir de {low}{unit}", "jusqu'à {high}{unit}"],
+    conforming: "La valeur est conforme avec une probabilité de {p} %.",
+    simple: "Règle de décision : acceptation simple (JCGM 106:2012, 8.2).",
+    guarded: "Règle de décision : acceptation avec bande de garde (JCGM 106:2012, 8.3) pour {kind} d'au plus \
+        {risk} % ; bande de garde {guard}, accepté {limits}.",
+    never: "Règle de décision : acceptation avec bande de garde (JCGM 106:2012, 8.3) pour {kind} d'au plus \
+        {risk} %, qu'aucune valeur n'a.",
+    kinds: ["un risque spécifique de fausse acceptation", "un risque global de fausse acceptation"],
+
+    page: "Page {page} sur {pages}",
+    end: "Fin du certificat d'étalonnage",
+    signed: ["Lieu, date", "Signature"],
+    relates: "Les résultats ne se rapportent qu'à l'objet étalonné.",
+    copies: "La reproduction de ce certificat n'est autorisée que sous sa forme intégrale, sauf approbation du laboratoire.",
+    provenance: "Provenance",
+    program: "programme",
+    certificate_file: "fichier du certificat, SHA-256",
+    certificate_name: "fichier du certificat",
+    model_file: "fichier du modèle",
+    table: "tableau",
+    seed: "graine",
+    trials: "tirages de Monte-Carlo",
+    adaptive: "adaptatif",
+
+    nominal_value: "Valeur nominale",
+    measured_value: "Valeur mesurée",
+    coverage_interval: "Intervalle de couverture",
+    files: "Fichiers de l'évaluation",
+    answer: "Résultat",
+};

@@ -1,0 +1,121 @@
+//! Italian.
+
+use super::Words;
+
+pub(super) const WORDS: Words = Words {
+    title: "Certificato di taratura",
+    number: "Numero del certificato",
+    device: "Oggetto",
+    manufacturer: "Costruttore",
+    model: "Modello",
+    condition: "Stato al ricevimento",
+    serial_number: "Matricola",
+    customer_number: "Numero del cliente",
+    customer: "Cliente",
+    laboratory: "Laboratorio",
+    code: "Codice del laboratorio",
+    responsible: "Responsabile",
+    calibrated: "Data della taratura",
+    period: "dal {first} al {last}",
+    received: "Data di ricevimento",
+    issued: "Data di emissione",
+    place: "Luogo della taratura",
+    places: [
+        "laboratorio",
+        "presso il cliente",
+        "sede distaccata del laboratorio",
+        "sede distaccata del cliente",
+        "altrove",
+    ],
+    environment: "Condizioni ambientali",
+    method: "Procedura",
+    traceability: "Riferibilità metrologica",
+    remarks: "Note",
+
+    results: "Risultati",
+    row: "riga",
+    quantity: "grandezza",
+    conditions: "condizioni",
+    nominal: "nominale",
+    value: "valore",
+    expanded: "U",
+    unit: "unità",
+    probability: "p in %",
+    low: "da",
+    high: "a",
+
+    uncertainty: "Incertezza di misura",
+    rows: ["Riga {rows}: ", "Righe {rows}: "],
+    and: " e ",
+    normal: "L'incertezza estesa U è l'incertezza tipo moltiplicata per il fattore di copertura k = {k}; \
+        il risultato ha distribuzione normale, sicché l'intervallo da valore - U a valore + U ha una \
+        probabilità di copertura di {p}.",
+    student: "L'incertezza estesa U è l'incertezza tipo moltiplicata per il fattore di copertura k della \
+        tabella. Il risultato segue una distribuzione t con i gradi di libertà effettivi ν_eff della \
+        tabella, e k è scelto in modo che la probabilità di copertura sia {p}.",
+    fixed: "L'incertezza estesa U è l'incertezza tipo moltiplicata per il fattore di copertura concordato \
+        k = {k}. Non si suppone alcuna distribuzione, perciò non si dichiara una probabilità di copertura.",
+    shortest: "Il risultato non ha distribuzione normale. L'intervallo da - a della tabella è il più corto \
+        con una probabilità di copertura di {p}, trovato con il metodo Monte Carlo (JCGM 101:2008). U è la \
+        distanza del valore dall'estremo più lontano, e k è il rapporto fra U e l'incertezza tipo, con le \
+        cifre che le prove Monte Carlo giustificano.",
+    propagation: "L'incertezza tipo è stata valutata con la legge di propagazione dell'incertezza \
+        (JCGM 100:2008), come chiede EA-4/02 M:2022.",
+    time: "Le incertezze non comprendono il comportamento dell'oggetto nel tempo.",
+    confirmed: "Il metodo Monte Carlo (JCGM 101:2008, punto 8) conferma questi intervalli.",
+    rounding: "U ha {digits} ({rule}); il valore è arrotondato alla stessa cifra.",
+    rules: [
+        "arrotondamento al più vicino",
+        "arrotondamento al più vicino, ma per eccesso dove altrimenti si perderebbe più del 5 %, EA-4/02 M:2022",
+        "arrotondamento per eccesso",
+    ],
+    digits: ["una cifra significativa", "{digits} cifre significative"],
+    raised: "L'incertezza valutata è minore della capacità di misura e taratura (CMC) del laboratorio, che \
+        è dichiarata come U in sua vece (ILAC-P14:09/2020); l'intervallo da valore - U a valore + U ha una \
+        probabilità di copertura di almeno {p}.",
+    approximately: "circa {p}",
+
+    correlation: "Correlazione fra le righe",
+    correlated: "Le righe che hanno grandezze d'ingresso in comune sono correlate. L'incertezza tipo della \
+        differenza fra le righe i e j segue da u² = u_i² + u_j² - 2 r u_i u_j, con u_i = U_i / k_i e il \
+        coefficiente r della tabella (dalla legge di propagazione).",
+    many: "Le {rows} righe hanno grandezze d'ingresso in comune; i loro coefficienti di correlazione sono \
+        nella risposta JSON e nella cartella di lavoro.",
+    conformity: "Conformità",
+    decisions: [
+        "Il risultato è conforme alla tolleranza {limits}.",
+        "Il risultato non è conforme alla tolleranza {limits}.",
+    ],
+    limits: ["da {low} a {high}{unit}", "da {low}{unit} in su", "fino a {high}{unit}"],
+    conforming: "Il valore è conforme con una probabilità di {p} %.",
+    simple: "Regola decisionale: accettazione semplice (JCGM 106:2012, 8.2).",
+    guarded: "Regola decisionale: accettazione con banda di guardia (JCGM 106:2012, 8.3) per {kind} non \
+        superiore a {risk} %; banda di guardia {guard}, accettato {limits}.",
+    never: "Regola decisionale: accettazione con banda di guardia (JCGM 106:2012, 8.3) per {kind} non \
+        superiore a {risk} %, che nessun valore ha.",
+    kinds: [
+        "un rischio specifico di falsa accettazione",
+        "un rischio globale di falsa accettazione",
+    ],
+
+    page: "Pagina {page} di {pages}",
+    end: "Fine del certificato di taratura",
+    signed: ["Luogo, data", "Firma"],
+    relates: "I risultati si riferiscono soltanto all'oggetto tarato.",
+    copies: "Questo certificato non può essere riprodotto in forma parziale senza l'approvazione del laboratorio.",
+    provenance: "Provenienza",
+    program: "programma",
+    certificate_file: "file del certificato, SHA-256",
+    certificate_name: "file del certificato",
+    model_file: "file del modello",
+    table: "tabella",
+    seed: "seme",
+    trials: "prove Monte Carlo",
+    adaptive: "adattivo",
+
+    nominal_value: "Valore nominale",
+    measured_value: "Valore misurato",
+    coverage_interval: "Intervallo di copertura",
+    files: "File della valutazione",
+    answer: "Risultato",
+};
