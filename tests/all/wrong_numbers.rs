@@ -1,6 +1,7 @@
 //! Numbers that earlier versions gave wrong without a word, with today's answer for each: the right
 //! number, or the mistake that is told instead.
 
+use std::f64::consts::TAU;
 use std::fs;
 use std::process::Output;
 
@@ -70,10 +71,10 @@ fn numbers_that_were_wrong() {
         (&gain, "20*log10(Vo/Vi)", "dB", 100.0, Ok((40.0, EXACT))),
         (&gain, "L + Vo/Vi", "dB", 120.0, Err("log10(Vo/Vi)")),
         (&gain, "10*n*log10(Vo/Vi)", "dB", f64::NAN, Ok((40.0, EXACT))),
-        (&turns, "n", "Hz", 6.283, Err("rev")),
+        (&turns, "n", "Hz", TAU, Err("rev")),
         (&turns, "f", "rad/s", 1.0, Err("2*pi")),
-        (&turns, "n/[rev]", "Hz", 6.283, Ok((1.0, EXACT))),
-        (&turns, "2*pi*f", "rad/s", 1.0, Ok((std::f64::consts::TAU, EXACT))),
+        (&turns, "n/[rev]", "Hz", TAU, Ok((1.0, EXACT))),
+        (&turns, "2*pi*f", "rad/s", 1.0, Ok((TAU, EXACT))),
     ];
     for (inputs, formula, unit, was, right) in table {
         let model = model(inputs, formula, unit);
