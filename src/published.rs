@@ -13,6 +13,12 @@ macro_rules! cases {
     };
 }
 
+macro_rules! measurements {
+    ($($name:literal,)*) => {
+        &[$(($name, include_str!(concat!("../models/examples/published/", $name, ".json"))),)*]
+    };
+}
+
 /// All of them, in the order in which they are printed.
 pub(crate) const EXAMPLES: PublishedExamples = PublishedExamples {
     cases: cases! {
@@ -53,6 +59,40 @@ pub(crate) const EXAMPLES: PublishedExamples = PublishedExamples {
         ("sensitivity-datasheet", include_str!("../models/sensitivity_datasheet.json")),
         ("normalized-error", include_str!("../models/normalized_error.json")),
     ],
+    // those of the folder that need no other file
+    more: measurements! {
+        "gum-h1-end-gauge",
+        "gum-h3-thermometer-line",
+        "gum-h4-radon",
+        "quam-a2-naoh",
+        "quam-a4-bread",
+        "quam-a5-ceramic-line",
+        "tn1900-e2-surface-temperature",
+        "tn1900-e3-viscometer",
+        "tn1900-e4-pitot",
+        "tn1900-e7-thermistor",
+        "tn1900-e8-carbon-dioxide",
+        "tn1900-e15-reflection",
+        "tn1900-e17-gas-mixture",
+        "tn1900-e32-load-cell",
+        "ea402-s2-weight",
+        "ea402-s4-gauge-block",
+        "ea402-s11-block-calibrator",
+        "cg3-pressure-balance",
+        "iso8655-pipette",
+        "humidity-dew-point",
+        "thermistor-steinhart-hart",
+        "prt-above-zero",
+        "prt-below-zero",
+        "thermocouple-k",
+        "dmm-resistor",
+        "mismatch",
+        "brinell",
+        "torque",
+        "ph",
+        "ac-shunt",
+        "reflection-saved",
+    },
 };
 
 #[cfg(test)]

@@ -720,3 +720,87 @@ fn the_worked_day_has_the_sensitivities_of_the_paper() {
         .collect();
     assert_eq!(stated, [("422", "13"), ("419", "12"), ("421", "11")]);
 }
+
+/// A certificate that states a line, and comes back as an input with what its results have in common.
+#[test]
+fn a_certificate_comes_back_with_its_correlations() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let write = |name: &str, text: &str| {
+        fs::write(folder.path().join(name), text).expect("written");
+    };
+    let run = |arguments: &[&str]| {
+        let said = crate::support::command()
+            .args(arguments)
+            .current_dir(folder.path())
+            .output()
+            .expect("a run");
+        let error = String::from_utf8_lossy(&said.stderr).into_owned();
+        assert!(said.status.success(), "{arguments:?}: {error}");
+        String::from_utf8(said.stdout).expect("UTF-8")
+    };
+    // two masses with a common reference: r = 9/10
+    write(
+        "masses.json",
+        r#"{"inputs": {"R": {"unit": "g", "distribution": "normal", "mean": 100, "std": 0.3},
+        "d1": {"unit": "g", "distribution": "normal", "mean": 0, "std": 0.1},
+        "d2": {"unit": "g", "distribution": "normal", "mean": 1, "std": 0.1}},
+        "fits": {"line": {"x": {"unit": "g", "values": [1, 2, 3, 4, 5, 6]},
+        "y": {"unit": "V", "values": [3.3, 5.6, 7.1, 9.3, 10.7, 12.1], "standard_uncertainty": 0.5}}},
+        "equations": {"a": "R + d1", "b": "R + d2"}, "outputs": {"a": {"unit": "g"},
+        "b": {"unit": "g"}}, "monte_carlo": {"trials": 0}}"#,
+    );
+    write(
+        "certificate.json",
+        r#"{"number": "1", "device": {"name": "d", "manufacturer": "M", "model": "T",
+        "serial_number": "2"}, "customer": {"name": "C", "city": "Roma", "country": "IT",
+        "email": "c@example.org"}, "laboratory": {"name": "L", "city": "Torino", "country": "IT",
+        "email": "l@example.org"}, "responsible": "R", "calibration_date": "2026-03-04",
+        "language": ["en", "de"], "rows": [{"model": "masses.json", "output": "a"},
+        {"model": "masses.json", "output": "b"}],
+        "functions": [{"model": "masses.json", "fit": "line", "label": "indication"}]}"#,
+    );
+    let page = run(&["certificate", "certificate.json"]);
+    assert!(
+        page.contains("Calibration function indication / Kalibrierfunktion indication"),
+        "{page}"
+    );
+    // ISO/TS 28037, clause 6 with equal weights: a 1.8667, b 1.7571, u 0.4655 and 0.1195
+    for part in ["line(x) = a + b x for 1 ≤ x ≤ 6", "1.867", "0.465", "1.757", "0.120"] {
+        assert!(page.contains(part), "{part}: {page}");
+    }
+    for format in ["markdown", "latex", "html", "csv"] {
+        run(&["certificate", "certificate.json", "--format", format]);
+    }
+    let book = ["certificate", "certificate.json", "--format", "xlsx", "--output", "c.xlsx"];
+    run(&book);
+    let answer: Value =
+        serde_json::from_str(&run(&["certificate", "certificate.json", "--format", "json"]))
+            .unwrap();
+    let function = &answer["functions"][0];
+    // U at the middle, x = 3.5: 2 * 0.5/sqrt(6) = 0.408
+    assert_eq!(function["stated"]["x"][3], "3.5");
+    assert_eq!(function["stated"]["expanded_uncertainty"][3], "0.41");
+    run(&["certificate", "certificate.json", "--format", "dcc", "--output", "c.xml"]);
+    // U = 2 sqrt(0.1) g is stated as 0.63 g, so u = 0.315 g; u(a - b) = u sqrt(2 (1 - 0.9))
+    write(
+        "difference.json",
+        r#"{"inputs": {"a": {"distribution": "dcc", "file": "c.xml", "ref_type": "basic_measuredValue",
+        "index": 0}, "b": {"distribution": "dcc", "file": "c.xml", "ref_type":
+        "basic_measuredValue", "index": 1}}, "equations": {"y": "a - b"},
+        "outputs": {"y": {"unit": "g"}}, "monte_carlo": {"trials": 0}}"#,
+    );
+    let answer: Value =
+        serde_json::from_str(&run(&["run", "difference.json", "--format", "json"])).unwrap();
+    let u = answer["outputs"]["y"]["gum"]["standard_uncertainty"].as_f64().unwrap();
+    assert!((u - 0.315 * 0.2_f64.sqrt()).abs() < 1e-9, "{u}");
+    assert!(answer["warnings"].to_string().contains("are kept: `a` and `b` (0.900"), "{answer}");
+    // a coefficient of the file goes before that of the certificate
+    let text = fs::read_to_string(folder.path().join("difference.json")).unwrap();
+    let text =
+        text.replacen("\"equations\"", "\"correlations\": [[\"a\", \"b\", 0]], \"equations\"", 1);
+    write("difference.json", &text);
+    let answer: Value =
+        serde_json::from_str(&run(&["run", "difference.json", "--format", "json"])).unwrap();
+    let u = answer["outputs"]["y"]["gum"]["standard_uncertainty"].as_f64().unwrap();
+    assert!((u - 0.315 * 2.0_f64.sqrt()).abs() < 1e-9, "{u}");
+}

@@ -243,3 +243,24 @@ fn commands_of_the_first_page_run() {
     let power = fs::read_to_string(root().join("models/examples/power.json")).expect("the file");
     assert!(blocks(&readme).iter().any(|(fence, code)| *fence == "json" && *code == power));
 }
+
+/// The drift of a reference extrapolated, as the manual has it: numpy's line through the six values,
+/// 3.5 years from the origin, its u with that of a further value by
+/// s sqrt(1 + 1/n + (x - mean)^2/Sxx) with four degrees of freedom, and 0.25 in common.
+#[test]
+fn the_drift_of_the_manual_is_extrapolated() {
+    let page = page("calibration-functions.md");
+    let section = page.split("## Drift of a reference").nth(1).expect("the section");
+    let (_, code) = blocks(section).into_iter().find(|(fence, _)| *fence == "json").expect("JSON");
+    let folder = tempfile::tempdir().expect("a folder");
+    fs::write(folder.path().join("drift.json"), code).expect("written");
+    let said = shell(folder.path(), "gumption run drift.json --format json --trials 0 --quiet");
+    let answer: serde_json::Value = serde_json::from_slice(&said.stdout).expect("an answer");
+    let found = |key: &str| answer["outputs"]["V"]["gum"][key].as_f64().expect("a number");
+    let of_line: f64 = 0.329_578_855_848_220_44;
+    let u = f64::hypot(of_line, 0.25);
+    assert!((found("estimate") - (10.0 + 19.246_666_666_666_67e-6)).abs() < 1e-14);
+    assert!((found("standard_uncertainty") / (1e-6 * u) - 1.0).abs() < 1e-9);
+    let dof = 4.0 * u.powi(4) / of_line.powi(4);
+    assert!((found("dof") / dof - 1.0).abs() < 1e-9);
+}

@@ -59,7 +59,7 @@ pub fn carried_models(path: &Path) -> Result<Vec<CarriedModel>, Diagnostics> {
 }
 
 /// The model file on a workbook's last sheet.
-fn of_workbook(content: Vec<u8>) -> Result<String, String> {
+pub(super) fn of_workbook(content: Vec<u8>) -> Result<String, String> {
     let rows = workbook::rows_of(content, workbook::Sheet::Last)?;
     let first = |row: &Vec<String>| row.first().cloned().unwrap_or_default();
     let mut lines = rows.iter().map(first).skip_while(|line| line != "The model file");
@@ -118,7 +118,7 @@ fn of_certificate(file: &str, text: &str, content: &[u8]) -> Result<Vec<CarriedM
 }
 
 /// Name and content of what is attached; the description has the path of a file of another folder.
-fn attachment(node: Node<'_, '_>) -> Option<(String, Vec<u8>)> {
+pub(super) fn attachment(node: Node<'_, '_>) -> Option<(String, Vec<u8>)> {
     let child = |name: &str| node.children().find(|child| child.tag_name().name() == name);
     let data = child("dataBase64")?.text()?;
     let data: String = data.split_whitespace().collect();

@@ -13,6 +13,7 @@ use super::keys;
 use super::links;
 use super::object::Object;
 use super::{sharing, table};
+use gumption_engine::decimal;
 use gumption_engine::distribution::{Correlation, CorrelationError, Distribution, Fits};
 use gumption_engine::task::Warning;
 use gumption_units::nearest;
@@ -28,7 +29,7 @@ pub(super) fn read(
     files: &mut Vec<(String, Vec<u8>)>,
     fits: &Fits,
 ) -> (Vec<Correlation>, Vec<Warning>) {
-    let (found, warnings) = links::links(inputs);
+    let (found, mut warnings) = links::links(inputs);
     let place = |c: &Correlation| inputs.places.get(c.second).unwrap_or(root.place()).clone();
     let places = found.iter().map(place).collect();
     let shown = inputs.variables.iter().enumerate().filter(|(_, variable)| variable.shown);
@@ -46,6 +47,7 @@ pub(super) fn read(
     if let Some(member) = root.get("correlation_matrix") {
         reader.matrix(root.log, member, folder, files);
     }
+    warnings.extend(reader.certified());
     if reader.are_shared_alike(root) {
         reader.check(root, fits);
     }
@@ -71,6 +73,36 @@ struct Reader<'a> {
 }
 
 impl Reader<'_> {
+    /// Adds the coefficients between results of one certificate, where the file states no others.
+    fn certified(&mut self) -> Option<Warning> {
+        let certified = &self.inputs.certified;
+        let mut kept: Vec<String> = Vec::new();
+        for (place, (second, b, file)) in certified.iter().enumerate() {
+            for (first, a, _) in certified.iter().take(place).filter(|(.., of)| of == file) {
+                let pair = (self.by_name.get(first.as_str()), self.by_name.get(second.as_str()));
+                let ((Some(&i), Some(&j)), Some(r)) = (pair, a.correlation(b)) else { continue };
+                let pair = (i.min(j), i.max(j));
+                if r == 0.0 || !self.pairs.insert(pair) {
+                    continue;
+                }
+                let (first_index, second_index) = pair;
+                self.found.push(Correlation {
+                    first: first_index,
+                    second: second_index,
+                    coefficient: r,
+                });
+                self.places.push(self.inputs.places.get(second_index).cloned().unwrap_or(0..0));
+                let r = decimal::rounded(r, -3);
+                kept.push(format!("`{first}` and `{second}` ({r}, from `{file}`)"));
+            }
+        }
+        let text = format!(
+            "correlation coefficients between results of one certificate are kept: {}",
+            links::some(&kept)
+        );
+        (!kept.is_empty()).then(|| Warning::new("certificate-correlation", "", text))
+    }
+
     fn triple(&mut self, node: &Node) {
         let Json::List(items) = &node.value else {
             return self.wrong(node);

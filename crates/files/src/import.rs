@@ -5,6 +5,7 @@
 
 mod columns;
 mod grid;
+mod own;
 
 use std::path::Path;
 
@@ -28,7 +29,8 @@ pub struct ImportedBudget {
     pub guessed: Vec<String>,
 }
 
-/// Reads a budget from a CSV file or from the first sheet of an XLSX file.
+/// Reads a budget from a CSV file or from the first sheet of an XLSX file; of a workbook that this
+/// program has made, its model file with the cells that were changed.
 ///
 /// # Errors
 /// A file that cannot be read, or in which no budget is found; rows with mistakes, all at once.
@@ -40,6 +42,11 @@ pub fn import_budget(path: &Path) -> Result<ImportedBudget, Diagnostics> {
         log.report(&(0..0), kind);
         Err(log.into_diagnostics())
     };
+    match own::of_file(path) {
+        Ok(None) => {}
+        Ok(Some(made)) => return made,
+        Err(message) => return failed(DiagnosticKind::Unreadable { message }),
+    }
     let (cells, text) = match grid::of_file(path) {
         Ok(read) => read,
         Err(kind) => return failed(kind),

@@ -3,6 +3,7 @@
 
 use std::ops::Range;
 
+use super::dcc::Certified;
 use super::known::Known;
 use gumption_engine::model::InputQuantity;
 use gumption_engine::task::{Evidence, Variable, Warning};
@@ -28,6 +29,9 @@ pub(super) struct InputSet {
     /// The first variable of the parts of a complex quantity, with the correlation coefficient of the
     /// two and its place.
     pub(super) pairs: Vec<(usize, f64, Range<usize>)>,
+    /// Variables, by name, that are results of a certificate which says how its results vary together,
+    /// with the name of its file.
+    pub(super) certified: Vec<(String, Certified, String)>,
     /// Readings that distributions are to be tested against.
     pub(super) evidence: Vec<Evidence>,
 }

@@ -5,7 +5,7 @@ use std::collections::HashSet;
 use super::DiagnosticKind;
 use super::condition_values::ConditionValues;
 use super::conditions::unit;
-use super::dcc::FromCertificate;
+use super::dcc::{Certified, FromCertificate};
 use super::diagnostics::Collector;
 use super::folder::Folder;
 use super::input_set::InputSet;
@@ -65,7 +65,7 @@ pub(super) fn read(
             Reader { object, name, conditions, moved, folder, results, certificate, inputs, whole };
         match object.get("complex") {
             None => reader.input(),
-            Some(complex) => reader.complex(complex),
+            Some(complex) => reader.complex(complex, overrides),
         }
     }
     let found = inputs.variables.len();
@@ -100,6 +100,8 @@ impl<'a> Reader<'a, '_> {
             .is_some_and(|member| matches!(&member.value.value, Json::Text(name) if name == "dcc"));
         if is_certificate && object.get("components").is_none() {
             self.certificate = self.results.of_certificate(&object);
+            let certified = self.certificate.as_ref().and_then(|of| of.certified.clone());
+            self.certified(self.name.to_owned(), &object, certified);
         }
         let unit = self.unit().unwrap_or_else(|| {
             self.inputs.without_unit.push(self.name.to_owned());
@@ -122,12 +124,15 @@ impl<'a> Reader<'a, '_> {
     }
 
     /// A complex quantity: two real ones, its real and imaginary part, or its modulus and phase.
-    fn complex(&mut self, member: &'a Member) {
+    fn complex(&mut self, member: &'a Member, overrides: &'a [Override]) {
         let log = self.object.log;
         self.object.check_keys(keys::COMPLEX_INPUT);
         if let Some(moved) = self.moved {
             let (text, name) = (moved.text.clone(), self.name);
-            let reason = format!("`{name}` is complex and has no estimate of its own");
+            let reason = format!(
+                "`{name}` is complex and has no estimate of its own; set one of its parts, as in \
+                 `{name}.re=1`"
+            );
             log.report(self.object.place(), DiagnosticKind::Override { text, reason });
         }
         let unit = unit(&self.object, "unit").unwrap_or_else(|| {
@@ -159,6 +164,11 @@ impl<'a> Reader<'a, '_> {
             let radian = || Unit::parse("rad").unwrap_or_else(|_| Unit::one());
             let whole = Some(if key == "phase" { radian() } else { unit.clone() });
             let name = format!("{}.{suffix}", self.name);
+            let is_part = |o: &&Override| {
+                let field = o.field.as_deref();
+                o.input == self.name && field.is_some_and(|of| of == key || of == suffix)
+            };
+            let moved = overrides.iter().rev().find(is_part);
             let (conditions, folder, results) = (self.conditions, self.folder, self.results);
             let inputs = &mut *self.inputs;
             let known = inputs.quantities.len();
@@ -168,7 +178,7 @@ impl<'a> Reader<'a, '_> {
                 object: part,
                 name,
                 conditions,
-                moved: None,
+                moved,
                 folder,
                 results,
                 inputs,
@@ -442,6 +452,12 @@ impl<'a> Reader<'a, '_> {
         }
     }
 
+    /// Notes that a variable is a result of a certificate of our own.
+    fn certified(&mut self, name: String, object: &Object<'_>, of: Option<Certified>) {
+        let file = object.text("file").unwrap_or("").to_owned();
+        self.inputs.certified.extend(of.map(|of| (name, of, file)));
+    }
+
     /// Adds a variable of the budget.
     fn variable(&mut self, name: String, object: &Object<'_>, kind: Option<&Shape>, unit: &Unit) {
         let is_type_a = kind.is_some_and(|kind| kind.name == "readings");
@@ -641,9 +657,8 @@ impl<'a> Reader<'a, '_> {
                 let mut certificate = None;
                 if kind.name == "dcc" {
                     certificate = self.results.of_certificate(&component);
-                    if certificate.is_none() {
-                        continue;
-                    }
+                    let Some(of) = &certificate else { continue };
+                    self.certified(full.clone(), &component, of.certified.clone());
                 }
                 let object = component;
                 let read = (read, certificate);

@@ -61,7 +61,7 @@ pub(super) fn links(inputs: &InputSet) -> (Vec<Correlation>, Vec<Warning>) {
 }
 
 /// The first of some pairs, and how many more there are.
-fn some(pairs: &[String]) -> String {
+pub(super) fn some(pairs: &[String]) -> String {
     let more = pairs.len().saturating_sub(NAMED);
     let rest = if more > 0 { format!(" and {more} more pairs") } else { String::new() };
     pairs.iter().take(NAMED).cloned().collect::<Vec<_>>().join(", ") + &rest

@@ -177,7 +177,7 @@ impl<'a> ModelReader<'a> {
         let Data { mut observations, conditions, simulated } = self.data()?;
         let fits = self.fits(check_units)?;
         let body = self.body(&simulated, &fits.curves);
-        let results = Results::new(self.folder, self.options.files);
+        let results = Results::new(self.folder, self.options.files).with_curves(&fits.curves);
         let mut of = self.quantities(conditions, check_units, &body, (&results, &fits))?;
 
         let mut files = std::mem::take(&mut of.conditions.files);

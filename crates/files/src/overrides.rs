@@ -95,18 +95,45 @@ pub(super) fn apply(log: &Collector, root: &mut Node, overrides: &[Override]) {
         let (Some(field), Json::Object(fields)) = (&replaced.field, &mut input.value.value) else {
             continue;
         };
+        let (field, fields) = match fields.iter().position(|member| member.key == "complex") {
+            None => (field.as_str(), fields),
+            Some(complex) => {
+                // estimates of parts are taken when these are read
+                let (part, field) = match field.split_once('.') {
+                    Some((part, field)) => (part, Some(field)),
+                    None => (field.as_str(), None),
+                };
+                let key = match part {
+                    "abs" => "modulus",
+                    "arg" => "phase",
+                    part => part,
+                };
+                match fields.get_mut(complex).and_then(|of| member_of(&mut of.value, key)) {
+                    Some(Node { value: Json::Object(fields), .. }) => match field {
+                        Some(field) => (field, fields),
+                        None => continue,
+                    },
+                    _ => {
+                        let reason = format!("`{}` has no part `{part}`", replaced.input);
+                        let text = replaced.text.clone();
+                        log.report(&whole, DiagnosticKind::Override { text, reason });
+                        continue;
+                    }
+                }
+            }
+        };
         let finite = replaced.value.parse::<f64>().is_ok_and(f64::is_finite);
         let value = if finite {
             Json::Number(replaced.value.clone())
         } else {
             Json::Text(replaced.value.clone())
         };
-        match fields.iter_mut().find(|m| m.key == *field) {
+        match fields.iter_mut().find(|m| m.key == field) {
             Some(member) => member.value.value = value,
             None => {
                 let span = input.key_span.clone();
                 fields.push(Member {
-                    key: field.clone(),
+                    key: field.to_owned(),
                     key_span: span.clone(),
                     value: Node { span, value },
                 });

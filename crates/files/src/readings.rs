@@ -1,6 +1,8 @@
 //! Readings as laboratories have them: in the model file, in columns of the conditions' table, in a
 //! file, in groups; and whether they look independent.
 
+use std::sync::Arc;
+
 use super::DiagnosticKind;
 use super::folder::Folder;
 use super::json::{Json, Node};
@@ -9,6 +11,7 @@ use super::table::{self, Table};
 use super::value_text::{ValueOf, with_unit};
 use super::{keys, samples};
 use gumption_engine::decimal;
+use gumption_engine::regression::{CurveFunction, Spread};
 use gumption_engine::special;
 use gumption_units::{Unit, nearest};
 
@@ -206,11 +209,55 @@ pub(super) fn dependence(name: &str, values: &[f64]) -> Option<String> {
     })
 }
 
-/// The standard deviation and its degrees of freedom that stand in place of the scatter.
-pub(super) fn pooled(object: &Object<'_>, unit: &Unit) -> Option<Option<(f64, f64)>> {
+/// What stands in place of the scatter of readings.
+#[derive(Clone, Debug)]
+pub(super) enum Pooled {
+    /// A standard deviation of one reading with its degrees of freedom.
+    Stated(f64, f64),
+    /// The residuals of a calibration function.
+    Residuals(Arc<CurveFunction>),
+}
+
+/// What stands in place of the scatter, which may come from one of the calibration functions. Outside
+/// `None` after a mistake.
+#[allow(clippy::option_option)]
+pub(super) fn pooled(
+    object: &Object<'_>,
+    unit: &Unit,
+    curves: &[Arc<CurveFunction>],
+) -> Option<Option<Pooled>> {
     let Some(member) = object.get("pooled") else { return Some(None) };
     let pooled = Object::new(object.log, "`pooled`", &member.value, &member.key_span)?;
     pooled.check_keys(keys::POOLED);
+    if let Some(fit) = pooled.get("fit") {
+        for second in ["std", "dof"] {
+            if let Some(member) = pooled.get(second) {
+                let diagnostic = DiagnosticKind::Exclusive { first: "fit", second };
+                pooled.log.report(&member.key_span, diagnostic);
+                return None;
+            }
+        }
+        let name = pooled.text("fit")?;
+        let reason = match curves.iter().find(|curve| curve.fit.name == name) {
+            Some(curve) if curve.fit.factor.is_none() || curve.fit.points.of_y != Spread::None => {
+                format!(
+                    "the uncertainties of `{name}` are stated, so that its residuals give no scatter; state \
+                 `std` and `dof`"
+                )
+            }
+            Some(curve) if !curve.fit.is_linear() => format!(
+                "`{name}` is not linear in its parameters and exact in x, so that its scatter is drawn \
+                 with its points; state `std` and `dof`"
+            ),
+            Some(curve) => return Some(Some(Pooled::Residuals(Arc::clone(curve)))),
+            None => match nearest(name, curves.iter().map(|curve| curve.fit.name.as_str())) {
+                Some(near) => format!("there is no fit `{name}`; did you mean `{near}`?"),
+                None => format!("there is no fit `{name}` in the file"),
+            },
+        };
+        pooled.log.report(&fit.value.span, DiagnosticKind::Table { reason });
+        return None;
+    }
     pooled.required("std")?;
     pooled.required("dof")?;
     let positive = |key: &'static str, found: Option<f64>| {
@@ -225,7 +272,7 @@ pub(super) fn pooled(object: &Object<'_>, unit: &Unit) -> Option<Option<(f64, f6
     };
     let std = positive("std", pooled.value("std", unit, ValueOf::Difference));
     let dof = positive("dof", pooled.number("dof"));
-    Some(Some((std?, dof?)))
+    Some(Some(Pooled::Stated(std?, dof?)))
 }
 
 #[cfg(test)]
@@ -299,6 +346,9 @@ mod tests {
         let wrong = r#"{"unit": "V", "distribution": "readings", "values": ["r1", "r9"]}"#;
         let error = model(wrong, conditions, &[("c.csv", table)]).unwrap_err().to_string();
         assert!(error.contains("`r9` is not defined"), "{error}");
+        let wrong = r#"{"unit": "V", "distribution": "readings", "values": ["r1", "f"]}"#;
+        let error = model(wrong, conditions, &[("c.csv", table)]).unwrap_err().to_string();
+        assert!(error.contains("`values` has the unit `Hz`"), "{error}");
     }
 
     /// Three equal readings of a digital instrument: half a step over sqrt(3) (JCGM 100, F.2.2.1).

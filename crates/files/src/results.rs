@@ -15,6 +15,7 @@ use super::result_file::{ResultFile, SavedOutput};
 use super::source::Place;
 use super::{DiagnosticKind, bytes};
 use gumption_engine::distribution::Distribution;
+use gumption_engine::regression::CurveFunction;
 use gumption_engine::task::Warning;
 use gumption_units::Unit;
 use gumption_units::nearest;
@@ -31,13 +32,21 @@ pub(super) struct Results<'a> {
     pub(super) certificates: RefCell<Certificates>,
     /// What is to be known of the files.
     pub(super) warnings: RefCell<Vec<Warning>>,
+    /// The calibration functions of the model file, whose scatter readings may have.
+    pub(super) curves: Vec<Arc<CurveFunction>>,
 }
 
 impl<'a> Results<'a> {
     /// Paths are relative to `folder`.
     pub(crate) fn new(folder: Folder<'a>, reader: FileReader<'a>) -> Self {
-        let (read, files, certificates) = Default::default();
-        Self { folder, reader, read, files, certificates, warnings: RefCell::default() }
+        let (read, files, certificates, curves) = Default::default();
+        let warnings = RefCell::default();
+        Self { folder, reader, read, files, certificates, warnings, curves }
+    }
+
+    /// These calibration functions are in the file.
+    pub(super) fn with_curves(self, curves: &[Arc<CurveFunction>]) -> Self {
+        Self { curves: curves.to_vec(), ..self }
     }
 
     /// The unit of the result that an input names, for an input without a unit of its own.

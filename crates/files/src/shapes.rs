@@ -8,15 +8,16 @@ use super::dcc::FromCertificate;
 use super::json::{Json, Node};
 use super::keys::{SHAPES, Shape};
 use super::object::Object;
-use super::readings::{self, FileReadings};
+use super::readings::{self, FileReadings, Pooled};
 use super::results::Results;
 use super::value_text::ValueOf;
 use super::width::Width;
 use gumption_engine::distribution::{
-    Arcsine, Beta, Constant, CurvilinearTrapezoid, Distribution, Exponential, Gamma, Invalid,
-    LogUniform, Lognormal, Normal, PoissonCount, Quantiles, Readings, Rectangular, Samples,
-    SplitNormal, StudentT, Trapezoidal, Triangular, Truncated,
+    Arcsine, Beta, Constant, CurvilinearTrapezoid, Distribution, Exponential, Fitted, Gamma,
+    Invalid, LogUniform, Lognormal, Normal, PoissonCount, Quantiles, Readings, Rectangular,
+    Samples, SplitNormal, StudentT, Trapezoidal, Triangular, Truncated,
 };
+use gumption_engine::model::formula::Formula;
 use gumption_engine::special;
 use gumption_units::Unit;
 use gumption_units::nearest;
@@ -115,14 +116,16 @@ pub(super) struct Fields<'a> {
 const WIDTHS: [&str; 5] = ["std", "expanded", "scale", "half_width", "semi_range"];
 
 /// The formula of conditions that a width is: a text that begins with a name, as no specification
-/// does, or one with names that can be read as a formula and not as a specification.
+/// does, or one with names, products or functions that can be read as a formula and not as a
+/// specification.
 fn formula_of_width(object: &Object<'_>, key: &str, unit: &Unit) -> Option<String> {
     let member = object.get(key)?;
     let Json::Text(text) = &member.value.value else { return None };
     let begins_with_name = text.trim_start().starts_with(|c: char| c.is_alphabetic() || c == '_');
     let is_formula = || {
-        let formula = object.log.formula(text).ok();
-        formula.is_some_and(|formula| formula.names().next().is_some())
+        let computes =
+            |formula: &Formula| formula.names().next().is_some() || text.contains(['*', '/', '(']);
+        object.log.formula(text).is_ok_and(|formula| computes(&formula))
             && Width::read(object.log, &member.value, ("", key), unit).is_err()
     };
     (begins_with_name || is_formula()).then(|| text.clone())
@@ -330,7 +333,7 @@ impl<'a> Fields<'a> {
                 return None;
             }
         };
-        let pooled = readings::pooled(object, self.unit)?;
+        let pooled = readings::pooled(object, self.unit, &self.results.curves)?;
         let count = values.len() as f64;
         let origin = values.first().copied().unwrap_or(f64::NAN);
         let mean = origin + values.iter().map(|value| value - origin).sum::<f64>() / count;
@@ -340,8 +343,25 @@ impl<'a> Fields<'a> {
         };
         let half = resolution.map(|step| 0.5 * step);
         let of_scatter: Result<Distribution, Invalid> = match pooled {
-            Some((std, dof)) if !values.is_empty() => {
+            Some(Pooled::Stated(std, dof)) if !values.is_empty() => {
                 Normal::with_dof(mean, std / count.sqrt(), dof).map(Into::into)
+            }
+            Some(Pooled::Residuals(curve)) if !values.is_empty() => {
+                let factor = match Unit::conversion_factor(&curve.y, self.unit) {
+                    Ok(factor) => factor,
+                    Err(_) => {
+                        let reason = format!(
+                            "the readings are in `{}`, but `{}` has its scatter in `{}`",
+                            self.unit, curve.fit.name, curve.y
+                        );
+                        object
+                            .log
+                            .report(&self.place_of("pooled"), DiagnosticKind::Table { reason });
+                        return None;
+                    }
+                };
+                let std = factor * curve.fit.factor.unwrap_or(f64::NAN);
+                Fitted::reading(&curve.fit, mean, std / count.sqrt()).map(Into::into)
             }
             _ if bayesian => Readings::new(values).and_then(Readings::bayesian).map(Into::into),
             _ => Readings::new(values).map(Into::into),
@@ -389,7 +409,12 @@ impl<'a> Fields<'a> {
             if row == 0
                 && let Err(kinds) = conditions.check(&formula, self.unit, self.of())
             {
-                kinds.into_iter().for_each(|kind| object.log.report(&node.span, kind));
+                for mut kind in kinds {
+                    if let DiagnosticKind::WrongDimension { name, .. } = &mut kind {
+                        "values".clone_into(name);
+                    }
+                    object.log.report(&node.span, kind);
+                }
                 return None;
             }
             values.push(conditions.value(&formula, row, self.unit, self.of()));
@@ -583,9 +608,13 @@ impl<'a> Fields<'a> {
     #[allow(clippy::option_option)]
     fn width(&self, key: &'static str, estimate: f64) -> Option<Option<f64>> {
         let member = self.object.required(key)?;
-        let at = self.at.filter(|(conditions, _)| !conditions.names().is_empty());
-        if let (Some(text), Some(at)) = (formula_of_width(&self.object, key, self.unit), at) {
-            return self.width_of_row(key, &text, at);
+        if let (Some(text), Some(at)) = (formula_of_width(&self.object, key, self.unit), self.at) {
+            // without conditions a name is no formula of them, and the specification's fault is told
+            let formula = || self.object.log.formula(&text);
+            let is_number = || formula().is_ok_and(|of| of.names().next().is_none());
+            if !at.0.names().is_empty() || is_number() {
+                return self.width_of_row(key, &text, at);
+            }
         }
         let log = self.object.log;
         let read = Width::read(log, &member.value, (self.name, key), self.unit);

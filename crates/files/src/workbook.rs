@@ -50,18 +50,20 @@ pub(super) fn rows(bytes: Vec<u8>) -> Result<Vec<Vec<String>>, String> {
 
 /// A sheet of a workbook.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Sheet {
+pub(super) enum Sheet<'a> {
     /// The first one.
     First,
     /// The last one.
     Last,
+    /// That of a name; one that is not there has no cells.
+    Named(&'a str),
 }
 
 /// The same of another sheet.
 ///
 /// # Errors
 /// What is wrong with the workbook, as a sentence about it.
-pub(super) fn rows_of(bytes: Vec<u8>, sheet: Sheet) -> Result<Vec<Vec<String>>, String> {
+pub(super) fn rows_of(bytes: Vec<u8>, sheet: Sheet<'_>) -> Result<Vec<Vec<String>>, String> {
     /// Beyond it nobody keeps a budget.
     const MOST_ROWS: u32 = 10_000;
     const MOST_COLUMNS: u32 = 256;
@@ -196,12 +198,14 @@ fn letters(column: u32) -> String {
     name
 }
 
-fn cells(bytes: Vec<u8>, sheet: Sheet) -> Result<Cells, String> {
+fn cells(bytes: Vec<u8>, sheet: Sheet<'_>) -> Result<Cells, String> {
     let mut workbook: Xlsx<_> = Xlsx::new(Cursor::new(bytes)).map_err(is_none)?;
     let names = workbook.sheet_names();
     let sheet = match sheet {
         Sheet::First => names.first().cloned(),
         Sheet::Last => names.last().cloned(),
+        Sheet::Named(name) if !names.iter().any(|known| known == name) => return Ok(Cells::new()),
+        Sheet::Named(name) => Some(name.to_owned()),
     };
     let sheet = sheet.ok_or_else(|| "the workbook has no sheet".to_owned())?;
     let mut reader = workbook.worksheet_cells_reader(&sheet).map_err(is_none)?;

@@ -5,6 +5,8 @@ use gumption_engine::propagate::monte_carlo::MonteCarlo;
 
 pub(crate) use gumption_engine::decimal::{MISSING, exact, position, rounded, significant};
 
+use gumption_engine::decimal::to_position;
+
 /// The position that two demands allow: the coarser one, or the only one there is.
 pub fn coarser(a: Option<i32>, b: Option<i32>) -> Option<i32> {
     a.max(b)
@@ -51,6 +53,24 @@ pub fn place_of_ends(figures: &MonteCarlo, uncertainty: Option<f64>, digits: u32
 pub fn with_uncertainty(estimate: f64, uncertainty: f64, digits: u32) -> (String, String) {
     let position = position(uncertainty, digits);
     (to(estimate, position), to(uncertainty, position))
+}
+
+/// A correlation coefficient: as it is where somebody has stated it, to six decimals at most; else, one
+/// that was computed, to three decimals (JCGM 100, 7.2.6), near 1 to two digits of what it lacks.
+///
+/// ```
+/// use gumption_report::number::coefficient;
+///
+/// assert_eq!(coefficient(-0.355_311), "-0.355311");
+/// assert_eq!(coefficient(-0.904_534_033_733), "-0.905");
+/// assert_eq!(coefficient(0.999_912_345_678), "0.999912");
+/// ```
+pub fn coefficient(r: f64) -> String {
+    if to_position(r, -6) == r {
+        return exact(r);
+    }
+    let lacking = position(1.0 - r.abs(), 2).unwrap_or(-3);
+    rounded(r, lacking.clamp(-9, -3))
 }
 
 /// Pads texts with spaces, so that their decimal points stand under each other and all have the

@@ -34,6 +34,12 @@ pub(crate) fn left_out(task: &Task) -> Option<String> {
     (more > 0).then(|| format!("and {more} more equations: --format json"))
 }
 
+/// Sources and equations, a line each.
+pub(crate) fn lines(task: &Task) -> Vec<String> {
+    let equations = equations(task).into_iter().map(|(name, text)| format!("{name} = {text}"));
+    sources(task).into_iter().chain(equations).chain(left_out(task)).collect()
+}
+
 /// The equations as a table; `None` where there are none.
 pub(crate) fn sheet(task: &Task) -> Option<Sheet> {
     let equations = equations(task);

@@ -9,6 +9,8 @@ use super::one_line;
 /// What a list tells of an example.
 #[derive(Deserialize)]
 struct Sourced {
+    #[serde(default)]
+    title: String,
     source: String,
 }
 
@@ -18,10 +20,12 @@ struct Sourced {
 /// A name that no example has.
 pub(super) fn named(published: &PublishedExamples, name: Option<&str>) -> Result<String, Failure> {
     let Some(name) = name else { return list(published) };
-    match published.cases.iter().find(|(of, ..)| *of == name) {
-        Some((_, model, _)) => Ok((*model).to_owned()),
+    let models = published.cases.iter().map(|(of, model, _)| (*of, *model));
+    let models = models.chain(published.more.iter().copied());
+    match models.clone().find(|(of, _)| *of == name) {
+        Some((_, model)) => Ok(model.to_owned()),
         None => {
-            let hint = match nearest(name, published.cases.iter().map(|(of, ..)| *of)) {
+            let hint = match nearest(name, models.map(|(of, _)| of)) {
                 Some(near) => format!("did you mean `{near}`?"),
                 None => "`gumption models --examples` lists them".to_owned(),
             };
@@ -32,11 +36,23 @@ pub(super) fn named(published: &PublishedExamples, name: Option<&str>) -> Result
 
 fn list(published: &PublishedExamples) -> Result<String, Failure> {
     let mut text = String::from("Published measurements, each as a model file to start from:\n\n");
-    let widest = published.cases.iter().map(|(name, ..)| name.len()).max().unwrap_or(0);
+    let names = published.cases.iter().map(|(name, ..)| *name);
+    let names = names.chain(published.more.iter().map(|(name, _)| *name));
+    let widest = names.map(str::len).max().unwrap_or(0);
     for (name, _, expected) in published.cases {
-        let of: Sourced = serde_json::from_str(expected)
-            .map_err(|error| Failure::System(format!("{name}: {error}")))?;
+        let of = sourced(name, expected)?;
         text += &format!("{name:<widest$}  {}\n", one_line(&of.source));
     }
+    if !published.more.is_empty() {
+        text += "\nMeasurements from their raw data, and budgets of a laboratory's daily work:\n\n";
+    }
+    for (name, model) in published.more {
+        let Sourced { title, source } = sourced(name, model)?;
+        text += &format!("{name:<widest$}  {} ({})\n", one_line(&title), one_line(&source));
+    }
     Ok(text + "\n`gumption models --examples NAME` prints one, `--output FILE` writes it.\n")
+}
+
+fn sourced(name: &str, text: &str) -> Result<Sourced, Failure> {
+    serde_json::from_str(text).map_err(|error| Failure::System(format!("{name}: {error}")))
 }

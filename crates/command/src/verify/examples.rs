@@ -47,6 +47,8 @@ pub struct PublishedExamples {
     pub measurements: &'static str,
     /// The ready files that the list names.
     pub models: &'static [(&'static str, &'static str)],
+    /// Further model files to start from, by name; what they are is in their `title` and `source`.
+    pub more: &'static [(&'static str, &'static str)],
 }
 
 /// All examples, in the order in which they are printed.
@@ -54,7 +56,7 @@ pub struct PublishedExamples {
 /// # Errors
 /// A text that cannot be read.
 pub(super) fn all(published: &PublishedExamples) -> Result<Vec<Example>, String> {
-    let PublishedExamples { cases, measurements, models } = published;
+    let PublishedExamples { cases, measurements, models, .. } = published;
     let mut examples = Vec::new();
     for (name, model, expected) in *cases {
         let Expectation { source, published, notes } =

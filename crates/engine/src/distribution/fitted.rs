@@ -11,10 +11,14 @@ use crate::regression::Regression;
 /// A parameter of a calibration function. All parameters of one fit are drawn together: from their
 /// joint normal distribution, or the multivariate t where their uncertainties come from the residuals,
 /// or, where they are not linear in the data, each trial from a fit to data of its own.
+///
+/// A further reading that has the scatter of the residuals goes with them: what its standard deviation
+/// is not known by is the same as for the parameters.
 #[derive(Clone, Debug)]
 pub struct Fitted {
     fit: Arc<Regression>,
-    parameter: usize,
+    /// `None` for a reading.
+    parameter: Option<usize>,
     mean: f64,
     scale: f64,
 }
@@ -29,7 +33,21 @@ impl Fitted {
             mean: finite("estimate", fit.estimate(parameter))?,
             scale: positive("standard uncertainty", fit.standard_uncertainty(parameter))?,
             fit: Arc::clone(fit),
-            parameter,
+            parameter: Some(parameter),
+        })
+    }
+
+    /// A reading, or mean of readings, whose standard uncertainty `scale` comes from the residuals of
+    /// a fit that is linear in its parameters; independent of these but for that common scatter.
+    ///
+    /// # Errors
+    /// A mean that is not finite, or a standard uncertainty that is not above zero.
+    pub fn reading(fit: &Arc<Regression>, mean: f64, scale: f64) -> Result<Self, Invalid> {
+        Ok(Self {
+            mean: finite("mean", mean)?,
+            scale: positive("standard uncertainty", scale)?,
+            fit: Arc::clone(fit),
+            parameter: None,
         })
     }
 
@@ -38,8 +56,8 @@ impl Fitted {
         &self.fit
     }
 
-    /// The number of the parameter.
-    pub fn parameter(&self) -> usize {
+    /// The number of the parameter; `None` for a reading.
+    pub fn parameter(&self) -> Option<usize> {
         self.parameter
     }
 }

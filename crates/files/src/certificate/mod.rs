@@ -166,6 +166,9 @@ fn certificate<'a>(
         Some(list) => rows.read(list),
         None => {}
     }
+    if root.get("functions").is_some() {
+        root.list("functions").unwrap_or_default().iter().for_each(|node| rows.function(node));
+    }
     let shown = texts(&root, "conditions");
     for (name, span) in &shown {
         rows.check_condition(name, span);
@@ -179,7 +182,7 @@ fn certificate<'a>(
             format!("`{name}` is in `shared_inputs` and in `separate_inputs`; take it out of one");
         root.log.report(span, DiagnosticKind::Certificate { reason });
     }
-    let rows::Read { evaluations, lines, models, warnings, places } = rows.finish()?;
+    let rows::Read { evaluations, lines, functions, models, warnings, places } = rows.finish()?;
     let certificate = Certificate {
         administrative: administrative?,
         decimal_mark: mark.unwrap_or_else(|| {
@@ -190,6 +193,7 @@ fn certificate<'a>(
         digits: u32::try_from(digits).unwrap_or(2),
         evaluations,
         lines,
+        functions,
         shown: shown.into_iter().map(|(name, _)| name).collect(),
         shared: shared.into_keys().collect(),
         separate: separate.into_keys().collect(),

@@ -17,7 +17,7 @@ use super::administrative::localized;
 use super::{Asking, CertifiedModel};
 use crate::folder::Folder;
 use crate::open::is_no_object;
-use gumption_analysis::certificate::contents::{Asked, Line};
+use gumption_analysis::certificate::contents::{Asked, Line, StatedFunction};
 use gumption_engine::model::Quantity;
 use gumption_engine::task::{Task, Warning};
 use gumption_units::Unit;
@@ -31,6 +31,7 @@ const MOST_ROWS: usize = 1000;
 pub(super) struct Read {
     pub(super) evaluations: Vec<Asked>,
     pub(super) lines: Vec<Line>,
+    pub(super) functions: Vec<StatedFunction>,
     pub(super) models: Vec<CertifiedModel>,
     pub(super) warnings: Vec<Warning>,
     pub(super) places: Vec<Range<usize>>,
@@ -47,6 +48,7 @@ pub(super) struct Rows<'a> {
     models: Vec<(CertifiedModel, Task)>,
     evaluations: Vec<Asked>,
     lines: Vec<Line>,
+    functions: Vec<StatedFunction>,
     warnings: Vec<Warning>,
     places: Vec<Range<usize>>,
 }
@@ -65,6 +67,7 @@ impl<'a> Rows<'a> {
             models: Vec::new(),
             evaluations: Vec::new(),
             lines: Vec::new(),
+            functions: Vec::new(),
             warnings: Vec::new(),
             places: Vec::new(),
         }
@@ -87,6 +90,37 @@ impl<'a> Rows<'a> {
                 return;
             }
         }
+    }
+
+    /// Reads a calibration function that is stated.
+    pub(super) fn function(&mut self, node: &'a Node) {
+        let mut read = || {
+            let of = Object::new(self.log, "a function", node, &node.span)?;
+            of.check_keys(keys::CERTIFICATE_FUNCTION);
+            let (model, fit) = (of.required("model"), of.required("fit"));
+            let (model, fit) = (model?, fit?);
+            let (name, wanted) = (of.text("model")?, of.text("fit")?);
+            let label = localized(&of, "label");
+            let file = self.file(name, model)?;
+            let task = &self.models[file].1;
+            let Some(curve) = task.curves.iter().find(|curve| curve.fit.name == wanted) else {
+                let known = task.curves.iter().map(|curve| curve.fit.name.as_str());
+                let reason = match (nearest(wanted, known), task.curves.is_empty()) {
+                    (Some(near), _) => {
+                        format!("`{name}` has no fit `{wanted}`; did you mean `{near}`?")
+                    }
+                    (None, true) => format!("`{name}` has no fits"),
+                    (None, false) => format!("`{name}` has no fit `{wanted}`"),
+                };
+                self.log.report(&fit.value.span, DiagnosticKind::Certificate { reason });
+                return None;
+            };
+            let mut settings = task.settings;
+            self.asking.apply(&mut settings);
+            Some(StatedFunction { file, curve: curve.clone(), coverage: settings.coverage, label })
+        };
+        let function = read();
+        self.functions.extend(function);
     }
 
     fn row(&mut self, node: &'a Node) -> Option<()> {
@@ -364,9 +398,9 @@ impl<'a> Rows<'a> {
             let kept = rows.into_iter().enumerate().filter(|(row, _)| used.contains(row));
             asked.task.rows = kept.map(|(_, row)| row).collect();
         }
-        let Self { models, evaluations, lines, warnings, places, .. } = self;
+        let Self { models, evaluations, lines, functions, warnings, places, .. } = self;
         let models = models.into_iter().map(|(model, _)| model).collect();
-        Some(Read { evaluations, lines, models, warnings, places })
+        Some(Read { evaluations, lines, functions, models, warnings, places })
     }
 }
 

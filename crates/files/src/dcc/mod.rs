@@ -2,6 +2,7 @@
 //! quantity, or a table of it interpolated over a condition.
 
 mod document;
+mod own;
 mod quantities;
 
 use std::collections::HashMap;
@@ -21,6 +22,8 @@ use gumption_engine::distribution::{
 };
 use gumption_engine::special;
 use gumption_units::{Unit, nearest};
+pub(super) use own::Certified;
+use own::OwnCertificate;
 pub(super) use quantities::inputs;
 use roxmltree::Node;
 
@@ -28,6 +31,8 @@ use roxmltree::Node;
 #[derive(Debug, Default)]
 pub(super) struct Certificates {
     read: HashMap<String, Option<Arc<SourceText>>>,
+    /// Those that this program has made, by name.
+    own: HashMap<String, Option<Arc<OwnCertificate>>>,
     /// Their content, by name.
     pub(super) files: Vec<(String, Vec<u8>)>,
 }
@@ -75,6 +80,8 @@ pub(super) struct FromCertificate {
     taken: Taken,
     source: Arc<SourceText>,
     span: Range<usize>,
+    /// Which result of a certificate of our own it is.
+    pub(super) certified: Option<Certified>,
 }
 
 #[derive(Clone, Debug)]
@@ -94,7 +101,7 @@ pub(super) fn read(
     certificates: &mut Certificates,
 ) -> Option<FromCertificate> {
     let source = certificates.text(object, folder)?;
-    let found = parsed(object, &source);
+    let found = parsed(object, &source, &mut certificates.own);
     match found {
         Ok(found) => found,
         Err((span, reason)) => {
@@ -106,7 +113,11 @@ pub(super) fn read(
 }
 
 /// Outside the fault of a certificate; inside `None` where the model file's has been reported.
-fn parsed(object: &Object<'_>, source: &Arc<SourceText>) -> Result<Option<FromCertificate>, Fault> {
+fn parsed(
+    object: &Object<'_>,
+    source: &Arc<SourceText>,
+    own: &mut HashMap<String, Option<Arc<OwnCertificate>>>,
+) -> Result<Option<FromCertificate>, Fault> {
     let document = parse(&source.text)?;
     let all = document::quantities(&document);
     let Some(chosen) = chosen(object, &all) else { return Ok(None) };
@@ -121,7 +132,7 @@ fn parsed(object: &Object<'_>, source: &Arc<SourceText>) -> Result<Option<FromCe
     if object.get("at").is_some() {
         let Some(table) = table(object, &chosen, &measured, &all)? else { return Ok(None) };
         let source = Arc::clone(source);
-        return Ok(Some(FromCertificate { unit, taken: table, source, span }));
+        return Ok(Some(FromCertificate { unit, taken: table, source, span, certified: None }));
     }
     let count: usize = measured.iter().map(|of| of.values.len()).sum();
     let index = match object.get("index") {
@@ -149,11 +160,14 @@ fn parsed(object: &Object<'_>, source: &Arc<SourceText>) -> Result<Option<FromCe
         }
     };
     let mut left = index;
-    for of in measured {
+    for (node, of) in chosen.iter().zip(measured) {
         if left < of.values.len() {
             let (source, span) = (Arc::clone(source), of.span.clone());
             let taken = Taken::One(Box::new(of), left);
-            return Ok(Some(FromCertificate { unit, taken, source, span }));
+            let own = own.entry(source.name.clone());
+            let own = own.or_insert_with(|| OwnCertificate::of(&document).map(Arc::new));
+            let certified = own.as_ref().and_then(|own| own.part(*node, left));
+            return Ok(Some(FromCertificate { unit, taken, source, span, certified }));
         }
         left -= of.values.len();
     }

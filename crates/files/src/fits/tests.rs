@@ -171,3 +171,109 @@ fn a_region_of_two_outputs() {
     near(found.smallest.unwrap().volume, 32.601_943_76, 0.04);
     assert!(region.validation.as_ref().unwrap().gum_valid);
 }
+
+/// Readings with the scatter of a calibration line: QUAM A5 by GTC 1.5.1, `line_fit` and `x_from_y` of
+/// two readings, and what is refused.
+#[test]
+fn readings_with_the_scatter_of_a_line() {
+    let of = |pooled: &str, more: &str| {
+        format!(
+            r#"{{"inputs": {{"x": {{"unit": "1", "distribution": "readings", "values": [0.0712, 0.0716],
+            "pooled": {pooled}}}}}, "fits": {{"line": {{
+            "x": {{"values": [0.1, 0.1, 0.1, 0.3, 0.3, 0.3, 0.5, 0.5, 0.5, 0.7, 0.7, 0.7, 0.9, 0.9, 0.9]}},
+            "y": {{"values": [0.028, 0.029, 0.029, 0.084, 0.083, 0.081, 0.135, 0.131, 0.133, 0.180, 0.181,
+            0.183, 0.215, 0.230, 0.216]{more}}}}}}}, "equations": {{"c": "inverse(line, x)"}},
+            "outputs": {{"c": {{"unit": "1"}}}}, "monte_carlo": {{"trials": 100000}}}}"#
+        )
+    };
+    let evaluation = run(&of(r#"{"fit": "line"}"#, ""));
+    let c = gum(&evaluation, 0);
+    near(c.estimate, 0.260_165_975_103_734_3, 1e-12);
+    near(c.standard_uncertainty, 0.017_844_611_125_583_134, 1e-11);
+    assert!(matches!(c.dof, Dof::Finite(dof) if (dof - 13.0).abs() < 1e-9), "{:?}", c.dof);
+    // one t with 13 degrees of freedom, but for the little bending of 1/b: five standard errors of
+    // 0.3 % and 0.5 % for the bending
+    let trials = evaluation.rows[0].outputs[0].monte_carlo.as_ref().unwrap();
+    let ratio = trials.standard_uncertainty.unwrap() / c.standard_uncertainty;
+    assert!((ratio / (13.0_f64 / 11.0).sqrt() - 1.0).abs() < 0.02, "{ratio}");
+    for (pooled, more, said) in [
+        (r#"{"fit": "lime"}"#, "", "did you mean `line`?"),
+        (r#"{"fit": "line", "dof": 3}"#, "", "`fit`"),
+        (r#"{"fit": "line"}"#, r#", "standard_uncertainty": 0.002"#, "are stated"),
+        (r#"{"dof": 3}"#, "", "needs the key `std`"),
+    ] {
+        let error =
+            read_text("test", &of(pooled, more), Path::new(""), &[]).unwrap_err().to_string();
+        assert!(error.contains(said), "{pooled}: {error}");
+    }
+}
+
+/// The unknown of `solve` may have the name of the equation that it stands in, and a width may be a
+/// formula of numbers: x = 2 of x^3 = 8, u = 3/sqrt(4)/(3 x^2).
+#[test]
+fn an_equation_of_its_own_name() {
+    let evaluation =
+        run(r#"{"inputs": {"q": {"distribution": "normal", "mean": 8, "std": "3/sqrt(4)"}},
+        "equations": {"x": "solve(x^3 - q, x, 0, 9)", "y": "2*x"}, "outputs": {"x": {}, "y": {}},
+        "monte_carlo": {"trials": 0}}"#);
+    near(gum(&evaluation, 0).estimate, 2.0, 1e-14);
+    near(gum(&evaluation, 0).standard_uncertainty, 0.125, 1e-12);
+    near(gum(&evaluation, 1).estimate, 4.0, 1e-14);
+}
+
+/// Parts of a complex quantity in place of their own: estimates and fields.
+#[test]
+fn parts_of_complex_inputs_are_replaced() {
+    let text = r#"{"inputs": {"Z": {"unit": "ohm", "complex": {
+        "re": {"distribution": "normal", "mean": 50, "std": 0.1},
+        "im": {"distribution": "normal", "mean": 2, "std": 0.1}}},
+        "S": {"complex": {"modulus": {"distribution": "normal", "mean": 1, "std": 0.1},
+        "phase": {"unit": "deg", "distribution": "normal", "mean": 10, "std": 1}}}},
+        "equations": {"r": "re(Z)", "p": "arg(S)"}, "outputs": {"r": {"unit": "ohm"},
+        "p": {"unit": "deg"}}, "monte_carlo": {"trials": 0}}"#;
+    let of = |set: &[&str]| {
+        let set: Vec<_> = set.iter().map(|text| crate::Override::parse(text).unwrap()).collect();
+        read_text("test", text, Path::new(""), &set)
+    };
+    let task = of(&["Z.re=0.055 kohm", "Z.re.std=0.3", "S.arg=20"]).unwrap().task;
+    let evaluation = evaluate(&task, &Control::default()).unwrap();
+    near(gum(&evaluation, 0).estimate, 55.0, 1e-14);
+    near(gum(&evaluation, 0).standard_uncertainty, 0.3, 1e-14);
+    near(gum(&evaluation, 1).estimate, 20.0, 1e-13);
+    for (set, said) in [
+        ("Z=55", "as in `Z.re=1`"),
+        ("Z.rr=55", "has no part `rr`"),
+        ("Z.modulus=55", "has no part `modulus`"),
+        ("Z.rr.std=55", "has no part `rr`"),
+    ] {
+        let error = of(&[set]).unwrap_err().to_string();
+        assert!(error.contains(said), "{set}: {error}");
+    }
+}
+
+/// JCGM 102, 9.3, polar coordinates of x1 = 0.010 and x2 = 0, both with u = 0.010: by the law of
+/// propagation u(y1) = 0.010 and u(y2) = 1 rad, uncorrelated, k_p = 2.45 and k_q = 2.24; by the trials
+/// y1 follows Rice's distribution, whose moments 0.015486 and 0.007758 (from Bessel functions) hold to
+/// five standard errors of 100,000 trials.
+#[test]
+fn polar_coordinates_of_the_supplement() {
+    let evaluation =
+        run(r#"{"inputs": {"x1": {"distribution": "normal", "mean": 0.010, "std": 0.010},
+        "x2": {"distribution": "normal", "mean": 0, "std": 0.010}},
+        "equations": {"y1": "hypot(x1, x2)", "y2": "atan2(x2, x1)"},
+        "outputs": {"y1": {}, "y2": {"unit": "rad"}},
+        "regions": [{"outputs": ["y1", "y2"], "probability": 0.95}],
+        "monte_carlo": {"trials": 100000}}"#);
+    near(gum(&evaluation, 0).standard_uncertainty, 0.010, 1e-12);
+    near(gum(&evaluation, 1).standard_uncertainty, 1.0, 1e-12);
+    let trials = evaluation.rows[0].outputs[0].monte_carlo.as_ref().unwrap();
+    let mean = trials.estimate.unwrap();
+    assert!((mean - 0.015_486).abs() < 1.3e-4, "{mean}");
+    let u = trials.standard_uncertainty.unwrap();
+    assert!((u - 0.007_758).abs() < 1e-4, "{u}");
+    let region = &evaluation.rows[0].regions[0];
+    let linear = region.gum.as_ref().unwrap();
+    // the root of the chi-squared quantile with two degrees of freedom, -2 ln 0.05; Bonferroni
+    near(linear.ellipsoid_k.unwrap(), 2.447_746_830_680_816, 1e-12);
+    near(linear.box_k, 2.241_402_727_604_947, 1e-9);
+}

@@ -11,6 +11,14 @@ pub(super) fn definitions() -> Vec<(String, Value)> {
     let definitions = [
         ("certificate", certificate()),
         ("certificate-row", row()),
+        (
+            "certificate-function",
+            closed(
+                "A calibration function of a certificate.",
+                CERTIFICATE_FUNCTION,
+                &["model", "fit"],
+            ),
+        ),
         ("device", device()),
         ("party", party()),
         ("localized", localized()),
@@ -97,6 +105,11 @@ pub(crate) const CERTIFICATE: &[Key] = keys![
     "rows" => described("array", "The rows of the table; one for each row of a model's conditions.")
                 .with("items", reference("certificate-row"))
                 .with("minItems", 1),
+    "functions" => described(
+                "array",
+                "Calibration functions that are stated with U over their range, after the table.",
+            )
+            .with("items", reference("certificate-function")),
 ];
 
 fn certificate() -> Value {
@@ -125,6 +138,13 @@ fn nominal() -> Value {
         "Nominal value in the output's unit, or the name of a condition or an input.",
     )
 }
+
+/// Keys of a calibration function of a certificate.
+pub(crate) const CERTIFICATE_FUNCTION: &[Key] = keys![
+    "model" => referenced("file", "The model file."),
+    "fit" => text_of("Its calibration function."),
+    "label" => referenced("localized", "What it is called instead of its name."),
+];
 
 /// Keys of a row of a certificate.
 pub(crate) const CERTIFICATE_ROW: &[Key] = keys![

@@ -17,7 +17,9 @@ use std::collections::BTreeSet;
 use serde_json::Value;
 
 pub(crate) use case::{EFFECT, OBSERVATIONS, OBSERVED, PRIOR};
-pub(crate) use certificate::{CERTIFICATE, CERTIFICATE_KEYS, CERTIFICATE_ROW, DEVICE, PARTY};
+pub(crate) use certificate::{
+    CERTIFICATE, CERTIFICATE_FUNCTION, CERTIFICATE_KEYS, CERTIFICATE_ROW, DEVICE, PARTY,
+};
 pub(crate) use costs::{COST, COSTS, COSTS_KEY, OFFER};
 pub(crate) use fits::{COVARIANCE_FILE, FIT, POINTS};
 pub(crate) use model_file::{

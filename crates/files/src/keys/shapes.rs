@@ -312,6 +312,9 @@ pub(crate) const COMPONENT: [&str; 6] =
 pub(crate) const POOLED: &[Key] = keys![
     "std" => referenced("width", "Standard deviation of one reading, in the unit of the input."),
     "dof" => referenced("positive", "Its degrees of freedom."),
+    "fit" => text_of(
+        "Instead of both: the calibration function of the file whose residuals have that scatter."
+    ),
 ];
 
 /// Keys of an input with components.
@@ -420,7 +423,7 @@ pub(super) fn definitions() -> Vec<(String, Value)> {
         ("input".to_owned(), choice(Holder::Input)),
         ("component".to_owned(), choice(Holder::Component)),
         ("input-of-components".to_owned(), composed),
-        ("pooled".to_owned(), closed("A pooled standard deviation.", POOLED, &["std", "dof"])),
+        ("pooled".to_owned(), closed("A pooled standard deviation.", POOLED, &[])),
         ("stated".to_owned(), stated()),
         ("stated-input".to_owned(), stated_in(Holder::Input)),
         ("stated-component".to_owned(), stated_in(Holder::Component)),

@@ -258,6 +258,8 @@ fn the_reader_knows_the_same_keys() {
     };
     assert!(same("certificate", certificate("unknown", json!(1))));
     assert!(same("certificate-row", certificate("rows", json!([{"unknown": 1}]))));
+    let functions = certificate("functions", json!([{"unknown": 1}]));
+    assert!(same("certificate-function", functions));
     assert!(same("device", certificate("device", json!({"unknown": 1}))));
     assert!(same("party", certificate("customer", json!({"unknown": 1}))));
 

@@ -5,7 +5,7 @@ use maud::{Markup, html};
 use super::{AuditReport, figure, sheets, words};
 use crate::html::table;
 use crate::html::{figure as numbered, page};
-use crate::plain;
+use crate::{plain, statement};
 
 /// The audit as one HTML file with figures that needs nothing else.
 pub fn html(report: &AuditReport<'_>) -> String {
@@ -37,6 +37,11 @@ pub fn html(report: &AuditReport<'_>) -> String {
         p.settings { (words::settings(report)) }
         @if let Some(said) = words::contradicted(report) {
             div.verdict { p { strong { (said) } } }
+        }
+        @let stated = statement::lines(report.task);
+        @if !stated.is_empty() {
+            h2 { "Measurement model" }
+            ul { @for line in &stated { li { (line) } } }
         }
         @for section in &sections { (section) }
         @if let Some(evidence) = sheets::evidence(report) {

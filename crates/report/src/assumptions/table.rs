@@ -1,14 +1,16 @@
 //! The page for a terminal.
 
 use super::{AuditReport, sheets, words};
-use crate::{Grid, WIDTH, wrapped};
+use crate::{Grid, WIDTH, statement, wrapped};
 
 /// The audit as a page: for each output the figures as stated, what every assumption does, and what
 /// other shapes do; then what the readings say.
 pub fn table(report: &AuditReport<'_>) -> String {
     let mut heading = wrapped(&words::title(report)) + &wrapped(&words::settings(report));
     heading += &words::contradicted(report).map(|said| wrapped(&said)).unwrap_or_default();
+    let stated: String = statement::lines(report.task).iter().map(|line| wrapped(line)).collect();
     let mut page = vec![heading];
+    page.extend((!stated.is_empty()).then_some(stated));
     for (number, row) in report.audit.rows.iter().enumerate() {
         for (output, of) in row.outputs.iter().enumerate() {
             let mut text = section(&words::heading(report, number, output));

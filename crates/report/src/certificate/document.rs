@@ -1,7 +1,9 @@
 //! The certificate as a document.
 
 use super::words::{self, Words, beside};
-use super::{CertificateReport, administrative, conformity, file_name, sentences, sheets};
+use super::{
+    CertificateReport, administrative, conformity, file_name, functions, sentences, sheets,
+};
 use crate::document::{Block, Document, Foot};
 use crate::plain;
 use gumption_analysis::certificate::contents::DecimalMark;
@@ -28,6 +30,7 @@ pub(super) fn of(report: &CertificateReport<'_>) -> Document {
     for language in languages {
         document.text(sentences::coverage(report, *language).join(" "));
     }
+    functions::sections(&mut document, report);
     if sheets::are_correlated(report) {
         document.section(beside(languages, |w| w.correlation));
         if certificate.lines.len() <= sheets::MOST_CORRELATED {

@@ -1,8 +1,12 @@
 //! The certificate for programs.
 
+use super::functions::At;
 use super::stated::{self, Stated};
-use super::{CertificateReport, administrative, sentences};
+use super::{CertificateReport, administrative, functions, sentences};
 use crate::answer::{list, object, pretty};
+use crate::fits::{self, FitSide};
+use crate::sheet::Figure;
+use gumption_analysis::certificate::contents::StatedFunction;
 use gumption_engine::propagate::gum::Dof;
 use gumption_engine::task::Trials;
 use serde_json::Value;
@@ -29,7 +33,7 @@ pub fn json(report: &CertificateReport<'_>) -> String {
             ("text", warning.text.as_str().into()),
         ])
     });
-    pretty(&object([
+    let mut answer = vec![
         ("gumption", Value::from(env!("CARGO_PKG_VERSION"))),
         ("title", title.as_str().into()),
         (
@@ -44,7 +48,36 @@ pub fn json(report: &CertificateReport<'_>) -> String {
         ("statements", object(statements)),
         ("warnings", list(warnings)),
         ("provenance", provenance(report)),
-    ]))
+    ];
+    if !certificate.functions.is_empty() {
+        let functions = certificate.functions.iter().map(|of| function(report, of));
+        answer.insert(7, ("functions", list(functions)));
+    }
+    pretty(&object(answer))
+}
+
+/// A calibration function: its parameters in full precision, and what is stated.
+fn function(report: &CertificateReport<'_>, of: &StatedFunction) -> Value {
+    let languages = &report.certificate.languages;
+    let stated = functions::stated(report, of);
+    let text = |of: &Figure| Value::from(of.text.as_str());
+    let texts = |each: fn(&At) -> &Figure| list(stated.iter().map(|at| text(each(at))));
+    object([
+        ("name", Value::from(of.curve.fit.name.as_str())),
+        ("title", functions::title(of, languages).as_str().into()),
+        ("model", report.models.get(of.file).map_or("", |model| model.name).into()),
+        ("fit", serde_json::to_value(FitSide::of(&of.curve)).unwrap_or(Value::Null)),
+        ("coverage_factor", fits::factor(&of.curve, of.coverage).into()),
+        (
+            "stated",
+            object([
+                ("x", texts(|at| &at.x)),
+                ("value", texts(|at| &at.value)),
+                ("expanded_uncertainty", texts(|at| &at.expanded)),
+                ("coverage_factor", functions::factor(of).as_str().into()),
+            ]),
+        ),
+    ])
 }
 
 fn one(report: &CertificateReport<'_>, row: &Stated<'_>) -> Value {

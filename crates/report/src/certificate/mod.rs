@@ -5,6 +5,7 @@ mod conformity;
 mod csv;
 mod dcc;
 mod document;
+mod functions;
 mod json;
 mod sentences;
 mod sheets;

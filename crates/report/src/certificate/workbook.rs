@@ -2,7 +2,10 @@
 
 use std::io;
 
-use super::{CertificateReport, administrative, conformity, file_name, sentences, sheets};
+use super::{
+    CertificateReport, administrative, conformity, file_name, functions, sentences, sheets,
+};
+use crate::fits;
 use crate::workbook::{Book, failed};
 
 /// The certificate as a workbook: a sheet with the certificate, whose cells hold the stated figures,
@@ -43,6 +46,23 @@ pub fn xlsx(report: &CertificateReport<'_>) -> io::Result<Vec<u8>> {
             row += 1;
         }
         book.push(leaf)?;
+        for (number, of) in report.certificate.functions.iter().enumerate() {
+            let mut leaf = book.leaf(&format!("Function {}", number + 1))?;
+            leaf.title(0, &functions::title(of, languages))?;
+            let mut row = 2;
+            for said in
+                languages.iter().flat_map(|language| functions::sentences(report, of, *language))
+            {
+                leaf.line(row, &said)?;
+                row += 1;
+            }
+            row = leaf.table(row + 1, &functions::values(report, of))? + 1;
+            row = leaf.table(row, &functions::parameters(report, of))? + 1;
+            if let Some(sheet) = fits::correlations(&of.curve) {
+                leaf.table(row, &sheet)?;
+            }
+            book.push(leaf)?;
+        }
         let mut leaf = book.leaf("Unrounded")?;
         leaf.table(0, &sheets::unrounded(report))?;
         book.push(leaf)?;

@@ -6,6 +6,8 @@ mod sheets;
 mod words;
 
 pub(crate) use json::FitSide;
+pub(crate) use sheets::{STATED, correlations};
+pub(crate) use words::equation;
 
 use super::document::Document;
 use gumption_engine::regression::CurveFunction;
@@ -23,7 +25,7 @@ pub(crate) fn sections<'a>(
         document.text(words::form(curve));
         document.text(words::agreement(curve));
         document.table(sheets::coefficients(curve, digits));
-        document.blocks.extend(sheets::correlations(curve).map(super::document::Block::Table));
+        document.blocks.extend(correlations(curve).map(super::document::Block::Table));
         document.blocks.extend(sheets::degrees(curve).map(super::document::Block::Table));
         document.text(words::statement(curve, coverage));
         document.table(sheets::statement(curve, coverage, digits));
@@ -32,7 +34,7 @@ pub(crate) fn sections<'a>(
 }
 
 /// The coverage factor of a curve's expanded uncertainty.
-fn factor(curve: &CurveFunction, coverage: Coverage) -> f64 {
+pub(crate) fn factor(curve: &CurveFunction, coverage: Coverage) -> f64 {
     let dof = curve.fit.degrees_of_freedom();
     match (coverage, coverage.nominal_factor()) {
         (Coverage::Factor { factor, fixed: true }, _) => factor,
@@ -42,7 +44,7 @@ fn factor(curve: &CurveFunction, coverage: Coverage) -> f64 {
 }
 
 /// So many places at equal distances over the range of the points.
-fn places(curve: &CurveFunction, count: usize) -> impl Iterator<Item = f64> {
+pub(crate) fn places(curve: &CurveFunction, count: usize) -> impl Iterator<Item = f64> {
     let [least, most] = curve.fit.points.range();
     let last = count.saturating_sub(1).max(1) as f64;
     (0..count).map(move |k| least + (most - least) * (k as f64 / last))

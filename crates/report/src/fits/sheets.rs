@@ -10,7 +10,7 @@ use gumption_engine::regression::CurveFunction;
 use gumption_engine::task::Coverage;
 
 /// Places at which the statement is tabulated.
-const STATED: usize = 7;
+pub(crate) const STATED: usize = 7;
 
 /// Estimates and standard uncertainties of the coefficients.
 pub(super) fn coefficients(curve: &CurveFunction, digits: u32) -> Sheet {
@@ -30,7 +30,7 @@ pub(super) fn coefficients(curve: &CurveFunction, digits: u32) -> Sheet {
 }
 
 /// Their correlation coefficients, where there are several.
-pub(super) fn correlations(curve: &CurveFunction) -> Option<Sheet> {
+pub(crate) fn correlations(curve: &CurveFunction) -> Option<Sheet> {
     let fit = &*curve.fit;
     let count = fit.count();
     if count < 2 {

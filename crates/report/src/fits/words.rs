@@ -10,25 +10,8 @@ use gumption_engine::task::Coverage;
 /// The form, what it was fitted to, and how.
 pub(super) fn form(curve: &CurveFunction) -> String {
     let fit = &*curve.fit;
-    let name = plain(&fit.name);
     let points = &*fit.points;
-    let equation = match &fit.curve {
-        Curve::Polynomial { origin, .. } => {
-            let x =
-                if *origin == 0.0 { "x".to_owned() } else { format!("(x - {})", exact(*origin)) };
-            let term = |(power, (name, _)): (usize, &(String, gumption_units::Unit))| {
-                let name = own_name(name);
-                match power {
-                    0 => name.to_owned(),
-                    1 => format!("{name} {x}"),
-                    power => format!("{name} {x}^{power}"),
-                }
-            };
-            let terms: Vec<String> = curve.parameters.iter().enumerate().map(term).collect();
-            format!("{name}(x) = {}", terms.join(" + "))
-        }
-        _ => format!("{name}(x), a formula of the file"),
-    };
+    let equation = equation(curve);
     let [least, most] = points.range();
     let unit = |unit: &gumption_units::Unit| match unit.text().trim() {
         "" | "1" => String::new(),
@@ -55,6 +38,29 @@ pub(super) fn form(curve: &CurveFunction) -> String {
         exact(most),
         unit(&curve.x)
     )
+}
+
+/// `line(x) = a + b x`
+pub(crate) fn equation(curve: &CurveFunction) -> String {
+    let fit = &*curve.fit;
+    let name = plain(&fit.name);
+    match &fit.curve {
+        Curve::Polynomial { origin, .. } => {
+            let x =
+                if *origin == 0.0 { "x".to_owned() } else { format!("(x - {})", exact(*origin)) };
+            let term = |(power, (name, _)): (usize, &(String, gumption_units::Unit))| {
+                let name = own_name(name);
+                match power {
+                    0 => name.to_owned(),
+                    1 => format!("{name} {x}"),
+                    power => format!("{name} {x}^{power}"),
+                }
+            };
+            let terms: Vec<String> = curve.parameters.iter().enumerate().map(term).collect();
+            format!("{name}(x) = {}", terms.join(" + "))
+        }
+        _ => format!("{name}(x), a formula of the file"),
+    }
 }
 
 /// Whether points, curve and uncertainties agree.

@@ -10,6 +10,13 @@ pub(crate) struct CharacterGrid {
 /// The eighths of a cell, from an empty one to a full one.
 const EIGHTHS: [char; 9] = [' ', '▁', '▂', '▃', '▄', '▅', '▆', '▇', '█'];
 
+/// Bars of one line of characters: heights as shares of the greatest.
+pub(crate) fn bars(heights: &[f64]) -> String {
+    let most = heights.iter().copied().fold(0.0, f64::max);
+    let eighth = |height: &f64| (8.0 * height / most).round().clamp(0.0, 8.0) as usize;
+    heights.iter().map(|height| EIGHTHS[if most > 0.0 { eighth(height) } else { 0 }]).collect()
+}
+
 impl CharacterGrid {
     /// A blank grid of so many columns and rows.
     pub(crate) fn new(width: usize, height: usize) -> Self {
@@ -72,6 +79,12 @@ mod tests {
         grid.bar(0, 2, 12);
         grid.bar(1, 2, 99);
         assert_eq!(grid.lines(), " █ab\n▄█\n██\n");
+    }
+
+    #[test]
+    fn bars_are_shares_of_the_highest() {
+        assert_eq!(bars(&[0.0, 1.0, 2.0, 4.0]), " ▂▄█");
+        assert_eq!(bars(&[0.0]), " ");
     }
 
     #[test]

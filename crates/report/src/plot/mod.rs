@@ -8,7 +8,7 @@ mod strip;
 mod svg;
 
 pub(super) use axis::Axis;
-pub(super) use characters::{CharacterGrid, cell_at};
+pub(super) use characters::{CharacterGrid, bars, cell_at};
 pub(super) use ink::{AFTER, BEFORE, EVEN, INK, SHADES, WEAK};
 pub(super) use panel::{Chart, Panel};
 pub(super) use strip::{STRIP_AXIS, Strip, centred, faded, line, stroke};

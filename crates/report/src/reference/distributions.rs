@@ -1,10 +1,16 @@
 //! The distributions: keys, standard uncertainty, divisor.
 
+use gumption_engine::distribution::{
+    Arcsine, Beta, CurvilinearTrapezoid, Distribution, Exponential, Gamma, Invalid, LogUniform,
+    Lognormal, Normal, PoissonCount, Readings, Rectangular, SplitNormal, StudentT, Trapezoidal,
+    Triangular,
+};
 use gumption_files::schema;
 use serde_json::Value;
 
 use super::keys::{self, Definitions};
 use crate::document::Document;
+use crate::plot::bars;
 use crate::sheet::Sheet;
 
 /// The standard uncertainty of a distribution as a formula of its keys, and the divisor of its width
@@ -38,13 +44,69 @@ pub(super) fn uncertainty(name: &str) -> Option<(&'static str, &'static str)> {
     })
 }
 
+/// A distribution of each shape, to be drawn; `None` for shapes that have no form of their own.
+fn drawn(name: &str) -> Option<Distribution> {
+    let readings = vec![1.0, 2.0, 3.0, 4.0];
+    let made: Result<Distribution, Invalid> = match name {
+        "normal" => Normal::new(0.0, 1.0).map(Into::into),
+        "rectangular" => Rectangular::new(0.0, 1.0).map(Into::into),
+        "triangular" => Triangular::new(0.0, 1.0).map(Into::into),
+        "trapezoidal" => Trapezoidal::new(0.0, 1.0, 0.5).map(Into::into),
+        "curvilinear-trapezoid" => CurvilinearTrapezoid::new(-1.0, 1.0, 0.3).map(Into::into),
+        "arcsine" => Arcsine::new(0.0, 1.0).map(Into::into),
+        "t" => StudentT::new(0.0, 1.0, 3.0).map(Into::into),
+        "readings" => Readings::new(readings).map(Into::into),
+        "exponential" => Exponential::new(1.0).map(Into::into),
+        "gamma" => Gamma::new(2.0, 1.0).map(Into::into),
+        "lognormal" => Lognormal::new(1.0, 0.6).map(Into::into),
+        "beta" => Beta::new(2.0, 4.0).map(Into::into),
+        "log-uniform" => LogUniform::new(1.0, 6.0).map(Into::into),
+        "poisson-count" => PoissonCount::new(3).map(Into::into),
+        "split-normal" => SplitNormal::new(0.0, 0.5, 1.5).map(Into::into),
+        _ => return None,
+    };
+    made.ok()
+}
+
+/// Characters of a picture.
+const WIDE: usize = 15;
+
+/// The density over the middle 99 % in characters, from the probabilities of equal cells.
+fn picture(of: &Distribution) -> String {
+    let (low, high) = (of.quantile(0.005), of.quantile(0.995));
+    // shapes with limits are drawn to these, so that their ends are seen
+    let (first, last) = (of.quantile(1e-9), of.quantile(1.0 - 1e-9));
+    let is_cut = last - first < 1.3 * (high - low);
+    let (low, high) = if is_cut { (first, last) } else { (low, high) };
+    let below = |x: f64| {
+        let (mut from, mut to) = (0.0_f64, 1.0_f64);
+        for _ in 0..50 {
+            let middle = 0.5 * (from + to);
+            if of.quantile(middle) < x {
+                from = middle;
+            } else {
+                to = middle;
+            }
+        }
+        0.5 * (from + to)
+    };
+    let margin = if is_cut { 1 } else { 0 };
+    let cells = WIDE - 2 * margin;
+    let edge = |cell: usize| below(low + (high - low) * (cell as f64 / cells as f64));
+    let mut heights = vec![0.0; WIDE];
+    for cell in 0..cells {
+        heights[cell + margin] = edge(cell + 1) - edge(cell);
+    }
+    bars(&heights)
+}
+
 pub(super) fn document() -> Document {
     let definitions = Definitions::new();
     let mut document = Document { title: "Distributions".to_owned(), ..Document::default() };
     document.text(
         "What is known about an input or a component stands at its `distribution`, in the order of \
          JCGM 101, Table 1, then the others. Widths are in the quantity's unit unless they say \
-         otherwise. The divisor is what a width is divided by to give the standard uncertainty u.",
+         otherwise. The divisor is what a width is divided by to give the standard uncertainty u. The pictures are densities of one example each.",
     );
     let shapes = schema::distributions();
     let mut sheet = Sheet::default();
@@ -59,6 +121,12 @@ pub(super) fn document() -> Document {
             if is_code { format!("`{text}`") } else { text }
         })
     };
+    let pictures = shapes.iter().map(|shape| match drawn(shape.name) {
+        // of code, so that the characters keep their places
+        Some(of) => format!("`{}`", picture(&of)),
+        None => String::new(),
+    });
+    sheet.text("density", pictures);
     sheet.text("u", said(|(u, _)| u, true));
     sheet.text("divisor", said(|(_, divisor)| divisor, false));
     document.table(sheet);

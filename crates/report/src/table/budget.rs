@@ -3,7 +3,7 @@
 use super::columns::{self, BudgetColumn};
 use super::grid::Grid;
 use super::{WIDTH, coverage_text, has_name, in_unit, text};
-use crate::number::{exact, position, rounded, significant, with_uncertainty};
+use crate::number::{coefficient, exact, position, rounded, significant, with_uncertainty};
 use crate::sheet::{Figure, Kind, Sheet};
 use crate::subtotals::Subtotals;
 use gumption_engine::model::Quantity;
@@ -254,7 +254,7 @@ fn coefficients(task: &Task, gum: &Gum) -> Vec<Line> {
         let [a, b] = line.variables.map(|position| task.variables.get(position));
         let mut cells = Line::default();
         cells[0] = format!("r({}, {})", text::plain(&a?.name), text::plain(&b?.name));
-        cells[1] = exact(line.coefficient);
+        cells[1] = coefficient(line.coefficient);
         cells[4] = "correlation".to_owned();
         cells[8] = percent(line.share);
         Some(cells)

@@ -127,11 +127,7 @@ pub(super) fn at(task: &Task, evaluation: &Evaluation) -> Option<String> {
 
 /// The sources and the equations.
 fn equations(task: &Task) -> Option<String> {
-    let sources = statement::sources(task).into_iter();
-    let equations = statement::equations(task).into_iter();
-    let equations = equations.map(|(name, text)| format!("{name} = {text}"));
-    let lines = sources.chain(equations).chain(statement::left_out(task));
-    let page: String = lines.map(|line| wrapped(&line)).collect();
+    let page: String = statement::lines(task).iter().map(|line| wrapped(line)).collect();
     (!page.is_empty()).then_some(page)
 }
 

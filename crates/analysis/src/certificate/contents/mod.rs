@@ -6,8 +6,11 @@ mod form;
 pub use administrative::{AdministrativeData, Device, Party, PerformanceLocation};
 pub use form::{DecimalMark, Language, Localized, Rounding};
 
+use std::sync::Arc;
+
 use gumption_engine::model::Capability;
-use gumption_engine::task::Task;
+use gumption_engine::regression::CurveFunction;
+use gumption_engine::task::{Coverage, Task};
 
 /// A certificate that is to be made.
 #[derive(Clone, Debug)]
@@ -27,6 +30,8 @@ pub struct Certificate {
     pub evaluations: Vec<Asked>,
     /// The rows of the table, in order.
     pub lines: Vec<Line>,
+    /// The calibration functions that are stated, in order.
+    pub functions: Vec<StatedFunction>,
     /// Names of the conditions that the table shows; all of them if there are none.
     pub shown: Vec<String>,
     /// Names of inputs that are one and the same quantity in all model files.
@@ -46,6 +51,19 @@ pub struct Asked {
     pub set: Vec<(String, String)>,
     /// The evaluation.
     pub task: Task,
+}
+
+/// A calibration function that is stated with its expanded uncertainty over its range.
+#[derive(Clone, Debug)]
+pub struct StatedFunction {
+    /// The place of the model file among those of the certificate.
+    pub file: usize,
+    /// The function.
+    pub curve: Arc<CurveFunction>,
+    /// The coverage that is asked for.
+    pub coverage: Coverage,
+    /// What it is called instead of its name.
+    pub label: Option<Localized>,
 }
 
 /// A row of the table.

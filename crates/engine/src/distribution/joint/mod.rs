@@ -168,11 +168,11 @@ impl Joint {
             }
             if let Some(fit) = ensemble.fit.as_ref().filter(|fit| !fit.is_linear()) {
                 let parameter = |m: &usize| match &*distributions[*m] {
-                    Distribution::Fitted(fitted) => fitted.parameter(),
-                    _ => 0,
+                    Distribution::Fitted(fitted) => fitted.parameter().map(|of| (*m, of)),
+                    _ => None,
                 };
-                let parameters = members.iter().map(parameter).collect();
-                joint.refits.push(Refit::new(members.clone(), parameters, Arc::clone(fit)));
+                let (members, parameters) = members.iter().filter_map(parameter).unzip();
+                joint.refits.push(Refit::new(members, parameters, Arc::clone(fit)));
                 continue;
             }
             let dof = members.first().map(|&m| distributions[m].drawn_dof());

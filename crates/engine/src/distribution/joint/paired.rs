@@ -70,8 +70,9 @@ fn fits(distributions: &[Arc<Distribution>]) -> impl Iterator<Item = Ensemble> {
         let mut coefficients = CorrelationMatrix::identity(set.len());
         for (i, j) in coefficients.pairs() {
             let (first, second) = (set[i].1, set[j].1);
-            let r = first.fit().correlation(first.parameter(), second.parameter());
-            coefficients.set(i, j, r);
+            if let (Some(of), Some(with)) = (first.parameter(), second.parameter()) {
+                coefficients.set(i, j, first.fit().correlation(of, with));
+            }
         }
         Ensemble { members: set.iter().map(|(index, _)| *index).collect(), coefficients, fit }
     };

@@ -200,7 +200,8 @@ impl<'c> Checker<'c> {
         let dimension = self.alike("solve", span, &ends);
         let typing = Typing { dimension, ..self.together("solve", span, &ends) };
         let name = self.slice(unknown);
-        if self.scope.get(name).is_some() || self.scope.is_announced(name) {
+        // not one that is only announced: `t = solve(..., t, ...)` is how people write it
+        if self.scope.get(name).is_some() {
             let (name, span) = (name.to_owned(), unknown.clone());
             self.report(FormulaError::UnknownIsDefined { name, span });
             return typing;

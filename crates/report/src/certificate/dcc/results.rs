@@ -5,13 +5,16 @@ use base64::engine::general_purpose::STANDARD;
 
 use super::unit::{is_of_the_si, unit};
 use super::xml::Xml;
+use crate::certificate::functions::{self, At};
 use crate::certificate::stated;
 use crate::certificate::stated::Stated;
 use crate::certificate::words::{self, Words, localized};
 use crate::certificate::{CertificateReport, file_name, json, sentences};
+use crate::fits;
 use crate::number::exact;
+use crate::sheet::Figure;
 use gumption_analysis::certificate::Basis;
-use gumption_analysis::certificate::contents::{Language, Localized};
+use gumption_analysis::certificate::contents::{Language, Localized, StatedFunction};
 use gumption_engine::model::Quantity;
 use gumption_units::Unit;
 
@@ -51,6 +54,9 @@ pub(super) fn write(xml: &mut Xml, report: &CertificateReport<'_>, languages: &[
         xml.element("dcc:results", |xml| {
             for rows in groups(report) {
                 xml.element("dcc:result", |xml| result(xml, report, &rows, languages));
+            }
+            for of in &report.certificate.functions {
+                xml.element("dcc:result", |xml| function(xml, report, of, languages));
             }
             xml.element("dcc:result", |xml| attachments(xml, report, languages));
         });
@@ -248,6 +254,69 @@ fn intervals(
             });
         });
         explained(xml, &first.quantity.unit);
+    });
+}
+
+/// A calibration function: values with U over its range, and its parameters.
+fn function(
+    xml: &mut Xml,
+    report: &CertificateReport<'_>,
+    of: &StatedFunction,
+    languages: &[Language],
+) {
+    let curve = &*of.curve;
+    let each = |text: &dyn Fn(Language) -> String| Localized {
+        texts: languages.iter().map(|language| (Some(*language), text(*language))).collect(),
+    };
+    let title = each(&|language| functions::title(of, &[language]));
+    xml.text("dcc:name", &title, languages);
+    let said = each(&|language| functions::sentences(report, of, language).join(" "));
+    xml.text("dcc:description", &said, languages);
+    let probability = exact(of.coverage.probability());
+    let dof = curve.fit.degrees_of_freedom();
+    let law = if dof.is_finite() { "t" } else { "normal" };
+    let uncertain = |xml: &mut Xml, expanded: &[String]| {
+        let all = |text: &str| vec![text; expanded.len()].join(" ");
+        let k = functions::factor(of);
+        // D-SI has no coverage factor below 1
+        if fits::factor(curve, of.coverage) < 1.0 {
+            return;
+        }
+        xml.element("si:expandedUncXMLList", |xml| {
+            xml.leaf("si:uncertaintyXMLList", &expanded.join(" "));
+            xml.leaf("si:coverageFactorXMLList", &all(&k));
+            xml.leaf("si:coverageProbabilityXMLList", &all(&probability));
+            xml.leaf("si:distributionXMLList", &all(law));
+        });
+    };
+    let stated = functions::stated(report, of);
+    let texts = |of: fn(&At) -> &Figure| stated.iter().map(|at| of(at).text.clone()).collect();
+    let (x, values): (Vec<String>, Vec<String>) = (texts(|at| &at.x), texts(|at| &at.value));
+    let expanded: Vec<String> = texts(|at| &at.expanded);
+    xml.element("dcc:data", |xml| {
+        xml.element("dcc:list", |xml| {
+            xml.element("dcc:quantity", |xml| {
+                xml.text("dcc:name", &Localized::plain("x"), languages);
+                list(xml, &x, &curve.x, |_| ());
+                explained(xml, &curve.x);
+            });
+            xml.element("dcc:quantity", |xml| {
+                let name = format!("{}(x)", curve.fit.name);
+                xml.text("dcc:name", &Localized::plain(name), languages);
+                list(xml, &values, &curve.y, |xml| uncertain(xml, &expanded));
+                explained(xml, &curve.y);
+            });
+        });
+        let k = fits::factor(curve, of.coverage);
+        for (number, (name, unit)) in curve.parameters.iter().enumerate() {
+            xml.element("dcc:quantity", |xml| {
+                xml.text("dcc:name", &Localized::plain(name.clone()), languages);
+                let (value, u) =
+                    (curve.fit.estimate(number), curve.fit.standard_uncertainty(number));
+                list(xml, &[exact(value)], unit, |xml| uncertain(xml, &[exact(k * u)]));
+                explained(xml, unit);
+            });
+        }
     });
 }
 

@@ -75,6 +75,14 @@ pub(super) const WORDS: Words = Words {
         to value + U has a coverage probability of at least {p}.",
     approximately: "approximately {p}",
 
+    function: "Calibration function {name}",
+    in_range: "{equation} for {low} ≤ x ≤ {high}, x and {name} being numbers in the units of the table.",
+    band: "U is the expanded uncertainty of the function at x, with the coverage factor k = {k}; it does \
+        not contain that of a further reading. Between the lines of the table it follows from \
+        u(x)² = g(x)' V g(x) with the derivatives g by the parameters and their covariance matrix V, \
+        which the standard uncertainties and correlation coefficients r of the parameters make up.",
+    parameter: "parameter",
+    standard: "u",
     correlation: "Correlation of the rows",
     correlated: "Rows that share inputs are correlated. The standard uncertainty of the difference \
         of rows i and j follows from u² = u_i² + u_j² - 2 r u_i u_j, with u_i = U_i / k_i and the \

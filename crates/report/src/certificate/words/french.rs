@@ -75,6 +75,14 @@ pub(super) const WORDS: Words = Words {
         valeur + U a une probabilité de couverture d'au moins {p}.",
     approximately: "{p} environ",
 
+    function: "Fonction d'étalonnage {name}",
+    in_range: "{equation} pour {low} ≤ x ≤ {high}, x et {name} étant des nombres dans les unités du tableau.",
+    band: "U est l'incertitude élargie de la fonction en x, avec le facteur d'élargissement k = {k} ; elle ne \
+        contient pas celle d'une lecture supplémentaire. Entre les lignes du tableau elle découle de \
+        u(x)² = g(x)' V g(x), avec les dérivées g par rapport aux paramètres et leur matrice de covariance V, \
+        que forment les incertitudes-types et les coefficients de corrélation r des paramètres.",
+    parameter: "paramètre",
+    standard: "u",
     correlation: "Corrélation des lignes",
     correlated: "Les lignes qui ont des grandeurs d'entrée en commun sont corrélées. L'incertitude-type de la \
         différence des lignes i et j découle de u² = u_i² + u_j² - 2 r u_i u_j, avec u_i = U_i / k_i et le \

@@ -77,6 +77,15 @@ pub(super) const WORDS: Words = Words {
         von Wert - U bis Wert + U hat eine Überdeckungswahrscheinlichkeit von mindestens {p}.",
     approximately: "annähernd {p}",
 
+    function: "Kalibrierfunktion {name}",
+    in_range: "{equation} für {low} ≤ x ≤ {high}, mit x und {name} als Zahlen in den Einheiten der Tabelle.",
+    band: "U ist die erweiterte Messunsicherheit der Funktion an der Stelle x mit dem Erweiterungsfaktor \
+        k = {k}; die einer weiteren Ablesung ist nicht enthalten. Zwischen den Zeilen der Tabelle folgt \
+        sie aus u(x)² = g(x)' V g(x) mit den Ableitungen g nach den Parametern und deren \
+        Kovarianzmatrix V, die aus den Standardmessunsicherheiten und den Korrelationskoeffizienten r \
+        der Parameter besteht.",
+    parameter: "Parameter",
+    standard: "u",
     correlation: "Korrelation der Zeilen",
     correlated: "Zeilen mit gemeinsamen Eingangsgrößen sind korreliert. Die Standardmessunsicherheit \
         der Differenz der Zeilen i und j folgt aus u² = u_i² + u_j² - 2 r u_i u_j mit u_i = U_i / k_i \

@@ -75,6 +75,14 @@ pub(super) const WORDS: Words = Words {
         probabilità di copertura di almeno {p}.",
     approximately: "circa {p}",
 
+    function: "Funzione di taratura {name}",
+    in_range: "{equation} per {low} ≤ x ≤ {high}, dove x e {name} sono numeri nelle unità della tabella.",
+    band: "U è l'incertezza estesa della funzione in x, con il fattore di copertura k = {k}; non comprende \
+        quella di una lettura ulteriore. Fra le righe della tabella segue da u(x)² = g(x)' V g(x), con le \
+        derivate g rispetto ai parametri e la loro matrice di covarianza V, formata dalle incertezze tipo e \
+        dai coefficienti di correlazione r dei parametri.",
+    parameter: "parametro",
+    standard: "u",
     correlation: "Correlazione fra le righe",
     correlated: "Le righe che hanno grandezze d'ingresso in comune sono correlate. L'incertezza tipo della \
         differenza fra le righe i e j segue da u² = u_i² + u_j² - 2 r u_i u_j, con u_i = U_i / k_i e il \

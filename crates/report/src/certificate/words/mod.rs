@@ -78,6 +78,14 @@ pub(super) struct Words {
     /// `{p}`
     pub(super) approximately: &'static str,
 
+    /// `{name}`
+    pub(super) function: &'static str,
+    /// `{equation}`, `{low}`, `{high}`
+    pub(super) in_range: &'static str,
+    /// `{k}`, and how k is said: `{coverage}`
+    pub(super) band: &'static str,
+    pub(super) parameter: &'static str,
+    pub(super) standard: &'static str,
     pub(super) correlation: &'static str,
     pub(super) correlated: &'static str,
     /// `{rows}`: how many.

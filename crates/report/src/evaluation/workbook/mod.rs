@@ -13,10 +13,11 @@ use rust_xlsxwriter::XlsxError;
 
 use self::tape::Tape;
 use super::{Shown, repeat};
+use crate::document::{Block, Document};
 use crate::table::correlations;
 use crate::table::correlations::Coefficients;
 use crate::workbook::{Book, Leaf, failed};
-use crate::{EvaluationReport, plain, statement, table};
+use crate::{EvaluationReport, fits, plain, regions, statement, table};
 use gumption_engine::propagate::RowEvaluation;
 use gumption_engine::task::Task;
 
@@ -81,7 +82,48 @@ fn write(report: &EvaluationReport<'_>, shown: &Shown<'_>) -> Result<Vec<u8>, Xl
         leaf.table(2, &sheet)?;
         book.push(leaf)?;
     }
+    let settings = &report.evaluation.settings;
+    let mut functions = Document::default();
+    let curves = task.curves.iter().map(|curve| &**curve);
+    fits::sections(&mut functions, curves, settings.coverage, settings.digits);
+    worksheet(&mut book, "Calibration functions", &functions)?;
+    if let [row] = report.evaluation.rows.as_slice() {
+        let mut found = Document::default();
+        regions::sections(&mut found, task, row);
+        worksheet(&mut book, "Regions", &found)?;
+    }
     about(book, report, shown)
+}
+
+/// A worksheet of sections, without their figures; none where there is nothing.
+fn worksheet(book: &mut Book, name: &str, document: &Document) -> Result<(), XlsxError> {
+    if document.blocks.is_empty() {
+        return Ok(());
+    }
+    let mut leaf = book.leaf(name)?;
+    let mut row = 0;
+    for block in &document.blocks {
+        match block {
+            Block::Section(title) => {
+                row += u32::from(row > 0);
+                leaf.title(row, title)?;
+                row += 1;
+            }
+            Block::Text(text) => {
+                leaf.line(row, text)?;
+                row += 1;
+            }
+            Block::Verdict(texts) | Block::List(texts) => {
+                for text in texts {
+                    leaf.line(row, text)?;
+                    row += 1;
+                }
+            }
+            Block::Table(sheet) => row = leaf.table(row + 1, sheet)? + 1,
+            Block::Figure(_) | Block::Listing { .. } | Block::Signature(_) | Block::End(_) => {}
+        }
+    }
+    book.push(leaf)
 }
 
 /// The worksheet that states the measurement: sources and equations.

@@ -1,0 +1,114 @@
+//! A certificate that this program has made says in its attached answer how its results vary together;
+//! the certificate itself has no place for it.
+
+use std::sync::Arc;
+
+use roxmltree::{Document, Node};
+use serde_json::Value;
+
+use crate::carried;
+
+/// How the results of a certificate vary together.
+#[derive(Debug)]
+pub(super) struct OwnCertificate {
+    /// The rows of each `dcc:result`, in order: one result for each output and unit.
+    groups: Vec<Vec<usize>>,
+    /// Correlation coefficients of the rows.
+    rows: Vec<Vec<Option<f64>>>,
+    /// Covariance matrix of the parameters of each calibration function.
+    functions: Vec<Vec<Vec<f64>>>,
+}
+
+/// What an input is of such a certificate.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Part {
+    Row(usize),
+    /// A parameter of a calibration function.
+    Parameter(usize, usize),
+}
+
+/// A result of such a certificate.
+#[derive(Clone, Debug)]
+pub(crate) struct Certified {
+    of: Arc<OwnCertificate>,
+    part: Part,
+}
+
+impl Certified {
+    /// The correlation coefficient with another result; `None` where nothing is known of it.
+    pub(crate) fn correlation(&self, other: &Self) -> Option<f64> {
+        if !Arc::ptr_eq(&self.of, &other.of) {
+            return None;
+        }
+        match (self.part, other.part) {
+            (Part::Row(a), Part::Row(b)) => *self.of.rows.get(a)?.get(b)?,
+            (Part::Parameter(of, a), Part::Parameter(with, b)) if of == with => {
+                let covariance = self.of.functions.get(of)?;
+                let at = |i: usize, j: usize| covariance.get(i)?.get(j).copied();
+                Some((at(a, b)? / (at(a, a)? * at(b, b)?).sqrt()).clamp(-1.0, 1.0))
+            }
+            _ => None,
+        }
+    }
+}
+
+impl OwnCertificate {
+    /// What the attached answer says; `None` for certificates of others.
+    pub(super) fn of(document: &Document<'_>) -> Option<Self> {
+        let name = |node: &Node<'_, '_>| node.tag_name().name() == "byteData";
+        let attached = document.descendants().filter(name).filter_map(carried::attachment);
+        let answer = attached
+            .filter(|(name, _)| name == "result.json")
+            .find_map(|(_, bytes)| serde_json::from_slice::<Value>(&bytes).ok())?;
+        answer.get("gumption")?;
+        let mut groups: Vec<([&str; 2], Vec<usize>)> = Vec::new();
+        for (number, row) in answer.get("rows")?.as_array()?.iter().enumerate() {
+            let of = [row.get("output")?.as_str()?, row.get("unit")?.as_str()?];
+            match groups.iter_mut().find(|(known, _)| *known == of) {
+                Some((_, rows)) => rows.push(number),
+                None => groups.push((of, vec![number])),
+            }
+        }
+        let matrix = |value: &Value| -> Option<Vec<Vec<Option<f64>>>> {
+            let row = |row: &Value| Some(row.as_array()?.iter().map(Value::as_f64).collect());
+            value.as_array()?.iter().map(row).collect()
+        };
+        let functions = answer.get("functions").and_then(Value::as_array);
+        let functions = functions.into_iter().flatten().map(|function| {
+            let covariance = matrix(function.get("fit")?.get("covariance")?)?;
+            covariance.into_iter().map(|row| row.into_iter().collect()).collect()
+        });
+        Some(Self {
+            groups: groups.into_iter().map(|(_, rows)| rows).collect(),
+            rows: matrix(answer.get("correlations")?)?,
+            functions: functions.collect::<Option<_>>()?,
+        })
+    }
+
+    /// The result that a value of a quantity is.
+    pub(super) fn part(self: &Arc<Self>, node: Node<'_, '_>, place: usize) -> Option<Certified> {
+        let is = |node: &Node<'_, '_>, name: &str| node.tag_name().name() == name;
+        let result = node.ancestors().find(|of| is(of, "result"))?;
+        let before = result.prev_siblings().filter(|of| is(of, "result") && *of != result).count();
+        let part = match self.groups.get(before) {
+            Some(rows) => {
+                // conditions, nominal values and coverage intervals have other values
+                let quantities = result.descendants().filter(|of| is(of, "quantity"));
+                let mut measured = quantities
+                    .filter(|of| super::document::has_ref_type(*of, "basic_measuredValue"));
+                (measured.next() == Some(node)).then_some(())?;
+                Part::Row(*rows.get(place)?)
+            }
+            None => {
+                let function = before - self.groups.len();
+                let count = self.functions.get(function)?.len();
+                // behind the list of x and of values
+                let data = node.parent().filter(|of| is(of, "data"))?;
+                let mut own = data.children().filter(|of| is(of, "quantity"));
+                let number = own.position(|of| of == node)?;
+                (number < count).then_some(Part::Parameter(function, number))?
+            }
+        };
+        Some(Certified { of: Arc::clone(self), part })
+    }
+}

@@ -1,0 +1,164 @@
+//! Ways in: budgets in spreadsheets, and workbooks of this program with changed cells.
+
+use std::fs;
+use std::io::{Cursor, Read, Write};
+use std::path::Path;
+
+use rust_xlsxwriter::{Format, Workbook};
+use serde_json::Value;
+use zip::write::SimpleFileOptions;
+use zip::{ZipArchive, ZipWriter};
+
+use crate::support::command;
+
+/// Standard output and error of the program in a folder, with its exit code.
+fn told(folder: &Path, arguments: &[&str]) -> (String, String, Option<i32>) {
+    let said = command().args(arguments).current_dir(folder).output().expect("a run");
+    let text = |bytes| String::from_utf8(bytes).expect("UTF-8");
+    (text(said.stdout), text(said.stderr), said.status.code())
+}
+
+/// A workbook in whose sheets some texts are replaced, as by a hand in a cell.
+fn changed(book: &Path, replacements: &[(&str, &str)]) {
+    let mut archive = ZipArchive::new(Cursor::new(fs::read(book).unwrap())).unwrap();
+    let mut writer = ZipWriter::new(Cursor::new(Vec::new()));
+    let mut made = 0;
+    for number in 0..archive.len() {
+        let mut part = archive.by_index(number).unwrap();
+        let name = part.name().unwrap().into_owned();
+        let mut content = Vec::new();
+        part.read_to_end(&mut content).unwrap();
+        if name.starts_with("xl/worksheets/") {
+            let mut text = String::from_utf8(content).unwrap();
+            // only on the sheet of inputs, whose coverage probability stands in B4
+            if text.contains("r=\"I7\"") && text.contains("<f>C7*H7</f>")
+                || text.contains("$C$7*$H$7")
+            {
+                for (from, to) in replacements {
+                    assert!(text.contains(from), "{from}: {text}");
+                    text = text.replacen(from, to, 1);
+                    made += 1;
+                }
+            }
+            content = text.into_bytes();
+        }
+        writer.start_file(name, SimpleFileOptions::default()).unwrap();
+        writer.write_all(&content).unwrap();
+    }
+    assert_eq!(made, replacements.len());
+    fs::write(book, writer.finish().unwrap().into_inner()).unwrap();
+}
+
+const MODEL: &str = r#"{
+  "title": "Power",
+  "inputs": {
+    "voltage": {"unit": "V", "distribution": "normal", "expanded": 0.02, "k": 2, "mean": 5.01},
+    "current": {"unit": "mA", "distribution": "rectangular", "mean": 12, "half_width": 0.3},
+    "rep": {"unit": "1", "distribution": "readings", "values": [1.01, 0.99, 1.0]}
+  },
+  "correlations": [["voltage", "current", 0.25]],
+  "equations": {"power": "voltage*current*rep"},
+  "outputs": {"power": {"unit": "mW"}}
+}
+"#;
+
+#[test]
+fn a_workbook_of_ours_comes_back_with_its_changed_cells() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    fs::write(at.join("power.json"), MODEL).unwrap();
+    let export = ["run", "power.json", "--format", "xlsx", "--output", "b.xlsx", "--trials", "0"];
+    assert_eq!(told(at, &export).2, Some(0));
+    // untouched it is the same file
+    let (text, said, code) = told(at, &["import", "b.xlsx"]);
+    assert_eq!((text.as_str(), code), (MODEL, Some(0)), "{said}");
+    assert!(said.contains("no cell was changed"), "{said}");
+
+    // voltage 5.2 V with u = 0.02 V; u of the current doubled; the readings' estimate; r
+    changed(
+        &at.join("b.xlsx"),
+        &[
+            ("<v>5.01</v>", "<v>5.2</v>"),
+            ("<v>0.01</v>", "<v>0.02</v>"),
+            ("<v>0.17320508075688773</v>", "<v>0.34641016151377546</v>"),
+            ("<v>1</v></c><c r=\"C9\"", "<v>1.001</v></c><c r=\"C9\""),
+            ("<v>0.25</v>", "<v>-0.5</v>"),
+        ],
+    );
+    let (text, said, code) = told(at, &["import", "b.xlsx", "--output", "changed.json"]);
+    assert_eq!(code, Some(0), "{text} {said}");
+    for part in ["`voltage`: estimate 5.2 instead of 5.01", "r(voltage, current) = -0.5"] {
+        assert!(said.contains(part), "{part}: {said}");
+    }
+    assert!(said.contains("guessed: `rep` is normal now"), "{said}");
+    let made: Value =
+        serde_json::from_str(&fs::read_to_string(at.join("changed.json")).unwrap()).unwrap();
+    let number = |value: &Value| value.as_f64().unwrap();
+    let inputs = &made["inputs"];
+    assert_eq!(inputs["voltage"]["mean"], 5.2);
+    assert!((number(&inputs["voltage"]["expanded"]) - 0.04).abs() < 1e-15);
+    assert!((number(&inputs["current"]["half_width"]) - 0.6).abs() < 1e-14);
+    assert_eq!(inputs["rep"]["distribution"], "normal");
+    assert_eq!(inputs["rep"]["dof"], 2.0);
+    assert_eq!(made["correlations"][0][2], -0.5);
+
+    // a cell that holds no number, and one that no width can be
+    changed(&at.join("b.xlsx"), &[("<v>0.02</v>", "<v>-0.02</v>")]);
+    let (text, said, code) = told(at, &["import", "b.xlsx"]);
+    assert_eq!((text.as_str(), code), ("", Some(2)), "{said}");
+    assert!(said.contains("expanded"), "{said}");
+}
+
+/// German headers, a title in merged cells, empty rows, a column of formulas.
+#[test]
+fn a_german_workbook_becomes_a_model() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut book = Workbook::new();
+    let sheet = book.add_worksheet();
+    let bold = Format::new().set_bold();
+    sheet.merge_range(0, 0, 0, 6, "Messunsicherheitsbudget", &bold).unwrap();
+    sheet.write_string(2, 0, "R = U/I").unwrap();
+    let header = [
+        "Größe",
+        "Schätzwert",
+        "Einheit",
+        "Halbbreite",
+        "Verteilung",
+        "Teiler",
+        "Standardunsicherheit",
+        "Freiheitsgrade",
+    ];
+    for (column, name) in (0..).zip(header) {
+        sheet.write_string(4, column, name).unwrap();
+    }
+    // an empty row between the two quantities
+    for (row, (name, estimate, unit, half, shape, divisor)) in [
+        (6, ("U", 5.0112, "V", 0.0046, "Normal", 2.0)),
+        (8, ("I", 0.01, "A", 1e-5, "Rechteck", 1.7320508075688772)),
+    ] {
+        sheet.write_string(row, 0, name).unwrap();
+        sheet.write_number(row, 1, estimate).unwrap();
+        sheet.write_string(row, 2, unit).unwrap();
+        sheet.write_number(row, 3, half).unwrap();
+        sheet.write_string(row, 4, shape).unwrap();
+        sheet.write_number(row, 5, divisor).unwrap();
+        let formula = rust_xlsxwriter::Formula::new(format!("=D{0}/F{0}", row + 1));
+        let formula = formula.set_result(format!("{}", half / divisor));
+        sheet.write_formula(row, 6, formula).unwrap();
+        sheet.write_string(row, 7, "∞").unwrap();
+    }
+    book.save(folder.path().join("budget.xlsx")).unwrap();
+    let (text, said, code) =
+        told(folder.path(), &["import", "budget.xlsx", "--output", "model.json"]);
+    assert_eq!(code, Some(0), "{text} {said}");
+    assert!(said.contains("the equation R = U/I"), "{said}");
+    let (text, said, code) =
+        told(folder.path(), &["run", "model.json", "--format", "json", "--trials", "0"]);
+    assert_eq!(code, Some(0), "{said}");
+    let answer: Value = serde_json::from_str(&text).unwrap();
+    let r = &answer["outputs"]["R"]["gum"];
+    // 501.12 ohm, relative u of 0.0023/5.0112 and 1e-3/sqrt(3)
+    let relative = f64::hypot(0.0023 / 5.0112, 1e-3 / 3.0_f64.sqrt());
+    assert!((r["estimate"].as_f64().unwrap() - 501.12).abs() < 1e-9);
+    assert!((r["standard_uncertainty"].as_f64().unwrap() / (501.12 * relative) - 1.0).abs() < 1e-9);
+}
