@@ -240,6 +240,27 @@ fn the_statement_follows_the_distribution() {
 
 /// Values go to the place of the rounded uncertainty: 9.96, 99.6, 999.9, left of the point, 0, and the
 /// 5 % of EA-4/02.
+/// A product whose trials refute clause 8 at three digits: its interval of 97.19 to 102.85 is that of
+/// the law of propagation, 97.17 to 102.83, to one digit of U and not to three. Only in the second
+/// case the certificate says that the result is not normally distributed.
+#[test]
+fn a_result_is_not_normal_only_where_the_digits_show_it() {
+    let model = json!({"inputs": {"a": normal(10.0, 0.1), "b": normal(10.0, 0.1)},
+        "equations": {"y": "a*b"}, "outputs": {"y": {}},
+        "monte_carlo": {"trials": 1_000_000, "digits": 3}});
+    for (digits, basis, said) in [(1, "normal", false), (3, "monte-carlo", true)] {
+        let certificate = json!({"title": "t", "digits": digits, "coverage_factor": 2,
+            "rows": [{"model": "m.json", "output": "y"}]});
+        let files = [("c.json", certificate), ("m.json", model.clone())];
+        assert_eq!(answer(&files, &[])["rows"][0]["basis"], basis, "{digits}");
+        let folder = folder(&files);
+        let page = output(&["certificate", &path(folder.path(), "c.json"), "--quiet"]);
+        let page = page.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert_eq!(page.contains("not normally distributed"), said, "{page}");
+        assert_eq!(page.contains("the result is normally distributed"), !said, "{page}");
+    }
+}
+
 #[test]
 fn values_are_rounded_to_the_place_of_the_uncertainty() {
     let of = |value: f64, expanded: f64, rule: &str, digits: u64| {

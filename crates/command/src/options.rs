@@ -122,6 +122,11 @@ pub(super) struct CoverageOption {
 }
 
 impl CoverageOption {
+    /// Whether it is given.
+    pub(super) fn is_given(&self) -> bool {
+        self.coverage.is_some() || self.k.is_some()
+    }
+
     /// The coverage, unless given that of the file. A factor that the file keeps fixed is kept fixed.
     pub(super) fn or(&self, of_file: Coverage) -> Coverage {
         let given = self.k.map(|factor| of_file.with_factor(factor));

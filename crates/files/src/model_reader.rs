@@ -143,6 +143,13 @@ pub(super) fn read_with<T>(
     read: impl FnOnce(&ModelReader<'_>) -> Option<T>,
 ) -> Result<T, Diagnostics> {
     let change = |log: &Collector, root: &mut Node| {
+        // replaced values may be in units of the file's own
+        let start = root.span.start..root.span.start;
+        if matches!(root.value, Json::Object(_))
+            && let Some(root) = Object::new(log, "a model file", root, &start)
+        {
+            own_units(&root);
+        }
         notation::apply(log, root);
         overrides::apply(log, root, options.overrides);
     };
@@ -450,7 +457,7 @@ fn equations<'a>(
     let object = Object::new(log, "`equations`", &member.value, &member.key_span)?;
     let formula = |member: &Member| match &member.value.value {
         Json::Text(text) => {
-            let parsed = Formula::parse_with(text, curves);
+            let parsed = log.formula_with(text, curves);
             parsed.map_err(|error| report_formula(log, member, error)).ok()
         }
         other => {

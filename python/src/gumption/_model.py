@@ -139,8 +139,8 @@ class Model:
             come; rows of conditions are shared likewise. The result has the bits of a run on this
             machine, and a part that is lost with its worker is made again.
         parts : int, optional
-            With `executor`, into how many parts each pass over the trials is cut; 64, or 8 for each
-            worker if these are more, unless given.
+            With `executor`, into how many parts each pass over the trials is cut; unless given 64, or 8
+            for each worker, or what makes no part longer than 134 million trials.
         resume : path-like, optional
             With `executor`, a folder in which the parts are kept: a run that was stopped goes on from
             those that are there. ``gumption run --resume`` and ``gumption merge`` take it as well.
@@ -173,6 +173,8 @@ class Model:
                     "`executor`"
                 )
             return Result(self, given, self._evaluated(given, progress))
+        if parts is not None and parts < 1:
+            raise _gumption.ModelError("`parts`: a whole number from 1 is needed")
         from gumption._executors import run_on
 
         with self._bar(given, progress) as told:

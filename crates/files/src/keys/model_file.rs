@@ -146,7 +146,7 @@ pub(crate) const OUTPUT: &[Key] = keys![
                  NAME.re and NAME.im, `polar` as NAME.abs and NAME.arg.")
                 .with("enum", texts(["re-im", "polar"])),
     "phase_unit" => referenced("unit", "The unit of the phase of a complex output; rad."),
-    "periodic" => referenced("positive", "The length of a turn in the output's unit, for phases."),
+    "periodic" => referenced("width", "The length of a turn in the output's unit, for phases."),
     "tolerance" => reference("tolerance"),
     "cmc" => referenced("width", "The laboratory's capability: its smallest expanded uncertainty."),
     "cmc_floor" => described("boolean", "Raise a smaller expanded uncertainty to `cmc`."),
