@@ -9,12 +9,14 @@ mod conformity;
 mod control;
 mod density;
 mod evaluation;
+mod exact;
 pub mod gum;
 mod input_figures;
 pub mod monte_carlo;
 mod naming;
 mod origins;
 pub mod parts;
+mod quasi;
 mod regions;
 mod replay;
 mod second_order;
@@ -29,6 +31,7 @@ pub use evaluation::{
     CapabilityStatement, Evaluation, EvaluationError, JointlyDrawn, OutputEvaluation,
     RowEvaluation, evaluate, trial_hash,
 };
+pub use exact::{Accuracy, Noiseless, Scatter};
 pub use input_figures::InputFigures;
 pub use naming::naming;
 pub use origins::{Origins, linear, origins};
