@@ -306,9 +306,9 @@ pub mod number {
 /// Evaluation by the law of propagation and by the Monte Carlo method.
 pub mod propagate {
     pub use gumption_engine::propagate::{
-        CapabilityStatement, Conformity, Control, Evaluation, EvaluationError, GlobalRisks,
-        OutputEvaluation, RowEvaluation, evaluate, for_each_block, histograms, quantiles,
-        trial_hash, warnings,
+        Accuracy, CapabilityStatement, Conformity, Control, Evaluation, EvaluationError,
+        GlobalRisks, Noiseless, OutputEvaluation, RowEvaluation, Scatter, evaluate, for_each_block,
+        histograms, quantiles, trial_hash, warnings,
     };
 
     /// The law of propagation of uncertainty (JCGM 100).
@@ -349,7 +349,7 @@ pub mod propagate {
 /// the settings of the evaluation.
 pub mod task {
     pub use gumption_engine::task::{
-        ColumnFunction, Coverage, Evidence, Row, Settings, SettingsChanges, Sharing, StoppingRule,
-        Task, TaskBuilder, TaskError, Trials, Variable, Warning,
+        ColumnFunction, Coverage, Evidence, MethodChoice, Row, Settings, SettingsChanges, Sharing,
+        StoppingRule, Task, TaskBuilder, TaskError, Trials, Variable, Warning,
     };
 }

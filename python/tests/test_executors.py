@@ -234,6 +234,15 @@ def test_parts_of_other_runs_are_refused() -> None:
         ours.part(first, 0, 21)
 
 
+def test_how_long_parts_are() -> None:
+    length = _executors._length
+    # of 1e6, 1e9 and 1e12 trials
+    assert length(977, None, 2) == 64
+    assert length(976_563, None, 2) == 15_259
+    assert length(976_562_500, None, 2) == 1 << 17
+    assert length(977, 3, 2) == 326 and length(2, 5, 2) == 1
+
+
 def test_what_cannot_be_shared(pool: ProcessPoolExecutor) -> None:
     model = gu.load(PLANE)
     with pytest.raises(gu.ModelError, match="no blocks to share"):
@@ -242,6 +251,8 @@ def test_what_cannot_be_shared(pool: ProcessPoolExecutor) -> None:
         model.run(trials="adaptive", executor=pool)
     with pytest.raises(gu.ModelError, match="give `executor`"):
         model.run(trials=1000, resume="parts")
+    with pytest.raises(gu.ModelError, match="`parts`"):
+        model.run(trials=1000, executor=pool, parts=0)
     with pytest.raises(TypeError, match="Dask client"):
         model.run(trials=1000, executor=3)
 

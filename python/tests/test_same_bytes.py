@@ -53,6 +53,8 @@ def test_what_the_file_asks_for(program: str) -> None:
         ({"trials": 30_000, "coverage": 0.99}, ["--trials", "30000", "--coverage", "0.99"]),
         ({"trials": 30_000, "digits": 1}, ["--trials", "30000", "--digits", "1"]),
         ({"trials": 30_000, "real_dof": True}, ["--trials", "30000", "--dof", "real"]),
+        ({"trials": 30_000, "method": "quasi"}, ["--trials", "30000", "--method", "quasi"]),
+        ({"trials": 30_000, "method": "exact"}, ["--trials", "30000", "--method", "exact"]),
         ({"trials": 300_000, "threads": 1}, ["--trials", "300000", "--threads", "2"]),
         ({"trials": 300_000, "memory": 1 << 20}, ["--trials", "300000", "--memory", "1M"]),
     ],

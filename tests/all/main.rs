@@ -52,3 +52,5 @@ mod units;
 mod verify;
 mod ways_in;
 mod workspace;
+mod wrong_files;
+mod wrong_numbers;

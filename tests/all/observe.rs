@@ -159,6 +159,24 @@ fn a_bench_is_recovered_from_every_kind_of_file() {
     check(&component(&bins, "a_x", 0)["phase"], -17.0, 0.1);
 }
 
+/// A table of UTF-16 with a byte-order mark, as Windows programs save it, is the same recording.
+#[test]
+fn recordings_in_utf_16() {
+    let folder = tempfile::tempdir().unwrap();
+    csv(folder.path(), "plain.csv", 5.0, 4000, 6);
+    let right = answer(folder.path(), &recipe("plain.csv"));
+    let text = std::fs::read_to_string(folder.path().join("plain.csv")).unwrap();
+    for (name, of) in
+        [("little.csv", u16::to_le_bytes as fn(u16) -> [u8; 2]), ("big.csv", u16::to_be_bytes)]
+    {
+        let wide: Vec<u8> =
+            std::iter::once(0xfeff).chain(text.encode_utf16()).flat_map(of).collect();
+        std::fs::write(folder.path().join(name), wide).unwrap();
+        let found = answer(folder.path(), &recipe(name));
+        assert_eq!(found["rows"], right["rows"], "{name}");
+    }
+}
+
 #[test]
 fn rows_become_observations_of_a_gap_case_and_conditions_of_a_model() {
     let folder = tempfile::tempdir().unwrap();

@@ -84,6 +84,17 @@ const RIGHT: &[(&str, &str, f64)] = &[
     ("-5 [degC] + dT", "degC", -3.0),
 ];
 
+/// The wrong ones are files in `tests/errors`, whose messages are held there.
+#[test]
+fn wrong_formulas_of_celsius_temperatures() {
+    let files = fs::read_dir(crate::support::root().join("tests/errors")).expect("a folder");
+    let is_wrong = |name: &str| {
+        (name.starts_with("celsius_") || name.starts_with("kelvin_")) && name.ends_with(".json")
+    };
+    let names = files.map(|entry| crate::support::file_name(&entry.expect("an entry").path()));
+    assert!(names.filter(|name| is_wrong(name)).count() >= 20);
+}
+
 #[test]
 fn right_formulas_of_celsius_temperatures() {
     assert!(RIGHT.len() >= 20);
@@ -285,6 +296,124 @@ fn a_gain_in_decibels() {
         let answer = answered(&[("m.json", model(formula, unit))], &["run", "--trials", "0"]);
         let found = estimate(&answer);
         assert!((found - right).abs() < 1e-12 * right, "{formula}: {found}");
+    }
+}
+
+/// With the check off a name is the number in its declared unit, and `kelvin`, `celsius` and a unit in
+/// brackets below it know that; earlier versions added 273.15 to degrees Fahrenheit.
+#[test]
+fn temperatures_and_brackets_without_the_check_of_units() {
+    let of = |unit: &str, mean: f64| json!({"unit": unit, "distribution": "normal", "mean": mean, "std": 0.18});
+    let inputs = json!({"tf": of("degF", 68.0), "t": of("degC", 20.0), "T": of("K", 293.15),
+        "m": of("mK", 293_150.0), "p": of("hPa", 1013.25), "h": of("%", 50.0)});
+    for (formula, right, width) in [
+        ("kelvin(tf)", 293.15, 0.1),
+        ("kelvin(t)", 293.15, 0.18),
+        ("kelvin(T)", 293.15, 0.18),
+        ("kelvin(m)", 293.15, 0.00018),
+        ("celsius(tf)", 20.0, 0.1),
+        ("celsius(m)", 20.0, 0.00018),
+        ("celsius(T)", 20.0, 0.18),
+        ("tf/[degF]", 68.0, 0.18),
+        ("tf/[degC]", 20.0, 0.1),
+        ("t/[degC]", 20.0, 0.18),
+        ("p/[hPa]", 1013.25, 0.18),
+        ("p/[kPa]", 101.325, 0.018),
+        ("h/[%]", 50.0, 0.18),
+        ("h/[1]", 0.5, 0.0018),
+        // the number of degrees Celsius, worked out
+        ("kelvin((tf - 32)/1.8)", 293.15, 0.1),
+    ] {
+        let model = json!({"format": 2, "check_units": false, "inputs": inputs,
+            "equations": {"y": formula}, "outputs": {"y": {"unit": "1"}}});
+        let answer = answered(&[("m.json", model)], &["run", "--trials", "0"]);
+        let gum = &answer["outputs"]["y"]["gum"];
+        let (y, u) = (gum["estimate"].as_f64(), gum["standard_uncertainty"].as_f64());
+        assert!((y.unwrap() / right - 1.0).abs() < 1e-12, "{formula}: {y:?}");
+        assert!((u.unwrap() / width - 1.0).abs() < 1e-12, "{formula}: {u:?}");
+    }
+}
+
+/// Path loss with an exponent n that has an uncertainty: 10 n lg(d/d0) = 10*2.7*2 = 54 dB.
+#[test]
+fn a_level_with_an_uncertain_factor() {
+    let inputs = json!({
+        "n": {"unit": "1", "distribution": "normal", "mean": 2.7, "std": 0.1},
+        "d": {"unit": "m", "distribution": "constant", "value": 100}});
+    for formula in ["10*n*log10(d/[m])", "n*10*log10(d/[m])", "10*log10(d/[m])*n"] {
+        let model = json!({"inputs": inputs, "equations": {"y": formula},
+            "outputs": {"y": {"unit": "dB"}}});
+        let answer = answered(&[("m.json", model)], &["run", "--trials", "0"]);
+        assert!((estimate(&answer) - 54.0).abs() < 1e-12, "{formula}");
+        let u = answer["outputs"]["y"]["gum"]["standard_uncertainty"].as_f64().unwrap();
+        assert!((u - 2.0).abs() < 1e-12, "{formula}: {u}");
+    }
+}
+
+/// Units of the file's own in products, quotients and powers, and in every place of a value.
+#[test]
+fn units_of_a_files_own_in_products() {
+    let model = json!({"units": {"HBW": "1", "tex": "1e-6*kg/m"},
+        "inputs": {
+            "h": {"unit": "HBW", "distribution": "normal", "mean": "250 HBW", "std": "0.4 % + 1 HBW"},
+            "s": {"unit": "MPa/HBW", "distribution": "normal", "mean": "3.4 N/(mm^2 HBW)", "std": "10 kPa/HBW"},
+            "q": "4.0(1) 1/HBW^2",
+            "f": {"unit": "cN/tex", "distribution": "gamma", "shape": 4, "rate": "0.2 tex/cN"},
+            "yarn": {"unit": "kg/m", "distribution": "samples", "values": ["20 tex", "2.02e-5 kg/m", 1.98e-5]}},
+        "conditions": {"x": {"unit": "tex/HBW", "values": ["1e-6 kg/m/HBW", 2]}},
+        "equations": {"y": "h*s", "n": "q*h^2 + h/[HBW]", "w": "f*yarn", "z": "x*h"},
+        "outputs": {"y": {"unit": "MPa"}, "n": {"unit": "1"}, "w": {"unit": "cN"},
+            "z": {"unit": "tex"}}});
+    let answer = answered(&[("m.json", model.clone())], &["run", "--trials", "0"]);
+    for (output, right) in [("y", 850.0), ("n", 250_250.0), ("w", 400.0), ("z", 250.0)] {
+        let found = answer["rows"][0]["outputs"][output]["gum"]["estimate"].as_f64().unwrap();
+        assert!((found / right - 1.0).abs() < 1e-12, "{output}: {found}");
+    }
+    let found = answer["rows"][1]["outputs"]["z"]["gum"]["estimate"].as_f64().unwrap();
+    assert!((found / 500.0 - 1.0).abs() < 1e-12, "{found}");
+    let arguments = ["run", "--trials", "0", "--set", "s=3400 kPa/HBW", "--set", "x=5 tex/HBW"];
+    let answer = answered(&[("m.json", model)], &arguments);
+    assert_eq!(answer["rows"].as_array().map(Vec::len), Some(1));
+    let found = answer["rows"][0]["outputs"]["z"]["gum"]["estimate"].as_f64().unwrap();
+    assert!((found / 1250.0 - 1.0).abs() < 1e-12, "{found}");
+}
+
+/// A value with a unit is taken wherever a value is; texts give the same as numbers in the unit.
+#[test]
+fn values_with_units_in_every_place() {
+    let model = |values: Value, evidence: Value, rate: Value, pooled: Value, period: Value| {
+        json!({"inputs": {
+                "a": {"unit": "mV", "distribution": "samples", "values": values},
+                "b": {"unit": "mV", "distribution": "rectangular", "mean": 5, "half_width": 1,
+                    "evidence": {"values": evidence}},
+                "c": {"unit": "ms", "distribution": "gamma", "shape": 4, "rate": rate},
+                "d": {"unit": "mV", "distribution": "readings", "values": [1, 2, 3],
+                    "pooled": {"std": pooled, "dof": 20}}},
+            "equations": {"y": "a + b + d", "z": "c", "p": "a/[mV]*1 [deg]"},
+            "outputs": {"y": {"unit": "mV"}, "z": {"unit": "ms"},
+                "p": {"unit": "deg", "periodic": period}}})
+    };
+    let numbers = model(
+        json!([1, 2, 3.5]),
+        json!([4.5, 5, 5.5, 4.8, 5.1, 4.9, 5.3, 4.6]),
+        json!(0.5),
+        json!(0.2),
+        json!(360),
+    );
+    let texts = model(
+        json!(["1 mV", "2e-3 V", "3500 uV"]),
+        json!(["4.5 mV", "5e-3 V", 5.5, 4.8, 5.1, "4900 uV", 5.3, 4.6]),
+        json!("500 1/s"),
+        json!("200 uV"),
+        json!("1 rev"),
+    );
+    for arguments in [&["run", "--trials", "20000"][..], &["assumptions", "--trials", "20000"]] {
+        let [mut a, mut b] =
+            [&numbers, &texts].map(|model| answered(&[("m.json", model.clone())], arguments));
+        for answer in [&mut a, &mut b] {
+            answer["provenance"]["model_sha256"] = Value::Null;
+        }
+        assert_eq!(a, b);
     }
 }
 

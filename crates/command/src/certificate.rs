@@ -8,10 +8,10 @@ use clap::{Args, ValueEnum};
 
 use super::options::{self, Answer, CoverageOption, Seed, Threads, Trust};
 use super::{CommandLine, Exit, Failure, progress, run, signals};
-use gumption_analysis::certificate::contents::Certificate as Asked;
-use gumption_analysis::certificate::{Failed, Issued, issue};
+use gumption_analysis::certificate::contents::{Certificate as Asked, Line};
+use gumption_analysis::certificate::{Basis, Failed, Issued, issue};
 use gumption_engine::propagate::{EvaluationError, warnings};
-use gumption_engine::task::{Trials, Warning};
+use gumption_engine::task::{MethodChoice, Trials, Warning};
 use gumption_files::{CertificateFile, Diagnostic, DiagnosticKind, Diagnostics};
 use gumption_report::certificate::{self as report, CertificateReport, DccVersion, ModelSource};
 
@@ -29,6 +29,11 @@ pub(super) struct Certificate {
     /// Number of Monte Carlo trials for each row; 0 for the law of propagation alone
     #[arg(long, value_name = "N|adaptive", value_parser = options::trials)]
     trials: Option<Trials>,
+    /// Where the figures come from that are stated in place of those of the law of propagation: exact
+    /// ones, or those of quasi-random points, which no seed moves; those of the trials unless the model files say
+    /// otherwise; auto takes exact ones where there are any, else quasi-random ones
+    #[arg(long, value_name = "METHOD", value_parser = options::method())]
+    method: Option<MethodChoice>,
     /// Version of the digital certificate, with `--format dcc`; 3.2.1 unless given
     #[arg(long, value_name = "VERSION")]
     dcc_version: Option<Version>,
@@ -88,6 +93,7 @@ impl Certificate {
             let settings = &mut asked.task.settings;
             settings.seed = self.seed.or(settings.seed);
             settings.coverage = self.coverage.or(settings.coverage);
+            settings.method = self.method.or(settings.method);
             if let Some(trials) = self.trials {
                 settings.trials = trials;
                 settings.decide_up_to = 0;
@@ -234,7 +240,19 @@ fn notes(file: &CertificateFile, issued: &Issued) -> Vec<Warning> {
             }
         }
     }
-    for (number, statement) in issued.statements.iter().enumerate() {
+    for (number, (statement, line)) in
+        issued.statements.iter().zip(&file.certificate.lines).enumerate()
+    {
+        if statement.basis == Basis::Shortest
+            && let Some(why) = seeded(issued, line)
+        {
+            let row = number + 1;
+            let text = format!(
+                "row {row}: its figures are those of the trials, whose last digit depends on the \
+                 seed: {why}"
+            );
+            notes.push(Warning::new("digits-of-trials", format!("row {row}"), text));
+        }
         let Some(limit) = statement.limit.filter(|limit| limit.below) else { continue };
         let (row, cmc) = (number + 1, gumption_engine::decimal::significant(limit.cmc, 3));
         let (code, text) = if limit.raised {
@@ -252,6 +270,12 @@ fn notes(file: &CertificateFile, issued: &Issued) -> Vec<Warning> {
         notes.push(Warning::new(code, format!("row {row}"), text));
     }
     notes
+}
+
+/// Why there are no figures without the noise of trials, where they were asked for.
+fn seeded<'a>(issued: &'a Issued, line: &Line) -> Option<&'a str> {
+    let row = issued.evaluations.get(line.evaluation)?.rows.get(line.row)?;
+    row.outputs.get(line.output)?.noiseless.as_ref()?.as_ref().err().map(String::as_str)
 }
 
 /// What ISO/IEC 17025 asks of a certificate and this one does not say. A file without a number is no
@@ -290,9 +314,7 @@ fn failure(file: &CertificateFile, failed: Failed) -> Failure {
             return Failure::System(message);
         }
         Failed::Evaluation { evaluation, .. } => {
-            let of = |line: &gumption_analysis::certificate::contents::Line| {
-                line.evaluation == *evaluation
-            };
+            let of = |line: &Line| line.evaluation == *evaluation;
             file.certificate.lines.iter().position(of)
         }
         Failed::NoUncertainty { line } => Some(*line),

@@ -27,6 +27,9 @@ pub(crate) fn command(kind: &DiagnosticKind) -> &'static str {
     match kind {
         DiagnosticKind::Outside { .. } => "; `--allow-path DIR` allows another folder",
         DiagnosticKind::SavedChanged { .. } => ", or take it as it is with `--accept-changed`",
+        DiagnosticKind::MissingKey { key: "observations", .. } => {
+            "; a model file without them is for `gumption run`"
+        }
         DiagnosticKind::NoModel => "; `gumption models` lists these",
         DiagnosticKind::UnknownModel { nearest: None, .. } => {
             "; `gumption models` lists those that there are"

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 
-use super::options::{self, Answer, Trust};
+use super::options::{self, Answer, CoverageOption, Trust};
 use super::{CommandLine, Exit, Failure};
 use gumption_files as file;
 use gumption_files::{Diagnostics, ModelOrResult};
@@ -21,6 +21,8 @@ pub(super) struct Diff {
     trust: Trust,
     #[command(flatten)]
     answer: Answer<Format>,
+    #[command(flatten)]
+    coverage: CoverageOption,
 }
 
 /// The format of the answer.
@@ -38,16 +40,31 @@ impl Diff {
         if standard(&self.a) && standard(&self.b) {
             return Err(Failure::Argument("only one of the files can be standard input".into()));
         }
-        let (first, second) = match (self.read(program, &self.a)?, self.read(program, &self.b)?) {
-            (Ok(first), Ok(second)) => (first, second),
-            // the mistakes of both at once
-            (first, second) => {
-                let found = [first.err(), second.err()].into_iter().flatten();
-                return Err(
-                    Diagnostics(found.flat_map(|diagnostics| diagnostics.0).collect()).into()
-                );
+        let (mut first, mut second) =
+            match (self.read(program, &self.a)?, self.read(program, &self.b)?) {
+                (Ok(first), Ok(second)) => (first, second),
+                // the mistakes of both at once
+                (first, second) => {
+                    let found = [first.err(), second.err()].into_iter().flatten();
+                    return Err(
+                        Diagnostics(found.flat_map(|diagnostics| diagnostics.0).collect()).into()
+                    );
+                }
+            };
+        if self.coverage.is_given() {
+            for file in [&mut first, &mut second] {
+                let ModelOrResult::Model(model) = file else {
+                    let name = file.name();
+                    let message = format!(
+                        "`{name}` is a saved result, whose expanded uncertainties have the coverage \
+                         that it was saved with; `--k` and `--coverage` are for model files"
+                    );
+                    return Err(Failure::Argument(message));
+                };
+                let settings = &mut model.task.settings;
+                settings.coverage = self.coverage.or(settings.coverage);
             }
-        };
+        }
         let mut names = named(&self.a, &first);
         names.extend(named(&self.b, &second));
         let place = self.answer.open(&names)?;

@@ -5,7 +5,7 @@ use std::sync::atomic::AtomicBool;
 
 use clap::{Args, ValueEnum};
 
-use super::options::{Answer, Case, Seed, Threads};
+use super::options::{Answer, Case, CoverageOption, Seed, Threads};
 use super::{CommandLine, Exit, Failure, progress, run, signals};
 use gumption_engine::task::Row;
 use gumption_files::CaseFile;
@@ -28,6 +28,8 @@ pub(super) struct Gap {
     seed: Seed,
     #[command(flatten)]
     threads: Threads,
+    #[command(flatten)]
+    coverage: CoverageOption,
 }
 
 /// The format of the answer.
@@ -47,7 +49,9 @@ enum Format {
 
 impl Gap {
     pub(super) fn execute(&self, program: &CommandLine) -> Result<Exit, Failure> {
-        let file = self.case.read(program)?;
+        let mut file = self.case.read(program)?;
+        let settings = &mut file.case.task.settings;
+        settings.coverage = self.coverage.or(settings.coverage);
         let at = self.predict.as_ref().map(|path| self.case.at(program, path)).transpose()?;
         let mut read = self.case.paths(&file);
         read.extend(self.predict.clone());

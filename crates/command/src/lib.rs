@@ -34,13 +34,16 @@ mod surroundings;
 mod verify;
 
 use std::ffi::OsString;
+use std::path::Path;
 use std::process::ExitCode;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use clap::{Parser, Subcommand};
+use clap::error::{ContextKind, ContextValue, ErrorKind};
+use clap::{CommandFactory, Parser, Subcommand};
 use gumption_engine::model::typed::{Catalogue, CatalogueEntry};
 use gumption_files::FileReader;
+use gumption_units::all_nearest;
 
 pub use check::Mistake;
 pub use exit::{Exit, Failure};
@@ -142,7 +145,13 @@ impl CommandLine {
     /// The same with these arguments, the first of which is the name of the program.
     pub fn main_of(&self, arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         signals::watch();
-        let arguments = Arguments::parse_from(arguments);
+        let arguments = match Arguments::try_parse_from(arguments) {
+            Ok(arguments) => arguments,
+            Err(told) => match misspelt(&told) {
+                Some(message) => return Failure::Argument(message).report(),
+                None => told.exit(),
+            },
+        };
         match self.execute(arguments.command) {
             Ok(exit) => exit.code(),
             Err(failure) => failure.report(),
@@ -171,7 +180,11 @@ impl CommandLine {
                 let answer = told.to_string().into_bytes();
                 return Ok(Answered { answer, notes: String::new(), exit: Exit::Done });
             }
-            Err(error) => return Err(Failure::Argument(error.to_string().trim_end().to_owned())),
+            Err(error) => {
+                let told = misspelt(&error);
+                let told = told.unwrap_or_else(|| error.to_string().trim_end().to_owned());
+                return Err(Failure::Argument(told));
+            }
         };
         let input = input.map(Arc::new);
         let given = surroundings::Surroundings { stop, input, ..Default::default() };
@@ -200,6 +213,32 @@ impl CommandLine {
             Command::New(command) => command.execute(self),
         }
     }
+}
+
+/// What to say of a command that there is not: the nearest one, or all; and the way to say it where a
+/// file stands in its place.
+fn misspelt(error: &clap::Error) -> Option<String> {
+    if error.kind() != ErrorKind::InvalidSubcommand {
+        return None;
+    }
+    let Some(ContextValue::String(name)) = error.get(ContextKind::InvalidSubcommand) else {
+        return None;
+    };
+    let arguments = Arguments::command();
+    let names: Vec<&str> = arguments.get_subcommands().map(clap::Command::get_name).collect();
+    let near = all_nearest(name, names.iter().copied());
+    let hint = if Path::new(name).is_file() {
+        format!(
+            "it is a file: a command stands in front of it, such as `gumption run {name}`; \
+             `gumption check {name}` tells its mistakes"
+        )
+    } else if near.is_empty() {
+        format!("the commands are {}", names.join(", "))
+    } else {
+        let near: Vec<String> = near.into_iter().map(|name| format!("`{name}`")).collect();
+        format!("did you mean {}? `gumption --help` lists all", near.join(" or "))
+    };
+    Some(format!("there is no command `{name}`; {hint}"))
 }
 
 #[cfg(test)]

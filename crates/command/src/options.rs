@@ -14,7 +14,7 @@ use super::output::Place;
 use super::surroundings::{GivenFile, in_call};
 use super::{CommandLine, Failure, output};
 use gumption_engine::propagate::Control;
-use gumption_engine::task::{Coverage, Row, StoppingRule, Trials, Warning};
+use gumption_engine::task::{Coverage, MethodChoice, Row, StoppingRule, Trials, Warning};
 use gumption_files::{CaseFile, FileReader, ModelFile, Override, bytes};
 use gumption_report::{BudgetColumn, plain};
 
@@ -122,6 +122,11 @@ pub(super) struct CoverageOption {
 }
 
 impl CoverageOption {
+    /// Whether it is given.
+    pub(super) fn is_given(&self) -> bool {
+        self.coverage.is_some() || self.k.is_some()
+    }
+
     /// The coverage, unless given that of the file. A factor that the file keeps fixed is kept fixed.
     pub(super) fn or(&self, of_file: Coverage) -> Coverage {
         let given = self.k.map(|factor| of_file.with_factor(factor));
@@ -367,6 +372,12 @@ pub(super) fn columns() -> impl TypedValueParser<Value = BudgetColumn> {
 pub(super) fn rule() -> impl TypedValueParser<Value = StoppingRule> {
     PossibleValuesParser::new(StoppingRule::ALL.map(StoppingRule::name))
         .try_map(|name| StoppingRule::named(&name).ok_or("there is no such rule"))
+}
+
+/// Which figures without noise are wanted.
+pub(super) fn method() -> impl TypedValueParser<Value = MethodChoice> {
+    PossibleValuesParser::new(MethodChoice::ALL.map(MethodChoice::name))
+        .try_map(|name| MethodChoice::named(&name).ok_or("there is no such method"))
 }
 
 /// A coverage probability.

@@ -10,7 +10,7 @@ use super::options::{self, CoverageOption, Model, Seed, Threads};
 use super::parted_run::PartedRun;
 use super::{CommandLine, Exit, Failure, parts, progress, signals};
 use gumption_engine::propagate::{Control, Evaluation, EvaluationError, evaluate};
-use gumption_engine::task::{SettingsChanges, StoppingRule, Task, Trials};
+use gumption_engine::task::{MethodChoice, SettingsChanges, StoppingRule, Task, Trials};
 use gumption_files::{ModelFile, SharedRun};
 use gumption_report::Provenance;
 
@@ -31,6 +31,11 @@ pub(super) struct Run {
     /// tolerance more often; 7.9 unless the file says otherwise
     #[arg(long, value_name = "7.9|stein", value_parser = options::rule())]
     rule: Option<StoppingRule>,
+    /// Figures without the noise of trials beside those of the trials: exact ones of sums and products
+    /// of independent contributions, or those of quasi-random points; auto takes exact ones where
+    /// there are any; none unless asked for
+    #[arg(long, value_name = "METHOD", value_parser = options::method())]
+    method: Option<MethodChoice>,
     /// Make as many trials as the validation of the GUM interval needs (JCGM 101, 8.2)
     #[arg(long, conflicts_with = "trials")]
     validate: bool,
@@ -123,6 +128,7 @@ impl Run {
             trials: self.trials,
             validate: self.validate,
             rule: self.rule,
+            method: self.method,
             max_trials: self.max_trials,
             seed: Some(self.seed.or(settings.seed)),
             digits: self.digits,

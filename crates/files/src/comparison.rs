@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::path::Path;
 
 use super::diagnostics::{Collector, Diagnostics};
-use super::open::open_as;
+use super::open::{json_as_table, open_as};
 use super::source::{Place, SourceText};
 use super::text_table::TextTable;
 use super::{DiagnosticKind, answer, bytes, table, workbook};
@@ -68,6 +68,10 @@ pub fn read_comparison_text(
 ) -> Result<ComparisonTable, Diagnostics> {
     let source = SourceText::new(name, text);
     let log = Collector::new(source.clone());
+    if let Some((place, kind)) = json_as_table(&source) {
+        log.report(&place, kind);
+        return log.finish(None);
+    }
     let table = TextTable::parse(&log, &source).and_then(|cells| {
         let reader = Reader { log: &log, cells: &cells, options };
         if cells.column("x1").is_some() { reader.pairs() } else { reader.laboratories() }

@@ -1,7 +1,7 @@
 //! Mistakes with their places.
 
 use std::borrow::Cow;
-use std::cell::{Cell, RefCell};
+use std::cell::{Cell, Ref, RefCell};
 use std::collections::HashMap;
 use std::fmt;
 use std::ops::Range;
@@ -9,6 +9,8 @@ use std::sync::Arc;
 
 use super::DiagnosticKind;
 use super::source::{Place, SourceText};
+use gumption_engine::model::formula::{Formula, FormulaError};
+use gumption_engine::regression::CurveFunction;
 use gumption_units::{Unit, UnitError};
 
 /// At most so many mistakes are collected: a table of a million faulty cells helps nobody.
@@ -120,14 +122,34 @@ impl Collector {
 
     /// A unit as text: one that the file defines, or one that everybody knows.
     pub(crate) fn unit(&self, text: &str) -> Result<Unit, UnitError> {
-        let units = self.units.borrow();
-        let own = units.iter().find(|unit| unit.text() == text.trim());
-        own.map_or_else(|| Unit::parse(text), |unit| Ok(unit.clone()))
+        Unit::parse_among(text, &self.own_units())
+    }
+
+    /// The units that the file defines.
+    pub(crate) fn own_units(&self) -> Ref<'_, [Unit]> {
+        Ref::map(self.units.borrow(), Vec::as_slice)
+    }
+
+    /// A formula, in whose brackets units of the file may stand.
+    pub(crate) fn formula(&self, text: &str) -> Result<Formula, FormulaError> {
+        self.formula_with(text, &[])
+    }
+
+    /// A formula that may call these calibration functions.
+    pub(crate) fn formula_with(
+        &self,
+        text: &str,
+        curves: &[Arc<CurveFunction>],
+    ) -> Result<Formula, FormulaError> {
+        Formula::parse_with(text, curves, &self.own_units())
     }
 
     /// Defines a unit.
     pub(crate) fn define_unit(&self, unit: Unit) {
-        self.units.borrow_mut().push(unit);
+        let mut units = self.units.borrow_mut();
+        if !units.iter().any(|known| known.text() == unit.text()) {
+            units.push(unit);
+        }
     }
 
     /// A mistake in the file itself.

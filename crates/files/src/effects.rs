@@ -239,7 +239,7 @@ impl Reader<'_> {
             return None;
         };
         let report = |error: FormulaError| report_formula(self.log, member, error);
-        let formula = Formula::parse(text).map_err(report).ok()?;
+        let formula = self.log.formula(text).map_err(report).ok()?;
         let sim = self.sim?;
         let scope = effect.scope(&sim.scope);
         if let Err(errors) = formula.check_names(&scope) {

@@ -37,19 +37,19 @@ pub struct ImportedBudget {
 pub fn import_budget(path: &Path) -> Result<ImportedBudget, Diagnostics> {
     let name = path.display().to_string();
     let source = |text: &str| SourceText::new(name.clone(), text);
-    let failed = |message: String| {
+    let failed = |kind: DiagnosticKind| {
         let log = Collector::new(source(""));
-        log.report(&(0..0), DiagnosticKind::Unreadable { message });
+        log.report(&(0..0), kind);
         Err(log.into_diagnostics())
     };
     match own::of_file(path) {
         Ok(None) => {}
         Ok(Some(made)) => return made,
-        Err(message) => return failed(message),
+        Err(message) => return failed(DiagnosticKind::Unreadable { message }),
     }
     let (cells, text) = match grid::of_file(path) {
         Ok(read) => read,
-        Err(message) => return failed(message),
+        Err(kind) => return failed(kind),
     };
     let title = path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
     let log = Collector::new(source(&text));

@@ -233,7 +233,7 @@ impl<'a> Reader<'a, '_> {
     /// The estimate's source: the command line, a formula of the conditions, or the own fields.
     fn source(&self, key: &str, unit: &Unit) -> Option<EstimateSource> {
         if let Some(moved) = self.moved {
-            let value = moved.value_in(unit);
+            let value = moved.value_in(unit, &self.object.log.own_units());
             return self.object.log.value(self.object.place(), value).map(EstimateSource::Fixed);
         }
         let Some(member) = self.object.get(key) else {
@@ -249,7 +249,7 @@ impl<'a> Reader<'a, '_> {
         }
         let formula = log.value(
             &member.value.span,
-            Formula::parse(text).map_err(|error| DiagnosticKind::Formula { error }),
+            log.formula(text).map_err(|error| DiagnosticKind::Formula { error }),
         )?;
         if let Err(kinds) = self.conditions.check(&formula, unit, ValueOf::Quantity) {
             for diagnostic in kinds {
@@ -288,14 +288,14 @@ impl<'a> Reader<'a, '_> {
         };
         let known: Vec<&str> = keys::INPUT.into_iter().chain(kind.fields.iter().copied()).collect();
         object.check_names(&known);
-        self.evidence();
+        self.evidence(unit);
         let variable = self.inputs.variables.len();
         self.variable(self.name.to_owned(), &object, Some(kind), unit);
         let key = if kind.name == "constant" { "value" } else { "mean" };
         let Some(source) = self.source(key, unit) else {
             return;
         };
-        let samples = self.samples(&object, self.name, kind);
+        let samples = self.samples(&object, self.name, (unit, ValueOf::Quantity), kind);
         let read = self.readings_of_file(&object, self.name, kind);
         let Some(read) = read else { return };
         if kind.name == "dcc" && self.certificate.is_none() {
@@ -349,7 +349,7 @@ impl<'a> Reader<'a, '_> {
     }
 
     /// Readings that the distribution is to be tested against.
-    fn evidence(&mut self) {
+    fn evidence(&mut self, unit: &Unit) {
         let log = self.object.log;
         let Some(member) = self.object.get("evidence") else {
             return;
@@ -361,9 +361,9 @@ impl<'a> Reader<'a, '_> {
         object.check_keys(keys::READINGS);
         let name = format!("{}/evidence", self.name);
         let files = &mut self.inputs.files;
-        let Some((readings, place)) = samples::numbers(&object, &name, self.folder, files) else {
-            return;
-        };
+        let unit = (unit, ValueOf::Quantity);
+        let read = samples::numbers(&object, &name, unit, self.folder, files);
+        let Some((readings, place)) = read else { return };
         if readings.is_empty() {
             log.report(place, DiagnosticKind::NoValues { name });
             return;
@@ -373,11 +373,17 @@ impl<'a> Reader<'a, '_> {
     }
 
     /// The samples of an input or component, if that is its shape.
-    fn samples(&mut self, object: &Object<'_>, name: &str, kind: &Shape) -> Option<Samples> {
+    fn samples(
+        &mut self,
+        object: &Object<'_>,
+        name: &str,
+        unit: (&Unit, ValueOf),
+        kind: &Shape,
+    ) -> Option<Samples> {
         if kind.name != "samples" {
             return None;
         }
-        samples::read(object, name, self.folder, &mut self.inputs.files)
+        samples::read(object, name, unit, self.folder, &mut self.inputs.files)
     }
 
     /// The readings of a file, if that is where they are; outside `None` after a mistake.
@@ -645,7 +651,7 @@ impl<'a> Reader<'a, '_> {
                 let known: Vec<&str> =
                     keys::COMPONENT.into_iter().chain(kind.fields.iter().copied()).collect();
                 component.check_names(&known);
-                let samples = self.samples(&component, &full, kind);
+                let samples = self.samples(&component, &full, (unit, ValueOf::Difference), kind);
                 let Some(read) = self.readings_of_file(&component, &full, kind) else { continue };
                 let beside_others = list.len() > 1;
                 let mut certificate = None;

@@ -221,7 +221,7 @@ pub(super) fn check_equations(
 ) -> Scope {
     let Quantities { inputs, conditions, check_units, .. } = of;
     let unknown_units = of.unknown_units();
-    let mut scope = condition_scope(conditions);
+    let mut scope = condition_scope(conditions, *check_units);
     for (call, data) in tables {
         scope.define_table(call, data);
     }
@@ -229,6 +229,9 @@ pub(super) fn check_equations(
         let Quantity { name, unit, .. } = &input.quantity;
         let known = !unknown_units.contains(name.as_str());
         scope.define(name, if known { Typing::in_unit(unit) } else { Typing::ANY });
+        if known && !check_units {
+            scope.declare(name, unit.clone());
+        }
     }
     for (name, ..) in equations {
         scope.announce(name);

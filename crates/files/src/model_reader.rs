@@ -143,6 +143,13 @@ pub(super) fn read_with<T>(
     read: impl FnOnce(&ModelReader<'_>) -> Option<T>,
 ) -> Result<T, Diagnostics> {
     let change = |log: &Collector, root: &mut Node| {
+        // replaced values may be in units of the file's own
+        let start = root.span.start..root.span.start;
+        if matches!(root.value, Json::Object(_))
+            && let Some(root) = Object::new(log, "a model file", root, &start)
+        {
+            own_units(&root);
+        }
         notation::apply(log, root);
         overrides::apply(log, root, options.overrides);
     };
@@ -165,7 +172,8 @@ impl<'a> ModelReader<'a> {
         let title = root.text("title").unwrap_or("").to_owned();
         let source = root.text("source").unwrap_or("").to_owned();
         let check_units = root.truth("check_units").unwrap_or(true);
-        let settings = settings::read(root);
+        let mut settings = settings::read(root);
+        settings.method = settings::method(root);
 
         let Data { mut observations, conditions, simulated } = self.data()?;
         let fits = self.fits(check_units)?;
@@ -449,7 +457,7 @@ fn equations<'a>(
     let object = Object::new(log, "`equations`", &member.value, &member.key_span)?;
     let formula = |member: &Member| match &member.value.value {
         Json::Text(text) => {
-            let parsed = Formula::parse_with(text, curves);
+            let parsed = log.formula_with(text, curves);
             parsed.map_err(|error| report_formula(log, member, error)).ok()
         }
         other => {

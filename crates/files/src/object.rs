@@ -172,7 +172,8 @@ impl<'a> Object<'a> {
     #[allow(clippy::option_option)]
     fn value_of(&self, key: &str, node: &Node, unit: &Unit, of: ValueOf) -> Option<Option<f64>> {
         let Json::Text(text) = &node.value else { return None };
-        let read = converted(with_unit(text)?, unit, of).map_err(|reason| DiagnosticKind::Value {
+        let read = converted(with_unit(text)?, unit, of, &self.log.own_units());
+        let read = read.map_err(|reason| DiagnosticKind::Value {
             key: key.to_owned(),
             found: text.clone(),
             reason,

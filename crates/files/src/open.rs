@@ -1,13 +1,15 @@
 //! Files that are opened by their path, and texts whose root is a JSON object.
 
 use std::borrow::Cow;
+use std::ops::Range;
 use std::path::Path;
+use std::sync::Arc;
 
 use super::diagnostics::{Collector, Diagnostics};
 use super::json::{self, Json, Member, Node};
 use super::object::Object;
 use super::source::SourceText;
-use super::{DiagnosticKind, bytes};
+use super::{DiagnosticKind, bytes, keys};
 
 /// Opens a file of text and hands its name, its text and its folder to `read`.
 ///
@@ -80,6 +82,11 @@ pub(super) fn read_changed_root<T>(
             let whole = 0..source.text.find('\n').unwrap_or(source.text.len());
             Object::new(&log, what, &node, &whole).and_then(read)
         }
+        Err(_) if is_table_of_results(&source.text) => {
+            let header = 0..source.text.find('\n').unwrap_or(source.text.len());
+            log.report(&header, FileKind::Results.described());
+            None
+        }
         Err((span, diagnostic)) => {
             log.report(&span, diagnostic);
             None
@@ -110,30 +117,85 @@ pub(super) enum FileKind {
     Model,
     /// A certificate.
     Certificate,
+    /// A recipe of recordings.
+    Recipe,
+    /// A result that `run --save` wrote.
+    SavedResult,
+    /// The JSON answer of a run.
+    Answer,
+    /// A file of costs.
+    Costs,
+    /// A table of results to be compared.
+    Results,
 }
 
 impl FileKind {
     /// The kind that the keys of a root show beyond doubt.
     fn of(root: &Object<'_>) -> Option<Self> {
         let has = |key: &str| root.get(key).is_some();
-        if has("outputs") && (has("equations") || has("model")) && !has("rows") {
+        if has("outputs") && has("result") && !has("equations") && !has("model") {
+            Some(Self::SavedResult)
+        } else if has("gumption") && (has("outputs") || has("rows")) && !has("result") {
+            Some(Self::Answer)
+        } else if has("outputs") && (has("equations") || has("model")) && !has("rows") {
             Some(Self::Model)
-        } else if has("rows") && !has("inputs") && !has("outputs") && !has("recordings") {
+        } else if has(keys::RECIPE_KEY) && !has("inputs") && !has("outputs") {
+            Some(Self::Recipe)
+        } else if has(keys::COSTS_KEY) && !has("inputs") && !has("outputs") {
+            Some(Self::Costs)
+        } else if has("rows") && !has("inputs") && !has("outputs") {
             Some(Self::Certificate)
         } else {
             None
         }
     }
+
+    /// What it is, in words, and the command that reads it.
+    fn described(self) -> DiagnosticKind {
+        let (what, command) = match self {
+            Self::Model => ("a model file", "gumption run"),
+            Self::Certificate => ("the file of a certificate", "gumption certificate"),
+            Self::Recipe => ("a recipe of recordings", "gumption observe"),
+            Self::SavedResult => ("a saved result", "gumption diff"),
+            Self::Answer => ("the answer of a run", "gumption compare --against"),
+            Self::Costs => ("a file of costs", "gumption plan --cost"),
+            Self::Results => ("a table of results", "gumption compare"),
+        };
+        DiagnosticKind::WrongFile { what, command }
+    }
 }
 
 /// Reports a file that another command reads, instead of all of its keys; whether it is one.
 pub(super) fn refuse_other_kind(root: &Object<'_>, expected: FileKind) -> bool {
-    let (what, command) = match FileKind::of(root) {
-        Some(kind) if kind == expected => return false,
-        Some(FileKind::Model) => ("a model file", "gumption run"),
-        Some(FileKind::Certificate) => ("the file of a certificate", "gumption certificate"),
-        None => return false,
-    };
-    root.report(DiagnosticKind::WrongFile { what, command });
-    true
+    match FileKind::of(root) {
+        Some(kind) if kind != expected => {
+            root.report(kind.described());
+            true
+        }
+        _ => false,
+    }
+}
+
+/// What is wrong with a JSON file where a table is read, and where; nothing of any other text.
+pub(super) fn json_as_table(source: &Arc<SourceText>) -> Option<(Range<usize>, DiagnosticKind)> {
+    if !source.text.trim_start().starts_with('{') {
+        return None;
+    }
+    let node = json::parse(source).ok()?;
+    let log = Collector::new(source.clone());
+    let place = 0..source.text.find('\n').unwrap_or(source.text.len());
+    let root = Object::new(&log, "a file", &node, &place)?;
+    let reason = "this is a JSON file, and a table is CSV or XLSX with a header row".to_owned();
+    let kind = FileKind::of(&root).map_or(DiagnosticKind::Table { reason }, FileKind::described);
+    Some((place, kind))
+}
+
+/// Whether a text is a table of results to be compared, by its header.
+fn is_table_of_results(text: &str) -> bool {
+    let header = text.lines().find(|line| !line.trim().is_empty() && !line.starts_with('#'));
+    let names =
+        header.unwrap_or_default().split([',', ';']).map(|name| name.trim().trim_matches('"'));
+    let names: Vec<&str> = names.collect();
+    let has = |name: &str| names.contains(&name);
+    has("label") && (has("x1") && has("U1") || has("x") && has("U"))
 }

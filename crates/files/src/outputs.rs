@@ -117,17 +117,17 @@ pub(super) fn read(log: &Collector, member: &Member, results: &Results<'_>) -> O
             let diagnostic = DiagnosticKind::OnlyWith { key: "phase_unit", with: "complex" };
             log.report(&phase.key_span, diagnostic);
         }
-        let period = object.number("periodic");
+        let unit = unit(&object, "unit").unwrap_or_else(|| {
+            outputs.without_unit.push(member.key.clone());
+            Unit::one()
+        });
+        let period = object.value("periodic", &unit, ValueOf::Difference);
         if let (Some(period), Some(member)) = (period, object.get("periodic"))
             && period <= 0.0
         {
             let diagnostic = DiagnosticKind::NotPositive { key: "periodic".into(), found: period };
             log.report(&member.value.span, diagnostic);
         }
-        let unit = unit(&object, "unit").unwrap_or_else(|| {
-            outputs.without_unit.push(member.key.clone());
-            Unit::one()
-        });
         let capability = capability(&object, &member.key, &unit);
         let decision = Decision::read(&object, &unit, results);
         let quantity = Quantity {
@@ -157,7 +157,7 @@ pub(super) fn capability(output: &Object<'_>, name: &str, unit: &Unit) -> Option
         }
         return None;
     };
-    let width = Width::read(&member.value, name, "cmc", unit);
+    let width = Width::read(output.log, &member.value, (name, "cmc"), unit);
     let width = output.log.value(&member.value.span, width)?;
     Some(Capability { relative: width.at(1.0) - width.at(0.0), absolute: width.at(0.0), floor })
 }

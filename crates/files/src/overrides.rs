@@ -43,9 +43,9 @@ impl Override {
         })
     }
 
-    /// The value in `unit`: a number in it, or a number with a unit of its own, converted with the
-    /// zeros of their scales.
-    pub(super) fn value_in(&self, unit: &Unit) -> Result<f64, DiagnosticKind> {
+    /// The value in `unit`: a number in it, or a number with another unit, also one that the file
+    /// defines, converted with the zeros of their scales.
+    pub(super) fn value_in(&self, unit: &Unit, own: &[Unit]) -> Result<f64, DiagnosticKind> {
         let diagnostic =
             |reason: String| DiagnosticKind::Override { text: self.text.clone(), reason };
         if let Ok(value) = self.value.parse::<f64>() {
@@ -57,7 +57,7 @@ impl Override {
         let value = with_unit(&self.value).ok_or_else(|| {
             diagnostic("a number is needed, or one with a unit: \"35 deg\"".to_owned())
         })?;
-        converted(value, unit, ValueOf::Quantity).map_err(diagnostic)
+        converted(value, unit, ValueOf::Quantity, own).map_err(diagnostic)
     }
 }
 
@@ -144,13 +144,13 @@ pub(super) fn apply(log: &Collector, root: &mut Node, overrides: &[Override]) {
 
 /// Puts one value in place of those of a condition of a grid; false if there is none of that name.
 fn override_condition(log: &Collector, root: &mut Node, replaced: &Override) -> bool {
-    let Some((unit, values)) = condition_of_grid(root, &replaced.input) else {
+    let Some((unit, values)) = condition_of_grid(log, root, &replaced.input) else {
         return false;
     };
     if replaced.field.is_some() {
         return false;
     }
-    match replaced.value_in(&unit) {
+    match replaced.value_in(&unit, &log.own_units()) {
         Ok(value) => {
             let span = values.span.clone();
             values.value = Json::List(vec![Node { span, value: Json::Number(value.to_string()) }]);
@@ -161,10 +161,14 @@ fn override_condition(log: &Collector, root: &mut Node, replaced: &Override) -> 
 }
 
 /// The values of a condition of a grid, and its unit.
-fn condition_of_grid<'n>(root: &'n mut Node, name: &str) -> Option<(Unit, &'n mut Node)> {
+fn condition_of_grid<'n>(
+    log: &Collector,
+    root: &'n mut Node,
+    name: &str,
+) -> Option<(Unit, &'n mut Node)> {
     let condition = member_of(member_of(root, "conditions")?, name)?;
     let unit = match member_of(condition, "unit").map(|unit| &unit.value) {
-        Some(Json::Text(text)) => Unit::parse(text).ok()?,
+        Some(Json::Text(text)) => log.unit(text).ok()?,
         _ => Unit::one(),
     };
     Some((unit, member_of(condition, "values")?))

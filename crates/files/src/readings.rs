@@ -8,12 +8,12 @@ use super::folder::Folder;
 use super::json::{Json, Node};
 use super::object::Object;
 use super::table::{self, Table};
-use super::value_text::with_unit;
+use super::value_text::{ValueOf, with_unit};
 use super::{keys, samples};
 use gumption_engine::decimal;
 use gumption_engine::regression::{CurveFunction, Spread};
 use gumption_engine::special;
-use gumption_units::nearest;
+use gumption_units::{Unit, nearest};
 
 /// Readings of a file, with what is to be said of them.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -47,7 +47,9 @@ pub(super) fn of_file(
 ) -> Option<Option<FileReadings>> {
     let file = object.get("file")?;
     if object.get("column").is_none() && object.get("groups").is_none() {
-        let numbers = samples::numbers(object, name, folder, files);
+        // a file has numbers alone
+        let unit = (&Unit::one(), ValueOf::Quantity);
+        let numbers = samples::numbers(object, name, unit, folder, files);
         return Some(numbers.map(|(values, _)| FileReadings { values, note: None }));
     }
     if let Some(second) = object.get("values") {
@@ -219,7 +221,11 @@ pub(super) enum Pooled {
 /// What stands in place of the scatter, which may come from one of the calibration functions. Outside
 /// `None` after a mistake.
 #[allow(clippy::option_option)]
-pub(super) fn pooled(object: &Object<'_>, curves: &[Arc<CurveFunction>]) -> Option<Option<Pooled>> {
+pub(super) fn pooled(
+    object: &Object<'_>,
+    unit: &Unit,
+    curves: &[Arc<CurveFunction>],
+) -> Option<Option<Pooled>> {
     let Some(member) = object.get("pooled") else { return Some(None) };
     let pooled = Object::new(object.log, "`pooled`", &member.value, &member.key_span)?;
     pooled.check_keys(keys::POOLED);
@@ -254,8 +260,8 @@ pub(super) fn pooled(object: &Object<'_>, curves: &[Arc<CurveFunction>]) -> Opti
     }
     pooled.required("std")?;
     pooled.required("dof")?;
-    let positive = |key: &'static str| {
-        let found = pooled.number(key)?;
+    let positive = |key: &'static str, found: Option<f64>| {
+        let found = found?;
         if found > 0.0 {
             return Some(found);
         }
@@ -264,7 +270,8 @@ pub(super) fn pooled(object: &Object<'_>, curves: &[Arc<CurveFunction>]) -> Opti
         pooled.log.report(span, DiagnosticKind::NotPositive { key, found });
         None
     };
-    let (std, dof) = (positive("std"), positive("dof"));
+    let std = positive("std", pooled.value("std", unit, ValueOf::Difference));
+    let dof = positive("dof", pooled.number("dof"));
     Some(Some(Pooled::Stated(std?, dof?)))
 }
 

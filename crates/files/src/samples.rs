@@ -6,8 +6,10 @@ use std::ops::Range;
 use super::folder::Folder;
 use super::object::Object;
 use super::source::{Place, SourceText};
+use super::value_text::ValueOf;
 use super::{DiagnosticKind, bytes};
 use gumption_engine::distribution::Samples;
+use gumption_units::Unit;
 
 /// At most so many faulty lines are reported; a file of something else has nothing but those.
 const MOST_FAULTS: usize = 10;
@@ -15,25 +17,28 @@ const MOST_FAULTS: usize = 10;
 /// Longer texts are cut in messages.
 const LONGEST: usize = 40;
 
-/// Reads the samples of the input or component `name` from `values`, or from `file` in `folder`,
-/// whose content is added to `files`.
+/// Reads the samples of the input or component `name`, in its unit, from `values`, or from `file` in
+/// `folder`, whose content is added to `files`.
 pub(super) fn read(
     object: &Object<'_>,
     name: &str,
+    unit: (&Unit, ValueOf),
     folder: Folder<'_>,
     files: &mut Vec<(String, Vec<u8>)>,
 ) -> Option<Samples> {
-    let (values, place) = numbers(object, name, folder, files)?;
+    let (values, place) = numbers(object, name, unit, folder, files)?;
     let samples = Samples::new(values);
     let diagnostic = |error| DiagnosticKind::Distribution { name: name.to_owned(), error };
     object.log.value(place, samples.map_err(diagnostic))
 }
 
 /// The numbers of the object's `values` or of its `file` in `folder`, whose content is added to
-/// `files`, and where they are named; `name` is what they belong to.
+/// `files`, and where they are named; `name` is what they belong to, whose unit texts are converted
+/// to.
 pub(crate) fn numbers<'a>(
     object: &Object<'a>,
     name: &str,
+    (unit, of): (&Unit, ValueOf),
     folder: Folder<'_>,
     files: &mut Vec<(String, Vec<u8>)>,
 ) -> Option<(Vec<f64>, &'a Range<usize>)> {
@@ -47,7 +52,7 @@ pub(crate) fn numbers<'a>(
             let values = from_file(object, object.text("file")?, folder, files)?;
             Some((values, &member.value.span))
         }
-        (None, Some(member)) => Some((object.numbers("values")?, &member.value.span)),
+        (None, Some(member)) => Some((object.values("values", unit, of)?, &member.value.span)),
         (None, None) => {
             object.report(DiagnosticKind::NoValues { name: name.to_owned() });
             None

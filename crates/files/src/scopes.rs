@@ -51,7 +51,7 @@ pub(super) fn typed_scope(
     inputs: &InputSet,
     conditions: &Conditions,
 ) -> Scope {
-    let mut scope = condition_scope(conditions);
+    let mut scope = condition_scope(conditions, true);
     for input in &inputs.quantities {
         let Quantity { name, unit, .. } = &input.quantity;
         scope.define(name, Typing::in_unit(unit));
@@ -63,13 +63,16 @@ pub(super) fn typed_scope(
     scope
 }
 
-/// What is known of the names of conditions.
-pub(super) fn condition_scope(conditions: &Conditions) -> Scope {
+/// What is known of the names of conditions, whose units are checked or not.
+pub(super) fn condition_scope(conditions: &Conditions, check_units: bool) -> Scope {
     let mut scope = Scope::default();
     for condition in &conditions.quantities {
         let known = !conditions.without_unit.contains(&condition.name);
         let typing = if known { Typing::in_unit(&condition.unit) } else { Typing::ANY };
         scope.define(&condition.name, typing);
+        if known && !check_units {
+            scope.declare(&condition.name, condition.unit.clone());
+        }
     }
     scope
 }
@@ -106,7 +109,7 @@ impl ConditionValues for ConditionSet<'_> {
         if self.conditions.unreadable {
             return Ok(());
         }
-        let scope = condition_scope(self.conditions);
+        let scope = condition_scope(self.conditions, self.check_units);
         let result =
             if self.check_units { formula.check(&scope) } else { formula.check_names(&scope) };
         let kinds = |errors: Vec<FormulaError>| {
@@ -147,7 +150,7 @@ impl ConditionValues for ConditionSet<'_> {
             .zip(row)
             .map(|(quantity, &value)| (quantity.name.clone(), form.number(value, &quantity.unit)))
             .collect();
-        let scope = condition_scope(self.conditions);
+        let scope = condition_scope(self.conditions, self.check_units);
         let value = formula.evaluate(&scope, &values).unwrap_or(f64::NAN);
         match (form, of) {
             (NumberForm::Declared, _) => value,

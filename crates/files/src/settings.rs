@@ -4,7 +4,7 @@ use super::DiagnosticKind;
 use super::json::Json;
 use super::keys;
 use super::object::{Object, whole_number};
-use gumption_engine::task::{Coverage, Settings, StoppingRule, Trials};
+use gumption_engine::task::{Coverage, MethodChoice, Settings, StoppingRule, Trials};
 
 /// At most so many trials.
 pub(super) const MOST_TRIALS: u64 = 1_000_000_000_000;
@@ -85,6 +85,21 @@ fn trials(object: &Object<'_>) -> Option<Trials> {
             None
         }
     }
+}
+
+/// Which figures without noise are wanted, if a model file says so.
+pub(super) fn method(root: &Object<'_>) -> Option<MethodChoice> {
+    let name = root.get("method").and_then(|_| root.text("method"))?;
+    let choice = MethodChoice::named(name);
+    if let (None, Some(member)) = (choice, root.get("method")) {
+        let diagnostic = DiagnosticKind::NotOneOf {
+            key: "method".into(),
+            found: name.to_owned(),
+            allowed: MethodChoice::ALL.map(|choice| choice.name().to_owned()).to_vec(),
+        };
+        root.log.report(&member.value.span, diagnostic);
+    }
+    choice
 }
 
 /// When an adaptive run stops.

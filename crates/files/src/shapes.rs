@@ -125,8 +125,8 @@ fn formula_of_width(object: &Object<'_>, key: &str, unit: &Unit) -> Option<Strin
     let is_formula = || {
         let computes =
             |formula: &Formula| formula.names().next().is_some() || text.contains(['*', '/', '(']);
-        Formula::parse(text).is_ok_and(|formula| computes(&formula))
-            && Width::read(&member.value, "", key, unit).is_err()
+        object.log.formula(text).is_ok_and(|formula| computes(&formula))
+            && Width::read(object.log, &member.value, ("", key), unit).is_err()
     };
     (begins_with_name || is_formula()).then(|| text.clone())
 }
@@ -251,7 +251,7 @@ impl<'a> Fields<'a> {
                 self.made(Exponential::new(mean))
             }
             "gamma" => {
-                let (shape, rate) = (self.number("shape"), self.number("rate"));
+                let (shape, rate) = (self.number("shape"), self.rate());
                 self.moved(Gamma::new(shape?, rate?))
             }
             "lognormal" => {
@@ -333,7 +333,7 @@ impl<'a> Fields<'a> {
                 return None;
             }
         };
-        let pooled = readings::pooled(object, &self.results.curves)?;
+        let pooled = readings::pooled(object, self.unit, &self.results.curves)?;
         let count = values.len() as f64;
         let origin = values.first().copied().unwrap_or(f64::NAN);
         let mean = origin + values.iter().map(|value| value - origin).sum::<f64>() / count;
@@ -403,7 +403,8 @@ impl<'a> Fields<'a> {
                 values.push(object.value_at("values", node, self.unit, self.of())?);
                 continue;
             }
-            let formula = Formula::parse(text).map_err(|error| DiagnosticKind::Formula { error });
+            let formula = object.log.formula(text);
+            let formula = formula.map_err(|error| DiagnosticKind::Formula { error });
             let formula = object.log.value(&node.span, formula)?;
             if row == 0
                 && let Err(kinds) = conditions.check(&formula, self.unit, self.of())
@@ -434,6 +435,22 @@ impl<'a> Fields<'a> {
     fn number(&self, key: &'static str) -> Option<f64> {
         self.object.required(key)?;
         self.object.number(key)
+    }
+
+    /// A rate: a number in the reciprocal of the unit, or a value with a unit.
+    fn rate(&self) -> Option<f64> {
+        let member = self.object.required("rate")?;
+        if let Json::Number(_) = member.value.value {
+            return self.object.number("rate");
+        }
+        let unit = match self.unit.text().trim() {
+            "" | "1" => "1".to_owned(),
+            text => format!("1/({text})"),
+        };
+        let unit = self.object.log.unit(&unit);
+        let kind = |error| DiagnosticKind::Unit { unit: self.unit.to_string(), error };
+        let unit = self.object.log.value(&member.value.span, unit.map_err(kind))?;
+        self.object.value("rate", &unit, ValueOf::Difference)
     }
 
     /// What values of the object are about: a component is a difference.
@@ -593,13 +610,15 @@ impl<'a> Fields<'a> {
         let member = self.object.required(key)?;
         if let (Some(text), Some(at)) = (formula_of_width(&self.object, key, self.unit), self.at) {
             // without conditions a name is no formula of them, and the specification's fault is told
-            let is_number = || Formula::parse(&text).is_ok_and(|of| of.names().next().is_none());
+            let formula = || self.object.log.formula(&text);
+            let is_number = || formula().is_ok_and(|of| of.names().next().is_none());
             if !at.0.names().is_empty() || is_number() {
                 return self.width_of_row(key, &text, at);
             }
         }
-        let read = Width::read(&member.value, self.name, key, self.unit);
-        let width = self.object.log.value(&member.value.span, read)?;
+        let log = self.object.log;
+        let read = Width::read(log, &member.value, (self.name, key), self.unit);
+        let width = log.value(&member.value.span, read)?;
         let value = width.at(self.share_of.unwrap_or(estimate));
         if value == 0.0 && width.is_relative_only() { Some(None) } else { Some(Some(value)) }
     }
@@ -613,7 +632,7 @@ impl<'a> Fields<'a> {
         (conditions, row): (&dyn ConditionValues, usize),
     ) -> Option<Option<f64>> {
         let (log, place) = (self.object.log, self.place_of(key));
-        let formula = Formula::parse(text).map_err(|error| DiagnosticKind::Formula { error });
+        let formula = log.formula(text).map_err(|error| DiagnosticKind::Formula { error });
         let formula = log.value(&place, formula)?;
         if row == 0
             && let Err(kinds) = conditions.check(&formula, self.unit, ValueOf::Difference)
@@ -650,7 +669,7 @@ impl<'a> Fields<'a> {
             return self.object.number("dof");
         };
         let (log, span) = (self.object.log, &member.value.span);
-        let formula = Formula::parse(text).map_err(|error| DiagnosticKind::Formula { error });
+        let formula = log.formula(text).map_err(|error| DiagnosticKind::Formula { error });
         let formula = log.value(span, formula)?;
         let (unit, of) = (Unit::one(), ValueOf::Quantity);
         if let Err(kinds) = conditions.check(&formula, &unit, of) {

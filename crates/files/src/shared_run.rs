@@ -18,7 +18,7 @@ use super::overrides::Override;
 use super::reader::FileReader;
 use super::{Diagnostics, bytes};
 use gumption_analysis::integrity::sha256;
-use gumption_engine::task::{Coverage, Settings, StoppingRule, Trials};
+use gumption_engine::task::{Coverage, MethodChoice, Settings, StoppingRule, Trials};
 
 /// The first bytes of every such file.
 const MAGIC: &[u8] = b"gumption part\n";
@@ -247,6 +247,7 @@ impl SharedRun {
                 "coverage": coverage,
                 "trials": trials,
                 "rule": settings.rule.name(),
+                "method": settings.method.map(MethodChoice::name),
                 "decide_up_to": settings.decide_up_to,
                 "max_trials": settings.max_trials,
                 "for_validation": settings.for_validation,
@@ -307,6 +308,10 @@ fn settings(found: &Map<String, Value>) -> Option<Settings> {
         trials => Trials::Fixed(trials.as_u64().filter(|n| *n <= super::settings::MOST_TRIALS)?),
     };
     settings.rule = StoppingRule::named(found.get("rule")?.as_str()?)?;
+    settings.method = match found.get("method")? {
+        Value::Null => None,
+        method => Some(MethodChoice::named(method.as_str()?)?),
+    };
     settings.decide_up_to =
         number("decide_up_to").filter(|n| *n <= super::settings::MOST_TRIALS)?;
     settings.max_trials = number("max_trials").filter(|n| *n <= super::settings::MOST_TRIALS)?;

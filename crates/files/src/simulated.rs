@@ -53,7 +53,7 @@ pub(super) fn simulated(
                 .and_then(|member| {
                     Object::new(root.log, "an output", &member.value, &member.key_span)
                 })
-                .and_then(|object| object.text("unit").and_then(|unit| Unit::parse(unit).ok())),
+                .and_then(|object| object.text("unit").and_then(|unit| root.log.unit(unit).ok())),
             _ => None,
         };
         conditions.add_column(table, name, unit.unwrap_or_else(Unit::one), &column.place);

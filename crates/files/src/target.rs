@@ -40,7 +40,7 @@ pub fn read_target(text: &str, task: &Task) -> Result<PlanTarget, String> {
     let unit = task.model.outputs.get(output).map(|output| &output.quantity.unit);
     let unit = unit.ok_or_else(form)?;
     let most = match with_unit(right) {
-        Some(value) => converted(value, unit, ValueOf::Difference)
+        Some(value) => converted(value, unit, ValueOf::Difference, &[])
             .map_err(|error| format!("the target `{right}` of `{name}`: {error}"))?,
         None => match number(right) {
             Ok((value, "")) => value,

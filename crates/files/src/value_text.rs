@@ -31,7 +31,7 @@ fn is_comma(rest: &str) -> bool {
     digits.is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit()))
 }
 
-/// A number in a unit given as text, converted to another unit.
+/// A number in a unit given as text, which may be one of the file's own, converted to another unit.
 ///
 /// # Errors
 /// Why it cannot be read or converted, as a sentence without a capital.
@@ -39,15 +39,16 @@ pub(super) fn converted(
     (value, text): (f64, &str),
     unit: &Unit,
     of: ValueOf,
+    own: &[Unit],
 ) -> Result<f64, String> {
     if is_comma(text) {
         return Err("a decimal fraction is written with a point, such as `5.01`".to_owned());
     }
-    // also one that the file defines
+    // also one that another file defines
     if text == unit.text().trim() {
         return Ok(value);
     }
-    let given = Unit::parse(text).map_err(|error| error.to_string())?;
+    let given = Unit::parse_among(text, own).map_err(|error| error.to_string())?;
     if of == ValueOf::Either && given.zero() != unit.zero() {
         return Err(format!(
             "nothing tells whether it is a temperature or a difference of temperatures; write it \
@@ -70,7 +71,8 @@ mod tests {
     use super::*;
 
     fn read(text: &str, unit: &str, of: ValueOf) -> Result<f64, String> {
-        converted(with_unit(text).ok_or("no value with a unit")?, &Unit::parse(unit).unwrap(), of)
+        let unit = Unit::parse(unit).unwrap();
+        converted(with_unit(text).ok_or("no value with a unit")?, &unit, of, &[])
     }
 
     #[test]

@@ -2,6 +2,7 @@
 //! `0.02 % + 0.005 % of 10 V + 2 uV`.
 
 use super::DiagnosticKind;
+use super::diagnostics::Collector;
 use super::json::{Json, Node};
 use gumption_units::Unit;
 
@@ -23,11 +24,11 @@ impl Width {
         self.absolute == 0.0 && self.relative > 0.0
     }
 
-    /// Reads the width of the input `name`, whose unit is `unit`.
+    /// Reads the width at `key` of the input `name`, whose unit is `unit`.
     pub(super) fn read(
+        log: &Collector,
         node: &Node,
-        name: &str,
-        key: &str,
+        (name, key): (&str, &str),
         unit: &Unit,
     ) -> Result<Self, DiagnosticKind> {
         match &node.value {
@@ -39,9 +40,14 @@ impl Width {
                     Err(DiagnosticKind::NotPositive { key: key.to_owned(), found: absolute })
                 }
             }
-            Json::Text(text) => Self::specification(text, unit).map_err(|reason| {
-                DiagnosticKind::Width { name: name.to_owned(), found: text.clone(), reason }
-            }),
+            Json::Text(text) => {
+                let read = Self::specification(text, unit, &log.own_units());
+                read.map_err(|reason| DiagnosticKind::Width {
+                    name: name.to_owned(),
+                    found: text.clone(),
+                    reason,
+                })
+            }
             other => Err(DiagnosticKind::WrongType {
                 what: format!("`{key}`"),
                 found: other.kind(),
@@ -50,7 +56,7 @@ impl Width {
         }
     }
 
-    fn specification(text: &str, unit: &Unit) -> Result<Self, String> {
+    fn specification(text: &str, unit: &Unit, own: &[Unit]) -> Result<Self, String> {
         let mut width = Self { relative: 0.0, absolute: 0.0 };
         for term in terms(text) {
             let (value, rest) = number(term)?;
@@ -70,9 +76,10 @@ impl Width {
                 Some((factor, "reading")) => width.relative += value * factor,
                 Some((factor, range)) => {
                     let (full, range_unit) = number(range)?;
-                    width.absolute += value * factor * converted(full, range_unit, unit, range)?;
+                    width.absolute +=
+                        value * factor * converted(full, (range_unit, own), unit, range)?;
                 }
-                None => width.absolute += converted(value, rest, unit, term)?,
+                None => width.absolute += converted(value, (rest, own), unit, term)?,
             }
         }
         if width.relative > 0.0 || width.absolute > 0.0 {
@@ -133,7 +140,12 @@ fn share(rest: &str) -> Option<(f64, &str)> {
     of.starts_with(char::is_whitespace).then(|| (factor, of.trim()))
 }
 
-fn converted(value: f64, text: &str, unit: &Unit, term: &str) -> Result<f64, String> {
+fn converted(
+    value: f64,
+    (text, own): (&str, &[Unit]),
+    unit: &Unit,
+    term: &str,
+) -> Result<f64, String> {
     if text.is_empty() {
         return if unit.dimension().is_none() && !unit.is_relative() {
             Ok(value)
@@ -144,7 +156,7 @@ fn converted(value: f64, text: &str, unit: &Unit, term: &str) -> Result<f64, Str
     if text == unit.text().trim() {
         return Ok(value);
     }
-    let given = Unit::parse(text).map_err(|error| format!("in `{term}`: {error}"))?;
+    let given = Unit::parse_among(text, own).map_err(|error| format!("in `{term}`: {error}"))?;
     let factor = Unit::conversion_factor(&given, unit)
         .map_err(|_| format!("`{text}` in `{term}` cannot be converted to the unit `{unit}`"))?;
     Ok(value * factor)
@@ -155,7 +167,7 @@ mod tests {
     use super::*;
 
     fn read(text: &str, unit: &str) -> Result<Width, String> {
-        Width::specification(text, &Unit::parse(unit).unwrap())
+        Width::specification(text, &Unit::parse(unit).unwrap(), &[])
     }
 
     #[test]

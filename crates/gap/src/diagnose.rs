@@ -48,8 +48,8 @@ impl DiagnosisOptions {
 /// Coverage probability of the intervals of a case.
 pub(crate) fn coverage(case: &Case) -> f64 {
     match case.task.settings.coverage {
-        Coverage::Probability(p) => p,
-        _ => 0.95,
+        Coverage::Usual => 0.95,
+        stated => stated.probability(),
     }
 }
 

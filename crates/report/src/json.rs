@@ -13,8 +13,8 @@ use super::subtotals::Subtotals;
 use gumption_engine::propagate::gum::{BudgetLine, CorrelationLine, Dof, Gum};
 use gumption_engine::propagate::monte_carlo::{MonteCarlo, NumericalError};
 use gumption_engine::propagate::{
-    CapabilityStatement, Conformity, Evaluation, OutputEvaluation, RowEvaluation, SecondOrder,
-    validate,
+    Accuracy, CapabilityStatement, Conformity, Evaluation, Noiseless, OutputEvaluation,
+    RowEvaluation, SecondOrder, validate,
 };
 use gumption_engine::task::{Task, Trials, Warning};
 
@@ -127,10 +127,13 @@ impl Serialize for Outputs<'_> {
         let Self { task, row, stopped } = *self;
         let outputs = task.model.outputs.iter().zip(&row.outputs);
         serializer.collect_map(outputs.map(|(output, evaluation)| {
+            let noiseless = evaluation.noiseless.as_ref();
             let side = Output {
                 unit: output.quantity.unit.text(),
                 gum: evaluation.gum.as_ref().map(|gum| GumSide::of(task, gum, evaluation)),
                 monte_carlo: MonteCarloSide::of(task, row, evaluation, stopped),
+                exact: noiseless.map(|found| found.as_deref().ok().map(NoiselessSide::of)),
+                why: noiseless.and_then(|found| found.as_ref().err()).map(String::as_str),
                 validation: evaluation.validation.map(Validation::from),
                 conformity: evaluation.conformity.as_deref().map(ConformitySide::of),
                 cmc: CmcSide::of(output, evaluation),
@@ -165,6 +168,11 @@ struct Output<'a> {
     unit: &'a str,
     gum: Option<GumSide<'a>>,
     monte_carlo: Option<MonteCarloSide>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    exact: Option<Option<NoiselessSide<'a>>>,
+    /// Why there are no figures without noise.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    why: Option<&'a str>,
     validation: Option<Validation>,
     #[serde(skip_serializing_if = "Option::is_none")]
     conformity: Option<ConformitySide>,
@@ -279,6 +287,83 @@ struct MonteCarloSide {
     numerical_standard_error: ErrorSide,
     #[serde(skip_serializing_if = "Option::is_none")]
     adaptive: Option<AdaptiveSide>,
+}
+
+/// Figures without the noise of trials.
+#[derive(Serialize)]
+struct NoiselessSide<'a> {
+    method: &'static str,
+    estimate: Option<f64>,
+    standard_uncertainty: Option<f64>,
+    median: f64,
+    symmetric_interval: [f64; 2],
+    shortest_interval: Option<[f64; 2]>,
+    shortest_unique: bool,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    conformity_probability: Option<f64>,
+    #[serde(flatten)]
+    accuracy: AccuracySide<'a>,
+}
+
+#[derive(Serialize)]
+#[serde(untagged)]
+enum AccuracySide<'a> {
+    Exact {
+        bound: f64,
+    },
+    Quasi {
+        numerical_standard_error: ScatterSide,
+        integrated_input: &'a str,
+        points: u64,
+        randomizations: u32,
+    },
+}
+
+#[derive(Serialize)]
+struct ScatterSide {
+    estimate: Option<f64>,
+    standard_uncertainty: Option<f64>,
+    median: f64,
+    symmetric_interval: [f64; 2],
+    shortest_interval: Option<[f64; 2]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    conformity_probability: Option<f64>,
+}
+
+impl<'a> NoiselessSide<'a> {
+    fn of(found: &'a Noiseless) -> Self {
+        let (method, accuracy) = match &found.accuracy {
+            Accuracy::Bound(bound) => ("exact", AccuracySide::Exact { bound: *bound }),
+            Accuracy::Scatter(scatter) => {
+                let numerical_standard_error = ScatterSide {
+                    estimate: scatter.estimate,
+                    standard_uncertainty: scatter.standard_uncertainty,
+                    median: scatter.median,
+                    symmetric_interval: scatter.symmetric_interval,
+                    shortest_interval: scatter.shortest_interval,
+                    conformity_probability: scatter.inside,
+                };
+                let accuracy = AccuracySide::Quasi {
+                    numerical_standard_error,
+                    integrated_input: &scatter.integrated,
+                    points: scatter.points,
+                    randomizations: scatter.randomizations,
+                };
+                ("quasi", accuracy)
+            }
+        };
+        Self {
+            method,
+            estimate: found.estimate,
+            standard_uncertainty: found.standard_uncertainty,
+            median: found.median,
+            symmetric_interval: found.symmetric_interval,
+            shortest_interval: found.shortest_interval,
+            shortest_unique: found.shortest_unique,
+            conformity_probability: found.inside,
+            accuracy,
+        }
+    }
 }
 
 #[derive(Serialize)]

@@ -116,6 +116,27 @@ impl Unit {
         Ok(Self::new(text.to_owned(), meaning, factors))
     }
 
+    /// Reads a unit from text in which units with names of their own may stand, as
+    /// [`Unit::defined`] makes them.
+    ///
+    /// # Errors
+    ///
+    /// As [`Unit::parse`].
+    ///
+    /// ```
+    /// use gumption_units::Unit;
+    ///
+    /// let own = [Unit::defined("tex", &Unit::parse("1e-6*kg/m")?)?];
+    /// let tenacity = Unit::parse_among("cN/tex", &own)?;
+    /// assert_eq!((tenacity.factor(), tenacity.normal_text()), (1e4, "cN/tex".to_owned()));
+    /// assert!(Unit::parse("cN/tex").is_err());
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn parse_among(text: &str, own: &[Self]) -> Result<Self, UnitError> {
+        let (meaning, factors) = parse::parse_among(text, own)?;
+        Ok(Self::new(text.to_owned(), meaning, factors))
+    }
+
     /// A unit with a name of its own that is as large as another: the hardness `HBW`, which is a
     /// plain number. Its dimension and size are those of the definition, its text is the name.
     ///
@@ -135,19 +156,19 @@ impl Unit {
     /// ```
     pub fn defined(name: &str, definition: &Self) -> Result<Self, &'static str> {
         let interned = defined::intern(name)?;
-        let meaning = Meaning {
-            dimension: definition.dimension,
-            scale: definition.scale,
-            flavour: Flavour::Plain,
-        };
         let factors = vec![Factor::of(FactorBase::Defined(interned))];
-        Ok(Self::new(name.to_owned(), meaning, factors))
+        Ok(Self::new(name.to_owned(), definition.meaning(), factors))
     }
 
     fn new(text: String, meaning: Meaning, factors: Vec<Factor>) -> Self {
         let Meaning { dimension, scale, flavour } = meaning;
         let (factor, fraction) = (scale.value(), scale.fraction());
         Self { text, factors, dimension, scale, factor, fraction, flavour }
+    }
+
+    /// What the unit is, without its text; one with a name of its own knows no zero.
+    fn meaning(&self) -> Meaning {
+        Meaning { dimension: self.dimension, scale: self.scale, flavour: Flavour::Plain }
     }
 
     /// The text as written.

@@ -4,6 +4,9 @@
 /// The longest name that is compared, in letters.
 const LONGEST: usize = 64;
 
+/// The fewest letters of a part of names.
+const SHORTEST_PART: usize = 4;
+
 /// The most names given.
 const MOST: usize = 3;
 
@@ -25,13 +28,15 @@ pub fn nearest<'k>(found: &str, known: impl IntoIterator<Item = &'k str>) -> Opt
 ///
 /// The distance counts letters left out, put in, changed, and swapped with their neighbour
 /// (Damerau and Levenshtein). At most a third of the letters of `found` may differ, rounded to the
-/// nearest whole number, and at least one letter must not. Case does not count, nor does `-` for
-/// `_`, nor the micro sign for the Greek letter. Names of more than 64 letters are not compared.
+/// nearest whole number, and at least one letter must not. Where none is so near, those count that
+/// `found` is a part of, if it has four letters or more. Case does not count, nor does `-` for `_`,
+/// nor the micro sign for the Greek letter. Names of more than 64 letters are not compared.
 ///
 /// ```
 /// use gumption_units::all_nearest;
 ///
 /// assert_eq!(all_nearest("t3", ["t1", "t2", "tilt"]), ["t1", "t2"]);
+/// assert_eq!(all_nearest("inclined", ["inclined-plane", "chain"]), ["inclined-plane"]);
 /// ```
 pub fn all_nearest<'k>(found: &str, known: impl IntoIterator<Item = &'k str>) -> Vec<&'k str> {
     let plain = |name: &str| name.to_lowercase().replace('-', "_").replace('\u{b5}', "\u{3bc}");
@@ -42,8 +47,12 @@ pub fn all_nearest<'k>(found: &str, known: impl IntoIterator<Item = &'k str>) ->
         return near;
     }
     let mut least = (length + 1) / 3;
+    let mut around: Vec<&str> = Vec::new();
     for name in known {
         let candidate = plain(name);
+        if length >= SHORTEST_PART && around.len() < MOST && candidate.contains(&wanted) {
+            around.push(name);
+        }
         let letters = candidate.chars().count();
         if letters.abs_diff(length) > least {
             continue;
@@ -60,7 +69,7 @@ pub fn all_nearest<'k>(found: &str, known: impl IntoIterator<Item = &'k str>) ->
             near.push(name);
         }
     }
-    near
+    if near.is_empty() { around } else { near }
 }
 
 #[cfg(test)]

@@ -30,7 +30,7 @@ use super::factor::{Factor, FactorBase};
 use super::names::{Flavour, Meaning, meaning, read};
 use super::power::superscript;
 use super::scale::Scale;
-use super::suggest;
+use super::{Unit, suggest};
 
 /// The longest text read, in bytes.
 pub(super) const MAX_LENGTH: usize = 256;
@@ -53,12 +53,17 @@ const MINUS_ONE: Exponent = Exponent::integer(-1);
 pub(super) const ONE: Meaning =
     Meaning { dimension: Dimension::NONE, scale: Scale::ONE, flavour: Flavour::Plain };
 
-/// Reads a whole text: its meaning and its factors.
+/// Reads a whole text without units of a file's own: its meaning and its factors.
 pub(super) fn parse(text: &str) -> Result<(Meaning, Vec<Factor>), UnitError> {
+    parse_among(text, &[])
+}
+
+/// Reads a whole text, in which these units of a file's own may stand: its meaning and its factors.
+pub(super) fn parse_among(text: &str, own: &[Unit]) -> Result<(Meaning, Vec<Factor>), UnitError> {
     if text.len() > MAX_LENGTH {
         return Err(UnitError::TooLong { length: text.len(), limit: MAX_LENGTH });
     }
-    let mut parser = Parser::new(text, 0);
+    let mut parser = Parser { own, ..Parser::new(text, 0) };
     parser.skip_space();
     let start = parser.at;
     if parser.peek().is_none() {
@@ -78,6 +83,8 @@ pub(super) fn parse(text: &str) -> Result<(Meaning, Vec<Factor>), UnitError> {
 pub(super) struct Parser<'t> {
     pub(super) text: &'t str,
     pub(super) at: usize,
+    /// Units that the file defines.
+    own: &'t [Unit],
     /// The factors read. Those of a group or behind a division are raised when it ends.
     factors: Vec<Factor>,
 }
@@ -101,7 +108,7 @@ struct Power {
 impl<'t> Parser<'t> {
     /// Reads a text from an index on.
     pub(super) fn new(text: &'t str, at: usize) -> Self {
-        Self { text, at, factors: Vec::new() }
+        Self { text, at, own: &[], factors: Vec::new() }
     }
 
     /// What has not been read yet.
@@ -432,6 +439,10 @@ impl<'t> Parser<'t> {
             self.skip_space();
             let (inner, _) = self.group(self.at, depth)?;
             return self.root(inner, start, from);
+        }
+        if let Some(unit) = self.own.iter().find(|unit| unit.text() == name) {
+            self.factors.extend_from_slice(&unit.factors);
+            return Ok((unit.meaning(), Kind::Name));
         }
         let Some((prefix, symbol)) = read(name) else {
             return Err(suggest::unknown(name, span));

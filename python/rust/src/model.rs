@@ -7,7 +7,7 @@ use gumption::command::Failure;
 use gumption::file::{ModelFile, Override, bytes};
 use gumption::propagate::{Control, Evaluation, evaluate, warnings};
 use gumption::report::Provenance;
-use gumption::task::{Coverage, SettingsChanges, StoppingRule, Task, Trials};
+use gumption::task::{Coverage, MethodChoice, SettingsChanges, StoppingRule, Task, Trials};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 
@@ -92,6 +92,12 @@ impl Asked {
                     let rule = value.extract::<String>().ok();
                     let rule = rule.and_then(|rule| StoppingRule::named(&rule));
                     asked.changes.rule = Some(rule.ok_or_else(|| needed("\"7.9\" or \"stein\""))?);
+                }
+                "method" => {
+                    let method = value.extract::<String>().ok();
+                    let method = method.and_then(|method| MethodChoice::named(&method));
+                    let names = "\"auto\", \"monte-carlo\", \"exact\" or \"quasi\"";
+                    asked.changes.method = Some(method.ok_or_else(|| needed(names))?);
                 }
                 "max_trials" => {
                     let most = value.extract().ok().filter(|n| *n >= 20_000);

@@ -34,6 +34,10 @@ PARTS_OF_WORKER = 8
 #: Blocks of a part, at least: shorter ones cost more to carry than to make.
 FEWEST_BLOCKS = 64
 
+#: Blocks of a part, at most: some seconds of work, for so long is what a stop waits for and what a lost
+#: worker costs.
+MOST_BLOCKS = 1 << 17
+
 #: One unit of work: a function of a module, and what it is called with.
 Work = tuple[Callable[..., Any], tuple[Any, ...]]
 
@@ -287,8 +291,7 @@ def run_on(
             kept: list[tuple[str, int, int]] = []
             if resume is not None:
                 pass_, kept = here.kept(resume)
-            count = parts or max(FEWEST_PARTS, PARTS_OF_WORKER * workers.count)
-            length = max(-(-blocks // count), 1 if parts else FEWEST_BLOCKS)
+            length = _length(blocks, parts, workers.count)
             missing = _missing([(start, end) for _, start, end in kept], blocks)
             work: Iterator[Work] = (
                 (_part, (run, pass_, start, end)) for start, end in _pieces(missing, length)
@@ -302,6 +305,14 @@ def run_on(
             pass_ = merged
             if resume is not None:
                 here.go_on(resume, pass_)
+
+
+def _length(blocks: int, parts: int | None, workers: int) -> int:
+    """How many blocks a part has."""
+    if parts is not None:
+        return max(1, -(-blocks // parts))
+    usual = -(-blocks // max(FEWEST_PARTS, PARTS_OF_WORKER * workers))
+    return min(max(usual, FEWEST_BLOCKS), MOST_BLOCKS)
 
 
 class _Progress:

@@ -88,6 +88,7 @@ class Model:
         real_dof: bool = False,
         validate: bool = False,
         rule: str | None = None,
+        method: str | None = None,
         max_trials: int | None = None,
         threads: int | None = None,
         memory: int | None = None,
@@ -122,6 +123,8 @@ class Model:
             Make as many trials as the validation of the GUM interval needs (JCGM 101, 8.2).
         rule : {"7.9", "stein"}, optional
             When an adaptive run stops.
+        method : {"auto", "monte-carlo", "exact", "quasi"}, optional
+            Which figures without the noise of trials stand beside those of the trials.
         max_trials : int, optional
             Largest number of trials of an adaptive run.
         threads : int, optional
@@ -136,8 +139,8 @@ class Model:
             come; rows of conditions are shared likewise. The result has the bits of a run on this
             machine, and a part that is lost with its worker is made again.
         parts : int, optional
-            With `executor`, into how many parts each pass over the trials is cut; 64, or 8 for each
-            worker if these are more, unless given.
+            With `executor`, into how many parts each pass over the trials is cut; unless given 64, or 8
+            for each worker, or what makes no part longer than 134 million trials.
         resume : path-like, optional
             With `executor`, a folder in which the parts are kept: a run that was stopped goes on from
             those that are there. ``gumption run --resume`` and ``gumption merge`` take it as well.
@@ -160,7 +163,7 @@ class Model:
         options = {
             "trials": trials, "seed": seed, "coverage": coverage, "k": k, "digits": digits,
             "real_dof": real_dof or None, "validate": validate or None, "rule": rule,
-            "max_trials": max_trials, "threads": threads, "memory": memory,
+            "method": method, "max_trials": max_trials, "threads": threads, "memory": memory,
         }  # fmt: skip
         given = {name: value for name, value in options.items() if value is not None}
         if executor is None:
@@ -170,6 +173,8 @@ class Model:
                     "`executor`"
                 )
             return Result(self, given, self._evaluated(given, progress))
+        if parts is not None and parts < 1:
+            raise _gumption.ModelError("`parts`: a whole number from 1 is needed")
         from gumption._executors import run_on
 
         with self._bar(given, progress) as told:

@@ -4,6 +4,7 @@ use super::rounding;
 use crate::certificate::contents::Rounding;
 use gumption_engine::decimal::{Decimal, Direction, to_position};
 use gumption_engine::model::Capability;
+use gumption_engine::propagate::Noiseless;
 use gumption_engine::propagate::OutputEvaluation;
 use gumption_engine::propagate::gum::{Dof, Gum};
 use gumption_engine::propagate::monte_carlo::MonteCarlo;
@@ -133,9 +134,22 @@ pub(super) fn of(
     wanted: Wanted<'_>,
 ) -> Option<Statement> {
     let Wanted { settings, .. } = wanted;
-    let refuted = output.validation.is_some_and(|v| v.gum_valid == Some(false));
+    let noiseless = output.noiseless.as_ref().and_then(|found| found.as_deref().ok());
+    let refuted = match (output.validation, noiseless, output.gum.as_ref().and_then(Gum::interval))
+    {
+        (Some(validation), Some(noiseless), Some(interval)) => {
+            let ends = interval.iter().zip(noiseless.symmetric_interval);
+            ends.into_iter().any(|(gum, end)| (gum - end).abs() > validation.tolerance)
+        }
+        (validation, ..) => validation.is_some_and(|v| v.gum_valid == Some(false)),
+    };
     let linear = || by_propagation(output.gum.as_ref()?, settings);
-    let trials = || by_trials(output.monte_carlo.as_ref()?, output.gum.as_ref());
+    // figures without the noise of trials, so that no digit depends on a seed
+    let trials = || {
+        let gum = output.gum.as_ref();
+        let noiseless = noiseless.and_then(|noiseless| without_noise(noiseless, gum));
+        noiseless.or_else(|| by_trials(output.monte_carlo.as_ref()?, gum))
+    };
     // a clause 8 that fails is no matter where what is stated would be the same
     let refuted = refuted
         && !linear()
@@ -197,6 +211,29 @@ fn is_normal(factor: f64, coverage: Coverage) -> bool {
     let of_probability = || special::normal::quantile(0.5 + 0.5 * coverage.probability());
     let normal = coverage.nominal_factor().unwrap_or_else(of_probability);
     to_position(factor, -2) == to_position(normal, -2)
+}
+
+/// A symmetric interval that is longer than the shortest one by less than this share is stated in its
+/// place.
+const AS_SHORT: f64 = 0.01;
+
+fn without_noise(figures: &Noiseless, gum: Option<&Gum>) -> Option<Found> {
+    let length = |[low, high]: [f64; 2]| high - low;
+    let symmetric = figures.symmetric_interval;
+    let shorter = |ends: &[f64; 2]| length(*ends) < (1.0 - AS_SHORT) * length(symmetric);
+    let shortest = figures.shortest_interval.filter(|_| figures.shortest_unique).filter(shorter);
+    let [low, high] = shortest.unwrap_or(symmetric);
+    let value = figures.estimate.unwrap_or(figures.median);
+    let u = figures.standard_uncertainty.or_else(|| gum.map(|gum| gum.standard_uncertainty))?;
+    let expanded_uncertainty = (high - value).max(value - low);
+    (u > 0.0 && expanded_uncertainty.is_finite()).then(|| Found {
+        basis: Basis::Shortest,
+        value,
+        standard_uncertainty: u,
+        expanded_uncertainty,
+        coverage_factor: expanded_uncertainty / u,
+        interval: Some([low, high]),
+    })
 }
 
 fn by_trials(figures: &MonteCarlo, gum: Option<&Gum>) -> Option<Found> {

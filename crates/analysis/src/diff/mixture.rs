@@ -160,7 +160,12 @@ impl<'a> Mixture<'a> {
         }
         // only estimate, uncertainty and degrees of freedom count here
         let factor = Unit::conversion_factor(&variable.unit, unit).ok()?;
-        let mean = distribution.mean() * factor;
+        let mean = distribution.mean();
+        // a component is a difference, which knows no zero of a scale
+        let mean = match variable.name.contains('/') {
+            true => mean * factor,
+            false => Unit::convert(mean, &variable.unit, unit).ok()?,
+        };
         let u = distribution.standard_uncertainty() * factor;
         let taken = if u > 0.0 {
             Normal::with_dof(mean, u, distribution.dof()).ok().map(Distribution::from)

@@ -13,7 +13,7 @@ use super::options::Format;
 use super::output::Place;
 use super::{CommandLine, Exit, Failure, output};
 use gumption_engine::model::typed::{Catalogue, CatalogueEntry};
-use gumption_units::nearest;
+use gumption_units::all_nearest;
 
 /// List the typed models or describe one, or list the ready-made effects of the gap diagnosis.
 #[derive(Debug, Args)]
@@ -76,9 +76,11 @@ impl Models {
 }
 
 fn unknown(catalogue: &Catalogue, name: &str) -> Failure {
-    let hint = match nearest(name, catalogue.iter().map(CatalogueEntry::name)) {
-        Some(near) => format!("did you mean `{near}`?"),
-        None => "`gumption models` lists those that there are".to_owned(),
+    let near = all_nearest(name, catalogue.iter().map(CatalogueEntry::name));
+    let near: Vec<String> = near.into_iter().map(|name| format!("`{name}`")).collect();
+    let hint = match near.as_slice() {
+        [] => "`gumption models` lists those that there are".to_owned(),
+        near => format!("did you mean {}?", near.join(" or ")),
     };
     Failure::Argument(format!("there is no typed model `{name}`; {hint}"))
 }

@@ -1,6 +1,7 @@
 //! The curvilinear trapezoid: a rectangular distribution whose limits are themselves known only to
 //! within an interval (JCGM 101, 6.4.3).
 
+use super::characteristic::Characteristic;
 use super::shape::{Invalid, Shape, finite, limits, positive};
 use super::stream::Stream;
 use crate::number::{COLUMN, Column, elementary};
@@ -39,6 +40,11 @@ impl CurvilinearTrapezoid {
     /// The same about a middle. The inexactness may be all of the half-width.
     pub(super) fn of_width(mean: f64, half_width: f64, inexactness: f64) -> Self {
         Self { mean, half_width, inexactness }
+    }
+
+    pub(super) fn characteristic(&self) -> Characteristic {
+        let share = self.inexactness / self.half_width;
+        Characteristic::Trapezoid { wide: self.half_width, narrow: 0.0, share }
     }
 
     /// How far from the middle the quantity can be.

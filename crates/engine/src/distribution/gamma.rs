@@ -1,5 +1,6 @@
 //! The gamma distribution (JCGM 101, 6.4.11).
 
+use super::characteristic::Characteristic;
 use super::shape::{Invalid, Shape, positive, within};
 use super::stream::Stream;
 use crate::number::{COLUMN, Column, elementary};
@@ -30,6 +31,12 @@ impl Gamma {
         let rate = positive("rate", rate)?;
         within("rate", rate, 1e-290, 1e290, "from 1e-290 to 1e290")?;
         Ok(Self { shape, rate })
+    }
+}
+
+impl Gamma {
+    pub(super) fn characteristic(&self) -> Characteristic {
+        Characteristic::Gamma { shape: self.shape, rate: self.rate }
     }
 }
 

@@ -42,6 +42,11 @@ impl Lognormal {
         }
     }
 
+    /// Expectation and standard deviation of the logarithm.
+    pub(crate) fn of_logarithm(&self) -> [f64; 2] {
+        [elementary::ln(self.mean) - 0.5 * self.sigma * self.sigma, self.sigma]
+    }
+
     /// The value at a standard normal deviate of the logarithm.
     #[inline(always)]
     fn at(&self, z: f64) -> f64 {

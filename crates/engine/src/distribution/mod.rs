@@ -6,6 +6,7 @@
 
 mod arcsine;
 mod beta;
+pub(crate) mod characteristic;
 mod constant;
 mod curvilinear_trapezoid;
 mod exponential;
@@ -49,6 +50,7 @@ pub use joint::Joint;
 pub use joint::Varying;
 pub use joint::paired;
 pub use joint::{Correlation, CorrelationError};
+pub(crate) use joint::{Dependence, Linked};
 pub use log_uniform::LogUniform;
 pub use lognormal::Lognormal;
 pub use normal::Normal;

@@ -94,7 +94,7 @@ impl Readings {
 
     /// The scale of the t distribution that trials are drawn from: s/sqrt(n), and of paired
     /// readings the same with the divisor n - N in s.
-    pub(super) fn drawn_scale(&self) -> f64 {
+    pub(crate) fn drawn_scale(&self) -> f64 {
         let dof = self.values.len() as f64 - 1.0;
         self.scale * (dof / self.drawn_dof()).sqrt()
     }

@@ -1,5 +1,6 @@
 //! The rectangular distribution (JCGM 101, 6.4.2; JCGM 100, 4.3.7).
 
+use super::characteristic::Characteristic;
 use super::curvilinear_trapezoid::CurvilinearTrapezoid;
 use super::inexact_width::InexactWidth;
 use super::shape::{Invalid, Shape, finite, limits, positive};
@@ -56,6 +57,18 @@ impl Rectangular {
             let inexactness = self.half_width * self.width.share();
             CurvilinearTrapezoid::of_width(self.mean, self.half_width, inexactness)
         })
+    }
+}
+
+impl Rectangular {
+    /// Whether the limits are known exactly.
+    pub(crate) fn dof_is_infinite(&self) -> bool {
+        self.width.is_exact()
+    }
+
+    pub(super) fn characteristic(&self) -> Characteristic {
+        let share = self.width.share();
+        Characteristic::Trapezoid { wide: self.half_width, narrow: 0.0, share }
     }
 }
 

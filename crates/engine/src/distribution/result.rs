@@ -218,9 +218,14 @@ impl SavedResult {
         &self.origin
     }
 
+    /// The scores over which the quantile function is tabulated.
+    pub(super) fn scores(&self) -> Scores {
+        Scores { from: self.from, step: 1.0 / self.per_score, count: self.cells.len() }
+    }
+
     /// Expectation of the drawn values; the estimate may be another, as it is that of the law of
     /// propagation.
-    pub(super) fn drawn_mean(&self) -> f64 {
+    pub(crate) fn drawn_mean(&self) -> f64 {
         self.drawn_mean
     }
 

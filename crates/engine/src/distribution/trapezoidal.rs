@@ -1,5 +1,6 @@
 //! The symmetric trapezoidal distribution (JCGM 101, 6.4.4; JCGM 100, 4.3.9).
 
+use super::characteristic::Characteristic;
 use super::inexact_width::InexactWidth;
 use super::shape::{Invalid, Shape, finite, limits, positive, within};
 use super::stream::Stream;
@@ -48,6 +49,19 @@ impl Trapezoidal {
         let inexact = InexactWidth::of_dof(dof)?;
         finite("half_width", self.half_width * (1.0 + inexact.share()))?;
         Ok(Self { inexact, ..self })
+    }
+}
+
+impl Trapezoidal {
+    pub(super) fn characteristic(&self) -> Characteristic {
+        let half = 0.5 * self.half_width;
+        let (wide, narrow) = (half * (1.0 + self.beta), half * (1.0 - self.beta));
+        Characteristic::Trapezoid { wide, narrow, share: self.inexact.share() }
+    }
+
+    /// The probability of each flank.
+    pub(crate) fn share_of_flank(&self) -> f64 {
+        0.5 * (1.0 - self.beta) / (1.0 + self.beta)
     }
 }
 

@@ -1,5 +1,6 @@
 //! The triangular distribution (JCGM 101, 6.4.5; JCGM 100, 4.3.9).
 
+use super::characteristic::Characteristic;
 use super::inexact_width::InexactWidth;
 use super::shape::{Invalid, Shape, finite, limits, positive};
 use super::stream::Stream;
@@ -73,6 +74,28 @@ impl Triangular {
         } else {
             -far * self.inexact.distance(0.0, (0.5 * (1.0 - tail) / (1.0 - share)).min(0.5))
         }
+    }
+}
+
+impl Triangular {
+    /// `None` for a triangle with its mode off the middle and an inexact width.
+    pub(super) fn characteristic(&self) -> Option<Characteristic> {
+        let Self { rise, fall, inexact, .. } = *self;
+        if rise == fall {
+            let (wide, narrow) = (0.5 * rise, 0.5 * rise);
+            return Some(Characteristic::Trapezoid { wide, narrow, share: inexact.share() });
+        }
+        inexact.is_exact().then_some(Characteristic::Triangle { rise, fall })
+    }
+
+    /// The distances from the mode to the limits, where these are known exactly.
+    pub(crate) fn exact_sides(&self) -> Option<[f64; 2]> {
+        self.inexact.is_exact().then_some([self.rise, self.fall])
+    }
+
+    /// The probability below the mode.
+    pub(crate) fn share_below_mode(&self) -> f64 {
+        self.rise / self.width()
     }
 }
 

@@ -219,7 +219,7 @@ impl ScheduledRoutine {
 }
 
 /// The value of every node that is the same in all trials.
-fn fold(program: &Program, bound: &[Option<f64>]) -> Vec<Option<f64>> {
+pub(crate) fn fold(program: &Program, bound: &[Option<f64>]) -> Vec<Option<f64>> {
     let mut folded: Vec<Option<f64>> = Vec::with_capacity(program.nodes.len());
     for node in &program.nodes {
         folded.push(match *node {

@@ -155,7 +155,6 @@ pub(crate) fn cos_slow(x: f64) -> f64 {
 }
 
 /// Sine and cosine of `x` radians, each with the bits of [`sin`] and [`cos`].
-#[cfg(test)]
 #[inline(always)]
 pub(crate) fn sin_cos(x: f64) -> (f64, f64) {
     if x.abs() <= TRIG_FAST_LIMIT { sin_cos_fast(x) } else { (sin_slow(x), cos_slow(x)) }

@@ -8,15 +8,17 @@ use rayon::prelude::*;
 
 use super::Control;
 use super::conformity::Conformity;
+use super::exact::{self, Noiseless};
 use super::gum::{self, Gum, GumRow};
 use super::monte_carlo::{self, MonteCarlo, Request, Search, Undefined};
+use super::quasi;
 use super::regions::{RegionEvaluation, regions};
 use super::second_order::{SecondOrder, second_order};
 use super::validate::{Validation, validate};
 use crate::distribution::{BLOCK, Correlation, CorrelationError, Joint};
 use crate::model::{Output, Program};
 use crate::number::{COLUMN, Column, Shortest};
-use crate::task::{Row, Settings, Task, Trials};
+use crate::task::{MethodChoice, Row, Settings, Task, Trials};
 
 /// The evaluation of a whole task.
 #[derive(Clone, Debug)]
@@ -83,6 +85,8 @@ pub struct OutputEvaluation {
     /// The law of propagation with its terms of second order, where they tell why the two differ, or
     /// what the law leaves out.
     pub second_order: Option<Box<SecondOrder>>,
+    /// Figures without the noise of trials, or why there are none; `None` where none were asked for.
+    pub noiseless: Option<Result<Box<Noiseless>, String>>,
     /// Their comparison.
     pub validation: Option<Validation>,
     /// The probability that the output conforms to its tolerance; `None` without a tolerance or
@@ -402,7 +406,8 @@ fn evaluate_row(
         gums = std::mem::take(&mut linear.outputs);
     }
     let evaluated = gums.into_iter().zip(figures).zip(drawn_dof).zip(&task.model.outputs);
-    for ((((gum, monte_carlo), drawn_dof), output), second_order) in evaluated.zip(second) {
+    let evaluated = evaluated.zip(second).enumerate();
+    for (number, ((((gum, monte_carlo), drawn_dof), output), second_order)) in evaluated {
         // only where there is something to say
         let second_order = second_order.filter(|second| {
             gum.as_ref().is_some_and(|gum| {
@@ -415,6 +420,12 @@ fn evaluate_row(
             (Some(gum), Some(figures)) => validate(gum, figures, task.settings.digits),
             _ => None,
         };
+        // where the law of propagation holds beyond doubt, nobody states other figures
+        let needed = !validation
+            .zip(monte_carlo.as_ref())
+            .is_some_and(|(validation, figures)| is_clearly_valid(&validation, figures));
+        let problem = exact::Problem { task, row, joint: &joint, output: number, drawn_dof };
+        let noiseless = noiseless(&problem, needed);
         let conformity = monte_carlo.as_ref().and_then(|figures| {
             let u = gum.as_ref().map(|gum| gum.standard_uncertainty);
             let trusted = validation.is_some_and(|v| v.gum_valid != Some(false));
@@ -426,6 +437,7 @@ fn evaluate_row(
             gum,
             monte_carlo,
             second_order: second_order.map(Box::new),
+            noiseless,
             validation,
             conformity,
             drawn_dof,
@@ -436,6 +448,56 @@ fn evaluate_row(
         result.regions = regions(task, &result, &of_law, &trials, control)?;
     }
     Ok(result)
+}
+
+/// Trials of a row from which on exact figures cost next to nothing beside them, and rows up to which
+/// they cost little in any case.
+const MANY_TRIALS: u64 = 100_000;
+const FEW_EXACT_ROWS: usize = 100;
+
+/// Numerical standard errors beyond which the verdict of clause 8 is that of any seed: normal scatter
+/// is so far out once in 500 million times.
+const BEYOND_DOUBT: f64 = 6.0;
+
+/// Whether the GUM interval would be found valid with any seed.
+fn is_clearly_valid(validation: &Validation, figures: &MonteCarlo) -> bool {
+    let differences = [validation.d_low, validation.d_high];
+    differences.iter().zip(figures.errors.symmetric_interval).all(|(difference, error)| {
+        // a comparison with what is not a number is no proof
+        difference + BEYOND_DOUBT * error < validation.tolerance
+    })
+}
+
+/// The figures of an output without the noise of trials, as far as they are asked for; `needed` is
+/// whether dear ones are worth it where nobody asked for them alone.
+fn noiseless(problem: &exact::Problem<'_>, needed: bool) -> Option<Result<Box<Noiseless>, String>> {
+    let task = problem.task;
+    let settings = &task.settings;
+    let wanted = settings.method.filter(|wanted| *wanted != MethodChoice::MonteCarlo)?;
+    if wanted == MethodChoice::Auto {
+        let dear = match settings.trials {
+            Trials::Fixed(0) => true,
+            Trials::Fixed(trials) => {
+                let many_rows = task.rows.len() > FEW_EXACT_ROWS && !settings.quasi_otherwise;
+                trials < MANY_TRIALS && many_rows
+            }
+            Trials::Adaptive => false,
+        };
+        if dear {
+            return None;
+        }
+    }
+    if task.function.is_some() {
+        return Some(Err("the model's function is not recorded".to_owned()));
+    }
+    let found = match wanted {
+        MethodChoice::Quasi => quasi::evaluate(problem),
+        MethodChoice::Auto if settings.quasi_otherwise && needed => {
+            exact::evaluate(problem).or_else(|_| quasi::evaluate(problem))
+        }
+        _ => exact::evaluate(problem),
+    };
+    Some(found.map(Box::new))
 }
 
 /// A difference of two standard uncertainties below this share is not worth a word.

@@ -9,11 +9,13 @@ mod conformity;
 mod control;
 mod density;
 mod evaluation;
+mod exact;
 pub mod gum;
 mod input_figures;
 pub mod monte_carlo;
 mod origins;
 pub mod parts;
+mod quasi;
 mod regions;
 mod replay;
 mod second_order;
@@ -28,6 +30,7 @@ pub use evaluation::{
     CapabilityStatement, Evaluation, EvaluationError, JointlyDrawn, OutputEvaluation,
     RowEvaluation, evaluate, trial_hash,
 };
+pub use exact::{Accuracy, Noiseless, Scatter};
 pub use input_figures::InputFigures;
 pub use origins::{Origins, linear, origins};
 pub use regions::{

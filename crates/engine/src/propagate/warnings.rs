@@ -60,6 +60,7 @@ pub fn warnings(task: &Task, evaluation: &Evaluation) -> Vec<Warning> {
                 note.into_iter().for_each(|note| push(&mut found, note));
             }
             of_output(task, &output.quantity.name, row, evaluated, &mut found);
+            of_noiseless(&output.quantity.name, evaluated, &mut found);
             of_capability(output, evaluated, &mut found);
         }
     }
@@ -101,6 +102,64 @@ fn copula(task: &Task, evaluation: &Evaluation, found: &mut Vec<Warning>) {
             )
         };
         found.push(Warning::new("copula-adjusted", "", text));
+    }
+}
+
+/// Numerical standard errors that a figure of the trials may be from the one without noise: beyond it a
+/// figure of a normal scatter is once in 16,000.
+const BEYOND: f64 = 4.0;
+
+/// Whether a figure of the trials is too far from the one without noise.
+fn of_noiseless(name: &str, evaluated: &OutputEvaluation, found: &mut Vec<Warning>) {
+    let (Some(Ok(noiseless)), Some(trials)) = (&evaluated.noiseless, &evaluated.monte_carlo) else {
+        return;
+    };
+    let errors = &trials.errors;
+    let [low, high] = trials.symmetric_interval;
+    let [low_error, high_error] = errors.symmetric_interval;
+    let [exact_low, exact_high] = noiseless.symmetric_interval;
+    let own = noiseless.scatter();
+    let [own_low, own_high] = own.map_or([0.0; 2], |own| own.symmetric_interval);
+    let figures = [
+        (
+            "estimate",
+            trials.estimate.zip(noiseless.estimate),
+            errors.estimate,
+            own.and_then(|own| own.estimate),
+        ),
+        (
+            "standard uncertainty",
+            trials.standard_uncertainty.zip(noiseless.standard_uncertainty),
+            errors.standard_uncertainty,
+            own.and_then(|own| own.standard_uncertainty),
+        ),
+        (
+            "lower end of the symmetric interval",
+            Some((low, exact_low)),
+            Some(low_error),
+            Some(own_low),
+        ),
+        (
+            "upper end of the symmetric interval",
+            Some((high, exact_high)),
+            Some(high_error),
+            Some(own_high),
+        ),
+    ];
+    let far = figures.into_iter().filter_map(|(figure, values, error, own)| {
+        let (trials, exact) = values?;
+        let error = crate::number::elementary::hypot(error?, own.unwrap_or(0.0));
+        let count = (trials - exact).abs() / error;
+        (error > 0.0 && count > BEYOND).then(|| format!("its {figure} by {count:.1}"))
+    });
+    let far: Vec<String> = far.collect();
+    if !far.is_empty() {
+        let text = format!(
+            "`{name}`: figures of the trials are farther from those without their noise than {BEYOND} \
+             numerical standard errors: {}",
+            far.join(", ")
+        );
+        push(found, Warning::new("trials-off", name, text));
     }
 }
 

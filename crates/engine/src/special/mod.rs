@@ -20,6 +20,7 @@
 
 pub mod beta;
 pub mod gamma;
+pub(crate) mod legendre;
 pub mod normal;
 mod quadrature;
 #[cfg(test)]

@@ -15,7 +15,6 @@ const NORMAL: f64 = 1e20;
 ///
 /// Relative error below 1e-13 for results above 1e-100, and also for the smallest results some
 /// 1e-16 times their logarithm.
-#[cfg(test)]
 pub fn cdf(t: f64, dof: f64) -> f64 {
     sf(-t, dof)
 }
@@ -23,7 +22,6 @@ pub fn cdf(t: f64, dof: f64) -> f64 {
 /// The probability of a t quantity above `t`, for `dof` > 0 degrees of freedom (infinite: normal).
 ///
 /// Accuracy as of [`cdf`].
-#[cfg(test)]
 pub fn sf(t: f64, dof: f64) -> f64 {
     if dof.is_nan() || dof <= 0.0 || t.is_nan() {
         return f64::NAN;

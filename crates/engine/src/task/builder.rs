@@ -426,6 +426,11 @@ impl TaskBuilder {
         for input in &inputs {
             scope.define(&input.quantity.name, Typing::in_unit(&input.quantity.unit));
         }
+        if !self.check_units {
+            for of in inputs.iter().map(|input| &input.quantity).chain(&conditions) {
+                scope.declare(&of.name, of.unit.clone());
+            }
+        }
         for (name, _) in &self.equations {
             scope.announce(name);
         }

@@ -47,6 +47,40 @@ impl StoppingRule {
     }
 }
 
+/// Which figures without the noise of trials are wanted beside those of the Monte Carlo method.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum MethodChoice {
+    /// Exact ones where the model allows them.
+    #[default]
+    Auto,
+    /// None.
+    MonteCarlo,
+    /// Exact ones.
+    Exact,
+    /// Those of quasi-random points, one input being integrated exactly.
+    Quasi,
+}
+
+impl MethodChoice {
+    /// All of them.
+    pub const ALL: [Self; 4] = [Self::Auto, Self::MonteCarlo, Self::Exact, Self::Quasi];
+
+    /// The name that files and the command line use.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Auto => "auto",
+            Self::MonteCarlo => "monte-carlo",
+            Self::Exact => "exact",
+            Self::Quasi => "quasi",
+        }
+    }
+
+    /// The choice of that name.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|choice| choice.name() == name)
+    }
+}
+
 /// The settings of an evaluation. They start from the defaults:
 ///
 /// ```
@@ -84,6 +118,10 @@ pub struct Settings {
     pub real_dof: bool,
     /// Share of trials that may be undefined (not finite).
     pub allowed_undefined: f64,
+    /// Which figures without noise are wanted beside those of the trials; none where nobody said.
+    pub method: Option<MethodChoice>,
+    /// Whether [`MethodChoice::Auto`] takes quasi-random points where there are no exact figures.
+    pub quasi_otherwise: bool,
 }
 
 impl Default for Settings {
@@ -100,6 +138,8 @@ impl Default for Settings {
             own_digits: false,
             real_dof: false,
             allowed_undefined: 0.0,
+            method: None,
+            quasi_otherwise: false,
         }
     }
 }
@@ -144,6 +184,8 @@ pub struct SettingsChanges {
     pub validate: bool,
     /// When an adaptive run stops.
     pub rule: Option<StoppingRule>,
+    /// Which figures without noise are wanted beside those of the trials.
+    pub method: Option<MethodChoice>,
     /// The largest number of trials of an adaptive run.
     pub max_trials: Option<u64>,
     /// Seed of the random streams.
@@ -168,6 +210,7 @@ impl SettingsChanges {
             settings.for_validation = true;
         }
         settings.rule = self.rule.unwrap_or(settings.rule);
+        settings.method = self.method.or(settings.method);
         settings.max_trials = self.max_trials.unwrap_or(settings.max_trials);
         settings.seed = self.seed.unwrap_or(settings.seed);
         if let Some(digits) = self.digits {

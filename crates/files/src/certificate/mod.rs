@@ -118,6 +118,8 @@ struct Asking {
 
 impl Asking {
     fn apply(self, settings: &mut Settings) {
+        // no digit of a certificate is to depend on a seed, where such figures are asked for
+        settings.quasi_otherwise = true;
         if let Some(own) = self.trials {
             settings.trials = own.trials;
             settings.decide_up_to = own.decide_up_to;

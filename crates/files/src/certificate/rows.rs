@@ -299,7 +299,7 @@ impl<'a> Rows<'a> {
         let (input, value) = (entry.key.clone(), value.to_owned());
         let text = format!("{input}={value}");
         let wanted = Override { text, input, field: None, value };
-        let found = match wanted.value_in(&task.model.conditions[place].unit) {
+        let found = match wanted.value_in(&task.model.conditions[place].unit, &[]) {
             Ok(found) => found,
             Err(DiagnosticKind::Override { text, reason }) => {
                 let reason = format!("`{text}`: {reason}");

@@ -20,7 +20,6 @@ use document::{Measured, Stated};
 use gumption_engine::distribution::{
     Constant, Distribution, Invalid, Normal, Rectangular, Triangular,
 };
-use gumption_engine::model::formula::Formula;
 use gumption_engine::special;
 use gumption_units::{Unit, nearest};
 pub(super) use own::Certified;
@@ -471,7 +470,8 @@ impl FromCertificate {
         (conditions, row): (&dyn ConditionValues, usize),
     ) -> Option<f64> {
         let place = object.get("at").map_or(object.place(), |member| &member.value.span);
-        let formula = Formula::parse(condition).map_err(|error| DiagnosticKind::Formula { error });
+        let formula = object.log.formula(condition);
+        let formula = formula.map_err(|error| DiagnosticKind::Formula { error });
         let formula = object.log.value(place, formula)?;
         if let Err(kinds) = conditions.check(&formula, unit, ValueOf::Quantity) {
             if row == 0 {

@@ -50,6 +50,9 @@ fn identifier(text: &str) -> String {
     let sign = |c: char| if c.is_alphanumeric() { c } else { '_' };
     let name: String = text.trim().chars().take(40).map(sign).collect();
     let name = name.trim_matches('_').to_owned();
+    if name.is_empty() {
+        return NAMELESS.to_owned();
+    }
     let candidates = [name.clone(), format!("{NAMELESS}_{name}"), format!("{name}_")];
     let right = candidates.into_iter().find(|name| check_name(name).is_ok());
     right.unwrap_or_else(|| NAMELESS.to_owned())

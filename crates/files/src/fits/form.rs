@@ -61,7 +61,7 @@ impl<'a> Form<'a> {
             }
             (text, None) => {
                 let member = written?;
-                let formula = Formula::parse(text);
+                let formula = fit.log.formula(text);
                 match formula {
                     Ok(formula) => Some(Self::Formula(formula, member)),
                     Err(error) => {
@@ -228,12 +228,13 @@ impl Start {
                         reason: "a number with a unit is needed, such as `2 kN`".to_owned(),
                     });
                     let (_, unit) = log.value(&member.value.span, read)?;
-                    let parsed = Unit::parse(unit)
+                    let parsed = log
+                        .unit(unit)
                         .map_err(|error| DiagnosticKind::Unit { unit: unit.to_owned(), error });
                     let unit = log.value(&member.value.span, parsed)?;
                     has_units = true;
                     let value =
-                        with_unit(text).map(|read| converted(read, &unit, ValueOf::Quantity));
+                        with_unit(text).map(|read| converted(read, &unit, ValueOf::Quantity, &[]));
                     (unit, value.and_then(Result::ok)?)
                 }
                 _ => (Unit::one(), object.number(name)?),

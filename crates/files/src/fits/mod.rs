@@ -171,7 +171,7 @@ impl Reader<'_, '_> {
             (Form::Formula(..), None) => return None,
         };
         let fitted = fitted.map_err(|error| self.report(&error)).ok()?;
-        let parameters = coefficients(self.name, fitted.count(), &x, &y);
+        let parameters = coefficients(&object.log.own_units(), self.name, fitted.count(), (&x, &y));
         self.function(fitted, (x, y), parameters, numbers)
     }
 
@@ -292,16 +292,21 @@ impl Reader<'_, '_> {
 }
 
 /// The names of a polynomial's coefficients, a and on, with their units.
-fn coefficients(name: &str, count: usize, x: &Unit, y: &Unit) -> Vec<(String, Unit)> {
+fn coefficients(
+    own: &[Unit],
+    name: &str,
+    count: usize,
+    (x, y): (&Unit, &Unit),
+) -> Vec<(String, Unit)> {
     ('a'..='z')
         .take(count)
         .enumerate()
-        .map(|(power, letter)| (format!("{name}.{letter}"), unit_of(x, y, power)))
+        .map(|(power, letter)| (format!("{name}.{letter}"), unit_of(own, x, y, power)))
         .collect()
 }
 
 /// The unit of a coefficient: y over a power of x, in which a degree Celsius is one of a difference.
-fn unit_of(x: &Unit, y: &Unit, power: usize) -> Unit {
+fn unit_of(own: &[Unit], x: &Unit, y: &Unit, power: usize) -> Unit {
     let text = |unit: &Unit| {
         let text = unit.text().trim();
         if text.is_empty() { "1".to_owned() } else { text.to_owned() }
@@ -315,5 +320,5 @@ fn unit_of(x: &Unit, y: &Unit, power: usize) -> Unit {
         (1, x, y) => format!("{y}/{x}"),
         (power, x, y) => format!("{y}/{x}^{power}"),
     };
-    Unit::parse(&written).unwrap_or_else(|_| Unit::one())
+    Unit::parse_among(&written, own).unwrap_or_else(|_| Unit::one())
 }

@@ -164,7 +164,8 @@ fn spread(
                     column_of(log, column(text)?, text, &member.value.span)?
                 }
                 _ => {
-                    let width = Width::read(&member.value, name, "standard_uncertainty", unit);
+                    let width =
+                        Width::read(log, &member.value, (name, "standard_uncertainty"), unit);
                     let width = log.value(&member.value.span, width)?;
                     values.iter().map(|value| width.at(*value)).collect()
                 }

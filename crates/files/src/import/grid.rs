@@ -3,7 +3,9 @@
 use std::ops::Range;
 use std::path::Path;
 
-use crate::{bytes, workbook};
+use crate::open::json_as_table;
+use crate::source::SourceText;
+use crate::{DiagnosticKind, bytes, workbook};
 
 /// Lines and cells, at most.
 const MOST_LINES: usize = 10_000;
@@ -44,15 +46,19 @@ impl Cells {
 }
 
 /// The cells of a CSV file or of the first sheet of an XLSX file, and the text of messages.
-pub(super) fn of_file(path: &Path) -> Result<(Cells, String), String> {
-    let content = bytes::of_file(path, bytes::MOST)?;
+pub(super) fn of_file(path: &Path) -> Result<(Cells, String), DiagnosticKind> {
+    let unreadable = |message| DiagnosticKind::Unreadable { message };
+    let content = bytes::of_file(path, bytes::MOST).map_err(unreadable)?;
     let is_workbook =
         path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("xlsx"));
     if is_workbook {
-        let rows = workbook::rows(content)?;
+        let rows = workbook::rows(content).map_err(unreadable)?;
         return Ok(of_rows(rows));
     }
-    let text = bytes::text(&content)?;
+    let text = bytes::text(&content).map_err(unreadable)?;
+    if let Some((_, kind)) = json_as_table(&SourceText::new("", &text)) {
+        return Err(kind);
+    }
     let count = |sign: char| text.matches(sign).count();
     let separator = if count('\t') > count(';') && count('\t') > count(',') {
         b'\t'
@@ -69,7 +75,7 @@ pub(super) fn of_file(path: &Path) -> Result<(Cells, String), String> {
         .from_reader(text.as_bytes());
     let mut last = 0;
     for record in reader.records() {
-        let record = record.map_err(|error| format!("it is no CSV: {error}"))?;
+        let record = record.map_err(|error| unreadable(format!("it is no CSV: {error}")))?;
         // empty lines are no records, and count here
         let line = record.position().map_or(last + 1, |place| place.line() as usize);
         while last + 1 < line {
@@ -79,7 +85,8 @@ pub(super) fn of_file(path: &Path) -> Result<(Cells, String), String> {
         rows.push(record.iter().map(str::to_owned).collect());
         last = line;
         if rows.len() > MOST_LINES {
-            return Err(format!("it has more than {MOST_LINES} lines; a budget has fewer"));
+            let message = format!("it has more than {MOST_LINES} lines; a budget has fewer");
+            return Err(unreadable(message));
         }
     }
     let (mut cells, text) = of_rows(rows);

@@ -62,6 +62,17 @@ pub(crate) const MODEL: &[Key] = keys![
                 .with("maximum", 8),
     "coverage_factor_fixed" => described("boolean", "Keep the coverage factor whatever the degrees of freedom."),
     "monte_carlo" => reference("monte-carlo"),
+    "method" => object([
+        (
+            "description",
+            Value::from(
+                "Which figures stand beside those of the trials: `exact` ones of sums and products \
+                 of independent contributions, those of `quasi`-random points, none with \
+                 `monte-carlo`, which is the default; `auto` takes exact ones where there are any.",
+            ),
+        ),
+        ("enum", texts(["auto", "monte-carlo", "exact", "quasi"])),
+    ]),
     "check_units" => described(
         "boolean",
         "Whether dimensions are checked through the formulas; true. If false, formulas compute \
@@ -135,7 +146,7 @@ pub(crate) const OUTPUT: &[Key] = keys![
                  NAME.re and NAME.im, `polar` as NAME.abs and NAME.arg.")
                 .with("enum", texts(["re-im", "polar"])),
     "phase_unit" => referenced("unit", "The unit of the phase of a complex output; rad."),
-    "periodic" => referenced("positive", "The length of a turn in the output's unit, for phases."),
+    "periodic" => referenced("width", "The length of a turn in the output's unit, for phases."),
     "tolerance" => reference("tolerance"),
     "cmc" => referenced("width", "The laboratory's capability: its smallest expanded uncertainty."),
     "cmc_floor" => described("boolean", "Raise a smaller expanded uncertainty to `cmc`."),

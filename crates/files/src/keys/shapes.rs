@@ -231,7 +231,7 @@ fn field(shape: &str, key: &str) -> Value {
             .with("minimum", 0)
             .with("maximum", 1),
         (_, "shape") => referenced("positive", "Shape."),
-        (_, "rate") => referenced("positive", "Rate, in 1/unit."),
+        (_, "rate") => referenced("value", "Rate, above 0: a number in 1/unit, or with a unit."),
         (_, "alpha") => referenced("positive", "First shape parameter."),
         (_, "beta") => referenced("positive", "Second shape parameter."),
         (_, "count") => described("integer", "The count.").with("minimum", 0),
@@ -274,7 +274,7 @@ fn field(shape: &str, key: &str) -> Value {
             .with("items", object([("type", Value::from("number"))]))
             .with("minItems", 2),
         ("quantiles", "values") => referenced("values", "The quantiles of these probabilities."),
-        (_, "values") => reference("numbers"),
+        (_, "values") => referenced("values", "The samples."),
         (_, "paired") => {
             described("boolean", "Readings that were taken together with those of other inputs.")
         }
@@ -310,7 +310,7 @@ pub(crate) const COMPONENT: [&str; 6] =
 
 /// Keys of a standard deviation that stands in place of the scatter of readings.
 pub(crate) const POOLED: &[Key] = keys![
-    "std" => referenced("positive", "Standard deviation of one reading, in the unit of the input."),
+    "std" => referenced("width", "Standard deviation of one reading, in the unit of the input."),
     "dof" => referenced("positive", "Its degrees of freedom."),
     "fit" => text_of(
         "Instead of both: the calibration function of the file whose residuals have that scatter."

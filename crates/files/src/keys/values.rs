@@ -1,7 +1,7 @@
 //! Values that many keys have: numbers of a range, widths, estimates, units, names.
 
 use super::node::{With, object, texts};
-use super::{Key, closed, described, keys, text_of};
+use super::{Key, closed, described, keys, referenced, text_of};
 use serde_json::Value;
 
 /// A number with an open lower limit, an open upper one, or both.
@@ -34,7 +34,7 @@ fn list(about: &str) -> Value {
 
 /// Keys of readings that a distribution is tested against.
 pub(crate) const READINGS: &[Key] = keys![
-    "values" => list("The readings."),
+    "values" => referenced("values", "The readings."),
     "file" => text_of("A file with one reading in each line."),
 ];
 

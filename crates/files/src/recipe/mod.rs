@@ -15,7 +15,7 @@ use super::diagnostics::{Collector, Diagnostics};
 use super::json::{Json, Node};
 use super::keys;
 use super::object::Object;
-use super::open::{check_format, read_root};
+use super::open::{FileKind, check_format, read_root, refuse_other_kind};
 use super::recording::{self, Recording};
 use super::source::SourceText;
 use crate::folder::Folder;
@@ -126,6 +126,9 @@ pub(super) fn check_text(name: &str, text: &str, folder: Folder<'_>) -> Result<(
 }
 
 fn recipe(root: &Object<'_>, folder: Folder<'_>) -> Option<RecipeFile> {
+    if refuse_other_kind(root, FileKind::Recipe) {
+        return None;
+    }
     root.check_keys(keys::RECIPE);
     check_format(root, 1.0);
     let title = root.text("title").map(str::to_owned);

@@ -5,13 +5,14 @@ use std::io::{self, BufRead, BufReader, Cursor, Read};
 
 use csv::{ByteRecord, Reader};
 
+use super::wide_text::NarrowText;
 use super::{BLOCK, ColumnName, Frames, Wanted, place};
 use gumption_units::nearest;
 
 /// Longer cells are cut in messages.
 const LONGEST: usize = 40;
 
-type Whole<R> = io::Chain<Cursor<Vec<u8>>, BufReader<R>>;
+type Whole<R> = io::Chain<Cursor<Vec<u8>>, BufReader<NarrowText<R>>>;
 
 /// Frames of a text.
 pub(super) struct CsvFrames<R> {
@@ -31,7 +32,8 @@ pub(super) struct CsvFrames<R> {
 
 impl<R: Read> CsvFrames<R> {
     pub(super) fn new(reader: R, wanted: Vec<Wanted>) -> Result<Self, String> {
-        let mut reader = BufReader::new(reader);
+        let text = NarrowText::new(reader).map_err(|error| error.to_string())?;
+        let mut reader = BufReader::new(text);
         let mut line = Vec::new();
         let mut skipped = 0;
         // the first line that is no comment shows the separator

@@ -5,6 +5,7 @@ mod npy_frames;
 mod npy_header;
 mod scan;
 mod wav_frames;
+mod wide_text;
 
 use std::cell::RefCell;
 use std::fs::File;

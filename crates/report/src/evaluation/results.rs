@@ -47,6 +47,9 @@ pub(super) fn section(
     if let Some(sheet) = comparison::sheet(found, digits) {
         document.table(sheet);
     }
+    if let Some(said) = comparison::without_noise(quantity, found) {
+        document.sentence(&said);
+    }
     if let Some(figures) = &found.monte_carlo {
         if !figures.shortest_exact {
             document.sentence(comparison::NEARLY_SHORTEST);

@@ -12,7 +12,7 @@ use gumption_engine::model::{Output, Quantity, Tolerance};
 use gumption_engine::propagate::gum::{Dof, Gum};
 use gumption_engine::propagate::monte_carlo::{Adaptive, FIRST_STAGE, MonteCarlo};
 use gumption_engine::propagate::validate::Validation;
-use gumption_engine::propagate::{Conformity, OutputEvaluation};
+use gumption_engine::propagate::{Accuracy, Conformity, Noiseless, OutputEvaluation};
 use gumption_engine::task::{Coverage, StoppingRule};
 
 /// What is said of a shortest interval that is not exact.
@@ -30,17 +30,22 @@ const SHAPE_PLACE: i32 = -2;
 /// verdict; nothing without trials and without a GUM interval.
 pub(super) fn table(output: &Quantity, figures: &OutputEvaluation, digits: u32) -> Option<String> {
     let gum = figures.gum.as_ref();
+    let lines = Lines::of(figures, digits);
+    let said = without_noise(output, figures);
     let Some(monte_carlo) = &figures.monte_carlo else {
-        let said = gum.and_then(|gum| interval_text(output, gum, digits));
-        return said.map(|said| text::wrapped(&said));
+        let mut page = lines.map_or_else(String::new, |lines| lines.grid().render(WIDTH));
+        page += &gum
+            .and_then(|gum| interval_text(output, gum, digits))
+            .into_iter()
+            .chain(said)
+            .map(|said| text::wrapped(&said))
+            .collect::<String>();
+        return (!page.is_empty()).then_some(page);
     };
-    let lines = lines(gum, monte_carlo, digits);
-    let mut grid = Grid::default();
-    grid.text("", lines.iter().map(|line| line.names[0].to_owned()));
-    grid.numbers("GUM", lines.iter().map(|line| line.gum.clone()));
-    grid.numbers("Monte Carlo", lines.iter().map(|line| line.monte_carlo.clone()));
-    grid.numbers("numerical\nstandard error", lines.iter().map(|line| line.error.clone()));
-    let mut page = grid.render(WIDTH);
+    let mut page = lines?.grid().render(WIDTH);
+    if let Some(said) = said {
+        page += &text::wrapped(&said);
+    }
     if !monte_carlo.shortest_exact {
         page += &text::wrapped(NEARLY_SHORTEST);
     }
@@ -57,6 +62,42 @@ pub(super) fn table(output: &Quantity, figures: &OutputEvaluation, digits: u32) 
     }
     Some(page)
 }
+
+/// What is said of figures without noise: how far they may be off, or why there are none; nothing where
+/// none were asked for.
+pub(crate) fn without_noise(output: &Quantity, figures: &OutputEvaluation) -> Option<String> {
+    Some(match figures.noiseless.as_ref()? {
+        Ok(noiseless) => accuracy(output, noiseless),
+        Err(why) => format!("no figures without the noise of trials: {}", crate::plain(why)),
+    })
+}
+
+/// How far the figures without noise may be off, and how they were found.
+fn accuracy(output: &Quantity, noiseless: &Noiseless) -> String {
+    let number = |value: f64| in_unit(&significant(value, 1), &output.unit);
+    match &noiseless.accuracy {
+        Accuracy::Bound(bound) => format!(
+            "exact: from the distributions of independent contributions, without trials; no figure \
+             is off by more than {}",
+            number(*bound)
+        ),
+        Accuracy::Scatter(scatter) => {
+            let [low, high] = scatter.symmetric_interval;
+            format!(
+                "quasi-random: `{}` integrated exactly, the other inputs over {} scrambled nets of {} \
+                 points; numerical standard errors of the ends of the symmetric interval {} and {}",
+                crate::plain(&scatter.integrated),
+                scatter.randomizations,
+                text::grouped(scatter.points),
+                significant(low, 1),
+                number(high)
+            )
+        }
+    }
+}
+
+/// Digits of the standard uncertainty that figures without noise are shown to, at most.
+const NOISELESS_DIGITS: u32 = 6;
 
 /// Notes that say why the two methods differ, or what one of them leaves out.
 const DIFFERENCES: [&str; 5] =
@@ -224,13 +265,66 @@ pub(crate) fn stability(output: &Quantity, end: &Adaptive, trials: u64) -> Strin
     }
 }
 
-/// A figure by both methods.
-pub(crate) struct Line {
+/// A figure by all methods.
+struct Line {
     /// Its name, and its name where it does not stand below another.
     names: [&'static str; 2],
     gum: String,
     monte_carlo: String,
     error: String,
+    noiseless: [String; 2],
+}
+
+/// The figures of all methods, and which methods there are.
+struct Lines<'a> {
+    lines: Vec<Line>,
+    has_trials: bool,
+    noiseless: Option<&'a Noiseless>,
+}
+
+impl<'a> Lines<'a> {
+    /// Nothing without trials and without figures that have no noise.
+    fn of(figures: &'a OutputEvaluation, digits: u32) -> Option<Self> {
+        let noiseless = figures.noiseless.as_ref().and_then(|found| found.as_deref().ok());
+        let trials = figures.monte_carlo.as_ref();
+        (trials.is_some() || noiseless.is_some()).then(|| Self {
+            lines: lines(figures.gum.as_ref(), trials, noiseless, digits),
+            has_trials: trials.is_some(),
+            noiseless,
+        })
+    }
+
+    fn names(&self, which: usize) -> impl Iterator<Item = String> {
+        self.lines.iter().map(move |line| line.names[which].to_owned())
+    }
+
+    /// The columns of numbers with their headings.
+    fn columns(&self) -> Vec<(&'static str, Vec<String>)> {
+        let of = |text: fn(&Line) -> &String| self.lines.iter().map(|l| text(l).clone()).collect();
+        let mut columns = vec![("GUM", of(|line| &line.gum))];
+        if self.has_trials {
+            columns.push(("Monte Carlo", of(|line| &line.monte_carlo)));
+            columns.push(("numerical\nstandard error", of(|line| &line.error)));
+        }
+        match self.noiseless.map(|noiseless| &noiseless.accuracy) {
+            Some(Accuracy::Bound(_)) => columns.push(("exact", of(|line| &line.noiseless[0]))),
+            Some(Accuracy::Scatter(_)) => {
+                columns.push(("quasi-\nrandom", of(|line| &line.noiseless[0])));
+                columns.push(("its standard\nerror", of(|line| &line.noiseless[1])));
+            }
+            None => {}
+        }
+        columns
+    }
+
+    fn grid(&self) -> Grid {
+        let mut grid = Grid::default();
+        grid.text("", self.names(0));
+        for (heading, texts) in self.columns() {
+            grid.numbers(heading, texts);
+        }
+        grid
+    }
 }
 
 const SYMMETRIC_LOW: [&str; 2] =
@@ -242,59 +336,107 @@ const SHORTEST_LOW: [&str; 2] =
 const SHORTEST_HIGH: [&str; 2] =
     ["                              to", "coverage interval, shortest: to"];
 
-/// The figures of both methods side by side; `None` without trials.
+/// The figures of all methods side by side; `None` where there is only the law of propagation.
 pub(crate) fn sheet(figures: &OutputEvaluation, digits: u32) -> Option<Sheet> {
-    let lines = lines(figures.gum.as_ref(), figures.monte_carlo.as_ref()?, digits);
+    let lines = Lines::of(figures, digits)?;
     let mut sheet = Sheet::default();
-    sheet.text("figure", lines.iter().map(|line| line.names[1].to_owned()));
-    sheet.numbers("GUM", lines.iter().map(|line| line.gum.clone()));
-    sheet.numbers("Monte Carlo", lines.iter().map(|line| line.monte_carlo.clone()));
-    sheet.numbers("numerical\nstandard error", lines.iter().map(|line| line.error.clone()));
+    sheet.text("figure", lines.names(1));
+    for (heading, texts) in lines.columns() {
+        sheet.numbers(heading, texts);
+    }
     Some(sheet)
 }
 
-fn lines(gum: Option<&Gum>, figures: &MonteCarlo, digits: u32) -> Vec<Line> {
+/// Figures without noise with their standard errors, in the order of the lines.
+fn noiseless_texts(of: &Noiseless, u: Option<f64>) -> [[String; 2]; 7] {
+    let place = of.standard_uncertainty.or(u).and_then(|u| position(u, NOISELESS_DIGITS));
+    let [low, high] = of.symmetric_interval.map(Some);
+    let ends = |ends: Option<[f64; 2]>| ends.map_or([None; 2], |ends| ends.map(Some));
+    let [short_low, short_high] = ends(of.shortest_interval);
+    let median = Some(of.median);
+    let values = [of.estimate, of.standard_uncertainty, median, low, high, short_low, short_high];
+    let errors = match &of.accuracy {
+        Accuracy::Bound(bound) => [Some(*bound); 7],
+        Accuracy::Scatter(scatter) => {
+            let [low, high] = scatter.symmetric_interval.map(Some);
+            let [short_low, short_high] = ends(scatter.shortest_interval);
+            let (u, median) = (scatter.standard_uncertainty, Some(scatter.median));
+            [scatter.estimate, u, median, low, high, short_low, short_high]
+        }
+    };
+    std::array::from_fn(|i| {
+        let missing = || MISSING.to_owned();
+        let value = values[i].map(|value| justified(value, place, errors[i].unwrap_or(f64::NAN)));
+        let error = errors[i].filter(|error| !error.is_nan()).map(|error| significant(error, 1));
+        [value, error].map(|text| text.unwrap_or_else(missing))
+    })
+}
+
+fn lines(
+    gum: Option<&Gum>,
+    trials: Option<&MonteCarlo>,
+    noiseless: Option<&Noiseless>,
+    digits: u32,
+) -> Vec<Line> {
     let uncertainty = gum.map(|gum| gum.standard_uncertainty);
-    let own = figures.standard_uncertainty.or(uncertainty);
+    let own = trials.and_then(|figures| figures.standard_uncertainty).or(uncertainty);
     let gum_position = uncertainty.and_then(|u| position(u, digits));
     let own_position = own.and_then(|u| position(u, digits)).or(gum_position);
-    let end_position = place_of_ends(figures, own, digits).or(own_position);
-    let errors = &figures.errors;
-    let figure = |place: Option<i32>,
-                  names: [&'static str; 2],
-                  gum: Option<f64>,
-                  value: Option<f64>,
-                  error: Option<f64>| Line {
-        names,
-        gum: gum.map_or_else(|| MISSING.to_owned(), |value| to(value, gum_position)),
-        monte_carlo: value.map_or_else(
-            || MISSING.to_owned(),
-            |value| justified(value, place, error.unwrap_or(f64::NAN)),
+    let end_position =
+        trials.and_then(|figures| place_of_ends(figures, own, digits)).or(own_position);
+    // its value and error, if there are trials, and where its last digit stands
+    type OfTrials = Option<(Option<f64>, Option<f64>)>;
+    let missing = || MISSING.to_owned();
+    let figure =
+        |place: Option<i32>, names: [&'static str; 2], gum: Option<f64>, of_trials: OfTrials| {
+            let (value, error) = of_trials.unwrap_or_default();
+            Line {
+                names,
+                gum: gum.map_or_else(missing, |value| to(value, gum_position)),
+                monte_carlo: value.map_or_else(missing, |value| {
+                    justified(value, place, error.unwrap_or(f64::NAN))
+                }),
+                error: error
+                    .filter(|error| !error.is_nan())
+                    .map_or_else(missing, |error| significant(error, 1)),
+                noiseless: [MISSING.to_owned(), MISSING.to_owned()],
+            }
+        };
+    let line = |names, gum, of: OfTrials| figure(own_position, names, gum, of);
+    let end = |names, gum, of: OfTrials| figure(end_position, names, gum, of);
+    let each = |of: fn(&MonteCarlo) -> (Option<f64>, Option<f64>)| trials.map(of);
+    let low = |ends: [f64; 2], errors: [f64; 2]| (Some(ends[0]), Some(errors[0]));
+    let high = |ends: [f64; 2], errors: [f64; 2]| (Some(ends[1]), Some(errors[1]));
+    let symmetric = trials.map(|of| (of.symmetric_interval, of.errors.symmetric_interval));
+    let shortest = trials.map(|of| (of.shortest_interval, of.errors.shortest_interval));
+    let [gum_low, gum_high] = gum.and_then(Gum::interval).map_or([None; 2], |ends| ends.map(Some));
+    let mut lines = vec![
+        line(
+            ["estimate"; 2],
+            gum.map(|gum| gum.estimate),
+            each(|of| (of.estimate, of.errors.estimate)),
         ),
-        error: error
-            .filter(|error| !error.is_nan())
-            .map_or_else(|| MISSING.to_owned(), |error| significant(error, 1)),
-    };
-    let line = |names, gum, value, error| figure(own_position, names, gum, value, error);
-    let end = |names, gum, value, error| figure(end_position, names, gum, value, error);
-    let ends = |[low, high]: [f64; 2]| (Some(low), Some(high));
-    let (gum_low, gum_high) = gum.and_then(Gum::interval).map_or((None, None), ends);
-    let (low, high) = ends(figures.symmetric_interval);
-    let (low_error, high_error) = ends(errors.symmetric_interval);
-    let (short_low, short_high) = ends(figures.shortest_interval);
-    let (short_low_error, short_high_error) = ends(errors.shortest_interval);
-    let spread = figures.standard_uncertainty;
-    vec![
-        line(["estimate"; 2], gum.map(|gum| gum.estimate), figures.estimate, errors.estimate),
-        line(["standard uncertainty"; 2], uncertainty, spread, errors.standard_uncertainty),
-        end(["median"; 2], None, Some(figures.median), Some(errors.median)),
-        end(SYMMETRIC_LOW, gum_low, low, low_error),
-        end(SYMMETRIC_HIGH, gum_high, high, high_error),
-        end(SHORTEST_LOW, None, short_low, short_low_error),
-        end(SHORTEST_HIGH, None, short_high, short_high_error),
-        shape("skewness", figures.skewness, errors.skewness, figures),
-        shape("excess kurtosis", figures.excess_kurtosis, errors.excess_kurtosis, figures),
-    ]
+        line(
+            ["standard uncertainty"; 2],
+            uncertainty,
+            each(|of| (of.standard_uncertainty, of.errors.standard_uncertainty)),
+        ),
+        end(["median"; 2], None, each(|of| (Some(of.median), Some(of.errors.median)))),
+        end(SYMMETRIC_LOW, gum_low, symmetric.map(|(ends, errors)| low(ends, errors))),
+        end(SYMMETRIC_HIGH, gum_high, symmetric.map(|(ends, errors)| high(ends, errors))),
+        end(SHORTEST_LOW, None, shortest.map(|(ends, errors)| low(ends, errors))),
+        end(SHORTEST_HIGH, None, shortest.map(|(ends, errors)| high(ends, errors))),
+    ];
+    if let Some(of) = trials {
+        lines.push(shape("skewness", of.skewness, of.errors.skewness, of));
+        lines.push(shape("excess kurtosis", of.excess_kurtosis, of.errors.excess_kurtosis, of));
+    }
+    if let Some(noiseless) = noiseless {
+        for (line, texts) in lines.iter_mut().zip(noiseless_texts(noiseless, own)) {
+            line.noiseless = texts;
+        }
+    }
+    lines
 }
 
 /// Skewness and kurtosis: two decimals, fewer where the numerical standard error says so, and one
@@ -310,6 +452,7 @@ fn shape(name: &'static str, value: Option<f64>, error: Option<f64>, of: &MonteC
         gum: missing(),
         monte_carlo: value.map_or_else(missing, figure),
         error: error.map_or_else(missing, |error| significant(error, 1)),
+        noiseless: [missing(), missing()],
     }
 }
 

@@ -8,6 +8,7 @@ use crate::number::{
 use crate::sheet::{Figure, Sheet};
 use gumption_engine::model::{Output, Quantity};
 use gumption_engine::propagate::gum::Gum;
+use gumption_engine::propagate::monte_carlo::{MonteCarlo, StatedInterval};
 use gumption_engine::propagate::{OutputEvaluation, RowEvaluation};
 use gumption_engine::task::Task;
 
@@ -93,9 +94,8 @@ pub(crate) fn sheet(task: &Task, rows: &[RowEvaluation], output: usize, digits: 
         let values = rows.iter().map(|row| row.conditions.get(position).copied());
         sheet.figures(&header(condition), values.map(|value| Figure::rounded(value, exact)));
     }
-    let lines: Vec<[String; 7]> =
-        rows.iter().map(|row| line(row.outputs.get(output), digits)).collect();
-    let column = |position: usize| lines.iter().map(move |line| line[position].clone());
+    let lines: Vec<Line> = rows.iter().map(|row| line(row.outputs.get(output), digits)).collect();
+    let column = |position: usize| lines.iter().map(move |line| line.texts[position].clone());
     sheet.numbers("estimate", column(0));
     sheet.numbers("standard\nuncertainty", column(1));
     sheet.numbers("expanded\nuncertainty", column(2));
@@ -104,6 +104,14 @@ pub(crate) fn sheet(task: &Task, rows: &[RowEvaluation], output: usize, digits: 
         sheet.numbers("Monte Carlo\nfrom", column(4));
         sheet.numbers("to", column(5));
         sheet.text("GUM\ninterval", column(6));
+        if lines.iter().any(|line| line.shortest == Some(true)) {
+            let kind = |line: &Line| match line.shortest {
+                Some(true) => "shortest".to_owned(),
+                Some(false) => "symmetric".to_owned(),
+                None => missing(),
+            };
+            sheet.text("Monte Carlo\ninterval is", lines.iter().map(kind));
+        }
     }
     sheet
 }
@@ -219,9 +227,9 @@ impl Sweep<'_> {
                 }
             }
         }
-        let lines: Vec<[String; 7]> =
+        let lines: Vec<Line> =
             rows.iter().map(|row| line(row.outputs.get(output), self.digits)).collect();
-        let column = |position: usize| lines.iter().map(move |line| line[position].clone());
+        let column = |position: usize| lines.iter().map(move |line| line.texts[position].clone());
         let uncertainty = layout.uncertainty;
         grid.numbers("estimate", column(0));
         grid.numbers(&format!("standard\n{uncertainty}"), column(1));
@@ -230,8 +238,17 @@ impl Sweep<'_> {
         if self.has_trials {
             let ends = [4, 5].map(|position| align(&column(position).collect::<Vec<_>>()));
             let [low, high] = ends;
-            let intervals = low.into_iter().zip(high).map(|(low, high)| format!("{low}  {high}"));
-            grid.text("Monte Carlo interval\n(symmetric) from, to", intervals);
+            let are = |kind: Option<bool>| lines.iter().any(|line| line.shortest == kind);
+            let (header, marked) = match (are(Some(true)), are(Some(false))) {
+                (true, true) => ("Monte Carlo interval\nfrom, to; s: shortest", true),
+                (true, false) => ("Monte Carlo interval\n(shortest) from, to", false),
+                (false, _) => ("Monte Carlo interval\n(symmetric) from, to", false),
+            };
+            let intervals = low.into_iter().zip(high).zip(&lines).map(|((low, high), line)| {
+                let mark = if marked && line.shortest == Some(true) { "  s" } else { "" };
+                format!("{low}  {high}{mark}")
+            });
+            grid.text(header, intervals);
             grid.text("GUM\ninterval", column(6));
         }
         grid
@@ -251,8 +268,17 @@ fn missing() -> String {
     MISSING.to_owned()
 }
 
-/// Estimate, u, U, k, the two ends of the Monte Carlo interval, the verdict.
-fn line(output: Option<&OutputEvaluation>, digits: u32) -> [String; 7] {
+/// What stands in a line.
+struct Line {
+    /// Estimate, u, U, k, the two ends of the Monte Carlo interval, the verdict.
+    texts: [String; 7],
+    /// Whether that interval is the shortest one, if there is one.
+    shortest: Option<bool>,
+}
+
+/// The interval is the one that is stated of a result: the shortest where the output is skew
+/// (JCGM 101, 5.3.4), the symmetric one otherwise.
+fn line(output: Option<&OutputEvaluation>, digits: u32) -> Line {
     let gum = output.and_then(|output| output.gum.as_ref());
     let figures = output.and_then(|output| output.monte_carlo.as_ref());
     let gum_position = gum.and_then(|gum| position(gum.standard_uncertainty, digits));
@@ -260,11 +286,10 @@ fn line(output: Option<&OutputEvaluation>, digits: u32) -> [String; 7] {
     let spread = own.or_else(|| gum.map(|gum| gum.standard_uncertainty));
     let own_position = figures.and_then(|figures| place_of_ends(figures, spread, digits));
     let own_position = own_position.or(gum_position);
+    let stated = figures.map(MonteCarlo::stated_interval);
     let end = |end: usize| {
-        figures.map_or_else(missing, |figures| {
-            let error = figures.errors.symmetric_interval[end];
-            justified(figures.symmetric_interval[end], own_position, error)
-        })
+        let text = |of: &StatedInterval| justified(of.ends[end], own_position, of.errors[end]);
+        stated.as_ref().map_or_else(missing, text)
     };
     let validation = output.and_then(|output| output.validation);
     let verdict = match validation.map(|validation| validation.gum_valid) {
@@ -273,7 +298,7 @@ fn line(output: Option<&OutputEvaluation>, digits: u32) -> [String; 7] {
         Some(None) => "undecided",
         None => MISSING,
     };
-    [
+    let texts = [
         gum.map_or_else(missing, |gum| to(gum.estimate, gum_position)),
         gum.map_or_else(missing, |gum| to(gum.standard_uncertainty, gum_position)),
         gum.and_then(Gum::expanded_uncertainty)
@@ -282,5 +307,6 @@ fn line(output: Option<&OutputEvaluation>, digits: u32) -> [String; 7] {
         end(0),
         end(1),
         verdict.to_owned(),
-    ]
+    ];
+    Line { texts, shortest: stated.map(|of| of.shortest) }
 }

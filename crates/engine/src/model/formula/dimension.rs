@@ -8,6 +8,7 @@ use super::evaluate::constants;
 use super::fraction::{Fraction, fractions};
 use super::function::{Function, Part};
 use super::message::excerpt;
+use super::scale::LevelPart;
 use super::suggest;
 use super::syntax::{Kind, Node, Operator, TableCall, Tree};
 use super::tie::Tie;
@@ -41,6 +42,7 @@ pub(super) fn check(text: &str, tree: &Tree, scope: &Scope, units: bool) -> Chec
         fractions: fractions(text, tree),
         constants: constants(tree),
         ties: Vec::with_capacity(tree.nodes.len()),
+        level_parts: Vec::with_capacity(tree.nodes.len()),
         reported: HashSet::new(),
         done: Checked { typings: Vec::with_capacity(tree.nodes.len()), errors: Vec::new() },
     };
@@ -49,6 +51,8 @@ pub(super) fn check(text: &str, tree: &Tree, scope: &Scope, units: bool) -> Chec
         let (tie, typing) = tie.reduced(typing);
         checker.done.typings.push(typing);
         checker.ties.push(tie);
+        let part = checker.level_part(index, node);
+        checker.level_parts.push(part);
     }
     if let Some(last) = tree.nodes.len().checked_sub(1) {
         let typing = checker.settled(last);
@@ -69,6 +73,8 @@ pub(super) struct Checker<'c> {
     pub(super) constants: Vec<Option<f64>>,
     /// How every node hangs on a zero.
     pub(super) ties: Vec<Tie>,
+    /// What every node is in the making of a level.
+    pub(super) level_parts: Vec<LevelPart>,
     /// Unknown names and functions that have been reported, the latter with a parenthesis.
     reported: HashSet<&'c str>,
     done: Checked,

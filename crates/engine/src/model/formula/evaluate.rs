@@ -11,7 +11,7 @@ use super::syntax::{Joint, Kind, Operator, Tree};
 use super::typing::{Scope, Typing};
 use crate::model::{NumberForm, Recorder, Root, Traced};
 use crate::number::{Binary, Number, Routine, Unary};
-use gumption_units::{Unit, Zero};
+use gumption_units::{Dimension, Unit, Zero};
 
 /// The zero of the Celsius scale in K.
 const CELSIUS_ZERO: f64 = 273.15;
@@ -32,6 +32,17 @@ pub(super) fn evaluate<T: Number>(
     let constants = constants(tree);
     let mut results: Vec<T> = Vec::with_capacity(tree.nodes.len());
     for node in &tree.nodes {
+        if let Kind::Infix { operator: Operator::Divide, left, right, .. } = &node.kind
+            && let Some((from, to)) = converted(text, tree, scope, [*left, *right])
+        {
+            let value = at(&results, *left);
+            results.push(if from.factor() == to.factor() && from.offset() == to.offset() {
+                value
+            } else {
+                (value * from.factor() + (from.offset() - to.offset())) / to.factor()
+            });
+            continue;
+        }
         let result = match &node.kind {
             Kind::Name => {
                 let name = text.get(node.span.clone()).unwrap_or_default();
@@ -52,6 +63,13 @@ pub(super) fn evaluate<T: Number>(
                 let argument = arguments.first().copied().unwrap_or(usize::MAX);
                 let typing = typings.get(argument).copied().unwrap_or(Typing::ANY);
                 let value = at(&results, argument);
+                if let Some(unit) = declared(text, tree, scope, argument)
+                    && unit.dimension() == Dimension::TEMPERATURE
+                    && (unit.factor() != 1.0 || unit.offset() != 0.0)
+                {
+                    results.push(temperature(value, unit, *function));
+                    continue;
+                }
                 match function {
                     Function::Kelvin if typing.kelvin_shifts() => value + CELSIUS_ZERO,
                     Function::Celsius if typing.celsius_shifts() => value - CELSIUS_ZERO,
@@ -120,6 +138,40 @@ pub(super) fn evaluate<T: Number>(
         results.push(result);
     }
     Ok(results.pop().unwrap_or_else(|| T::constant(f64::NAN)))
+}
+
+/// The unit that the value of a node is the number in, if the node is a name whose units are not
+/// checked.
+fn declared<'s>(text: &str, tree: &Tree, scope: &'s Scope, index: usize) -> Option<&'s Unit> {
+    let node = tree.nodes.get(index).filter(|node| node.kind == Kind::Name)?;
+    scope.declared(text.get(node.span.clone())?)
+}
+
+/// A temperature of a name whose units are not checked, in K or in degC.
+fn temperature<T: Number>(value: T, unit: &Unit, function: Function) -> T {
+    let coherent = value * unit.factor();
+    match (function, unit.is_celsius()) {
+        (Function::Kelvin, true) => coherent + (unit.offset() + CELSIUS_ZERO),
+        (Function::Celsius, false) => coherent - CELSIUS_ZERO,
+        _ => coherent + unit.offset(),
+    }
+}
+
+/// The two units of a name whose units are not checked and of the unit in brackets that it is
+/// divided by, where the quotient is the number of one in the other.
+fn converted<'s>(
+    text: &str,
+    tree: &'s Tree,
+    scope: &'s Scope,
+    [left, right]: [usize; 2],
+) -> Option<(&'s Unit, &'s Unit)> {
+    let from = declared(text, tree, scope, left)?;
+    let to = match tree.nodes.get(right).map(|node| &node.kind) {
+        Some(Kind::Unit(unit)) => unit.as_ref(),
+        _ => return None,
+    };
+    let is_alike = from.is_compatible(to) && from.zero() == to.zero();
+    is_alike.then_some((from, to))
 }
 
 /// The value of every node that depends on no name and has no unit.

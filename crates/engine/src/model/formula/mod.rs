@@ -83,6 +83,7 @@ pub use typing::{KelvinKind, Scope, TableData, Typing};
 use super::Traced;
 use crate::number::Number;
 use crate::regression::CurveFunction;
+use gumption_units::Unit;
 use syntax::{Kind, Tree};
 
 /// A formula that has been read.
@@ -104,15 +105,20 @@ impl Formula {
     /// # Errors
     /// The first place where the text does not follow the grammar.
     pub fn parse(text: &str) -> Result<Self, FormulaError> {
-        Self::parse_with(text, &[])
+        Self::parse_with(text, &[], &[])
     }
 
-    /// Reads a formula that may call calibration functions: `line(x)`, `inverse(line, y)`.
+    /// Reads a formula that may call calibration functions, `line(x)`, `inverse(line, y)`, and have
+    /// units with names of their own in brackets, as [`Unit::defined`] makes them.
     ///
     /// # Errors
     /// As [`Formula::parse`]; a calibration function that is called in a wrong way.
-    pub fn parse_with(text: &str, curves: &[Arc<CurveFunction>]) -> Result<Self, FormulaError> {
-        Ok(Self { tree: parser::parse_with(text, curves)?, text: text.to_owned() })
+    pub fn parse_with(
+        text: &str,
+        curves: &[Arc<CurveFunction>],
+        units: &[Unit],
+    ) -> Result<Self, FormulaError> {
+        Ok(Self { tree: parser::parse_with(text, curves, units)?, text: text.to_owned() })
     }
 
     /// The text as written.

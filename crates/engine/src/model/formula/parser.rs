@@ -92,11 +92,15 @@ fn ranks(operator: Operator) -> (Rank, Rank) {
 /// Reads a whole formula without calibration functions.
 #[cfg(test)]
 pub(super) fn parse(text: &str) -> Result<Tree, FormulaError> {
-    parse_with(text, &[])
+    parse_with(text, &[], &[])
 }
 
-/// Reads a whole formula, which may call these calibration functions.
-pub(super) fn parse_with(text: &str, curves: &[Arc<CurveFunction>]) -> Result<Tree, FormulaError> {
+/// Reads a whole formula, which may call these calibration functions and use these units.
+pub(super) fn parse_with(
+    text: &str,
+    curves: &[Arc<CurveFunction>],
+    units: &[Unit],
+) -> Result<Tree, FormulaError> {
     if text.len() > MAX_LENGTH {
         return Err(FormulaError::TooLong { length: text.len(), limit: MAX_LENGTH });
     }
@@ -108,6 +112,7 @@ pub(super) fn parse_with(text: &str, curves: &[Arc<CurveFunction>]) -> Result<Tr
     let mut parser = Parser {
         text,
         curves,
+        units,
         lexer,
         token,
         last: None,
@@ -126,6 +131,8 @@ pub(super) fn parse_with(text: &str, curves: &[Arc<CurveFunction>]) -> Result<Tr
 struct Parser<'t> {
     text: &'t str,
     curves: &'t [Arc<CurveFunction>],
+    /// Units with names of their own.
+    units: &'t [Unit],
     lexer: Lexer<'t>,
     /// The token that is next.
     token: Token,
@@ -254,7 +261,7 @@ impl Parser<'_> {
         if let Some(constant) = DefiningConstant::named(text.trim()) {
             return Ok(Kind::Constant(constant));
         }
-        match Unit::parse(text) {
+        match Unit::parse_among(text, self.units) {
             Ok(unit) if !text.trim().is_empty() => Ok(Kind::Unit(Box::new(unit))),
             Ok(_) => Err(self.unexpected(OPERAND)),
             Err(error) => {
@@ -627,7 +634,10 @@ impl Parser<'_> {
             TokenKind::Number(_) if self.last_is_number() => {
                 (Some("two numbers need an operator between them"), None)
             }
-            TokenKind::Name if self.last_is_number() && Unit::parse(self.slice(span)).is_ok() => {
+            TokenKind::Name
+                if self.last_is_number()
+                    && Unit::parse_among(self.slice(span), self.units).is_ok() =>
+            {
                 let number = self.last.as_ref().map_or("", |last| self.slice(&last.span));
                 let suggestion = format!("{number} [{}]", self.slice(span));
                 (Some("the unit of a number stands in brackets"), Some(suggestion))

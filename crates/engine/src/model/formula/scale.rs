@@ -7,13 +7,67 @@ use super::dimension::Checker;
 use super::error::FormulaError;
 use super::function::Function;
 use super::scale_fault::{ScaleFault, ScaledPlace};
-use super::syntax::{Kind, Operator};
+use super::syntax::{Kind, Node, Operator};
 use super::tie::{Tie, borne, taken_up};
 use super::typing::{KelvinKind, Typing};
 use crate::number::Unary;
 use gumption_units::{Dimension, Exponent, Turn, Unit, Zero};
 
+/// What a node is in the making of a level, `10*n*log10(x)` with a plain number n.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum LevelPart {
+    /// Nothing.
+    None,
+    /// 10 or 20, times or over plain numbers.
+    Factor,
+    /// A logarithm to base 10, times or over plain numbers.
+    Logarithm,
+}
+
 impl Checker<'_> {
+    /// What a node is in the making of a level, from what its parts are.
+    pub(super) fn level_part(&self, index: usize, node: &Node) -> LevelPart {
+        if let Some(constant) = self.constant(index) {
+            let is_factor = matches!(constant.abs(), 10.0 | 20.0);
+            return if is_factor { LevelPart::Factor } else { LevelPart::None };
+        }
+        let part = |index: usize| self.level_parts.get(index).copied().unwrap_or(LevelPart::None);
+        // a plain number that is no logarithm itself
+        let is_plain = |index: usize| {
+            let typing = self.typing(index);
+            typing.dimension == Some(Dimension::NONE)
+                && typing.level.is_zero()
+                && typing.zero.is_none()
+                && part(index) != LevelPart::Logarithm
+        };
+        match &node.kind {
+            Kind::Call { function, .. } if *function == Some(Function::One(Unary::Log10)) => {
+                LevelPart::Logarithm
+            }
+            Kind::Negate(x) => part(*x),
+            Kind::Infix { operator: Operator::Multiply, left, right, .. } => {
+                match (part(*left), part(*right)) {
+                    (LevelPart::None, of) if is_plain(*left) => of,
+                    (of, _) if is_plain(*right) => of,
+                    _ => LevelPart::None,
+                }
+            }
+            Kind::Infix { operator: Operator::Divide, left, right, .. } if is_plain(*right) => {
+                part(*left)
+            }
+            _ => LevelPart::None,
+        }
+    }
+
+    /// Whether the product of two nodes is a level.
+    fn makes_level(&self, left: usize, right: usize) -> bool {
+        let part = |index: usize| self.level_parts.get(index).copied().unwrap_or(LevelPart::None);
+        matches!(
+            (part(left), part(right)),
+            (LevelPart::Factor, LevelPart::Logarithm) | (LevelPart::Logarithm, LevelPart::Factor)
+        )
+    }
+
     /// What a node is where it is used as a whole; anything after a mistake.
     pub(super) fn settled(&mut self, index: usize) -> Typing {
         let (typing, tie) = (self.typing(index), self.tie(index));
@@ -242,12 +296,12 @@ impl Checker<'_> {
         dimension: Option<Dimension>,
         [left, right]: [usize; 2],
     ) -> (Typing, Tie) {
+        if self.makes_level(left, right) {
+            return (Typing { level: Exponent::ONE, ..Typing::NUMBER }, Tie::None);
+        }
         for (number, other) in [(left, right), (right, left)] {
             let Some(factor) = self.constant(number) else { continue };
             let typing = self.typing(other);
-            if matches!(factor.abs(), 10.0 | 20.0) && self.is_common_logarithm(other) {
-                return (Typing { level: Exponent::ONE, ..Typing::NUMBER }, Tie::None);
-            }
             let turn = self.turned(typing.turn, number, factor);
             return (Typing { dimension, turn, ..typing }, self.tie(other).times(factor));
         }
@@ -383,12 +437,6 @@ impl Checker<'_> {
             Some(Turn::Angle) if is(1.0 / turns) => Some(Turn::Periods),
             _ => None,
         }
-    }
-
-    fn is_common_logarithm(&self, index: usize) -> bool {
-        let logarithm = Some(Function::One(Unary::Log10));
-        let kind = self.tree.nodes.get(index).map(|node| &node.kind);
-        matches!(kind, Some(Kind::Call { function, .. }) if *function == logarithm)
     }
 
     fn is_unit(&self, index: usize, text: &str) -> bool {

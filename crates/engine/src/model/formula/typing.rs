@@ -121,6 +121,7 @@ pub struct Scope {
     index_of: HashMap<String, usize>,
     later: HashSet<String>,
     complex: HashSet<String>,
+    declared: HashMap<String, Unit>,
 }
 
 impl Scope {
@@ -141,6 +142,17 @@ impl Scope {
         }
         self.index_of.insert(name.clone(), self.names.len());
         self.names.push((name, typing));
+    }
+
+    /// Says that a name's value is the number in this unit, and not in coherent SI units: of
+    /// quantities of a formula whose units are not checked.
+    pub fn declare(&mut self, name: impl Into<String>, unit: Unit) {
+        self.declared.insert(name.into(), unit);
+    }
+
+    /// The unit that a name's value is the number in, where that need not be the coherent one.
+    pub(super) fn declared(&self, name: &str) -> Option<&Unit> {
+        self.declared.get(name)
     }
 
     /// Says that a name will be defined later, so that a formula that uses it too early is told so.

@@ -206,6 +206,28 @@ fn units_are_converted() {
     assert_eq!(expanded, [200_998.0, 400_500.0]);
 }
 
+/// A temperature in degC in one file and in K in the other is taken over with the zero of the scale:
+/// 293.15 K is 20 degC in the first model, so that the input explains the whole change.
+#[test]
+fn celsius_against_kelvin() {
+    let file = |unit: &str, mean: f64, std: f64, formula: &str| {
+        read(&format!(
+            r#"{{"inputs": {{"t": {{"unit": "{unit}", "distribution": "normal", "mean": {mean},
+            "std": {std}}}, "p": {{"unit": "K", "distribution": "normal", "mean": 300, "std": 0.1}}}},
+            "equations": {{"y": "{formula}"}}, "outputs": {{"y": {{}}}}}}"#
+        ))
+    };
+    let celsius = file("degC", 20.0, 0.1, "p/kelvin(t)");
+    for [first, second] in
+        [[&celsius, &file("K", 293.15, 0.2, "p/t")], [&file("K", 293.15, 0.2, "p/t"), &celsius]]
+    {
+        let difference = compare(first, second);
+        let output = only(&difference);
+        assert_complete(output);
+        assert!((share(output, "t") - 1.0).abs() < 1e-9, "{output:?}");
+    }
+}
+
 #[test]
 fn rows_of_conditions_are_paired() {
     let file = |values: &str, std: f64| {

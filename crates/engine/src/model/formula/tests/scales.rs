@@ -183,6 +183,9 @@ fn results_that_their_unit_does_not_fit() {
     assert_eq!(misfit("u/u0", "dB"), Some(ScaleMisfit::RatioAsLevel));
     assert_eq!(misfit("20*log10(u/u0)", "dB"), None);
     assert_eq!(misfit("20*log10(u/u0)", "Np"), None);
+    assert_eq!(misfit("10*n*log10(u/u0)", "dB"), None);
+    assert_eq!(misfit("10*log10(u/u0)*log10(u/u0)", "dB"), None);
+    assert_eq!(misfit("3*n*log10(u/u0)", "dB"), Some(ScaleMisfit::RatioAsLevel));
     assert_eq!(misfit("20*log10(u/u0)", "1"), None);
     assert_eq!(misfit("L", "%"), Some(ScaleMisfit::LevelAsRatio));
     assert_eq!(misfit("n [dB]", "dB"), None);
@@ -261,6 +264,11 @@ fn levels_and_turns_that_do_not_go_together() {
         "10^((P1 + L)/10)*1 [mW]",
         "-20*log10(u/u0) + L",
         "log10(u/u0)*20",
+        "L + 10*n*log10(u/u0)",
+        "n*10*log10(u/u0) + L",
+        "L - (10*n)*(log10(u/u0)/n)",
+        "L + 20*(n*log10(u/u0))",
+        "L + -20/n*log10(u/u0)",
         "(P1 + P2)/2",
     ] {
         assert!(checked(right).is_ok(), "{right}: {:?}", checked(right));

@@ -1,0 +1,630 @@
+//! Figures of an output with much less noise than that of trials: one input, in which the output is
+//! monotone whatever the others, is integrated exactly through its distribution function, and the
+//! others run over scrambled nets (Griewank, Kuo, Leoevey, Sloan 2018; L'Ecuyer, Puchhammer, Ben Abdellah
+//! 2022). An indicator is then a smooth function of the points, and errors fall as their number, not as
+//! its root. Standard errors are those of independent scramblings. Where no input has a monotone effect, one
+//! whose effect is so in parts is integrated part by part ([`pieces`]).
+//!
+//! The scramblings are the same whatever the seed of the trials.
+
+mod cdf;
+mod directions;
+mod net;
+mod pieces;
+mod points;
+#[cfg(test)]
+mod tests;
+
+use rayon::prelude::*;
+
+use self::cdf::Cdf;
+use self::pieces::Parts;
+use self::points::Inputs;
+use super::exact::{Accuracy, Noiseless, Problem, Scatter};
+use crate::model::{Program, Schedule, ScheduledOutput};
+use crate::number::{COLUMN, Column};
+
+/// Randomizations.
+pub(super) const RANDOMIZATIONS: u32 = 16;
+
+/// Points of each one, as a power of two.
+pub(super) const POINTS_LOG2: u32 = 12;
+
+/// Inputs at most.
+const MOST_INPUTS: usize = 1000;
+
+/// Inputs that are tried for the exact integration.
+const MOST_CANDIDATES: usize = 6;
+
+/// Probabilities at which the effect of an input is looked at.
+const LOOKED: [f64; 9] = [1e-9, 1e-5, 1e-3, 0.1, 0.5, 0.9, 0.999, 0.999_99, 0.999_999_999];
+
+/// Points of each randomization at which it is.
+const LOOKED_POINTS: u32 = 512;
+
+/// The figures of an output.
+///
+/// # Errors
+/// Why there are none.
+pub(crate) fn evaluate(problem: &Problem<'_>) -> Result<Noiseless, String> {
+    evaluate_with(problem, 0x6a09_e667_f3bc_c908, POINTS_LOG2)
+}
+
+/// The same with scramblings of another seed and 2^`log2` points each.
+pub(super) fn evaluate_with(
+    problem: &Problem<'_>,
+    seed: u64,
+    log2: u32,
+) -> Result<Noiseless, String> {
+    let output = problem.quantity();
+    if output.period.is_some() {
+        return Err("a phase comes round: no input has a monotone effect".to_owned());
+    }
+    let setup = Setup::new(problem)?;
+    let nets: Vec<Net> = (0..RANDOMIZATIONS)
+        .into_par_iter()
+        .map(|r| setup.net(seed.wrapping_add(u64::from(r)), log2))
+        .collect::<Option<_>>()
+        .ok_or("the output has no finite value at some points")?;
+    let Candidate { place, cdf, parts } = setup.candidate(&nets)?;
+    let name = problem.task.variables[setup.varying[place]].name.clone();
+    let mut solved = Solved::new(&setup, nets, place, cdf, parts);
+    solved.figures(problem, name, 1 << log2)
+}
+
+/// An output as a function of the inputs that vary.
+struct Setup {
+    schedule: Schedule,
+    /// The variables, in the order of the registers.
+    varying: Vec<usize>,
+    distributions: Vec<std::sync::Arc<crate::distribution::Distribution>>,
+    inputs: Inputs,
+    /// Places of inputs, the most important one first.
+    order: Vec<usize>,
+    linked: Vec<bool>,
+    /// The value at the estimates.
+    middle: f64,
+}
+
+/// The points of one randomization: inputs by columns, and the outputs there.
+struct Net {
+    columns: Vec<Vec<Column>>,
+    outputs: Vec<Column>,
+}
+
+/// The input that is integrated.
+struct Candidate {
+    place: usize,
+    cdf: Cdf,
+    /// Where its effect is monotone, in each net; `None` where it is so everywhere.
+    parts: Option<Vec<Vec<Parts>>>,
+}
+
+impl Setup {
+    fn new(problem: &Problem<'_>) -> Result<Self, String> {
+        let program = &problem.task.model.program;
+        let row = problem.row;
+        let program = Program {
+            nodes: program.nodes.clone(),
+            variables: program.variables,
+            outputs: vec![program.outputs[problem.output]],
+            routines: program.routines.clone(),
+        };
+        let reach = program.reach();
+        let linked = problem.joint.linked();
+        // what is linked to an input that matters has to be there as well
+        let mut wanted: Vec<bool> = reach.first().cloned().unwrap_or_default();
+        wanted.truncate(row.distributions.len());
+        for set in &linked {
+            if set.members.iter().any(|&m| wanted[m]) {
+                set.members.iter().for_each(|&m| wanted[m] = true);
+            }
+        }
+        let constant = |v: usize| row.distributions[v].constant();
+        let varying: Vec<usize> =
+            (0..row.distributions.len()).filter(|&v| wanted[v] && constant(v).is_none()).collect();
+        if varying.is_empty() {
+            return Err("the output does not vary".to_owned());
+        }
+        if varying.len() > MOST_INPUTS {
+            return Err(format!("{} inputs are too many for nets of points", varying.len()));
+        }
+        let mut bound: Vec<Option<f64>> = (0..row.distributions.len())
+            .map(|v| {
+                let constant = constant(v).unwrap_or_else(|| row.distributions[v].mean());
+                varying.binary_search(&v).is_err().then_some(constant)
+            })
+            .collect();
+        bound.extend(row.conditions.iter().map(|&value| Some(value)));
+        let schedule = Schedule::keeping_variables(&program, &bound);
+        let distributions: Vec<_> = varying.iter().map(|&v| row.distributions[v].clone()).collect();
+        let mut estimates: Vec<f64> = row.distributions.iter().map(|d| d.mean()).collect();
+        estimates.extend(&row.conditions);
+        let (values, gradients) = program.gradients(&estimates);
+        let share = |place: usize| {
+            let slope = gradients.first().map_or(0.0, |gradient| gradient[varying[place]]);
+            let share = (slope * distributions[place].standard_uncertainty()).abs();
+            if share.is_finite() { share } else { 0.0 }
+        };
+        let mut order: Vec<usize> = (0..varying.len()).collect();
+        order.sort_by(|&a, &b| share(b).total_cmp(&share(a)));
+        let inputs = Inputs::new(&distributions, &varying, &linked, &order)?;
+        let of_linked = |v: &usize| linked.iter().any(|set| set.members.contains(v));
+        let linked = varying.iter().map(of_linked).collect();
+        let middle = values.first().copied().filter(|value| value.is_finite()).unwrap_or(0.0);
+        Ok(Self { schedule, varying, distributions, inputs, order, linked, middle })
+    }
+
+    /// The outputs where the registers hold the inputs.
+    fn run(&self, registers: &mut [Column], out: &mut Column) {
+        self.schedule.run(registers);
+        match self.schedule.outputs.first() {
+            Some(ScheduledOutput::Register(register)) => out.0 = registers[*register].0,
+            Some(ScheduledOutput::Constant(value)) => out.0.fill(*value),
+            None => {}
+        }
+    }
+
+    fn registers(&self) -> Vec<Column> {
+        vec![Column::ZERO; self.schedule.registers.max(self.varying.len())]
+    }
+
+    /// The points of a randomization; `None` if an output is not finite.
+    fn net(&self, seed: u64, log2: u32) -> Option<Net> {
+        let coordinates = self.inputs.coordinates(seed);
+        let count = (1u32 << log2).max(COLUMN as u32);
+        let mut registers = self.registers();
+        let mut net = Net { columns: Vec::new(), outputs: Vec::new() };
+        for first in (0..count).step_by(COLUMN) {
+            let mut values = vec![Column::ZERO; self.varying.len()];
+            self.inputs.fill(&coordinates, first, &mut values);
+            registers[..values.len()].clone_from_slice(&values);
+            let mut out = Column::ZERO;
+            self.run(&mut registers, &mut out);
+            if !out.0.iter().all(|y| y.is_finite()) {
+                return None;
+            }
+            net.columns.push(values);
+            net.outputs.push(out);
+        }
+        Some(net)
+    }
+
+    /// The input that is integrated: of those with the largest contributions the first in which the
+    /// output is monotone at all points that are looked at, or else monotone in parts.
+    fn candidate(&self, nets: &[Net]) -> Result<Candidate, String> {
+        let own = self.order.iter().copied().filter(|&place| !self.linked[place]);
+        let mut tried = Vec::new();
+        for place in own.take(MOST_CANDIDATES) {
+            let Some(cdf) = Cdf::of(&self.distributions[place]) else {
+                continue;
+            };
+            if nets.par_iter().all(|net| self.is_monotone(net, place)) {
+                return Ok(Candidate { place, cdf, parts: None });
+            }
+            tried.push((place, cdf));
+        }
+        if tried.is_empty() {
+            return Err(
+                "no input of its own has a distribution function that is integrated".to_owned()
+            );
+        }
+        for (place, cdf) in tried {
+            let parts = nets.par_iter().map(|net| pieces::parts(self, net, place, &cdf));
+            if let Some(parts) = parts.collect() {
+                return Ok(Candidate { place, cdf, parts: Some(parts) });
+            }
+        }
+        Err("no input has an effect that is monotone in a few parts whatever the values of the others"
+            .to_owned())
+    }
+
+    fn is_monotone(&self, net: &Net, place: usize) -> bool {
+        let distribution = &self.distributions[place];
+        let values = LOOKED.map(|p| {
+            if p < 0.5 { distribution.quantile(p) } else { distribution.quantile_upper(1.0 - p) }
+        });
+        let mut registers = self.registers();
+        let columns = (LOOKED_POINTS as usize).div_ceil(COLUMN);
+        net.columns.iter().take(columns).all(|column| {
+            let mut before: Option<Column> = None;
+            let mut rises: Option<[bool; COLUMN]> = None;
+            values.iter().all(|&value| {
+                registers[..column.len()].clone_from_slice(column);
+                registers[place].0.fill(value);
+                let mut out = Column::ZERO;
+                self.run(&mut registers, &mut out);
+                let Some(before) = before.replace(out.clone()) else {
+                    return out.0.iter().all(|y| y.is_finite());
+                };
+                let steps: [f64; COLUMN] = std::array::from_fn(|i| out.0[i] - before.0[i]);
+                if steps.iter().any(|step| step.is_nan() || *step == 0.0) {
+                    return false;
+                }
+                let now = steps.map(|step| step > 0.0);
+                *rises.get_or_insert(now) == now
+            })
+        })
+    }
+}
+
+/// Points with the values of the integrated input at which the output has a wanted value.
+struct Solved<'s> {
+    setup: &'s Setup,
+    place: usize,
+    cdf: Cdf,
+    nets: Vec<SolvedNet>,
+    /// A width of the integrated input.
+    width: f64,
+}
+
+struct SolvedNet {
+    net: Net,
+    way: Way,
+    registers: Vec<Column>,
+}
+
+/// How the integrated input is solved for.
+enum Way {
+    /// The output is monotone in it. Where each point was found last: the value of the input, the
+    /// output there, and the slope.
+    Whole(Vec<[Column; 3]>),
+    /// It is so in parts.
+    Parts(Vec<Parts>),
+}
+
+/// Distribution function and density of the output by one randomization.
+type OfNet = [f64; 2];
+
+impl<'s> Solved<'s> {
+    fn new(
+        setup: &'s Setup,
+        nets: Vec<Net>,
+        place: usize,
+        cdf: Cdf,
+        parts: Option<Vec<Vec<Parts>>>,
+    ) -> Self {
+        let distribution = &setup.distributions[place];
+        let width = distribution.quantile_upper(0.16) - distribution.quantile(0.16);
+        let middle = distribution.quantile(0.5);
+        let starts = |net: &Net, registers: &mut [Column]| {
+            let start = |column: &Vec<Column>| {
+                let mut at = |value: f64| {
+                    registers[..column.len()].clone_from_slice(column);
+                    registers[place].0.fill(value);
+                    let mut out = Column::ZERO;
+                    setup.run(registers, &mut out);
+                    out
+                };
+                let high = middle + 0.25 * width;
+                let (a, b) = (at(middle), at(high));
+                let slope = std::array::from_fn(|i| (b.0[i] - a.0[i]) / (high - middle));
+                [Column([middle; COLUMN]), a, Column(slope)]
+            };
+            net.columns.iter().map(start).collect()
+        };
+        let mut parts = parts.map(Vec::into_iter);
+        let ways: Vec<Option<Vec<Parts>>> =
+            nets.iter().map(|_| parts.as_mut().and_then(Iterator::next)).collect();
+        let prepared = nets.into_par_iter().zip(ways).map(|(net, parts)| {
+            let mut registers = setup.registers();
+            let way = match parts {
+                Some(parts) => Way::Parts(parts),
+                None => Way::Whole(starts(&net, &mut registers)),
+            };
+            SolvedNet { net, way, registers }
+        });
+        let nets = prepared.collect();
+        Self { setup, place, cdf, nets, width }
+    }
+
+    /// Distribution function and density at `y` by each randomization, of which only the first
+    /// `columns` columns of points are used.
+    fn at(&mut self, y: f64, columns: usize) -> Vec<OfNet> {
+        let Self { setup, place, ref cdf, ref mut nets, width } = *self;
+        let integrated = Integrated { setup, place, cdf, width };
+        let of = |SolvedNet { net, way, registers }: &mut SolvedNet| match way {
+            Way::Whole(last) => integrated.whole(net, last, registers, y, columns),
+            Way::Parts(parts) => integrated.in_parts(net, parts, registers, y, columns),
+        };
+        nets.par_iter_mut().map(of).collect()
+    }
+}
+
+/// Steps towards the value of the integrated input at most.
+const STEPS: u32 = 60;
+
+/// The share of the input's width that the last step may be longer than to end the search: what it leaves
+/// is its square.
+const ENDED: f64 = 1e-7;
+
+/// What is integrated, and how wide it is.
+struct Integrated<'a> {
+    setup: &'a Setup,
+    place: usize,
+    cdf: &'a Cdf,
+    width: f64,
+}
+
+impl Integrated<'_> {
+    /// Distribution function and density of the output at `y`, over the first `columns` columns, where the
+    /// output is monotone.
+    fn whole(
+        &self,
+        net: &Net,
+        last: &mut [[Column; 3]],
+        registers: &mut [Column],
+        y: f64,
+        columns: usize,
+    ) -> OfNet {
+        let Self { setup, place, cdf, width } = *self;
+        let [low, high] = cdf.ends();
+        let (mut sums, mut count) = ([0.0; 2], 0.0);
+        for (column, last) in net.columns.iter().zip(last).take(columns) {
+            registers[..column.len()].clone_from_slice(column);
+            let [at, output, slope] = last;
+            let mut out = Column::ZERO;
+            // what lies beyond the limits of the input, or as far as no value is
+            let (least, most) = (low.max(-1e300), high.min(1e300));
+            for step in 0..STEPS {
+                let mut moved: f64 = 0.0;
+                let mut next = [0.0; COLUMN];
+                for (i, next) in next.iter_mut().enumerate() {
+                    let newton = (y - output.0[i]) / slope.0[i];
+                    // far steps would leave the range where the slope says anything
+                    let limit = 8.0 * width;
+                    let to = (at.0[i] + newton.clamp(-limit, limit)).clamp(least, most);
+                    moved = moved.max((to - at.0[i]).abs());
+                    *next = to;
+                }
+                if moved <= 1e-13 * width {
+                    break;
+                }
+                registers[place].0 = next;
+                setup.run(registers, &mut out);
+                for (i, next) in next.into_iter().enumerate() {
+                    let dx = next - at.0[i];
+                    let dy = out.0[i] - output.0[i];
+                    let secant = dy / dx;
+                    if dx.abs() > 1e-9 * width && secant.is_finite() && secant != 0.0 {
+                        slope.0[i] = secant;
+                    }
+                    at.0[i] = next;
+                    output.0[i] = out.0[i];
+                }
+                if moved <= ENDED * width && step > 0 {
+                    break;
+                }
+            }
+            for i in 0..COLUMN {
+                let steep = slope.0[i];
+                // the last step, which is not worth an evaluation
+                let x = at.0[i] + ((y - output.0[i]) / steep).clamp(-width, width);
+                let [p, density] = cdf.at(x);
+                sums[0] += if steep > 0.0 { p } else { 1.0 - p };
+                sums[1] += density / steep.abs();
+            }
+            count += COLUMN as f64;
+        }
+        sums.map(|sum| sum / count)
+    }
+}
+
+/// Mean and its standard error.
+fn mean(values: impl Iterator<Item = f64> + Clone) -> [f64; 2] {
+    let n = values.clone().count() as f64;
+    let mean = values.clone().sum::<f64>() / n;
+    let squares: f64 = values.map(|value| (value - mean).powi(2)).sum();
+    [mean, (squares / (n - 1.0) / n).sqrt()]
+}
+
+/// A figure with its standard error.
+type Figure = [f64; 2];
+
+/// The distance, in widths of the output, over which the slope of its density is taken.
+const SLOPE_STEP: f64 = 0.05;
+
+/// Newton's steps towards the shortest interval at most.
+const MOST_NEWTON: u32 = 8;
+
+/// A last step of Newton's that is longer than this share of the width has not found the interval.
+const NEARLY: f64 = 1e-3;
+
+impl Solved<'_> {
+    /// The quantile of `p`, and its standard error.
+    fn quantile(&mut self, p: f64, start: f64, scale: f64, columns: usize) -> Option<Figure> {
+        let mut y = start;
+        let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
+        for _ in 0..60 {
+            let found = self.at(y, columns);
+            let [cdf, error] = mean(found.iter().map(|of| of[0]));
+            let [density, _] = mean(found.iter().map(|of| of[1]));
+            if cdf < p {
+                low = y;
+            } else {
+                high = y;
+            }
+            let step = ((p - cdf) / density).clamp(-scale, scale);
+            let step = if step.is_finite() { step } else { (p - cdf).signum() * scale };
+            let mut next = y + step;
+            if !(next > low && next < high) && next != y {
+                next = if low.is_finite() && high.is_finite() { 0.5 * (low + high) } else { next };
+            }
+            if (next - y).abs() <= 1e-7 * scale {
+                return (density > 0.0).then_some([next, error / density]);
+            }
+            y = next;
+        }
+        None
+    }
+
+    fn figures(
+        &mut self,
+        problem: &Problem<'_>,
+        integrated: String,
+        points: u64,
+    ) -> Result<Noiseless, String> {
+        let middle = self.setup.middle;
+        // moments, about the value at the estimates
+        let sums: Vec<[f64; 2]> = self
+            .nets
+            .iter()
+            .map(|of| {
+                let mut sums = [0.0; 2];
+                for y in of.net.outputs.iter().flat_map(|column| column.0) {
+                    sums[0] += y - middle;
+                    sums[1] += (y - middle) * (y - middle);
+                }
+                sums.map(|sum| sum / (of.net.outputs.len() * COLUMN) as f64)
+            })
+            .collect();
+        let [shift, shift_error] = mean(sums.iter().map(|of| of[0]));
+        let variance = |of: &[f64; 2]| of[1] - 2.0 * shift * of[0] + shift * shift;
+        let [variance, variance_error] = mean(sums.iter().map(variance));
+        let u = variance.max(0.0).sqrt();
+        let u_error = 0.5 * variance_error / u;
+        if u.is_nan() || u <= 0.0 {
+            return Err("the output does not vary".to_owned());
+        }
+        let p = problem.probability();
+        let tail = 0.5 * (1.0 - p);
+        // a start from the points themselves
+        let mut sorted: Vec<f64> =
+            self.nets.iter().flat_map(|of| of.net.outputs.iter().flat_map(|c| c.0)).collect();
+        sorted.sort_unstable_by(f64::total_cmp);
+        let rank = |p: f64| sorted[((p * sorted.len() as f64) as usize).min(sorted.len() - 1)];
+        let scale = 0.5 * (rank(0.84) - rank(0.16));
+        let missing = || "the density is nearly zero at an end of the interval or at the median";
+        let all = usize::MAX;
+        let starts = [0.5, tail, 1.0 - tail].map(|p| (p, rank(p)));
+        let [median, low, high] = starts.map(|(p, start)| self.quantile(p, start, scale, all));
+        let median = median.ok_or_else(missing)?;
+        let (low, high) = (low.ok_or_else(missing)?, high.ok_or_else(missing)?);
+        let shortest = self.shortest(p, [low, high], scale);
+        let inside = problem.quantity().tolerance.map(|tolerance| {
+            let mut at = |y: f64, beyond: f64| -> Vec<f64> {
+                if y.is_finite() {
+                    self.at(y, all).iter().map(|of| of[0]).collect()
+                } else {
+                    vec![beyond; RANDOMIZATIONS as usize]
+                }
+            };
+            let [lower, upper] = tolerance.ends();
+            let (below, up_to) = (at(lower, 0.0), at(upper, 1.0));
+            mean(up_to.iter().zip(&below).map(|(high, low)| high - low))
+        });
+        let has_mean = problem.drawn_dof > 1.0;
+        let has_deviation = problem.drawn_dof > 2.0;
+        // without a variance nothing tells how far the mean scatters
+        Ok(Noiseless {
+            estimate: has_mean.then_some(middle + shift),
+            standard_uncertainty: has_deviation.then_some(u),
+            median: median[0],
+            symmetric_interval: [low[0], high[0]],
+            shortest_interval: shortest.map(|ends| ends.map(|end| end[0])),
+            shortest_unique: shortest.is_some(),
+            inside: inside.map(|inside| inside[0].clamp(0.0, 1.0)),
+            accuracy: Accuracy::Scatter(Box::new(Scatter {
+                estimate: has_deviation.then_some(shift_error),
+                standard_uncertainty: (problem.drawn_dof > 4.0).then_some(u_error),
+                median: median[1],
+                symmetric_interval: [low[1], high[1]],
+                shortest_interval: shortest.map(|ends| ends.map(|end| end[1])),
+                inside: inside.map(|inside| inside[1]),
+                points,
+                randomizations: RANDOMIZATIONS,
+                integrated,
+            })),
+        })
+    }
+
+    /// The shortest interval of probability `p`, where its ends have the same density; `None` where
+    /// there is no such interval beside the symmetric one.
+    fn shortest(&mut self, p: f64, symmetric: [Figure; 2], scale: f64) -> Option<[Figure; 2]> {
+        let ends = self.nearly_shortest(p, symmetric.map(|end| end[0]), scale)?;
+        // from there with all points: F(high) - F(low) = p, and the same density at both
+        let all = usize::MAX;
+        let [mut low, mut high] = ends;
+        let density = |of: &[OfNet]| mean(of.iter().map(|of| of[1]))[0];
+        let step = SLOPE_STEP * scale;
+        let steepness = |this: &mut Self, y: f64| {
+            let [before, after] =
+                [y - 0.5 * step, y + 0.5 * step].map(|y| density(&this.at(y, all)));
+            (after - before) / step
+        };
+        let (rise, fall) = (steepness(self, low), steepness(self, high));
+        // where a longer interval is not less dense at both ends there is no shortest one here
+        if rise.is_nan() || fall.is_nan() || rise <= fall {
+            return None;
+        }
+        let mut found = None;
+        for _ in 0..MOST_NEWTON {
+            let (of_low, of_high) = (self.at(low, all), self.at(high, all));
+            let (dense_low, dense_high) = (density(&of_low), density(&of_high));
+            let determinant = dense_low * fall - dense_high * rise;
+            // what each randomization moves the ends by
+            let moves = of_low.iter().zip(&of_high).map(|(l, h)| {
+                let (missing, excess) = (p - (h[0] - l[0]), l[1] - h[1]);
+                [
+                    (excess * dense_high - missing * fall) / determinant,
+                    (excess * dense_low - missing * rise) / determinant,
+                ]
+            });
+            let moves: Vec<[f64; 2]> = moves.collect();
+            let [of_low, of_high] = [0, 1].map(|end| mean(moves.iter().map(|of| of[end])));
+            low += of_low[0].clamp(-scale, scale);
+            high += of_high[0].clamp(-scale, scale);
+            let moved = of_low[0].abs().max(of_high[0].abs());
+            if moved.is_nan() {
+                return None;
+            }
+            // what the last step leaves is far less than itself
+            let error = |end: Figure| crate::number::elementary::hypot(end[1], moved);
+            found =
+                (moved <= NEARLY * scale).then(|| [[low, error(of_low)], [high, error(of_high)]]);
+            if moved <= 0.1 * of_low[1].min(of_high[1]) {
+                break;
+            }
+        }
+        found
+    }
+
+    /// The same from a few of the points, to a hundredth of the probability outside.
+    fn nearly_shortest(&mut self, p: f64, symmetric: [f64; 2], scale: f64) -> Option<[f64; 2]> {
+        let tail = 1.0 - p;
+        let few = self.nets.first().map_or(1, |of| of.net.columns.len().div_ceil(16));
+        let mut ends = symmetric;
+        let mut excess = |share: f64| -> Option<(f64, [f64; 2])> {
+            let low = self.quantile(share * tail, ends[0], scale, few)?[0];
+            let high = self.quantile(share * tail + p, ends[1], scale, few)?[0];
+            ends = [low, high];
+            let [at_low, at_high] = ends.map(|y| mean(self.at(y, few).iter().map(|of| of[1]))[0]);
+            Some((at_low - at_high, ends))
+        };
+        let (mut a, mut b) = (0.02, 0.98);
+        let (mut at_a, mut at_b) = (excess(a)?.0, excess(b)?.0);
+        if at_a >= 0.0 || at_b <= 0.0 {
+            return None;
+        }
+        let (mut share, mut nearly) = (0.5, symmetric);
+        for _ in 0..24 {
+            let (here, found) = excess(share)?;
+            if here < 0.0 {
+                if at_a < 0.0 && share > a {
+                    at_b *= 0.5;
+                }
+                (a, at_a) = (share, here);
+            } else {
+                (b, at_b) = (share, here);
+                at_a *= 0.5;
+            }
+            let next = a - at_a * (b - a) / (at_b - at_a);
+            nearly = found;
+            if (next - share).abs() < 0.01 {
+                break;
+            }
+            share = next;
+        }
+        Some(nearly)
+    }
+}
