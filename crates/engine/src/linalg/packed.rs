@@ -6,7 +6,7 @@
 use nalgebra::DMatrix;
 
 use super::{add_multiple, dot};
-use crate::number::elementary;
+use crate::number::{CodePath, Kernel, elementary};
 
 /// Number of entries of a lower triangle of so many rows.
 pub const fn triangle(order: usize) -> usize {
@@ -104,6 +104,88 @@ pub fn solve(lower: &[f64], y: &mut [f64]) {
     }
 }
 
+/// Vectors that are worked on together, beside each other in memory.
+pub const TOGETHER: usize = 16;
+
+/// Replaces each of many vectors y by inv(L) y for a lower triangle L of their length, and adds up the
+/// squares of each result. Groups of [`TOGETHER`] vectors follow each other; in a group entry i of
+/// vector n stands at `i * TOGETHER + n`. The bits are those of [`solve`].
+///
+/// # Panics
+/// If there is not a sum of squares for each vector.
+pub fn solve_many(lower: &[f64], vectors: &mut [f64], squares: &mut [f64]) {
+    assert_eq!(vectors.len(), squares.len() * order(lower), "a sum for each vector");
+    CodePath::best().run(SolveMany { lower, vectors, squares });
+}
+
+struct SolveMany<'a> {
+    lower: &'a [f64],
+    vectors: &'a mut [f64],
+    squares: &'a mut [f64],
+}
+
+impl Kernel for SolveMany<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let group = (order(self.lower) * TOGETHER).max(1);
+        let groups = self.vectors.chunks_exact_mut(group);
+        for (group, squares) in groups.zip(self.squares.chunks_exact_mut(TOGETHER)) {
+            let mut lengths = [0.0; TOGETHER];
+            let mut start = 0;
+            for i in 0..group.len() / TOGETHER {
+                let row = &self.lower[start..start + i + 1];
+                start += i + 1;
+                let (known, rest) = group.split_at_mut(i * TOGETHER);
+                let mut sums = [0.0; TOGETHER];
+                for (entry, known) in row.iter().zip(known.chunks_exact(TOGETHER)) {
+                    for (sum, known) in sums.iter_mut().zip(known) {
+                        *sum += entry * known;
+                    }
+                }
+                for ((y, sum), length) in rest.iter_mut().zip(&sums).zip(&mut lengths) {
+                    *y = (*y - sum) / row[i];
+                    *length += *y * *y;
+                }
+            }
+            squares.copy_from_slice(&lengths);
+        }
+    }
+}
+
+/// Adds to the lower triangle of a symmetric matrix the products w w' of rows w of its order, one
+/// row after the other.
+pub fn add_squares(matrix: &mut [f64], rows: &[f64]) {
+    CodePath::best().run(AddSquares { matrix, rows });
+}
+
+struct AddSquares<'a> {
+    matrix: &'a mut [f64],
+    rows: &'a [f64],
+}
+
+impl Kernel for AddSquares<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        for row in self.rows.chunks_exact(order(self.matrix).max(1)) {
+            let mut start = 0;
+            for (i, &factor) in row.iter().enumerate() {
+                // rows hold features of one output each, so that many entries are zero
+                if factor != 0.0 {
+                    let sums = &mut self.matrix[start..start + i + 1];
+                    for (sum, other) in sums.iter_mut().zip(row) {
+                        *sum += factor * other;
+                    }
+                }
+                start += i + 1;
+            }
+        }
+    }
+}
+
 /// Replaces y by inv(L') y for a lower triangle L of its length.
 pub fn solve_transposed(lower: &[f64], y: &mut [f64]) {
     for (i, row) in rows(lower).enumerate().rev() {
@@ -145,6 +227,39 @@ mod tests {
         solve_transposed(&root, &mut y);
         for (y, expected) in y.iter().zip(expected.iter()) {
             assert!((y - expected).abs() < 1e-14);
+        }
+    }
+
+    #[test]
+    fn many_vectors_are_solved_as_each_of_them() {
+        let order = 37;
+        let rows: Vec<f64> =
+            (0..50 * order).map(|n| ((n * 7919) % 101) as f64 / 50.0 - 1.0).collect();
+        let mut root = vec![0.0; triangle(order)];
+        (0..order).for_each(|i| root[triangle(i) + i] = 1.0);
+        let mut plain = root.clone();
+        add_squares(&mut root, &rows);
+        for row in rows.chunks(order) {
+            for i in 0..order {
+                add_multiple(&mut plain[triangle(i)..=triangle(i) + i], row[i], row);
+            }
+        }
+        assert_eq!(root, plain);
+        cholesky_of_definite(&mut root);
+        let count = 2 * TOGETHER;
+        let mut vectors = vec![0.0; count * order];
+        for (n, row) in rows.chunks(order).take(count).enumerate() {
+            let first = n / TOGETHER * TOGETHER * order + n % TOGETHER;
+            for (i, value) in row.iter().enumerate() {
+                vectors[first + i * TOGETHER] = *value;
+            }
+        }
+        let mut squares = vec![0.0; count];
+        solve_many(&root, &mut vectors, &mut squares);
+        for (row, square) in rows.chunks(order).zip(&squares) {
+            let mut one = row.to_vec();
+            solve(&root, &mut one);
+            assert_eq!(dot(&one, &one).to_bits(), square.to_bits());
         }
     }
 

@@ -25,7 +25,7 @@ use super::{AMPLITUDES, Discrepancy, Unexplained, Weighted, weigh};
 use crate::latent::{EDGE, Role, ln_prior};
 use crate::logarithm::HALF_LN_TWO_PI;
 use crate::setup::Setup;
-use gumption_engine::linalg::packed::{self, triangle};
+use gumption_engine::linalg::packed::{self, TOGETHER, triangle};
 use gumption_engine::number::elementary;
 
 /// Points of the integral over the logarithm of the amplitude.
@@ -222,17 +222,11 @@ impl<'p> Problem<'p> {
             ln -= 0.5
                 * (mean.count * elementary::ln(variance) + mean.squares / variance + white * white);
             ln -= mean.count * HALF_LN_TWO_PI;
-            for i in 0..order {
-                let factor = row[i];
-                if factor != 0.0 {
-                    products[i] += factor * white;
-                    let sums = &mut inner[triangle(i)..=triangle(i) + i];
-                    for (sum, other) in sums.iter_mut().zip(row) {
-                        *sum += factor * other;
-                    }
-                }
+            for (product, factor) in products.iter_mut().zip(row) {
+                *product += factor * white;
             }
         }
+        packed::add_squares(&mut inner, &whitened);
         packed::cholesky_of_definite(&mut inner);
         ln -= packed::ln_diagonal(&inner);
         packed::solve(&inner, &mut products);
@@ -242,13 +236,11 @@ impl<'p> Problem<'p> {
         let mut information = DMatrix::zeros(d, d);
         let (mut leverages, mut weight) = (0.0, 0.0);
         let mut follows = DVector::zeros(d);
-        let mut solved = vec![0.0; order];
+        let all_leverages = leverages_of(&inner, &whitened, self.means.len());
         for (n, (mean, &variance)) in self.means.iter().zip(&variances).enumerate() {
             let row = &whitened[n * order..(n + 1) * order];
             let slopes = &all_slopes[n * d..(n + 1) * d];
-            solved.copy_from_slice(row);
-            packed::solve(&inner, &mut solved);
-            let leverage: f64 = solved.iter().map(|y| y * y).sum();
+            let leverage = all_leverages[n];
             leverages += leverage;
             let fitted: f64 = row.iter().zip(&products).map(|(w, b)| w * b).sum();
             let rest = mean.residual * (mean.count / variance).sqrt() - fitted;
@@ -355,6 +347,22 @@ fn means(setup: &Setup<'_>, residuals: &[f64]) -> Vec<Mean> {
         }
     }
     means
+}
+
+/// The squares of inv(L) w for the Cholesky root L and each of so many whitened rows w.
+fn leverages_of(root: &[f64], whitened: &[f64], count: usize) -> Vec<f64> {
+    let order = whitened.len() / count.max(1);
+    let groups = count.div_ceil(TOGETHER);
+    let mut vectors = vec![0.0; groups * TOGETHER * order];
+    for (n, row) in whitened.chunks_exact(order.max(1)).enumerate() {
+        let group = &mut vectors[n / TOGETHER * TOGETHER * order..];
+        for (value, entries) in row.iter().zip(group.chunks_exact_mut(TOGETHER)) {
+            entries[n % TOGETHER] = *value;
+        }
+    }
+    let mut leverages = vec![0.0; groups * TOGETHER];
+    packed::solve_many(root, &mut vectors, &mut leverages);
+    leverages
 }
 
 /// How many of the shared inputs' directions the data decide: their number less the trace of their
