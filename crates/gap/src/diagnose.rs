@@ -136,7 +136,7 @@ fn diagnosed(
     let next = if effort.is_stopped() {
         NextMeasurements { entropy: next::entropy_of(&posterior), ..NextMeasurements::default() }
     } else {
-        next::next(&setup, &discrepancy, &posterior, rivals, &variances, seed)
+        next::next(&setup, &discrepancy, &posterior, &compositions, rivals, &variances, seed)
     };
     let interrupted = effort.is_stopped();
     progress(0.95);

@@ -274,8 +274,10 @@ pub struct Shrunk {
 #[non_exhaustive]
 pub struct NextMeasurements {
     /// Entropy of the posterior probabilities of all hypotheses, in nats: how much there is left to
-    /// learn.
+    /// learn. Composed departures count each for itself.
     pub entropy: f64,
+    /// How many composed departures, which are parts of "unexplained", count.
+    pub composed: usize,
     /// The verdict and its strongest rival, each a list of effects or `None` for "unexplained"; `None`
     /// where the verdict has no rival.
     pub separates: Option<[Option<Vec<String>>; 2]>,

@@ -7,6 +7,7 @@
 
 use rayon::prelude::*;
 
+use super::composed::Compositions;
 use super::diagnosis::{NamedQuantity, NextMeasurements, ProposalKind, ProposedMeasurement};
 use super::discrepancy::Discrepancy;
 use super::equivalent;
@@ -55,7 +56,7 @@ const MOST_OTHERS: usize = 3;
 
 /// A hypothesis as what it says of measurements not yet made.
 pub(crate) struct PredictiveHypothesis {
-    /// Its effects; `None` for "unexplained".
+    /// Its effects; `None` for a part of "unexplained".
     pub(crate) effects: Option<Vec<String>>,
     /// Its probability.
     pub(crate) probability: f64,
@@ -75,11 +76,11 @@ pub(crate) fn next(
     setup: &Setup<'_>,
     discrepancy: &Discrepancy,
     posterior: &Posterior,
+    compositions: &Compositions,
     rivals: Option<[Option<usize>; 2]>,
     variances: &[f64],
     seed: u64,
 ) -> NextMeasurements {
-    let entropy = entropy_of(posterior);
     let separates = rivals.map(|pair| {
         pair.map(|place| {
             let hypothesis = posterior.hypotheses.get(place?)?;
@@ -87,10 +88,13 @@ pub(crate) fn next(
         })
     });
     let places = reachable::places(setup);
+    let (unexplained, composed) = unexplained(setup, discrepancy, posterior, compositions, &places);
+    let shares = unexplained.iter().map(|(share, _)| *share);
+    let entropy = entropy_of(posterior) + posterior.probability * entropy_of_parts(shares);
     let equivalent = equivalent::groups(setup, posterior, &places, variances);
     let mut proposals = Vec::new();
     if entropy > DECIDED && !places.is_empty() {
-        let hypotheses = predictive(setup, discrepancy, posterior, &places);
+        let hypotheses = predictive(setup, posterior, unexplained, &places);
         let same = separates.as_ref().is_some_and(|pair| {
             let of = |one: &Option<Vec<String>>| {
                 equivalent.iter().position(|group| one.as_ref().is_some_and(|e| group.contains(e)))
@@ -101,14 +105,42 @@ pub(crate) fn next(
         let prospects = Prospects::new(setup, &places, &hypotheses, pair, variances, seed);
         proposals = prospects.proposals(entropy);
     }
-    NextMeasurements { entropy, separates, proposals, equivalent }
+    NextMeasurements { entropy, composed, separates, proposals, equivalent }
 }
 
-/// Entropy of the probabilities of all hypotheses, in nats.
+/// Entropy of the probabilities of all hypotheses, in nats; what is composed is not told apart.
 pub(crate) fn entropy_of(posterior: &Posterior) -> f64 {
-    let of = |p: f64| if p > 0.0 { -p * elementary::ln(p) } else { 0.0 };
     let probabilities = posterior.hypotheses.iter().map(|h| h.probability);
-    probabilities.chain([posterior.probability]).map(of).sum()
+    entropy_of_parts(probabilities.chain([posterior.probability]))
+}
+
+fn entropy_of_parts(probabilities: impl Iterator<Item = f64>) -> f64 {
+    probabilities.map(|p| if p > 0.0 { -p * elementary::ln(p) } else { 0.0 }).sum()
+}
+
+/// What "unexplained" stands for, each part with its share of it and what it says at the places:
+/// the composed departures one by one, of which the number is given as well, and then all that is only
+/// known to be smooth.
+fn unexplained(
+    setup: &Setup<'_>,
+    discrepancy: &Discrepancy,
+    posterior: &Posterior,
+    compositions: &Compositions,
+    places: &[Place],
+) -> (Vec<(f64, predict::Normals)>, usize) {
+    if posterior.probability <= LEAST_PROBABILITY {
+        return (Vec::new(), 0);
+    }
+    let rows: Vec<_> = places.iter().map(|place| place.row.clone()).collect();
+    let mut parts = compositions.predictions(setup, &rows);
+    parts.retain(|(share, _)| share * posterior.probability > LEAST_PROBABILITY);
+    let composed = parts.len();
+    let rest = 1.0 - parts.iter().map(|(share, _)| share).sum::<f64>();
+    if rest * posterior.probability > LEAST_PROBABILITY {
+        let kinds = shrink::top(&posterior.unexplained.kinds);
+        parts.push((rest, discrepancy.predict(setup, kinds, &rows)));
+    }
+    (parts, composed)
 }
 
 /// The outputs of the model that were not observed.
@@ -117,11 +149,11 @@ fn unobserved(setup: &Setup<'_>) -> Vec<usize> {
     observed.filter(|(_, of)| of.is_none()).map(|(output, _)| output).collect()
 }
 
-/// The hypotheses of a posterior with what they say at some places.
+/// The hypotheses of a posterior, and the parts of "unexplained", with what they say at some places.
 fn predictive(
     setup: &Setup<'_>,
-    discrepancy: &Discrepancy,
     posterior: &Posterior,
+    unexplained: Vec<(f64, predict::Normals)>,
     places: &[Place],
 ) -> Vec<PredictiveHypothesis> {
     let rows: Vec<_> = places.iter().map(|place| place.row.clone()).collect();
@@ -154,23 +186,19 @@ fn predictive(
             }
         })
         .collect();
-    if posterior.probability > LEAST_PROBABILITY {
-        let kinds = shrink::top(&posterior.unexplained.kinds);
-        let normals = discrepancy.predict(setup, kinds, &rows);
-        let scores: Vec<f64> =
-            (0..DRAWS).map(|n| normal::quantile((n as f64 + 0.5) / DRAWS as f64)).collect();
-        let draws = |&(mean, variance): &(f64, f64)| -> Vec<f64> {
-            scores.iter().map(|score| mean + variance.sqrt() * score).collect()
-        };
-        hypotheses.push(PredictiveHypothesis {
-            effects: None,
-            probability: posterior.probability,
-            values: normals.iter().map(|row| row.iter().map(draws).collect()).collect(),
-            unobserved: None,
-            // what a discrepancy says of inputs is no more than was known of them
-            inputs: vec![scores.clone(); setup.unknown_inputs.len()],
-        });
-    }
+    let scores: Vec<f64> =
+        (0..DRAWS).map(|n| normal::quantile((n as f64 + 0.5) / DRAWS as f64)).collect();
+    let draws = |&(mean, variance): &(f64, f64)| -> Vec<f64> {
+        scores.iter().map(|score| mean + variance.sqrt() * score).collect()
+    };
+    hypotheses.extend(unexplained.into_iter().map(|(share, normals)| PredictiveHypothesis {
+        effects: None,
+        probability: posterior.probability * share,
+        values: normals.iter().map(|row| row.iter().map(draws).collect()).collect(),
+        unobserved: None,
+        // what a departure says of inputs is no more than was known of them
+        inputs: vec![scores.clone(); setup.unknown_inputs.len()],
+    }));
     let turns = &setup.data.turns;
     unwrap(&mut hypotheses, turns);
     hypotheses

@@ -3,7 +3,8 @@
 use super::{candidate, case, line, normal, observed};
 use crate::expected_entropy::{Detail, Normals, Outlook, expected_loss, ln_odds};
 use crate::{
-    Case, Diagnosis, DiagnosisOptions, Prior, ProposalKind, ProposedMeasurement, diagnose,
+    Case, Diagnosis, DiagnosisOptions, HypothesisKind, Prior, ProposalKind, ProposedMeasurement,
+    diagnose,
 };
 use gumption_engine::distribution::StreamKey;
 use gumption_engine::number::Column;
@@ -181,6 +182,36 @@ fn the_same_function_is_found() {
     {
         assert!(next.proposals.iter().all(|p| p.count_for_20_to_1.is_none()), "{next:?}");
     }
+}
+
+/// Where the list explains nothing, the composed effects are what a measurement is to tell apart: those
+/// that agree between 0 and 5 go apart beyond.
+#[test]
+fn composed_effects_are_told_apart() {
+    // 0.02 x^2 and deviations of at most 0.02, with u = 0.02
+    let y = [0.01, 0.015, 0.1, 0.17, 0.33, 0.49];
+    let mut case = case(
+        normal(0.0, 0.001),
+        Sharing::All,
+        &[("y", "a + 0*x")],
+        vec![observed(&y, Some(&[0.02; 6]))],
+        vec![candidate("offset", "o", normal(0.0, 0.1), &[("y", "y + o")])],
+    );
+    case.reachable = vec![Some([0.0, 12.0])];
+    let found = diagnosed(&case);
+    assert_eq!(found.most_probable.kind, HypothesisKind::Unexplained);
+    assert!(found.next.composed >= 2, "{:?}", found.next);
+    let listed: f64 = found
+        .hypotheses
+        .iter()
+        .map(|of| of.probability)
+        .map(|p| if p > 0.0 { -p * p.ln() } else { 0.0 })
+        .sum();
+    assert!(found.next.entropy > listed, "{listed}: {:?}", found.next);
+    let best = &found.next.proposals[0];
+    // a power, an exponential and a parabola through the same data differ by more than u at 12
+    assert!(rows(best)[0] > 8.0, "{best:?}");
+    assert!(best.expected_entropy_loss > 0.2 * found.next.entropy, "{:?}", found.next);
 }
 
 /// The output that was not observed, and the input that it is all about, are proposed.

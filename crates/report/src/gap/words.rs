@@ -417,10 +417,11 @@ pub(super) fn next(diagnosis: &Diagnosis) -> Vec<String> {
     };
     let part = best.expected_entropy_loss / next.entropy;
     said.push(format!(
-        "Most is expected of this: {}. It takes {} of what is left open between all hypotheses \
-         (the entropy of their probabilities, {} nats).",
+        "Most is expected of this: {}. It takes {} of what is left open between all {} (the entropy \
+         of their probabilities, {} nats).",
         proposal(diagnosis, best),
         digits::percent_of(part),
+        if next.composed > 0 { "hypotheses and composed effects" } else { "hypotheses" },
         significant(next.entropy, 2)
     ));
     if part < LITTLE {
