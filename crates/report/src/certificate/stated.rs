@@ -107,6 +107,10 @@ impl Stated<'_> {
     fn factor_place(&self) -> i32 {
         let trials = self.found.monte_carlo.as_ref();
         let (Basis::Shortest, Some(trials)) = (self.statement.basis, trials) else { return FACTOR };
+        // figures without noise are those of every seed
+        if matches!(self.found.noiseless, Some(Ok(_))) {
+            return FACTOR;
+        }
         let interval = trials.stated_interval();
         let farther = interval.errors.into_iter().fold(0.0, f64::max);
         let error = farther / self.statement.standard_uncertainty;
