@@ -108,22 +108,23 @@ impl Kernel for Walk<'_> {
         let mut registers = evaluator.workspace();
         let mut values = Column::ZERO;
         let mut sims = vec![Column::ZERO; outputs];
-        (0..evaluator.points())
-            .map(|row| {
-                for (n, role) in roles.iter().enumerate() {
-                    if let Role::Variable { place, maps } = role {
-                        let map = maps.get(row).or(maps.first());
-                        let (Some(map), true) = (map, maps.len() > 1 || row == 0) else { continue };
-                        for lane in 0..lanes {
-                            values.0[lane] = map.value(scores[n].0[lane]);
-                        }
-                        evaluator.set(&mut registers, *place, &values);
+        // a loop and no closure, which would not be compiled for the path
+        let mut of_rows = Vec::with_capacity(evaluator.points());
+        for row in 0..evaluator.points() {
+            for (n, role) in roles.iter().enumerate() {
+                if let Role::Variable { place, maps } = role {
+                    let map = maps.get(row).or(maps.first());
+                    let (Some(map), true) = (map, maps.len() > 1 || row == 0) else { continue };
+                    for lane in 0..lanes {
+                        values.0[lane] = map.value(scores[n].0[lane]);
                     }
+                    evaluator.set(&mut registers, *place, &values);
                 }
-                evaluator.at(row, &mut registers, &mut sims);
-                sims.iter().map(|column| column.0[..lanes].to_vec()).collect()
-            })
-            .collect()
+            }
+            evaluator.at(row, &mut registers, &mut sims);
+            of_rows.push(sims.iter().map(|column| column.0[..lanes].to_vec()).collect());
+        }
+        of_rows
     }
 }
 
