@@ -786,6 +786,13 @@ fn a_row_beyond_the_law_of_propagation_has_the_same_digits_with_any_seed() {
         stated(seed, "monte-carlo") != stated(1, "monte-carlo")
     });
     assert!(moved.count() > 0);
+    let file = file.to_str().expect("a path");
+    for (method, said) in [("auto", "without random trials"), ("monte-carlo", "Monte Carlo method")]
+    {
+        let page = output(&["certificate", file, "--quiet", "--method", method]);
+        let page = page.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(page.contains(said), "{page}");
+    }
 }
 
 /// A certificate that states a line, and comes back as an input with what its results have in common.

@@ -60,6 +60,8 @@ fn raised_probabilities(rows: &[Stated<'_>]) -> Vec<Option<f64>> {
 struct Kind {
     basis: Basis,
     probability: Option<f64>,
+    /// Whether an interval is from figures without the noise of trials.
+    without_trials: bool,
     /// The factor, where the sentence names it.
     factor: Option<String>,
 }
@@ -70,6 +72,7 @@ impl Kind {
         Self {
             basis: row.statement.basis,
             probability: row.statement.coverage_probability,
+            without_trials: row.is_without_trials(),
             factor: named.then(|| row.factor().text),
         }
     }
@@ -83,6 +86,7 @@ impl Kind {
             Basis::Normal => words.normal,
             Basis::Student => words.student,
             Basis::Fixed => words.fixed,
+            Basis::Shortest if self.without_trials => words.without_trials,
             Basis::Shortest => words.shortest,
         };
         let factor = in_marks(report, self.factor.as_deref().unwrap_or_default());

@@ -59,6 +59,11 @@ pub(super) const WORDS: Words = Words {
         with a coverage probability of {p}, found by the Monte Carlo method (JCGM 101:2008). U is the \
         distance of the value from its farther end, and k is U over the standard uncertainty, to the \
         digits that the trials justify.",
+    without_trials: "The result is not normally distributed. The interval from - to in the table has a \
+        coverage probability of {p}; it was found by the propagation of distributions (JCGM 101:2008, \
+        clause 5) without random trials, and is the shortest one, or the symmetric one where that is \
+        longer by less than 1 %. U is the distance of the value from its farther end, and k is U over \
+        the standard uncertainty.",
     propagation: "The standard uncertainty was evaluated by the law of propagation of uncertainty \
         (JCGM 100:2008), as EA-4/02 M:2022 asks.",
     time: "The uncertainties do not include how the device will behave over time.",

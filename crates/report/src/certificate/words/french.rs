@@ -59,6 +59,11 @@ pub(super) const WORDS: Words = Words {
         ayant une probabilité de couverture de {p}, trouvé par la méthode de Monte-Carlo (JCGM 101:2008). U \
         est la distance de la valeur à l'extrémité la plus éloignée, et k est U divisé par \
         l'incertitude-type, avec les chiffres que les tirages justifient.",
+    without_trials: "Le résultat ne suit pas une loi normale. L'intervalle de - à du tableau a une \
+        probabilité de couverture de {p} ; il a été trouvé par la propagation de distributions (JCGM \
+        101:2008, article 5) sans tirages aléatoires, et c'est le plus court, ou bien le symétrique là \
+        où il est plus long de moins de 1 %. U est la distance de la valeur à l'extrémité la plus \
+        éloignée, et k est U divisé par l'incertitude-type.",
     propagation: "L'incertitude-type a été évaluée par la loi de propagation des incertitudes \
         (JCGM 100:2008), comme le demande EA-4/02 M:2022.",
     time: "Les incertitudes ne comprennent pas le comportement de l'objet dans le temps.",

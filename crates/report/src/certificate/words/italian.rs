@@ -59,6 +59,11 @@ pub(super) const WORDS: Words = Words {
         con una probabilità di copertura di {p}, trovato con il metodo Monte Carlo (JCGM 101:2008). U è la \
         distanza del valore dall'estremo più lontano, e k è il rapporto fra U e l'incertezza tipo, con le \
         cifre che le prove Monte Carlo giustificano.",
+    without_trials: "Il risultato non ha distribuzione normale. L'intervallo da - a della tabella ha una \
+        probabilità di copertura di {p}; è stato trovato con la propagazione delle distribuzioni (JCGM \
+        101:2008, punto 5) senza prove casuali, ed è il più corto, oppure quello simmetrico dove questo \
+        è più lungo di meno dell'1 %. U è la distanza del valore dall'estremo più lontano, e k è il \
+        rapporto fra U e l'incertezza tipo.",
     propagation: "L'incertezza tipo è stata valutata con la legge di propagazione dell'incertezza \
         (JCGM 100:2008), come chiede EA-4/02 M:2022.",
     time: "Le incertezze non comprendono il comportamento dell'oggetto nel tempo.",

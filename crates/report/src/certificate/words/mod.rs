@@ -63,6 +63,8 @@ pub(super) struct Words {
     pub(super) fixed: &'static str,
     /// `{p}`
     pub(super) shortest: &'static str,
+    /// `{p}`; the same from figures without the noise of trials
+    pub(super) without_trials: &'static str,
     pub(super) propagation: &'static str,
     /// About all rows.
     pub(super) time: &'static str,
@@ -183,7 +185,7 @@ mod tests {
             marks.sort_unstable();
             marks
         }
-        let templates: [fn(&Words) -> &'static str; 15] = [
+        let templates: [fn(&Words) -> &'static str; 16] = [
             |w| w.period,
             |w| w.rows[0],
             |w| w.rows[1],
@@ -191,6 +193,7 @@ mod tests {
             |w| w.student,
             |w| w.fixed,
             |w| w.shortest,
+            |w| w.without_trials,
             |w| w.rounding,
             |w| w.raised,
             |w| w.approximately,
