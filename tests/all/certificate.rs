@@ -721,27 +721,20 @@ fn the_worked_day_has_the_sensitivities_of_the_paper() {
     assert_eq!(stated, [("422", "13"), ("419", "12"), ("421", "11")]);
 }
 
+/// The rows of a certificate of so few trials that their own last digits move with the seed.
+fn table_of_few_trials(file: &str, seed: u32, method: &str) -> String {
+    let seed = seed.to_string();
+    let options = ["--format", "csv", "--quiet", "--trials", "20000"];
+    let asked = ["--seed", &seed, "--method", method];
+    output(&[&["certificate", file][..], &options, &asked].concat())
+}
+
 /// What is stated depends on no seed: of 20 seeds, each with so few trials that their own last digits
 /// move, the worked day has the same line for every row.
 #[test]
 #[ignore = "20 certificates; the quick form is the next test"]
 fn the_worked_day_has_the_same_digits_with_any_seed() {
-    let stated = |seed: u32, method: &str| {
-        let seed = seed.to_string();
-        output(&[
-            "certificate",
-            WORKED_DAY,
-            "--format",
-            "csv",
-            "--quiet",
-            "--trials",
-            "20000",
-            "--seed",
-            &seed,
-            "--method",
-            method,
-        ])
-    };
+    let stated = |seed, method| table_of_few_trials(WORKED_DAY, seed, method);
     let first = stated(1, "auto");
     for seed in 2..=20 {
         assert_eq!(stated(seed, "auto"), first, "seed {seed}");
@@ -763,30 +756,14 @@ fn a_row_beyond_the_law_of_propagation_has_the_same_digits_with_any_seed() {
     let file = folder.path().join("certificate.json");
     let text = r#"{"digits": 3, "rows": [{"model": "model.json", "output": "y"}]}"#;
     fs::write(&file, text).expect("the certificate");
-    let stated = |seed: u32, method: &str| {
-        let seed = seed.to_string();
-        let file = file.to_str().expect("a path");
-        output(&[
-            "certificate",
-            file,
-            "--format",
-            "csv",
-            "--quiet",
-            "--trials",
-            "20000",
-            "--seed",
-            &seed,
-            "--method",
-            method,
-        ])
-    };
+    let file = file.to_str().expect("a path");
+    let stated = |seed, method| table_of_few_trials(file, seed, method);
     let first = stated(1, "auto");
     let moved = (2..=20).filter(|&seed| {
         assert_eq!(stated(seed, "auto"), first, "seed {seed}");
         stated(seed, "monte-carlo") != stated(1, "monte-carlo")
     });
     assert!(moved.count() > 0);
-    let file = file.to_str().expect("a path");
     for (method, said) in [("auto", "without random trials"), ("monte-carlo", "Monte Carlo method")]
     {
         let page = output(&["certificate", file, "--quiet", "--method", method]);

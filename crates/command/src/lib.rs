@@ -243,13 +243,18 @@ fn misspelt(error: &clap::Error) -> Option<String> {
             "it is a file: a command stands in front of it, such as `gumption run {name}`; \
              `gumption check {name}` tells its mistakes"
         )
-    } else if near.is_empty() {
-        format!("the commands are {}", names.join(", "))
+    } else if let Some(question) = did_you_mean(&near) {
+        format!("{question} `gumption --help` lists all")
     } else {
-        let near: Vec<String> = near.into_iter().map(|name| format!("`{name}`")).collect();
-        format!("did you mean {}? `gumption --help` lists all", near.join(" or "))
+        format!("the commands are {}", names.join(", "))
     };
     Some(format!("there is no command `{name}`; {hint}"))
+}
+
+/// The question after names that are near to what was written, if there are any.
+fn did_you_mean(near: &[&str]) -> Option<String> {
+    let near: Vec<String> = near.iter().map(|name| format!("`{name}`")).collect();
+    (!near.is_empty()).then(|| format!("did you mean {}?", near.join(" or ")))
 }
 
 #[cfg(test)]

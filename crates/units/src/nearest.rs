@@ -29,7 +29,8 @@ pub fn nearest<'k>(found: &str, known: impl IntoIterator<Item = &'k str>) -> Opt
 /// The distance counts letters left out, put in, changed, and swapped with their neighbour
 /// (Damerau and Levenshtein). At most a third of the letters of `found` may differ, rounded to the
 /// nearest whole number, and at least one letter must not. Where none is so near, those count that
-/// `found` is a part of, if it has four letters or more. Case does not count, nor does `-` for `_`,
+/// `found`, if it has four letters or more, is a part of, or is near to a word of (words are parted by
+/// `-` or `_`). Case does not count, nor does `-` for `_`,
 /// nor the micro sign for the Greek letter. Names of more than 64 letters are not compared.
 ///
 /// ```
@@ -37,6 +38,7 @@ pub fn nearest<'k>(found: &str, known: impl IntoIterator<Item = &'k str>) -> Opt
 ///
 /// assert_eq!(all_nearest("t3", ["t1", "t2", "tilt"]), ["t1", "t2"]);
 /// assert_eq!(all_nearest("inclined", ["inclined-plane", "chain"]), ["inclined-plane"]);
+/// assert_eq!(all_nearest("inclned", ["inclined-plane", "chain"]), ["inclined-plane"]);
 /// ```
 pub fn all_nearest<'k>(found: &str, known: impl IntoIterator<Item = &'k str>) -> Vec<&'k str> {
     let plain = |name: &str| name.to_lowercase().replace('-', "_").replace('\u{b5}', "\u{3bc}");
@@ -46,11 +48,21 @@ pub fn all_nearest<'k>(found: &str, known: impl IntoIterator<Item = &'k str>) ->
     if length > LONGEST {
         return near;
     }
-    let mut least = (length + 1) / 3;
+    let allowed = (length + 1) / 3;
+    let mut least = allowed;
     let mut around: Vec<&str> = Vec::new();
     for name in known {
         let candidate = plain(name);
-        if length >= SHORTEST_PART && around.len() < MOST && candidate.contains(&wanted) {
+        let within = || {
+            let near = |word| strsim::damerau_levenshtein(&wanted, word) <= allowed;
+            let words = || candidate.split('_').filter(|word| word.len() >= SHORTEST_PART);
+            candidate.contains(&wanted) || words().any(near)
+        };
+        if length >= SHORTEST_PART
+            && around.len() < MOST
+            && candidate.len() <= 4 * LONGEST
+            && within()
+        {
             around.push(name);
         }
         let letters = candidate.chars().count();

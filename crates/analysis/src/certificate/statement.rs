@@ -71,6 +71,8 @@ pub struct Statement {
     pub coverage_probability: Option<f64>,
     /// The shortest coverage interval, where the statement rests on it.
     pub interval: Option<[f64; 2]>,
+    /// Whether that interval is from figures without the noise of trials.
+    pub without_trials: bool,
     /// The laboratory's capability, where it is known.
     pub limit: Option<Limit>,
     /// The expanded uncertainty to the digits of the certificate; `None` if it is 0.
@@ -112,6 +114,7 @@ struct Found {
     expanded_uncertainty: f64,
     coverage_factor: f64,
     interval: Option<[f64; 2]>,
+    without_trials: bool,
 }
 
 impl Found {
@@ -182,6 +185,7 @@ pub(super) fn of(
         coverage_probability: (found.basis != Basis::Fixed)
             .then(|| settings.coverage.probability()),
         interval: found.interval,
+        without_trials: found.without_trials,
         limit,
         rounded,
     })
@@ -203,6 +207,7 @@ fn by_propagation(gum: &Gum, settings: &Settings) -> Option<Found> {
         expanded_uncertainty: coverage_factor * gum.standard_uncertainty,
         coverage_factor,
         interval: None,
+        without_trials: false,
     })
 }
 
@@ -222,25 +227,26 @@ fn without_noise(figures: &Noiseless, gum: Option<&Gum>) -> Option<Found> {
     let symmetric = figures.symmetric_interval;
     let shorter = |ends: &[f64; 2]| length(*ends) < (1.0 - AS_SHORT) * length(symmetric);
     let shortest = figures.shortest_interval.filter(|_| figures.shortest_unique).filter(shorter);
-    let [low, high] = shortest.unwrap_or(symmetric);
+    let ends = shortest.unwrap_or(symmetric);
     let value = figures.estimate.unwrap_or(figures.median);
-    let u = figures.standard_uncertainty.or_else(|| gum.map(|gum| gum.standard_uncertainty))?;
-    let expanded_uncertainty = (high - value).max(value - low);
-    (u > 0.0 && expanded_uncertainty.is_finite()).then(|| Found {
-        basis: Basis::Shortest,
-        value,
-        standard_uncertainty: u,
-        expanded_uncertainty,
-        coverage_factor: expanded_uncertainty / u,
-        interval: Some([low, high]),
-    })
+    let found = by_interval(value, ends, figures.standard_uncertainty, gum)?;
+    Some(Found { without_trials: true, ..found })
 }
 
 fn by_trials(figures: &MonteCarlo, gum: Option<&Gum>) -> Option<Found> {
-    let [low, high] = figures.stated_interval().ends;
-    let value = figures.location();
-    // few readings have no variance in the trials
-    let u = figures.standard_uncertainty.or_else(|| gum.map(|gum| gum.standard_uncertainty))?;
+    let ends = figures.stated_interval().ends;
+    by_interval(figures.location(), ends, figures.standard_uncertainty, gum)
+}
+
+/// What an interval says; few readings have no variance in trials, and their standard uncertainty is
+/// that of the law of propagation.
+fn by_interval(
+    value: f64,
+    [low, high]: [f64; 2],
+    standard_uncertainty: Option<f64>,
+    gum: Option<&Gum>,
+) -> Option<Found> {
+    let u = standard_uncertainty.or_else(|| gum.map(|gum| gum.standard_uncertainty))?;
     let expanded_uncertainty = (high - value).max(value - low);
     (u > 0.0 && expanded_uncertainty.is_finite()).then(|| Found {
         basis: Basis::Shortest,
@@ -249,5 +255,6 @@ fn by_trials(figures: &MonteCarlo, gum: Option<&Gum>) -> Option<Found> {
         expanded_uncertainty,
         coverage_factor: expanded_uncertainty / u,
         interval: Some([low, high]),
+        without_trials: false,
     })
 }

@@ -11,7 +11,7 @@ use comfy_table::{ContentArrangement, Table, presets};
 
 use super::options::Format;
 use super::output::Place;
-use super::{CommandLine, Exit, Failure, output};
+use super::{CommandLine, Exit, Failure, did_you_mean, output};
 use gumption_engine::model::typed::{Catalogue, CatalogueEntry};
 use gumption_units::all_nearest;
 
@@ -77,11 +77,8 @@ impl Models {
 
 fn unknown(catalogue: &Catalogue, name: &str) -> Failure {
     let near = all_nearest(name, catalogue.iter().map(CatalogueEntry::name));
-    let near: Vec<String> = near.into_iter().map(|name| format!("`{name}`")).collect();
-    let hint = match near.as_slice() {
-        [] => "`gumption models` lists those that there are".to_owned(),
-        near => format!("did you mean {}?", near.join(" or ")),
-    };
+    let hint = did_you_mean(&near)
+        .unwrap_or_else(|| "`gumption models` lists those that there are".to_owned());
     Failure::Argument(format!("there is no typed model `{name}`; {hint}"))
 }
 

@@ -28,7 +28,7 @@ mod samples;
 mod score;
 mod shape;
 mod split_normal;
-mod stream;
+pub(crate) mod stream;
 mod student;
 mod trapezoidal;
 mod triangular;

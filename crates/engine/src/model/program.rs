@@ -207,27 +207,49 @@ impl Program {
     pub fn reach(&self) -> Vec<Vec<bool>> {
         let reach_of = |output: usize| {
             let mut reach = vec![false; self.variables];
-            let mut needed = vec![false; self.nodes.len()];
-            needed[output] = true;
-            for (index, node) in self.nodes.iter().enumerate().rev().filter(|(p, _)| *p <= output) {
-                if needed[index] {
-                    match *node {
-                        Node::Variable(v) => reach[v] = true,
-                        Node::Constant(_) => {}
-                        Node::Unary(_, x) => needed[x] = true,
-                        Node::Binary(_, x, y) => {
-                            needed[x] = true;
-                            needed[y] = true;
-                        }
-                        Node::Routine(call) => {
-                            self.routines[call].operands.iter().for_each(|&x| needed[x] = true);
-                        }
-                    }
+            let needed = self.needed_by(&[], [output]);
+            for (node, _) in self.nodes.iter().zip(needed).filter(|(_, needed)| *needed) {
+                if let Node::Variable(v) = *node {
+                    reach[v] = true;
                 }
             }
             reach
         };
         self.outputs.iter().map(|&output| reach_of(output)).collect()
+    }
+
+    /// Calls for each node that a node is computed from.
+    pub(crate) fn for_each_operand(&self, node: usize, mut each: impl FnMut(usize)) {
+        match self.nodes[node] {
+            Node::Variable(_) | Node::Constant(_) => {}
+            Node::Unary(_, x) => each(x),
+            Node::Binary(_, x, y) => {
+                each(x);
+                each(y);
+            }
+            Node::Routine(call) => self.routines[call].operands.iter().copied().for_each(each),
+        }
+    }
+
+    /// For each node whether one of these comes from it. A node whose value is known beforehand, by
+    /// its place in `folded`, comes from no other.
+    pub(crate) fn needed_by(
+        &self,
+        folded: &[Option<f64>],
+        nodes: impl IntoIterator<Item = usize>,
+    ) -> Vec<bool> {
+        let mut needed = vec![false; self.nodes.len()];
+        let mut count = 0;
+        for node in nodes {
+            needed[node] = true;
+            count = count.max(node + 1);
+        }
+        for node in (0..count).rev() {
+            if needed[node] && folded.get(node).is_none_or(Option::is_none) {
+                self.for_each_operand(node, |operand| needed[operand] = true);
+            }
+        }
+        needed
     }
 
     /// For each node whether an output comes from it at these values: not where only a branch of a
@@ -240,19 +262,15 @@ impl Program {
                 continue;
             }
             match *node {
-                Node::Variable(_) | Node::Constant(_) => {}
-                Node::Unary(_, x) => taken[x] = true,
-                Node::Binary(operation, x, y) => {
+                Node::Binary(Binary::When, x, y) => {
                     taken[x] = true;
-                    taken[y] |= match operation {
-                        Binary::When => values[x] != 0.0,
-                        Binary::Unless => values[x] == 0.0,
-                        _ => true,
-                    };
+                    taken[y] |= values[x] != 0.0;
                 }
-                Node::Routine(call) => {
-                    self.routines[call].operands.iter().for_each(|&x| taken[x] = true);
+                Node::Binary(Binary::Unless, x, y) => {
+                    taken[x] = true;
+                    taken[y] |= values[x] == 0.0;
                 }
+                _ => self.for_each_operand(index, |operand| taken[operand] = true),
             }
         }
         taken

@@ -68,7 +68,7 @@ impl Schedule {
 
     fn with_variables(program: &Program, bound: &[Option<f64>], keep: bool) -> Self {
         let folded = fold(program, bound);
-        let needed = needed(program, &folded);
+        let needed = program.needed_by(&folded, program.outputs.iter().copied());
         let mut register_of_variable = vec![usize::MAX; program.variables];
         let mut registers = 0;
         for (v, slot) in register_of_variable.iter_mut().enumerate() {
@@ -240,49 +240,13 @@ pub(crate) fn fold(program: &Program, bound: &[Option<f64>]) -> Vec<Option<f64>>
     folded
 }
 
-/// The nodes that some output needs and that are not constant.
-pub(super) fn needed(program: &Program, folded: &[Option<f64>]) -> Vec<bool> {
-    let mut needed = vec![false; program.nodes.len()];
-    for &output in &program.outputs {
-        needed[output] = true;
-    }
-    for (index, node) in program.nodes.iter().enumerate().rev() {
-        if !needed[index] || folded[index].is_some() {
-            continue;
-        }
-        match *node {
-            Node::Variable(_) | Node::Constant(_) => {}
-            Node::Unary(_, x) => needed[x] = true,
-            Node::Binary(_, x, y) => {
-                needed[x] = true;
-                needed[y] = true;
-            }
-            Node::Routine(call) => {
-                program.routines[call].operands.iter().for_each(|&x| needed[x] = true);
-            }
-        }
-    }
-    needed
-}
-
 /// The last needed node that reads each node's value; a sine and a cosine of the same angle are
 /// computed at the first of the two, but counting the later one only keeps the angle longer.
 fn last_uses(program: &Program, folded: &[Option<f64>], needed: &[bool]) -> Vec<usize> {
     let mut last_use = vec![0; program.nodes.len()];
-    for (index, node) in program.nodes.iter().enumerate() {
-        if !needed[index] || folded[index].is_some() {
-            continue;
-        }
-        match *node {
-            Node::Variable(_) | Node::Constant(_) => {}
-            Node::Unary(_, x) => last_use[x] = index,
-            Node::Binary(_, x, y) => {
-                last_use[x] = index;
-                last_use[y] = index;
-            }
-            Node::Routine(call) => {
-                program.routines[call].operands.iter().for_each(|&x| last_use[x] = index);
-            }
+    for index in 0..program.nodes.len() {
+        if needed[index] && folded[index].is_none() {
+            program.for_each_operand(index, |operand| last_use[operand] = index);
         }
     }
     last_use

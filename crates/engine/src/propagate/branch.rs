@@ -54,28 +54,10 @@ pub(super) fn note(
 
 /// Whether an output comes from an arctangent of two arguments.
 fn has_cut(program: &Program, output: usize) -> bool {
-    let mut needed = vec![false; program.nodes.len()];
-    if let Some(needed) = needed.get_mut(output) {
-        *needed = true;
-    }
-    for (index, node) in program.nodes.iter().enumerate().rev() {
-        if !needed[index] {
-            continue;
-        }
-        match *node {
-            Node::Variable(_) | Node::Constant(_) => {}
-            Node::Unary(_, x) => needed[x] = true,
-            Node::Binary(Binary::Atan2, ..) => return true,
-            Node::Binary(_, x, y) => {
-                needed[x] = true;
-                needed[y] = true;
-            }
-            Node::Routine(call) => {
-                program.routines[call].operands.iter().for_each(|&x| needed[x] = true);
-            }
-        }
-    }
-    false
+    let output = Some(output).filter(|&output| output < program.nodes.len());
+    let needed = program.needed_by(&[], output);
+    let cut = |node: &Node| matches!(node, Node::Binary(Binary::Atan2, ..));
+    program.nodes.iter().zip(needed).any(|(node, needed)| needed && cut(node))
 }
 
 /// A turn in a unit of angles; none in another.

@@ -72,7 +72,7 @@ impl Kind {
         Self {
             basis: row.statement.basis,
             probability: row.statement.coverage_probability,
-            without_trials: row.is_without_trials(),
+            without_trials: row.statement.without_trials,
             factor: named.then(|| row.factor().text),
         }
     }

@@ -102,18 +102,13 @@ impl Stated<'_> {
         Figure::of(to_position(factor, place), rounded(factor, place))
     }
 
-    /// Whether the interval is from figures without the noise of trials.
-    pub(super) fn is_without_trials(&self) -> bool {
-        self.statement.basis == Basis::Shortest && matches!(self.found.noiseless, Some(Ok(_)))
-    }
-
     /// The last digit of the coverage factor: with trials the one that another seed would not change,
     /// or like rows would seem to differ.
     fn factor_place(&self) -> i32 {
         let trials = self.found.monte_carlo.as_ref();
         let (Basis::Shortest, Some(trials)) = (self.statement.basis, trials) else { return FACTOR };
         // figures without noise are those of every seed
-        if self.is_without_trials() {
+        if self.statement.without_trials {
             return FACTOR;
         }
         let interval = trials.stated_interval();

@@ -5,7 +5,6 @@ use std::collections::{BTreeMap, HashMap};
 use super::registers::{self, Arena};
 use super::{Slope, Slopes, Step};
 use crate::model::program::{Node, Program};
-use crate::model::schedule::needed;
 use crate::number::{Binary, Number, Operand, Unary, derivative};
 
 /// At most so many steps on derivatives; programs beyond it take them one row after the other.
@@ -33,7 +32,7 @@ pub(super) fn build(program: &Program, same: &[Option<f64>], wanted: usize) -> O
     if program.goes_backward() || !program.routines.is_empty() {
         return None;
     }
-    let needed = needed(program, &vec![None; program.nodes.len()]);
+    let needed = program.needed_by(&[], program.outputs.iter().copied());
     let mut builder = Builder::default();
     let mut varying = Vec::new();
     let mut known: Vec<Option<Known>> = Vec::with_capacity(program.nodes.len());

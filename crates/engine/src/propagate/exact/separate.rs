@@ -119,26 +119,13 @@ impl Parts<'_> {
 
 /// The inputs that a node depends on, among those that vary.
 pub(super) fn variables_of(program: &Program, folded: &[Option<f64>], node: usize) -> Vec<usize> {
-    let mut needed = vec![false; node + 1];
-    needed[node] = true;
-    let mut found = Vec::new();
-    for index in (0..=node).rev() {
-        if !needed[index] || folded[index].is_some() {
-            continue;
-        }
-        match program.nodes[index] {
-            Node::Variable(v) => found.push(v),
-            Node::Constant(_) => {}
-            Node::Unary(_, x) => needed[x] = true,
-            Node::Binary(_, x, y) => {
-                needed[x] = true;
-                needed[y] = true;
-            }
-            Node::Routine(call) => {
-                program.routines[call].operands.iter().for_each(|&x| needed[x] = true);
-            }
-        }
-    }
+    let needed = program.needed_by(folded, [node]);
+    let varies = |index: &usize| needed[*index] && folded[*index].is_none();
+    let variable = |index: usize| match program.nodes[index] {
+        Node::Variable(v) => Some(v),
+        _ => None,
+    };
+    let mut found: Vec<usize> = (0..=node).filter(varies).filter_map(variable).collect();
     found.sort_unstable();
     found
 }

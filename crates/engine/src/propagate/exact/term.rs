@@ -323,26 +323,8 @@ impl Part {
 
     pub(super) fn new(inputs: &Inputs<'_>, group: &Group) -> Self {
         let last = group.leaves.iter().map(|leaf| leaf.node).max().unwrap_or(0);
-        let mut needed = vec![false; last + 1];
-        for leaf in &group.leaves {
-            needed[leaf.node] = true;
-        }
-        for index in (0..=last).rev() {
-            if needed[index] && inputs.folded[index].is_none() {
-                match inputs.program.nodes[index] {
-                    Node::Variable(_) | Node::Constant(_) => {}
-                    Node::Unary(_, x) => needed[x] = true,
-                    Node::Binary(_, x, y) => {
-                        needed[x] = true;
-                        needed[y] = true;
-                    }
-                    Node::Routine(call) => {
-                        let operands = &inputs.program.routines[call].operands;
-                        operands.iter().for_each(|&x| needed[x] = true);
-                    }
-                }
-            }
-        }
+        let leaves = group.leaves.iter().map(|leaf| leaf.node);
+        let needed = inputs.program.needed_by(inputs.folded, leaves);
         let mut place = vec![0; last + 1];
         let (mut nodes, mut routines) = (Vec::new(), Vec::new());
         for index in 0..=last {

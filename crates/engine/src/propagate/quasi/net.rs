@@ -5,6 +5,7 @@
 //! the point's own. A hash of 64 bits decides about six levels of the tree of bits at once.
 
 use super::directions::DIRECTIONS;
+use crate::distribution::stream::mix;
 
 /// Bits of a coordinate that are scrambled in the tree; nets have at most 2^24 points.
 const TREE: u32 = 24;
@@ -12,18 +13,10 @@ const TREE: u32 = 24;
 /// Levels of the tree that one hash decides about.
 const LEVELS: u32 = 6;
 
-/// A mixing of all bits (Steele, Lea, Flood 2014).
-#[inline(always)]
-fn mixed(mut x: u64) -> u64 {
-    x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    x ^ (x >> 31)
-}
-
 /// A hash of two numbers.
 #[inline(always)]
 fn hash(a: u64, b: u64) -> u64 {
-    mixed(mixed(a ^ 0x9e37_79b9_7f4a_7c15).wrapping_add(b.wrapping_mul(0xd6e8_feb8_6659_fd93)))
+    mix(mix(a ^ 0x9e37_79b9_7f4a_7c15).wrapping_add(b.wrapping_mul(0xd6e8_feb8_6659_fd93)))
 }
 
 /// The direction numbers of a dimension, the highest bit first.
