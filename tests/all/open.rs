@@ -16,7 +16,7 @@ const MODEL: &str = r#"{
   "inputs": {"a": {"unit": "mm", "distribution": "normal", "mean": 1, "std": 0.1}},
   "conditions": {"file": "data/t.csv", "units": {"t": "mm"}},
   "equations": {"y": "a + t"}, "outputs": {"y": {"unit": "mm"}},
-  "settings": {"trials": 1000}
+  "monte_carlo": {"trials": 1000}
 }"#;
 
 fn folder() -> tempfile::TempDir {
