@@ -196,6 +196,26 @@ fn exports_are_those_of_the_command_line() {
     assert_eq!(server.post("/api/export", &wish).status, 400);
 }
 
+/// The call that follows the typing: a model as it stands on the page, with the table beside it.
+#[test]
+fn a_model_is_answered_while_it_is_edited() {
+    let folder = folder();
+    let server = PageServer::start(folder.path());
+    let wish = json!({"text": model(), "name": "m.json"});
+    let reply = server.post("/api/call/answer?path=m.json", &wish);
+    assert_eq!(reply.status, 200, "{}", reply.text());
+    assert_eq!(reply.json()["diagnostics"].as_array().map(Vec::len), Some(0), "{}", reply.text());
+    let wrong = json!({"text": model().replace("a + t", "a + s"), "name": "m.json"});
+    let reply = server.post("/api/call/answer?path=m.json", &wrong);
+    assert_eq!(reply.status, 200, "{}", reply.text());
+    assert!(!reply.json()["diagnostics"].as_array().unwrap().is_empty(), "{}", reply.text());
+    // the same table from another folder
+    let reply = server.post("/api/call/answer?path=data%2Fm.json", &wish);
+    assert!(reply.text().contains("there is no such file"), "{}", reply.text());
+    assert_eq!(server.post("/api/call/none", &json!({})).status, 404);
+    assert_eq!(server.post("/api/call/answer", &json!([1])).status, 400);
+}
+
 /// A case, a certificate, a recipe and a table of results are shown as the pages of the reports, each
 /// under a policy that lets it do nothing.
 #[test]

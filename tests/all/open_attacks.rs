@@ -231,6 +231,16 @@ fn a_model_names_no_file_elsewhere() {
         let reply = server.post("/api/export", &wish);
         assert_eq!(reply.status, 422, "{name}: {}", reply.text());
         assert!(!reply.text().contains("12345"), "{name}: {}", reply.text());
+        let wish = json!({"text": model.to_string(), "name": "m.json"});
+        for path in ["", "?path=m.json", "?path=below/m.json"] {
+            let reply = server.post(&format!("/api/call/answer{path}"), &wish);
+            assert!(!reply.text().contains("12345"), "{name}: {}", reply.text());
+            assert_ne!(reply.json()["diagnostics"], json!([]), "{name}: {}", reply.text());
+        }
+        for path in ["../m.json", "/etc/m.json"] {
+            let reply = server.post(&format!("/api/call/answer?path={path}"), &wish);
+            assert_eq!(reply.status, 403, "{path}: {}", reply.text());
+        }
     }
 }
 
@@ -276,6 +286,10 @@ fn a_trillion_trials_are_refused() {
         assert!(reply.text().contains("trials are asked for"), "{}", reply.text());
         assert!(begun.elapsed() < Duration::from_secs(60));
     }
+    let wish =
+        json!({"text": model, "name": "m.json", "trials": 1_000_000_000_000_u64, "full": true});
+    let reply = server.post("/api/call/answer?path=m.json", &wish);
+    println!("{}", &reply.text()[..reply.text().len().min(3000)]);
 }
 
 /// Exports that take minutes go on while others are answered, and end when those who asked have gone.

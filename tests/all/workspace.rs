@@ -5,7 +5,7 @@ use std::fs;
 use crate::support::root;
 
 /// The crates from low to high.
-const CRATES: [&str; 10] = [
+const CRATES: [&str; 11] = [
     "units",
     "engine",
     "measurements",
@@ -14,6 +14,7 @@ const CRATES: [&str; 10] = [
     "analysis",
     "files",
     "report",
+    "live",
     "server",
     "command",
 ];

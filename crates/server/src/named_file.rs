@@ -42,46 +42,75 @@ impl<'a> NamedFiles<'a> {
     /// # Errors
     /// A name that leads out of the opened folder, or to nothing that can be read.
     pub fn content(&self, name: &str, most: u64) -> Result<Vec<u8>, Unopened> {
-        let asked = below(self.of, name)?;
+        let asked = below(self.folder.root(), self.of, name)?;
         let content = self.folder.content(&asked, most)?;
         self.watch.add(&asked, &content);
         Ok(content)
     }
 }
 
+/// An empty file of this name makes its folder one below which files may name each other, as on the
+/// command line.
+const ROOT: &str = ".gumption-root";
+
+/// The folder of a file below which it may name others, as words: its own, or the nearest one above,
+/// within the opened folder, that says so.
+fn allowed<'o>(root: &Path, own: &[&'o str]) -> Vec<&'o str> {
+    let depths = (0..=own.len()).rev();
+    let says_so = |&depth: &usize| {
+        own[..depth].iter().fold(root.to_owned(), |path, word| path.join(word)).join(ROOT).is_file()
+    };
+    let depth = { depths }.find(says_so).unwrap_or(own.len());
+    own[..depth].to_vec()
+}
+
 /// The path below the opened folder that a name leads to from the folder of a file.
-fn below(of: Option<&str>, name: &str) -> Result<String, Unopened> {
+fn below(root: &Path, of: Option<&str>, name: &str) -> Result<String, Unopened> {
     let own = of.and_then(|of| of.rsplit_once('/')).map_or("", |(folder, _)| folder);
-    let mut words: Vec<&str> = own.split('/').filter(|word| !word.is_empty()).collect();
+    let own: Vec<&str> = own.split('/').filter(|word| !word.is_empty()).collect();
+    let outside = || Unopened::Refused("it lies outside of the folder of this file".to_owned());
     if name.starts_with('/') {
         return Err(Unopened::Refused("its path is not relative".to_owned()));
     }
+    let mut words = own.clone();
     for word in name.split('/') {
         match word {
             "." => {}
             ".." => {
-                words.pop().ok_or_else(|| {
-                    Unopened::Refused("it lies outside of the opened folder".to_owned())
-                })?;
+                words.pop().ok_or_else(outside)?;
             }
             word => words.push(word),
         }
+    }
+    if !words.starts_with(&allowed(root, &own)) {
+        return Err(outside());
     }
     Ok(words.join("/"))
 }
 
 #[cfg(test)]
 mod tests {
+    use std::fs;
+
     use super::*;
 
     #[test]
-    fn names_are_relative_to_the_folder_of_their_file() {
-        let found = |of, name| below(of, name).unwrap();
-        assert_eq!(found(None, "a.csv"), "a.csv");
-        assert_eq!(found(Some("m.json"), "./b/a.csv"), "b/a.csv");
-        assert_eq!(found(Some("x/y/m.json"), "../a.csv"), "x/a.csv");
-        for (of, name) in [(None, "../a"), (Some("x/m.json"), "../../a"), (None, "/etc/passwd")] {
-            assert!(below(of, name).is_err(), "{name}");
+    fn names_lie_below_the_folder_of_their_file() {
+        let place = tempfile::tempdir().unwrap();
+        let root = place.path();
+        let found = |of, name| below(root, of, name);
+        assert_eq!(found(None, "a.csv").unwrap(), "a.csv");
+        assert_eq!(found(Some("m.json"), "./b/a.csv").unwrap(), "b/a.csv");
+        assert_eq!(found(Some("x/y/m.json"), "../y/a.csv").unwrap(), "x/y/a.csv");
+        let above = Some("x/y/m.json");
+        for (of, name) in
+            [(None, "../a"), (above, "../a"), (above, "../../a"), (None, "/etc/passwd")]
+        {
+            assert!(found(of, name).is_err(), "{name}");
         }
+        fs::create_dir(root.join("x")).unwrap();
+        fs::write(root.join("x").join(ROOT), "").unwrap();
+        assert_eq!(found(above, "../a").unwrap(), "x/a");
+        assert!(found(above, "../../a").is_err());
     }
 }

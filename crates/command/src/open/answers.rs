@@ -10,6 +10,8 @@ use super::files_of_page;
 use crate::output::Destination;
 use crate::{Answered, CommandLine, Exit, Failure, GivenFile};
 use gumption_engine::task::{Task, Trials};
+use gumption_files::{FileSource, TextKind};
+use gumption_live::LiveError;
 use gumption_server::{
     Answers, Exported, FileDescription, NamedFiles, Refusal, ServedAsset, TextOfFile,
 };
@@ -80,7 +82,7 @@ impl PageAnswers {
     }
 
     /// Whether the trials that a text asks for can be made while somebody waits.
-    fn check_trials(&self, file: &TextOfFile, kind: Kind) -> Result<(), Refusal> {
+    fn check_trials(&self, file: &TextOfFile, kind: TextKind) -> Result<(), Refusal> {
         let TextOfFile { path, text, folder } = file;
         let files = self.program.files();
         let task = |task: &Task| match task.settings.trials {
@@ -89,13 +91,13 @@ impl PageAnswers {
         };
         // the mistakes of a text are told by what is done with it
         let asked: u64 = match kind {
-            Kind::Model => {
+            TextKind::Model => {
                 files.model_text(path, text, folder, &[]).map_or(0, |file| task(&file.task))
             }
-            Kind::Case => {
+            TextKind::Case => {
                 files.case_text(path, text, folder).map_or(0, |file| task(&file.case.task))
             }
-            Kind::Certificate => files.certificate_text(path, text, folder).map_or(0, |file| {
+            TextKind::Certificate => files.certificate_text(path, text, folder).map_or(0, |file| {
                 let tasks = file.certificate.evaluations.iter();
                 tasks.map(|asked| task(&asked.task)).fold(0, u64::saturating_add)
             }),
@@ -113,63 +115,29 @@ impl PageAnswers {
     }
 }
 
-/// What a text is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Kind {
-    Model,
-    Case,
-    Certificate,
-    Recipe,
-    Comparison,
-    Other,
+/// The command that evaluates a text.
+fn command_of(kind: TextKind) -> Result<&'static str, Refusal> {
+    Ok(match kind {
+        TextKind::Model => "run",
+        TextKind::Case => "gap",
+        TextKind::Certificate => "certificate",
+        TextKind::Recipe => "observe",
+        TextKind::Comparison => "compare",
+        _ => {
+            let message = "there is nothing to be evaluated in this file: it is neither a model nor a \
+                           case, a certificate, a recipe or a table of results";
+            return Err(Refusal::Content(message.to_owned()));
+        }
+    })
 }
 
-impl Kind {
-    fn of(text: &str) -> Self {
-        let Ok(serde_json::Value::Object(keys)) = serde_json::from_str(text) else {
-            return if text.trim_start().starts_with("label") {
-                Self::Comparison
-            } else {
-                Self::Other
-            };
-        };
-        let has = |key: &str| keys.contains_key(key);
-        if has("recordings") || has("channels") {
-            Self::Recipe
-        } else if has("certificate") || has("laboratory") {
-            Self::Certificate
-        } else if has("observations") {
-            Self::Case
-        } else {
-            Self::Model
-        }
-    }
+/// The files that a text of the page names, for its readers.
+#[derive(Debug)]
+struct Named<'a>(&'a NamedFiles<'a>);
 
-    fn name(self) -> &'static str {
-        match self {
-            Self::Model => "model",
-            Self::Case => "case",
-            Self::Certificate => "certificate",
-            Self::Recipe => "recipe",
-            Self::Comparison => "comparison",
-            Self::Other => "other",
-        }
-    }
-
-    /// The command that evaluates it.
-    fn command(self) -> Result<&'static str, Refusal> {
-        Ok(match self {
-            Self::Model => "run",
-            Self::Case => "gap",
-            Self::Certificate => "certificate",
-            Self::Recipe => "observe",
-            Self::Comparison => "compare",
-            Self::Other => {
-                let message = "there is nothing to be evaluated in this file: it is neither a model \
-                               nor a case, a certificate, a recipe or a table of results";
-                return Err(Refusal::Content(message.to_owned()));
-            }
-        })
+impl FileSource for Named<'_> {
+    fn content(&self, name: &str, most: u64) -> Result<Vec<u8>, String> {
+        self.0.content(name, most).map_err(|error| error.to_string())
     }
 }
 
@@ -204,18 +172,28 @@ impl Answers for PageAnswers {
     fn call(
         &self,
         name: &str,
-        _request: &str,
-        _files: &NamedFiles<'_>,
-        _stop: &Arc<AtomicBool>,
+        request: &str,
+        files: &NamedFiles<'_>,
+        stop: &Arc<AtomicBool>,
     ) -> Result<String, Refusal> {
-        Err(Refusal::Unknown(format!("there is no call `{name}`")))
+        self.in_own_pool(|| {
+            let called = self.program.live().call(name, request, &Named(files), stop);
+            called.map_err(|error| {
+                let message = error.to_string();
+                match error {
+                    LiveError::Unknown(_) => Refusal::Unknown(message),
+                    LiveError::Request(_) => Refusal::Request(message),
+                    _ => Refusal::Internal(message),
+                }
+            })
+        })
     }
 
     fn describe(&self, _name: &str, content: &[u8]) -> FileDescription {
         let text = String::from_utf8_lossy(content);
         let title = serde_json::from_str::<serde_json::Value>(&text).ok();
         let title = title.and_then(|root| root.get("title")?.as_str().map(str::to_owned));
-        FileDescription { kind: Kind::of(&text).name(), title }
+        FileDescription { kind: TextKind::of(&text).name(), title }
     }
 
     fn export(
@@ -230,8 +208,8 @@ impl Answers for PageAnswers {
             let message = format!("there is no format `{format}`; there are {names}");
             return Err(Refusal::Request(message));
         };
-        let kind = Kind::of(&file.text);
-        let command = kind.command()?;
+        let kind = TextKind::of(&file.text);
+        let command = command_of(kind)?;
         self.check_trials(file, kind)?;
         let content = if format == "result" {
             self.saved_result(file, command, stop)?
@@ -243,8 +221,8 @@ impl Answers for PageAnswers {
     }
 
     fn page(&self, file: &TextOfFile, stop: &Arc<AtomicBool>) -> Result<String, Refusal> {
-        let kind = Kind::of(&file.text);
-        let command = kind.command()?;
+        let kind = TextKind::of(&file.text);
+        let command = command_of(kind)?;
         self.check_trials(file, kind)?;
         let answered = self.command(file, &[command, "-", "--format", "html"], stop)?;
         String::from_utf8(answered.answer).map_err(|error| Refusal::Internal(error.to_string()))

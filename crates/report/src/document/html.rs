@@ -17,6 +17,16 @@ pub(crate) fn html(document: &Document) -> String {
     page_in(language, &document.title, &document.foot(), &body)
 }
 
+/// The blocks of a document alone, to stand in a page with the same style; figures are not numbered,
+/// because the page may have others.
+pub(crate) fn fragment(document: &Document) -> String {
+    let part = |part: &Block| match part {
+        Block::Figure(drawing) => crate::html::bare_figure(&drawing.svg, &drawing.caption),
+        part => block(part, document.comma, &mut 0),
+    };
+    html! { @for one in &document.blocks { (part(one)) } }.into_string()
+}
+
 fn block(block: &Block, comma: bool, figures: &mut usize) -> Markup {
     match block {
         Block::Section(title) => html! { h2 { (raised(title)) } },

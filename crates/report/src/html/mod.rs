@@ -64,6 +64,19 @@ pub(super) fn figure(number: usize, drawing: String, caption: &str) -> Markup {
     }
 }
 
+/// A figure without a number: the picture is named by its caption.
+pub(super) fn bare_figure(drawing: &str, caption: &str) -> Markup {
+    let label = html! { (caption) }.into_string().replace('"', "&quot;");
+    let drawing =
+        drawing.replacen("<svg ", &format!("<svg role=\"img\" aria-label=\"{label}\" "), 1);
+    html! { figure { (PreEscaped(drawing)) figcaption { (caption) } } }
+}
+
+/// The style sheet of pages, for a page that has parts of them ([`crate::page_parts`]).
+pub fn page_style() -> &'static str {
+    STYLE
+}
+
 #[cfg(test)]
 mod tests {
     use super::STYLE;

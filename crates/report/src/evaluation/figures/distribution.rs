@@ -4,8 +4,8 @@
 use plotters::element::Rectangle;
 use plotters::style::Color;
 
-use super::curve;
-use crate::html::{Drawing, WIDTH};
+use super::{FigureSize, curve};
+use crate::html::Drawing;
 use crate::plot::{
     AFTER, Axis, EVEN, INK, STRIP_AXIS, Strip, centred, faded, line, px, stroke, svg, write,
 };
@@ -20,8 +20,7 @@ use gumption_engine::propagate::monte_carlo::Histogram;
 const TALL: f64 = 230.0;
 const ROW: f64 = 22.0;
 
-/// Space for names, and on the right.
-const LEFT: f64 = 185.0;
+/// Space on the right.
 const RIGHT: f64 = 20.0;
 
 /// Points of the GUM's density.
@@ -33,12 +32,14 @@ pub(in crate::evaluation) fn distribution(
     found: &OutputEvaluation,
     histogram: &Histogram,
     probability: f64,
+    size: FigureSize,
 ) -> Option<Drawing> {
+    let (width, left) = (size.width(), size.names());
     let figures = found.monte_carlo.as_ref()?;
     let gum = found.gum.as_ref();
     let (low, high) = (histogram.low, histogram.high());
     let axis = Axis::linear(low, high);
-    let strip = Strip { axis: &axis, from: LEFT, to: WIDTH - RIGHT };
+    let strip = Strip { axis: &axis, from: left, to: width - RIGHT };
     let place = |share: f64| low + share * (high - low);
     let density: Vec<(f64, f64)> = (0..=POINTS)
         .map(|point| place(point as f64 / POINTS as f64))
@@ -50,13 +51,13 @@ pub(in crate::evaluation) fn distribution(
     let y = |density: f64| TALL * (1.0 - (density / top).min(1.0));
     let intervals = [
         ("GUM", gum.and_then(Gum::interval), INK),
-        ("Monte Carlo, symmetric", Some(figures.symmetric_interval), AFTER),
-        ("Monte Carlo, shortest", Some(figures.shortest_interval), AFTER),
+        (size.name("Monte Carlo, symmetric"), Some(figures.symmetric_interval), AFTER),
+        (size.name("Monte Carlo, shortest"), Some(figures.shortest_interval), AFTER),
     ];
     let rows: Vec<_> =
         intervals.into_iter().filter_map(|(n, interval, c)| Some((n, interval?, c))).collect();
     let bottom = TALL + 6.0 + ROW * rows.len() as f64;
-    let drawn = svg(WIDTH, bottom + STRIP_AXIS, |area| {
+    let drawn = svg(width, bottom + STRIP_AXIS, |area| {
         strip.draw(
             area,
             0.0,
@@ -71,7 +72,7 @@ pub(in crate::evaluation) fn distribution(
                 area.draw(&Rectangle::new(corners, EVEN.filled()))?;
             }
         }
-        line(area, [(LEFT, TALL), (WIDTH - RIGHT, TALL)], stroke(INK, 0.75))?;
+        line(area, [(left, TALL), (width - RIGHT, TALL)], stroke(INK, 0.75))?;
         let places: Vec<(f64, f64)> = density.iter().map(|&(x, d)| (strip.x(x), y(d))).collect();
         curve(area, &places, stroke(INK, 2.0))?;
         for (row, (name, interval, colour)) in rows.iter().enumerate() {
