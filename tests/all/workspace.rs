@@ -5,7 +5,7 @@ use std::fs;
 use crate::support::root;
 
 /// The crates from low to high.
-const CRATES: [&str; 10] = [
+const CRATES: [&str; 11] = [
     "units",
     "engine",
     "measurements",
@@ -15,6 +15,7 @@ const CRATES: [&str; 10] = [
     "files",
     "report",
     "live",
+    "server",
     "command",
 ];
 

@@ -18,6 +18,8 @@ mod merge;
 mod models;
 mod new;
 mod observe;
+#[cfg(feature = "open")]
+mod open;
 mod options;
 mod output;
 mod paint;
@@ -103,6 +105,9 @@ enum Command {
     GapCheck(gap_check::GapCheck),
     /// Take amplitudes, phases and delays with their uncertainties from raw recordings
     Observe(observe::Observe),
+    /// Work on a file or folder on a page in the browser, which answers while you type
+    #[cfg(feature = "open")]
+    Open(open::Open),
     /// Print the JSON Schema of the files, for editors
     Schema(schema::Schema),
     /// Tell how a command is called, or what may stand in files and formulas
@@ -227,6 +232,8 @@ impl CommandLine {
             Command::Gap(command) => command.execute(self),
             Command::GapCheck(command) => command.execute(self),
             Command::Observe(command) => command.execute(self),
+            #[cfg(feature = "open")]
+            Command::Open(command) => command.execute(self),
             Command::Schema(command) => command.execute(),
             Command::Help(command) => command.execute(),
             Command::New(command) => command.execute(self),
