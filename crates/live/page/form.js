@@ -287,7 +287,7 @@ export class Form {
     const choice = this.page.element("slid");
     const numbers = [];
     for (const row of found.inputs || []) {
-      for (const cell of row.cells) {
+      for (const cell of [...row.cells].sort((a, b) => rank(a.key) - rank(b.key))) {
         if (cell.kind === "number" && (CENTRES.includes(cell.key) || WORDED.includes(cell.key))) {
           numbers.push({ row, cell, key: at(cell.path) });
         }
