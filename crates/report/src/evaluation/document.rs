@@ -33,7 +33,8 @@ pub(super) fn of(report: &EvaluationReport<'_>, shown: &Shown<'_>) -> Document {
                 document.table(table::sweep::summary(task, row, evaluation.settings.digits));
             }
             for output in 0..row.outputs.len() {
-                results::section(&mut document, report, shown, output);
+                let folded = row.outputs.len() > MOST_UNSUMMED;
+                results::section(&mut document, report, shown, (output, folded));
             }
             together(&mut document, task, row);
             crate::regions::sections(&mut document, task, row);

@@ -13,12 +13,15 @@ use gumption_engine::model::{Output, Quantity};
 use gumption_engine::propagate::OutputEvaluation;
 use gumption_engine::task::{Coverage, Settings};
 
-/// The section of an output of the first row.
+/// What stands below the result of an output on a page with many.
+const BELOW: &str = "Budget, both methods and distribution";
+
+/// The section of an output of the first row; `folded` below its result.
 pub(super) fn section(
     document: &mut Document,
     report: &EvaluationReport<'_>,
     shown: &Shown<'_>,
-    output: usize,
+    (output, folded): (usize, bool),
 ) {
     let EvaluationReport { task, evaluation, .. } = *report;
     let Some(found) = evaluation.rows.first().and_then(|row| row.outputs.get(output)) else {
@@ -26,11 +29,28 @@ pub(super) fn section(
     };
     let Some(output_of) = task.model.outputs.get(output) else { return };
     let quantity = &output_of.quantity;
-    let digits = evaluation.settings.digits;
     document.section(table::title_text(quantity));
     let mut said = verdict(&evaluation.settings, output_of, found);
     said.extend(comparison::differences(report, output_of, found));
     document.blocks.push(Block::Verdict(said));
+    let mut below = Document::default();
+    details(&mut below, report, shown, (output, found));
+    match folded {
+        true => document.blocks.push(Block::Folded(BELOW.to_owned(), below.blocks)),
+        false => document.blocks.append(&mut below.blocks),
+    }
+}
+
+/// How an output comes about: its budget, its figures by both methods, its distribution.
+fn details(
+    document: &mut Document,
+    report: &EvaluationReport<'_>,
+    shown: &Shown<'_>,
+    (output, found): (usize, &OutputEvaluation),
+) {
+    let EvaluationReport { task, evaluation, .. } = *report;
+    let Some(output_of) = task.model.outputs.get(output) else { return };
+    let (quantity, digits) = (&output_of.quantity, evaluation.settings.digits);
     match &found.gum {
         Some(gum) => {
             let budget = Budget { task, output: quantity, gum, digits };
