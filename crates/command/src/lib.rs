@@ -44,6 +44,7 @@ use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{CommandFactory, Parser, Subcommand};
 use gumption_engine::model::typed::{Catalogue, CatalogueEntry};
 use gumption_files::FileReader;
+use gumption_live::Live;
 use gumption_units::all_nearest;
 
 pub use check::Mistake;
@@ -142,6 +143,13 @@ impl CommandLine {
     /// The readers of files that may name the measurements.
     pub fn files(&self) -> FileReader<'_> {
         FileReader::new(&self.catalogue)
+    }
+
+    /// The answers behind the live page, for files that may name the measurements.
+    pub fn live(&self) -> Live<'_> {
+        let PublishedExamples { cases, more, .. } = self.published;
+        let cases = cases.iter().map(|(name, model, _)| (*name, *model));
+        Live::new(&self.catalogue, cases.chain(more.iter().copied()))
     }
 
     /// Runs with the arguments of the process: says what is wrong on standard error, and ends with

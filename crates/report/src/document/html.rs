@@ -3,7 +3,7 @@
 use maud::{Markup, html};
 
 use super::{Block, Document};
-use crate::html::{figure, page_in, raised, table};
+use crate::html::{FigureSize, bare_figure, figure, page_in, raised, table};
 
 /// Sections from which on a page has contents.
 const MANY: usize = 8;
@@ -46,6 +46,16 @@ fn contents(document: &Document) -> Markup {
             }
         }
     }
+}
+
+/// The blocks of a document alone, to stand in a page with the same style; figures are not numbered,
+/// because the page may have others.
+pub(crate) fn fragment(document: &Document, size: FigureSize) -> String {
+    let part = |part: &Block| match part {
+        Block::Figure(drawing) => bare_figure(drawing, size),
+        part => block(part, document.comma, &mut Counts::default()),
+    };
+    html! { @for one in &document.blocks { (part(one)) } }.into_string()
 }
 
 fn block(block: &Block, comma: bool, counts: &mut Counts) -> Markup {

@@ -73,6 +73,39 @@ pub(super) fn figure(number: usize, drawing: &Drawing) -> Markup {
     }
 }
 
+/// How much room figures have.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum FigureSize {
+    /// That of a page: drawn for it, and for a screen that is too narrow.
+    #[default]
+    Page,
+    /// That of a column beside others: drawn for a narrow screen.
+    Narrow,
+}
+
+/// A figure without a number: the picture is named by its caption.
+pub(super) fn bare_figure(drawing: &Drawing, size: FigureSize) -> Markup {
+    let label = html! { (drawing.caption) }.into_string().replace('"', "&quot;");
+    let pictures = WIDTHS.iter().zip(&drawing.pictures);
+    let pictures = pictures.skip(usize::from(size == FigureSize::Narrow));
+    html! {
+        figure {
+            @for ((class, _), picture) in pictures {
+                // the only picture is shown on every screen
+                @let class = if size == FigureSize::Narrow { "only" } else { class };
+                @let named = format!("<svg class=\"{class}\" role=\"img\" aria-label=\"{label}\" ");
+                (PreEscaped(picture.replacen("<svg ", &named, 1)))
+            }
+            figcaption { (drawing.caption) }
+        }
+    }
+}
+
+/// The style sheet of pages, for a page that has parts of them ([`crate::page_parts`]).
+pub fn page_style() -> &'static str {
+    STYLE
+}
+
 #[cfg(test)]
 mod tests {
     use super::STYLE;

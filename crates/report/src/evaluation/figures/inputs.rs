@@ -66,7 +66,7 @@ pub(in crate::evaluation) fn inputs(task: &Task) -> Option<Drawing> {
                 write(area, &name, Write { bold: true, ..centred((middle, top + 10.0), FONT) })?;
                 let base = top + 22.0 + TALL;
                 let [from, to] = [left + SIDE, left + wide - SIDE];
-                let outline = outline(distribution);
+                let outline = outline(distribution, PROBABILITIES);
                 let places: Vec<(f64, f64)> = outline
                     .iter()
                     .map(|(x, y)| (from + x * (to - from), base - y * TALL))
@@ -99,14 +99,32 @@ pub(in crate::evaluation) fn inputs(task: &Task) -> Option<Drawing> {
     Some(Drawing::new(caption, drawn))
 }
 
+/// Probabilities behind a picture that is drawn again at every key.
+const FEW_PROBABILITIES: usize = 600;
+
+/// The density of a distribution alone, as a picture that stands in a line of a table.
+pub(in crate::evaluation) fn picture(distribution: &Distribution) -> String {
+    let (width, height) = (72.0, 26.0);
+    let outline = outline(distribution, FEW_PROBABILITIES);
+    let base = height - 2.0;
+    svg(width, height, |area| {
+        let place = |(x, y): &(f64, f64)| (2.0 + x * (width - 4.0), base - y * (height - 6.0));
+        let places: Vec<(f64, f64)> = outline.iter().map(place).collect();
+        let below: Vec<(i32, i32)> = places.iter().map(|&(x, y)| (px(x), px(y))).collect();
+        area.draw(&Polygon::new(below, EVEN.filled()))?;
+        curve(area, &places, stroke(INK, 1.0))?;
+        line(area, [(2.0, base), (width - 2.0, base)], stroke(WEAK, 0.75))
+    })
+}
+
 /// The density of a distribution as places in a square, from its quantiles. Beyond the range of the
 /// quantiles it is zero.
-fn outline(distribution: &Distribution) -> Vec<(f64, f64)> {
-    let probability = |k: usize| (k as f64 + 0.5) / PROBABILITIES as f64;
+fn outline(distribution: &Distribution, probabilities: usize) -> Vec<(f64, f64)> {
+    let probability = |k: usize| (k as f64 + 0.5) / probabilities as f64;
     let quantiles: Vec<f64> =
-        (0..PROBABILITIES).map(|k| distribution.quantile(probability(k))).collect();
-    let tail = PROBABILITIES / 500;
-    let (first, last) = (quantiles[tail], quantiles[PROBABILITIES - 1 - tail]);
+        (0..probabilities).map(|k| distribution.quantile(probability(k))).collect();
+    let tail = probabilities / 500;
+    let (first, last) = (quantiles[tail], quantiles[probabilities - 1 - tail]);
     let room = 0.12 * (last - first);
     let (low, high) = (first - room, last + room);
     let width = (high - low) / STEPS as f64;
@@ -148,11 +166,11 @@ mod tests {
     /// of a normal one symmetric, up to rounding and the ends of the table of quantiles.
     #[test]
     fn outlines_have_the_shape() {
-        let rectangular = outline(&Rectangular::new(-1.0, 1.0).unwrap().into());
+        let rectangular = outline(&Rectangular::new(-1.0, 1.0).unwrap().into(), PROBABILITIES);
         let heights: Vec<f64> = rectangular.iter().map(|place| place.1).collect();
         let flat = heights.iter().filter(|height| **height > 0.99).count();
         assert!(flat > 98, "{heights:?}");
-        let normal = outline(&Normal::new(5.0, 2.0).unwrap().into());
+        let normal = outline(&Normal::new(5.0, 2.0).unwrap().into(), PROBABILITIES);
         let heights: Vec<f64> = normal.iter().map(|place| place.1).collect();
         let mirrored: Vec<f64> = heights.iter().rev().copied().collect();
         let apart = heights.iter().zip(&mirrored).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
