@@ -33,10 +33,10 @@ mod workbook;
 pub use answer::pretty;
 pub use csv::{csv, write_csv};
 pub use evaluation::{
-    FigureSize, MOST_RESULTS, OutputParts, PageParts, ResultStatement, Shown, histograms, html,
-    input_picture, latex, markdown, page_parts, xlsx,
+    MOST_RESULTS, OutputParts, PageParts, ResultStatement, Shown, histograms, html, input_picture,
+    latex, markdown, page_parts, xlsx,
 };
-pub use html::page_style;
+pub use html::{FigureSize, page_style};
 pub use json::{json, write_json};
 pub use samples::TrialsForm;
 pub use saved::{SaveError, saved, saved_result};

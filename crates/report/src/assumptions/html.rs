@@ -49,7 +49,7 @@ pub fn html(report: &AuditReport<'_>) -> String {
             let drawing = figure::draw(of, |variable| plain(report.name(variable)));
             let drawing = drawing.map(|drawing| {
                 number += 1;
-                numbered(number, drawing.svg, &drawing.caption)
+                numbered(number, &drawing)
             });
             sections.push(html! {
                 h2 { (words::heading(report, row, output)) }

@@ -32,7 +32,8 @@ pub(super) fn of(report: &EvaluationReport<'_>, shown: &Shown<'_>) -> Document {
             document.table(table::sweep::summary(task, row, evaluation.settings.digits));
         }
         for output in 0..row.outputs.len() {
-            results::section(&mut document, report, shown, output);
+            let folded = row.outputs.len() > MOST_UNSUMMED;
+            results::section(&mut document, report, shown, (output, folded));
         }
     }
     together_of(&mut document, report);

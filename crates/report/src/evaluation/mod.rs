@@ -9,7 +9,6 @@ mod sweep;
 mod terminal;
 mod workbook;
 
-pub use figures::FigureSize;
 pub use parts::{OutputParts, PageParts, input_picture, page_parts};
 pub use results::ResultStatement;
 pub use terminal::histograms;

@@ -1,9 +1,10 @@
 //! The parts of a page one by one, for a page that has a place of its own for each.
 
-use super::figures::{self, FigureSize};
+use super::figures;
 use super::{Shown, document, results};
 use crate::EvaluationReport;
 use crate::document::{Document, fragment};
+use crate::html::FigureSize;
 use gumption_engine::distribution::Distribution;
 
 /// The parts of a page, each as HTML that needs the style of [`crate::page_style`]. Whatever a file
@@ -41,19 +42,22 @@ pub fn page_parts(report: &EvaluationReport<'_>, shown: &Shown<'_>, size: Figure
     let one_row = report.evaluation.rows.len() == 1;
     let outputs = if one_row { report.task.model.outputs.len() } else { 0 };
     let part = |output| {
-        let section = results::section_of(report, shown, output, size)?;
+        let section = results::section_of(report, shown, output)?;
         Some(OutputParts {
             title: section.title,
-            verdict: fragment(&section.verdict),
-            budget: fragment(&section.budget),
-            conclusions: fragment(&section.conclusions),
-            comparison: fragment(&section.comparison),
-            distribution: fragment(&section.distribution),
+            verdict: fragment(&section.verdict, size),
+            budget: fragment(&section.budget, size),
+            conclusions: fragment(&section.conclusions, size),
+            comparison: fragment(&section.comparison, size),
+            distribution: fragment(&section.distribution, size),
         })
     };
     let mut together = Document::default();
     document::together_of(&mut together, report);
-    PageParts { outputs: (0..outputs).filter_map(part).collect(), together: fragment(&together) }
+    PageParts {
+        outputs: (0..outputs).filter_map(part).collect(),
+        together: fragment(&together, size),
+    }
 }
 
 /// A small picture of a density, an `svg` element.

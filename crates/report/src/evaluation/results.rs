@@ -1,6 +1,5 @@
 //! Everything about one output.
 
-use super::figures::FigureSize;
 use super::{Shown, figures};
 use crate::EvaluationReport;
 use crate::document::{Block, Document, sentence};
@@ -28,23 +27,24 @@ pub(super) struct Section {
     pub(super) distribution: Document,
 }
 
-/// The section of an output of the first row.
+/// What stands below the result of an output on a page with many.
+const BELOW: &str = "Budget, both methods and distribution";
+
+/// The section of an output of the first row; `folded` below its result.
 pub(super) fn section(
     document: &mut Document,
     report: &EvaluationReport<'_>,
     shown: &Shown<'_>,
-    output: usize,
+    (output, folded): (usize, bool),
 ) {
-    let Some(section) = section_of(report, shown, output, FigureSize::Page) else { return };
+    let Some(section) = section_of(report, shown, output) else { return };
     document.section(section.title);
-    for part in [
-        section.verdict,
-        section.budget,
-        section.conclusions,
-        section.comparison,
-        section.distribution,
-    ] {
-        document.blocks.extend(part.blocks);
+    document.blocks.extend(section.verdict.blocks);
+    let below = [section.budget, section.conclusions, section.comparison, section.distribution];
+    let below = below.into_iter().flat_map(|part| part.blocks);
+    match folded {
+        true => document.blocks.push(Block::Folded(BELOW.to_owned(), below.collect())),
+        false => document.blocks.extend(below),
     }
 }
 
@@ -53,7 +53,6 @@ pub(super) fn section_of(
     report: &EvaluationReport<'_>,
     shown: &Shown<'_>,
     output: usize,
-    size: FigureSize,
 ) -> Option<Section> {
     let EvaluationReport { task, evaluation, .. } = *report;
     let found = evaluation.rows.first()?.outputs.get(output)?;
@@ -97,7 +96,7 @@ pub(super) fn section_of(
     }
     let histogram = shown.histogram(0, output);
     section.distribution.figure(histogram.and_then(|counts| {
-        figures::distribution(quantity, found, counts, evaluation.coverage_probability, size)
+        figures::distribution(quantity, found, counts, evaluation.coverage_probability)
     }));
     Some(section)
 }

@@ -2,7 +2,7 @@
 
 use maud::{Markup, html};
 
-use super::raised;
+use super::{mathml, raised};
 use crate::number::align;
 use crate::sheet::{Column, Kind, Sheet};
 
@@ -46,6 +46,7 @@ pub(crate) fn table(sheet: &Sheet) -> Markup {
                                 @let cell = cells.get(row).map_or("", String::as_str);
                                 @let text = match column.kind {
                                     Kind::Units => raised(cell),
+                                    Kind::Equations => mathml::equation(cell),
                                     Kind::Text | Kind::Numbers => html! { (cell) },
                                 };
                                 @if place == 0 && sheet.columns.len() > 1 {
