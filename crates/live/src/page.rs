@@ -76,7 +76,9 @@ mod tests {
     #[test]
     fn the_markup_goes_with_the_policy() {
         let page = all().into_iter().find(|asset| asset.name == "index.html").unwrap().text;
-        assert!(!page.contains(" style=") && !page.contains("<style") && !page.contains(" onclick"));
+        assert!(
+            !page.contains(" style=") && !page.contains("<style") && !page.contains(" onclick")
+        );
         for script in page.split("<script").skip(1) {
             assert!(script.starts_with(" type=\"module\" src=\"assets/"), "{script}");
         }
@@ -92,7 +94,11 @@ mod tests {
             let mut rest = top;
             // a key is a word before a colon that follows a bracket, a comma or a line's beginning
             while let Some(at) = rest.find(": ") {
-                let word: String = rest[..at].chars().rev().take_while(|c| c.is_ascii_lowercase() || *c == '_' || c.is_ascii_digit()).collect();
+                let word: String = rest[..at]
+                    .chars()
+                    .rev()
+                    .take_while(|c| c.is_ascii_lowercase() || *c == '_' || c.is_ascii_digit())
+                    .collect();
                 let word: String = word.chars().rev().collect();
                 let before = rest[..at - word.len()].trim_end().chars().next_back();
                 if !word.is_empty() && matches!(before, Some(',' | '{')) {
