@@ -139,6 +139,47 @@ fn formula_files_agree_with_the_typed_models() {
     }
 }
 
+/// Typed models whose equations are stated as formulas, which can be copied into a file.
+const STATED: [&str; 8] = [
+    "inclined-plane",
+    "rotating-table",
+    "rotating-table-instant",
+    "sensitivity",
+    "normalized-error",
+    "projection-45",
+    "relative-sensitivity",
+    "phase-budget",
+];
+
+/// What the pages say that a typed model computes is what it computes.
+#[test]
+fn stated_equations_are_those_that_are_computed() {
+    for model in STATED {
+        let entry = gumption::catalogue().find(model).expect(model);
+        let written = text(&twin(model));
+        let members = json(&written);
+        // inputs that the file leaves out have their defaults
+        let absent = entry.typed.declaration.inputs.iter().filter_map(|input| {
+            let default = input.default.filter(|_| members["inputs"].get(input.name).is_none())?;
+            Some(format!("    {:?}: \"{default} [{}]\"", input.name, input.unit))
+        });
+        let (mut used, mut own) = (absent.collect::<Vec<String>>(), Vec::new());
+        for output in entry.typed.declaration.outputs {
+            let (equation, with) = match output.equation.split_once(" with ") {
+                Some((equation, with)) => (equation, with.split_once(" = ")),
+                None => (output.equation, None),
+            };
+            used.extend(with.map(|(name, text)| format!("    {name:?}: {text:?}")));
+            own.push(format!("    {:?}: {equation:?}", output.name));
+        }
+        // what an equation uses stands before it: of the outputs the later ones
+        let lines: Vec<String> = used.into_iter().chain(own.into_iter().rev()).collect();
+        let stated = format!("  \"equations\": {{\n{}\n  }},\n", lines.join(",\n"));
+        let typed = written.replace(equations(&written), &model_line(model));
+        compare(model, &typed, &written.replace(equations(&written), &stated));
+    }
+}
+
 #[test]
 fn formulas_agree_in_every_row_of_a_sweep() {
     for (sweep, ready) in SWEEPS {

@@ -30,9 +30,15 @@ mod manual;
 mod observe;
 mod observe_steps;
 mod one_number;
+#[cfg(feature = "open")]
+mod open;
+#[cfg(feature = "open")]
+mod open_attacks;
 mod other_distributions;
 mod outputs;
 mod own_program;
+#[cfg(feature = "open")]
+mod page_server;
 mod parts;
 mod phases;
 mod planning;

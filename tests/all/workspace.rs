@@ -5,8 +5,19 @@ use std::fs;
 use crate::support::root;
 
 /// The crates from low to high.
-const CRATES: [&str; 9] =
-    ["units", "engine", "measurements", "signal", "gap", "analysis", "files", "report", "command"];
+const CRATES: [&str; 11] = [
+    "units",
+    "engine",
+    "measurements",
+    "signal",
+    "gap",
+    "analysis",
+    "files",
+    "report",
+    "live",
+    "server",
+    "command",
+];
 
 /// The crates of the workspace that stand in a section of a manifest, with the rest of their lines.
 fn named(manifest: &str, section: &str) -> Vec<(String, String)> {

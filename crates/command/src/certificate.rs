@@ -12,7 +12,7 @@ use gumption_analysis::certificate::contents::{Certificate as Asked, Line};
 use gumption_analysis::certificate::{Basis, Failed, Issued, issue};
 use gumption_engine::propagate::{EvaluationError, warnings};
 use gumption_engine::task::{MethodChoice, Trials, Warning};
-use gumption_files::{CertificateFile, Diagnostic, DiagnosticKind, Diagnostics};
+use gumption_files::{CertificateFile, Diagnostic, DiagnosticKind, Diagnostics, FileReader};
 use gumption_report::certificate::{self as report, CertificateReport, DccVersion, ModelSource};
 
 /// Make a calibration certificate.
@@ -158,8 +158,10 @@ impl Certificate {
 
     fn read(&self, program: &CommandLine) -> Result<CertificateFile, Failure> {
         let files = self.trust.files(program);
-        let text = |text: &str| files.certificate_text("<stdin>", text, Path::new(""));
-        Ok(options::given(&self.file, text, |path| files.certificate(path))??)
+        let text = |files: FileReader<'_>, name: &str, text: &str, folder: &Path| {
+            files.certificate_text(name, text, folder)
+        };
+        Ok(options::opened(files, &self.file, text, |path| files.certificate(path))??)
     }
 
     /// The paths of the file, of its models, and of the tables that these name.

@@ -199,7 +199,7 @@ impl Evaluated {
     ) -> Result<Vec<Vec<Option<Histogram>>>, Failure> {
         let EvaluationReport { task, evaluation, .. } = *report;
         let rows = match self.answer.format {
-            Page::Html if evaluation.rows.len() == 1 => 1,
+            Page::Html | Page::Xlsx if evaluation.rows.len() == 1 => 1,
             Page::Table if self.histogram => evaluation.rows.len(),
             _ => 0,
         };

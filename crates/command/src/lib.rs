@@ -18,6 +18,8 @@ mod merge;
 mod models;
 mod new;
 mod observe;
+#[cfg(feature = "open")]
+mod open;
 mod options;
 mod output;
 mod paint;
@@ -44,6 +46,7 @@ use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{CommandFactory, Parser, Subcommand};
 use gumption_engine::model::typed::{Catalogue, CatalogueEntry};
 use gumption_files::FileReader;
+use gumption_live::Live;
 use gumption_units::all_nearest;
 
 pub use check::Mistake;
@@ -102,6 +105,9 @@ enum Command {
     GapCheck(gap_check::GapCheck),
     /// Take amplitudes, phases and delays with their uncertainties from raw recordings
     Observe(observe::Observe),
+    /// Work on a file or folder on a page in the browser, which answers while you type
+    #[cfg(feature = "open")]
+    Open(open::Open),
     /// Print the JSON Schema of the files, for editors
     Schema(schema::Schema),
     /// Tell how a command is called, or what may stand in files and formulas
@@ -142,6 +148,13 @@ impl CommandLine {
     /// The readers of files that may name the measurements.
     pub fn files(&self) -> FileReader<'_> {
         FileReader::new(&self.catalogue)
+    }
+
+    /// The answers behind the live page, for files that may name the measurements.
+    pub fn live(&self) -> Live<'_> {
+        let PublishedExamples { cases, more, .. } = self.published;
+        let cases = cases.iter().map(|(name, model, _)| (*name, *model));
+        Live::new(&self.catalogue, cases.chain(more.iter().copied()))
     }
 
     /// Runs with the arguments of the process: says what is wrong on standard error, and ends with
@@ -219,6 +232,8 @@ impl CommandLine {
             Command::Gap(command) => command.execute(self),
             Command::GapCheck(command) => command.execute(self),
             Command::Observe(command) => command.execute(self),
+            #[cfg(feature = "open")]
+            Command::Open(command) => command.execute(self),
             Command::Schema(command) => command.execute(),
             Command::Help(command) => command.execute(),
             Command::New(command) => command.execute(self),

@@ -7,7 +7,7 @@ use clap::{Args, ValueEnum};
 use super::options::{self, AllowedFolders, Answer, Seed};
 use super::{CommandLine, Exit, Failure, run};
 use gumption_engine::task::Warning;
-use gumption_files::RecipeFile;
+use gumption_files::{FileReader, RecipeFile};
 use gumption_report::observe::{self as report, ObservationReport};
 use gumption_signal::{Observation, observe};
 
@@ -42,8 +42,10 @@ enum Format {
 impl Observe {
     pub(super) fn execute(&self, program: &CommandLine) -> Result<Exit, Failure> {
         let files = self.allowed.files(program);
-        let text = |text: &str| files.recipe_text("<stdin>", text, Path::new(""));
-        let mut file = options::given(&self.recipe, text, |path| files.recipe(path))??;
+        let text = |files: FileReader<'_>, name: &str, text: &str, folder: &Path| {
+            files.recipe_text(name, text, folder)
+        };
+        let mut file = options::opened(files, &self.recipe, text, |path| files.recipe(path))??;
         let place = self.answer.open(&options::with_named(&self.recipe, file.named_files()))?;
         file.settings.seed = self.seed.or(file.settings.seed);
         let mut provenance = run::provenance(&file.source.text, &[]);

@@ -5,11 +5,77 @@ use std::path::Path;
 use super::certificate;
 use super::costs;
 use super::diagnostics::Diagnostics;
-use super::json;
+use super::json::{self, Json};
 use super::model_reader::{ModelOptions, read_with};
+use super::open::is_table_of_results;
 use super::reader::FileReader;
 use super::recipe;
 use super::source::SourceText;
+
+/// What a file is, as its keys or its header tell.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum TextKind {
+    /// A model file.
+    Model,
+    /// A case of the gap diagnosis: a model file with observations.
+    Case,
+    /// A certificate file.
+    Certificate,
+    /// A recipe of recordings.
+    Recipe,
+    /// A file of costs.
+    Costs,
+    /// A result that `gumption run --save` wrote.
+    Result,
+    /// A table of results to be compared.
+    Comparison,
+    /// Anything else.
+    Other,
+}
+
+impl TextKind {
+    /// The kind of a text. One that is not JSON, as while it is typed, is a model where it begins
+    /// like an object.
+    pub fn of(text: &str) -> Self {
+        let start = text.trim_start_matches('\u{feff}').trim_start();
+        if !start.starts_with('{') {
+            return if is_table_of_results(text) { Self::Comparison } else { Self::Other };
+        }
+        let Ok(root) = json::parse(&SourceText::new("", text)) else { return Self::Model };
+        let Json::Object(members) = &root.value else { return Self::Other };
+        let has = |key: &str| members.iter().any(|member| member.key == key);
+        if recipe::is_meant(&root) {
+            Self::Recipe
+        } else if costs::is_meant(&root) {
+            Self::Costs
+        } else if certificate::is_meant(&root) {
+            Self::Certificate
+        } else if has("result") || has("gumption") {
+            Self::Result
+        } else if has("observations") {
+            Self::Case
+        } else if has("inputs") || has("outputs") || has("equations") || has("model") {
+            Self::Model
+        } else {
+            Self::Other
+        }
+    }
+
+    /// The name that programs use.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Model => "model",
+            Self::Case => "case",
+            Self::Certificate => "certificate",
+            Self::Recipe => "recipe",
+            Self::Costs => "costs",
+            Self::Result => "result",
+            Self::Comparison => "comparison",
+            Self::Other => "other",
+        }
+    }
+}
 
 /// Checks a text: as a certificate, a recipe, a file of costs or a case of the gap diagnosis where it has a key that
 /// only those have, else as a model.

@@ -5,12 +5,23 @@
 //! the command line, or by an empty file [`ROOT`] in a folder above, which says that everything
 //! below belongs together. Links are followed before that is looked at.
 
+use std::fmt;
 use std::path::{Component, Path, PathBuf};
 
 use super::{DiagnosticKind, bytes};
 
 /// A file of this name makes its folder one below which files may name each other.
 pub(super) const ROOT: &str = ".gumption-root";
+
+/// Where the files that a text names come from, for programs that do not leave that to the disk: one
+/// that serves a folder and nothing else, or one that has no disk at all.
+pub trait FileSource: fmt::Debug + Sync {
+    /// The content of the file of this name, as the text has it, of at most so many bytes.
+    ///
+    /// # Errors
+    /// Why there is none, as a sentence for the user, such as `no such file`.
+    fn content(&self, name: &str, most: u64) -> Result<Vec<u8>, String>;
+}
 
 /// The folder of a file, and which other folders it may name files in.
 #[derive(Clone, Copy, Debug)]
@@ -20,17 +31,24 @@ pub(super) struct Folder<'a> {
     allowed: Option<&'a [PathBuf]>,
     /// Files that are in memory, by their names.
     held: &'a [(String, Vec<u8>)],
+    /// What gives the content of all others in place of the disk.
+    source: Option<&'a dyn FileSource>,
 }
 
 impl<'a> Folder<'a> {
     /// A folder whose files may name others below it and below these.
     pub(super) fn new(path: &'a Path, allowed: &'a [PathBuf]) -> Self {
-        Self { path, allowed: Some(allowed), held: &[] }
+        Self { path, allowed: Some(allowed), held: &[], source: None }
     }
 
     /// The same with files that are in memory.
     pub(super) fn holding(self, held: &'a [(String, Vec<u8>)]) -> Self {
         Self { held, ..self }
+    }
+
+    /// The same with this in place of the disk.
+    pub(super) fn sourced(self, source: Option<&'a dyn FileSource>) -> Self {
+        Self { source, ..self }
     }
 
     /// The content of the file of that name, from memory or from the disk, of at most so many bytes.
@@ -41,6 +59,11 @@ impl<'a> Folder<'a> {
         if let Some((_, bytes)) = self.held.iter().find(|(held, _)| held == name) {
             return Ok(bytes.clone());
         }
+        if let Some(source) = self.source {
+            return source.content(name, most).map_err(|message| DiagnosticKind::Unreadable {
+                message: format!("`{name}`: {message}"),
+            });
+        }
         bytes::of_file(&self.file(name)?, most).map_err(|message| DiagnosticKind::Unreadable {
             message: format!("`{name}`: {message}"),
         })
@@ -48,7 +71,7 @@ impl<'a> Folder<'a> {
 
     /// The current folder, for files that the user names himself.
     pub(super) fn of_the_user() -> Self {
-        Self { path: Path::new(""), allowed: None, held: &[] }
+        Self { path: Path::new(""), allowed: None, held: &[], source: None }
     }
 
     /// Its path.

@@ -9,10 +9,10 @@ mod own;
 
 use std::path::Path;
 
-use super::DiagnosticKind;
 use super::diagnostics::{Collector, Diagnostics};
 use super::reader::read_text;
 use super::source::SourceText;
+use super::{DiagnosticKind, bytes};
 use columns::{Column, Header};
 use gumption_engine::model::formula::{Formula, check_name};
 use gumption_units::Unit;
@@ -35,6 +35,21 @@ pub struct ImportedBudget {
 /// # Errors
 /// A file that cannot be read, or in which no budget is found; rows with mistakes, all at once.
 pub fn import_budget(path: &Path) -> Result<ImportedBudget, Diagnostics> {
+    match bytes::of_file(path, bytes::MOST) {
+        Ok(content) => import_budget_bytes(path, content),
+        Err(message) => {
+            let log = Collector::new(SourceText::new(path.display().to_string(), ""));
+            log.report(&(0..0), DiagnosticKind::Unreadable { message });
+            Err(log.into_diagnostics())
+        }
+    }
+}
+
+/// As [`import_budget`], of the content of a file of that name, which is not looked for on the disk.
+///
+/// # Errors
+/// As [`import_budget`].
+pub fn import_budget_bytes(path: &Path, content: Vec<u8>) -> Result<ImportedBudget, Diagnostics> {
     let name = path.display().to_string();
     let source = |text: &str| SourceText::new(name.clone(), text);
     let failed = |kind: DiagnosticKind| {
@@ -42,12 +57,16 @@ pub fn import_budget(path: &Path) -> Result<ImportedBudget, Diagnostics> {
         log.report(&(0..0), kind);
         Err(log.into_diagnostics())
     };
-    match own::of_file(path) {
-        Ok(None) => {}
-        Ok(Some(made)) => return made,
-        Err(message) => return failed(DiagnosticKind::Unreadable { message }),
+    let is_workbook =
+        path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("xlsx"));
+    if is_workbook {
+        match own::of_workbook(path, &content) {
+            Ok(None) => {}
+            Ok(Some(made)) => return made,
+            Err(message) => return failed(DiagnosticKind::Unreadable { message }),
+        }
     }
-    let (cells, text) = match grid::of_file(path) {
+    let (cells, text) = match grid::of_content(content, is_workbook) {
         Ok(read) => read,
         Err(kind) => return failed(kind),
     };

@@ -76,13 +76,15 @@ pub use carried::{CarriedModel, carried_models};
 pub use case::CaseFile;
 pub use catalogue::{EffectListing, ListedEffect, ListedParameter, catalogue};
 pub use certificate::{CertificateFile, CertifiedModel};
+pub use checked::TextKind;
 pub use comparison::{ComparisonOptions, ComparisonTable, read_comparison, read_comparison_text};
 pub use costs::{CostFile, read_costs, read_costs_text};
 pub use diagnostic_kind::DiagnosticKind;
 pub use diagnostics::{Diagnostic, Diagnostics};
 pub use difference::difference;
 pub use either::ModelOrResult;
-pub use import::{ImportedBudget, import_budget};
+pub use folder::FileSource;
+pub use import::{ImportedBudget, import_budget, import_budget_bytes};
 pub use model_file::ModelFile;
 pub use overrides::{Override, Overrides};
 pub use reader::{

@@ -191,7 +191,7 @@ pub(super) fn json_as_table(source: &Arc<SourceText>) -> Option<(Range<usize>, D
 }
 
 /// Whether a text is a table of results to be compared, by its header.
-fn is_table_of_results(text: &str) -> bool {
+pub(super) fn is_table_of_results(text: &str) -> bool {
     let header = text.lines().find(|line| !line.trim().is_empty() && !line.starts_with('#'));
     let names =
         header.unwrap_or_default().split([',', ';']).map(|name| name.trim().trim_matches('"'));

@@ -7,7 +7,7 @@ use super::certificate::{self, CertificateFile};
 use super::checked;
 use super::diagnostics::Diagnostics;
 use super::either::{self, ModelOrResult};
-use super::folder::Folder;
+use super::folder::{FileSource, Folder};
 use super::model_file::{self, ModelFile};
 use super::open::open;
 use super::overrides::Override;
@@ -30,6 +30,7 @@ pub struct FileReader<'c> {
     catalogue: &'c Catalogue,
     allowed: &'c [PathBuf],
     held: &'c [(String, Vec<u8>)],
+    source: Option<&'c dyn FileSource>,
     changed_results: bool,
 }
 
@@ -43,7 +44,7 @@ impl Default for FileReader<'static> {
 impl<'c> FileReader<'c> {
     /// Readers of files that may name these measurements.
     pub fn new(catalogue: &'c Catalogue) -> Self {
-        Self { catalogue, allowed: &[], held: &[], changed_results: false }
+        Self { catalogue, allowed: &[], held: &[], source: None, changed_results: false }
     }
 
     /// The same for files that may name others below these folders too. Without them a file names
@@ -75,6 +76,14 @@ impl<'c> FileReader<'c> {
         Self { held: files, ..self }
     }
 
+    /// The same with a source that the tables, samples, results and certificates come from which a
+    /// file names; nothing of them is looked for on the disk. Other model files, which a certificate
+    /// names, and recordings are.
+    #[must_use]
+    pub fn reading(self, source: &'c dyn FileSource) -> Self {
+        Self { source: Some(source), ..self }
+    }
+
     /// The same, taking saved results that were changed since they were written, with a note, where
     /// `accepted`. What is not consistent is refused all the same.
     #[must_use]
@@ -92,7 +101,7 @@ impl<'c> FileReader<'c> {
     where
         'c: 'f,
     {
-        Folder::new(path, self.allowed).holding(self.held)
+        Folder::new(path, self.allowed).holding(self.held).sourced(self.source)
     }
 
     /// The measurements that files may name.

@@ -42,14 +42,14 @@ measurement! {
     }
     outputs AxisSensitivities {
         /// Sensitivity of the x axis.
-        s_xx: "V/(m/s^2)" = "voltage repeatability reproducibility / (a_x + transverse_1 a_y + \
-            transverse_2 a_z)",
+        s_xx: "V/(m/s^2)" = "voltage*repeatability*reproducibility/(a_x + transverse_1*a_y + \
+            transverse_2*a_z)",
         /// Sensitivity of the y axis.
-        s_yy: "V/(m/s^2)" = "voltage repeatability reproducibility / |a_y + transverse_1 a_z + \
-            transverse_2 a_x|",
+        s_yy: "V/(m/s^2)" = "voltage*repeatability*reproducibility/abs(a_y + transverse_1*a_z + \
+            transverse_2*a_x)",
         /// Sensitivity of the z axis.
-        s_zz: "V/(m/s^2)" = "voltage repeatability reproducibility / (a_z + transverse_1 a_x + \
-            transverse_2 a_y)",
+        s_zz: "V/(m/s^2)" = "voltage*repeatability*reproducibility/(a_z + transverse_1*a_x + \
+            transverse_2*a_y)",
     }
 }
 

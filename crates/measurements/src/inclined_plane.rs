@@ -22,11 +22,11 @@ measurement! {
     }
     outputs InclinedPlaneAccelerations {
         /// Acceleration along the sensor's x axis, RMS.
-        a_x: "m/s^2" = "|a_ref sin(tilt) cos(rotation)|",
+        a_x: "m/s^2" = "abs(a_ref*sin(tilt)*cos(rotation))",
         /// Acceleration along the sensor's y axis, RMS.
-        a_y: "m/s^2" = "|a_ref sin(tilt) sin(rotation)|",
+        a_y: "m/s^2" = "abs(a_ref*sin(tilt)*sin(rotation))",
         /// Acceleration along the sensor's z axis, RMS.
-        a_z: "m/s^2" = "|a_ref cos(tilt)|",
+        a_z: "m/s^2" = "abs(a_ref*cos(tilt))",
     }
 }
 

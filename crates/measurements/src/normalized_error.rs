@@ -37,11 +37,11 @@ measurement! {
     }
     outputs NormalizedErrorResult {
         /// Normalized error.
-        e_n: "1" = "|x1 - x2| / U_difference",
+        e_n: "1" = "abs(x1 - x2)/U_difference",
         /// Difference of the results, signed.
         difference: "1" = "x1 - x2",
         /// Expanded uncertainty of the difference, k = 2.
-        U_difference: "1" = "sqrt((2 U1 / k1)^2 + (2 U2 / k2)^2 - 2 r (2 U1 / k1) (2 U2 / k2))",
+        U_difference: "1" = "sqrt((2*U1/k1)^2 + (2*U2/k2)^2 - 2*r*(2*U1/k1)*(2*U2/k2))",
     }
 }
 

@@ -32,10 +32,10 @@ measurement! {
     }
     outputs PhaseBudgetResult {
         /// Phase of the output relative to the reference.
-        phase: "deg" = "observed + repeatability + resolution 360 deg frequency / sampling_rate + \
+        phase: "deg" = "observed + repeatability + resolution*360 [deg]*frequency/sampling_rate + \
             reference" periodic 360.0,
         /// Standard uncertainty by the resolution.
-        u_resolution: "deg" = "360 deg frequency / (sampling_rate sqrt(12))",
+        u_resolution: "deg" = "360 [deg]*frequency/(sampling_rate*sqrt(12))",
     }
 }
 

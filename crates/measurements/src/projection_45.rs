@@ -25,11 +25,11 @@ measurement! {
     }
     outputs Projection45Accelerations {
         /// Acceleration along the sensor's x axis.
-        a_x: "m/s^2" = "a_ref cos(inclination) cos(rotation)",
+        a_x: "m/s^2" = "a_ref*cos(inclination)*cos(rotation)",
         /// Acceleration along the sensor's y axis.
-        a_y: "m/s^2" = "-a_ref cos(inclination) sin(rotation)",
+        a_y: "m/s^2" = "-a_ref*cos(inclination)*sin(rotation)",
         /// Acceleration along the sensor's z axis.
-        a_z: "m/s^2" = "a_ref sin(inclination)",
+        a_z: "m/s^2" = "a_ref*sin(inclination)",
     }
 }
 

@@ -19,7 +19,7 @@ measurement! {
     }
     outputs RelativeSensitivityDifference {
         /// Relative difference.
-        ds: "%" = "(s_f - s_ref) / s_ref",
+        ds: "%" = "(s_f - s_ref)/s_ref",
     }
 }
 

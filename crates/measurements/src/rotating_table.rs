@@ -29,14 +29,14 @@ measurement! {
     }
     outputs RotatingTableAccelerations {
         /// Tangential acceleration at the frequency of the oscillation, peak.
-        a_t: "m/s^2" = "2 pi frequency radius w_0 with w_0 = 2 pi frequency angle_pp (1 + \
-            angle_correction) / 2",
+        a_t: "m/s^2" = "2*pi*frequency*radius*w_0 with w_0 = 2*pi*frequency*angle_pp*(1 + \
+            angle_correction)/2",
         /// Radial acceleration at twice the frequency of the oscillation, peak.
-        a_r_2f: "m/s^2" = "radius w_0^2 / 2",
+        a_r_2f: "m/s^2" = "radius*w_0^2/2",
         /// Mean radial acceleration.
-        a_r_mean: "m/s^2" = "radius w_0^2 / 2",
+        a_r_mean: "m/s^2" = "radius*w_0^2/2",
         /// Largest radial acceleration, the source's radial amplitude.
-        a_r_peak: "m/s^2" = "radius w_0^2",
+        a_r_peak: "m/s^2" = "radius*w_0^2",
     }
 }
 

@@ -29,16 +29,15 @@ measurement! {
     }
     outputs RotatingTableInstantMotion {
         /// Angular position.
-        angle: "deg" = "theta_0 cos(2 pi frequency time) with theta_0 = angle_pp / 2",
+        angle: "deg" = "theta_0*cos(2*pi*frequency*time) with theta_0 = angle_pp/2",
         /// Angular velocity.
-        angular_velocity: "rad/s" = "-w_0 sin(2 pi frequency time) with w_0 = 2 pi frequency \
-            theta_0",
+        angular_velocity: "rad/s" = "-w_0*sin(2*pi*frequency*time) with w_0 = 2*pi*frequency*theta_0",
         /// Tangential acceleration.
-        a_t: "m/s^2" = "-2 pi frequency radius w_0 cos(2 pi frequency time)",
+        a_t: "m/s^2" = "-2*pi*frequency*radius*w_0*cos(2*pi*frequency*time)",
         /// Radial (centripetal) acceleration.
-        a_r: "m/s^2" = "radius (w_0 sin(2 pi frequency time))^2",
+        a_r: "m/s^2" = "radius*(w_0*sin(2*pi*frequency*time))^2",
         /// Tangential acceleration by the printed equation (3).
-        a_t_printed: "m/s^2" = "2 pi frequency radius w_0 sin(2 pi frequency time)",
+        a_t_printed: "m/s^2" = "2*pi*frequency*radius*w_0*sin(2*pi*frequency*time)",
     }
 }
 

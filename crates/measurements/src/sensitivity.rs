@@ -22,9 +22,9 @@ measurement! {
     }
     outputs SensitivityRatio {
         /// Sensitivity.
-        sensitivity: "D/(m/s^2)" = "output / a_ref",
+        sensitivity: "D/(m/s^2)" = "output/a_ref",
         /// Scale factor, the inverse of the sensitivity, in thousandths of standard gravity.
-        scale_factor: "mg_n/LSB" = "a_ref / output",
+        scale_factor: "mg_n/LSB" = "a_ref/output",
     }
 }
 

@@ -9,6 +9,7 @@ pub mod compare;
 mod csv;
 pub mod diff;
 mod document;
+mod equation;
 mod evaluation;
 mod fits;
 pub mod gap;
@@ -32,7 +33,11 @@ mod workbook;
 
 pub use answer::pretty;
 pub use csv::{csv, write_csv};
-pub use evaluation::{MOST_RESULTS, Shown, histograms, html, latex, markdown, xlsx};
+pub use evaluation::{
+    MOST_RESULTS, OutputParts, PageParts, ResultStatement, Shown, histograms, html, input_picture,
+    latex, markdown, page_parts, xlsx,
+};
+pub use html::{FigureSize, page_style};
 pub use json::{json, write_json};
 pub use samples::TrialsForm;
 pub use saved::{SaveError, saved, saved_result};

@@ -32,6 +32,8 @@ pub(crate) enum Kind {
     Numbers,
     /// Units as files write them: `m/s^2`.
     Units,
+    /// Formulas as files write them: `a*sin(t)`.
+    Equations,
 }
 
 /// A number as a page shows it, and as it was before rounding.
@@ -120,6 +122,11 @@ impl Column {
     /// Whether the cells are numbers.
     pub(crate) fn is_numeric(&self) -> bool {
         self.kind == Kind::Numbers
+    }
+
+    /// Whether the cells are texts that may be broken.
+    pub(crate) fn wraps(&self) -> bool {
+        matches!(self.kind, Kind::Text | Kind::Equations)
     }
 
     /// The header on one line.

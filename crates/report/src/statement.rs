@@ -1,7 +1,7 @@
 //! What the pages state of the measurement: its source, its model and the equations.
 
 use super::plain;
-use super::sheet::Sheet;
+use super::sheet::{Kind, Sheet};
 use gumption_engine::task::Task;
 
 /// Equations on a page, at most; the rest is in the JSON answer.
@@ -47,7 +47,7 @@ pub(crate) fn sheet(task: &Task) -> Option<Sheet> {
         return None;
     }
     let mut sheet = Sheet::default();
-    sheet.text("quantity", equations.iter().map(|(name, _)| name.clone()));
-    sheet.text("equation", equations.into_iter().map(|(_, text)| text));
+    sheet.push("quantity", equations.iter().map(|(name, _)| name.clone()), Kind::Equations);
+    sheet.push("equation", equations.into_iter().map(|(_, text)| text), Kind::Equations);
     Some(sheet)
 }

@@ -5,8 +5,8 @@ use std::io;
 
 use rust_xlsxwriter::utility::{check_sheet_name, quote_sheet_name, row_col_to_cell_absolute};
 use rust_xlsxwriter::{
-    Color, DocProperties, ExcelDateTime, Format, FormatAlign, FormatBorder, Formula, Workbook,
-    Worksheet, XlsxError,
+    Chart, Color, DocProperties, ExcelDateTime, Format, FormatAlign, FormatBorder, Formula,
+    Workbook, Worksheet, XlsxError,
 };
 
 use super::number::MISSING;
@@ -23,6 +23,12 @@ const WIDTHS: (usize, usize) = (9, 60);
 
 /// Height of a line of text, in points.
 const LINE_HEIGHT: f64 = 15.0;
+
+/// Shares of which small parts count, as per cent.
+pub(crate) const PERCENT: &str = "0.00%";
+
+/// Shares that are compared with each other, as per cent.
+pub(crate) const SHARE: &str = "0.0%";
 
 /// Decimals that are shown at most without an exponent.
 const MOST_DECIMALS: i32 = 9;
@@ -60,7 +66,7 @@ pub(crate) struct Leaf {
     /// The widest text of each column.
     widths: Vec<usize>,
     /// Rows of headers, whose height follows from the widths.
-    headers: Vec<(u32, Vec<String>)>,
+    headers: Vec<((u32, u16), Vec<String>)>,
 }
 
 /// An error of the library as one of the writer.
@@ -116,8 +122,9 @@ impl Book {
             leaf.worksheet.set_column_width(column, width as f64)?;
         }
         // some programs do not fit the height of a row to its text
-        for (row, headers) in &leaf.headers {
-            let lines = headers.iter().zip(&leaf.widths).map(|(header, width)| {
+        for ((row, first), headers) in &leaf.headers {
+            let widths = leaf.widths.get(usize::from(*first)..).unwrap_or_default();
+            let lines = headers.iter().zip(widths).map(|(header, width)| {
                 lines(header, (width + 2).clamp(WIDTHS.0, WIDTHS.1).saturating_sub(1))
             });
             let lines = lines.max().unwrap_or(1).max(1);
@@ -165,6 +172,15 @@ impl Leaf {
         row: u32,
         headers: impl IntoIterator<Item = &'h str>,
     ) -> Result<(), XlsxError> {
+        self.headers_from((row, 0), headers)
+    }
+
+    /// Headers of a table that begins at a column.
+    pub(crate) fn headers_from<'h>(
+        &mut self,
+        (row, first): (u32, u16),
+        headers: impl IntoIterator<Item = &'h str>,
+    ) -> Result<(), XlsxError> {
         let plain = Format::new()
             .set_bold()
             .set_text_wrap()
@@ -172,8 +188,9 @@ impl Leaf {
             .set_border_bottom(FormatBorder::Thin);
         let centred = plain.clone().set_align(FormatAlign::Center);
         let headers: Vec<&str> = headers.into_iter().collect();
-        self.headers.push((row, headers.iter().map(|header| (*header).to_owned()).collect()));
-        for (column, header) in (0_u16..).zip(headers) {
+        let texts = headers.iter().map(|header| (*header).to_owned()).collect();
+        self.headers.push(((row, first), texts));
+        for (column, header) in (first..).zip(headers) {
             let format = if column > 0 { &centred } else { &plain };
             self.worksheet.write_string_with_format(row, column, cut(header), format)?;
             let word = header.split_whitespace().map(|word| word.chars().count()).max();
@@ -209,6 +226,50 @@ impl Leaf {
         }
         self.widen(column, 12);
         Ok(())
+    }
+
+    /// A share as per cent.
+    pub(crate) fn share(
+        &mut self,
+        (row, column): (u32, u16),
+        value: f64,
+        shown: &str,
+    ) -> Result<(), XlsxError> {
+        let format = format(None, Look::Plain).set_num_format(shown);
+        self.worksheet.write_number_with_format(row, column, value, &format)?;
+        self.widen(column, 12);
+        Ok(())
+    }
+
+    /// A share as per cent by a formula, with what it gives now.
+    pub(crate) fn share_formula(
+        &mut self,
+        (row, column): (u32, u16),
+        formula: &str,
+        now: f64,
+        shown: &str,
+    ) -> Result<(), XlsxError> {
+        let format = format(None, Look::Plain).set_num_format(shown);
+        let formula = Formula::new(format!("={formula}")).set_result(format!("{now:?}"));
+        self.worksheet.write_formula_with_format(row, column, formula, &format)?;
+        self.widen(column, 12);
+        Ok(())
+    }
+
+    /// A figure beside or below the cells.
+    pub(crate) fn chart(
+        &mut self,
+        (row, column): (u32, u16),
+        chart: &Chart,
+    ) -> Result<(), XlsxError> {
+        self.worksheet.insert_chart(row, column, chart)?;
+        Ok(())
+    }
+
+    /// How a figure calls cells of this worksheet, from the first to the last.
+    pub(crate) fn range(&self, first: (u32, u16), last: (u32, u16)) -> String {
+        let cell = |(row, column): (u32, u16)| here(row, column);
+        format!("={}!{}:{}", quoted(&self.name), cell(first), cell(last))
     }
 
     /// A text that looks like a number.
@@ -256,7 +317,9 @@ impl Leaf {
                         self.number((below, place), value, decimals(text), Look::Plain)?;
                     }
                     (None, Kind::Numbers) => self.word((below, place), text, Look::Plain)?,
-                    (None, Kind::Text | Kind::Units) => self.text(below, place, text)?,
+                    (None, Kind::Text | Kind::Units | Kind::Equations) => {
+                        self.text(below, place, text)?
+                    }
                 }
             }
             below += 1;

@@ -1,7 +1,6 @@
 //! The cells of a sheet, whatever stands in them.
 
 use std::ops::Range;
-use std::path::Path;
 
 use crate::open::json_as_table;
 use crate::source::SourceText;
@@ -46,11 +45,11 @@ impl Cells {
 }
 
 /// The cells of a CSV file or of the first sheet of an XLSX file, and the text of messages.
-pub(super) fn of_file(path: &Path) -> Result<(Cells, String), DiagnosticKind> {
+pub(super) fn of_content(
+    content: Vec<u8>,
+    is_workbook: bool,
+) -> Result<(Cells, String), DiagnosticKind> {
     let unreadable = |message| DiagnosticKind::Unreadable { message };
-    let content = bytes::of_file(path, bytes::MOST).map_err(unreadable)?;
-    let is_workbook =
-        path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("xlsx"));
     if is_workbook {
         let rows = workbook::rows(content).map_err(unreadable)?;
         return Ok(of_rows(rows));

@@ -11,7 +11,7 @@ use crate::DiagnosticKind;
 use crate::diagnostics::{Collector, Diagnostics};
 use crate::reader::read_text;
 use crate::source::SourceText;
-use crate::{bytes, carried, workbook};
+use crate::{carried, workbook};
 use gumption_engine::distribution::Distribution;
 use gumption_engine::number::Shortest;
 use gumption_engine::task::Task;
@@ -26,14 +26,13 @@ type Sheet = Vec<Vec<String>>;
 /// # Errors
 /// What is wrong with the workbook, as a sentence about it.
 #[allow(clippy::type_complexity)]
-pub(super) fn of_file(path: &Path) -> Result<Option<Result<ImportedBudget, Diagnostics>>, String> {
-    if !path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("xlsx")) {
-        return Ok(None);
-    }
-    let content = bytes::of_file(path, bytes::MOST)?;
+pub(super) fn of_workbook(
+    path: &Path,
+    content: &[u8],
+) -> Result<Option<Result<ImportedBudget, Diagnostics>>, String> {
     // a workbook of somebody else carries no model
-    let Ok(text) = carried::of_workbook(content.clone()) else { return Ok(None) };
-    let inputs = workbook::rows_of(content, workbook::Sheet::Named("Inputs"))?;
+    let Ok(text) = carried::of_workbook(content.to_vec()) else { return Ok(None) };
+    let inputs = workbook::rows_of(content.to_vec(), workbook::Sheet::Named("Inputs"))?;
     if inputs.is_empty() {
         return Ok(None);
     }

@@ -3,7 +3,7 @@
 use plotters::element::Circle;
 use plotters::style::Color;
 
-use crate::html::{Drawing, WIDTH};
+use crate::html::Drawing;
 use crate::plot::{AFTER, Axis, INK, STRIP_AXIS, Strip, WEAK, faded, line, px, stroke, svg};
 use gumption_analysis::assumptions::{InputAudit, OutputAudit, VariantChange};
 
@@ -34,27 +34,29 @@ pub(super) fn draw(output: &OutputAudit, name: impl Fn(usize) -> String) -> Opti
     }
     let axis = Axis::over(all);
     let bottom = 4.0 + ROW * shown.len() as f64;
-    let strip = Strip { axis: &axis, from: LEFT, to: WIDTH - RIGHT };
-    let drawn = svg(WIDTH, bottom + STRIP_AXIS, |area| {
-        strip.draw(area, 0.0, bottom, "change of the interval's half-length in %")?;
-        let zero = strip.x(0.0);
-        line(area, [(zero, 0.0), (zero, bottom)], stroke(INK, 1.0))?;
-        for (row, input) in shown.iter().enumerate() {
-            let y = 4.0 + ROW * (row as f64 + 0.5);
-            strip.name(area, &name(input.variable), y)?;
-            if let [Some(low), Some(high)] = widths(input) {
-                let ends = [(strip.x(low), y), (strip.x(high), y)];
-                line(area, ends, faded(WEAK, 0.45, 7.0))?;
+    let drawn = |width: f64| {
+        let strip = Strip::within(&axis, width, [LEFT, RIGHT]);
+        svg(width, bottom + STRIP_AXIS, |area| {
+            strip.draw(area, 0.0, bottom, "change of the interval's half-length in %")?;
+            let zero = strip.x(0.0);
+            line(area, [(zero, 0.0), (zero, bottom)], stroke(INK, 1.0))?;
+            for (row, input) in shown.iter().enumerate() {
+                let y = 4.0 + ROW * (row as f64 + 0.5);
+                strip.name(area, &name(input.variable), y)?;
+                if let [Some(low), Some(high)] = widths(input) {
+                    let ends = [(strip.x(low), y), (strip.x(high), y)];
+                    line(area, ends, faded(WEAK, 0.45, 7.0))?;
+                }
+                for value in shapes(input) {
+                    let at = (px(strip.x(value)), px(y));
+                    area.draw(&Circle::new(at, px(3.5), AFTER.filled()))?;
+                }
             }
-            for value in shapes(input) {
-                let at = (px(strip.x(value)), px(y));
-                area.draw(&Circle::new(at, px(3.5), AFTER.filled()))?;
-            }
-        }
-        Ok(())
-    });
+            Ok(())
+        })
+    };
     let caption = "Change of half the length of the coverage interval: with the width halved to \
                    doubled (grey bar) and with every other shape (points)."
         .to_owned();
-    Some(Drawing { svg: drawn, caption })
+    Some(Drawing::new(caption, drawn))
 }

@@ -7,6 +7,38 @@ use crate::html::table;
 use crate::html::{figure as numbered, page};
 use crate::{plain, statement};
 
+/// The sections of the outputs and of the readings alone, as HTML that needs the style of
+/// [`crate::page_style`] and stands below a heading of second level.
+pub fn fragment(report: &AuditReport<'_>) -> String {
+    let mut parts: Vec<Markup> = Vec::new();
+    for (row, of_row) in report.audit.rows.iter().enumerate() {
+        for (output, of) in of_row.outputs.iter().enumerate() {
+            parts.push(html! {
+                h3 { (words::heading(report, row, output)) }
+                p { (words::baseline(report, output, of)) }
+                p { strong { (words::verdict(report, of)) } }
+                (table(&sheets::widths(report, of)))
+                @if let Some(shapes) = sheets::shapes(report, of) {
+                    h4 { "With another shape" }
+                    (table(&shapes))
+                }
+            });
+        }
+    }
+    html! {
+        @if let Some(said) = words::contradicted(report) {
+            div.verdict { p { strong { (said) } } }
+        }
+        @for part in &parts { (part) }
+        @if let Some(evidence) = sheets::evidence(report) {
+            h3 { "Do the readings agree?" }
+            (table(&evidence))
+        }
+        p.settings { (words::MOVES) }
+    }
+    .into_string()
+}
+
 /// The audit as one HTML file with figures that needs nothing else.
 pub fn html(report: &AuditReport<'_>) -> String {
     let mut number = 0;
@@ -17,7 +49,7 @@ pub fn html(report: &AuditReport<'_>) -> String {
             let drawing = figure::draw(of, |variable| plain(report.name(variable)));
             let drawing = drawing.map(|drawing| {
                 number += 1;
-                numbered(number, drawing.svg, &drawing.caption)
+                numbered(number, &drawing)
             });
             sections.push(html! {
                 h2 { (words::heading(report, row, output)) }

@@ -11,7 +11,7 @@ mod tests;
 mod words;
 
 pub use csv::csv;
-pub use html::html;
+pub use html::{fragment, html};
 pub use json::json;
 pub use table::table;
 

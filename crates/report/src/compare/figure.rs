@@ -4,10 +4,11 @@ use plotters::element::{Circle, Rectangle};
 use plotters::style::Color;
 
 use super::Compare;
-use crate::html::{Drawing, WIDTH};
+use crate::html::Drawing;
+use crate::number::with_uncertainty;
 use crate::plain;
 use crate::plot::{
-    AFTER, Area, Axis, BEFORE, Drawn, EVEN, INK, STRIP_AXIS, Strip, line, px, stroke, svg,
+    AFTER, Axis, BEFORE, EVEN, INK, STRIP_AXIS, Strip, line, px, stroke, svg_with_titles,
 };
 use gumption_analysis::compare::FACTOR;
 
@@ -53,22 +54,26 @@ fn strip(bars: &[Bar], band: [f64; 2], label: &str, caption: &str) -> Drawing {
     let margin = if high > low { 0.04 * (high - low) } else { 1.0 };
     let axis = Axis::linear(low - margin, high + margin);
     let bottom = 4.0 + ROW * bars.len() as f64;
-    let strip = Strip { axis: &axis, from: LEFT, to: WIDTH - RIGHT };
-    let drawn = svg(WIDTH, bottom + STRIP_AXIS, |area: &Area<'_>| -> Drawn {
-        let [from, to] = band.map(|end| strip.x(end));
-        let corners = [(px(from), px(0.0)), (px(to), px(bottom))];
-        area.draw(&Rectangle::new(corners, EVEN.mix(0.35).filled()))?;
-        strip.draw(area, 0.0, bottom, label)?;
-        let middle = 0.5 * (from + to);
-        line(area, [(middle, 0.0), (middle, bottom)], stroke(INK, 1.0))?;
-        for (row, (name, value, u, out)) in bars.iter().enumerate() {
-            let y = 4.0 + ROW * (row as f64 + 0.5);
-            let colour = if *out { BEFORE } else { AFTER };
-            strip.name(area, name, y)?;
-            strip.interval(area, [value - u, value + u], y, colour)?;
-            area.draw(&Circle::new((px(strip.x(*value)), px(y)), px(3.5), colour.filled()))?;
-        }
-        Ok(())
-    });
-    Drawing { svg: drawn, caption: caption.to_owned() }
+    let drawn = |width: f64| {
+        let strip = Strip::within(&axis, width, [LEFT, RIGHT]);
+        svg_with_titles(width, bottom + STRIP_AXIS, |area, titles| {
+            let [from, to] = band.map(|end| strip.x(end));
+            let corners = [(px(from), px(0.0)), (px(to), px(bottom))];
+            area.draw(&Rectangle::new(corners, EVEN.mix(0.35).filled()))?;
+            strip.draw(area, 0.0, bottom, label)?;
+            let middle = 0.5 * (from + to);
+            line(area, [(middle, 0.0), (middle, bottom)], stroke(INK, 1.0))?;
+            for (row, (name, value, u, out)) in bars.iter().enumerate() {
+                let y = 4.0 + ROW * (row as f64 + 0.5);
+                let colour = if *out { BEFORE } else { AFTER };
+                strip.name(area, name, y)?;
+                strip.interval(area, [value - u, value + u], y, colour)?;
+                area.draw(&Circle::new((px(strip.x(*value)), px(y)), px(3.5), colour.filled()))?;
+                let (number, expanded) = with_uncertainty(*value, *u, 2);
+                titles.at_pixels((strip.x(*value), y), &format!("{name}: {number} ± {expanded}"));
+            }
+            Ok(())
+        })
+    };
+    Drawing::new(caption.to_owned(), drawn)
 }

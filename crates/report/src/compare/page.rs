@@ -55,7 +55,7 @@ pub fn html(compare: &Compare) -> String {
         h1 { (title) }
         div.verdict { @for said in words::verdict(compare) { p { (said) } } }
         (html_table(&sheet(compare)))
-        (numbered(1, drawing.svg, &drawing.caption))
+        (numbered(1, &drawing))
         @if let Some((sheet, said)) = estimators(compare) { (html_table(&sheet)) p { (said) } }
         @for note in notes(compare) { p { (note) } }
         p.settings { "gumption " (env!("CARGO_PKG_VERSION")) }

@@ -3,23 +3,67 @@
 use maud::{Markup, html};
 
 use super::{Block, Document};
-use crate::html::{figure, page_in, raised, table};
+use crate::html::{FigureSize, bare_figure, figure, page_in, raised, table};
+
+/// Sections of a page with contents: fewer are seen at once, more are no help.
+const LISTED: std::ops::RangeInclusive<usize> = 8..=60;
 
 /// The whole page.
 pub(crate) fn html(document: &Document) -> String {
-    let mut figures = 0;
+    let mut counts = Counts::default();
     let body = html! {
         h1 { (document.title) }
         @for line in &document.subtitle { p.settings { (line) } }
-        @for part in &document.blocks { (block(part, document.comma, &mut figures)) }
+        (contents(document))
+        @for part in &document.blocks { (block(part, document.comma, &mut counts)) }
     };
     let language = if document.language.is_empty() { "en" } else { document.language };
     page_in(language, &document.title, &document.foot(), &body)
 }
 
-fn block(block: &Block, comma: bool, figures: &mut usize) -> Markup {
+/// What has been numbered so far.
+#[derive(Clone, Copy, Debug, Default)]
+struct Counts {
+    sections: usize,
+    figures: usize,
+}
+
+/// The titles of the sections with links, where there are many.
+fn contents(document: &Document) -> Markup {
+    let titles = document.blocks.iter().filter_map(|block| match block {
+        Block::Section(title) => Some(title),
+        _ => None,
+    });
+    let titles: Vec<&String> = titles.collect();
+    html! {
+        @if LISTED.contains(&titles.len()) {
+            nav aria-label="Contents" {
+                @for (place, title) in titles.iter().enumerate() {
+                    // what a quantity is stands in its section
+                    @let name = title.split_once(": ").map_or(title.as_str(), |(name, _)| name);
+                    a href={ "#section-" (place + 1) } { (raised(name)) } " "
+                }
+            }
+        }
+    }
+}
+
+/// The blocks of a document alone, to stand in a page with the same style; figures are not numbered,
+/// because the page may have others.
+pub(crate) fn fragment(document: &Document, size: FigureSize) -> String {
+    let part = |part: &Block| match part {
+        Block::Figure(drawing) => bare_figure(drawing, size),
+        part => block(part, document.comma, &mut Counts::default()),
+    };
+    html! { @for one in &document.blocks { (part(one)) } }.into_string()
+}
+
+fn block(block: &Block, comma: bool, counts: &mut Counts) -> Markup {
     match block {
-        Block::Section(title) => html! { h2 { (raised(title)) } },
+        Block::Section(title) => {
+            counts.sections += 1;
+            html! { h2 id={ "section-" (counts.sections) } { (raised(title)) } }
+        }
         Block::Text(text) => html! { p { (raised(text)) } },
         Block::Verdict(sentences) => html! {
             div.verdict {
@@ -35,12 +79,12 @@ fn block(block: &Block, comma: bool, figures: &mut usize) -> Markup {
         Block::Folded(title, blocks) => html! {
             details {
                 summary { (raised(title)) }
-                @for part in blocks { (self::block(part, comma, figures)) }
+                @for part in blocks { (self::block(part, comma, counts)) }
             }
         },
         Block::Figure(drawing) => {
-            *figures += 1;
-            figure(*figures, drawing.svg.clone(), &drawing.caption)
+            counts.figures += 1;
+            figure(counts.figures, drawing)
         }
         Block::Signature(places) => html! {
             div.signature { @for place in places { p { (place) } } }

@@ -6,7 +6,7 @@ mod latex;
 mod markdown;
 mod text;
 
-pub(super) use html::html;
+pub(super) use html::{fragment, html};
 pub(super) use latex::latex;
 #[cfg(test)]
 pub(crate) use latex::unit::Declared;

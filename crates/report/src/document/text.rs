@@ -65,7 +65,7 @@ fn grid(sheet: &Sheet) -> Grid {
         let cells = column.cells.iter().cloned();
         match column.kind {
             Kind::Numbers => grid.numbers(&column.header, cells),
-            Kind::Text => grid.text_from(&column.header, LEAST_TEXT, cells),
+            Kind::Text | Kind::Equations => grid.text_from(&column.header, LEAST_TEXT, cells),
             Kind::Units => grid.units(&column.header, cells),
         }
     }

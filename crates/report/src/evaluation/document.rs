@@ -26,23 +26,17 @@ pub(super) fn of(report: &EvaluationReport<'_>, shown: &Shown<'_>) -> Document {
     document.subtitle.extend(table::at(task, evaluation));
     document.subtitle.extend(table::stopped(evaluation));
     stated(&mut document, task);
-    match evaluation.rows.as_slice() {
-        [row] => {
-            if row.outputs.len() > MOST_UNSUMMED {
-                document.section("Results");
-                document.table(table::sweep::summary(task, row, evaluation.settings.digits));
-            }
-            for output in 0..row.outputs.len() {
-                results::section(&mut document, report, shown, output);
-            }
-            together(&mut document, task, row);
-            crate::regions::sections(&mut document, task, row);
+    if let [row] = evaluation.rows.as_slice() {
+        if row.outputs.len() > MOST_UNSUMMED {
+            document.section("Results");
+            document.table(table::sweep::summary(task, row, evaluation.settings.digits));
         }
-        _ => sweep::sections(&mut document, report),
+        for output in 0..row.outputs.len() {
+            let folded = row.outputs.len() > MOST_UNSUMMED;
+            results::section(&mut document, report, shown, (output, folded));
+        }
     }
-    let digits = evaluation.settings.digits;
-    let curves = task.curves.iter().map(|curve| &**curve);
-    crate::fits::sections(&mut document, curves, evaluation.settings.coverage, digits);
+    together_of(&mut document, report);
     if let Some(sheet) = quantities(task) {
         document.section("Quantities");
         document.table(sheet);
@@ -58,6 +52,21 @@ pub(super) fn of(report: &EvaluationReport<'_>, shown: &Shown<'_>) -> Document {
     }
     repeat::section(&mut document, report, shown);
     document
+}
+
+/// What concerns all outputs of an evaluation.
+pub(super) fn together_of(document: &mut Document, report: &EvaluationReport<'_>) {
+    let EvaluationReport { task, evaluation, .. } = *report;
+    match evaluation.rows.as_slice() {
+        [row] => {
+            together(document, task, row);
+            crate::regions::sections(document, task, row);
+        }
+        _ => sweep::sections(document, report),
+    }
+    let digits = evaluation.settings.digits;
+    let curves = task.curves.iter().map(|curve| &**curve);
+    crate::fits::sections(document, curves, evaluation.settings.coverage, digits);
 }
 
 /// The measurement: its sources and equations.

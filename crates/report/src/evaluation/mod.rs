@@ -2,12 +2,15 @@
 
 mod document;
 mod figures;
+mod parts;
 mod repeat;
 mod results;
 mod sweep;
 mod terminal;
 mod workbook;
 
+pub use parts::{OutputParts, PageParts, input_picture, page_parts};
+pub use results::ResultStatement;
 pub use terminal::histograms;
 pub use workbook::{MOST_RESULTS, xlsx};
 

@@ -13,58 +13,92 @@ use gumption_engine::model::{Output, Quantity};
 use gumption_engine::propagate::OutputEvaluation;
 use gumption_engine::task::{Coverage, Settings};
 
-/// The section of an output of the first row.
+/// The parts of the section of an output, in the order in which a page has them.
+#[derive(Debug, Default)]
+pub(super) struct Section {
+    pub(super) title: String,
+    /// The result, what clause 8 says of it, and whether it conforms.
+    pub(super) verdict: Document,
+    pub(super) budget: Document,
+    /// The figures that follow from the budget.
+    pub(super) conclusions: Document,
+    /// Both methods side by side.
+    pub(super) comparison: Document,
+    pub(super) distribution: Document,
+}
+
+/// What stands below the result of an output on a page with many.
+const BELOW: &str = "Budget, both methods and distribution";
+
+/// The section of an output of the first row; `folded` below its result.
 pub(super) fn section(
     document: &mut Document,
     report: &EvaluationReport<'_>,
     shown: &Shown<'_>,
-    output: usize,
+    (output, folded): (usize, bool),
 ) {
+    let Some(section) = section_of(report, shown, output) else { return };
+    document.section(section.title);
+    document.blocks.extend(section.verdict.blocks);
+    let below = [section.budget, section.conclusions, section.comparison, section.distribution];
+    let below = below.into_iter().flat_map(|part| part.blocks);
+    match folded {
+        true => document.blocks.push(Block::Folded(BELOW.to_owned(), below.collect())),
+        false => document.blocks.extend(below),
+    }
+}
+
+/// The parts of the section of an output of the first row; `None` where there is no such output.
+pub(super) fn section_of(
+    report: &EvaluationReport<'_>,
+    shown: &Shown<'_>,
+    output: usize,
+) -> Option<Section> {
     let EvaluationReport { task, evaluation, .. } = *report;
-    let Some(found) = evaluation.rows.first().and_then(|row| row.outputs.get(output)) else {
-        return;
-    };
-    let Some(output_of) = task.model.outputs.get(output) else { return };
+    let found = evaluation.rows.first()?.outputs.get(output)?;
+    let output_of = task.model.outputs.get(output)?;
     let quantity = &output_of.quantity;
     let digits = evaluation.settings.digits;
-    document.section(table::title_text(quantity));
+    let mut section = Section { title: table::title_text(quantity), ..Section::default() };
     let mut said = verdict(&evaluation.settings, output_of, found);
     said.extend(comparison::differences(report, output_of, found));
-    document.blocks.push(Block::Verdict(said));
+    section.verdict.blocks.push(Block::Verdict(said));
     match &found.gum {
         Some(gum) => {
             let budget = Budget { task, output: quantity, gum, digits };
-            document.table(budget.sheet(shown.columns));
-            document.sentence(&budget::legend(quantity, shown.columns));
+            section.budget.table(budget.sheet(shown.columns));
+            section.budget.sentence(&budget::legend(quantity, shown.columns));
             if let Some(said) = budget::subtotals(task, gum) {
-                document.sentence(&said);
+                section.budget.sentence(&said);
             }
-            document.figure(figures::shares(task, gum));
-            document.table(conclusions(&evaluation.settings, quantity, found, digits));
+            section.budget.figure(figures::shares(task, gum));
+            section.conclusions.table(conclusions(&evaluation.settings, quantity, found, digits));
         }
-        None => document.text(table::NO_BUDGET),
+        None => section.budget.text(table::NO_BUDGET),
     }
+    let side_by_side = &mut section.comparison;
     if let Some(sheet) = comparison::sheet(found, digits) {
-        document.table(sheet);
+        side_by_side.table(sheet);
     }
     if let Some(said) = comparison::without_noise(quantity, found) {
-        document.sentence(&said);
+        side_by_side.sentence(&said);
     }
     if let Some(figures) = &found.monte_carlo {
         if !figures.shortest_exact {
-            document.sentence(comparison::NEARLY_SHORTEST);
+            side_by_side.sentence(comparison::NEARLY_SHORTEST);
         }
         if !figures.shortest_unique {
-            document.sentence(comparison::NOT_UNIQUE);
+            side_by_side.sentence(comparison::NOT_UNIQUE);
         }
         if let Some(end) = &figures.adaptive {
-            document.sentence(&comparison::stability(quantity, end, figures.trials));
+            side_by_side.sentence(&comparison::stability(quantity, end, figures.trials));
         }
     }
     let histogram = shown.histogram(0, output);
-    document.figure(histogram.and_then(|counts| {
+    section.distribution.figure(histogram.and_then(|counts| {
         figures::distribution(quantity, found, counts, evaluation.coverage_probability)
     }));
+    Some(section)
 }
 
 /// The result, what clause 8 says of it, and whether it conforms.
@@ -85,52 +119,108 @@ fn verdict(settings: &Settings, stated: &Output, found: &OutputEvaluation) -> Ve
     said
 }
 
-/// The measurement result as JCGM 100, 7.2.4 states it; the Monte Carlo interval where the GUM's
-/// is not valid or does not exist.
+/// The measurement result in one sentence.
 fn result(settings: &Settings, output: &Quantity, found: &OutputEvaluation) -> String {
-    let refuted = found.validation.is_some_and(|v| v.gum_valid == Some(false));
     let name = crate::plain(&output.name);
     let coverage = table::coverage_text(settings.coverage);
-    let gum = found.gum.as_ref();
-    let expanded = gum.and_then(|gum| Some((gum, gum.expanded_uncertainty()?)));
-    if let Some((gum, expanded)) = expanded.filter(|_| !refuted || found.monte_carlo.is_none()) {
-        let factor = gum.coverage_factor.map_or(f64::NAN, |factor| factor);
-        let factor = crate::number::rounded(factor, -2);
-        let (estimate, expanded) = with_uncertainty(gum.estimate, expanded, settings.digits);
-        let value = match has_name(&output.unit) {
-            true => in_unit(&format!("({estimate} ± {expanded})"), &output.unit),
-            false => format!("{estimate} ± {expanded}"),
-        };
-        return format!("{name} = {value}; k = {factor}, coverage probability {coverage}");
-    }
-    if let Some(figures) = &found.monte_carlo {
-        let u = figures.standard_uncertainty.or_else(|| gum.map(|gum| gum.standard_uncertainty));
-        let ends = place_of_ends(figures, u, settings.digits);
-        let stated = figures.stated_interval();
-        let [low, high] = [0, 1].map(|end| justified(stated.ends[end], ends, stated.errors[end]));
-        let estimate = match figures.estimate {
-            Some(estimate) => {
-                let digits = u.and_then(|u| position(u, settings.digits));
-                justified(estimate, digits, figures.errors.estimate.unwrap_or(f64::NAN))
-            }
-            None => justified(figures.median, ends, figures.errors.median),
-        };
-        let kind = if stated.shortest { "shortest" } else { "probabilistically symmetric" };
-        let high = in_unit(&high, &output.unit);
-        let estimate = in_unit(&estimate, &output.unit);
-        return format!(
-            "{name} = {estimate}; coverage interval from {low} to {high} (Monte Carlo, {kind}), \
-             coverage probability {coverage}"
-        );
-    }
-    match gum {
-        Some(gum) => {
-            let (estimate, u) =
-                with_uncertainty(gum.estimate, gum.standard_uncertainty, settings.digits);
-            let u = in_unit(&u, &output.unit);
+    match ResultStatement::of(settings, found) {
+        ResultStatement::Expanded { estimate, expanded, factor } => {
+            let value = match has_name(&output.unit) {
+                true => in_unit(&format!("({estimate} ± {expanded})"), &output.unit),
+                false => format!("{estimate} ± {expanded}"),
+            };
+            format!("{name} = {value}; k = {factor}, coverage probability {coverage}")
+        }
+        ResultStatement::Interval { estimate, low, high, shortest } => {
+            let kind = if shortest { "shortest" } else { "probabilistically symmetric" };
+            let high = in_unit(&high, &output.unit);
+            let estimate = in_unit(&estimate, &output.unit);
+            format!(
+                "{name} = {estimate}; coverage interval from {low} to {high} (Monte Carlo, {kind}), \
+                 coverage probability {coverage}"
+            )
+        }
+        ResultStatement::Standard { estimate, uncertainty } => {
+            let u = in_unit(&uncertainty, &output.unit);
             format!("{name} = {} with standard uncertainty {u}", in_unit(&estimate, &output.unit))
         }
-        None => format!("{name} is not defined at these estimates"),
+        ResultStatement::Undefined => format!("{name} is not defined at these estimates"),
+    }
+}
+
+/// The measurement result as JCGM 100, 7.2.4 states it; the Monte Carlo interval where the GUM's
+/// is not valid or does not exist. All figures are rounded, in the output's unit.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum ResultStatement {
+    /// An estimate with its expanded uncertainty.
+    Expanded {
+        /// The estimate.
+        estimate: String,
+        /// The expanded uncertainty.
+        expanded: String,
+        /// The coverage factor.
+        factor: String,
+    },
+    /// An estimate with a coverage interval by the Monte Carlo method.
+    Interval {
+        /// The estimate.
+        estimate: String,
+        /// The lower end.
+        low: String,
+        /// The upper end.
+        high: String,
+        /// Whether it is the shortest interval, or else the probabilistically symmetric one.
+        shortest: bool,
+    },
+    /// An estimate with its standard uncertainty alone.
+    Standard {
+        /// The estimate.
+        estimate: String,
+        /// The standard uncertainty.
+        uncertainty: String,
+    },
+    /// There is none at these estimates.
+    Undefined,
+}
+
+impl ResultStatement {
+    /// What is stated of an output.
+    pub fn of(settings: &Settings, found: &OutputEvaluation) -> Self {
+        let refuted = found.validation.is_some_and(|v| v.gum_valid == Some(false));
+        let gum = found.gum.as_ref();
+        let expanded = gum.and_then(|gum| Some((gum, gum.expanded_uncertainty()?)));
+        if let Some((gum, expanded)) = expanded.filter(|_| !refuted || found.monte_carlo.is_none())
+        {
+            let factor = gum.coverage_factor.map_or(f64::NAN, |factor| factor);
+            let factor = crate::number::rounded(factor, -2);
+            let (estimate, expanded) = with_uncertainty(gum.estimate, expanded, settings.digits);
+            return Self::Expanded { estimate, expanded, factor };
+        }
+        if let Some(figures) = &found.monte_carlo {
+            let u =
+                figures.standard_uncertainty.or_else(|| gum.map(|gum| gum.standard_uncertainty));
+            let ends = place_of_ends(figures, u, settings.digits);
+            let stated = figures.stated_interval();
+            let [low, high] =
+                [0, 1].map(|end| justified(stated.ends[end], ends, stated.errors[end]));
+            let estimate = match figures.estimate {
+                Some(estimate) => {
+                    let digits = u.and_then(|u| position(u, settings.digits));
+                    justified(estimate, digits, figures.errors.estimate.unwrap_or(f64::NAN))
+                }
+                None => justified(figures.median, ends, figures.errors.median),
+            };
+            return Self::Interval { estimate, low, high, shortest: stated.shortest };
+        }
+        match gum {
+            Some(gum) => {
+                let (estimate, uncertainty) =
+                    with_uncertainty(gum.estimate, gum.standard_uncertainty, settings.digits);
+                Self::Standard { estimate, uncertainty }
+            }
+            None => Self::Undefined,
+        }
     }
 }
 

@@ -4,7 +4,7 @@ use plotters::element::{Circle, PathElement, Polygon};
 use plotters::style::Color;
 
 use super::{factor, places};
-use crate::html::{Drawing, WIDTH};
+use crate::html::Drawing;
 use crate::plain;
 use crate::plot::{AFTER, Axis, EVEN, INK, Panel, WEAK, px, stroke, svg};
 use gumption_engine::regression::CurveFunction;
@@ -53,38 +53,40 @@ pub(super) fn draw(curve: &CurveFunction, coverage: Coverage) -> Option<Drawing>
         let above = band.iter().map(|of| (of[0], centre(of) + of[2]));
         above.chain(band.iter().rev().map(|of| (of[0], centre(of) - of[2]))).collect()
     };
-    let drawn = svg(WIDTH, UPPER + LOWER, |area| {
-        let (top, bottom) = area.split_vertically(px(UPPER));
-        let panel = |label: String, axis, marks| Panel {
-            x: (&x, self::label(&curve.x)),
-            y: (axis, label),
-            marks,
-            title: String::new(),
-        };
-        let upper = panel(label(&fit.name, &curve.y), &y, [9, 7]).draw(&top)?;
-        let upper = upper.plotting_area();
-        upper.draw(&Polygon::new(around(&|of| of[1]), EVEN.mix(0.45).filled()))?;
-        let line: Vec<(f64, f64)> = band.iter().map(|[x, y, _]| (*x, *y)).collect();
-        upper.draw(&PathElement::new(line, stroke(AFTER, 1.5)))?;
-        for point in &shown {
-            let place = (points.x[*point], points.y[*point]);
-            upper.draw(&Circle::new(place, px(2.5), INK.filled()))?;
-        }
-        let lower = panel(label("residual", &curve.y), &left, [9, 6]).draw(&bottom)?;
-        let lower = lower.plotting_area();
-        lower.draw(&Polygon::new(around(&|_| 0.0), EVEN.mix(0.45).filled()))?;
-        lower.draw(&PathElement::new(vec![(least, 0.0), (most, 0.0)], stroke(AFTER, 1.5)))?;
-        for point in &shown {
-            let (x, residual) = (points.x[*point], residuals[*point]);
-            let bar = bar(*point);
-            if bar > 0.0 {
-                let bar = vec![(x, residual - bar), (x, residual + bar)];
-                lower.draw(&PathElement::new(bar, stroke(WEAK, 1.0)))?;
+    let drawn = |width: f64| {
+        svg(width, UPPER + LOWER, |area| {
+            let (top, bottom) = area.split_vertically(px(UPPER));
+            let panel = |label: String, axis, marks| Panel {
+                x: (&x, self::label(&curve.x)),
+                y: (axis, label),
+                marks,
+                title: String::new(),
+            };
+            let upper = panel(label(&fit.name, &curve.y), &y, [9, 7]).draw(&top)?;
+            let upper = upper.plotting_area();
+            upper.draw(&Polygon::new(around(&|of| of[1]), EVEN.mix(0.45).filled()))?;
+            let line: Vec<(f64, f64)> = band.iter().map(|[x, y, _]| (*x, *y)).collect();
+            upper.draw(&PathElement::new(line, stroke(AFTER, 1.5)))?;
+            for point in &shown {
+                let place = (points.x[*point], points.y[*point]);
+                upper.draw(&Circle::new(place, px(2.5), INK.filled()))?;
             }
-            lower.draw(&Circle::new((x, residual), px(2.5), INK.filled()))?;
-        }
-        Ok(())
-    });
+            let lower = panel(label("residual", &curve.y), &left, [9, 6]).draw(&bottom)?;
+            let lower = lower.plotting_area();
+            lower.draw(&Polygon::new(around(&|_| 0.0), EVEN.mix(0.45).filled()))?;
+            lower.draw(&PathElement::new(vec![(least, 0.0), (most, 0.0)], stroke(AFTER, 1.5)))?;
+            for point in &shown {
+                let (x, residual) = (points.x[*point], residuals[*point]);
+                let bar = bar(*point);
+                if bar > 0.0 {
+                    let bar = vec![(x, residual - bar), (x, residual + bar)];
+                    lower.draw(&PathElement::new(bar, stroke(WEAK, 1.0)))?;
+                }
+                lower.draw(&Circle::new((x, residual), px(2.5), INK.filled()))?;
+            }
+            Ok(())
+        })
+    };
     let bars = if points.of_y == gumption_engine::regression::Spread::None {
         ""
     } else {
@@ -96,7 +98,7 @@ pub(super) fn draw(curve: &CurveFunction, coverage: Coverage) -> Option<Drawing>
          residuals of the points about it.{bars}{some}",
         plain(&fit.name)
     );
-    Some(Drawing { svg: drawn, caption })
+    Some(Drawing::new(caption, drawn))
 }
 
 fn label(unit: &gumption_units::Unit) -> String {

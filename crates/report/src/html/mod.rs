@@ -2,6 +2,7 @@
 //! elsewhere.
 
 mod foot;
+mod mathml;
 mod raised;
 mod table;
 
@@ -40,28 +41,69 @@ pub(super) fn page_in(language: &str, title: &str, foot: &Foot, body: &Markup) -
     page.into_string() + "\n"
 }
 
-/// Width of all figures in pixels.
-pub(crate) const WIDTH: f64 = 720.0;
+/// Widths of figures in pixels: on a page, and on a screen that is too narrow for the first.
+const WIDTHS: [(&str, f64); 2] = [("wide", 720.0), ("narrow", 360.0)];
 
-/// A figure with what is written below it.
+/// A figure with what is written below it, drawn once for each of [`WIDTHS`], with text of one size.
 #[derive(Clone, Debug)]
 pub(super) struct Drawing {
-    pub(super) svg: String,
-    pub(super) caption: String,
+    pictures: [String; 2],
+    caption: String,
 }
 
-/// A figure with its number and caption; the drawing is an `svg` element.
-pub(super) fn figure(number: usize, drawing: String, caption: &str) -> Markup {
+impl Drawing {
+    /// A figure that `draw` makes as an `svg` element of a width in pixels.
+    pub(super) fn new(caption: String, draw: impl Fn(f64) -> String) -> Self {
+        Self { pictures: WIDTHS.map(|(_, width)| draw(width)), caption }
+    }
+}
+
+/// A figure with its number and caption.
+pub(super) fn figure(number: usize, drawing: &Drawing) -> Markup {
     let id = format!("figure-{number}");
-    // one picture with its caption, not a heap of tick labels that are read out one by one
-    let drawing =
-        drawing.replacen("<svg ", &format!("<svg role=\"img\" aria-labelledby=\"{id}\" "), 1);
     html! {
         figure {
-            (PreEscaped(drawing))
-            figcaption id=(id) { b { "Figure " (number) "." } " " (caption) }
+            @for ((class, _), picture) in WIDTHS.iter().zip(&drawing.pictures) {
+                // one picture with its caption, not a heap of tick labels that are read out one by one
+                @let named = format!("<svg class=\"{class}\" role=\"img\" aria-labelledby=\"{id}\" ");
+                (PreEscaped(picture.replacen("<svg ", &named, 1)))
+            }
+            figcaption id=(id) { b { "Figure " (number) "." } " " (drawing.caption) }
         }
     }
+}
+
+/// How much room figures have.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum FigureSize {
+    /// That of a page: drawn for it, and for a screen that is too narrow.
+    #[default]
+    Page,
+    /// That of a column beside others: drawn for a narrow screen.
+    Narrow,
+}
+
+/// A figure without a number: the picture is named by its caption.
+pub(super) fn bare_figure(drawing: &Drawing, size: FigureSize) -> Markup {
+    let label = html! { (drawing.caption) }.into_string().replace('"', "&quot;");
+    let pictures = WIDTHS.iter().zip(&drawing.pictures);
+    let pictures = pictures.skip(usize::from(size == FigureSize::Narrow));
+    html! {
+        figure {
+            @for ((class, _), picture) in pictures {
+                // the only picture is shown on every screen
+                @let class = if size == FigureSize::Narrow { "only" } else { class };
+                @let named = format!("<svg class=\"{class}\" role=\"img\" aria-label=\"{label}\" ");
+                (PreEscaped(picture.replacen("<svg ", &named, 1)))
+            }
+            figcaption { (drawing.caption) }
+        }
+    }
+}
+
+/// The style sheet of pages, for a page that has parts of them ([`crate::page_parts`]).
+pub fn page_style() -> &'static str {
+    STYLE
 }
 
 #[cfg(test)]

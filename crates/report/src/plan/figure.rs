@@ -4,13 +4,16 @@ use plotters::element::{Circle, PathElement};
 use plotters::style::Color;
 
 use super::PlanReport;
-use crate::html::{Drawing, WIDTH};
+use crate::html::Drawing;
 use crate::plain;
 use crate::plot::{AFTER, Area, Axis, BEFORE, Drawn, INK, Panel, px, stroke, svg};
 use gumption_analysis::plan::{InputNeed, PlannedInterval};
 
 /// Height of a panel in pixels.
 const TALL: f64 = 190.0;
+
+/// The least width of two panels beside each other, in pixels.
+const BESIDE: f64 = 500.0;
 
 /// Panels, at most: of the inputs that matter most.
 const MOST: usize = 12;
@@ -51,19 +54,21 @@ pub(super) fn inputs(report: &PlanReport<'_>) -> Option<Drawing> {
             marks: [Some(need.standard_uncertainty), need.needed],
         })
         .collect();
-    let columns = if curves.len() == 1 { 1 } else { 2 };
-    let rows = curves.len().div_ceil(columns);
-    let drawn = svg(WIDTH, rows as f64 * TALL, |area| {
-        let parts = area.split_evenly((rows, columns));
-        parts.iter().zip(&curves).try_for_each(|(area, curve)| panel(report, area, curve))
-    });
+    let drawn = |width: f64| {
+        let columns = if curves.len() == 1 || width < BESIDE { 1 } else { 2 };
+        let rows = curves.len().div_ceil(columns);
+        svg(width, rows as f64 * TALL, |area| {
+            let parts = area.split_evenly((rows, columns));
+            parts.iter().zip(&curves).try_for_each(|(area, curve)| panel(report, area, curve))
+        })
+    };
     let caption = format!(
         "{} against the standard uncertainty of each input while the others stay as they are (without \
          a change of degrees of freedom), with the target as a line. Vermilion: as it is; blue: where \
          the target begins to hold.",
         report.kind()
     );
-    Some(Drawing { svg: drawn, caption })
+    Some(Drawing::new(caption, drawn))
 }
 
 /// What is wanted against time.
@@ -75,13 +80,13 @@ pub(super) fn interval(report: &PlanReport<'_>, found: &PlannedInterval) -> Opti
     let label = if unit.is_empty() { "time".to_owned() } else { format!("time in {unit}") };
     let marks = [Some(found.drift.stated), found.longest];
     let curve = Curve { points: &found.curve, label, marks };
-    let drawn = svg(WIDTH, 1.2 * TALL, |area| panel(report, area, &curve));
+    let drawn = |width: f64| svg(width, 1.2 * TALL, |area| panel(report, area, &curve));
     let caption = format!(
         "{} against the time since the calibration, with the target as a line. Vermilion: the time \
          for which the drift is stated; blue: the longest interval.",
         report.kind()
     );
-    Some(Drawing { svg: drawn, caption })
+    Some(Drawing::new(caption, drawn))
 }
 
 fn panel(report: &PlanReport<'_>, area: &Area<'_>, curve: &Curve<'_>) -> Drawn {

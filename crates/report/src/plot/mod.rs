@@ -2,14 +2,20 @@
 
 mod axis;
 mod characters;
+mod groups;
 mod ink;
+mod marks;
 mod panel;
 mod strip;
 mod svg;
 
 pub(super) use axis::Axis;
 pub(super) use characters::{CharacterGrid, bars, cell_at};
-pub(super) use ink::{AFTER, BEFORE, EVEN, INK, SHADES, WEAK};
+pub(super) use groups::Groups;
+pub(super) use ink::{AFTER, BEFORE, EVEN, FAINT, INK, SHADES, WEAK};
+pub(super) use marks::{Fill, mark};
 pub(super) use panel::{Chart, Panel};
 pub(super) use strip::{STRIP_AXIS, Strip, centred, faded, line, stroke};
-pub(super) use svg::{Anchor, Area, Drawn, FONT, Write, px, shortened, svg, write};
+pub(super) use svg::{
+    Anchor, Area, Drawn, FONT, Titles, Write, px, shortened, svg, svg_with_titles, write,
+};

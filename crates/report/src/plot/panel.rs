@@ -10,6 +10,7 @@ use plotters::style::Color;
 
 use super::axis::Axis;
 use super::ink::{FAINT, INK, WEAK};
+use super::strip::marks_within;
 use super::svg::{Area, Drawn, FONT, px, text_style};
 
 /// Space for the marks of an axis and its label, in pixels.
@@ -77,6 +78,7 @@ pub(crate) struct Panel<'a> {
 impl Panel<'_> {
     /// Draws axes and grid.
     pub(crate) fn draw<'a>(&self, area: &Area<'a>) -> Drawn<Chart<'a>> {
+        let inner = f64::from(area.dim_in_pixel().0) / f64::from(px(1.0)) - LEFT - 18.0;
         let mut builder = ChartBuilder::on(area);
         builder.margin_top(px(8.0)).margin_right(px(12.0)).margin_left(px(6.0));
         builder.x_label_area_size(px(BELOW)).y_label_area_size(px(LEFT));
@@ -84,7 +86,7 @@ impl Panel<'_> {
             builder.caption(&self.title, text_style(FONT, INK, true));
         }
         let mut chart = builder.build_cartesian_2d(
-            Marked::new(self.x.0, self.marks[0]),
+            Marked::new(self.x.0, self.marks[0].min(marks_within(inner))),
             Marked::new(self.y.0, self.marks[1]),
         )?;
         chart

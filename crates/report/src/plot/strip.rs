@@ -10,6 +10,12 @@ use super::svg::{Anchor, Area, Drawn, FONT, Write, px, shortened, write};
 /// Space that the axis with its marks and label takes, in pixels.
 pub(crate) const STRIP_AXIS: f64 = 40.0;
 
+/// Names and figures beside a strip take this share of a figure's width, at most.
+const CHROME: f64 = 0.54;
+
+/// The least distance of two marks of an axis in pixels.
+const MARK_ROOM: f64 = 62.0;
+
 /// A horizontal axis between two places, in pixels.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Strip<'a> {
@@ -20,7 +26,14 @@ pub(crate) struct Strip<'a> {
     pub(crate) to: f64,
 }
 
-impl Strip<'_> {
+impl<'a> Strip<'a> {
+    /// A strip in a figure of a width, with space for names on the left and for figures on the right;
+    /// both give way where they would take more than a share of the width.
+    pub(crate) fn within(axis: &'a Axis, width: f64, [left, right]: [f64; 2]) -> Self {
+        let give = (CHROME * width / (left + right)).min(1.0);
+        Self { axis, from: give * left, to: width - give * right }
+    }
+
     /// Where a value stands, in pixels; values beyond an end stand on it.
     pub(crate) fn x(&self, value: f64) -> f64 {
         let [first, last] = self.axis.ends();
@@ -31,7 +44,7 @@ impl Strip<'_> {
     /// Grid lines from the top to the axis, the axis, its marks and its label.
     pub(crate) fn draw(&self, area: &Area<'_>, top: f64, bottom: f64, label: &str) -> Drawn {
         let [first, last] = self.axis.ends();
-        for (position, text) in self.axis.marks(7) {
+        for (position, text) in self.axis.marks(marks_within(self.to - self.from).min(7)) {
             let x = self.from + (position - first) / (last - first) * (self.to - self.from);
             line(area, [(x, top), (x, bottom)], stroke(FAINT, 0.75))?;
             line(area, [(x, bottom), (x, bottom + 4.0)], stroke(WEAK, 0.75))?;
@@ -56,7 +69,7 @@ impl Strip<'_> {
         write(area, text, Write { anchor: Anchor::Start, ..centred(at, FONT - 1.0) })
     }
 
-    /// An interval with its ends.
+    /// An interval with its ends, where it has them.
     pub(crate) fn interval(
         &self,
         area: &Area<'_>,
@@ -64,13 +77,18 @@ impl Strip<'_> {
         y: f64,
         colour: RGBColor,
     ) -> Drawn {
-        let (from, to) = (self.x(low), self.x(high));
-        line(area, [(from, y), (to, y)], stroke(colour, 1.75))?;
-        for x in [from, to] {
+        line(area, [(self.x(low), y), (self.x(high), y)], stroke(colour, 1.75))?;
+        for end in [low, high].into_iter().filter(|end| end.is_finite()) {
+            let x = self.x(end);
             line(area, [(x, y - 4.0), (x, y + 4.0)], stroke(colour, 1.75))?;
         }
         Ok(())
     }
+}
+
+/// How many marks of an axis stand beside each other on a length in pixels.
+pub(crate) fn marks_within(length: f64) -> usize {
+    ((length / MARK_ROOM) as usize).max(2)
 }
 
 /// Text centred about a place, in ink.

@@ -1,11 +1,14 @@
 //! Figures as SVG texts that stand in a page.
 
+use maud::{Markup, html};
 use plotters::backend::SVGBackend;
 use plotters::coord::Shift;
 use plotters::drawing::{DrawingArea, DrawingAreaErrorKind, IntoDrawingArea};
 use plotters::element::Text;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{Color, FontStyle, IntoFont, RGBColor, TextStyle};
+
+use super::Chart;
 
 /// Units of the drawing in a pixel of the page: positions are whole numbers of units.
 pub(crate) const SCALE: i32 = 4;
@@ -15,6 +18,12 @@ pub(crate) const FONT: f64 = 12.0;
 
 /// How much smaller than asked for the backend writes.
 const FONT_FACTOR: f64 = 1.24;
+
+/// How near a pointer must be to a place whose text it is shown, in pixels.
+const REACH: f64 = 7.0;
+
+/// Texts that a figure has at most.
+const MOST_TITLES: usize = 300;
 
 /// What is drawn on.
 pub(crate) type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
@@ -27,18 +36,61 @@ pub(crate) fn px(pixels: f64) -> i32 {
     (pixels * f64::from(SCALE)).round() as i32
 }
 
+/// What a pointer that rests on a place of a figure is shown, without a script.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Titles {
+    places: Vec<(i32, i32, String)>,
+}
+
+impl Titles {
+    /// The text at a place of a panel.
+    pub(crate) fn at(&mut self, chart: &Chart<'_>, place: (f64, f64), text: &str) {
+        let (x, y) = chart.plotting_area().map_coordinate(&place);
+        self.places.push((x, y, text.to_owned()));
+    }
+
+    /// The text at a place in pixels.
+    pub(crate) fn at_pixels(&mut self, (x, y): (f64, f64), text: &str) {
+        self.places.push((px(x), px(y), text.to_owned()));
+    }
+
+    /// Circles that are not seen, each with its text; none where they would lie on each other.
+    fn markup(&self) -> Markup {
+        let shown = if self.places.len() > MOST_TITLES { &[] } else { self.places.as_slice() };
+        html! {
+            @for (x, y, text) in shown {
+                circle cx=(x) cy=(y) r=(px(REACH)) fill="transparent" { title { (text) } }
+            }
+        }
+    }
+}
+
 /// A figure of a size in pixels, as the text of an `svg` element.
 pub(crate) fn svg(width: f64, height: f64, draw: impl FnOnce(&Area<'_>) -> Drawn) -> String {
+    svg_with_titles(width, height, |area, _| draw(area))
+}
+
+/// The same with texts that a pointer is shown.
+pub(crate) fn svg_with_titles(
+    width: f64,
+    height: f64,
+    draw: impl FnOnce(&Area<'_>, &mut Titles) -> Drawn,
+) -> String {
+    let mut titles = Titles::default();
     let mut text = String::new();
     let size = (px(width).unsigned_abs(), px(height).unsigned_abs());
     {
         let area = SVGBackend::with_string(&mut text, size).into_drawing_area();
-        let drawn = draw(&area).and_then(|()| area.present());
+        let drawn = draw(&area, &mut titles).and_then(|()| area.present());
         debug_assert!(drawn.is_ok(), "{drawn:?}");
     }
     // the page gives the size, the drawing its proportions
     let size = format!("width=\"{}\" height=\"{}\" ", size.0, size.1);
-    text.replacen(&size, &format!("width=\"{width}\" height=\"{height}\" "), 1)
+    let mut text = text.replacen(&size, &format!("width=\"{width}\" height=\"{height}\" "), 1);
+    if let Some(end) = text.rfind("</svg>") {
+        text.insert_str(end, &titles.markup().into_string());
+    }
+    text
 }
 
 /// Which part of a text stands at its place.

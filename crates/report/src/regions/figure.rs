@@ -3,7 +3,7 @@
 use plotters::element::{Circle, PathElement};
 use plotters::style::Color;
 
-use crate::html::{Drawing, WIDTH};
+use crate::html::Drawing;
 use crate::plain;
 use crate::plot::{AFTER, Axis, BEFORE, Panel, WEAK, px, stroke, svg};
 use gumption_engine::number::elementary::sin_cos_turn;
@@ -53,25 +53,27 @@ pub(super) fn draw(task: &Task, region: &RegionEvaluation) -> Option<Drawing> {
         "" | "1" => plain(&quantity.name),
         text => format!("{} in {}", plain(&quantity.name), plain(text)),
     };
-    let drawn = svg(WIDTH, TALL, |area| {
-        let panel =
-            Panel { x: (&x, label(a)), y: (&y, label(b)), marks: [8, 8], title: String::new() };
-        let chart = panel.draw(area)?;
-        let chart = chart.plotting_area();
-        for place in &sample {
-            chart.draw(&Circle::new(*place, px(1.0), WEAK.mix(0.5).filled()))?;
-        }
-        for Outline { ellipse, corners, colour } in &outlines {
-            chart.draw(&PathElement::new(ellipse.clone(), stroke(*colour, 2.0)))?;
-            chart.draw(&PathElement::new(corners.clone(), stroke(*colour, 1.0)))?;
-        }
-        Ok(())
-    });
+    let drawn = |width: f64| {
+        svg(width, TALL, |area| {
+            let panel =
+                Panel { x: (&x, label(a)), y: (&y, label(b)), marks: [8, 8], title: String::new() };
+            let chart = panel.draw(area)?;
+            let chart = chart.plotting_area();
+            for place in &sample {
+                chart.draw(&Circle::new(*place, px(1.0), WEAK.mix(0.5).filled()))?;
+            }
+            for Outline { ellipse, corners, colour } in &outlines {
+                chart.draw(&PathElement::new(ellipse.clone(), stroke(*colour, 2.0)))?;
+                chart.draw(&PathElement::new(corners.clone(), stroke(*colour, 1.0)))?;
+            }
+            Ok(())
+        })
+    };
     let trials = if sample.is_empty() { "" } else { " Dots are some of the trials." };
     let caption = format!(
         "Coverage ellipse and box by the law of propagation (vermilion) and from the trials (blue).{trials}"
     );
-    Some(Drawing { svg: drawn, caption })
+    Some(Drawing::new(caption, drawn))
 }
 
 struct Outline {

@@ -79,7 +79,7 @@ impl Grid {
             let cells = column.cells.iter().cloned();
             match column.kind {
                 Kind::Numbers => grid.numbers(&column.header, cells),
-                Kind::Text => grid.text(&column.header, cells),
+                Kind::Text | Kind::Equations => grid.text(&column.header, cells),
                 Kind::Units => grid.units(&column.header, cells),
             }
         }

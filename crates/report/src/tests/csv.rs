@@ -29,9 +29,9 @@ fn what_is_not_defined_is_empty() {
     let text = report::csv(&case.report());
     assert_eq!(
         text.lines().nth(1),
-        Some("a_x,m/s^2,,,,,,,,,,,,,,,,,|a_ref sin(tilt) cos(rotation)|")
+        Some("a_x,m/s^2,,,,,,,,,,,,,,,,,abs(a_ref*sin(tilt)*cos(rotation))")
     );
-    assert!(text.lines().nth(3).unwrap().ends_with(",,,,,,,,,,|a_ref cos(tilt)|"));
+    assert!(text.lines().nth(3).unwrap().ends_with(",,,,,,,,,,abs(a_ref*cos(tilt))"));
 }
 #[test]
 fn a_table_has_its_numbers_in_full_precision() {

@@ -24,9 +24,9 @@ fn inclined_plane() {
 
     model inclined-plane: Prato, Mazzoleni, Schiavi (2020), equations (1)-(3); Chiominto et al. (2024),
     equation (1)
-    a_x = |a_ref sin(tilt) cos(rotation)|
-    a_y = |a_ref sin(tilt) sin(rotation)|
-    a_z = |a_ref cos(tilt)|
+    a_x = abs(a_ref*sin(tilt)*cos(rotation))
+    a_y = abs(a_ref*sin(tilt)*sin(rotation))
+    a_z = abs(a_ref*cos(tilt))
 
     a_ref     Reference acceleration along the vertical, RMS.
     tilt      Tilt angle of the plane against the horizontal.
@@ -76,9 +76,9 @@ fn readings_groups_and_degrees_of_freedom() {
 
         model inclined-plane: Prato, Mazzoleni, Schiavi (2020), equations (1)-(3); Chiominto et al. (2024),
         equation (1)
-        a_x = |a_ref sin(tilt) cos(rotation)|
-        a_y = |a_ref sin(tilt) sin(rotation)|
-        a_z = |a_ref cos(tilt)|
+        a_x = abs(a_ref*sin(tilt)*cos(rotation))
+        a_y = abs(a_ref*sin(tilt)*sin(rotation))
+        a_z = abs(a_ref*cos(tilt))
 
         a_ref     repeatability
         tilt      Tilt angle of the plane against the horizontal.
@@ -207,9 +207,9 @@ fn correlated_inputs() {
 
     model inclined-plane: Prato, Mazzoleni, Schiavi (2020), equations (1)-(3); Chiominto et al. (2024),
     equation (1)
-    a_x = |a_ref sin(tilt) cos(rotation)|
-    a_y = |a_ref sin(tilt) sin(rotation)|
-    a_z = |a_ref cos(tilt)|
+    a_x = abs(a_ref*sin(tilt)*cos(rotation))
+    a_y = abs(a_ref*sin(tilt)*sin(rotation))
+    a_z = abs(a_ref*cos(tilt))
 
     a_ref     Reference acceleration along the vertical, RMS.
     tilt      Tilt angle of the plane against the horizontal.
@@ -261,9 +261,9 @@ fn by_gum_alone() {
 
         model inclined-plane: Prato, Mazzoleni, Schiavi (2020), equations (1)-(3); Chiominto et al. (2024),
         equation (1)
-        a_x = |a_ref sin(tilt) cos(rotation)|
-        a_y = |a_ref sin(tilt) sin(rotation)|
-        a_z = |a_ref cos(tilt)|
+        a_x = abs(a_ref*sin(tilt)*cos(rotation))
+        a_y = abs(a_ref*sin(tilt)*sin(rotation))
+        a_z = abs(a_ref*cos(tilt))
 
         a_ref     Reference acceleration along the vertical, RMS.
         tilt      Tilt angle of the plane against the horizontal.
@@ -305,9 +305,9 @@ fn where_gum_is_not_valid() {
 
     model inclined-plane: Prato, Mazzoleni, Schiavi (2020), equations (1)-(3); Chiominto et al. (2024),
     equation (1)
-    a_x = |a_ref sin(tilt) cos(rotation)|
-    a_y = |a_ref sin(tilt) sin(rotation)|
-    a_z = |a_ref cos(tilt)|
+    a_x = abs(a_ref*sin(tilt)*cos(rotation))
+    a_y = abs(a_ref*sin(tilt)*sin(rotation))
+    a_z = abs(a_ref*cos(tilt))
 
     a_ref     Reference acceleration along the vertical, RMS.
     tilt      Tilt angle of the plane against the horizontal.
@@ -362,9 +362,9 @@ fn no_gum_interval() {
 
     model inclined-plane: Prato, Mazzoleni, Schiavi (2020), equations (1)-(3); Chiominto et al. (2024),
     equation (1)
-    a_x = |a_ref sin(tilt) cos(rotation)|
-    a_y = |a_ref sin(tilt) sin(rotation)|
-    a_z = |a_ref cos(tilt)|
+    a_x = abs(a_ref*sin(tilt)*cos(rotation))
+    a_y = abs(a_ref*sin(tilt)*sin(rotation))
+    a_z = abs(a_ref*cos(tilt))
 
     a_ref     Reference acceleration along the vertical, RMS.
     tilt      Tilt angle of the plane against the horizontal.
@@ -433,9 +433,9 @@ fn a_sweep_is_one_table_for_each_output() {
 
         model inclined-plane: Prato, Mazzoleni, Schiavi (2020), equations (1)-(3); Chiominto et al. (2024),
         equation (1)
-        a_x = |a_ref sin(tilt) cos(rotation)|
-        a_y = |a_ref sin(tilt) sin(rotation)|
-        a_z = |a_ref cos(tilt)|
+        a_x = abs(a_ref*sin(tilt)*cos(rotation))
+        a_y = abs(a_ref*sin(tilt)*sin(rotation))
+        a_z = abs(a_ref*cos(tilt))
 
         a_ref     Reference acceleration along the vertical, RMS.
         tilt      Tilt angle of the plane against the horizontal.

@@ -1,6 +1,7 @@
 //! A document as a LaTeX file that a plain TeX Live compiles: `article`, tables by `booktabs`,
 //! numbers and units by `siunitx`.
 
+mod equation;
 mod text;
 pub(super) mod unit;
 
@@ -171,9 +172,8 @@ fn widths(sheet: &Sheet) -> Vec<usize> {
     let longest = |column: &Column| column.cells.iter().map(|cell| cell.chars().count()).max();
     let longest: Vec<usize> =
         sheet.columns.iter().map(|column| longest(column).unwrap_or(0)).collect();
-    let is_cut = |place: usize, width: usize| {
-        sheet.columns[place].kind == Kind::Text && longest[place] > width
-    };
+    let is_cut =
+        |place: usize, width: usize| sheet.columns[place].wraps() && longest[place] > width;
     let gaps = 2 * widths.len().saturating_sub(1);
     let used = widths.iter().sum::<usize>() + gaps;
     let cut = widths.iter().enumerate().filter(|(place, width)| is_cut(*place, **width)).count();
@@ -190,7 +190,7 @@ fn widths(sheet: &Sheet) -> Vec<usize> {
 fn width(column: &Column) -> usize {
     let lines = column.header.lines().chain(column.cells.iter().map(String::as_str));
     let longest = lines.map(|line| line.chars().count()).max().unwrap_or(0);
-    if column.kind != Kind::Text {
+    if !column.wraps() {
         return longest;
     }
     // a word that is longer cannot be broken
@@ -204,11 +204,13 @@ fn form(column: &Column, width: usize) -> String {
     match column.kind {
         Kind::Numbers => number_format(column),
         Kind::Units => "l".to_owned(),
-        Kind::Text if column.cells.iter().any(|cell| cell.chars().count() > width) => {
+        Kind::Text | Kind::Equations
+            if column.cells.iter().any(|cell| cell.chars().count() > width) =>
+        {
             let millimetres = (LETTER * width as f64).round();
             format!(">{{\\raggedright\\arraybackslash}}p{{{millimetres}mm}}")
         }
-        Kind::Text => "l".to_owned(),
+        Kind::Text | Kind::Equations => "l".to_owned(),
     }
 }
 
@@ -252,6 +254,7 @@ fn cell(column: &Column, row: usize, units: &mut unit::Declared) -> String {
     let text = column.cell(row);
     match column.kind {
         Kind::Text => escaped(text),
+        Kind::Equations => equation::equation(text),
         Kind::Units if text.trim().is_empty() => String::new(),
         Kind::Units => units.unit(text),
         Kind::Numbers if is_number(text) => text.to_owned(),

@@ -4,7 +4,7 @@ use plotters::element::Polygon;
 use plotters::style::Color;
 
 use super::curve;
-use crate::html::{Drawing, WIDTH};
+use crate::html::Drawing;
 use crate::number::with_uncertainty;
 use crate::plain;
 use crate::plot::{EVEN, INK, WEAK, centred, line, px, shortened, stroke, svg, write};
@@ -13,8 +13,8 @@ use crate::table::in_unit;
 use gumption_engine::distribution::Distribution;
 use gumption_engine::task::Task;
 
-/// Pictures beside each other, and all of them at most.
-const COLUMNS: usize = 4;
+/// Width of a picture in pixels, and how many there are at most.
+const WIDE: f64 = 180.0;
 const MOST: usize = 32;
 
 /// Height of a picture with its words, and of the density in it, in pixels.
@@ -52,33 +52,39 @@ pub(in crate::evaluation) fn inputs(task: &Task) -> Option<Drawing> {
         return None;
     }
     let shown = all.get(..MOST).unwrap_or(&all);
-    let rows = shown.len().div_ceil(COLUMNS);
-    let wide = WIDTH / COLUMNS as f64;
-    let drawn = svg(WIDTH, ROW * rows as f64, |area| {
-        for (number, (name, figures, distribution)) in shown.iter().enumerate() {
-            let left = wide * (number % COLUMNS) as f64;
-            let top = ROW * (number / COLUMNS) as f64;
-            let middle = left + 0.5 * wide;
-            let room = wide - 6.0;
-            let name = shortened(name, room, FONT);
-            write(area, &name, Write { bold: true, ..centred((middle, top + 10.0), FONT) })?;
-            let base = top + 22.0 + TALL;
-            let [from, to] = [left + SIDE, left + wide - SIDE];
-            let outline = outline(distribution);
-            let places: Vec<(f64, f64)> =
-                outline.iter().map(|(x, y)| (from + x * (to - from), base - y * TALL)).collect();
-            let area_below: Vec<(i32, i32)> = places.iter().map(|&(x, y)| (px(x), px(y))).collect();
-            area.draw(&Polygon::new(area_below, EVEN.filled()))?;
-            curve(area, &places, stroke(INK, 1.25))?;
-            line(area, [(from, base), (to, base)], stroke(WEAK, 0.75))?;
-            let small = FONT - 2.0;
-            let shape = shortened(distribution.name(), room, small);
-            write(area, &shape, centred((middle, base + 11.0), small))?;
-            let figures = shortened(figures, room, small);
-            write(area, &figures, centred((middle, base + 25.0), small))?;
-        }
-        Ok(())
-    });
+    let drawn = |width: f64| {
+        let columns = ((width / WIDE) as usize).max(1);
+        let wide = width / columns as f64;
+        let rows = shown.len().div_ceil(columns);
+        svg(width, ROW * rows as f64, |area| {
+            for (number, (name, figures, distribution)) in shown.iter().enumerate() {
+                let left = wide * (number % columns) as f64;
+                let top = ROW * (number / columns) as f64;
+                let middle = left + 0.5 * wide;
+                let room = wide - 6.0;
+                let name = shortened(name, room, FONT);
+                write(area, &name, Write { bold: true, ..centred((middle, top + 10.0), FONT) })?;
+                let base = top + 22.0 + TALL;
+                let [from, to] = [left + SIDE, left + wide - SIDE];
+                let outline = outline(distribution, PROBABILITIES);
+                let places: Vec<(f64, f64)> = outline
+                    .iter()
+                    .map(|(x, y)| (from + x * (to - from), base - y * TALL))
+                    .collect();
+                let area_below: Vec<(i32, i32)> =
+                    places.iter().map(|&(x, y)| (px(x), px(y))).collect();
+                area.draw(&Polygon::new(area_below, EVEN.filled()))?;
+                curve(area, &places, stroke(INK, 1.25))?;
+                line(area, [(from, base), (to, base)], stroke(WEAK, 0.75))?;
+                let small = FONT - 2.0;
+                let shape = shortened(distribution.name(), room, small);
+                write(area, &shape, centred((middle, base + 11.0), small))?;
+                let figures = shortened(figures, room, small);
+                write(area, &figures, centred((middle, base + 25.0), small))?;
+            }
+            Ok(())
+        })
+    };
     let mut caption =
         "The distributions that trials are drawn from, each over the range of nearly all of its \
          probability, with estimate and standard uncertainty u"
@@ -90,17 +96,35 @@ pub(in crate::evaluation) fn inputs(task: &Task) -> Option<Drawing> {
         caption.push_str(&format!("; {} more are left out", all.len() - shown.len()));
     }
     caption.push('.');
-    Some(Drawing { svg: drawn, caption })
+    Some(Drawing::new(caption, drawn))
+}
+
+/// Probabilities behind a picture that is drawn again at every key.
+const FEW_PROBABILITIES: usize = 600;
+
+/// The density of a distribution alone, as a picture that stands in a line of a table.
+pub(in crate::evaluation) fn picture(distribution: &Distribution) -> String {
+    let (width, height) = (72.0, 26.0);
+    let outline = outline(distribution, FEW_PROBABILITIES);
+    let base = height - 2.0;
+    svg(width, height, |area| {
+        let place = |(x, y): &(f64, f64)| (2.0 + x * (width - 4.0), base - y * (height - 6.0));
+        let places: Vec<(f64, f64)> = outline.iter().map(place).collect();
+        let below: Vec<(i32, i32)> = places.iter().map(|&(x, y)| (px(x), px(y))).collect();
+        area.draw(&Polygon::new(below, EVEN.filled()))?;
+        curve(area, &places, stroke(INK, 1.0))?;
+        line(area, [(2.0, base), (width - 2.0, base)], stroke(WEAK, 0.75))
+    })
 }
 
 /// The density of a distribution as places in a square, from its quantiles. Beyond the range of the
 /// quantiles it is zero.
-fn outline(distribution: &Distribution) -> Vec<(f64, f64)> {
-    let probability = |k: usize| (k as f64 + 0.5) / PROBABILITIES as f64;
+fn outline(distribution: &Distribution, probabilities: usize) -> Vec<(f64, f64)> {
+    let probability = |k: usize| (k as f64 + 0.5) / probabilities as f64;
     let quantiles: Vec<f64> =
-        (0..PROBABILITIES).map(|k| distribution.quantile(probability(k))).collect();
-    let tail = PROBABILITIES / 500;
-    let (first, last) = (quantiles[tail], quantiles[PROBABILITIES - 1 - tail]);
+        (0..probabilities).map(|k| distribution.quantile(probability(k))).collect();
+    let tail = probabilities / 500;
+    let (first, last) = (quantiles[tail], quantiles[probabilities - 1 - tail]);
     let room = 0.12 * (last - first);
     let (low, high) = (first - room, last + room);
     let width = (high - low) / STEPS as f64;
@@ -142,11 +166,11 @@ mod tests {
     /// of a normal one symmetric, up to rounding and the ends of the table of quantiles.
     #[test]
     fn outlines_have_the_shape() {
-        let rectangular = outline(&Rectangular::new(-1.0, 1.0).unwrap().into());
+        let rectangular = outline(&Rectangular::new(-1.0, 1.0).unwrap().into(), PROBABILITIES);
         let heights: Vec<f64> = rectangular.iter().map(|place| place.1).collect();
         let flat = heights.iter().filter(|height| **height > 0.99).count();
         assert!(flat > 98, "{heights:?}");
-        let normal = outline(&Normal::new(5.0, 2.0).unwrap().into());
+        let normal = outline(&Normal::new(5.0, 2.0).unwrap().into(), PROBABILITIES);
         let heights: Vec<f64> = normal.iter().map(|place| place.1).collect();
         let mirrored: Vec<f64> = heights.iter().rev().copied().collect();
         let apart = heights.iter().zip(&mirrored).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);

@@ -6,7 +6,7 @@ mod shares;
 mod sweep;
 
 pub(super) use distribution::distribution;
-pub(super) use inputs::inputs;
+pub(super) use inputs::{inputs, picture};
 pub(super) use shares::shares;
 pub(super) use sweep::sweep;
 

@@ -3,7 +3,7 @@
 use plotters::element::Rectangle;
 use plotters::style::Color;
 
-use crate::html::{Drawing, WIDTH};
+use crate::html::Drawing;
 use crate::number::rounded;
 use crate::plain;
 use crate::plot::{AFTER, Axis, EVEN, INK, STRIP_AXIS, Strip, line, px, stroke, svg};
@@ -41,21 +41,23 @@ pub(in crate::evaluation) fn shares(task: &Task, gum: &Gum) -> Option<Drawing> {
     let most = bars.iter().map(|bar| bar.1).fold(0.0, f64::max);
     let axis = Axis::linear(100.0 * least * 1.05, (100.0 * most * 1.05).max(1.0));
     let bottom = 4.0 + ROW * bars.len() as f64;
-    let strip = Strip { axis: &axis, from: LEFT, to: WIDTH - RIGHT };
-    let drawn = svg(WIDTH, bottom + STRIP_AXIS, |area| {
-        strip.draw(area, 0.0, bottom, "share of the variance in %")?;
-        for (row, (name, share, coefficient)) in bars.iter().enumerate() {
-            let y = 4.0 + ROW * (row as f64 + 0.5);
-            let percent = 100.0 * share;
-            let (from, to) = (strip.x(percent.min(0.0)), strip.x(percent.max(0.0)));
-            let corners = [(px(from), px(y - 0.5 * BAR)), (px(to), px(y + 0.5 * BAR))];
-            let colour = if *coefficient { EVEN } else { AFTER };
-            area.draw(&Rectangle::new(corners, colour.filled()))?;
-            strip.name(area, name, y)?;
-            strip.beside(area, &rounded(percent, -1), percent.max(0.0), y)?;
-        }
-        line(area, [(strip.x(0.0), 0.0), (strip.x(0.0), bottom)], stroke(INK, 1.0))
-    });
+    let drawn = |width: f64| {
+        let strip = Strip::within(&axis, width, [LEFT, RIGHT]);
+        svg(width, bottom + STRIP_AXIS, |area| {
+            strip.draw(area, 0.0, bottom, "share of the variance in %")?;
+            for (row, (name, share, coefficient)) in bars.iter().enumerate() {
+                let y = 4.0 + ROW * (row as f64 + 0.5);
+                let percent = 100.0 * share;
+                let (from, to) = (strip.x(percent.min(0.0)), strip.x(percent.max(0.0)));
+                let corners = [(px(from), px(y - 0.5 * BAR)), (px(to), px(y + 0.5 * BAR))];
+                let colour = if *coefficient { EVEN } else { AFTER };
+                area.draw(&Rectangle::new(corners, colour.filled()))?;
+                strip.name(area, name, y)?;
+                strip.beside(area, &rounded(percent, -1), percent.max(0.0), y)?;
+            }
+            line(area, [(strip.x(0.0), 0.0), (strip.x(0.0), bottom)], stroke(INK, 1.0))
+        })
+    };
     let mut caption = "Shares of the combined variance, largest first".to_owned();
     if bars.iter().any(|bar| bar.2) {
         caption.push_str("; paler bars: correlation coefficients");
@@ -64,5 +66,5 @@ pub(in crate::evaluation) fn shares(task: &Task, gum: &Gum) -> Option<Drawing> {
         caption.push_str(&format!("; {} smaller ones are left out", all - bars.len()));
     }
     caption.push('.');
-    Some(Drawing { svg: drawn, caption })
+    Some(Drawing::new(caption, drawn))
 }

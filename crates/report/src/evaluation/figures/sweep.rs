@@ -1,14 +1,14 @@
 //! A sweep: estimates with expanded uncertainties over a condition, and the uncertainties alone.
 
-use plotters::element::{Circle, PathElement};
-use plotters::style::Color;
+use plotters::element::PathElement;
 
-use crate::html::{Drawing, WIDTH};
+use crate::html::Drawing;
+use crate::number::{exact, with_uncertainty};
 use crate::plain;
-use crate::plot::{AFTER, Axis, INK, Panel, px, stroke, svg};
-use crate::table::has_name;
+use crate::plot::{AFTER, Axis, Fill, Groups, INK, Panel, mark, px, stroke, svg_with_titles};
+use crate::table::{conditions_text, has_name, in_unit};
 use gumption_engine::model::Quantity;
-use gumption_engine::propagate::RowEvaluation;
+use gumption_engine::propagate::{RowEvaluation, naming};
 use gumption_engine::task::Task;
 
 /// Height of a panel in pixels.
@@ -17,27 +17,40 @@ const TALL: f64 = 210.0;
 /// Points that a figure shows, at most.
 const MOST: usize = 2000;
 
-/// A row: the condition's value, the estimate and its expanded uncertainty.
-type Point = (f64, f64, f64);
+/// A row.
+struct Point {
+    /// The condition's value.
+    x: f64,
+    estimate: f64,
+    expanded: f64,
+    group: usize,
+    /// What it is, in words.
+    about: String,
+}
 
-/// Two panels over the condition with most levels; `None` where none varies or nothing is known.
+/// Two panels over the condition with most levels of those that name rows, which are told apart by
+/// the one with the fewest; `None` where none varies or nothing is known.
 pub(in crate::evaluation) fn sweep(
     task: &Task,
     rows: &[RowEvaluation],
     output: usize,
 ) -> Option<Drawing> {
-    let levels = |place: usize| {
+    let levels = |place: usize| -> Vec<f64> {
         let mut values: Vec<f64> =
             rows.iter().filter_map(|row| row.conditions.get(place).copied()).collect();
         values.sort_by(f64::total_cmp);
         values.dedup();
-        values.len()
+        values
     };
-    let counted = (0..task.model.conditions.len()).map(|place| (levels(place), place));
+    let named = naming(rows);
+    let counted = named.iter().map(|&place| (levels(place).len(), place));
+    let counted = counted.filter(|(count, _)| *count > 1);
     // of equally many the first
-    let (_, place) = counted
-        .filter(|(count, _)| *count > 1)
-        .max_by_key(|(count, p)| (*count, usize::MAX - p))?;
+    let (_, place) = counted.clone().max_by_key(|(count, p)| (*count, usize::MAX - p))?;
+    let groups = match counted.filter(|(_, other)| *other != place).min() {
+        Some((_, other)) => groups(task, other, &levels(other)),
+        None => Groups::default(),
+    };
     let condition = task.model.conditions.get(place)?;
     let quantity = &task.model.outputs.get(output)?.quantity;
     let points: Vec<Point> = rows
@@ -45,47 +58,87 @@ pub(in crate::evaluation) fn sweep(
         .take(MOST)
         .filter_map(|row| {
             let gum = row.outputs.get(output)?.gum.as_ref()?;
-            Some((*row.conditions.get(place)?, gum.estimate, gum.expanded_uncertainty()?))
+            let (x, expanded) = (*row.conditions.get(place)?, gum.expanded_uncertainty()?);
+            let group = groups.of(&row.conditions);
+            let about = about(task, &named, row, (quantity, gum.estimate, expanded));
+            Some(Point { x, estimate: gum.estimate, expanded, group, about })
         })
-        .filter(|(x, y, u)| x.is_finite() && y.is_finite() && u.is_finite())
+        .filter(|of| [of.x, of.estimate, of.expanded].iter().all(|number| number.is_finite()))
         .collect();
     if points.is_empty() {
         return None;
     }
-    let x = Axis::over(points.iter().map(|point| point.0));
-    let values = linear_over(points.iter().flat_map(|(_, y, u)| [y - u, y + u]))?;
-    let most = points.iter().map(|point| point.2).fold(0.0, f64::max);
+    let x = Axis::over(points.iter().map(|point| point.x));
+    let values = linear_over(
+        points.iter().flat_map(|of| [of.estimate - of.expanded, of.estimate + of.expanded]),
+    )?;
+    let most = points.iter().map(|point| point.expanded).fold(0.0, f64::max);
     let widths = Axis::linear(0.0, if most > 0.0 { 1.08 * most } else { 1.0 });
-    let drawn = svg(WIDTH, 2.0 * TALL, |area| {
-        let (top, bottom) = area.split_vertically(px(TALL));
-        let over = |label: String, y| Panel {
-            x: (&x, axis(condition)),
-            y: (y, label),
-            marks: [9, 6],
-            title: String::new(),
-        };
-        let upper = over(axis(quantity), &values).draw(&top)?;
-        let upper = upper.plotting_area();
-        for (at, y, u) in &points {
-            let at = x.position(*at);
-            let bar = vec![(at, y - u), (at, y + u)];
-            upper.draw(&PathElement::new(bar, stroke(AFTER, 1.5)))?;
-            upper.draw(&Circle::new((at, *y), px(2.5), INK.filled()))?;
-        }
-        let name = format!("U({})", quantity.name);
-        let lower = over(axis(&Quantity { name, ..quantity.clone() }), &widths).draw(&bottom)?;
-        for (at, _, u) in &points {
-            let dot = Circle::new((x.position(*at), *u), px(2.5), AFTER.filled());
-            lower.plotting_area().draw(&dot)?;
-        }
-        Ok(())
-    });
+    let drawn = |width: f64| {
+        svg_with_titles(width, 2.0 * TALL, |area, titles| {
+            let (top, bottom) = area.split_vertically(px(TALL));
+            let over = |label: String, y| Panel {
+                x: (&x, axis(condition)),
+                y: (y, label),
+                marks: [9, 6],
+                title: String::new(),
+            };
+            let upper = over(axis(quantity), &values).draw(&top)?;
+            for of in &points {
+                let at = x.position(of.x);
+                let ends = [of.estimate - of.expanded, of.estimate + of.expanded];
+                let bar = PathElement::new(ends.map(|end| (at, end)).to_vec(), stroke(AFTER, 1.5));
+                upper.plotting_area().draw(&bar)?;
+                mark(&upper, of.group, (at, of.estimate), 2.75, (INK, Fill::Full))?;
+                titles.at(&upper, (at, of.estimate), &of.about);
+            }
+            let name = format!("U({})", quantity.name);
+            let label = axis(&Quantity { name, ..quantity.clone() });
+            let lower = over(label, &widths).draw(&bottom)?;
+            for of in &points {
+                let place = (x.position(of.x), of.expanded);
+                mark(&lower, of.group, place, 2.75, (AFTER, Fill::Full))?;
+                titles.at(&lower, place, &of.about);
+            }
+            Ok(())
+        })
+    };
     let left_out = if rows.len() > MOST { ", the first rows" } else { "" };
     let caption = format!(
         "Above: estimates with their expanded uncertainties U by the law of propagation{left_out}; \
-         below: U alone."
+         below: U alone.{}",
+        groups.caption(&plain(&condition.name))
     );
-    Some(Drawing { svg: drawn, caption })
+    Some(Drawing::new(caption, drawn))
+}
+
+/// Rows told apart by a condition.
+fn groups(task: &Task, condition: usize, levels: &[f64]) -> Groups {
+    let Some(quantity) = task.model.conditions.get(condition) else { return Groups::default() };
+    let name = plain(&quantity.name);
+    Groups::of_levels(condition, levels, |low, high| {
+        let last = in_unit(&exact(high), &quantity.unit);
+        match low == high {
+            true => format!("{name} = {last}"),
+            false => format!("{name} {} to {last}", exact(low)),
+        }
+    })
+}
+
+/// A row in words: the conditions that name it, and its result.
+fn about(
+    task: &Task,
+    named: &[usize],
+    row: &RowEvaluation,
+    (quantity, estimate, expanded): (&Quantity, f64, f64),
+) -> String {
+    let of = |place: &usize| {
+        Some((task.model.conditions.get(*place)?.clone(), *row.conditions.get(*place)?))
+    };
+    let (conditions, at): (Vec<Quantity>, Vec<f64>) = named.iter().filter_map(of).unzip();
+    let (estimate, expanded) = with_uncertainty(estimate, expanded, 2);
+    let result = in_unit(&format!("({estimate} ± {expanded})"), &quantity.unit);
+    format!("{}: {} = {result}", conditions_text(&conditions, &at), plain(&quantity.name))
 }
 
 /// A linear axis over values; `None` where they are all the same.

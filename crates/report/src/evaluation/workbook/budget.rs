@@ -3,14 +3,14 @@
 
 use std::ops::Range;
 
-use rust_xlsxwriter::XlsxError;
+use rust_xlsxwriter::{Chart, ChartType, XlsxError};
 
 use super::inputs::{Places, RowPlaces};
 use super::model::ModelPlaces;
 use crate::number::position;
 use crate::table::budget::{COMPOSED, InputRow, input_rows};
 use crate::table::conditions_text;
-use crate::workbook::{Cached, Leaf, Look, here};
+use crate::workbook::{Cached, Leaf, Look, SHARE as PER_CENT, here};
 use crate::{EvaluationReport, plain, table};
 use gumption_engine::distribution::paired;
 use gumption_engine::model::Quantity;
@@ -55,8 +55,13 @@ const FIGURES: [&str; 7] = [
     "coverage interval, to",
 ];
 
-/// Position of the last digit of shares.
-const SHARE_PLACE: i32 = -4;
+/// Digits of variances.
+const VARIANCE_DIGITS: u32 = 3;
+
+/// The column of a figure, how many rows it covers, and its width and height in pixels.
+const CHART: u16 = 6;
+const CHART_ROWS: u32 = 16;
+const CHART_SIZE: (u32, u32) = (520, 300);
 
 /// More degrees of freedom than this are taken for so many: the factor is the same.
 const MOST_DOF: &str = "1E9";
@@ -150,6 +155,10 @@ pub(super) fn write(
         block.as_evaluated(leaf, found, output)?;
         at = block.below() + FIGURES.len() as u32 + 3;
         totals.push(Some(figures));
+        if number == 0 && !task.swept {
+            leaf.chart((block.below(), CHART), &block.chart(leaf))?;
+            at = at.max(block.below() + CHART_ROWS);
+        }
     }
     leaf.line(
         at,
@@ -175,6 +184,23 @@ impl Block<'_> {
     /// The line of the first correlation coefficient, below those of the inputs.
     fn first_link(&self) -> u32 {
         self.top + (self.lines.len() + self.sums.len()) as u32
+    }
+
+    /// The shares of the variance as bars, which follow the cells.
+    fn chart(&self, leaf: &Leaf) -> Chart {
+        let last = self.below().saturating_sub(2).max(self.top);
+        let mut chart = Chart::new(ChartType::Bar);
+        chart
+            .add_series()
+            .set_categories(leaf.range((self.top, NAME), (last, NAME)).as_str())
+            .set_values(leaf.range((self.top, SHARE), (last, SHARE)).as_str());
+        chart.title().set_name("Shares of the combined variance");
+        chart.legend().set_hidden();
+        // the first line on top
+        chart.x_axis().set_num_format("0%");
+        chart.y_axis().set_reverse();
+        chart.set_width(CHART_SIZE.0).set_height(CHART_SIZE.1);
+        chart
     }
 
     fn line_of(&self, variable: usize) -> Option<u32> {
@@ -232,14 +258,15 @@ impl Block<'_> {
             let digits = position(line.contribution, self.settings.digits);
             leaf.formula((at, CONTRIBUTION), &contribution, &now, digits, Look::Plain)?;
             let variance = format!("{}^2", here(at, CONTRIBUTION));
-            let now = Cached::Number(line.contribution.powi(2));
-            leaf.formula((at, VARIANCE), &variance, &now, None, Look::Plain)?;
+            let now = line.contribution.powi(2);
+            let digits = position(now, VARIANCE_DIGITS);
+            leaf.formula((at, VARIANCE), &variance, &Cached::Number(now), digits, Look::Plain)?;
             let share = format!("IF({u}>0,{}/{u}^2,0)", here(at, VARIANCE));
-            let now = Cached::Number(line.share);
-            leaf.formula((at, SHARE), &share, &now, Some(SHARE_PLACE), Look::Plain)?;
+            leaf.share_formula((at, SHARE), &share, line.share, PER_CENT)?;
             if !matches!(self.gum.dof, Dof::Undefined) && !self.has_results() {
                 let (term, now) = self.welch(at, line);
-                leaf.formula((at, WELCH), &term, &Cached::Number(now), None, Look::Plain)?;
+                let digits = position(now, VARIANCE_DIGITS);
+                leaf.formula((at, WELCH), &term, &Cached::Number(now), digits, Look::Plain)?;
             }
         }
         Ok(())
@@ -351,10 +378,10 @@ impl Block<'_> {
             let signed = |at: u32| format!("{}*{}", here(at, SENSITIVITY), here(at, UNCERTAINTY));
             let term = format!("2*{}*{}*{}", here(at, ESTIMATE), signed(a), signed(b));
             let now = link.share * self.gum.standard_uncertainty.powi(2);
-            leaf.formula((at, VARIANCE), &term, &Cached::Number(now), None, Look::Plain)?;
+            let digits = position(now, VARIANCE_DIGITS);
+            leaf.formula((at, VARIANCE), &term, &Cached::Number(now), digits, Look::Plain)?;
             let share = format!("IF({u}>0,{}/{u}^2,0)", here(at, VARIANCE));
-            let now = Cached::Number(link.share);
-            leaf.formula((at, SHARE), &share, &now, Some(SHARE_PLACE), Look::Plain)?;
+            leaf.share_formula((at, SHARE), &share, link.share, PER_CENT)?;
         }
         Ok(())
     }
@@ -495,8 +522,11 @@ impl Block<'_> {
             interval.map(|ends| ends[0]),
             interval.map(|ends| ends[1]),
         ];
-        for (at, value) in (first..).zip(values) {
-            leaf.number((at, 2), value.unwrap_or(f64::NAN), None, Look::Plain)?;
+        let expanded = gum.expanded_uncertainty().and_then(|u| position(u, self.settings.digits));
+        let own = self.position;
+        let shown = [own, own, Some(-2), Some(-2), expanded, own, own];
+        for (at, (value, shown)) in (first..).zip(values.into_iter().zip(shown)) {
+            leaf.number((at, 2), value.unwrap_or(f64::NAN), shown, Look::Plain)?;
         }
         let figures = found.outputs.get(output).and_then(|output| output.monte_carlo.as_ref());
         let Some(figures) = figures else { return Ok(()) };
@@ -508,7 +538,7 @@ impl Block<'_> {
             (6, Some(figures.symmetric_interval[1])),
         ];
         for (figure, value) in values {
-            leaf.number((first + figure, 4), value.unwrap_or(f64::NAN), None, Look::Plain)?;
+            leaf.number((first + figure, 4), value.unwrap_or(f64::NAN), own, Look::Plain)?;
         }
         Ok(())
     }

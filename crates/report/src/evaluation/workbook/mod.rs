@@ -2,6 +2,7 @@
 //! is known about an input and see y, u and U follow, and the Monte Carlo figures as they are.
 
 mod budget;
+mod distribution;
 mod inputs;
 mod model;
 mod results;
@@ -80,6 +81,10 @@ fn write(report: &EvaluationReport<'_>, shown: &Shown<'_>) -> Result<Vec<u8>, Xl
         let mut leaf = book.leaf("Correlations")?;
         leaf.title(0, "Correlation of the outputs")?;
         leaf.table(2, &sheet)?;
+        book.push(leaf)?;
+    }
+    let mut leaf = book.leaf("Distributions")?;
+    if distribution::write(&mut leaf, report, shown)? {
         book.push(leaf)?;
     }
     let settings = &report.evaluation.settings;

@@ -15,7 +15,7 @@ pub fn html(design: &CheckedDesign, report: &BlindCheckScores, provenance: &Prov
     let mut number = 0;
     let mut drawn = |drawing: Drawing| {
         number += 1;
-        figure(number, drawing.svg, &drawing.caption)
+        figure(number, &drawing)
     };
     let wrong = confusion::wrong(report);
     let settings =

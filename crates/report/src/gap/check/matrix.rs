@@ -3,7 +3,7 @@
 use plotters::element::{PathElement, Rectangle};
 use plotters::style::Color;
 
-use super::super::html::{Drawing, WIDTH};
+use super::super::html::Drawing;
 use super::confusion::Confused;
 use crate::plot::{
     Anchor, Area, Drawn, FONT, INK, SHADES, Write, centred, px, shortened, stroke, svg, write,
@@ -30,36 +30,39 @@ pub(super) fn draw(report: &BlindCheckScores) -> Option<Drawing> {
     if size == 0 {
         return None;
     }
-    let width = COLUMN.min((WIDTH - LEFT - RIGHT) / size as f64);
-    let drawn = svg(WIDTH, TOP + ROW * size as f64 + BELOW, |area| {
-        let middle = LEFT + 0.5 * width * size as f64;
-        write(area, "verdict", centred((middle.max(LEFT + 30.0), 10.0), FONT))?;
-        let beside = |x: f64, y: f64, anchor| Write { anchor, ..centred((x, y), FONT) };
-        write(area, "truth", beside(LEFT - 8.0, TOP - 14.0, Anchor::End))?;
-        let sums = LEFT + width * size as f64 + 8.0;
-        write(area, "draws", beside(sums, TOP - 14.0, Anchor::Start))?;
-        for (place, label) in confused.labels.iter().enumerate() {
-            let number = place + 1;
-            let x = LEFT + width * (place as f64 + 0.5);
-            let y = TOP + ROW * (place as f64 + 0.5);
-            let text_size = (FONT - 1.0).min(0.55 * width);
-            write(area, &number.to_string(), centred((x, TOP - 14.0), text_size))?;
-            let name = shortened(&label.name(), LEFT - 44.0, FONT);
-            write(area, &name, beside(LEFT - 34.0, y, Anchor::End))?;
-            write(area, &number.to_string(), beside(LEFT - 8.0, y, Anchor::End))?;
-            let row = &confused.counts[place];
-            let sum: usize = row.iter().sum();
-            write(area, &sum.to_string(), beside(sums, y, Anchor::Start))?;
-            for (column, &count) in row.iter().enumerate() {
-                let corner = (LEFT + width * column as f64, TOP + ROW * place as f64);
-                cell(area, corner, width, [count, sum])?;
+    let drawn = |wide: f64| {
+        let left = LEFT.min(0.4 * wide);
+        let width = COLUMN.min((wide - left - RIGHT) / size as f64);
+        svg(wide, TOP + ROW * size as f64 + BELOW, |area| {
+            let middle = left + 0.5 * width * size as f64;
+            write(area, "verdict", centred((middle.max(left + 30.0), 10.0), FONT))?;
+            let beside = |x: f64, y: f64, anchor| Write { anchor, ..centred((x, y), FONT) };
+            write(area, "truth", beside(left - 8.0, TOP - 14.0, Anchor::End))?;
+            let sums = left + width * size as f64 + 8.0;
+            write(area, "draws", beside(sums, TOP - 14.0, Anchor::Start))?;
+            for (place, label) in confused.labels.iter().enumerate() {
+                let number = place + 1;
+                let x = left + width * (place as f64 + 0.5);
+                let y = TOP + ROW * (place as f64 + 0.5);
+                let text_size = (FONT - 1.0).min(0.55 * width);
+                write(area, &number.to_string(), centred((x, TOP - 14.0), text_size))?;
+                let name = shortened(&label.name(), left - 44.0, FONT);
+                write(area, &name, beside(left - 34.0, y, Anchor::End))?;
+                write(area, &number.to_string(), beside(left - 8.0, y, Anchor::End))?;
+                let row = &confused.counts[place];
+                let sum: usize = row.iter().sum();
+                write(area, &sum.to_string(), beside(sums, y, Anchor::Start))?;
+                for (column, &count) in row.iter().enumerate() {
+                    let corner = (left + width * column as f64, TOP + ROW * place as f64);
+                    cell(area, corner, width, [count, sum])?;
+                }
             }
-        }
-        (0..size).try_for_each(|place| {
-            frame(area, (LEFT + width * place as f64, TOP + ROW * place as f64), width)
+            (0..size).try_for_each(|place| {
+                frame(area, (left + width * place as f64, TOP + ROW * place as f64), width)
+            })
         })
-    });
-    Some(Drawing { svg: drawn, caption: caption(&confused) })
+    };
+    Some(Drawing::new(caption(&confused), drawn))
 }
 
 /// A cell with its count, darker with its share of the row.

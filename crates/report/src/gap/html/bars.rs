@@ -4,7 +4,7 @@ use plotters::element::Rectangle;
 use plotters::style::Color;
 
 use super::super::{digits, sheets, words};
-use super::{Drawing, WIDTH};
+use super::Drawing;
 use crate::plot::{AFTER, Axis, EVEN, INK, STRIP_AXIS, Strip, WEAK, line, px, stroke, svg};
 use gumption_gap::{Diagnosis, Hypothesis};
 
@@ -33,23 +33,25 @@ pub(in crate::gap) fn draw(diagnosis: &Diagnosis) -> Drawing {
     };
     let bottom = 4.0 + ROW * shown.len() as f64;
     let axis = Axis::linear(0.0, 1.0);
-    let strip = Strip { axis: &axis, from: LEFT, to: WIDTH - RIGHT };
-    let drawn = svg(WIDTH, bottom + STRIP_AXIS, |area| {
-        strip.draw(area, 0.0, bottom, "posterior probability")?;
-        for (row, hypothesis) in shown.iter().enumerate() {
-            let y = 4.0 + ROW * (row as f64 + 0.5);
-            let (from, to) = (strip.x(0.0), strip.x(hypothesis.probability));
-            let corners = [(px(from), px(y - 0.5 * BAR)), (px(to), px(y + 0.5 * BAR))];
-            area.draw(&Rectangle::new(corners, colour(hypothesis)))?;
-            let prior = strip.x(hypothesis.prior);
-            let ends = [(prior, y - 0.5 * PRIOR), (prior, y + 0.5 * PRIOR)];
-            line(area, ends, stroke(INK, 1.75))?;
-            strip.name(area, &words::hypothesis(hypothesis.effects.as_deref()), y)?;
-            let text = digits::probability(hypothesis.probability);
-            strip.beside(area, &text, hypothesis.probability.max(hypothesis.prior), y)?;
-        }
-        Ok(())
-    });
+    let drawn = |width: f64| {
+        let strip = Strip::within(&axis, width, [LEFT, RIGHT]);
+        svg(width, bottom + STRIP_AXIS, |area| {
+            strip.draw(area, 0.0, bottom, "posterior probability")?;
+            for (row, hypothesis) in shown.iter().enumerate() {
+                let y = 4.0 + ROW * (row as f64 + 0.5);
+                let (from, to) = (strip.x(0.0), strip.x(hypothesis.probability));
+                let corners = [(px(from), px(y - 0.5 * BAR)), (px(to), px(y + 0.5 * BAR))];
+                area.draw(&Rectangle::new(corners, colour(hypothesis)))?;
+                let prior = strip.x(hypothesis.prior);
+                let ends = [(prior, y - 0.5 * PRIOR), (prior, y + 0.5 * PRIOR)];
+                line(area, ends, stroke(INK, 1.75))?;
+                strip.name(area, &words::hypothesis(hypothesis.effects.as_deref()), y)?;
+                let text = digits::probability(hypothesis.probability);
+                strip.beside(area, &text, hypothesis.probability.max(hypothesis.prior), y)?;
+            }
+            Ok(())
+        })
+    };
     let mut caption =
         "Posterior probability of each hypothesis (bar) and its prior (upright line). \
                        Strong blue: the verdict"
@@ -58,5 +60,5 @@ pub(in crate::gap) fn draw(diagnosis: &Diagnosis) -> Drawing {
         caption.push_str("; faint blue: what these data cannot tell from it");
     }
     caption.push_str("; grey: the others.");
-    Drawing { svg: drawn, caption }
+    Drawing::new(caption, drawn)
 }

@@ -4,7 +4,7 @@ use plotters::element::Circle;
 use plotters::style::Color;
 
 use super::super::{digits, sheets, words};
-use super::{Drawing, WIDTH};
+use super::Drawing;
 use crate::plot::{
     AFTER, Anchor, Axis, FONT, INK, STRIP_AXIS, Strip, WEAK, Write, centred, px, svg, write,
 };
@@ -53,43 +53,46 @@ pub(in crate::gap) fn draw(diagnosis: &Diagnosis) -> Option<Drawing> {
     }
     let height = |one: &Compared<'_>| TITLE + ROW * one.lines.len() as f64 + STRIP_AXIS + GAP;
     let total = compared.iter().map(height).sum();
-    let drawn = svg(WIDTH, total, |area| {
-        let mut top = 0.0;
-        for one in &compared {
-            let values =
-                one.lines.iter().flat_map(|(_, p)| [p.interval[0], p.interval[1], p.estimate]);
-            let axis = spread(values);
-            let strip = Strip { axis: &axis, from: LEFT, to: WIDTH - RIGHT };
-            let named = NamedQuantity { name: one.own.name.clone(), unit: one.own.unit.clone() };
-            let title = words::axis(&named);
-            let how =
-                Write { anchor: Anchor::Start, bold: true, ..centred((4.0, top + 10.0), FONT) };
-            write(area, &crate::plot::shortened(&title, WIDTH - 10.0, FONT), how)?;
-            let bottom = top + TITLE + ROW * one.lines.len() as f64;
-            strip.draw(area, top + TITLE, bottom, &title)?;
-            for (row, (name, parameter)) in one.lines.iter().enumerate() {
-                let y = top + TITLE + ROW * (row as f64 + 0.5);
-                let colour = if row == 0 { AFTER } else { WEAK };
-                strip.name(area, name, y)?;
-                strip.interval(area, parameter.interval, y, colour)?;
-                let place = (px(strip.x(parameter.estimate)), px(y));
-                area.draw(&Circle::new(
-                    place,
-                    px(4.0),
-                    if row == 0 { INK } else { WEAK }.filled(),
-                ))?;
+    let drawn = |width: f64| {
+        svg(width, total, |area| {
+            let mut top = 0.0;
+            for one in &compared {
+                let values =
+                    one.lines.iter().flat_map(|(_, p)| [p.interval[0], p.interval[1], p.estimate]);
+                let axis = spread(values);
+                let strip = Strip::within(&axis, width, [LEFT, RIGHT]);
+                let named =
+                    NamedQuantity { name: one.own.name.clone(), unit: one.own.unit.clone() };
+                let title = words::axis(&named);
+                let how =
+                    Write { anchor: Anchor::Start, bold: true, ..centred((4.0, top + 10.0), FONT) };
+                write(area, &crate::plot::shortened(&title, width - 10.0, FONT), how)?;
+                let bottom = top + TITLE + ROW * one.lines.len() as f64;
+                strip.draw(area, top + TITLE, bottom, &title)?;
+                for (row, (name, parameter)) in one.lines.iter().enumerate() {
+                    let y = top + TITLE + ROW * (row as f64 + 0.5);
+                    let colour = if row == 0 { AFTER } else { WEAK };
+                    strip.name(area, name, y)?;
+                    strip.interval(area, parameter.interval, y, colour)?;
+                    let place = (px(strip.x(parameter.estimate)), px(y));
+                    area.draw(&Circle::new(
+                        place,
+                        px(4.0),
+                        if row == 0 { INK } else { WEAK }.filled(),
+                    ))?;
+                }
+                top += height(one);
             }
-            top += height(one);
-        }
-        Ok(())
-    });
+            Ok(())
+        })
+    };
     let caption = format!(
         "Parameters of the verdict: estimate (dot) and {} interval. First line: the verdict; below \
          it, what the hypotheses say that these data cannot tell from it and that have the same \
          parameter.",
         digits::percent(diagnosis.probability)
     );
-    Some(Drawing { svg: drawn, caption })
+    Some(Drawing::new(caption, drawn))
 }
 
 /// A linear axis over values with some space at the ends.

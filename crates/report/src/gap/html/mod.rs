@@ -2,7 +2,6 @@
 
 mod bars;
 mod intervals;
-mod marks;
 mod overlay;
 mod predictions;
 mod residuals;
@@ -20,7 +19,6 @@ pub(super) use shrinkage::draw as shrinkage;
 pub(super) use where_map::draw as where_map;
 
 pub(crate) use crate::html::Drawing;
-pub(super) use crate::html::WIDTH;
 use crate::plot::Axis;
 use crate::{Provenance, document, plain};
 use gumption_gap::Diagnosis;

@@ -6,13 +6,15 @@ use std::collections::BTreeMap;
 use plotters::element::PathElement;
 use plotters::style::RGBColor;
 
-use super::super::groups::Groups;
+use super::super::groups;
 use super::super::residuals::{self, Over};
-use super::super::words;
-use super::marks::{Fill, mark};
-use super::{Drawing, WIDTH};
+use super::super::{digits, words};
+use super::Drawing;
 use crate::plain;
-use crate::plot::{AFTER, Area, Axis, BEFORE, Chart, Drawn, INK, Panel, faded, stroke, svg};
+use crate::plot::{
+    AFTER, Area, Axis, BEFORE, Chart, Drawn, Fill, Groups, INK, Panel, Titles, faded, mark, stroke,
+    svg_with_titles,
+};
 use gumption_gap::{Diagnosis, ValueGap};
 
 /// Height of a panel in pixels.
@@ -24,8 +26,8 @@ const POINTS: usize = 200;
 /// Lines join what differs in one condition only, in so many lines at most.
 const LINES: usize = 24;
 
-/// Half the length of a dash in pixels.
-const DASH: f64 = 5.0;
+/// Half the length of a dash, as a share of the axis.
+const DASH: f64 = 0.008;
 
 /// A row: the condition, its group, what it shares with others on a line, and its values.
 struct Point {
@@ -33,6 +35,8 @@ struct Point {
     group: usize,
     line: Vec<u64>,
     value: ValueGap,
+    /// What it is, in words.
+    about: String,
 }
 
 /// Which value of a row is meant.
@@ -43,7 +47,7 @@ pub(in crate::gap) fn draw(diagnosis: &Diagnosis, output: usize) -> Option<Drawi
     let named = diagnosis.outputs.get(output)?;
     let mut panels = Vec::new();
     for over in residuals::panels(diagnosis) {
-        let groups = Groups::new(diagnosis, over);
+        let groups = groups::groups(diagnosis, over);
         let points = points(diagnosis, output, over, &groups);
         if !points.is_empty() {
             panels.push((over, groups, points));
@@ -51,7 +55,7 @@ pub(in crate::gap) fn draw(diagnosis: &Diagnosis, output: usize) -> Option<Drawi
     }
     panels.first()?;
     let marks = panels.iter().map(|(over, groups, _)| (*over, groups));
-    let marks = Groups::captions(diagnosis, marks);
+    let marks = groups::captions(diagnosis, marks);
     let caption = format!(
         "{}: measured (dark marks{}), what the sim says (red) and what the corrected sim says \
          (blue); lines join what differs in this condition alone.{}",
@@ -68,14 +72,16 @@ pub(in crate::gap) fn draw(diagnosis: &Diagnosis, output: usize) -> Option<Drawi
         .flat_map(|(_, _, points)| points)
         .flat_map(|point| [point.value.measured, point.value.sim(), point.value.corrected()]);
     let y = super::linear_over(ends)?;
-    let drawn = svg(WIDTH, HEIGHT * panels.len() as f64, |area| {
-        let rows = area.split_evenly((panels.len(), 1));
-        for (row, (over, _, points)) in rows.iter().zip(&panels) {
-            panel(row, points, (over.axis(diagnosis), words::axis(named)), &y)?;
-        }
-        Ok(())
-    });
-    Some(Drawing { svg: drawn, caption })
+    let drawn = |width: f64| {
+        svg_with_titles(width, HEIGHT * panels.len() as f64, |area, titles| {
+            let rows = area.split_evenly((panels.len(), 1));
+            for (row, (over, _, points)) in rows.iter().zip(&panels) {
+                panel(row, points, (over.axis(diagnosis), words::axis(named)), &y, titles)?;
+            }
+            Ok(())
+        })
+    };
+    Some(Drawing::new(caption, drawn))
 }
 
 fn points(diagnosis: &Diagnosis, output: usize, over: Over, groups: &Groups) -> Vec<Point> {
@@ -87,11 +93,35 @@ fn points(diagnosis: &Diagnosis, output: usize, over: Over, groups: &Groups) -> 
         let others = row.conditions.iter().enumerate();
         let others = others.filter(|(place, _)| over != Over::Condition(*place));
         let line = others.map(|(_, value)| value.to_bits()).collect();
-        let point = Point { x, group: groups.of(&row.conditions), line, value };
+        let group = groups.of(&row.conditions);
+        let about = about(diagnosis, output, &row.conditions, &value);
+        let point = Point { x, group, line, value, about };
         let numbers = [x, value.measured, point.value.sim(), point.value.corrected()];
         numbers.iter().all(|number| number.is_finite()).then_some(point)
     })
     .collect()
+}
+
+/// A row in words: its conditions, what was measured, and what the sim says before and after.
+fn about(diagnosis: &Diagnosis, output: usize, conditions: &[f64], value: &ValueGap) -> String {
+    let named = &diagnosis.outputs[output];
+    let at: Vec<String> = diagnosis
+        .conditions
+        .iter()
+        .zip(conditions)
+        .map(|(condition, at)| {
+            let at = words::in_unit(&digits::condition(*at), condition);
+            format!("{} = {at}", plain(&condition.name))
+        })
+        .collect();
+    let text = |number: f64| words::in_unit(&digits::beside(number, value.u), named);
+    format!(
+        "{}: measured {}, sim {}, corrected {}",
+        at.join(", "),
+        text(value.measured),
+        text(value.sim()),
+        text(value.corrected())
+    )
 }
 
 /// Whether uncertainties are large enough to be seen beside the values.
@@ -102,7 +132,13 @@ fn has_bars(points: &[Point]) -> bool {
     points.iter().any(|point| 4.0 * point.value.u > 0.02 * (high - low))
 }
 
-fn panel(area: &Area<'_>, points: &[Point], labels: (String, String), y: &Axis) -> Drawn {
+fn panel(
+    area: &Area<'_>,
+    points: &[Point],
+    labels: (String, String),
+    y: &Axis,
+    titles: &mut Titles,
+) -> Drawn {
     let x = Axis::over(points.iter().map(|point| point.x));
     let panel = Panel { x: (&x, labels.0), y: (y, labels.1), marks: [9, 6], title: String::new() };
     let chart = panel.draw(area)?;
@@ -118,6 +154,7 @@ fn panel(area: &Area<'_>, points: &[Point], labels: (String, String), y: &Axis) 
             chart.plotting_area().draw(&PathElement::new(bar, faded(INK, 0.5, 1.0)))?;
         }
         mark(&chart, point.group, (at, measured), 2.5, (INK, Fill::Full))?;
+        titles.at(&chart, (at, measured), &point.about);
     }
     Ok(())
 }
@@ -143,7 +180,7 @@ fn sims(chart: &Chart<'_>, x: &Axis, points: &[Point]) -> Drawn {
         }
         if !joined {
             let [from, to] = x.ends();
-            let half = DASH / (WIDTH - 80.0) * (to - from);
+            let half = DASH * (to - from);
             for point in points {
                 let at = x.position(point.x);
                 let ends = vec![

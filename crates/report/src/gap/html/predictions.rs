@@ -2,12 +2,11 @@
 
 use plotters::element::PathElement;
 
-use super::super::groups::Groups;
+use super::super::groups;
 use super::super::residuals::Over;
 use super::super::words;
-use super::marks::{Fill, mark};
-use super::{Drawing, WIDTH};
-use crate::plot::{AFTER, Axis, BEFORE, INK, Panel, stroke, svg};
+use super::Drawing;
+use crate::plot::{AFTER, Axis, BEFORE, Fill, INK, Panel, mark, stroke, svg};
 use gumption_gap::{Diagnosis, Predicted};
 
 const HEIGHT: f64 = 240.0;
@@ -45,7 +44,7 @@ pub(in crate::gap) fn draw(
     }
     let named = &diagnosis.outputs[output];
     let over = Over::Condition(finest);
-    let groups = Groups::new(diagnosis, over);
+    let groups = groups::groups(diagnosis, over);
     let points: Vec<Point> = rows
         .iter()
         .filter_map(|row| {
@@ -69,30 +68,32 @@ pub(in crate::gap) fn draw(
     let predicted =
         points.iter().flat_map(|of| [of.value - 2.0 * of.u, of.value + 2.0 * of.u, of.sim]);
     let y = super::linear_over(predicted.chain(measured.iter().map(|(_, value, _)| *value)))?;
-    let drawn = svg(WIDTH, HEIGHT, |area| {
-        let along = words::axis(&diagnosis.conditions[finest]);
-        let panel = Panel {
-            x: (&x, along),
-            y: (&y, words::axis(named)),
-            marks: [8, 6],
-            title: String::new(),
-        };
-        let chart = panel.draw(area)?;
-        for (at, value, group) in &measured {
-            mark(&chart, *group, (x.position(*at), *value), 2.0, (INK, Fill::Open))?;
-        }
-        let [from, to] = x.ends();
-        let half = 0.01 * (to - from);
-        for of in &points {
-            let at = x.position(of.x);
-            let dash = vec![((at - half).max(from), of.sim), ((at + half).min(to), of.sim)];
-            chart.plotting_area().draw(&PathElement::new(dash, stroke(BEFORE, 2.0)))?;
-            let bar = vec![(at, of.value - 2.0 * of.u), (at, of.value + 2.0 * of.u)];
-            chart.plotting_area().draw(&PathElement::new(bar, stroke(AFTER, 1.75)))?;
-            mark(&chart, of.group, (at, of.value), 3.0, (AFTER, Fill::Full))?;
-        }
-        Ok(())
-    });
+    let drawn = |width: f64| {
+        svg(width, HEIGHT, |area| {
+            let along = words::axis(&diagnosis.conditions[finest]);
+            let panel = Panel {
+                x: (&x, along),
+                y: (&y, words::axis(named)),
+                marks: [8, 6],
+                title: String::new(),
+            };
+            let chart = panel.draw(area)?;
+            for (at, value, group) in &measured {
+                mark(&chart, *group, (x.position(*at), *value), 2.0, (INK, Fill::Open))?;
+            }
+            let [from, to] = x.ends();
+            let half = 0.01 * (to - from);
+            for of in &points {
+                let at = x.position(of.x);
+                let dash = vec![((at - half).max(from), of.sim), ((at + half).min(to), of.sim)];
+                chart.plotting_area().draw(&PathElement::new(dash, stroke(BEFORE, 2.0)))?;
+                let bar = vec![(at, of.value - 2.0 * of.u), (at, of.value + 2.0 * of.u)];
+                chart.plotting_area().draw(&PathElement::new(bar, stroke(AFTER, 1.75)))?;
+                mark(&chart, of.group, (at, of.value), 3.0, (AFTER, Fill::Full))?;
+            }
+            Ok(())
+        })
+    };
     let caption = format!(
         "Corrected prediction of {} (full marks, blue) with two standard uncertainties on either side, \
          averaged over the hypotheses by their probability; what the sim says as it was (dashes, red) \
@@ -100,5 +101,5 @@ pub(in crate::gap) fn draw(
         crate::plain(&named.name),
         groups.caption(&crate::plain(&diagnosis.conditions[finest].name))
     );
-    Some(Drawing { svg: drawn, caption })
+    Some(Drawing::new(caption, drawn))
 }

@@ -3,17 +3,21 @@
 use plotters::element::{PathElement, Polygon};
 use plotters::style::{Color, RGBColor};
 
-use super::super::groups::Groups;
+use super::super::groups;
 use super::super::residuals::{self, Residual};
 use super::super::words;
-use super::marks::{Fill, mark};
-use super::{Drawing, WIDTH};
+use super::Drawing;
 use crate::plain;
-use crate::plot::{AFTER, Area, Axis, BEFORE, Chart, Drawn, INK, Panel, faded, stroke, svg};
+use crate::plot::{
+    AFTER, Area, Axis, BEFORE, Chart, Drawn, Fill, Groups, INK, Panel, faded, mark, stroke, svg,
+};
 use gumption_gap::Diagnosis;
 
 /// Height of a row of panels in pixels.
 const HEIGHT: f64 = 185.0;
+
+/// The least width of two panels beside each other, in pixels.
+const BESIDE: f64 = 500.0;
 
 /// Half-width of the band in standard uncertainties.
 const BAND: f64 = 2.0;
@@ -41,9 +45,8 @@ pub(in crate::gap) fn draw(diagnosis: &Diagnosis, output: usize) -> Option<Drawi
     }
     let divided = is_unequal(&own);
     let label = if divided { "residual / u".to_owned() } else { unit_label(diagnosis, output) };
-    let total = HEIGHT * over.len() as f64;
     let many = own.len() > POINTS;
-    let groups: Vec<Groups> = over.iter().map(|over| Groups::new(diagnosis, *over)).collect();
+    let groups: Vec<Groups> = over.iter().map(|over| groups::groups(diagnosis, *over)).collect();
     let both: [(&str, RGBColor, Of); 2] =
         [("before", BEFORE, |r| r.before), ("after", AFTER, |r| r.after)];
     // one scale for both sides of all panels, so that what shrinks is seen to
@@ -53,29 +56,39 @@ pub(in crate::gap) fn draw(diagnosis: &Diagnosis, output: usize) -> Option<Drawi
         (value / scale, u / scale)
     };
     let y = scale(both.iter().flat_map(|(.., of)| own.iter().map(|r| scaled(r, *of))));
-    let drawn = svg(WIDTH, total, |area| {
-        let panels = area.split_evenly((over.len(), 1));
-        for (rows, (over, groups)) in panels.iter().zip(over.iter().zip(&groups)) {
-            let points = residuals::of(diagnosis, output, *over);
-            let along = over.axis(diagnosis);
-            let sides = rows.split_evenly((1, 2));
-            for (side, (title, colour, of)) in sides.iter().zip(both) {
-                let points: Vec<Point> = points
-                    .iter()
-                    .map(|residual| {
-                        let (value, u) = scaled(residual, of);
-                        (residual.x, value, u, groups.of(&diagnosis.rows[residual.row].conditions))
-                    })
-                    .collect();
-                half(side, title, &points, &y, (along.clone(), label.clone()), colour)?;
+    let drawn = |width: f64| {
+        // side by side where there is room, else one below the other
+        let halves = if width < BESIDE { (2, 1) } else { (1, 2) };
+        let total = HEIGHT * (over.len() * halves.0) as f64;
+        svg(width, total, |area| {
+            let panels = area.split_evenly((over.len(), 1));
+            for (rows, (over, groups)) in panels.iter().zip(over.iter().zip(&groups)) {
+                let points = residuals::of(diagnosis, output, *over);
+                let along = over.axis(diagnosis);
+                let sides = rows.split_evenly(halves);
+                for (side, (title, colour, of)) in sides.iter().zip(both) {
+                    let points: Vec<Point> = points
+                        .iter()
+                        .map(|residual| {
+                            let (value, u) = scaled(residual, of);
+                            (
+                                residual.x,
+                                value,
+                                u,
+                                groups.of(&diagnosis.rows[residual.row].conditions),
+                            )
+                        })
+                        .collect();
+                    half(side, title, &points, &y, (along.clone(), label.clone()), colour)?;
+                }
             }
-        }
-        Ok(())
-    });
+            Ok(())
+        })
+    };
     let told_apart = if many {
         String::new()
     } else {
-        Groups::captions(diagnosis, over.iter().copied().zip(&groups))
+        groups::captions(diagnosis, over.iter().copied().zip(&groups))
     };
     let marks = if many {
         "Each stroke spans the residuals of neighbouring values."
@@ -88,13 +101,13 @@ pub(in crate::gap) fn draw(diagnosis: &Diagnosis, output: usize) -> Option<Drawi
         ""
     };
     let caption = format!(
-        "Residuals of {}, measured less predicted{scale}, before (left) and after the correction \
-         (right, each predicted by a fit without its own block of conditions). Band: two standard \
+        "Residuals of {}, measured less predicted{scale}, before (left, or above) and after the correction \
+         (right, or below, each predicted by a fit without its own block of conditions). Band: two standard \
          uncertainties of the residuals on either side of zero, those of the noise and of the inputs \
-         on the left, of the noise and of what was fitted on the right. {marks}{told_apart}",
+         before, of the noise and of what was fitted after. {marks}{told_apart}",
         plain(&named.name)
     );
-    Some(Drawing { svg: drawn, caption })
+    Some(Drawing::new(caption, drawn))
 }
 
 fn unit_label(diagnosis: &Diagnosis, output: usize) -> String {

@@ -4,7 +4,7 @@ use plotters::element::{Circle, Rectangle};
 use plotters::style::Color;
 
 use super::super::{digits, words};
-use super::{Drawing, WIDTH};
+use super::Drawing;
 use crate::plain;
 use crate::plot::{AFTER, Axis, BEFORE, INK, STRIP_AXIS, Strip, line, px, stroke, svg};
 use gumption_gap::{Diagnosis, NamedQuantity, Shrunk};
@@ -50,31 +50,33 @@ pub(in crate::gap) fn draw(diagnosis: &Diagnosis) -> Option<Drawing> {
     } else {
         Axis::linear(0.0, 1.08 * most)
     };
-    let strip = Strip { axis: &axis, from: LEFT, to: WIDTH - RIGHT };
     let bottom = ROW * rows.len() as f64;
-    let drawn = svg(WIDTH, bottom + STRIP_AXIS, |area| {
-        strip.draw(area, 0.0, bottom, "root mean square residual / noise floor")?;
-        let floor = strip.x(1.0);
-        line(area, [(floor, 0.0), (floor, bottom)], stroke(INK, 1.5))?;
-        for (row, entry) in rows.iter().enumerate() {
-            let (name, unit, shrunk, interval) = entry;
-            let y = ROW * (row as f64 + 0.5);
-            strip.name(area, name, y)?;
-            let [before, after, low, high] = ratios(entry);
-            if interval.is_some() {
-                strip.interval(area, [low, high], y, AFTER)?;
+    let drawn = |width: f64| {
+        let strip = Strip::within(&axis, width, [LEFT, RIGHT]);
+        svg(width, bottom + STRIP_AXIS, |area| {
+            strip.draw(area, 0.0, bottom, "root mean square residual / noise floor")?;
+            let floor = strip.x(1.0);
+            line(area, [(floor, 0.0), (floor, bottom)], stroke(INK, 1.5))?;
+            for (row, entry) in rows.iter().enumerate() {
+                let (name, unit, shrunk, interval) = entry;
+                let y = ROW * (row as f64 + 0.5);
+                strip.name(area, name, y)?;
+                let [before, after, low, high] = ratios(entry);
+                if interval.is_some() {
+                    strip.interval(area, [low, high], y, AFTER)?;
+                }
+                let x = strip.x(before);
+                let corners = [(px(x - MARK), px(y - MARK)), (px(x + MARK), px(y + MARK))];
+                area.draw(&Rectangle::new(corners, BEFORE.filled()))?;
+                area.draw(&Circle::new((px(strip.x(after)), px(y)), px(MARK), AFTER.filled()))?;
+                let [before, after] = [shrunk.rms_before, shrunk.rms_after]
+                    .map(|value| digits::beside(value, shrunk.noise_floor));
+                let text = format!("{before} → {after} {unit}");
+                strip.beside(area, text.trim_end(), f64::INFINITY, y)?;
             }
-            let x = strip.x(before);
-            let corners = [(px(x - MARK), px(y - MARK)), (px(x + MARK), px(y + MARK))];
-            area.draw(&Rectangle::new(corners, BEFORE.filled()))?;
-            area.draw(&Circle::new((px(strip.x(after)), px(y)), px(MARK), AFTER.filled()))?;
-            let [before, after] = [shrunk.rms_before, shrunk.rms_after]
-                .map(|value| digits::beside(value, shrunk.noise_floor));
-            let text = format!("{before} → {after} {unit}");
-            strip.beside(area, text.trim_end(), f64::INFINITY, y)?;
-        }
-        Ok(())
-    });
+            Ok(())
+        })
+    };
     let caption = format!(
         "Root mean square residuals before (square) and after (dot, with its {} interval) the \
          correction, over the noise floor (upright line); on the right in their units, all outputs \
@@ -82,5 +84,5 @@ pub(in crate::gap) fn draw(diagnosis: &Diagnosis) -> Option<Drawing> {
          block of conditions.",
         digits::percent(diagnosis.probability)
     );
-    Some(Drawing { svg: drawn, caption })
+    Some(Drawing::new(caption, drawn))
 }

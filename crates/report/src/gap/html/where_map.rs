@@ -6,7 +6,7 @@ use plotters::style::{Color, RGBColor};
 
 use super::super::residuals::levels;
 use super::super::{digits, residuals, words};
-use super::{Drawing, WIDTH};
+use super::Drawing;
 use crate::number::significant;
 use crate::plain;
 use crate::plot::{
@@ -22,8 +22,10 @@ const BELOW: f64 = 46.0;
 const LEFT: f64 = 120.0;
 const RIGHT: f64 = 12.0;
 
-/// So many cells stand beside each other at most; more levels are taken together.
+/// So many cells stand beside each other at most, each of this width in pixels at least; more levels
+/// are taken together.
 const MOST: usize = 12;
+const LEAST: f64 = 42.0;
 
 /// Root mean squares of normalized residuals at which the shade changes.
 const STEPS: [f64; 4] = [1.5, 3.0, 6.0, 12.0];
@@ -37,12 +39,17 @@ struct Panel<'a> {
     /// Regions in this condition, with their letters.
     regions: Vec<(String, &'a GapRegion)>,
     condition: usize,
+    /// Where cells begin and end, in pixels.
+    ends: [f64; 2],
 }
 
 impl<'a> Panel<'a> {
-    fn new(diagnosis: &'a Diagnosis, condition: usize, first: bool) -> Self {
+    fn new(diagnosis: &'a Diagnosis, condition: usize, first: bool, width: f64) -> Self {
         let levels = levels(diagnosis, condition);
-        let size = levels.len().div_ceil(MOST).max(1);
+        let ends_of_cells = [LEFT.min(0.25 * width), width - RIGHT];
+        let [from, to] = ends_of_cells;
+        let most = MOST.min(((to - from) / LEAST) as usize).max(1);
+        let size = levels.len().div_ceil(most).max(1);
         let mut edges: Vec<usize> = (0..levels.len()).step_by(size).collect();
         edges.push(levels.len());
         let own = |region: &GapRegion| match region.range {
@@ -66,7 +73,7 @@ impl<'a> Panel<'a> {
         }
         edges.sort_unstable();
         let name = words::axis(&diagnosis.conditions[condition]);
-        Self { name, levels, edges, regions, condition }
+        Self { name, levels, edges, regions, condition, ends: ends_of_cells }
     }
 
     fn height(&self, outputs: usize) -> f64 {
@@ -75,7 +82,8 @@ impl<'a> Panel<'a> {
 
     /// Where a level begins, in pixels.
     fn x(&self, place: usize) -> f64 {
-        LEFT + place as f64 / self.levels.len() as f64 * (WIDTH - LEFT - RIGHT)
+        let [from, to] = self.ends;
+        from + place as f64 / self.levels.len() as f64 * (to - from)
     }
 
     /// Where a region begins and ends.
@@ -106,24 +114,26 @@ fn places(levels: &[f64], region: &GapRegion) -> [usize; 2] {
 /// A panel for each condition that varies; `None` where none does.
 pub(in crate::gap) fn draw(diagnosis: &Diagnosis) -> Option<Drawing> {
     let varying = residuals::varying(diagnosis);
-    let panels: Vec<Panel<'_>> = varying
-        .iter()
-        .enumerate()
-        .map(|(number, &condition)| Panel::new(diagnosis, condition, number == 0))
-        .collect();
-    if panels.is_empty() {
+    if varying.is_empty() {
         return None;
     }
     let outputs = diagnosis.outputs.len();
-    let total = panels.iter().map(|panel| panel.height(outputs)).sum();
-    let drawn = svg(WIDTH, total, |area| {
-        let mut top = 0.0;
-        for panel in &panels {
-            one(area, diagnosis, panel, top)?;
-            top += panel.height(outputs);
-        }
-        Ok(())
-    });
+    let drawn = |width: f64| {
+        let panels: Vec<Panel<'_>> = varying
+            .iter()
+            .enumerate()
+            .map(|(number, &condition)| Panel::new(diagnosis, condition, number == 0, width))
+            .collect();
+        let total = panels.iter().map(|panel| panel.height(outputs)).sum();
+        svg(width, total, |area| {
+            let mut top = 0.0;
+            for panel in &panels {
+                one(area, diagnosis, panel, top)?;
+                top += panel.height(outputs);
+            }
+            Ok(())
+        })
+    };
     let mut caption =
         "Where the gap lies: root mean square of the residuals before the correction \
                        over their standard uncertainties, by output and condition; about 1 is \
@@ -135,7 +145,7 @@ pub(in crate::gap) fn draw(diagnosis: &Diagnosis) -> Option<Drawing> {
              one as surprising anywhere.",
         );
     }
-    Some(Drawing { svg: drawn, caption })
+    Some(Drawing::new(caption, drawn))
 }
 
 fn one(area: &Area<'_>, diagnosis: &Diagnosis, panel: &Panel<'_>, top: f64) -> Drawn {
@@ -144,8 +154,9 @@ fn one(area: &Area<'_>, diagnosis: &Diagnosis, panel: &Panel<'_>, top: f64) -> D
     let bottom = cells + CELL * outputs as f64;
     for (output, named) in diagnosis.outputs.iter().enumerate() {
         let y = cells + CELL * output as f64;
-        let how = Write { anchor: Anchor::End, ..centred((LEFT - 8.0, y + 0.5 * CELL), FONT) };
-        write(area, &shortened(&plain(&named.name), LEFT - 12.0, FONT), how)?;
+        let [left, _] = panel.ends;
+        let how = Write { anchor: Anchor::End, ..centred((left - 8.0, y + 0.5 * CELL), FONT) };
+        write(area, &shortened(&plain(&named.name), left - 12.0, FONT), how)?;
         for edge in panel.edges.windows(2) {
             let place = [(panel.x(edge[0]), y), (panel.x(edge[1]), y + CELL)];
             cell(area, place, panel.rms(diagnosis, output, edge[0], edge[1]))?;
@@ -160,7 +171,8 @@ fn one(area: &Area<'_>, diagnosis: &Diagnosis, panel: &Panel<'_>, top: f64) -> D
         };
         frame(area, [from, to], rows)?;
         let y = top + BRACKET * row as f64;
-        bracket(area, [from, to], y, &format!("{letter}: {}", digits::p_equals(region.p_value)))?;
+        let text = format!("{letter}: {}", digits::p_equals(region.p_value));
+        bracket(area, [from, to], y, (&text, panel.ends[1]))?;
     }
     Ok(())
 }
@@ -194,13 +206,14 @@ fn marks(area: &Area<'_>, panel: &Panel<'_>, bottom: f64) -> Drawn {
         let how = Write { anchor, ..centred((x, bottom + 11.0), FONT - 2.0) };
         write(area, &shortened(&text, room, FONT - 2.0), how)?;
     }
-    let middle = 0.5 * (LEFT + WIDTH - RIGHT);
+    let [from, to] = panel.ends;
+    let middle = 0.5 * (from + to);
     let name = if grouped {
         format!("{} (from the value below each cell's left end)", panel.name)
     } else {
         panel.name.clone()
     };
-    write(area, &shortened(&name, WIDTH - LEFT, FONT), centred((middle, bottom + 27.0), FONT))
+    write(area, &shortened(&name, to - from, FONT), centred((middle, bottom + 27.0), FONT))
 }
 
 fn frame(area: &Area<'_>, [x0, x1]: [f64; 2], [y0, y1]: [f64; 2]) -> Drawn {
@@ -209,13 +222,13 @@ fn frame(area: &Area<'_>, [x0, x1]: [f64; 2], [y0, y1]: [f64; 2]) -> Drawn {
     area.draw(&PathElement::new(places, stroke(INK, 2.5)))
 }
 
-/// A line over the range of a region, with its letter and probability.
-fn bracket(area: &Area<'_>, [from, to]: [f64; 2], top: f64, text: &str) -> Drawn {
+/// A line over the range of a region, with its letter and probability, which end at `end` at most.
+fn bracket(area: &Area<'_>, [from, to]: [f64; 2], top: f64, (text, end): (&str, f64)) -> Drawn {
     let y = top + BRACKET - 5.0;
     line(area, [(from, y + 4.0), (from, y), (to, y), (to, y + 4.0)], stroke(INK, 1.25))?;
     // about 0.58 of its size for each letter
     let width = 0.58 * FONT * text.chars().count() as f64;
-    let fits = from + width < WIDTH - RIGHT;
+    let fits = from + width < end;
     let (x, anchor) = if fits { (from, Anchor::Start) } else { (to, Anchor::End) };
     let how = Write { anchor, ..centred((x, top + 10.0), FONT - 1.0) };
     write(area, text, Write { bold: true, ..how })

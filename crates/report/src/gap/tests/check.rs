@@ -320,12 +320,12 @@ fn numbers_of_the_page_are_those_of_the_json() {
 fn drawings(body: &str) -> Vec<Vec<String>> {
     let document = parsed(body);
     let drawings = document.descendants().filter(|node| node.has_tag_name(SVG));
-    drawings
-        .map(|drawing| {
-            let texts = drawing.descendants().filter(|node| node.tag_name().name() == "text");
-            texts.map(text).collect()
-        })
-        .collect()
+    let wide = drawings.filter(|node| node.attribute("class") == Some("wide"));
+    wide.map(|drawing| {
+        let texts = drawing.descendants().filter(|node| node.tag_name().name() == "text");
+        texts.map(text).collect()
+    })
+    .collect()
 }
 
 #[test]

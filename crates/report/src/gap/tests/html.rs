@@ -23,7 +23,9 @@ pub(super) fn with_body(page: String) -> (String, String) {
         assert!(!["script", "iframe", "img", "link", "image", "use"].contains(&name), "{name}");
         for attribute in element.attributes() {
             let key = attribute.name();
-            assert!(!key.starts_with("on") && !["href", "src", "style"].contains(&key), "{key}");
+            assert!(!key.starts_with("on") && !["src", "style"].contains(&key), "{key}");
+            // only within the page
+            assert!(key != "href" || attribute.value().starts_with("#section-"), "{attribute:?}");
             assert!(!attribute.value().contains("NaN"), "{attribute:?}");
         }
     }
@@ -76,7 +78,7 @@ fn drawings_have_the_numbers_of_the_tables() {
     let document = parsed(&body);
     let drawings: Vec<String> = document
         .descendants()
-        .filter(|node| node.has_tag_name(SVG))
+        .filter(|node| node.has_tag_name(SVG) && node.attribute("class") == Some("wide"))
         .map(|drawing| {
             let texts = drawing.descendants().filter(|node| node.tag_name().name() == "text");
             texts.map(text).collect::<Vec<_>>().join("\n")
@@ -145,7 +147,8 @@ fn what_is_hardly_there_has_a_page() {
 #[test]
 fn many_rows_make_no_large_page() {
     let (page, _) = page(&many());
-    assert!(page.len() < 600_000, "{}", page.len());
+    // every figure is there once for a page and once for a narrow screen
+    assert!(page.len() < 1_200_000, "{}", page.len());
     assert!(page.contains("Each stroke spans the residuals of neighbouring values."));
 }
 

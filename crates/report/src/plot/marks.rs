@@ -3,17 +3,17 @@
 use plotters::element::{Circle, EmptyElement, PathElement, Polygon};
 use plotters::style::{Color, RGBColor};
 
-use crate::plot::{Chart, Drawn, px, stroke};
+use super::{Chart, Drawn, px, stroke};
 
 /// Whether a mark is filled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Fill {
+pub(crate) enum Fill {
     Full,
     Open,
 }
 
 /// Draws the mark of a group at a place; `size` is half of its width in pixels.
-pub(super) fn mark(
+pub(crate) fn mark(
     chart: &Chart<'_>,
     group: usize,
     place: (f64, f64),

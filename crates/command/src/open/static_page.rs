@@ -1,0 +1,63 @@
+//! The page as a folder of files that any web server, or none of ours, may serve.
+
+use std::fs::File;
+use std::io;
+use std::path::Path;
+
+use super::files_of_page;
+use super::shown;
+use crate::exit::say;
+use crate::output::Destination;
+use crate::{Exit, Failure};
+use gumption_files::bytes;
+
+/// Where the program stands in the folder.
+const PROGRAM: &str = "assets/gumption.wasm";
+
+/// What a program for browsers begins with.
+const MAGIC: &[u8] = b"\0asm";
+
+/// The largest program that is taken, in bytes.
+const MOST: u64 = 256 << 20;
+
+/// Writes the files of the page, and the program if it is given.
+pub(super) fn write(folder: &Path, wasm: Option<&Path>) -> Result<Exit, Failure> {
+    let wasm = wasm.map(program).transpose()?;
+    let failed = |error: io::Error| {
+        Failure::System(format!("cannot make the folder `{}`: {error}", shown(folder)))
+    };
+    std::fs::create_dir_all(folder.join("assets")).map_err(failed)?;
+    for asset in files_of_page::all() {
+        let path = match asset.name {
+            "index.html" => folder.join(asset.name),
+            name => folder.join("assets").join(name),
+        };
+        put(&path, asset.content)?;
+    }
+    let place = folder.join(PROGRAM);
+    match wasm {
+        Some(content) => put(&place, &content)?,
+        None if place.is_file() => {}
+        None => say(&format!(
+            "note: `{}` is missing, without which the page computes nothing: `page/build-wasm.sh` \
+             makes it where there is a compiler for it, and `--wasm FILE` takes it\n",
+            shown(&place)
+        )),
+    }
+    Ok(Exit::Done)
+}
+
+fn put(path: &Path, content: &[u8]) -> Result<(), Failure> {
+    Destination::open(path)?.write_with(|out| out.write_all(content).map(|()| true))
+}
+
+/// The program for the page.
+fn program(path: &Path) -> Result<Vec<u8>, Failure> {
+    let refuse = |reason: &str| Failure::Argument(format!("`--wasm {}`: {reason}", shown(path)));
+    let file = File::open(path).map_err(|error| refuse(&error.to_string()))?;
+    let content = bytes::of(file, MOST).map_err(|error| refuse(&error.to_string()))?;
+    if !content.starts_with(MAGIC) {
+        return Err(refuse("it is not a WebAssembly module"));
+    }
+    Ok(content)
+}

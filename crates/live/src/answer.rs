@@ -1,0 +1,245 @@
+//! The answer to a model that is being edited: its mistakes, or its results.
+
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
+use gumption_engine::model::formula::Formula;
+use gumption_engine::propagate::{Control, Evaluation, evaluate, histograms, warnings};
+use gumption_engine::task::{MethodChoice, Task, Trials};
+use gumption_files::{Diagnostics, FileReader, ModelFile, TextKind};
+use gumption_report::{EvaluationReport, FigureSize, Provenance, Shown, page_parts};
+use jsonc_parser::ast::Value;
+use serde::Deserialize;
+use serde_json::{Value as Json, json};
+use std::path::Path;
+
+use crate::tree::{self, path_of};
+use crate::{LiveError, diagnostics, inputs, limited, outputs};
+
+/// Trials of all rows together, at most: what the page refines to in the background. The command line
+/// makes as many as a file asks for.
+const MOST_TRIALS: u64 = 100_000_000;
+
+/// Rows of conditions that the page evaluates, at most.
+const MOST_ROWS: usize = 10_000;
+
+/// A request of the call `answer`.
+#[derive(Debug, Deserialize)]
+pub(crate) struct Asked {
+    text: String,
+    #[serde(default)]
+    name: String,
+    /// Trials of all rows together, where not as many as the file asks for are made.
+    #[serde(default)]
+    trials: Option<u64>,
+    /// Whether as many trials are made as the file asks for.
+    #[serde(default)]
+    full: bool,
+    /// Whether figures are drawn for a narrow column.
+    #[serde(default)]
+    narrow: bool,
+}
+
+/// What a text says and what follows from it.
+pub(crate) fn answer(
+    files: FileReader<'_>,
+    asked: &Asked,
+    stop: &Arc<AtomicBool>,
+) -> Result<Json, LiveError> {
+    let text = limited(&asked.text)?;
+    let bare = text.strip_prefix('\u{feff}').unwrap_or(text);
+    let name = if asked.name.is_empty() { "the model" } else { &asked.name };
+    let kind = TextKind::of(text);
+    let mut answer = json!({ "kind": kind.name(), "diagnostics": [] });
+    let root = tree::parse(bare).ok();
+    let read = match kind {
+        // a certificate and a recipe open other files by their paths; their pages tell mistakes
+        TextKind::Case | TextKind::Costs => {
+            let found = files.check_text(name, text, Path::new("")).err();
+            answer["diagnostics"] =
+                found.map_or(json!([]), |found| diagnostics::list(text, &found));
+            return Ok(answer);
+        }
+        TextKind::Model => files.model_text(name, text, Path::new(""), &[]),
+        _ => return Ok(answer),
+    };
+    let file = match &read {
+        Ok(file) => Some(file),
+        Err(found) => {
+            answer["diagnostics"] = diagnostics::list(text, found);
+            None
+        }
+    };
+    if let Some(root) = &root {
+        let found = stated(bare, root, file.map(|file| &file.task));
+        merge(&mut answer, found);
+    }
+    if let Some(file) = file {
+        match results(file, asked, stop) {
+            Ok(found) => merge(&mut answer, found),
+            Err(found) => answer["diagnostics"] = diagnostics::list(text, &found),
+        }
+    }
+    Ok(answer)
+}
+
+fn merge(into: &mut Json, from: Json) {
+    if let (Some(into), Json::Object(from)) = (into.as_object_mut(), from) {
+        into.extend(from);
+    }
+}
+
+/// What stands in the file, as the page's fields have it.
+fn stated(text: &str, root: &Value<'_>, task: Option<&Task>) -> Json {
+    let scalar = |keys: &[&str]| {
+        let found = keys.iter().try_fold(root, |value, key| tree::get(value, key));
+        found.map_or(Json::Null, |value| json!(inputs::raw(text, value)))
+    };
+    let equations = tree::get(root, "equations").and_then(Value::as_object);
+    let equations: Vec<Json> = equations
+        .map(|object| {
+            let one = |member: &jsonc_parser::ast::ObjectProp<'_>| {
+                let name = member.name.as_str();
+                json!({
+                    "name": name,
+                    "formula": inputs::raw(text, &member.value),
+                    "path": path_of(["equations", name]),
+                })
+            };
+            object.properties.iter().map(one).collect()
+        })
+        .unwrap_or_default();
+    json!({
+        "title": scalar(&["title"]),
+        "source": scalar(&["source"]),
+        "model": scalar(&["model"]),
+        "equations": equations,
+        "statement": task.map(|task| &task.statement).map(|of| {
+            let lines = of.equations.iter();
+            lines.map(|(name, formula)| json!([name, formula])).collect::<Vec<_>>()
+        }),
+        "inputs": inputs::rows(text, root, task),
+        "conditions": inputs::conditions(text, root, task),
+        "outputs": inputs::outputs(text, root),
+        "correlations": inputs::correlations(text, root),
+        "settings": {
+            "coverage_probability": scalar(&["coverage_probability"]),
+            "coverage_factor": scalar(&["coverage_factor"]),
+            "trials": scalar(&["monte_carlo", "trials"]),
+            "seed": scalar(&["monte_carlo", "seed"]),
+            "digits": scalar(&["monte_carlo", "digits"]),
+        },
+        // names without a meaning need not be looked for where there are none
+        "missing": if task.is_some() { Vec::new() } else { missing(root) },
+    })
+}
+
+/// Names that equations use and nothing gives, in the order in which they occur.
+fn missing(root: &Value<'_>) -> Vec<String> {
+    let names_of = |key: &str| -> Vec<String> {
+        let object = tree::get(root, key).and_then(Value::as_object);
+        let names = object.into_iter().flat_map(|object| &object.properties);
+        names.map(|member| member.name.as_str().to_owned()).collect()
+    };
+    let mut known: Vec<String> =
+        ["inputs", "conditions", "fits"].iter().flat_map(|key| names_of(key)).collect();
+    // a table of conditions names its columns by their units
+    if let Some(units) = tree::get(root, "conditions").and_then(|of| tree::get(of, "units")) {
+        let columns = units.as_object().into_iter().flat_map(|object| &object.properties);
+        known.extend(columns.map(|member| member.name.as_str().to_owned()));
+    }
+    let mut missing: Vec<String> = Vec::new();
+    let equations = tree::get(root, "equations").and_then(Value::as_object);
+    for member in equations.into_iter().flat_map(|object| &object.properties) {
+        let formula =
+            member.value.as_string_lit().and_then(|text| Formula::parse(&text.value).ok());
+        for (name, _) in formula.iter().flat_map(Formula::names) {
+            let is_known = known.iter().any(|of| of == name);
+            let is_name = gumption_engine::model::formula::check_name(name).is_ok();
+            if !is_known && is_name && !missing.iter().any(|of| of == name) {
+                missing.push(name.to_owned());
+            }
+        }
+        known.push(member.name.as_str().to_owned());
+    }
+    missing
+}
+
+/// The settings of this answer, and whether they are those of the file.
+fn settle(task: &mut Task, asked: &Asked) -> bool {
+    let rows = (task.rows.len() as u64).max(1);
+    let each = |all: u64| (all / rows).max(1000);
+    let settings = &mut task.settings;
+    if asked.full {
+        let most = each(MOST_TRIALS);
+        let before = *settings;
+        settings.max_trials = settings.max_trials.min(most);
+        settings.decide_up_to = settings.decide_up_to.min(MOST_TRIALS);
+        if let Trials::Fixed(count) = settings.trials {
+            settings.trials = Trials::Fixed(count.min(most));
+        }
+        return settings.trials == before.trials;
+    }
+    let few = each(asked.trials.unwrap_or(100_000).min(MOST_TRIALS));
+    let count = match settings.trials {
+        Trials::Fixed(count) => count.min(few),
+        Trials::Adaptive => few,
+    };
+    // figures without noise are made when the hand rests
+    settings.method = settings.method.map(|_| MethodChoice::MonteCarlo);
+    let is_whole = settings.trials == Trials::Fixed(count)
+        && settings.decide_up_to == 0
+        && settings.method.is_none();
+    settings.trials = Trials::Fixed(count);
+    settings.decide_up_to = 0;
+    is_whole
+}
+
+/// The evaluation and the parts of its page; or what is wrong that only the evaluation finds.
+fn results(file: &ModelFile, asked: &Asked, stop: &Arc<AtomicBool>) -> Result<Json, Diagnostics> {
+    let mut task = file.task.clone();
+    let all_rows = task.rows.len();
+    task.rows.truncate(MOST_ROWS);
+    let is_whole = settle(&mut task, asked);
+    let control = Control::default().with_stop(stop);
+    let failed = |error: gumption_engine::propagate::EvaluationError| {
+        file.evaluation_failed(error.to_string())
+    };
+    let evaluation = evaluate(&task, &control).map_err(failed)?;
+    let histograms = if evaluation.rows.len() == 1 && !evaluation.stopped {
+        histograms(&task, &evaluation, 0, &control).map_err(failed)?.into_iter().collect()
+    } else {
+        Vec::new()
+    };
+    let mut notes = file.warnings.clone();
+    notes.extend(warnings(&task, &evaluation));
+    let provenance = Provenance::default();
+    let report = EvaluationReport {
+        task: &task,
+        evaluation: &evaluation,
+        warnings: &notes,
+        provenance: &provenance,
+    };
+    let shown = Shown { histograms: &histograms, ..Shown::default() };
+    let size = if asked.narrow { FigureSize::Narrow } else { FigureSize::Page };
+    let parts = page_parts(&report, &shown, size);
+    Ok(json!({
+        "results": outputs::results(&task, &evaluation, &parts),
+        "together": parts.together,
+        "notes": notes.iter().map(|note| gumption_report::plain(&note.text)).collect::<Vec<_>>(),
+        "rows": all_rows,
+        "rows_shown": task.rows.len(),
+        "trials": made(&evaluation),
+        "whole": is_whole && all_rows == task.rows.len(),
+        "full": asked.full,
+        "stopped": evaluation.stopped,
+        "seed": task.settings.seed,
+        "coverage_probability": evaluation.coverage_probability,
+    }))
+}
+
+/// The trials of a row.
+fn made(evaluation: &Evaluation) -> u64 {
+    let outputs = evaluation.rows.iter().flat_map(|row| &row.outputs);
+    outputs.filter_map(|output| output.monte_carlo.as_ref()).map(|of| of.trials).max().unwrap_or(0)
+}

@@ -1,0 +1,57 @@
+//! What the Type B assumptions of a model decide.
+
+use std::path::Path;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use gumption_analysis::assumptions::{Question, audit};
+use gumption_engine::propagate::Control;
+use gumption_files::{FileReader, TextKind};
+use gumption_report::Provenance;
+use gumption_report::assumptions::{AuditReport, fragment};
+use serde_json::{Value as Json, json};
+
+use crate::{LiveError, Text, diagnostics, limited};
+
+/// Trials of each variant: a page that follows the hand needs to see what is at stake, not its third
+/// digit.
+const TRIALS: u64 = 20_000;
+
+/// The relative change of the expanded uncertainty that is allowed.
+const ALLOWED: f64 = 0.05;
+
+/// Variables and rows up to which the audit is made unasked.
+const MOST: usize = 60;
+
+/// The audit as a part of the page; `null` where there is none to be made.
+pub(crate) fn audited(
+    files: FileReader<'_>,
+    asked: &Text,
+    stop: &Arc<AtomicBool>,
+) -> Result<Json, LiveError> {
+    let text = limited(&asked.text)?;
+    if TextKind::of(text) != TextKind::Model {
+        return Ok(json!({ "html": null }));
+    }
+    let file = match files.model_text(&asked.name, text, Path::new(""), &[]) {
+        Ok(file) => file,
+        Err(found) => return Ok(json!({ "diagnostics": diagnostics::list(text, &found) })),
+    };
+    let task = &file.task;
+    if task.variables.len().saturating_mul(task.rows.len()) > MOST {
+        return Ok(json!({ "html": null, "large": true }));
+    }
+    let question = Question { trials: TRIALS, allowed: ALLOWED };
+    let control = Control::default().with_stop(stop);
+    let found = match audit(task, &file.evidence, question, &control) {
+        Ok(found) => found.filter(|_| !stop.load(Ordering::Relaxed)),
+        Err(error) => {
+            let found = file.evaluation_failed(error.to_string());
+            return Ok(json!({ "diagnostics": diagnostics::list(text, &found) }));
+        }
+    };
+    let Some(found) = found else { return Ok(json!({ "html": null, "stopped": true })) };
+    let provenance = Provenance::default();
+    let report = AuditReport { task, audit: &found, warnings: &[], provenance: &provenance };
+    Ok(json!({ "html": fragment(&report) }))
+}

@@ -1,0 +1,58 @@
+//! Files to start from: an empty one, templates of measurements, published examples.
+
+use gumption_units::nearest;
+use serde::Deserialize;
+use serde_json::{Value as Json, json};
+
+use crate::{Live, LiveError};
+
+/// A request of the call `new`.
+#[derive(Debug, Deserialize)]
+pub(crate) struct Asked {
+    #[serde(default)]
+    example: Option<String>,
+    #[serde(default)]
+    template: Option<String>,
+}
+
+/// A model of which nothing is known yet.
+const EMPTY: &str = "{\n  \"format\": 1,\n  \"title\": \"\",\n  \"inputs\": {},\n  \"equations\": {},\n  \"outputs\": {}\n}\n";
+
+/// The text of a new file.
+pub(crate) fn new(live: &Live<'_>, asked: &Asked) -> Result<Json, LiveError> {
+    let templates = live.catalogue.iter().filter_map(|entry| Some((entry.name(), entry.template?)));
+    let text = match (&asked.example, &asked.template) {
+        (Some(name), _) => named(name, live.examples.iter().copied(), "example")?,
+        (None, Some(name)) => named(name, templates, "measurement")?,
+        (None, None) => EMPTY,
+    };
+    Ok(json!({ "text": text }))
+}
+
+fn named<'t>(
+    name: &str,
+    all: impl Iterator<Item = (&'t str, &'t str)>,
+    what: &str,
+) -> Result<&'t str, LiveError> {
+    let all: Vec<(&str, &str)> = all.collect();
+    if let Some((_, text)) = all.iter().find(|(of, _)| *of == name) {
+        return Ok(text);
+    }
+    let near = nearest(name, all.iter().map(|(of, _)| *of));
+    let hint = near.map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
+    Err(LiveError::Request(format!("there is no {what} `{name}`{hint}")))
+}
+
+/// What there is to start from.
+pub(crate) fn list(live: &Live<'_>) -> Json {
+    let entry = |name: &str, text: &str| {
+        let of: Json = serde_json::from_str(text).unwrap_or(Json::Null);
+        json!({ "name": name, "title": of["title"], "source": of["source"] })
+    };
+    let templates = live.catalogue.iter().filter_map(|of| Some(entry(of.name(), of.template?)));
+    let examples = live.examples.iter().map(|(name, text)| entry(name, text));
+    json!({
+        "templates": templates.collect::<Vec<_>>(),
+        "examples": examples.collect::<Vec<_>>(),
+    })
+}

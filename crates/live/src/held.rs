@@ -1,0 +1,23 @@
+//! Files in memory.
+
+use gumption_files::FileSource;
+
+/// Files that are in memory and no others, by the names that model files have for them: those that
+/// were dropped onto a page that has no server.
+#[derive(Clone, Debug, Default)]
+pub struct HeldFiles(pub Vec<(String, Vec<u8>)>);
+
+impl FileSource for HeldFiles {
+    fn content(&self, name: &str, most: u64) -> Result<Vec<u8>, String> {
+        let plain = |name: &str| name.trim_start_matches("./").to_owned();
+        let found = self.0.iter().find(|(held, _)| plain(held) == plain(name));
+        let Some((_, bytes)) = found else {
+            return Err("it is not there; drop it onto the page".to_owned());
+        };
+        if bytes.len() as u64 > most {
+            let most = most / 1_000_000;
+            return Err(format!("it is larger than {most} MB, which this version takes at most"));
+        }
+        Ok(bytes.clone())
+    }
+}

@@ -1,0 +1,38 @@
+//! Budgets of spreadsheets as model files.
+
+use std::path::Path;
+
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
+use gumption_files::import_budget_bytes;
+use serde::Deserialize;
+use serde_json::{Value as Json, json};
+
+use crate::LiveError;
+
+/// A request of the call `import`.
+#[derive(Debug, Deserialize)]
+pub(crate) struct Asked {
+    /// The file's name, whose extension says what it is.
+    name: String,
+    /// Its content.
+    base64: String,
+}
+
+/// The model file of a budget.
+pub(crate) fn imported(asked: &Asked) -> Result<Json, LiveError> {
+    let bytes = STANDARD
+        .decode(&asked.base64)
+        .map_err(|why| LiveError::Request(format!("`base64`: {why}")))?;
+    // a name alone, so that nothing is looked for anywhere
+    let name = Path::new(&asked.name).file_name().unwrap_or_default();
+    match import_budget_bytes(Path::new(name), bytes) {
+        Ok(made) => Ok(json!({
+            "text": made.text, "understood": made.understood, "guessed": made.guessed,
+        })),
+        Err(found) => {
+            let found: Vec<String> = found.0.iter().take(20).map(ToString::to_string).collect();
+            Err(LiveError::Request(found.join("\n")))
+        }
+    }
+}

@@ -1,0 +1,169 @@
+//! The rows of the page's tables: what stands in the file, with the path of every cell.
+
+use gumption_engine::distribution::Distribution;
+use gumption_engine::task::{Task, Variable};
+use gumption_report::number::with_uncertainty;
+use gumption_report::{input_picture, plain};
+use jsonc_parser::ast::{Object, Value};
+use jsonc_parser::common::Ranged;
+use serde_json::{Value as Json, json};
+
+use crate::tree::{self, Step, path_of};
+
+/// Rows of a table, at most.
+const MOST: usize = 500;
+
+/// A value as somebody would type it: a text without its quotes, everything else as it stands.
+pub(crate) fn raw(text: &str, value: &Value<'_>) -> String {
+    match value {
+        Value::StringLit(found) => found.value.clone().into_owned(),
+        other => text.get(other.start()..other.end()).unwrap_or("").to_owned(),
+    }
+}
+
+/// The keys of an object as cells; of lists and objects the JSON text.
+fn cells(text: &str, object: &Object<'_>, path: &[Step]) -> Vec<Json> {
+    let one = |member: &jsonc_parser::ast::ObjectProp<'_>| {
+        let key = member.name.as_str();
+        let mut path = path.to_vec();
+        path.push(Step::Key(key.to_owned()));
+        let kind = match &member.value {
+            Value::NumberLit(_) => "number",
+            Value::StringLit(_) => "text",
+            Value::Array(array) if array.elements.iter().all(is_scalar) => "list",
+            Value::NullKeyword(_) => "null",
+            _ => "other",
+        };
+        json!({ "key": key, "path": path, "raw": raw(text, &member.value), "kind": kind })
+    };
+    object.properties.iter().map(one).collect()
+}
+
+fn is_scalar(value: &Value<'_>) -> bool {
+    !matches!(value, Value::Array(_) | Value::Object(_))
+}
+
+/// The inputs and their components, one row each.
+pub(crate) fn rows(text: &str, root: &Value<'_>, task: Option<&Task>) -> Vec<Json> {
+    let mut rows = Vec::new();
+    let inputs = tree::get(root, "inputs").and_then(Value::as_object);
+    for member in inputs.into_iter().flat_map(|object| &object.properties) {
+        let name = member.name.as_str();
+        let path = path_of(["inputs", name]);
+        rows.push(row(text, name, &member.value, &path, task));
+        let components = tree::get(&member.value, "components").and_then(Value::as_array);
+        for (place, component) in components.iter().flat_map(|of| &of.elements).enumerate() {
+            let of = tree::get(component, "name").map(|name| raw(text, name));
+            let full = format!("{name}/{}", of.unwrap_or_default());
+            let mut path = path.clone();
+            path.extend([Step::Key("components".to_owned()), Step::Place(place)]);
+            let mut row = row(text, &full, component, &path, task);
+            row["component"] = json!(true);
+            rows.push(row);
+        }
+        if rows.len() > MOST {
+            break;
+        }
+    }
+    rows
+}
+
+fn row(text: &str, name: &str, value: &Value<'_>, path: &[Step], task: Option<&Task>) -> Json {
+    let mut row = match value {
+        Value::Object(object) => {
+            let form = if tree::member(object, "components").is_some() {
+                "components"
+            } else if tree::member(object, "complex").is_some() {
+                "complex"
+            } else {
+                "object"
+            };
+            json!({ "form": form, "cells": cells(text, object, path) })
+        }
+        other => json!({ "form": "text", "text": raw(text, other), "cells": [] }),
+    };
+    row["name"] = json!(name);
+    row["path"] = json!(path);
+    row["component"] = json!(false);
+    if let Some((variable, distribution)) = task.and_then(|task| drawn(task, name)) {
+        let u = distribution.standard_uncertainty();
+        let (estimate, uncertainty) = with_uncertainty(distribution.mean(), u, 2);
+        row["distribution"] = json!(distribution.name());
+        row["estimate"] = json!(distribution.mean());
+        row["standard_uncertainty"] = json!(u);
+        row["said"] = json!([estimate, uncertainty, plain(variable.unit.text())]);
+        row["type"] = json!(variable.evaluation.letter());
+        if u > 0.0 && u.is_finite() {
+            row["picture"] = json!(input_picture(distribution));
+        }
+    }
+    row
+}
+
+/// What is known about a variable in the first row of conditions.
+pub(crate) fn drawn<'t>(task: &'t Task, name: &str) -> Option<(&'t Variable, &'t Distribution)> {
+    let place = task.variables.iter().position(|variable| variable.name == name)?;
+    let distribution = task.rows.first()?.distributions.get(place)?;
+    Some((task.variables.get(place)?, distribution))
+}
+
+/// The conditions: one row each, and whether a table of a file has them.
+pub(crate) fn conditions(text: &str, root: &Value<'_>, task: Option<&Task>) -> Json {
+    let object = tree::get(root, "conditions").and_then(Value::as_object);
+    let Some(object) = object else { return Json::Null };
+    let path = path_of(["conditions"]);
+    let of_file = tree::member(object, "file").is_some_and(|of| is_scalar(&of.value));
+    let rows: Vec<Json> = if of_file {
+        vec![json!({ "name": "", "path": path, "cells": cells(text, object, &path) })]
+    } else {
+        let one = |member: &jsonc_parser::ast::ObjectProp<'_>| {
+            let name = member.name.as_str();
+            let path = path_of(["conditions", name]);
+            match &member.value {
+                Value::Object(object) => {
+                    json!({ "name": name, "path": path, "cells": cells(text, object, &path) })
+                }
+                other => {
+                    json!({ "name": name, "path": path, "text": raw(text, other), "cells": [] })
+                }
+            }
+        };
+        object.properties.iter().map(one).collect()
+    };
+    json!({ "file": of_file, "rows": rows, "count": task.map(|task| task.rows.len()) })
+}
+
+/// The outputs that are reported: one row each, the keys of a tolerance among its cells.
+pub(crate) fn outputs(text: &str, root: &Value<'_>) -> Vec<Json> {
+    let object = tree::get(root, "outputs").and_then(Value::as_object);
+    let one = |member: &jsonc_parser::ast::ObjectProp<'_>| {
+        let name = member.name.as_str();
+        let path = path_of(["outputs", name]);
+        let own = member.value.as_object();
+        let mut all = own.map(|object| cells(text, object, &path)).unwrap_or_default();
+        let tolerance = tree::get(&member.value, "tolerance").and_then(Value::as_object);
+        all.extend(
+            tolerance
+                .into_iter()
+                .flat_map(|object| cells(text, object, &path_of(["outputs", name, "tolerance"]))),
+        );
+        json!({ "name": name, "path": path, "cells": all })
+    };
+    object.into_iter().flat_map(|object| &object.properties).map(one).collect()
+}
+
+/// The declared correlation coefficients that are written one by one.
+pub(crate) fn correlations(text: &str, root: &Value<'_>) -> Json {
+    let Some(found) = tree::get(root, "correlations") else { return json!([]) };
+    let Some(array) = found.as_array() else { return Json::Null };
+    let one = |(place, of): (usize, &Value<'_>)| {
+        let of = of.as_array()?;
+        let [a, b, r] = of.elements.as_slice() else { return None };
+        Some(json!({
+            "path": [Step::Key("correlations".to_owned()), Step::Place(place)],
+            "between": [raw(text, a), raw(text, b)],
+            "raw": raw(text, r),
+        }))
+    };
+    array.elements.iter().enumerate().filter_map(one).collect()
+}

@@ -1,0 +1,157 @@
+//! The live page: what it is answered while a model is edited, and the page itself.
+//!
+//! Every answer is text to text: nothing here opens a file, starts a thread, looks at a clock or
+//! knows a network, so that the same answers come from a server on the user's machine and from a
+//! browser alone.
+
+#![cfg_attr(test, allow(clippy::disallowed_methods))] // tests compare within tolerances
+
+mod answer;
+mod audit;
+mod diagnostics;
+mod edit;
+mod examples;
+mod held;
+mod import;
+mod inputs;
+mod kinds;
+mod outputs;
+pub mod page;
+mod reshape;
+#[cfg(test)]
+mod tests;
+mod tree;
+
+use std::fmt;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
+use gumption_engine::model::typed::Catalogue;
+use gumption_files::FileReader;
+use serde::Deserialize;
+use serde::de::DeserializeOwned;
+use serde_json::json;
+
+pub use gumption_files::FileSource;
+pub use held::HeldFiles;
+
+/// Bytes of a text that is edited on the page, at most.
+const MOST_TEXT: usize = 5_000_000;
+
+/// Answers about models that are being edited.
+#[derive(Clone, Debug)]
+pub struct Live<'a> {
+    catalogue: &'a Catalogue,
+    examples: Vec<(&'a str, &'a str)>,
+}
+
+/// Why a call has no answer. A model with mistakes has one: the list of them.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum LiveError {
+    /// There is no call of that name.
+    Unknown(String),
+    /// The request does not go with the call: why, in a sentence.
+    Request(String),
+    /// A fault of the program itself.
+    Internal(String),
+}
+
+impl fmt::Display for LiveError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Unknown(name) => write!(f, "there is no call `{name}`"),
+            Self::Request(why) | Self::Internal(why) => f.write_str(why),
+        }
+    }
+}
+
+impl std::error::Error for LiveError {}
+
+/// A request that has a text alone, and what it is called.
+#[derive(Debug, Deserialize)]
+struct Text {
+    text: String,
+    #[serde(default)]
+    name: String,
+}
+
+impl<'a> Live<'a> {
+    /// Answers for files that may name these measurements; `examples` are model files to start from,
+    /// by name.
+    pub fn new(
+        catalogue: &'a Catalogue,
+        examples: impl IntoIterator<Item = (&'a str, &'a str)>,
+    ) -> Self {
+        Self { catalogue, examples: examples.into_iter().collect() }
+    }
+
+    /// The answer to a call: both are JSON texts. `folder` gives the files that a model names; when
+    /// `stop` becomes true, what has been computed so far is the answer.
+    ///
+    /// | call | request | answer |
+    /// |---|---|---|
+    /// | `answer` | `text`, `name`, `trials`, `full`, `narrow` | mistakes; or inputs, outputs, results, parts of the page |
+    /// | `audit` | `text`, `name` | `html`: what the Type B assumptions decide |
+    /// | `edit` | `text`, `edits` | `text` |
+    /// | `reshape` | `text`, `path`, `distribution` | `text` with another distribution of an input |
+    /// | `new` | `example`, `template` or nothing | `text` |
+    /// | `examples` | | lists of names with titles |
+    /// | `kinds` | | distributions with their keys, units |
+    /// | `import` | `name`, `base64` | `text`, `understood`, `guessed` |
+    ///
+    /// # Errors
+    /// A call that there is not, or a request that does not go with it.
+    pub fn call(
+        &self,
+        name: &str,
+        request: &str,
+        folder: &dyn FileSource,
+        stop: &Arc<AtomicBool>,
+    ) -> Result<String, LiveError> {
+        let files = FileReader::new(self.catalogue).reading(folder);
+        let answer = match name {
+            "answer" => answer::answer(files, &asked(request)?, stop)?,
+            "audit" => audit::audited(files, &asked(request)?, stop)?,
+            "edit" => {
+                let asked: edit_call::Asked = asked(request)?;
+                let text = edit::edited(limited(&asked.text)?, &asked.edits);
+                json!({ "text": text.map_err(LiveError::Request)? })
+            }
+            "reshape" => reshape::reshaped(files, &asked(request)?)?,
+            "new" => examples::new(self, &asked(request)?)?,
+            "examples" => examples::list(self),
+            "kinds" => kinds::all(),
+            "import" => import::imported(&asked(request)?)?,
+            other => return Err(LiveError::Unknown(other.to_owned())),
+        };
+        Ok(answer.to_string())
+    }
+}
+
+mod edit_call {
+    use serde::Deserialize;
+
+    /// A request of the call `edit`.
+    #[derive(Debug, Deserialize)]
+    pub(super) struct Asked {
+        pub(super) text: String,
+        pub(super) edits: Vec<super::edit::Edit>,
+    }
+}
+
+/// A request as a call takes it.
+fn asked<T: DeserializeOwned>(request: &str) -> Result<T, LiveError> {
+    serde_json::from_str(request).map_err(|why| LiveError::Request(format!("the request: {why}")))
+}
+
+/// A text of a size that can be edited.
+fn limited(text: &str) -> Result<&str, LiveError> {
+    if text.len() <= MOST_TEXT {
+        return Ok(text);
+    }
+    let most = MOST_TEXT / 1_000_000;
+    Err(LiveError::Request(format!(
+        "the text is larger than {most} MB, which the page takes at most"
+    )))
+}

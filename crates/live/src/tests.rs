@@ -1,0 +1,265 @@
+//! The calls as the page makes them.
+
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
+use gumption_engine::model::typed::Catalogue;
+use serde_json::{Value, json};
+
+use crate::{HeldFiles, Live, LiveError};
+
+const POWER: &str = include_str!("../../../models/examples/power.json");
+
+fn catalogue() -> &'static Catalogue {
+    gumption_measurements::catalogue()
+}
+
+fn try_call(name: &str, request: &Value, files: &HeldFiles) -> Result<Value, LiveError> {
+    let live = Live::new(catalogue(), [("power", POWER)]);
+    let answer = live.call(name, &request.to_string(), files, &Arc::default())?;
+    Ok(serde_json::from_str(&answer).unwrap())
+}
+
+fn call(name: &str, request: &Value) -> Value {
+    try_call(name, request, &HeldFiles::default()).unwrap()
+}
+
+fn answer(text: &str) -> Value {
+    call("answer", &json!({"text": text, "trials": 100_000}))
+}
+
+/// The page says what the command line says: its result is that of `gumption run` for this file
+/// (`tests/pages` holds that page), at fewer trials with the GUM's figures unchanged.
+#[test]
+fn the_budget_of_a_resistor() {
+    let found = answer(POWER);
+    assert_eq!(found["diagnostics"], json!([]));
+    let result = &found["results"][0];
+    let gum = &result["gum"];
+    // 5.01^2/99.95 W; u from 10 mV and the scatter of four readings by hand
+    let power = 5.01_f64 * 5.01 / 99.95 * 1000.0;
+    assert!((gum["estimate"].as_f64().unwrap() - power).abs() < 1e-9);
+    let u_voltage = 2.0_f64 * 5.01 / 99.95 * 0.01 * 1000.0;
+    let u_resistance = power / 99.95 * (0.05_f64 / 3.0).sqrt() / 2.0;
+    let u = u_voltage.hypot(u_resistance);
+    assert!((gum["standard_uncertainty"].as_f64().unwrap() - u).abs() < 1e-9, "{gum}");
+    assert_eq!(result["statement"]["kind"], "expanded");
+    assert_eq!(result["unit"], "mW");
+    let budget = result["html"]["budget"].as_str().unwrap();
+    assert!(budget.contains("<th scope=\"row\">voltage</th>"), "{budget}");
+    assert!(result["html"]["distribution"].as_str().unwrap().contains("<svg role=\"img\""));
+    assert_eq!((&found["trials"], &found["whole"]), (&json!(100_000), &json!(false)));
+}
+
+#[test]
+fn the_full_answer_is_that_of_the_file() {
+    let small = POWER.replacen('{', "{\"monte_carlo\": {\"trials\": 20000, \"seed\": 3},", 1);
+    let found = call("answer", &json!({"text": small, "full": true}));
+    assert_eq!((&found["trials"], &found["whole"]), (&json!(20_000), &json!(true)));
+    assert_eq!(found["seed"], 3);
+    // no more than the page makes, whatever a file asks for
+    let huge = POWER.replacen('{', "{\"monte_carlo\": {\"trials\": 1000000000000},", 1);
+    let found = answer(&huge);
+    assert_eq!((&found["trials"], &found["whole"]), (&json!(100_000), &json!(false)));
+}
+
+#[test]
+fn cells_have_their_paths_and_are_as_written() {
+    let found = answer(&POWER.replace("5.01,", "5.010,"));
+    let row = &found["inputs"][0];
+    assert_eq!((&row["name"], &row["type"]), (&json!("voltage"), &json!("B")));
+    let mean = row["cells"].as_array().unwrap().iter().find(|cell| cell["key"] == "mean").unwrap();
+    assert_eq!(mean["raw"], "5.010");
+    assert_eq!(mean["path"], json!(["inputs", "voltage", "mean"]));
+    assert!(row["picture"].as_str().unwrap().starts_with("<svg"));
+    assert_eq!(found["equations"][0]["formula"], "voltage^2/resistance");
+    assert_eq!(found["inputs"][1]["cells"][2]["kind"], "list");
+}
+
+/// Places are counted as scripts count: in UTF-16 units, within the file and within the formula.
+#[test]
+fn mistakes_have_their_places() {
+    let text = "\u{feff}{\"title\": \"𝛼ß\", \"inputs\": {}, \"equations\": {\"y\": \"2 + Ω*x\"},\n \"outputs\": {\"y\": {\"unit\": \"1\"}}}";
+    let found = answer(text);
+    let all = found["diagnostics"].as_array().unwrap();
+    let of = |name: &str| {
+        let quoted = format!("`{name}`");
+        all.iter().find(|one| one["message"].as_str().unwrap().contains(&quoted)).unwrap()
+    };
+    let units: Vec<u16> = text.encode_utf16().collect();
+    for (name, within) in [("Ω", [4, 5]), ("x", [6, 7])] {
+        let one = of(name);
+        let [start, end] = ["start", "end"].map(|key| one[key].as_u64().unwrap() as usize);
+        assert_eq!(String::from_utf16(&units[start..end]).unwrap(), name, "{one}");
+        assert_eq!(one["within"], json!(within));
+        assert_eq!(one["path"], json!(["equations", "y"]));
+        assert_eq!(one["line"], 1);
+    }
+    assert_eq!(found["missing"], json!(["Ω", "x"]));
+    assert_eq!(found.get("results"), None);
+}
+
+#[test]
+fn an_unfinished_text_has_a_mistake_and_nothing_else() {
+    let found = answer("{\"inputs\": {\"a\": ");
+    assert_eq!(found["kind"], "model");
+    assert_eq!(found["diagnostics"].as_array().unwrap().len(), 1);
+    assert_eq!(answer("")["kind"], "other");
+}
+
+/// What a file says is text, wherever it stands, and no part of a page has a style or a script of its
+/// own, which the page's policy forbids.
+#[test]
+fn a_file_is_never_markup() {
+    let evil = "<img src=x onerror=alert(1)>\\\" onload=\\\"x";
+    let text = format!(
+        "{{\"title\": \"{evil}\", \"inputs\": {{\"a\": {{\"unit\": \"m\", \"distribution\": \"normal\", \
+         \"mean\": 1, \"std\": 0.1, \"about\": \"{evil}\", \"group\": \"{evil}\"}}}}, \
+         \"equations\": {{\"y\": \"a*a\"}}, \"outputs\": {{\"y\": {{\"unit\": \"m^2\", \"about\": \"{evil}\"}}}}}}"
+    );
+    let found = answer(&text);
+    assert_eq!(found["diagnostics"], json!([]), "{found}");
+    let audit = call("audit", &json!({"text": text}));
+    let parts = found["results"][0]["html"].as_object().unwrap().values();
+    let parts = parts.chain([&found["together"], &found["inputs"][0]["picture"], &audit["html"]]);
+    for part in parts {
+        let html = part.as_str().unwrap();
+        assert!(!html.contains("<img") && !html.contains("<script"), "{html}");
+        assert!(!html.contains(" style=\""), "{html}");
+        let mut rest = html;
+        while let Some((_, tag)) = rest.split_once('<') {
+            let (tag, behind) = tag.split_once('>').unwrap();
+            // attributes are quoted, so that what stands outside of quotes is the markup's own
+            let own: String = tag.split('"').step_by(2).collect();
+            assert!(!own.contains("onload") && !own.contains("onerror"), "{tag}");
+            rest = behind;
+        }
+    }
+}
+
+#[test]
+fn files_come_from_the_folder_alone() {
+    let text = "{\"inputs\": {\"a\": {\"unit\": \"m\", \"distribution\": \"samples\", \"file\": \"s.csv\"}}, \
+                \"equations\": {\"y\": \"2*a\"}, \"outputs\": {\"y\": {\"unit\": \"m\"}}}";
+    let mistake = answer(text)["diagnostics"][0]["message"].as_str().unwrap().to_owned();
+    assert!(mistake.contains("drop it onto the page"), "{mistake}");
+    let held = HeldFiles(vec![("s.csv".to_owned(), b"1\n2\n3\n".to_vec())]);
+    let found = try_call("answer", &json!({"text": text}), &held).unwrap();
+    assert_eq!(found["results"][0]["gum"]["estimate"], json!(4.0), "{found}");
+}
+
+#[test]
+fn a_sweep_has_its_tables_together() {
+    let text = POWER.replace(
+        "\"equations\"",
+        "\"conditions\": {\"f\": {\"unit\": \"1\", \"values\": [1, 2]}}, \"equations\"",
+    );
+    let found = answer(&text);
+    assert_eq!((&found["rows"], &found["results"]), (&json!(2), &json!([])), "{found}");
+    assert!(found["together"].as_str().unwrap().contains("<table>"));
+    assert_eq!(found["conditions"]["count"], 2);
+}
+
+#[test]
+fn a_shape_keeps_the_numbers_that_were_typed() {
+    let reshaped = |input: &str, shape: &str| {
+        let text = format!("{{\"inputs\": {{\"a\": {input}}}}}");
+        let asked = json!({"text": text, "path": ["inputs", "a"], "distribution": shape});
+        let made = call("reshape", &asked)["text"].as_str().unwrap().to_owned();
+        let inner = made.strip_prefix("{\"inputs\": {\"a\": ").unwrap();
+        inner.strip_suffix("}}").unwrap().to_owned()
+    };
+    let normal = "{\"unit\": \"m\", \"distribution\": \"normal\", \"mean\": 5.010, \"std\": 1e-3}";
+    assert_eq!(
+        reshaped(normal, "rectangular"),
+        "{\"unit\": \"m\", \"distribution\": \"rectangular\", \"mean\": 5.010, \"half_width\": 1e-3}"
+    );
+    assert_eq!(
+        reshaped(normal, "split-normal"),
+        "{\"unit\": \"m\", \"distribution\": \"split-normal\", \"mode\": 5.010, \"std_low\": 1e-3, \"std_high\": 0.001}"
+    );
+    let limits = "{\"distribution\": \"rectangular\", \"lower\": 1, \"upper\": 2}";
+    assert_eq!(
+        reshaped(limits, "triangular"),
+        "{\"distribution\": \"triangular\", \"lower\": 1, \"upper\": 2}"
+    );
+    assert_eq!(
+        reshaped(limits, "normal"),
+        "{\"distribution\": \"normal\", \"mean\": 1.5, \"std\": 0.5}"
+    );
+    let expanded = "{\"distribution\": \"normal\", \"mean\": 1, \"expanded\": 0.2, \"k\": 2}";
+    assert_eq!(
+        reshaped(expanded, "arcsine"),
+        "{\"distribution\": \"arcsine\", \"mean\": 1, \"half_width\": 0.2}"
+    );
+    assert_eq!(
+        reshaped(normal, "readings"),
+        "{\"unit\": \"m\", \"distribution\": \"readings\", \"values\": []}"
+    );
+}
+
+/// Every distribution that files may name has keys to begin with, and a new input of it, filled in,
+/// is one that can be read.
+#[test]
+fn every_distribution_can_be_begun() {
+    for shape in gumption_files::schema::distributions() {
+        assert!(!crate::reshape::needed(shape.name).is_empty(), "{}", shape.name);
+        for (key, _) in crate::reshape::needed(shape.name) {
+            assert!(shape.keys.contains(key), "{}: {key}", shape.name);
+        }
+    }
+    let start = "{\"format\": 1, \"inputs\": {\"a\": {\"unit\": \"1\", \"distribution\": \"normal\", \
+                 \"mean\": 5, \"std\": 0.1}}, \"equations\": {\"y\": \"a\"}, \"outputs\": {\"y\": {\"unit\": \"1\"}}}";
+    for shape in gumption_files::schema::distributions() {
+        if ["readings", "samples", "quantiles", "dcc", "result"].contains(&shape.name) {
+            continue; // these need what nobody can guess
+        }
+        let asked = json!({"text": start, "path": ["inputs", "a"], "distribution": shape.name});
+        let made = call("reshape", &asked)["text"].as_str().unwrap().to_owned();
+        assert_eq!(answer(&made)["diagnostics"], json!([]), "{made}");
+    }
+}
+
+#[test]
+fn there_is_something_to_start_from() {
+    let list = call("examples", &json!({}));
+    assert_eq!(list["examples"][0]["name"], "power");
+    assert_eq!(call("new", &json!({"example": "power"}))["text"], POWER);
+    let wrong = try_call("new", &json!({"example": "powr"}), &HeldFiles::default()).unwrap_err();
+    assert_eq!(wrong.to_string(), "there is no example `powr`; did you mean `power`?");
+    let empty = call("new", &json!({}));
+    assert!(empty["text"].as_str().unwrap().contains("\"inputs\": {}"));
+    assert_eq!(call("kinds", &json!({}))["distributions"][1]["needed"], json!(["mean", "std"]));
+}
+
+#[test]
+fn a_budget_of_a_spreadsheet() {
+    let csv = "Quantity,Estimate,Unit,Standard uncertainty,Sensitivity\nU,5.0,V,0.01,1\nI,0.1,A,0.001,-2\n";
+    let base64 = base64::Engine::encode(&base64::engine::general_purpose::STANDARD, csv);
+    let made = call("import", &json!({"name": "../x/budget.csv", "base64": base64}));
+    assert!(made["text"].as_str().unwrap().contains("\"U\""), "{made}");
+    let wrong = json!({"name": "a.xlsx", "base64": "UEs="});
+    assert!(matches!(
+        try_call("import", &wrong, &HeldFiles::default()),
+        Err(LiveError::Request(_))
+    ));
+}
+
+#[test]
+fn calls_that_do_not_go() {
+    let none = HeldFiles::default();
+    assert_eq!(try_call("nothing", &json!({}), &none), Err(LiveError::Unknown("nothing".into())));
+    assert!(matches!(try_call("answer", &json!({}), &none), Err(LiveError::Request(_))));
+    let large = json!({"text": " ".repeat(5_000_001)});
+    assert!(matches!(try_call("answer", &large, &none), Err(LiveError::Request(_))));
+}
+
+#[test]
+fn a_call_is_stopped_by_its_flag() {
+    let live = Live::new(catalogue(), []);
+    let stop = Arc::new(AtomicBool::new(true));
+    let request = json!({"text": POWER, "full": true}).to_string();
+    let answer = live.call("answer", &request, &HeldFiles::default(), &stop).unwrap();
+    let answer: Value = serde_json::from_str(&answer).unwrap();
+    assert_eq!(answer["stopped"], true);
+}

@@ -1,0 +1,86 @@
+//! The text of a file with the places of everything in it. Comments and trailing commas are borne, so
+//! that a text can be edited that the readers refuse.
+
+use std::fmt;
+
+use jsonc_parser::ast::{Object, ObjectProp, Value};
+use jsonc_parser::common::Ranged;
+use jsonc_parser::{CollectOptions, ParseOptions, parse_to_ast};
+use serde::{Deserialize, Serialize};
+
+/// A step from a value to one inside of it.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub(crate) enum Step {
+    /// Into a list, counted from 0.
+    Place(usize),
+    /// Into an object.
+    Key(String),
+}
+
+impl fmt::Display for Step {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Place(place) => place.fmt(f),
+            Self::Key(key) => f.write_str(key),
+        }
+    }
+}
+
+/// The root of a text, if it is one.
+pub(crate) fn parse(text: &str) -> Result<Value<'_>, String> {
+    let parsed = parse_to_ast(text, &CollectOptions::default(), &ParseOptions::default());
+    match parsed {
+        Ok(parsed) => parsed.value.ok_or_else(|| "the text is empty".to_owned()),
+        Err(error) => Err(error.to_string()),
+    }
+}
+
+/// The member of that name.
+pub(crate) fn member<'v, 't>(object: &'v Object<'t>, key: &str) -> Option<&'v ObjectProp<'t>> {
+    object.properties.iter().find(|member| member.name.as_str() == key)
+}
+
+/// The value of a member of an object; `None` for anything else.
+pub(crate) fn get<'v, 't>(value: &'v Value<'t>, key: &str) -> Option<&'v Value<'t>> {
+    Some(&member(value.as_object()?, key)?.value)
+}
+
+/// The value behind a path.
+pub(crate) fn at<'v, 't>(root: &'v Value<'t>, path: &[Step]) -> Option<&'v Value<'t>> {
+    path.iter().try_fold(root, |value, step| match step {
+        Step::Key(key) => get(value, key),
+        Step::Place(place) => value.as_array()?.elements.get(*place),
+    })
+}
+
+/// The path to the innermost value, or the key of it, that a place of the text lies in.
+pub(crate) fn path_to(root: &Value<'_>, byte: usize) -> Vec<Step> {
+    let mut path = Vec::new();
+    let mut value = root;
+    loop {
+        let next = match value {
+            Value::Object(object) => {
+                let found = object.properties.iter().find(|member| contains(*member, byte));
+                found.map(|member| (Step::Key(member.name.as_str().to_owned()), &member.value))
+            }
+            Value::Array(array) => {
+                let found = array.elements.iter().position(|element| contains(element, byte));
+                found.map(|place| (Step::Place(place), &array.elements[place]))
+            }
+            _ => None,
+        };
+        let Some((step, inner)) = next else { return path };
+        path.push(step);
+        value = inner;
+    }
+}
+
+fn contains(of: &impl Ranged, byte: usize) -> bool {
+    (of.start()..of.end()).contains(&byte)
+}
+
+/// A path from keys.
+pub(crate) fn path_of<const N: usize>(keys: [&str; N]) -> Vec<Step> {
+    keys.into_iter().map(|key| Step::Key(key.to_owned())).collect()
+}

@@ -1,0 +1,66 @@
+//! The parts of a page one by one, for a page that has a place of its own for each.
+
+use super::figures;
+use super::{Shown, document, results};
+use crate::EvaluationReport;
+use crate::document::{Document, fragment};
+use crate::html::FigureSize;
+use gumption_engine::distribution::Distribution;
+
+/// The parts of a page, each as HTML that needs the style of [`crate::page_style`]. Whatever a file
+/// says stands in it as text.
+#[derive(Clone, Debug, Default)]
+#[non_exhaustive]
+pub struct PageParts {
+    /// One entry for each output; none where there is more than one row of conditions.
+    pub outputs: Vec<OutputParts>,
+    /// What concerns all outputs: a table and a figure for each of them where there is more than one
+    /// row of conditions, correlations, coverage regions, calibration functions.
+    pub together: String,
+}
+
+/// The parts about one output.
+#[derive(Clone, Debug, Default)]
+#[non_exhaustive]
+pub struct OutputParts {
+    /// Name, unit and words, as plain text.
+    pub title: String,
+    /// The result, what clause 8 of JCGM 101 says of it, and whether it conforms, in sentences.
+    pub verdict: String,
+    /// The budget with the shares of the variance.
+    pub budget: String,
+    /// Combined standard uncertainty, degrees of freedom, coverage factor, expanded uncertainty.
+    pub conclusions: String,
+    /// Both methods side by side, with both coverage intervals.
+    pub comparison: String,
+    /// The distribution of the trials with the density that the GUM gives; empty without a histogram.
+    pub distribution: String,
+}
+
+/// The parts of the page of an evaluation.
+pub fn page_parts(report: &EvaluationReport<'_>, shown: &Shown<'_>, size: FigureSize) -> PageParts {
+    let one_row = report.evaluation.rows.len() == 1;
+    let outputs = if one_row { report.task.model.outputs.len() } else { 0 };
+    let part = |output| {
+        let section = results::section_of(report, shown, output)?;
+        Some(OutputParts {
+            title: section.title,
+            verdict: fragment(&section.verdict, size),
+            budget: fragment(&section.budget, size),
+            conclusions: fragment(&section.conclusions, size),
+            comparison: fragment(&section.comparison, size),
+            distribution: fragment(&section.distribution, size),
+        })
+    };
+    let mut together = Document::default();
+    document::together_of(&mut together, report);
+    PageParts {
+        outputs: (0..outputs).filter_map(part).collect(),
+        together: fragment(&together, size),
+    }
+}
+
+/// A small picture of a density, an `svg` element.
+pub fn input_picture(distribution: &Distribution) -> String {
+    figures::picture(distribution)
+}

@@ -1,0 +1,107 @@
+//! The files of the opened folder.
+
+use std::fs;
+use std::path::Path;
+
+use serde::Serialize;
+
+use super::answers::Answers;
+use super::folder::{OpenedFolder, read, words};
+
+/// Folders within folders that are looked into, at most.
+const DEEPEST: usize = 5;
+
+/// Files that are listed, at most.
+const MOST: usize = 2000;
+
+/// Entries of folders that are looked at, at most: a home folder may hold millions.
+const MOST_SEEN: usize = 50_000;
+
+/// The longest file whose content is looked at, in bytes.
+const LONGEST: u64 = 5 << 20;
+
+/// The files of the folder for the page.
+#[derive(Debug, Serialize)]
+pub(crate) struct Listing {
+    root: String,
+    files: Vec<Listed>,
+    open: Option<String>,
+    /// Whether there are more files than are listed.
+    more: bool,
+}
+
+#[derive(Debug, Serialize)]
+struct Listed {
+    path: String,
+    kind: &'static str,
+    title: Option<String>,
+}
+
+/// What the page can do something with, by the extension.
+fn is_wanted(name: &str) -> bool {
+    let extension = name.rsplit_once('.').map(|(_, of)| of.to_ascii_lowercase());
+    matches!(extension.as_deref(), Some("json" | "csv" | "xlsx" | "xml"))
+}
+
+/// The files below the folder; only those in it where a file of it was opened.
+pub(crate) fn listing(folder: &OpenedFolder, answers: &dyn Answers) -> Listing {
+    let mut found = Found { paths: Vec::new(), seen: 0, more: false };
+    let depth = if folder.named().is_some() { 0 } else { DEEPEST };
+    found.look_into(folder.root(), "", depth);
+    let described = |path: String| {
+        // what cannot be read is listed all the same: opening it tells why
+        let content = folder.path(&path).and_then(|path| read(&path, LONGEST));
+        let (kind, title) = match content {
+            Ok(content) => {
+                let of = answers.describe(&path, &content);
+                (of.kind, of.title)
+            }
+            Err(_) => ("other", None),
+        };
+        Listed { path, kind, title }
+    };
+    Listing {
+        root: folder.name(),
+        files: found.paths.into_iter().map(described).collect(),
+        open: folder.named().map(str::to_owned),
+        more: found.more,
+    }
+}
+
+struct Found {
+    paths: Vec<String>,
+    seen: usize,
+    more: bool,
+}
+
+impl Found {
+    fn look_into(&mut self, folder: &Path, prefix: &str, depth: usize) {
+        let Ok(entries) = fs::read_dir(folder) else { return };
+        let mut entries: Vec<_> = entries.take(MOST_SEEN).flatten().collect();
+        entries.sort_by_key(fs::DirEntry::file_name);
+        let mut folders = Vec::new();
+        for entry in entries {
+            self.seen += 1;
+            if self.seen > MOST_SEEN || self.paths.len() >= MOST {
+                self.more = true;
+                return;
+            }
+            let name = entry.file_name();
+            // names that no request can have are not for the page
+            let Some(name) = name.to_str().filter(|name| words(name).is_ok()) else { continue };
+            if name.starts_with('.') {
+                continue;
+            }
+            let Ok(kind) = entry.file_type() else { continue };
+            // folders behind links may go in a circle
+            if kind.is_dir() {
+                folders.push(name.to_owned());
+            } else if is_wanted(name) {
+                self.paths.push(format!("{prefix}{name}"));
+            }
+        }
+        for name in folders.into_iter().filter(|_| depth > 0) {
+            self.look_into(&folder.join(&name), &format!("{prefix}{name}/"), depth - 1);
+        }
+    }
+}
