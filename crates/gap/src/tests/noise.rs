@@ -189,9 +189,11 @@ fn noise_of(seed: u64, correlation: f64, size: fn(f64) -> f64) -> Vec<f64> {
 fn gap_free_data_with_another_noise_are_seldom_called_a_gap() {
     // uncertainties too small by two, neighbours that share half of their noise, noise that is
     // proportional to the value of 1 to 12.5
-    let noises: [(f64, fn(f64) -> f64); 3] = [(0.0, |_| 2.0), (0.5, |_| 1.0), (0.0, |y| 0.2 * y)];
+    let correlations = [0.0, 0.5, 0.0];
+    let sizes: [fn(f64) -> f64; 3] = [|_| 2.0, |_| 1.0, |y| 0.2 * y];
     let mut alarms = [0; 3];
-    for (alarms, (correlation, size)) in alarms.iter_mut().zip(noises) {
+    for (alarms, (correlation, size)) in alarms.iter_mut().zip(correlations.into_iter().zip(sizes))
+    {
         for seed in 0..8 {
             let found = diagnosed(&line_with(&noise_of(100 + seed, correlation, size)), 1);
             *alarms += usize::from(found.most_probable.kind != HypothesisKind::None);
