@@ -49,7 +49,7 @@ pub(crate) fn table(sheet: &Sheet) -> Markup {
                                     Kind::Equations => mathml::equation(cell),
                                     Kind::Text | Kind::Numbers => html! { (cell) },
                                 };
-                                @if place == 0 && sheet.columns.len() > 1 {
+                                @if place == 0 && sheet.columns.len() > 1 && !cell.is_empty() {
                                     th scope="row" class=[class(column)] { (text) }
                                 } @else {
                                     td class=[class(column)] { (text) }

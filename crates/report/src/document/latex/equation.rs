@@ -7,12 +7,25 @@ use gumption_engine::model::formula::Layout;
 /// A formula, or the right side of an equation with that of what it uses; as it was written where it
 /// is none.
 pub(super) fn equation(text: &str) -> String {
-    match Equation::read(text) {
-        Some(Equation { whole, uses: None }) => format!("${}$", part(&whole)),
+    let whole = match Equation::read(text) {
+        Some(Equation { whole, uses: None }) => displayed(&part(&whole)),
         Some(Equation { whole, uses: Some([name, of]) }) => {
-            format!("${}$, ${} = {}$", part(&whole), part(&name), part(&of))
+            let (name, of) = (part(&name), part(&of));
+            format!("{}, {}", displayed(&part(&whole)), displayed(&format!("{name} = {of}")))
         }
-        None => escaped(text),
+        None => return escaped(text),
+    };
+    // fractions of neighbouring lines keep their distance
+    match whole.contains("\\frac") {
+        true => format!("\\rule[-2.6ex]{{0pt}}{{6.2ex}}{whole}"),
+        false => whole,
+    }
+}
+
+fn displayed(mathematics: &str) -> String {
+    match mathematics.contains("\\frac") {
+        true => format!("$\\displaystyle {mathematics}$"),
+        false => format!("${mathematics}$"),
     }
 }
 
@@ -97,7 +110,7 @@ mod tests {
     fn equations_are_mathematics() {
         assert_eq!(
             equation("sqrt(a_ref^2 + 1e-3)/theta"),
-            "$\\frac{\\sqrt{{a_{\\mathrm{ref}}}^{2} + 1 \\cdot 10^{-3}}}{\\theta}$"
+            "\\rule[-2.6ex]{0pt}{6.2ex}$\\displaystyle \\frac{\\sqrt{{a_{\\mathrm{ref}}}^{2} + 1 \\cdot 10^{-3}}}{\\theta}$"
         );
         assert_eq!(equation("abs(a*sin(tilt))"), "$| a \\cdot \\mathrm{sin} ( \\mathit{tilt} ) |$");
         assert_eq!(equation("r*w with w = 2*pi"), "$r \\cdot w$, $w = 2 \\cdot \\pi$");
