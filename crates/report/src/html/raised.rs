@@ -6,7 +6,7 @@ use maud::{Markup, html};
 /// what a file says.
 pub(crate) fn raised(text: &str) -> Markup {
     let parts: Vec<&str> = text.split('`').collect();
-    if parts.len() % 2 == 0 {
+    if parts.len().is_multiple_of(2) {
         return exponents(text);
     }
     html! {
