@@ -27,6 +27,15 @@ const OWN: &[PageAsset] = assets! {
     "index.html": "text/html; charset=utf-8",
     "style.css": "text/css; charset=utf-8",
     "page.js": "text/javascript; charset=utf-8",
+    "answers.js": "text/javascript; charset=utf-8",
+    "code.js": "text/javascript; charset=utf-8",
+    "document.js": "text/javascript; charset=utf-8",
+    "form.js": "text/javascript; charset=utf-8",
+    "parts.js": "text/javascript; charset=utf-8",
+    "transport.js": "text/javascript; charset=utf-8",
+    "worker.js": "text/javascript; charset=utf-8",
+    "words.de.js": "text/javascript; charset=utf-8",
+    "words.en.js": "text/javascript; charset=utf-8",
 };
 
 /// All files of the page.
@@ -43,3 +52,64 @@ pub fn all() -> Vec<PageAsset> {
 pub const POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self'; \
     img-src 'self' data:; connect-src 'self'; frame-src 'self' blob:; worker-src 'self'; \
     base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What the markup and the scripts name is there, and what is there is named.
+    #[test]
+    fn every_asset_is_named_and_every_name_is_an_asset() {
+        let names: Vec<&str> = all().iter().map(|asset| asset.name).collect();
+        let texts: String = all().iter().map(|asset| asset.text).collect();
+        for name in names.iter().filter(|name| **name != "index.html") {
+            let named = [format!("\"assets/{name}\""), format!("\"./{name}\"")];
+            assert!(named.iter().any(|named| texts.contains(named)), "{name}");
+        }
+        for part in texts.split("from \"./").skip(1) {
+            let name = part.split('"').next().unwrap();
+            assert!(names.contains(&name), "{name}");
+        }
+    }
+
+    /// The policy allows no script and no style within the markup.
+    #[test]
+    fn the_markup_goes_with_the_policy() {
+        let page = all().into_iter().find(|asset| asset.name == "index.html").unwrap().text;
+        assert!(
+            !page.contains(" style=") && !page.contains("<style") && !page.contains(" onclick")
+        );
+        for script in page.split("<script").skip(1) {
+            assert!(script.starts_with(" type=\"module\" src=\"assets/"), "{script}");
+        }
+    }
+
+    /// Every text that the page asks for is there in every language, and no other.
+    #[test]
+    fn all_languages_say_the_same() {
+        let keys = |name: &str| {
+            let text = all().into_iter().find(|asset| asset.name == name).unwrap().text;
+            let top = text.split("\n  key: {").next().unwrap();
+            let mut keys: Vec<String> = Vec::new();
+            let mut rest = top;
+            // a key is a word before a colon that follows a bracket, a comma or a line's beginning
+            while let Some(at) = rest.find(": ") {
+                let word: String = rest[..at]
+                    .chars()
+                    .rev()
+                    .take_while(|c| c.is_ascii_lowercase() || *c == '_' || c.is_ascii_digit())
+                    .collect();
+                let word: String = word.chars().rev().collect();
+                let before = rest[..at - word.len()].trim_end().chars().next_back();
+                if !word.is_empty() && matches!(before, Some(',' | '{')) {
+                    keys.push(word);
+                }
+                rest = &rest[at + 2..];
+            }
+            keys.sort();
+            keys
+        };
+        assert!(keys("words.en.js").len() > 80);
+        assert_eq!(keys("words.en.js"), keys("words.de.js"));
+    }
+}

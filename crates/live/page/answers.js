@@ -1,0 +1,68 @@
+// Answers that follow the hand. A first answer comes from few trials, and as long as changes come in
+// only the newest one is asked about; when the hand rests the figures are refined.
+
+const FEW = 100000;
+const REST = 250;
+const AUDIT = 900;
+
+export class Answers {
+  constructor(program, shown) {
+    this.program = program;
+    this.shown = shown;
+    this.wanted = null;
+    this.isAsking = false;
+    this.later = null;
+    this.slow = null;
+  }
+
+  /** Asks about a text; `at` is when it was changed. */
+  ask(request) {
+    this.wanted = { ...request, at: performance.now() };
+    clearTimeout(this.later);
+    // what is refined is out of date
+    if (this.slow) this.slow.abort();
+    this.slow = null;
+    this.#next();
+  }
+
+  async #next() {
+    if (this.isAsking) return;
+    this.isAsking = true;
+    while (this.wanted) {
+      const request = this.wanted;
+      this.wanted = null;
+      try {
+        const { text, name, path, narrow } = request;
+        const found = await this.program.call("answer", { text, name, narrow, trials: FEW }, { path });
+        this.shown.answer(found, request);
+        if (!this.wanted && !found.diagnostics.length) {
+          this.later = setTimeout(() => this.#refine(request, found), REST);
+        }
+      } catch (error) {
+        this.shown.failed(error);
+      }
+    }
+    this.isAsking = false;
+  }
+
+  async #refine(request, first) {
+    const { text, name, path, narrow } = request;
+    if (first.kind !== "model") return;
+    const slow = new AbortController();
+    this.slow = slow;
+    const signal = slow.signal;
+    try {
+      if (!first.whole) {
+        const found = await this.program.call("answer", { text, name, narrow, full: true }, { path, signal });
+        if (signal.aborted) return;
+        this.shown.answer(found, request);
+      }
+      await new Promise(done => setTimeout(done, AUDIT - REST));
+      if (signal.aborted) return;
+      const found = await this.program.call("audit", { text, name }, { path, signal });
+      if (!signal.aborted) this.shown.audit(found);
+    } catch (error) {
+      if (error.name !== "AbortError" && !signal.aborted) this.shown.failed(error);
+    }
+  }
+}

@@ -1,0 +1,124 @@
+// The way to the program: a server on this machine, or the program itself in this browser.
+
+/** An error that the program tells; `status` is that of HTTP, `answer` what came with it. */
+export class Refused extends Error {
+  constructor(status, answer) {
+    super((answer && answer.error) || `HTTP ${status}`);
+    this.status = status;
+    this.answer = answer;
+  }
+}
+
+/** Finds out what there is. */
+export async function connect() {
+  try {
+    const found = await fetch("api/hello", { headers: { "X-Gumption": "1" } });
+    if (found.ok && (found.headers.get("content-type") || "").includes("json")) {
+      return new Server(await found.json());
+    }
+  } catch { /* no server: a folder of static files */ }
+  return Alone.load();
+}
+
+class Server {
+  constructor(hello) {
+    this.hello = hello;
+    this.hasFolder = true;
+  }
+
+  async #post(path, body, signal) {
+    const answer = await fetch(`api/${path}`, {
+      method: "POST", body, signal,
+      headers: { "X-Gumption": "1", "Content-Type": "application/json" },
+    });
+    if (answer.ok) return answer;
+    let told = null;
+    try { told = await answer.json(); } catch { /* no JSON */ }
+    throw new Refused(answer.status, told);
+  }
+
+  async call(name, request, { path, signal } = {}) {
+    const of = path ? `?path=${encodeURIComponent(path)}` : "";
+    return (await this.#post(`call/${name}${of}`, JSON.stringify(request), signal)).json();
+  }
+
+  async ask(name, request) {
+    return (await this.#post(name, JSON.stringify(request))).json();
+  }
+
+  async export(request) {
+    return (await this.#post("export", JSON.stringify(request))).blob();
+  }
+
+  async page(request) {
+    return (await this.ask("page", request)).address;
+  }
+
+  watch(changed, lost) {
+    const events = new EventSource("api/events");
+    events.addEventListener("changed", event => changed(JSON.parse(event.data)));
+    events.onerror = () => lost(true);
+    events.onopen = () => lost(false);
+  }
+
+  hold() {}
+}
+
+class Alone {
+  static async load() {
+    const alone = new Alone();
+    alone.hello = { version: "", lang: null, folder: "" };
+    alone.hasFolder = false;
+    alone.worker = new Worker("assets/worker.js");
+    alone.waiting = new Map();
+    alone.number = 0;
+    alone.worker.onmessage = ({ data }) => {
+      const of = alone.waiting.get(data.number);
+      alone.waiting.delete(data.number);
+      if (!of) return;
+      if (data.status === 0) of.resolve(data.answer);
+      else of.reject(new Refused(data.status === 1 ? 400 : 500, { error: data.answer }));
+    };
+    alone.worker.onerror = event => {
+      for (const of of alone.waiting.values()) of.reject(new Refused(500, { error: event.message }));
+      alone.waiting.clear();
+    };
+    return alone;
+  }
+
+  #send(message, transfer = []) {
+    const number = ++this.number;
+    return new Promise((resolve, reject) => {
+      this.waiting.set(number, { resolve, reject });
+      this.worker.postMessage({ ...message, number }, transfer);
+    });
+  }
+
+  async call(name, request, { signal } = {}) {
+    const answer = await this.#send({ name, request: JSON.stringify(request) });
+    if (signal && signal.aborted) throw new DOMException("", "AbortError");
+    return JSON.parse(answer);
+  }
+
+  async ask(name) {
+    if (name === "files") return { root: "", files: [], open: null };
+    throw new Refused(404, { error: name });
+  }
+
+  async export({ text, format, path }) {
+    const { base64 } = await this.call("export", { text, format, name: path || "model.json" });
+    const bytes = Uint8Array.from(atob(base64), letter => letter.charCodeAt(0));
+    return new Blob([bytes]);
+  }
+
+  async page({ text, path }) {
+    const { html } = await this.call("page", { text, name: path || "" });
+    return URL.createObjectURL(new Blob([html], { type: "text/html" }));
+  }
+
+  watch() {}
+
+  async hold(name, bytes) {
+    return this.#send({ hold: name, bytes }, [bytes]);
+  }
+}
