@@ -31,6 +31,8 @@ page outputs run models/sensitivity_matrix.json --trials 20000
 page conformity run tests/cases/feat-tolerance-normal/model.json --trials 200000
 page gap gap models/gap/lateral_motion/case.json
 page observe observe models/recordings/rotating_table/recipe.json
+page verify verify
+page plan plan models/inclined_plane.json --target "U(a_x) <= 0.01 m/s^2"
 page certificate certificate models/certificates/three_axis_accelerometer.json
 
 for columns in 60 80 100 140; do
@@ -49,4 +51,4 @@ for columns in 60 80 100 140; do
 done
 
 cd "$work"
-node "$OLDPWD/tests/pages/pages.mjs" "$folder" "$work"/{run,sweep,outputs,conformity,gap,observe,certificate}.html
+node "$OLDPWD/tests/pages/pages.mjs" "$folder" "$work"/{run,sweep,outputs,conformity,gap,observe,verify,plan,certificate}.html

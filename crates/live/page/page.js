@@ -140,10 +140,8 @@ class Page {
     if (force) this.force = false;
     this.kind = found.kind;
     const isModel = found.kind === "model";
-    this.element("view-form").disabled = !isModel && found.kind !== "case";
-    const isText = this.view === "text" || !isModel;
-    this.element("form").hidden = isText;
-    this.element("raw").hidden = !isText;
+    this.element("view-form").disabled = !isModel;
+    this.#show(this.view);
     if (found.inputs !== undefined) {
       this.form.show(found, force);
       this.#showEquations(found, force);
@@ -266,10 +264,13 @@ class Page {
     part("conclusions", of ? of.html.conclusions : "");
     part("verdict", of ? of.html.verdict : "");
     part("together", found.together);
-    const notes = this.element("notes"), key = JSON.stringify(found.notes);
+    // what the sentences above say already is not said again
+    const said = this.element("part-verdict").textContent;
+    const further = found.notes.filter(text => !said.includes(text));
+    const notes = this.element("notes"), key = JSON.stringify(further);
     if (notes.dataset.key !== key) {
       notes.dataset.key = key;
-      notes.replaceChildren(...found.notes.map(text => make("li", {}, text)));
+      notes.replaceChildren(...further.map(text => make("li", {}, text)));
     }
     const trials = String(found.trials).replace(/\B(?=(\d{3})+$)/g, "\u202f");
     const rest = found.whole ? words.done : found.full ? words.cut : words.refining;

@@ -9,6 +9,7 @@ pub mod compare;
 mod csv;
 pub mod diff;
 mod document;
+mod equation;
 mod evaluation;
 mod fits;
 pub mod gap;

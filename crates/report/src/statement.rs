@@ -47,7 +47,7 @@ pub(crate) fn sheet(task: &Task) -> Option<Sheet> {
         return None;
     }
     let mut sheet = Sheet::default();
-    sheet.push("quantity", equations.iter().map(|(name, _)| name.clone()), Kind::Equations);
+    sheet.text("quantity", equations.iter().map(|(name, _)| name.clone()));
     sheet.push("equation", equations.into_iter().map(|(_, text)| text), Kind::Equations);
     Some(sheet)
 }

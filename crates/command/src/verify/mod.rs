@@ -43,8 +43,10 @@ enum Format {
     Json,
     /// One line for each published value
     Csv,
-    /// A page to file
+    /// A page to file, as GitHub shows it
     Markdown,
+    /// A page to file, for a browser and for print, in one file
+    Html,
 }
 
 impl Verify {
@@ -73,6 +75,7 @@ impl Verify {
             Format::Json => verification::json(&found),
             Format::Csv => verification::csv(&found),
             Format::Markdown => verification::markdown(&found),
+            Format::Html => verification::html(&found),
         };
         place.write(&answer)?;
         if stop.load(Ordering::Relaxed) {

@@ -5,8 +5,8 @@ use maud::{Markup, html};
 use super::{Block, Document};
 use crate::html::{FigureSize, bare_figure, figure, page_in, raised, table};
 
-/// Sections from which on a page has contents.
-const MANY: usize = 8;
+/// Sections of a page with contents: fewer are seen at once, more are no help.
+const LISTED: std::ops::RangeInclusive<usize> = 8..=60;
 
 /// The whole page.
 pub(crate) fn html(document: &Document) -> String {
@@ -36,7 +36,7 @@ fn contents(document: &Document) -> Markup {
     });
     let titles: Vec<&String> = titles.collect();
     html! {
-        @if titles.len() >= MANY {
+        @if LISTED.contains(&titles.len()) {
             nav aria-label="Contents" {
                 @for (place, title) in titles.iter().enumerate() {
                     // what a quantity is stands in its section

@@ -1,38 +1,8 @@
 //! Equations as MathML, which browsers typeset without a script.
 
-use gumption_engine::model::formula::{Formula, Layout};
+use crate::equation::{Equation, greek, parts_of_name, parts_of_number};
+use gumption_engine::model::formula::Layout;
 use maud::{Markup, html};
-
-/// What stands between an equation and the equations of what it uses.
-const WHERE: &str = " with ";
-
-/// Greek letters by their names; their capitals begin with a capital.
-const GREEK: [(&str, char, char); 24] = [
-    ("alpha", 'α', 'Α'),
-    ("beta", 'β', 'Β'),
-    ("gamma", 'γ', 'Γ'),
-    ("delta", 'δ', 'Δ'),
-    ("epsilon", 'ε', 'Ε'),
-    ("zeta", 'ζ', 'Ζ'),
-    ("eta", 'η', 'Η'),
-    ("theta", 'θ', 'Θ'),
-    ("iota", 'ι', 'Ι'),
-    ("kappa", 'κ', 'Κ'),
-    ("lambda", 'λ', 'Λ'),
-    ("mu", 'μ', 'Μ'),
-    ("nu", 'ν', 'Ν'),
-    ("xi", 'ξ', 'Ξ'),
-    ("omicron", 'ο', 'Ο'),
-    ("pi", 'π', 'Π'),
-    ("rho", 'ρ', 'Ρ'),
-    ("sigma", 'σ', 'Σ'),
-    ("tau", 'τ', 'Τ'),
-    ("upsilon", 'υ', 'Υ'),
-    ("phi", 'φ', 'Φ'),
-    ("chi", 'χ', 'Χ'),
-    ("psi", 'ψ', 'Ψ'),
-    ("omega", 'ω', 'Ω'),
-];
 
 /// A formula, or the right side of an equation with those of what it uses; as it was written where it
 /// is none.
@@ -41,28 +11,13 @@ pub(super) fn equation(text: &str) -> Markup {
 }
 
 fn typeset(text: &str) -> Option<Markup> {
-    let (whole, uses) = match text.split_once(WHERE) {
-        Some((whole, uses)) => (whole, Some(uses)),
-        None => (text, None),
-    };
-    let whole = layout(whole)?;
-    let uses = match uses {
-        Some(uses) => {
-            let (name, of) = uses.split_once(" = ")?;
-            Some((layout(name)?, layout(of)?))
-        }
-        None => None,
-    };
+    let Equation { whole, uses } = Equation::read(text)?;
     Some(html! {
         math displaystyle="true" { (part(&whole)) }
-        @if let Some((name, of)) = uses {
+        @if let Some([name, of]) = uses {
             ", " math displaystyle="true" { (part(&name)) mo { "=" } (part(&of)) }
         }
     })
-}
-
-fn layout(text: &str) -> Option<Layout> {
-    Formula::parse(text).ok()?.layout()
 }
 
 fn part(layout: &Layout) -> Markup {
@@ -97,36 +52,27 @@ fn part(layout: &Layout) -> Markup {
 
 /// A number, a power of ten as it is written by hand.
 fn number(text: &str) -> Markup {
-    match text.split_once(['e', 'E']) {
-        Some((digits, power)) => html! {
-            mrow {
-                mn { (digits) } mo { "\u{22c5}" }
-                msup { mn { "10" } mn { (power.trim_start_matches('+').replace('-', "\u{2212}")) } }
-            }
+    match parts_of_number(text) {
+        (digits, Some(power)) => html! {
+            mrow { mn { (digits) } mo { "\u{22c5}" } msup { mn { "10" } mn { (power) } } }
         },
-        None => html! { mn { (text) } },
+        (digits, None) => html! { mn { (digits) } },
     }
 }
 
 /// The name of a quantity: Greek letters as such, and what follows an underscore below the line.
 fn name(text: &str) -> Markup {
-    match text.split_once('_') {
-        Some((base, below)) if !base.is_empty() && !below.is_empty() => {
-            let below: Vec<String> = below.split('_').map(letter).collect();
-            html! { msub { mi { (letter(base)) } mi { (below.join(",\u{2009}")) } } }
-        }
-        _ => html! { mi { (letter(text)) } },
+    let (base, below) = parts_of_name(text);
+    if below.is_empty() {
+        return html! { mi { (letter(base)) } };
     }
+    let below: Vec<String> = below.into_iter().map(letter).collect();
+    html! { msub { mi { (letter(base)) } mi { (below.join(",\u{2009}")) } } }
 }
 
 /// A Greek letter for its name; other names as they are.
 fn letter(name: &str) -> String {
-    let found = GREEK.iter().find_map(|(word, small, capital)| {
-        let is_capital = name.starts_with(|c: char| c.is_ascii_uppercase());
-        let is_it = name.eq_ignore_ascii_case(word) && name[1..] == word[1..];
-        is_it.then_some(if is_capital { *capital } else { *small })
-    });
-    found.map_or_else(|| name.to_owned(), String::from)
+    greek(name).map_or_else(|| name.to_owned(), String::from)
 }
 
 #[cfg(test)]

@@ -49,7 +49,7 @@ pub(crate) fn table(sheet: &Sheet) -> Markup {
                                     Kind::Equations => mathml::equation(cell),
                                     Kind::Text | Kind::Numbers => html! { (cell) },
                                 };
-                                @if place == 0 && sheet.columns.len() > 1 {
+                                @if place == 0 && sheet.columns.len() > 1 && !cell.is_empty() {
                                     th scope="row" class=[class(column)] { (text) }
                                 } @else {
                                     td class=[class(column)] { (text) }
@@ -63,7 +63,32 @@ pub(crate) fn table(sheet: &Sheet) -> Markup {
     }
 }
 
-/// Numbers padded with spaces of the width of a digit.
+/// Numbers padded with spaces of the width of a digit, and of a point where a number has none.
 fn padded(cells: &[String]) -> Vec<String> {
-    align(cells).into_iter().map(|cell| cell.replace(' ', "\u{2007}")).collect()
+    let has_points = cells.iter().any(|cell| cell.contains('.'));
+    let pad = |cell: String| {
+        let end = cell.trim_end_matches(' ').len();
+        let (number, behind) = cell.split_at(end);
+        let whole = has_points && !number.contains('.');
+        let point = if whole && !behind.is_empty() { "\u{2008}" } else { "" };
+        let digits = behind.len() - usize::from(!point.is_empty());
+        number.replace(' ', "\u{2007}") + point + &"\u{2007}".repeat(digits)
+    };
+    align(cells).into_iter().map(pad).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn points_stand_under_each_other() {
+        let cells = ["1203", "4.25", "-0.5", "-"].map(str::to_owned);
+        let wanted = [
+            "1203\u{2008}\u{2007}\u{2007}",
+            "\u{2007}\u{2007}\u{2007}4.25",
+            "\u{2007}\u{2007}-0.5\u{2007}",
+        ];
+        assert_eq!(padded(&cells)[..3], wanted);
+    }
 }

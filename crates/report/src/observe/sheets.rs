@@ -93,7 +93,7 @@ pub(super) fn made_of(observed: &ObservationReport<'_>, channels: &[ChannelObser
         let size = |c: &ToneComponent| c.amplitude.measured.value;
         let largest = of.components.iter().max_by(|a, b| size(a).total_cmp(&size(b)))?;
         let sources = sources(&largest.amplitude);
-        (!sources.is_empty()).then(|| format!("`{name}` {sources}"))
+        (!sources.is_empty()).then(|| format!("{name} {sources}"))
     };
     let parts: Vec<String> = channels.iter().filter_map(of_channel).collect();
     parts.join("; ")

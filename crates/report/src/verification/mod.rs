@@ -10,7 +10,9 @@ pub use words::words;
 
 use crate::answer::pretty;
 use crate::csv::of_records;
+use crate::document::{self, Block, Document};
 use crate::number::{MISSING, align, exact, position, rounded, significant};
+use crate::sheet::Sheet;
 use crate::table::text_width;
 use gumption_analysis::verification::{PublishedVerdict, RecomputedExample, RecomputedValue};
 use gumption_engine::task::Trials;
@@ -169,38 +171,46 @@ fn summary(found: &[RecomputedExample]) -> String {
     format!("gumption {VERSION}: {values} published values of {examples} examples, {verdict}.")
 }
 
-/// A page to file.
+/// A page to file, in Markdown.
 pub fn markdown(found: &[RecomputedExample]) -> String {
-    let mut page = format!(
-        "# Published examples, recomputed\n\n\
-         {}\n\n\
-         Each published value is compared with what `gumption run` computes from the example's \
-         model file: PASS where the difference is not above the tolerance, DIFF elsewhere. \
-         `gumption verify` repeats this on any machine (ISO/IEC 17025, 7.11).\n",
-        summary(found)
+    document::markdown(&page(found))
+}
+
+/// The same page as one HTML file that needs nothing else.
+pub fn html(found: &[RecomputedExample]) -> String {
+    document::html(&page(found))
+}
+
+fn page(found: &[RecomputedExample]) -> Document {
+    let title = "Published examples, recomputed".to_owned();
+    let mut page = Document { title, subtitle: vec![summary(found)], ..Document::default() };
+    page.text(
+        "Each published value is compared with what gumption computes from the example's model \
+         file: PASS where the difference is not above the tolerance, DIFF elsewhere. \
+         The command verify repeats this on any machine (ISO/IEC 17025, 7.11).",
     );
     for example in found {
-        let _ = writeln!(page, "\n## {}\n\n{}.", example.name, cell(&example.source));
-        if let Some(trials) = trials(example) {
-            let _ = writeln!(page, "{trials}");
-        }
+        page.section(&example.name);
+        page.sentence(&line(&example.source));
+        page.blocks.extend(trials(example).map(Block::Text));
         if let Some(failure) = &example.failure {
-            let _ = writeln!(page, "\nNot evaluated: {}.", cell(failure));
+            page.text(format!("Not evaluated: {}.", line(failure)));
         }
-        page += "\n| output | quantity | published | tolerance | recomputed | verdict | tolerance \
-                 comes from |\n|---|---|---:|---:|---:|---|---|\n";
-        for row in &example.rows {
-            let [published, tolerance, got] = figures(row);
-            let output = cell(row.published.output.as_deref().unwrap_or(""));
-            let (words, verdict) = (cell(&row.words), row.verdict.text());
-            let why = cell(&row.published.why);
-            let _ = writeln!(
-                page,
-                "| {output} | {words} | {published} | {tolerance} | {got} | {verdict} | {why} |"
-            );
-        }
+        let rows = || example.rows.iter();
+        let figures: Vec<[String; 3]> = rows().map(figures).collect();
+        let column = |place: usize| figures.iter().map(move |row| row[place].clone());
+        let mut sheet = Sheet::default();
+        let output = |row: &RecomputedValue| row.published.output.clone().unwrap_or_default();
+        sheet.text("output", rows().map(output));
+        sheet.text("quantity", rows().map(|row| row.words.clone()));
+        sheet.numbers("published", column(0));
+        sheet.numbers("tolerance", column(1));
+        sheet.numbers("recomputed", column(2));
+        sheet.text("verdict", rows().map(|row| row.verdict.text().to_owned()));
+        sheet.text("tolerance comes from", rows().map(|row| line(&row.published.why)));
+        page.table(sheet);
         if !example.notes.is_empty() {
-            let _ = writeln!(page, "\n{}", cell(&example.notes));
+            page.text(line(&example.notes));
         }
     }
     page
@@ -214,8 +224,7 @@ fn trials(example: &RecomputedExample) -> Option<String> {
     })
 }
 
-/// A text in one line, without what would end a cell or begin a tag.
-fn cell(text: &str) -> String {
-    let line = text.split_whitespace().collect::<Vec<_>>().join(" ");
-    line.replace('|', "\\|").replace('<', "&lt;")
+/// A text in one line.
+fn line(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
 }

@@ -1,6 +1,7 @@
 //! A document as a LaTeX file that a plain TeX Live compiles: `article`, tables by `booktabs`,
 //! numbers and units by `siunitx`.
 
+mod equation;
 mod text;
 pub(super) mod unit;
 
@@ -252,7 +253,8 @@ fn header(column: &Column) -> String {
 fn cell(column: &Column, row: usize, units: &mut unit::Declared) -> String {
     let text = column.cell(row);
     match column.kind {
-        Kind::Text | Kind::Equations => escaped(text),
+        Kind::Text => escaped(text),
+        Kind::Equations => equation::equation(text),
         Kind::Units if text.trim().is_empty() => String::new(),
         Kind::Units => units.unit(text),
         Kind::Numbers if is_number(text) => text.to_owned(),

@@ -1,0 +1,335 @@
+// What the live page does, in a browser: usage: node tests.mjs REPOSITORY PICTURES
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { copyFile, cp, mkdir, mkdtemp, readFile, rm, writeFile } from "node:fs/promises";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { axe, browser, refined, serve, visit } from "./browser.mjs";
+
+const [, , root, pictures] = process.argv;
+const only = process.env.ONLY;
+const work = await mkdtemp(join(tmpdir(), "gumption-page-"));
+await mkdir(pictures, { recursive: true });
+const chromium = await browser();
+let failed = 0, made = 0;
+
+/** A test in a context of its own, with a folder of its own that is served. */
+async function test(name, act, { open = "", files = [], lang = "en", ...options } = {}) {
+  if (only && !name.includes(only)) return;
+  const folder = join(work, `case${++made}`);
+  await mkdir(folder);
+  for (const [from, to] of files) await cp(join(root, from), join(folder, to), { recursive: true });
+  const server = await serve(join(folder, open), "--lang", lang);
+  const context = await chromium.newContext({ viewport: { width: 1400, height: 1000 }, acceptDownloads: true, ...options });
+  let page;
+  try {
+    page = await visit(context, server.address);
+    await act(page, folder, context, server);
+    assert.deepEqual(page.errors, [], "the browser's console");
+    console.log(`ok    ${name}`);
+  } catch (error) {
+    failed += 1;
+    console.log(`FAIL  ${name}\n${error.stack}\n${page ? page.errors.join("\n") : ""}`);
+    if (page) await page.screenshot({ path: join(work, `failed-${made}.png`) }).catch(() => {});
+  } finally {
+    await context.close();
+    server.stop();
+  }
+}
+
+const text = (page, selector) => page.locator(selector).first().innerText();
+const shot = (page, name, options = {}) => page.screenshot({ path: join(pictures, `live-${name}.png`), ...options });
+/** Does something, and waits for the answer without or with mistakes that follows. */
+async function answered(page, act) {
+  const before = await page.evaluate(() => window.answered.length);
+  await act();
+  await page.waitForFunction(count => window.answered.length > count, before);
+}
+const field = (page, label) => page.getByLabel(label, { exact: true });
+const until = (page, check, argument) => page.waitForFunction(check, argument, { timeout: 20000 });
+const source = page => page.evaluate(() => document.getElementById("source").value);
+
+await test("the resistor of the README from nothing, with the command line's digits", async (page, folder) => {
+  await page.fill("#title", "Power in a resistor");
+  await page.fill("#equations", "power = voltage^2/resistance");
+  await page.locator("#missing").getByText("all of them").click();
+  await field(page, "mean of voltage").fill("5.01");
+  await field(page, "std of voltage").fill("0.01");
+  await field(page, "Unit of voltage").fill("V");
+  await page.getByLabel("Distribution of resistance").selectOption("readings");
+  await field(page, "values of resistance").fill("99.8 100.1 100.0 99.9");
+  await field(page, "Unit of resistance").fill("ohm");
+  await page.locator("#unreported").getByText("power").click();
+  await field(page, "Unit of power").fill("mW");
+  // the certificate's own words: expanded uncertainty with its factor
+  await page.click("#view-text");
+  const typed = (await source(page)).replace('"std": 0.01', '"expanded": 0.02, "k": 2');
+  await page.fill("#source", typed);
+  await page.click("#view-form");
+  await until(page, () => document.querySelectorAll("#mistakes li").length === 0 && /power/.test(document.getElementById("headline").innerText));
+  await refined(page);
+  await page.keyboard.press("Control+s");
+  await page.locator("#dialog input").fill("power.json");
+  await page.locator("#dialog-actions button").first().click();
+  await until(page, () => document.getElementById("state").textContent === "saved");
+  const run = place => JSON.parse(execFileSync(process.env.GUMPTION, ["run", place, "--format", "json", "--quiet"])).outputs.power;
+  const own = run(join(folder, "power.json")), readme = run(join(root, "models/examples/power.json"));
+  assert.deepEqual(own, readme, "the file that the page wrote is the README's");
+  const page_ = execFileSync(process.env.GUMPTION, ["run", join(folder, "power.json"), "--format", "markdown", "--quiet"]).toString();
+  const stated = page_.split("\n").find(line => line.startsWith("**power") || /power = /.test(line) && /coverage/.test(line));
+  const value = stated.match(/power = ([^;]*);/)[1].replace(/[\s*]/g, "");
+  const shown = (await text(page, "#headline .value")).replace(/^.*=/, "").replace(/\s/g, "");
+  assert.equal(shown, value);
+  await shot(page, "resistor", { fullPage: true });
+});
+
+const POWER = { open: "power.json", files: [["models/examples/power.json", "power.json"]] };
+
+await test("mistakes are underlined where they stand", async page => {
+  await answered(page, () => page.fill("#equations", "power = voltage^2/resistanse"));
+  await until(page, () => document.querySelector("#equations-box mark"));
+  assert.equal(await text(page, "#equations-box mark"), "resistanse");
+  assert.match(await text(page, "#mistakes"), /did you mean `resistance`/);
+  await page.fill("#equations", "power = voltage + resistance");
+  await until(page, () => (document.querySelector("#equations-box mark") || {}).textContent === "+");
+  await page.click("#view-text");
+  await until(page, () => document.querySelector("#source-box mark"));
+  assert.equal(await page.locator("#source-box mark").textContent(), "+");
+  await page.click("#view-form");
+  await field(page, "expanded of voltage").fill("-1");
+  await until(page, () => document.querySelector("#inputs [aria-invalid=true]"));
+  await shot(page, "mistakes");
+  // over the marks the letters stand where they stand in the field
+  const [a, b] = await page.evaluate(() => ["#equations", "#equations-box pre"].map(of => {
+    const style = getComputedStyle(document.querySelector(of));
+    return [style.fontSize, style.lineHeight, style.fontFamily, style.paddingLeft, document.querySelector(of).clientWidth].join();
+  }));
+  assert.equal(a, b);
+}, POWER);
+
+await test("a slider moves everything, and undo takes it back", async page => {
+  await refined(page);
+  const before = await text(page, "#headline .value");
+  const written = await source(page);
+  await page.selectOption("#slid", { label: "mean of voltage" });
+  await page.focus("#slide");
+  for (let step = 0; step < 30; step++) await page.keyboard.press("ArrowRight");
+  await until(page, before => document.querySelector("#headline .value").innerText !== before, before);
+  const value = Number(await page.inputValue('[aria-label="mean of voltage"]'));
+  assert(value > 5.01, String(value));
+  assert.notEqual(await source(page), written);
+  for (let step = 0; step < 40 && (await source(page)) !== written; step++) await page.keyboard.press("Control+z");
+  assert.equal(await source(page), written);
+  await until(page, () => document.querySelector('[aria-label="mean of voltage"]').value === "5.01");
+  await page.click("#redo");
+  assert.notEqual(await source(page), written);
+}, POWER);
+
+await test("the file keeps what was not changed, and is written by itself", async (page, folder) => {
+  const before = await readFile(join(folder, "power.json"), "utf8");
+  await field(page, "mean of voltage").fill("5.020");
+  await until(page, () => document.getElementById("state").textContent === "saved" && document.getElementById("undo").disabled === false);
+  assert.equal(await readFile(join(folder, "power.json"), "utf8"), before.replace("5.01,", "5.020,"));
+}, POWER);
+
+await test("a change on the disk shows, and a conflict asks", async (page, folder) => {
+  const place = join(folder, "power.json");
+  const before = await readFile(place, "utf8");
+  await writeFile(place, before.replace("5.01,", "5.5,"));
+  await until(page, () => document.querySelector('[aria-label="mean of voltage"]').value === "5.5");
+  // a mistake is not written by itself, so that both differ
+  await field(page, "mean of voltage").fill("x y");
+  await until(page, () => document.querySelectorAll("#mistakes li").length > 0);
+  await writeFile(place, before.replace("5.01,", "6,"));
+  await until(page, () => document.getElementById("dialog").open);
+  await shot(page, "conflict");
+  await page.getByText("The one on the disk").click();
+  await until(page, () => document.querySelector('[aria-label="mean of voltage"]').value === "6");
+  assert.equal(await readFile(place, "utf8"), before.replace("5.01,", "6,"));
+}, POWER);
+
+async function exported(page, format) {
+  await page.click("#export");
+  const [download] = await Promise.all([page.waitForEvent("download"), page.locator("#dialog .entry", { hasText: new RegExp(`^${format}$`) }).click()]);
+  return { name: download.suggestedFilename(), bytes: await readFile(await download.path()) };
+}
+
+await test("export of HTML and XLSX", async page => {
+  const html = await exported(page, "html");
+  assert.equal(html.name, "power.html");
+  assert.match(html.bytes.toString(), /Power in a resistor[\s\S]*Monte Carlo/);
+  const workbook = await exported(page, "xlsx");
+  assert.equal(workbook.bytes.subarray(0, 2).toString(), "PK");
+}, POWER);
+
+await test("a certificate is shown and exported as DCC", async page => {
+  await until(page, () => (document.getElementById("report").src || "").includes("api/page"));
+  const frame = page.frameLocator("#report");
+  await frame.locator("h1").waitFor();
+  await shot(page, "certificate");
+  const dcc = await exported(page, "dcc");
+  assert.match(dcc.bytes.toString(), /<dcc:digitalCalibrationCertificate/);
+}, { open: "certificates/three_axis_accelerometer.json", files: [["models", "."]] });
+
+await test("a gap case is shown with its diagnosis", async page => {
+  await until(page, () => (document.getElementById("report").src || "").includes("api/page"));
+  const frame = page.frameLocator("#report");
+  await frame.locator("h1").waitFor();
+  await frame.locator("svg").first().waitFor();
+  await shot(page, "gap");
+}, { open: "case.json", files: [["models/gap/radius", "."]] });
+
+await test("new from a published example and from a template", async page => {
+  await page.click("#new");
+  await page.locator("#dialog input").fill("h1");
+  await page.locator("#dialog .entry", { hasText: "gum-h1-end-gauge" }).click();
+  await until(page, () => /l = |E|gauge|end/i.test(document.getElementById("title").value) && document.querySelector("#headline .value"));
+  await page.click("#new");
+  await page.locator("#dialog .entry", { hasText: "inclined-plane" }).first().click();
+  await until(page, () => document.querySelectorAll("#output-tabs button").length === 3);
+  await page.locator("#output-tabs button").nth(2).click();
+  assert.match(await text(page, "#headline .value"), /^a_z/);
+});
+
+await test("import of a spreadsheet", async page => {
+  const [chooser] = await Promise.all([page.waitForEvent("filechooser"), page.click("#import")]);
+  const csv = "Quantity,Estimate,Unit,Standard uncertainty,Sensitivity\nU,5.0,V,0.01,1\nI,0.1,A,0.001,-2\n";
+  await chooser.setFiles({ name: "budget.csv", mimeType: "text/csv", buffer: Buffer.from(csv) });
+  await until(page, () => document.getElementById("dialog").open);
+  assert.match(await text(page, "#dialog-body"), /Understood/);
+  await page.locator("#dialog-actions button").first().click();
+  await until(page, () => document.querySelector('[aria-label="mean of U"]') !== null);
+});
+
+await test("inputs come, go and get other names", async page => {
+  await page.click("#add-input");
+  await field(page, "mean of x").fill("1");
+  await until(page, () => document.activeElement.getAttribute("aria-label") === "mean of x");
+  await page.getByLabel("Remove x").click();
+  await until(page, () => document.querySelector('[aria-label="mean of x"]') === null);
+  await page.locator("input.name").first().fill("V");
+  await page.locator("input.name").first().press("Enter");
+  await until(page, () => document.getElementById("equations").value === "power = V^2/resistance");
+  await until(page, () => document.querySelectorAll("#mistakes li").length === 0);
+}, POWER);
+
+await test("a file of markup is text", async (page, folder) => {
+  const evil = "<img src=x onerror=\"window.hit=1\"><script>window.hit=1</script>";
+  const file = { title: evil, inputs: { a: { unit: "m", distribution: "normal", mean: 1, std: 0.1, about: evil, group: evil } }, equations: { y: "a*a" }, outputs: { y: { unit: "m^2", about: evil } } };
+  await answered(page, () => page.click("#view-text").then(() => page.fill("#source", JSON.stringify(file))));
+  await until(page, () => /^y/.test(document.querySelector("#headline .value")?.innerText || ""));
+  await page.click("#view-form");
+  await refined(page);
+  await page.waitForTimeout(1500);
+  assert.equal(await page.evaluate(() => window.hit), undefined);
+  assert.equal(await page.locator("main img, main script").count(), 0);
+});
+
+await test("phone width", async page => {
+  await refined(page);
+  const wide = await page.evaluate(() => document.documentElement.scrollWidth);
+  assert(wide <= 390, `the page is ${wide} wide`);
+  await shot(page, "phone", { fullPage: true });
+}, { ...POWER, viewport: { width: 390, height: 844 } });
+
+await test("dark, and in German", async page => {
+  await refined(page);
+  assert.match(await text(page, "#answer-title"), /Ergebnis/);
+  await field(page, "Mittelwert von voltage").fill("5,02");
+  await until(page, () => document.getElementById("source").value.includes("5.02"));
+  await until(page, () => document.querySelector("#part-audit table") !== null);
+  await shot(page, "dark-german", { fullPage: true });
+}, { ...POWER, lang: "de", colorScheme: "dark" });
+
+await test("keyboard alone", async page => {
+  // every control of the page is reached, in order, and none keeps the focus
+  const reached = [];
+  await page.locator("body").press("Tab");
+  for (let step = 0; step < 80; step++) {
+    const now = await page.evaluate(() => {
+      const of = document.activeElement;
+      const visible = of === document.body || getComputedStyle(of).outlineStyle !== "none" || of.matches(":focus-visible");
+      return { name: of.id || of.dataset.key || of.getAttribute("aria-label") || of.tagName, visible };
+    });
+    assert(now.visible, `${now.name} shows no focus`);
+    if (now.name === "BODY" || reached.length && now.name === reached[0]) break;
+    reached.push(now.name);
+    await page.keyboard.press("Tab");
+  }
+  for (const id of ["new", "open", "save", "export", "view-text", "title", "equations", "slid", "slide", "add-input"]) {
+    assert(reached.includes(id), `${id} is not reached: ${reached.join(", ")}`);
+  }
+  // a change, and its undoing
+  await page.focus('[aria-label="mean of voltage"]');
+  await page.keyboard.press("Control+a");
+  await page.keyboard.type("6");
+  await until(page, () => document.getElementById("source").value.includes('"mean": 6'));
+  await page.keyboard.press("Control+z");
+  await until(page, () => document.getElementById("source").value.includes('"mean": 5.01'));
+  await until(page, () => document.querySelector('[aria-label="mean of voltage"]').value === "5.01");
+  await page.focus("#export");
+  await page.keyboard.press("Enter");
+  await until(page, () => document.getElementById("dialog").open);
+  await page.keyboard.press("Escape");
+  await until(page, () => !document.getElementById("dialog").open);
+}, POWER);
+
+for (const [name, colorScheme] of [["light", "light"], ["dark", "dark"]]) {
+  await test(`axe-core, ${name}`, async page => {
+    await refined(page);
+    await until(page, () => document.querySelector("#part-audit table") !== null);
+    await page.click("#more summary");
+    const look = async state => {
+      await page.evaluate(await readFile(axe, "utf8") + ";window.axe = axe;0");
+      const found = await page.evaluate(() => window.axe.run(document, { runOnly: ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa", "best-practice"] }));
+      const told = found.violations.map(of => `${of.id}: ${of.help}\n    ${of.nodes.slice(0, 3).map(node => node.html.slice(0, 160)).join("\n    ")}`);
+      assert.deepEqual(told, [], state);
+    };
+    await look("with results");
+    await page.fill("#equations", "power = voltage^2/resistanse");
+    await until(page, () => document.querySelectorAll("#mistakes li").length > 0);
+    await look("with mistakes");
+    await page.click("#new");
+    await until(page, () => document.getElementById("dialog").open);
+    await look("with a question");
+    await page.locator("#dialog-actions button").first().click();
+    await page.locator("#dialog .entry").first().waitFor();
+    await look("with a list");
+  }, { ...POWER, colorScheme });
+}
+
+await test("speed with 20 inputs", async page => {
+  const inputs = {}, terms = [];
+  for (let number = 1; number <= 20; number++) {
+    const shape = ["normal", "rectangular", "triangular", "arcsine"][number % 4];
+    inputs[`x${number}`] = { unit: "1", distribution: shape, mean: number, [shape === "normal" ? "std" : "half_width"]: 0.01 * number };
+    terms.push(number % 3 ? `x${number}` : `sin(x${number})*x${number}`);
+  }
+  const model = { format: 1, title: "Twenty inputs", inputs, equations: { y: terms.join(" + ") }, outputs: { y: { unit: "1" } } };
+  await page.click("#view-text");
+  await page.fill("#source", JSON.stringify(model, null, 1));
+  await page.click("#view-form");
+  await until(page, () => document.querySelector('[aria-label="mean of x1"]') && document.querySelector("#headline .value"));
+  await refined(page);
+  await page.focus('[aria-label="mean of x1"]');
+  const took = [];
+  for (let key = 0; key < 100; key++) {
+    took.push(await page.evaluate(key => new Promise(resolve => {
+      const field = document.activeElement;
+      const start = performance.now();
+      // shown is what stands there when the frame after it begins
+      document.addEventListener("answered", () => requestAnimationFrame(() => resolve(performance.now() - start)), { once: true });
+      field.value = `1.${String(100 + key)}`;
+      field.dispatchEvent(new InputEvent("input", { bubbles: true }));
+    }), key));
+    await page.waitForTimeout(120);
+  }
+  took.sort((a, b) => a - b);
+  const at = share => took[Math.floor(share * (took.length - 1))].toFixed(0);
+  console.log(`      key press to shown answer, 20 inputs, 1e5 trials: median ${at(0.5)} ms, p95 ${at(0.95)} ms, largest ${at(1)} ms`);
+});
+
+await chromium.close();
+if (failed === 0) await rm(work, { recursive: true, force: true });
+console.log(failed === 0 ? "all of the live page's tests pass" : `${failed} of ${made} tests fail; pictures in ${work}`);
+process.exit(failed === 0 ? 0 : 1);
