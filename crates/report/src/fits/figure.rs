@@ -35,14 +35,8 @@ pub(super) fn draw(curve: &CurveFunction, coverage: Coverage) -> Option<Drawing>
     let [least, most] = points.range();
     let margin = 0.04 * (most - least);
     let x = Axis::linear(least - margin, most + margin);
-    let over = |values: Vec<f64>| -> Option<Axis> {
-        let low = values.iter().copied().fold(f64::INFINITY, f64::min);
-        let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        let margin = 0.06 * (high - low);
-        (margin > 0.0 && margin.is_finite()).then(|| Axis::linear(low - margin, high + margin))
-    };
     let values = band.iter().flat_map(|[_, y, u]| [y - u, y + u]);
-    let y = over(values.chain(shown.iter().map(|p| points.y[*p])).collect())?;
+    let y = Axis::around(values.chain(shown.iter().map(|p| points.y[*p])))?;
     let ends = shown.iter().flat_map(|p| [residuals[*p] - bar(*p), residuals[*p] + bar(*p)]);
     let left = Axis::about_zero(ends.chain(band.iter().map(|[_, _, u]| *u)));
     let label = |name: &str, unit: &gumption_units::Unit| match unit.text().trim() {

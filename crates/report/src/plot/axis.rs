@@ -14,6 +14,9 @@ const CLEARLY: f64 = 0.5;
 /// Free space at each end, as a share of the axis.
 const MARGIN: f64 = 0.04;
 
+/// The same where marks with bars stand on it.
+const SPACE: f64 = 0.06;
+
 /// A linear or logarithmic axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Axis {
@@ -45,6 +48,16 @@ impl Axis {
     /// A linear axis between two values.
     pub(crate) fn linear(from: f64, to: f64) -> Self {
         Self { log: false, ends: [from, to] }
+    }
+
+    /// A linear axis over the finite ones of values, with some space at the ends; `None` where there is
+    /// nothing between them.
+    pub(crate) fn around(values: impl IntoIterator<Item = f64>) -> Option<Self> {
+        let finite = values.into_iter().filter(|value| value.is_finite());
+        let [from, to] = finite
+            .fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], value| [a.min(value), b.max(value)]);
+        let margin = SPACE * (to - from);
+        (margin.is_finite() && margin > 0.0).then(|| Self::linear(from - margin, to + margin))
     }
 
     /// A linear axis as far below zero as above it.

@@ -42,13 +42,8 @@ pub(super) fn draw(task: &Task, region: &RegionEvaluation) -> Option<Drawing> {
         let lines = outlines.iter().flat_map(|o| o.ellipse.iter().chain(&o.corners));
         lines.chain(&sample).copied()
     };
-    let over = |values: &mut dyn Iterator<Item = f64>| -> Option<Axis> {
-        let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
-        values.for_each(|value| (low, high) = (low.min(value), high.max(value)));
-        let margin = 0.04 * (high - low);
-        (margin > 0.0 && margin.is_finite()).then(|| Axis::linear(low - margin, high + margin))
-    };
-    let (x, y) = (over(&mut places().map(|p| p.0))?, over(&mut places().map(|p| p.1))?);
+    let x = Axis::around(places().map(|place| place.0))?;
+    let y = Axis::around(places().map(|place| place.1))?;
     let label = |quantity: &gumption_engine::model::Quantity| match quantity.unit.text().trim() {
         "" | "1" => plain(&quantity.name),
         text => format!("{} in {}", plain(&quantity.name), plain(text)),

@@ -69,7 +69,7 @@ pub(in crate::evaluation) fn sweep(
         return None;
     }
     let x = Axis::over(points.iter().map(|point| point.x));
-    let values = linear_over(
+    let values = Axis::around(
         points.iter().flat_map(|of| [of.estimate - of.expanded, of.estimate + of.expanded]),
     )?;
     let most = points.iter().map(|point| point.expanded).fold(0.0, f64::max);
@@ -139,14 +139,6 @@ fn about(
     let (estimate, expanded) = with_uncertainty(estimate, expanded, 2);
     let result = in_unit(&format!("({estimate} ± {expanded})"), &quantity.unit);
     format!("{}: {} = {result}", conditions_text(&conditions, &at), plain(&quantity.name))
-}
-
-/// A linear axis over values; `None` where they are all the same.
-fn linear_over(values: impl Iterator<Item = f64>) -> Option<Axis> {
-    let [from, to] = values
-        .fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], value| [a.min(value), b.max(value)]);
-    let margin = 0.06 * (to - from);
-    (margin.is_finite() && margin > 0.0).then(|| Axis::linear(from - margin, to + margin))
 }
 
 /// Name and unit.

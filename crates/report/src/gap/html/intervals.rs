@@ -59,7 +59,7 @@ pub(in crate::gap) fn draw(diagnosis: &Diagnosis) -> Option<Drawing> {
             for one in &compared {
                 let values =
                     one.lines.iter().flat_map(|(_, p)| [p.interval[0], p.interval[1], p.estimate]);
-                let axis = spread(values);
+                let axis = Axis::around(values).unwrap_or_else(|| Axis::over([one.own.estimate]));
                 let strip = Strip::within(&axis, width, [LEFT, RIGHT]);
                 let named =
                     NamedQuantity { name: one.own.name.clone(), unit: one.own.unit.clone() };
@@ -93,13 +93,4 @@ pub(in crate::gap) fn draw(diagnosis: &Diagnosis) -> Option<Drawing> {
         digits::percent(diagnosis.probability)
     );
     Some(Drawing::new(caption, drawn))
-}
-
-/// A linear axis over values with some space at the ends.
-fn spread(values: impl Iterator<Item = f64>) -> Axis {
-    let finite = values.filter(|value| value.is_finite());
-    let [from, to] = finite
-        .fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], value| [a.min(value), b.max(value)]);
-    let margin = 0.08 * (to - from);
-    if margin > 0.0 { Axis::linear(from - margin, to + margin) } else { Axis::over([from]) }
 }

@@ -19,7 +19,6 @@ pub(super) use shrinkage::draw as shrinkage;
 pub(super) use where_map::draw as where_map;
 
 pub(crate) use crate::html::Drawing;
-use crate::plot::Axis;
 use crate::{Provenance, document, plain};
 use gumption_gap::Diagnosis;
 
@@ -27,15 +26,6 @@ use gumption_gap::Diagnosis;
 /// nothing, reads in light and dark and prints on A4.
 pub fn html(diagnosis: &Diagnosis, provenance: &Provenance) -> String {
     document::html(&super::page::document(diagnosis, provenance))
-}
-
-/// A linear axis over values with some space at the ends; `None` where there is nothing between them.
-fn linear_over(values: impl Iterator<Item = f64>) -> Option<Axis> {
-    let finite = values.filter(|value| value.is_finite());
-    let [from, to] = finite
-        .fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], value| [a.min(value), b.max(value)]);
-    let margin = 0.06 * (to - from);
-    (margin.is_finite() && margin > 0.0).then(|| Axis::linear(from - margin, to + margin))
 }
 
 /// Everything that is needed to get the same answer again; `settings` are those of the command, with

@@ -71,7 +71,7 @@ pub(in crate::gap) fn draw(diagnosis: &Diagnosis, output: usize) -> Option<Drawi
         .iter()
         .flat_map(|(_, _, points)| points)
         .flat_map(|point| [point.value.measured, point.value.sim(), point.value.corrected()]);
-    let y = super::linear_over(ends)?;
+    let y = Axis::around(ends)?;
     let drawn = |width: f64| {
         svg_with_titles(width, HEIGHT * panels.len() as f64, |area, titles| {
             let rows = area.split_evenly((panels.len(), 1));

@@ -67,7 +67,7 @@ pub(in crate::gap) fn draw(
     let x = Axis::over(levels.iter().copied().chain(measured.iter().map(|(x, ..)| *x)));
     let predicted =
         points.iter().flat_map(|of| [of.value - 2.0 * of.u, of.value + 2.0 * of.u, of.sim]);
-    let y = super::linear_over(predicted.chain(measured.iter().map(|(_, value, _)| *value)))?;
+    let y = Axis::around(predicted.chain(measured.iter().map(|(_, value, _)| *value)))?;
     let drawn = |width: f64| {
         svg(width, HEIGHT, |area| {
             let along = words::axis(&diagnosis.conditions[finest]);
