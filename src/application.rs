@@ -47,6 +47,11 @@ impl Application {
         Self(self.0.with(entry))
     }
 
+    /// What is behind it, for programs that show its answers themselves.
+    pub fn command_line(&self) -> &gumption_command::CommandLine {
+        &self.0
+    }
+
     /// The readers of files that may name its measurements.
     pub fn files(&self) -> FileReader<'_> {
         self.0.files()

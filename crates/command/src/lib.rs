@@ -10,6 +10,7 @@ mod diagnostics;
 mod diff;
 mod evaluated;
 mod exit;
+mod exported;
 mod gap;
 mod gap_check;
 mod help;
@@ -26,6 +27,7 @@ mod paint;
 mod parted_run;
 mod parts;
 mod plan;
+#[cfg_attr(target_family = "wasm", path = "no_progress.rs")]
 mod progress;
 mod replacement;
 mod run;
@@ -51,6 +53,7 @@ use gumption_units::all_nearest;
 
 pub use check::Mistake;
 pub use exit::{Exit, Failure};
+pub use exported::{ExportedAnswer, NotExported};
 pub use parted_run::{MergedRun, PartedMerging, PartedRun, PassOfRun};
 pub use parts::PartsFolder;
 pub use surroundings::GivenFile;

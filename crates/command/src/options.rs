@@ -152,6 +152,10 @@ impl Threads {
 
     /// Runs `work` on them.
     pub(super) fn install<R: Send>(&self, work: impl FnOnce() -> R + Send) -> Result<R, Failure> {
+        // a browser's program has the thread that it is called on
+        if cfg!(target_family = "wasm") {
+            return Ok(work());
+        }
         let pool = rayon::ThreadPoolBuilder::new().num_threads(self.count()).build();
         let failed = |error| Failure::System(format!("cannot start threads: {error}"));
         Ok(pool.map_err(failed)?.install(work))

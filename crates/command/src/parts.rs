@@ -42,11 +42,9 @@ pub(super) fn blocks(text: &str) -> Result<Blocks, String> {
     match (pair(".."), pair("/")) {
         (Some((from, to)), _) if from < to => Ok(Blocks::Range(from, to)),
         (_, Some((part, of))) if (1..=of).contains(&part) => Ok(Blocks::Share(part, of)),
-        _ => {
-            Err("a range such as 0..500 (the blocks 0 to 499) is needed, or a share such as 3/16 \
+        _ => Err("a range such as 0..500 (the first 500) is needed, or a share such as 3/16 \
                   (the third of sixteen parts)"
-                .to_owned())
-        }
+            .to_owned()),
     }
 }
 
@@ -139,6 +137,13 @@ impl PartsFolder {
     /// # Errors
     /// A folder or a file of it that cannot be read; damaged parts.
     pub fn open(path: &Path) -> Result<Self, Failure> {
+        if path.is_file() {
+            return Err(Failure::Argument(format!(
+                "`{0}` is a file: the parts of a run lie in a folder, into which `gumption run MODEL \
+                 --blocks … --partial FILE` writes them; `gumption check {0}` tells what the file is",
+                path.display()
+            )));
+        }
         let failed = |error: std::io::Error| {
             Failure::Argument(format!("cannot read the folder `{}`: {error}", path.display()))
         };

@@ -2,14 +2,18 @@
 
 use std::fmt::Write;
 use std::io::IsTerminal;
+use std::time::Duration;
 
 use super::surroundings::in_call;
 use gumption_report::grouped;
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
+use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
+
+/// How often a bar is drawn anew at least.
+const TICK: Duration = Duration::from_millis(200);
 
 /// A bar that counts examples, diagnoses or other things that take their time one by one.
 pub(super) fn counted(count: u64, things: &str, quiet: bool) -> ProgressBar {
-    let template = format!("{{bar:30}} {{pos}} of {{len}} {things}, {{eta}} left");
+    let template = format!("{{bar:30}} {{pos}} of {{len}} {things}, {{left}} left");
     styled(bar(Some(count), quiet), &template)
 }
 
@@ -20,8 +24,12 @@ pub(super) fn bar(trials: Option<u64>, quiet: bool) -> ProgressBar {
     let target =
         if hidden { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr_with_hz(10) };
     let bar = ProgressBar::with_draw_target(trials, target);
+    if !hidden {
+        // before the first of them is done, and while a long one goes on
+        bar.enable_steady_tick(TICK);
+    }
     let look = match trials {
-        Some(_) => "{bar:30} {percent:>3} %  {made} of {all} trials, {rate}/s, {eta} left",
+        Some(_) => "{bar:30} {percent:>3} %  {made} of {all} trials, {rate}/s, {left} left",
         None => "{spinner} {made} trials, {rate}/s",
     };
     styled(bar, look)
@@ -37,6 +45,13 @@ fn styled(bar: ProgressBar, template: &str) -> ProgressBar {
             })
             .with_key("all", |state: &ProgressState, out: &mut dyn Write| {
                 let _ = out.write_str(&grouped(state.len().unwrap_or(0)));
+            })
+            .with_key("left", |state: &ProgressState, out: &mut dyn Write| {
+                // nothing is known before something is done
+                let _ = match state.pos() {
+                    0 => out.write_str("?"),
+                    _ => write!(out, "{:#}", HumanDuration(state.eta())),
+                };
             })
             .with_key("rate", |state: &ProgressState, out: &mut dyn Write| {
                 let _ = out.write_str(&grouped(state.per_sec() as u64));

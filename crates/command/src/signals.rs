@@ -132,8 +132,12 @@ fn is_ignored(number: u8) -> bool {
     mask.is_some_and(|mask| mask >> (number - 1) & 1 == 1)
 }
 
+/// There are none to take over.
+#[cfg(not(any(unix, windows)))]
+pub(super) fn watch() {}
+
 /// Takes over Ctrl-C.
-#[cfg(not(unix))]
+#[cfg(windows)]
 pub(super) fn watch() {
     // without a handler Ctrl-C ends the process, which is all right as well
     let _ = ctrlc::set_handler(|| received(INTERRUPT));

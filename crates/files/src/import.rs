@@ -7,6 +7,7 @@ mod columns;
 mod grid;
 mod own;
 
+use crate::open::{FileKind, are_results};
 use std::path::Path;
 
 use super::diagnostics::{Collector, Diagnostics};
@@ -112,6 +113,10 @@ impl Budget<'_> {
     /// The model file of the budget.
     fn model(&mut self, title: &str) -> Option<String> {
         let Some(header) = Header::find(self.cells) else {
+            if are_results(self.cells.row(0).iter().map(|cell| cell.trim())) {
+                self.log.report(&self.cells.line(0), FileKind::Results.described());
+                return None;
+            }
             self.fail(
                 0,
                 "no budget is found: a header row names the columns, such as quantity, estimate, \
@@ -606,6 +611,7 @@ mod tests {
     fn what_is_no_budget() {
         for (content, part) in [
             ("a,b\n1,2\n", "no budget is found"),
+            ("label,x,U\nA,1,0.1\n", "gumption compare"),
             ("", "no budget is found"),
             ("quantity,estimate,+-\n", "no row below"),
             ("quantity,estimate,+-\nx,one,2\n", "no number"),

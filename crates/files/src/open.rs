@@ -151,7 +151,7 @@ impl FileKind {
     }
 
     /// What it is, in words, and the command that reads it.
-    fn described(self) -> DiagnosticKind {
+    pub(super) fn described(self) -> DiagnosticKind {
         let (what, command) = match self {
             Self::Model => ("a model file", "gumption run"),
             Self::Certificate => ("the file of a certificate", "gumption certificate"),
@@ -195,6 +195,11 @@ pub(super) fn is_table_of_results(text: &str) -> bool {
     let header = text.lines().find(|line| !line.trim().is_empty() && !line.starts_with('#'));
     let names =
         header.unwrap_or_default().split([',', ';']).map(|name| name.trim().trim_matches('"'));
+    are_results(names)
+}
+
+/// Whether columns of these names are those of results to be compared.
+pub(super) fn are_results<'t>(names: impl Iterator<Item = &'t str>) -> bool {
     let names: Vec<&str> = names.collect();
     let has = |name: &str| names.contains(&name);
     has("label") && (has("x1") && has("U1") || has("x") && has("U"))

@@ -148,7 +148,11 @@ fn diagnosed(
     let step = rows.len().div_ceil(MOST_ROWS).max(1);
     let rows = rows.into_iter().step_by(step).collect();
     let hypotheses = hypotheses(&setup, &posterior, probability);
-    let prediction = at.map(|at| prediction(&setup, &discrepancy, &posterior, &compositions, at));
+    let prediction = at.map(|at| {
+        let mut rows = prediction(&setup, &discrepancy, &posterior, &compositions, at);
+        enlarge(&mut rows, &weighed_noise.shared(&setup, &variances));
+        rows
+    });
     // the test is of the uncertainties as they are stated
     let gap = if setup.data.noise == NoiseModel::default() {
         gap(&setup, verdict.kind)
@@ -331,6 +335,15 @@ pub(crate) fn prediction(
             Predicted { conditions: row.conditions.clone(), outputs, model }
         })
         .collect()
+}
+
+/// Adds variances to the predictions of outputs.
+fn enlarge(rows: &mut [Predicted], variances: &[f64]) {
+    for row in rows {
+        for ((_, u), variance) in row.outputs.iter_mut().zip(variances) {
+            *u = elementary::hypot(*u, variance.sqrt());
+        }
+    }
 }
 
 /// What the data say of the noise of every output; `of` are the noise over all hypotheses and the

@@ -45,6 +45,8 @@ struct Surface<'s> {
     scales: Vec<f64>,
     /// Scores of all unknown quantities at draws of the posterior, the inputs at their estimates.
     draws: Vec<Vec<f64>>,
+    /// What it says there, in units of the noise.
+    targets: Vec<Vec<f64>>,
     /// Places of the inputs and of the effects' parameters among the unknown quantities.
     inputs: std::ops::Range<usize>,
     parameters: std::ops::Range<usize>,
@@ -94,10 +96,14 @@ pub(crate) fn groups(
             for draw in &mut draws {
                 draw[inputs.clone()].fill(0.0);
             }
+            let predictor = Predictor::new(setup, &hypothesis.effects, &rows, &setup.data.outputs);
+            let values = predictor.values(&draws);
+            let targets = (0..draws.len()).map(|draw| column(&values, &scales, draw)).collect();
             Surface {
                 effects: names(setup, &hypothesis.effects),
-                predictor: Predictor::new(setup, &hypothesis.effects, &rows, &setup.data.outputs),
+                predictor,
                 scales: scales.clone(),
+                targets,
                 draws,
                 inputs,
                 parameters: setup.roles.len()..hypothesis.evidence.unknowns(),
@@ -164,9 +170,7 @@ fn column(values: &super::predict::Values, scales: &[f64], draw: usize) -> Vec<f
 impl Surface<'_> {
     /// Whether what the other hypothesis says can be said by this one.
     fn follows(&self, other: &Self, nominal: &[f64]) -> bool {
-        let targets = other.predictor.values(&other.draws);
-        (0..other.draws.len()).all(|draw| {
-            let target = column(&targets, &self.scales, draw);
+        other.targets.iter().all(|target| {
             let effect = target.iter().zip(nominal).map(|(t, n)| (t - n).abs()).fold(0.0, f64::max);
             let size = target.iter().map(|t| t.abs()).fold(0.0, f64::max);
             if !effect.is_finite() || effect <= 1e-9 * size {
@@ -180,7 +184,7 @@ impl Surface<'_> {
             ];
             let tries = if self.inputs.is_empty() { 1 } else { 2 };
             unknowns.iter().take(tries).any(|unknowns| {
-                self.draws.iter().any(|start| self.fits(&target, start, unknowns, tolerance))
+                self.draws.iter().any(|start| self.fits(target, start, unknowns, tolerance))
             })
         })
     }

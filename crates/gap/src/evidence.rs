@@ -210,6 +210,18 @@ impl EvidenceEstimate {
         }
     }
 
+    /// Adds draws of the same hypothesis with something else about it that is not known: weights
+    /// times `share`. There are no more draws to be made then.
+    pub(crate) fn append(&mut self, share: f64, columns: Vec<Vec<Column>>, weights: &[f64]) {
+        self.columns.extend(columns);
+        self.weights.extend(weights.iter().map(|weight| share * weight));
+    }
+
+    /// Multiplies the weights of all draws.
+    pub(crate) fn scale_weights(&mut self, by: f64) {
+        self.weights.iter_mut().for_each(|weight| *weight *= by);
+    }
+
     /// Whether there are draws of the posterior.
     pub(crate) fn has_draws(&self) -> bool {
         self.weights.iter().any(|weight| *weight > 0.0)

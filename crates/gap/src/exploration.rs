@@ -59,7 +59,7 @@ impl<'s, 'c> Exploration<'s, 'c> {
     fn begun(&self, effects: Vec<usize>, known: &[WeighedHypothesis]) -> WeighedHypothesis {
         let starts = seeds(self.setup, &effects, known);
         let evidence = self.integral(&effects, known, starts, "");
-        let prior = self.setup.case.prior;
+        let prior = self.setup.prior();
         let count = self.setup.case.candidates.len();
         let share = |of: f64, count: usize| if count == 0 { 0.0 } else { of / count as f64 };
         let prior = match effects.len() {

@@ -10,7 +10,7 @@ use gumption_engine::number::elementary;
 use gumption_engine::special;
 
 /// How a score becomes a value.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Map {
     Normal { mean: f64, deviation: f64 },
     Uniform { lower: f64, width: f64 },
@@ -64,6 +64,20 @@ impl Map {
         if self.is_bounded() { bounded_from_normal(normal) } else { normal }
     }
 
+    /// The score of a value, also beyond the ends of a rectangular prior; `None` of a prior that is
+    /// only known by its quantiles, or where the value has no logarithm.
+    pub(crate) fn score(&self, value: f64) -> Option<f64> {
+        let score = match self {
+            Self::Normal { mean, deviation } => (value - mean) / deviation,
+            Self::Uniform { lower, width } => ((value - lower) / width - 0.5) * 2.0 * EDGE,
+            Self::LogUniform { ln_lower, ln_ratio } => {
+                ((elementary::ln(value) - ln_lower) / ln_ratio - 0.5) * 2.0 * EDGE
+            }
+            Self::Other(_) => return None,
+        };
+        score.is_finite().then_some(score)
+    }
+
     /// The value of a score.
     pub(crate) fn value(&self, score: f64) -> f64 {
         let share = 0.5 + score / (2.0 * EDGE);
@@ -106,10 +120,25 @@ pub(crate) fn ln_prior(bounded: bool, score: f64) -> f64 {
 
 impl Role {
     /// Its prior, at the first point of the data.
-    fn map(&self) -> Option<&Map> {
+    pub(crate) fn map(&self) -> Option<&Map> {
+        self.maps().first()
+    }
+
+    /// Its prior at each point of the data, or one for all of them.
+    pub(crate) fn maps(&self) -> &[Map] {
         match self {
-            Self::Variable { maps, .. } => maps.first(),
-            Self::Noise { map, .. } | Self::Power { map, .. } => Some(map),
+            Self::Variable { maps, .. } => maps,
+            Self::Noise { map, .. } | Self::Power { map, .. } => std::slice::from_ref(map),
+        }
+    }
+
+    /// Whether two roles are of the same quantity, whatever is known of it.
+    pub(crate) fn is_same_quantity(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::Variable { place: a, .. }, Self::Variable { place: b, .. })
+            | (Self::Noise { output: a, .. }, Self::Noise { output: b, .. })
+            | (Self::Power { output: a, .. }, Self::Power { output: b, .. }) => a == b,
+            _ => false,
         }
     }
 

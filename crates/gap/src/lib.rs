@@ -30,6 +30,7 @@ mod model;
 mod next;
 mod noise_model;
 mod notes;
+mod over_noises;
 mod parameters;
 mod posterior;
 mod predict;

@@ -16,7 +16,7 @@ use super::logarithm::ln_add;
 use super::posterior::{self, Effort, MANY_VALUES, Posterior, WeighedHypothesis};
 use super::setup::Setup;
 use super::whitened::{self, WhitenedResiduals};
-use crate::Case;
+use crate::{Case, Prior};
 use gumption_engine::linalg::dot;
 use gumption_engine::linalg::packed::{self, triangle};
 use gumption_engine::number::elementary;
@@ -25,10 +25,10 @@ use gumption_engine::number::elementary;
 const FACTORS: [f64; 2] = [0.25, 10.0];
 
 /// Prior probability that stated uncertainties are off by a factor.
-const PRIOR_FACTOR: f64 = 0.1;
+const PRIOR_FACTOR: f64 = 0.2;
 
 /// Prior probability that at least one value is off.
-const PRIOR_SUSPECT: f64 = 0.1;
+const PRIOR_SUSPECT: f64 = 0.15;
 
 /// Prior probability that there is one more, once there is one.
 const PRIOR_ANOTHER: f64 = 0.3;
@@ -37,7 +37,12 @@ const PRIOR_ANOTHER: f64 = 0.3;
 const PRIOR_CONFLICT: f64 = 0.05;
 
 /// Prior probability that neighbouring rows share noise.
-const PRIOR_SERIAL: f64 = 0.1;
+const PRIOR_SERIAL: f64 = 0.25;
+
+/// The prior odds of no gap are multiplied by this where the noise is not as stated. A diagnosis is
+/// asked for where data depart; noise that is not as stated is a reason for that, after which there
+/// is less need of an effect. With the usual priors no gap is then as probable as all else together.
+const EXPLAINED_AWAY: f64 = 6.0;
 
 /// Coefficients of correlation that are tried for it, equally probable beforehand.
 const SERIAL: [f64; 4] = [0.3, 0.6, 0.8, 0.92];
@@ -108,6 +113,22 @@ impl NoiseModel {
         let map =
             Map::Uniform { lower: elementary::ln(lower), width: elementary::ln(upper / lower) };
         Role::Noise { output, map }
+    }
+
+    /// The prior probabilities of hypotheses with it, from those with the noise as stated.
+    pub(crate) fn hypotheses(&self, stated: Prior) -> Prior {
+        if *self == Self::default() {
+            return stated;
+        }
+        let total = 1.0 + (EXPLAINED_AWAY - 1.0) * stated.none;
+        let Prior { none, one, two, three, unexplained } = stated;
+        Prior {
+            none: EXPLAINED_AWAY * none / total,
+            one: one / total,
+            two: two / total,
+            three: three / total,
+            unexplained: unexplained / total,
+        }
     }
 
     /// Its prior probability, for data of so many values.
@@ -238,7 +259,7 @@ fn serial_correlations(weighings: &[Weighing<'_>]) -> Vec<f64> {
         .par_iter()
         .map(|hypothesis| {
             let residuals = residuals_at_mode(setup, hypothesis);
-            let ln = hypothesis.ln_weight();
+            let ln = hypothesis.ln_weight() + ln_explained_away(setup, hypothesis);
             SERIAL.iter().map(|&of| ln + serial_gain(setup, &residuals, of)).collect()
         })
         .collect();
@@ -251,6 +272,18 @@ fn serial_correlations(weighings: &[Weighing<'_>]) -> Vec<f64> {
         sum + ln_prior + MOVED - total > elementary::ln(WORTH_TRYING)
     };
     (0..SERIAL.len()).filter(worth).map(|n| SERIAL[n]).collect()
+}
+
+/// By how much the logarithm of the prior probability of a hypothesis rises if the noise is another.
+fn ln_explained_away(setup: &Setup<'_>, hypothesis: &WeighedHypothesis) -> f64 {
+    let other = NoiseModel::with_factor().hypotheses(setup.case.prior);
+    let (here, there) = (setup.prior(), other);
+    let [here, there] = if hypothesis.effects.is_empty() {
+        [here.none, there.none]
+    } else {
+        [here.one + here.two + here.three, there.one + there.two + there.three]
+    };
+    if here > 0.0 && there > 0.0 { elementary::ln(there / here) } else { 0.0 }
 }
 
 /// Fewer rows say nothing of a serial correlation.
@@ -326,37 +359,6 @@ pub(crate) fn is_prior_conflict(weighings: &[Weighing<'_>]) -> bool {
     weighings[most_probable(weighings)].wide
 }
 
-/// The weighing with the most probable noise, in which the probabilities of hypotheses are summed
-/// over what the noise may be.
-pub(crate) fn summed(mut weighings: Vec<Weighing<'_>>) -> (Setup<'_>, Discrepancy, Posterior) {
-    let most = most_probable(&weighings);
-    let mut first = weighings.swap_remove(most);
-    if let (true, Some(stated)) = (first.wide, weighings.first_mut()) {
-        // pairs are not among the hypotheses with wider priors; their draws are of other priors
-        let several = |h: &WeighedHypothesis| h.effects.len() > 1;
-        let at = stated.posterior.hypotheses.iter().position(several);
-        let pairs = at.map(|at| stated.posterior.hypotheses.split_off(at)).unwrap_or_default();
-        first.posterior.hypotheses.extend(pairs.into_iter().map(|pair| WeighedHypothesis {
-            probability: pair.probability * stated.probability / first.probability,
-            evidence: pair.evidence.without_draws(),
-            ..pair
-        }));
-    }
-    let Posterior { hypotheses, probability, .. } = &mut first.posterior;
-    for hypothesis in hypotheses.iter_mut() {
-        hypothesis.probability *= first.probability;
-    }
-    *probability *= first.probability;
-    for other in &weighings {
-        // hypotheses stand in the same order whatever the noise
-        for (own, theirs) in hypotheses.iter_mut().zip(&other.posterior.hypotheses) {
-            own.probability += other.probability * theirs.probability;
-        }
-        *probability += other.probability * other.posterior.probability;
-    }
-    (first.setup, first.discrepancy, first.posterior)
-}
-
 /// A set of values that are off which may be worth an evidence of its own: the last one that was
 /// tried and one more. `None` where no further value is suspicious.
 fn more_suspects(weighings: &[Weighing<'_>]) -> Option<Vec<Suspect>> {
@@ -375,7 +377,7 @@ fn more_suspects(weighings: &[Weighing<'_>]) -> Option<Vec<Suspect>> {
     };
     let of_hypothesis = |hypothesis: &WeighedHypothesis| -> Vec<f64> {
         let gains = gains(&last.setup, hypothesis);
-        let ln = hypothesis.ln_weight();
+        let ln = hypothesis.ln_weight() + ln_explained_away(&last.setup, hypothesis);
         gains.into_iter().map(|gain| ln + gain).collect()
     };
     let found: Vec<Vec<f64>> = last.posterior.hypotheses.par_iter().map(of_hypothesis).collect();

@@ -120,13 +120,13 @@ pub(crate) fn posterior(
     progress: &(dyn Fn(f64) + Sync),
 ) -> Posterior {
     let effort = effort.for_values(setup.data.len());
-    let prior = setup.case.prior;
+    let prior = setup.prior();
     let exploration = Exploration::new(setup, seed, effort);
     let mut hypotheses = singles;
     progress(0.2);
     let residuals = by_rows(&setup.data.nominal_residuals());
-    let unexplained =
-        discrepancy.evidence(setup, &residuals, floor(&hypotheses, prior.unexplained));
+    let floor = floor(&hypotheses, prior.unexplained, rivals);
+    let unexplained = discrepancy.evidence(setup, &residuals, floor);
     progress(0.3);
     if prior.two > 0.0 && !effort.is_stopped() {
         let pairs = setup.case.pairs();
@@ -240,10 +240,10 @@ fn ln_weight(prior: f64, ln_evidence: f64) -> f64 {
     if prior > 0.0 { elementary::ln(prior) + ln_evidence } else { f64::NEG_INFINITY }
 }
 
-/// The evidence of "unexplained" that would make it as probable as the leading hypothesis.
-fn floor(hypotheses: &[WeighedHypothesis], prior: f64) -> f64 {
-    let most =
-        hypotheses.iter().map(WeighedHypothesis::ln_weight).fold(f64::NEG_INFINITY, f64::max);
+/// The evidence of "unexplained" that would make it as probable as the leading hypothesis, or as what
+/// else may be true.
+fn floor(hypotheses: &[WeighedHypothesis], prior: f64, rivals: f64) -> f64 {
+    let most = hypotheses.iter().map(WeighedHypothesis::ln_weight).fold(rivals, f64::max);
     most - elementary::ln(prior.max(f64::MIN_POSITIVE))
 }
 
@@ -262,10 +262,12 @@ impl Posterior {
     /// discrepancy beside it, which counts as "unexplained". Without it the least bad name would
     /// win, however badly it fits.
     fn guard(&mut self, setup: &Setup<'_>, discrepancy: &Discrepancy) {
+        // a name that is improbable beside what else may be true does not win
+        let share = self.share();
         let mut leading: Vec<usize> = (0..self.hypotheses.len())
             .filter(|&h| {
                 let hypothesis = &self.hypotheses[h];
-                !hypothesis.effects.is_empty() && hypothesis.probability > 1e-3
+                !hypothesis.effects.is_empty() && hypothesis.probability * share > 1e-3
             })
             .collect();
         leading.sort_by(|&a, &b| {
@@ -274,7 +276,7 @@ impl Posterior {
         leading.truncate(MOST_GUARDED);
         let all = setup.case.candidates.len() + setup.case.pairs().len();
         let ln_share = elementary::ln(BESIDE_AN_EFFECT / all.max(1) as f64);
-        let floor = floor(&self.hypotheses, self.prior);
+        let floor = floor(&self.hypotheses, self.prior, self.rivals);
         let others: Vec<(f64, Arc<Base>, Unexplained)> = leading
             .into_iter()
             .filter_map(|h| {

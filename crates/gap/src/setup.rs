@@ -6,7 +6,7 @@ use super::data::{Data, Spread};
 use super::latent::{Map, Role};
 use super::likelihood::Likelihood;
 use super::noise_model::NoiseModel;
-use crate::Case;
+use crate::{Case, Prior};
 use gumption_engine::distribution::Distribution;
 use gumption_engine::number::elementary;
 
@@ -56,8 +56,10 @@ impl<'c> Setup<'c> {
         let mut roles = self.noise_roles();
         if noise.factor {
             let stated = &self.data.uncertainties;
-            let outputs = (0..stated.len()).filter(|&output| stated[output].is_some());
-            roles.extend(outputs.map(NoiseModel::role));
+            for output in (0..stated.len()).filter(|&output| stated[output].is_some()) {
+                roles.push(NoiseModel::role(output));
+                roles.extend(power(output, &self.data, &self.ln_sizes));
+            }
         }
         let data = Data::of(self.case, self.data.ids.clone(), noise);
         Self::with_data_and_inputs(self.case, data, self.unknown_inputs.clone(), roles)
@@ -92,6 +94,11 @@ impl<'c> Setup<'c> {
                 (0..root.nrows()).map(row).collect()
             });
         Self { case, data, spread, covariance, linear, unknown_inputs, roles, mixing, ln_sizes }
+    }
+
+    /// Prior probabilities of the hypotheses.
+    pub(crate) fn prior(&self) -> Prior {
+        self.data.noise.hypotheses(self.case.prior)
     }
 
     /// Whether an output states uncertainties of which a factor is estimated.
@@ -263,11 +270,15 @@ fn noise(output: usize, residuals: &[f64], data: &Data, ln_sizes: &[f64]) -> Vec
         output,
         map: Map::Uniform { lower: ln_lower, width: elementary::ln(3e6f64) },
     }];
+    roles.extend(power(output, data, ln_sizes));
+    roles
+}
+
+/// The power of the model's size that the noise of an output grows with, where that spans enough.
+fn power(output: usize, data: &Data, ln_sizes: &[f64]) -> Option<Role> {
     let sizes = ln_sizes.iter().skip(output).step_by(data.outputs.len().max(1));
     let (least, most) =
         sizes.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), &ln| (a.min(ln), b.max(ln)));
-    if most - least > elementary::ln(SPAN_FOR_POWER) {
-        roles.push(Role::Power { output, map: Map::Uniform { lower: 0.0, width: 1.0 } });
-    }
-    roles
+    (most - least > elementary::ln(SPAN_FOR_POWER))
+        .then_some(Role::Power { output, map: Map::Uniform { lower: 0.0, width: 1.0 } })
 }

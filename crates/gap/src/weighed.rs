@@ -9,6 +9,7 @@ use super::diagnosis::{
 use super::discrepancy::Discrepancy;
 use super::latent::Role;
 use super::noise_model::{self, Weighing};
+use super::over_noises;
 use super::posterior::{Effort, Posterior};
 use super::predict;
 use super::prior_conflict;
@@ -80,7 +81,7 @@ impl<'c> Weighed<'c> {
         let (composed, compositions) = composed(&weighings);
         let coverage = super::diagnose::coverage(case);
         let unlisted = unlisted::explaining(case, &weighings, seed, coverage);
-        let (setup, discrepancy, posterior) = noise_model::summed(weighings);
+        let (setup, discrepancy, posterior) = over_noises::summed(weighings);
         let best = (0..posterior.hypotheses.len())
             .max_by(|&a, &b| {
                 posterior.hypotheses[a].probability.total_cmp(&posterior.hypotheses[b].probability)

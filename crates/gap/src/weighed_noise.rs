@@ -3,6 +3,7 @@
 use super::latent::Role;
 use super::noise_model::{Suspect, Weighing, residuals_at_mode, serial_gain};
 use super::parameters::equal_tails;
+use super::setup::Setup;
 use gumption_engine::number::{COLUMN, elementary};
 
 /// Hypotheses below this probability do not contribute to the factor.
@@ -40,6 +41,20 @@ impl WeighedNoise {
             }
         }
         of
+    }
+
+    /// For each output the expected variance of noise that neighbouring rows share; `variances` are
+    /// those of the noise by value. Nobody can tell it from a slow departure of the model itself, so
+    /// that a prediction is uncertain by it.
+    pub(crate) fn shared(&self, setup: &Setup<'_>, variances: &[f64]) -> Vec<f64> {
+        let Some((probability, draws)) = &self.serial else { return Vec::new() };
+        let coefficient: f64 = draws.iter().map(|(r, weight)| r * weight).sum();
+        let outputs = setup.data.outputs.len();
+        let of = |output: usize| {
+            let own: Vec<f64> = variances.iter().skip(output).step_by(outputs).copied().collect();
+            probability * coefficient * own.iter().sum::<f64>() / own.len().max(1) as f64
+        };
+        (0..outputs).map(of).collect()
     }
 
     /// The factor of an output's stated uncertainties, given that they are off: its geometric mean and
