@@ -43,8 +43,9 @@ export LD_LIBRARY_PATH=$library_path${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}
 export RUSTC=$root/usr/bin/rustc RUSTC_BOOTSTRAP=1
 export CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_LINKER=$linker
 export CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUSTFLAGS='-C target-feature=+simd128'
-cargo build --package gumption-browser --release -Z build-std=std,panic_abort \
-    --target wasm32-unknown-unknown --target-dir target/wasm
+# names of functions are three quarters of the file
+cargo rustc --package gumption-browser --release -Z build-std=std,panic_abort \
+    --target wasm32-unknown-unknown --target-dir target/wasm -- -C strip=symbols
 mkdir -p "$(dirname "$out")"
 cp target/wasm/wasm32-unknown-unknown/release/gumption_browser.wasm "$out"
 echo "$out: $(stat -c %s "$out") bytes, $(gzip -9c "$out" | wc -c) compressed"

@@ -188,7 +188,7 @@ await test("new from a published example and from a template", async page => {
   await page.locator("#dialog .entry", { hasText: "inclined-plane" }).first().click();
   await until(page, () => document.querySelectorAll("#output-tabs button").length === 3);
   await page.locator("#output-tabs button").nth(2).click();
-  assert.match(await text(page, "#headline .value"), /^a_z/);
+  await until(page, () => /^a_z/.test(document.querySelector("#headline .value").innerText));
 });
 
 await test("import of a spreadsheet", async page => {

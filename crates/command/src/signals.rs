@@ -84,6 +84,7 @@ fn remove(path: &Path) {
 }
 
 /// What a signal of that number does.
+#[cfg(any(unix, windows))]
 fn received(number: u8) {
     let _ = RECEIVED.compare_exchange(0, number, Ordering::Relaxed, Ordering::Relaxed);
     if let Some(flag) = &*lock(&FLAG)

@@ -32,8 +32,8 @@ export class Answers {
       const request = this.wanted;
       this.wanted = null;
       try {
-        const { text, name, path, narrow } = request;
-        const found = await this.program.call("answer", { text, name, narrow, trials: FEW }, { path });
+        const { text, name, path, narrow, output } = request;
+        const found = await this.program.call("answer", { text, name, narrow, output, trials: FEW }, { path });
         this.shown.answer(found, request);
         if (!this.wanted && !found.diagnostics.length) {
           this.later = setTimeout(() => this.#refine(request, found), REST);
@@ -46,14 +46,14 @@ export class Answers {
   }
 
   async #refine(request, first) {
-    const { text, name, path, narrow } = request;
+    const { text, name, path, narrow, output } = request;
     if (first.kind !== "model") return;
     const slow = new AbortController();
     this.slow = slow;
     const signal = slow.signal;
     try {
       if (!first.whole) {
-        const found = await this.program.call("answer", { text, name, narrow, full: true }, { path, signal });
+        const found = await this.program.call("answer", { text, name, narrow, output, full: true }, { path, signal });
         if (signal.aborted) return;
         this.shown.answer(found, request);
       }

@@ -58,7 +58,7 @@ class Page {
   #ask() {
     const narrow = matchMedia("(max-width: 40rem)").matches;
     const { text, path } = this.document;
-    this.answers.ask({ text, path, name: path || "", narrow });
+    this.answers.ask({ text, path, name: path || "", narrow, output: this.chosen });
   }
 
   /** Changes the file; changes of one kind that wait are made as one. */
@@ -257,7 +257,7 @@ class Page {
     for (const id of ["box-budget", "box-comparison"]) this.element(id).hidden = !of;
     this.#headline(of, found);
     const dict = words.report_words;
-    const part = (id, html) => put(this.element(`part-${id}`), html, dict);
+    const part = (id, html) => put(this.element(`part-${id}`), html, dict, words.report_sentences);
     part("distribution", of ? of.html.distribution : "");
     part("budget", of ? of.html.budget : "");
     part("comparison", of ? of.html.comparison : "");
@@ -284,7 +284,12 @@ class Page {
     if (tabs.dataset.names !== key) {
       tabs.dataset.names = key;
       tabs.replaceChildren(...outputs.map((of, place) => make("button", {
-        type: "button", onclick: () => { this.chosen = place; this.#results(this.found); },
+        type: "button", onclick: () => {
+          this.chosen = place;
+          // the parts of the others were not asked for
+          if (outputs[place].html.verdict === "") this.#ask();
+          else this.#results(this.found);
+        },
       }, of.name)));
     }
     [...tabs.children].forEach((button, place) => button.setAttribute("aria-pressed", place === this.chosen));

@@ -25,7 +25,7 @@ export function unit(text) {
 }
 
 /** Puts parts of the report there, unless they are there already. */
-export function put(element, html, words = {}) {
+export function put(element, html, words = {}, sentences = []) {
   if (element.shownHtml === html && element.shownWords === words) return;
   element.shownHtml = html;
   element.shownWords = words;
@@ -35,6 +35,11 @@ export function put(element, html, words = {}) {
     if (found.childElementCount > 0) continue;
     const word = words[found.textContent.trim()];
     if (word) found.textContent = word;
+  }
+  for (const found of element.querySelectorAll("p, figcaption")) {
+    if (found.childElementCount > 0) continue;
+    const rule = sentences.find(([form]) => form.test(found.textContent));
+    if (rule) found.textContent = found.textContent.replace(rule[0], rule[1]);
   }
 }
 

@@ -57,10 +57,10 @@ export default {
   },
   // texts of the report's tables and figures, as a whole
   report_words: {
-    quantity: "Größe", estimate: "Schätzwert", "standard uncertainty": "Standardunsicherheit", unit: "Einheit", distribution: "Verteilung",
-    dof: "FG", "sensitivity coefficient": "Empfindlichkeitskoeffizient", contribution: "Beitrag", "share in %": "Anteil in %",
+    quantity: "Größe", estimate: "Schätzwert", "standard uncertainty": "Standard\u00adunsicherheit", unit: "Einheit", distribution: "Verteilung",
+    dof: "FG", "sensitivity coefficient": "Empfind\u00adlichkeit", contribution: "Beitrag", "share in %": "Anteil in %",
     combined: "kombiniert", components: "Komponenten", correlation: "Korrelation", figure: "Kenngröße", "GUM": "GUM", "Monte Carlo": "Monte Carlo",
-    "numerical standard error": "numerischer Standardfehler", result: "Ergebnis", value: "Wert",
+    "numerical standard error": "numerischer Standard\u00adfehler", result: "Ergebnis", value: "Wert",
     "combined standard uncertainty": "kombinierte Standardunsicherheit", "effective degrees of freedom": "effektive Freiheitsgrade",
     "coverage factor": "Erweiterungsfaktor", "expanded uncertainty": "erweiterte Unsicherheit", median: "Median", skewness: "Schiefe",
     "excess kurtosis": "Exzess", "share of the variance in %": "Anteil an der Varianz in %",
@@ -70,8 +70,17 @@ export default {
     input: "Eingangsgröße", "Sobol first": "Sobol, erste", "Sobol total": "Sobol, total", "width halved": "Breite halbiert",
     "width doubled": "Breite verdoppelt", "allowed change of the width": "erlaubte Änderung der Breite", stated: "angegeben", kept: "erhalten",
     "coverage interval, symmetric: from": "Überdeckungsintervall, symmetrisch: von", "coverage interval, shortest: from": "Überdeckungsintervall, kürzestes: von",
-    "coverage interval, symmetric, from": "Überdeckungsintervall, symmetrisch, von", "coverage interval, symmetric, to": "bis",
-    "coverage interval, shortest, from": "Überdeckungsintervall, kürzestes, von", "coverage interval, shortest, to": "bis", to: "bis",
+    "coverage interval, symmetric: to": "Überdeckungsintervall, symmetrisch: bis", "coverage interval, shortest: to": "Überdeckungsintervall, kürzestes: bis",
+    "for approximately 95 %": "für etwa 95 %", "With another shape": "Mit einer anderen Form",
     "none seen": "nicht zu sehen",
   },
+  // sentences of the reports, with what varies in them
+  report_sentences: [
+    [/^Shares of the combined variance, largest first\.$/, "Anteile an der kombinierten Varianz, die größten zuerst."],
+    [/^The (?:first )?([\d\s]+) Monte Carlo trials \(bars\), the density that the GUM gives \(line\) and the coverage intervals for (.*) %\.$/,
+      "$1 Monte-Carlo-Versuche (Balken), die Dichte nach dem GUM (Linie) und die Überdeckungsintervalle für $2 %."],
+    [/^Sensitivity coefficients in (.*) per unit of the quantity, contributions in (.*)\.$/, "Empfindlichkeitskoeffizienten in $1 je Einheit der Größe, Beiträge in $2."],
+    [/^Sensitivity coefficients per unit of the quantity\.$/, "Empfindlichkeitskoeffizienten je Einheit der Größe."],
+    [/^Subtotals: type A (.*) %, type B (.*) %\.$/, "Zwischensummen: Typ A $1 %, Typ B $2 %."],
+  ],
 };

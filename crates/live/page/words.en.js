@@ -49,5 +49,5 @@ export default {
     coverage_probability: "coverage probability", coverage_factor: "coverage factor k", trials: "trials",
     seed: "seed", digits: "digits", name: "name",
   },
-  shapes: {}, report_words: {},
+  shapes: {}, report_words: {}, report_sentences: [],
 };

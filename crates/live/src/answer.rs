@@ -38,6 +38,10 @@ pub(crate) struct Asked {
     /// Whether figures are drawn for a narrow column.
     #[serde(default)]
     narrow: bool,
+    /// The output, counted from 0, whose parts of the page are wanted; all of them unless it is
+    /// given, the first one where there is none of that number.
+    #[serde(default)]
+    output: Option<usize>,
 }
 
 /// What a text says and what follows from it.
@@ -222,7 +226,9 @@ fn results(file: &ModelFile, asked: &Asked, stop: &Arc<AtomicBool>) -> Result<Js
     };
     let shown = Shown { histograms: &histograms, ..Shown::default() };
     let size = if asked.narrow { FigureSize::Narrow } else { FigureSize::Page };
-    let parts = page_parts(&report, &shown, size);
+    let outputs = task.model.outputs.len();
+    let only = asked.output.map(|wanted| if wanted < outputs { wanted } else { 0 });
+    let parts = page_parts(&report, &shown, size, only);
     Ok(json!({
         "results": outputs::results(&task, &evaluation, &parts),
         "together": parts.together,

@@ -47,7 +47,8 @@ fn the_budget_of_a_resistor() {
     assert_eq!(result["unit"], "mW");
     let budget = result["html"]["budget"].as_str().unwrap();
     assert!(budget.contains("<th scope=\"row\">voltage</th>"), "{budget}");
-    assert!(result["html"]["distribution"].as_str().unwrap().contains("<svg role=\"img\""));
+    let figure = result["html"]["distribution"].as_str().unwrap();
+    assert!(figure.contains("<svg") && figure.contains("role=\"img\""), "{figure}");
     assert_eq!((&found["trials"], &found["whole"]), (&json!(100_000), &json!(false)));
 }
 
@@ -97,6 +98,23 @@ fn mistakes_have_their_places() {
     }
     assert_eq!(found["missing"], json!(["Ω", "x"]));
     assert_eq!(found.get("results"), None);
+}
+
+/// A page shows one output at a time, and need not wait for the figures of all others.
+#[test]
+fn the_parts_of_one_output_alone() {
+    let text =
+        POWER.replace("\"power\": {\"unit\"", "\"twice\": {\"unit\": \"W\"}, \"power\": {\"unit\"");
+    let text = text.replace("/resistance\"}", "/resistance\", \"twice\": \"2*power\"}");
+    for (asked, whole) in [(1, 1), (7, 0)] {
+        let found = call("answer", &json!({"text": text, "trials": 1000, "output": asked}));
+        for (place, result) in found["results"].as_array().unwrap().iter().enumerate() {
+            let budget = result["html"]["budget"].as_str().unwrap();
+            assert_eq!(!budget.is_empty(), place == whole, "{result}");
+            assert!(result["statement"]["estimate"].is_string(), "{result}");
+        }
+        assert_eq!(found["results"].as_array().unwrap().len(), 2);
+    }
 }
 
 #[test]

@@ -5,6 +5,7 @@ use super::{Shown, document, results};
 use crate::EvaluationReport;
 use crate::document::{Document, fragment};
 use crate::html::FigureSize;
+use crate::table::title_text;
 use gumption_engine::distribution::Distribution;
 
 /// The parts of a page, each as HTML that needs the style of [`crate::page_style`]. Whatever a file
@@ -37,11 +38,21 @@ pub struct OutputParts {
     pub distribution: String,
 }
 
-/// The parts of the page of an evaluation.
-pub fn page_parts(report: &EvaluationReport<'_>, shown: &Shown<'_>, size: FigureSize) -> PageParts {
+/// The parts of the page of an evaluation; with `only`, those about that output alone, counted from
+/// 0, and of the others the title.
+pub fn page_parts(
+    report: &EvaluationReport<'_>,
+    shown: &Shown<'_>,
+    size: FigureSize,
+    only: Option<usize>,
+) -> PageParts {
     let one_row = report.evaluation.rows.len() == 1;
     let outputs = if one_row { report.task.model.outputs.len() } else { 0 };
-    let part = |output| {
+    let part = |output: usize| {
+        if only.is_some_and(|only| only != output) {
+            let quantity = &report.task.model.outputs.get(output)?.quantity;
+            return Some(OutputParts { title: title_text(quantity), ..OutputParts::default() });
+        }
         let section = results::section_of(report, shown, output)?;
         Some(OutputParts {
             title: section.title,
