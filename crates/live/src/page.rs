@@ -48,11 +48,6 @@ pub fn all() -> Vec<PageAsset> {
     OWN.iter().copied().chain([report]).collect()
 }
 
-/// The policy for the page: scripts and styles of its own alone, and none within the markup.
-pub const POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self'; \
-    img-src 'self' data:; connect-src 'self'; frame-src 'self' blob:; worker-src 'self'; \
-    base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
-
 #[cfg(test)]
 mod tests {
     use super::*;
