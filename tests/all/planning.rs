@@ -84,7 +84,7 @@ fn pages_and_costs_of_the_examples() {
             assert!(text.contains(name), "{text}");
         }
     }
-    assert!(with("html").matches("<svg").count() == 1);
+    assert!(with("html").matches("<svg class=\"wide\"").count() == 1);
     let checked = run(&folder, &["check", "costs.json"]);
     assert!(checked.status.success(), "{}", String::from_utf8_lossy(&checked.stderr));
 }

@@ -574,6 +574,24 @@ class Page {
     } catch (error) { this.failed(error); }
   }
 
+  /** Recomputes the published values in this browser, and shows each beside what was published. */
+  async #verifyDialog() {
+    const { words } = this;
+    this.#say("state", words.verifying);
+    try {
+      const { rows, pass } = await this.program.call("verify", {});
+      const { paths } = await this.program.call("paths", {});
+      const cells = row => [row.example, row.output, row.quantity, row.published, row.tolerance, row.got, row.verdict];
+      const head = make("thead", {}, make("tr", {}, ...words.verify_headers.map(text => make(text ? "th" : "td", text ? { scope: "col" } : {}, text))));
+      const line = row => make("tr", {}, ...cells(row).map(cell => make("td", {}, cell === null ? "" : String(cell))));
+      const body = make("div", {},
+        make("p", {}, words.verified(pass, rows.length, paths.map(of => of.hash).join(", "))),
+        make("div", { class: "list", tabindex: "0" }, make("table", {}, head, make("tbody", {}, ...rows.map(line)))));
+      await this.#choose(words.verify_title, body, [[words.close, null]]);
+    } catch (error) { this.failed(error); }
+    this.#state();
+  }
+
   #download(blob, name) {
     const address = URL.createObjectURL(blob);
     make("a", { href: address, download: name }).click();
@@ -692,6 +710,9 @@ class Page {
     on("open", "click", () => this.#openDialog());
     on("new", "click", () => this.#newDialog());
     on("export", "click", () => this.#exportDialog());
+    // with a server, the command line does it
+    this.element("verify").hidden = this.program.hasFolder;
+    on("verify", "click", () => this.#verifyDialog());
     on("import", "click", () => this.#pick(".csv,.xlsx"));
     on("language", "change", event => {
       this.language = event.target.value;

@@ -1,6 +1,6 @@
 // What the page says in German. Every language has the same keys.
 export default {
-  actions: "Datei und Änderungen", new: "Neu", open: "Öffnen", import: "Importieren", save: "Speichern", export: "Exportieren",
+  actions: "Datei und Änderungen", new: "Neu", open: "Öffnen", import: "Importieren", save: "Speichern", export: "Exportieren", verify: "Nachprüfen",
   undo: "Rückgängig", redo: "Wiederholen", language: "Sprache", measurement: "Messung", view: "Ansicht",
   form: "Formular", text: "Text", title: "Titel", equations: "Gleichungen",
   equations_hint: "Eine je Zeile: Name = Formel, etwa power = voltage^2/resistance",
@@ -33,6 +33,9 @@ export default {
   from_disk: "Von diesem Rechner …", new_title: "Neue Messung", empty: "Leer", templates: "Fertige Messmodelle",
   examples: "Veröffentlichte Beispiele", search: "Suchen", save_title: "Speichern unter", save_name: "Name der Datei",
   export_title: "Exportieren", import_title: "Importiert", understood: "Verstanden", guessed: "Geraten",
+  verify_title: "Veröffentlichte Werte, in diesem Browser nachgerechnet", verifying: "die veröffentlichten Werte werden nachgerechnet …",
+  verified: (pass, all, hash) => `${pass} von ${all} veröffentlichten Werten stimmen überein. Prüfsumme der Versuche, die von gumption verify --paths: ${hash}`,
+  verify_headers: ["Beispiel", "Ausgangsgröße", "Größe", "veröffentlicht", "Toleranz", "nachgerechnet", ""],
   conflict_title: "Die Datei wurde anderswo geändert",
   conflict: "Sie wurde auf der Platte geändert und hier ebenfalls. Welche soll bleiben? Die andere ist mit Rückgängig wiederzuhaben, solange diese Seite offen ist.",
   mine: "Meine (schreiben)", theirs: "Die auf der Platte", disk: "von der Platte übernommen",

@@ -1,6 +1,6 @@
 // What the page says in English. Every language has the same keys.
 export default {
-  actions: "File and changes", new: "New", open: "Open", import: "Import", save: "Save", export: "Export",
+  actions: "File and changes", new: "New", open: "Open", import: "Import", save: "Save", export: "Export", verify: "Verify",
   undo: "Undo", redo: "Redo", language: "Language", measurement: "Measurement", view: "View",
   form: "Form", text: "Text", title: "Title", equations: "Equations",
   equations_hint: "One on a line: name = formula, such as power = voltage^2/resistance",
@@ -33,6 +33,9 @@ export default {
   from_disk: "From this computer …", new_title: "New measurement", empty: "Empty", templates: "Typed measurements",
   examples: "Published examples", search: "Search", save_title: "Save as", save_name: "Name of the file",
   export_title: "Export", import_title: "Imported", understood: "Understood", guessed: "Guessed",
+  verify_title: "Published values, recomputed in this browser", verifying: "recomputing the published values …",
+  verified: (pass, all, hash) => `${pass} of ${all} published values agree. Hash of the trials, that of gumption verify --paths: ${hash}`,
+  verify_headers: ["example", "output", "quantity", "published", "tolerance", "recomputed", ""],
   conflict_title: "The file was changed elsewhere",
   conflict: "It was changed on the disk, and here as well. Which one shall stay? The other one can be had back with undo, as long as this page is open.",
   mine: "Mine (write it)", theirs: "The one on the disk", disk: "taken over from the disk",
