@@ -23,6 +23,8 @@ class Page {
     this.kind = "model";
     this.found = null;
     this.document = new Document(kind => this.#changed(kind));
+    // before a first one is there, nothing is lost
+    this.pristine = this.document.text;
     this.answers = new Answers(program, this);
     this.equations = new Code(this.element("equations-box"));
     this.source = new Code(this.element("source-box"));
@@ -581,8 +583,8 @@ class Page {
     try {
       const { rows, pass } = await this.program.call("verify", {});
       const { paths } = await this.program.call("paths", {});
-      const cells = row => [row.example, row.output, row.quantity, row.published, row.tolerance, row.got, row.verdict];
-      const head = make("thead", {}, make("tr", {}, ...words.verify_headers.map(text => make(text ? "th" : "td", text ? { scope: "col" } : {}, text))));
+      const cells = row => [row.verdict, row.example, row.output, row.quantity, row.published, row.got, row.tolerance];
+      const head = make("thead", {}, make("tr", {}, ...words.verify_headers.map(text => make("th", { scope: "col" }, text))));
       const line = row => make("tr", {}, ...cells(row).map(cell => make("td", {}, cell === null ? "" : String(cell))));
       const body = make("div", {},
         make("p", {}, words.verified(pass, rows.length, paths.map(of => of.hash).join(", "))),

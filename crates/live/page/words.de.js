@@ -35,7 +35,7 @@ export default {
   export_title: "Exportieren", import_title: "Importiert", understood: "Verstanden", guessed: "Geraten",
   verify_title: "Veröffentlichte Werte, in diesem Browser nachgerechnet", verifying: "die veröffentlichten Werte werden nachgerechnet …",
   verified: (pass, all, hash) => `${pass} von ${all} veröffentlichten Werten stimmen überein. Prüfsumme der Versuche, die von gumption verify --paths: ${hash}`,
-  verify_headers: ["Beispiel", "Ausgangsgröße", "Größe", "veröffentlicht", "Toleranz", "nachgerechnet", ""],
+  verify_headers: ["Urteil", "Beispiel", "Ausgangsgröße", "Größe", "veröffentlicht", "nachgerechnet", "Toleranz"],
   conflict_title: "Die Datei wurde anderswo geändert",
   conflict: "Sie wurde auf der Platte geändert und hier ebenfalls. Welche soll bleiben? Die andere ist mit Rückgängig wiederzuhaben, solange diese Seite offen ist.",
   mine: "Meine (schreiben)", theirs: "Die auf der Platte", disk: "von der Platte übernommen",

@@ -35,7 +35,7 @@ export default {
   export_title: "Export", import_title: "Imported", understood: "Understood", guessed: "Guessed",
   verify_title: "Published values, recomputed in this browser", verifying: "recomputing the published values …",
   verified: (pass, all, hash) => `${pass} of ${all} published values agree. Hash of the trials, that of gumption verify --paths: ${hash}`,
-  verify_headers: ["example", "output", "quantity", "published", "tolerance", "recomputed", ""],
+  verify_headers: ["verdict", "example", "output", "quantity", "published", "recomputed", "tolerance"],
   conflict_title: "The file was changed elsewhere",
   conflict: "It was changed on the disk, and here as well. Which one shall stay? The other one can be had back with undo, as long as this page is open.",
   mine: "Mine (write it)", theirs: "The one on the disk", disk: "taken over from the disk",

@@ -69,10 +69,12 @@ fn padded(cells: &[String]) -> Vec<String> {
     let pad = |cell: String| {
         let end = cell.trim_end_matches(' ').len();
         let (number, behind) = cell.split_at(end);
+        let words = number.trim_start_matches(' ');
+        let before = "\u{2007}".repeat(number.len() - words.len());
         let whole = has_points && !number.contains('.');
         let point = if whole && !behind.is_empty() { "\u{2008}" } else { "" };
         let digits = behind.len() - usize::from(!point.is_empty());
-        number.replace(' ', "\u{2007}") + point + &"\u{2007}".repeat(digits)
+        before + words + point + &"\u{2007}".repeat(digits)
     };
     align(cells).into_iter().map(pad).collect()
 }
