@@ -29,7 +29,7 @@ pub enum Layout {
     Power(Box<[Layout; 2]>),
     /// What stands under a root, with the index of the root unless it is the square root.
     Root(Box<Layout>, Option<u32>),
-    /// A quantity of several cases: values with their conditions, the last one otherwise.
+    /// A quantity of two cases: a value, its condition, and the value otherwise.
     Cases(Box<[Layout; 3]>),
 }
 
