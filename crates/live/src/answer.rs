@@ -13,6 +13,7 @@ use serde::Deserialize;
 use serde_json::{Value as Json, json};
 use std::path::Path;
 
+use crate::language::Language;
 use crate::tree::{self, path_of};
 use crate::{LiveError, diagnostics, inputs, limited, outputs};
 
@@ -42,6 +43,9 @@ pub(crate) struct Asked {
     /// given, the first one where there is none of that number.
     #[serde(default)]
     output: Option<usize>,
+    /// The language of what is said: `de`, else English.
+    #[serde(default)]
+    lang: Language,
 }
 
 /// What a text says and what follows from it.
@@ -228,11 +232,13 @@ fn results(file: &ModelFile, asked: &Asked, stop: &Arc<AtomicBool>) -> Result<Js
     let size = if asked.narrow { FigureSize::Narrow } else { FigureSize::Page };
     let outputs = task.model.outputs.len();
     let only = asked.output.map(|wanted| if wanted < outputs { wanted } else { 0 });
-    let parts = page_parts(&report, &shown, size, only);
+    let parts = asked.lang.parts(page_parts(&report, &shown, size, only));
+    let note =
+        |note: &gumption_engine::task::Warning| asked.lang.note(gumption_report::plain(&note.text));
     Ok(json!({
         "results": outputs::results(&task, &evaluation, &parts),
         "together": parts.together,
-        "notes": notes.iter().map(|note| gumption_report::plain(&note.text)).collect::<Vec<_>>(),
+        "notes": notes.iter().map(note).collect::<Vec<_>>(),
         "rows": all_rows,
         "rows_shown": task.rows.len(),
         "trials": made(&evaluation),
