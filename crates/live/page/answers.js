@@ -32,8 +32,8 @@ export class Answers {
       const request = this.wanted;
       this.wanted = null;
       try {
-        const { text, name, path, narrow, output } = request;
-        const found = await this.program.call("answer", { text, name, narrow, output, trials: FEW }, { path });
+        const { path, at, ...asked } = request;
+        const found = await this.program.call("answer", { ...asked, trials: FEW }, { path });
         this.shown.answer(found, request);
         if (!this.wanted && !found.diagnostics.length) {
           this.later = setTimeout(() => this.#refine(request, found), REST);
@@ -46,20 +46,20 @@ export class Answers {
   }
 
   async #refine(request, first) {
-    const { text, name, path, narrow, output } = request;
+    const { path, at, ...asked } = request;
     if (first.kind !== "model") return;
     const slow = new AbortController();
     this.slow = slow;
     const signal = slow.signal;
     try {
       if (!first.whole) {
-        const found = await this.program.call("answer", { text, name, narrow, output, full: true }, { path, signal });
+        const found = await this.program.call("answer", { ...asked, full: true }, { path, signal });
         if (signal.aborted) return;
         this.shown.answer(found, request);
       }
       await new Promise(done => setTimeout(done, AUDIT - REST));
       if (signal.aborted) return;
-      const found = await this.program.call("audit", { text, name }, { path, signal });
+      const found = await this.program.call("audit", { text: asked.text, name: asked.name, lang: asked.lang }, { path, signal });
       if (!signal.aborted) this.shown.audit(found);
     } catch (error) {
       if (error.name !== "AbortError" && !signal.aborted) this.shown.failed(error);

@@ -6,8 +6,10 @@ use std::sync::atomic::AtomicBool;
 use gumption_engine::model::formula::Formula;
 use gumption_engine::propagate::{Control, Evaluation, evaluate, histograms, warnings};
 use gumption_engine::task::{MethodChoice, Task, Trials};
-use gumption_files::{Diagnostics, FileReader, ModelFile, TextKind};
-use gumption_report::{EvaluationReport, FigureSize, Provenance, Shown, page_parts};
+use gumption_files::{
+    ComparisonOptions, Diagnostics, FileReader, ModelFile, TextKind, read_comparison_text,
+};
+use gumption_report::{EvaluationReport, FigureSize, PageChoice, Provenance, Shown, page_parts};
 use jsonc_parser::ast::Value;
 use serde::Deserialize;
 use serde_json::{Value as Json, json};
@@ -43,6 +45,10 @@ pub(crate) struct Asked {
     /// given, the first one where there is none of that number.
     #[serde(default)]
     output: Option<usize>,
+    /// The row of conditions, counted from 0, that the parts are about; the first one where there is
+    /// none of that number.
+    #[serde(default)]
+    row: usize,
     /// The language of what is said: `de`, else English.
     #[serde(default)]
     lang: Language,
@@ -61,15 +67,14 @@ pub(crate) fn answer(
     let mut answer = json!({ "kind": kind.name(), "diagnostics": [] });
     let root = tree::parse(bare).ok();
     let read = match kind {
-        // a certificate and a recipe open other files by their paths; their pages tell mistakes
-        TextKind::Case | TextKind::Costs => {
-            let found = files.check_text(name, text, Path::new("")).err();
+        TextKind::Model => files.model_text(name, text, Path::new(""), &[]),
+        // their pages evaluate them, and tell what only that finds
+        other => {
+            let found = checked(files, other, name, text).err();
             answer["diagnostics"] =
                 found.map_or(json!([]), |found| diagnostics::list(text, &found));
             return Ok(answer);
         }
-        TextKind::Model => files.model_text(name, text, Path::new(""), &[]),
-        _ => return Ok(answer),
     };
     let file = match &read {
         Ok(file) => Some(file),
@@ -89,6 +94,25 @@ pub(crate) fn answer(
         }
     }
     Ok(answer)
+}
+
+/// The mistakes of a text that is no model.
+fn checked(
+    files: FileReader<'_>,
+    kind: TextKind,
+    name: &str,
+    text: &str,
+) -> Result<(), Diagnostics> {
+    let folder = Path::new("");
+    match kind {
+        TextKind::Case => files.case_text(name, text, folder).map(drop),
+        TextKind::Certificate => files.certificate_text(name, text, folder).map(drop),
+        TextKind::Comparison => {
+            read_comparison_text(name, text, ComparisonOptions::default()).map(drop)
+        }
+        TextKind::Recipe | TextKind::Costs => files.check_text(name, text, folder),
+        _ => Ok(()),
+    }
 }
 
 fn merge(into: &mut Json, from: Json) {
@@ -214,11 +238,14 @@ fn results(file: &ModelFile, asked: &Asked, stop: &Arc<AtomicBool>) -> Result<Js
         file.evaluation_failed(error.to_string())
     };
     let evaluation = evaluate(&task, &control).map_err(failed)?;
-    let histograms = if evaluation.rows.len() == 1 && !evaluation.stopped {
-        histograms(&task, &evaluation, 0, &control).map_err(failed)?.into_iter().collect()
-    } else {
-        Vec::new()
-    };
+    let row = if asked.row < evaluation.rows.len() { asked.row } else { 0 };
+    let mut counts = vec![Vec::new(); evaluation.rows.len()];
+    if !evaluation.stopped
+        && let Some(place) = counts.get_mut(row)
+    {
+        let found = histograms(&task, &evaluation, row, &control).map_err(failed)?;
+        place.extend(found.into_iter().flatten());
+    }
     let mut notes = file.warnings.clone();
     notes.extend(warnings(&task, &evaluation));
     let provenance = Provenance::default();
@@ -228,17 +255,19 @@ fn results(file: &ModelFile, asked: &Asked, stop: &Arc<AtomicBool>) -> Result<Js
         warnings: &notes,
         provenance: &provenance,
     };
-    let shown = Shown { histograms: &histograms, ..Shown::default() };
+    let shown = Shown { histograms: &counts, ..Shown::default() };
     let size = if asked.narrow { FigureSize::Narrow } else { FigureSize::Page };
     let outputs = task.model.outputs.len();
-    let only = asked.output.map(|wanted| if wanted < outputs { wanted } else { 0 });
-    let parts = asked.lang.parts(page_parts(&report, &shown, size, only));
+    let output = asked.output.map(|wanted| if wanted < outputs { wanted } else { 0 });
+    let parts = asked.lang.parts(page_parts(&report, &shown, size, PageChoice { output, row }));
     let note =
         |note: &gumption_engine::task::Warning| asked.lang.note(gumption_report::plain(&note.text));
     Ok(json!({
-        "results": outputs::results(&task, &evaluation, &parts),
+        "results": outputs::results(&task, &evaluation, row, &parts),
         "together": parts.together,
         "notes": notes.iter().map(note).collect::<Vec<_>>(),
+        "row": row,
+        "row_names": parts.rows,
         "rows": all_rows,
         "rows_shown": task.rows.len(),
         "trials": made(&evaluation),

@@ -34,6 +34,7 @@ use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use serde_json::json;
 
+pub use diagnostics::mistakes;
 pub use gumption_files::FileSource;
 pub use held::HeldFiles;
 
@@ -85,7 +86,7 @@ impl<'a> Live<'a> {
     ///
     /// | call | request | answer |
     /// |---|---|---|
-    /// | `answer` | `text`, `name`, `trials`, `full`, `narrow`, `output`, `lang` | mistakes; or inputs, outputs, results, parts of the page |
+    /// | `answer` | `text`, `name`, `trials`, `full`, `narrow`, `output`, `row`, `lang` | mistakes; or inputs, outputs, results, parts of the page |
     /// | `audit` | `text`, `name`, `lang` | `html`: what the Type B assumptions decide |
     /// | `edit` | `text`, `edits` | `text` |
     /// | `reshape` | `text`, `path`, `distribution` | `text` with another distribution of an input |

@@ -10,8 +10,9 @@ mod wide_text;
 use std::cell::RefCell;
 use std::fs::File;
 use std::io::{self, Read};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::rc::Rc;
+use std::sync::Arc;
 
 use sha2::{Digest, Sha256};
 
@@ -83,7 +84,7 @@ pub(super) struct Conversion {
 /// How a recording is to be read.
 #[derive(Clone, Debug)]
 pub(super) struct Reading {
-    pub(super) path: PathBuf,
+    pub(super) bytes: Bytes,
     /// The name in messages.
     pub(super) name: String,
     pub(super) channels: Vec<(Wanted, Conversion)>,
@@ -178,7 +179,7 @@ impl SampleSource for Recording {
             in_blocks(&held.channels, each);
             return Ok(());
         }
-        let file = opened(&self.reading.path)?;
+        let file = self.reading.bytes.opened()?;
         let mut frames = self.reading.frames(io::BufReader::with_capacity(1 << 20, file))?;
         let count = self.reading.wanted().len();
         let mut columns = vec![Vec::with_capacity(BLOCK); count];
@@ -228,11 +229,27 @@ impl Conversion {
     }
 }
 
-fn opened(path: &Path) -> Result<File, String> {
-    let file = File::open(path).map_err(|error| error.to_string())?;
-    match file.metadata() {
-        Ok(data) if data.is_dir() => Err("it is a folder".to_owned()),
-        _ => Ok(file),
+/// Where the bytes of a recording are.
+#[derive(Clone, Debug)]
+pub(super) enum Bytes {
+    /// On the disk.
+    OnDisk(PathBuf),
+    /// In memory.
+    Held(Arc<[u8]>),
+}
+
+impl Bytes {
+    /// A reader of them from the beginning.
+    fn opened(&self) -> Result<Box<dyn Read + '_>, String> {
+        let path = match self {
+            Self::OnDisk(path) => path,
+            Self::Held(bytes) => return Ok(Box::new(&**bytes)),
+        };
+        let file = File::open(path).map_err(|error| error.to_string())?;
+        match file.metadata() {
+            Ok(data) if data.is_dir() => Err("it is a folder".to_owned()),
+            _ => Ok(Box::new(file)),
+        }
     }
 }
 
