@@ -30,7 +30,6 @@ use std::sync::atomic::AtomicBool;
 
 use gumption_engine::model::typed::Catalogue;
 use gumption_files::FileReader;
-use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use serde_json::json;
 

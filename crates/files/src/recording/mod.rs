@@ -10,7 +10,7 @@ mod wide_text;
 use std::cell::RefCell;
 use std::fs::File;
 use std::io::{self, Read};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::rc::Rc;
 use std::sync::Arc;
 
@@ -154,12 +154,10 @@ impl Reading {
 
     fn frames<'r>(&self, reader: impl Read + 'r) -> Result<Box<dyn Frames + 'r>, String> {
         let wanted = self.wanted();
-        let extension = self.path.extension().and_then(|e| e.to_str()).unwrap_or("");
+        let extension = Path::new(&self.name).extension().and_then(|e| e.to_str()).unwrap_or("");
         match extension.to_ascii_lowercase().as_str() {
             "wav" | "wave" => {
-                let size = std::fs::metadata(&self.path).ok().filter(|of| of.is_file());
-                let size = size.map(|of| of.len());
-                Ok(Box::new(wav_frames::WavFrames::new(reader, size, wanted)?))
+                Ok(Box::new(wav_frames::WavFrames::new(reader, self.bytes.size(), wanted)?))
             }
             "npy" => Ok(Box::new(npy_frames::NpyFrames::new(reader, wanted)?)),
             _ => Ok(Box::new(csv_frames::CsvFrames::new(reader, wanted)?)),
@@ -239,6 +237,16 @@ pub(super) enum Bytes {
 }
 
 impl Bytes {
+    /// How many there are, where that is known.
+    fn size(&self) -> Option<u64> {
+        match self {
+            Self::OnDisk(path) => {
+                std::fs::metadata(path).ok().filter(|of| of.is_file()).map(|of| of.len())
+            }
+            Self::Held(bytes) => Some(bytes.len() as u64),
+        }
+    }
+
     /// A reader of them from the beginning.
     fn opened(&self) -> Result<Box<dyn Read + '_>, String> {
         let path = match self {

@@ -7,7 +7,7 @@ use std::rc::Rc;
 use sha2::{Digest, Sha256};
 
 use super::{
-    BLOCK, Digesting, InMemorySamples, MOST_IN_MEMORY, Measured, Reading, Recording, opened, place,
+    BLOCK, Digesting, InMemorySamples, MOST_IN_MEMORY, Measured, Reading, Recording, place,
 };
 use gumption_engine::number::Shortest;
 use gumption_engine::task::Warning;
