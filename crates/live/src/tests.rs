@@ -217,7 +217,8 @@ fn mistakes_of_certificates_recipes_cases_and_tables_have_places() {
         let all = found["diagnostics"].as_array().unwrap().clone();
         let marked = |of: &Value| {
             let [from, to] = ["start", "end"].map(|key| of[key].as_u64().unwrap() as usize);
-            (of["file"].as_str().map(str::to_owned), text[from..to].to_owned())
+            let units: Vec<u16> = text.encode_utf16().collect();
+            (of["file"].as_str().map(str::to_owned), String::from_utf16_lossy(&units[from..to]))
         };
         all.iter().map(marked).collect::<Vec<_>>()
     };

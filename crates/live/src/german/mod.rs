@@ -8,7 +8,7 @@ mod tests;
 mod words;
 
 use notes::NOTES;
-use sentences::SENTENCES;
+use sentences::{BRIEF, BRIEF_LENGTH, SENTENCES};
 use words::{BETWEEN, SHAPES, WORDS};
 
 /// Whose words stand at the beginnings of a part's rows and at the lines of its figures.
@@ -66,7 +66,8 @@ fn of_holder(tag: &str, inner: &str, names: RowNames) -> String {
         return format!("<strong>{}</strong>", of_holder(tag, strong, names));
     }
     let is_name = tag.starts_with("text") || tag.contains("scope=\"row\"");
-    if names == RowNames::OfFile && is_name && !text.contains(' ') {
+    let is_own = text.contains(' ') || text == "residual";
+    if names == RowNames::OfFile && is_name && !is_own {
         return inner.to_owned();
     }
     // titles are the file's, except those that begin with words of the report
@@ -107,7 +108,8 @@ fn word(text: &str) -> Option<&'static str> {
 
 /// The first sentence of a text in German, and what follows it.
 fn sentence(text: &str) -> Option<(String, &str)> {
-    SENTENCES.iter().chain(NOTES).find_map(|(english, german)| {
+    let brief = if text.len() <= BRIEF_LENGTH { BRIEF } else { &[] };
+    SENTENCES.iter().chain(NOTES).chain(brief).find_map(|(english, german)| {
         let (captured, rest) = fitted(english, text)?;
         Some((filled(german, &captured), rest))
     })

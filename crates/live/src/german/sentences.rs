@@ -58,10 +58,6 @@ pub(super) const SENTENCES: &[(&str, &str)] = &[
         "Tolerance {}: the estimate lies {}, and the value conforms with a probability of {} % (numerical standard error {} %)",
         "Toleranz {0:}: Der Schätzwert liegt {1:}, und der Wert ist mit einer Wahrscheinlichkeit von {2} % konform (numerischer Standardfehler {3} %)",
     ),
-    ("from {} on", "ab {0}"),
-    ("from {} on {}", "ab {0} {1}"),
-    ("from {} to {}", "von {0} bis {1}"),
-    ("up to {}", "bis {0}"),
     (
         "Decision rule: simple acceptance (JCGM 106, 8.2), accepted where the estimate lies within the tolerance. Decision: {}",
         "Entscheidungsregel: einfache Annahme (JCGM 106, 8.2), angenommen wird, wenn der Schätzwert innerhalb der Toleranz liegt. Entscheidung: {0:}",
@@ -423,10 +419,22 @@ pub(super) const SENTENCES: &[(&str, &str)] = &[
         "Changes are those of half the length of the coverage interval, relative to the stated assumptions, from the same random numbers; a change below 0.05 % or within twice its numerical standard error is none seen. Allowed is how far the width may be wrong until that length moves by more than the limit",
         "Änderungen sind die der halben Länge des Überdeckungsintervalls gegenüber den angegebenen Annahmen, aus denselben Zufallszahlen; eine Änderung unter 0.05 % oder innerhalb des Zweifachen ihres numerischen Standardfehlers ist nicht zu sehen. Erlaubt ist, wie weit die Breite falsch sein darf, bis sich diese Länge um mehr als die Schranke bewegt",
     ),
-    ("{} % to {}", "{0} % bis {1:}"),
-    ("any to {}", "beliebig bis {0:}"),
     ("too few readings to tell", "zu wenige Messwerte, um es zu sagen"),
     ("standard deviation", "Standardabweichung"),
     ("{} % interval", "{0}-%-Intervall"),
+];
+
+/// Parts of sentences and cells, which might be found in many sentences: they are looked for last, and
+/// in short texts alone.
+pub(super) const BRIEF: &[(&str, &str)] = &[
+    ("from {} on {}", "ab {0} {1}"),
+    ("from {} on", "ab {0}"),
+    ("from {} to {}", "von {0} bis {1}"),
+    ("up to {}", "bis {0}"),
+    ("{} % to {}", "{0} % bis {1:}"),
+    ("any to {}", "beliebig bis {0:}"),
     ("{} to {}", "{0} bis {1}"),
 ];
+
+/// The longest of those texts, in bytes.
+pub(super) const BRIEF_LENGTH: usize = 60;
