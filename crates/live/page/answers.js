@@ -4,6 +4,7 @@
 const FEW = 100000;
 const REST = 250;
 const AUDIT = 900;
+const QUICK = 150;
 
 export class Answers {
   constructor(program, shown) {
@@ -11,17 +12,46 @@ export class Answers {
     this.shown = shown;
     this.wanted = null;
     this.isAsking = false;
+    this.took = 0;
     this.later = null;
     this.slow = null;
+  }
+
+  /** Whether an answer is there before a hand makes the next change. */
+  get isQuick() { return !this.isAsking && this.took < QUICK; }
+
+  /** Changes a text and asks about it in one: the answer holds the text. */
+  async edit(request, edits) {
+    this.#stopSlow();
+    const { path, at, ...asked } = request;
+    const found = await this.program.call("answer", { ...asked, edits, trials: FEW }, { path });
+    this.took = performance.now() - at;
+    return found;
+  }
+
+  /** Shows an answer that somebody else has asked for. */
+  given(request, found) {
+    if (this.isAsking || this.wanted) return;
+    this.shown.answer(found, request);
+    this.#rest(request, found);
+  }
+
+  #stopSlow() {
+    clearTimeout(this.later);
+    // what is refined is out of date
+    if (this.slow) this.slow.abort();
+    this.slow = null;
+  }
+
+  #rest(request, found) {
+    clearTimeout(this.later);
+    if (!found.diagnostics.length) this.later = setTimeout(() => this.#refine(request, found), REST);
   }
 
   /** Asks about a text; `at` is when it was changed. */
   ask(request) {
     this.wanted = { ...request, at: performance.now() };
-    clearTimeout(this.later);
-    // what is refined is out of date
-    if (this.slow) this.slow.abort();
-    this.slow = null;
+    this.#stopSlow();
     this.#next();
   }
 
@@ -34,10 +64,9 @@ export class Answers {
       try {
         const { path, at, ...asked } = request;
         const found = await this.program.call("answer", { ...asked, trials: FEW }, { path });
+        this.took = performance.now() - at;
         this.shown.answer(found, request);
-        if (!this.wanted && !found.diagnostics.length) {
-          this.later = setTimeout(() => this.#refine(request, found), REST);
-        }
+        if (!this.wanted) this.#rest(request, found);
       } catch (error) {
         this.shown.failed(error);
       }

@@ -59,9 +59,26 @@ class Page {
   }
 
   #ask() {
+    if (!this.isGiven) this.answers.ask(this.#request());
+  }
+
+  /** What is asked about the text as it is. */
+  #request() {
     const narrow = matchMedia("(max-width: 40rem)").matches;
     const { text, path } = this.document;
-    this.answers.ask({ text, path, name: path || "", narrow, output: this.chosen, row: this.row, lang: this.language });
+    return { text, path, name: path || this.named || "", narrow, output: this.chosen, row: this.row, lang: this.language, at: performance.now() };
+  }
+
+  /** A change whose answer comes with it. */
+  async #changeAndAnswer(edits, kind) {
+    const request = this.#request();
+    const found = await this.answers.edit(request, edits);
+    if (this.document.text !== request.text) return false;
+    this.isGiven = true;
+    this.document.set(found.text, kind);
+    this.isGiven = false;
+    this.answers.given({ ...request, text: found.text }, found);
+    return true;
   }
 
   /** Changes the file; changes of one kind that wait are made as one. */
@@ -78,6 +95,10 @@ class Page {
     while (this.queue.length) {
       const { call, edits, request, kind } = this.queue.shift();
       try {
+        if (!call && this.kind === "model" && this.answers.isQuick) {
+          if (!await this.#changeAndAnswer(edits, kind)) this.queue.unshift({ edits, kind });
+          continue;
+        }
         const text = this.document.text;
         const made = await this.program.call(call || "edit", { text, edits, ...request });
         // somebody may have typed into the text meanwhile; that is not lost
@@ -484,6 +505,8 @@ class Page {
   async save() {
     const { words } = this;
     clearTimeout(this.saver);
+    // what was typed last is on its way into the text
+    for (let turn = 0; this.isWorking && turn < 100; turn++) await new Promise(done => setTimeout(done, 20));
     if (!this.program.hasFolder) return this.#download(new Blob([this.document.text]), this.document.path || this.named || "model.json");
     if (this.document.path === null) {
       const name = await this.#askName();

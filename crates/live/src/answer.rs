@@ -15,6 +15,7 @@ use serde::Deserialize;
 use serde_json::{Value as Json, json};
 use std::path::Path;
 
+use crate::edit::{Edit, edited};
 use crate::language::Language;
 use crate::tree::{self, path_of};
 use crate::{LiveError, diagnostics, inputs, limited, outputs};
@@ -30,6 +31,9 @@ const MOST_ROWS: usize = 10_000;
 #[derive(Debug, Deserialize)]
 pub(crate) struct Asked {
     text: String,
+    /// Changes that are made to the text first; the answer has it as it is then.
+    #[serde(default)]
+    edits: Vec<Edit>,
     #[serde(default)]
     name: String,
     /// Trials of all rows together, where not as many as the file asks for are made.
@@ -60,11 +64,18 @@ pub(crate) fn answer(
     asked: &Asked,
     stop: &Arc<AtomicBool>,
 ) -> Result<Json, LiveError> {
-    let text = limited(&asked.text)?;
+    let changed = match asked.edits.as_slice() {
+        [] => None,
+        edits => Some(edited(limited(&asked.text)?, edits).map_err(LiveError::Request)?),
+    };
+    let text = limited(changed.as_deref().unwrap_or(&asked.text))?;
     let bare = text.strip_prefix('\u{feff}').unwrap_or(text);
     let name = if asked.name.is_empty() { "the model" } else { &asked.name };
     let kind = TextKind::of(text);
     let mut answer = json!({ "kind": kind.name(), "diagnostics": [] });
+    if let Some(changed) = &changed {
+        answer["text"] = json!(changed);
+    }
     let root = tree::parse(bare).ok();
     let read = match kind {
         TextKind::Model => files.model_text(name, text, Path::new(""), &[]),

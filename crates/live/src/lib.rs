@@ -85,7 +85,7 @@ impl<'a> Live<'a> {
     ///
     /// | call | request | answer |
     /// |---|---|---|
-    /// | `answer` | `text`, `name`, `trials`, `full`, `narrow`, `output`, `row`, `lang` | mistakes; or inputs, outputs, results, parts of the page |
+    /// | `answer` | `text`, `name`, `edits`, `trials`, `full`, `narrow`, `output`, `row`, `lang` | mistakes; or inputs, outputs, results, parts of the page |
     /// | `audit` | `text`, `name`, `lang` | `html`: what the Type B assumptions decide |
     /// | `edit` | `text`, `edits` | `text` |
     /// | `reshape` | `text`, `path`, `distribution` | `text` with another distribution of an input |

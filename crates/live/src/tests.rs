@@ -360,3 +360,17 @@ fn a_call_is_stopped_by_its_flag() {
     let answer: Value = serde_json::from_str(&answer).unwrap();
     assert_eq!(answer["stopped"], true);
 }
+
+/// A change and what follows from it are one call: the text as `edit` makes it, its answer as without.
+#[test]
+fn a_change_and_its_answer_are_one_call() {
+    let edits = json!([{"path": ["inputs", "voltage", "mean"], "typed": "5.02"}]);
+    let both = call("answer", &json!({"text": POWER, "edits": edits, "trials": 10_000}));
+    let text = call("edit", &json!({"text": POWER, "edits": edits}))["text"].clone();
+    assert_eq!(both["text"], text);
+    let alone = call("answer", &json!({"text": text, "trials": 10_000}));
+    assert_eq!(both["results"], alone["results"]);
+    assert_eq!(alone["text"], Value::Null);
+    let wrong = json!({"text": POWER, "edits": [{"path": ["no", "such"], "remove": true}]});
+    assert!(try_call("answer", &wrong, &HeldFiles::default()).is_err());
+}
