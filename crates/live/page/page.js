@@ -111,6 +111,21 @@ class Page {
     this.isWorking = false;
   }
 
+  /** What was typed last is on its way into the text: until it is there. */
+  async #settled() {
+    for (let turn = 0; this.isWorking && turn < 200; turn++) await new Promise(done => setTimeout(done, 10));
+  }
+
+  async undo() {
+    await this.#settled();
+    this.document.undo();
+  }
+
+  async redo() {
+    await this.#settled();
+    this.document.redo();
+  }
+
   reshape(path, distribution) {
     if (distribution === "") return;
     this.queue.push({ call: "reshape", request: { path, distribution }, kind: null });
@@ -505,8 +520,7 @@ class Page {
   async save() {
     const { words } = this;
     clearTimeout(this.saver);
-    // what was typed last is on its way into the text
-    for (let turn = 0; this.isWorking && turn < 100; turn++) await new Promise(done => setTimeout(done, 20));
+    await this.#settled();
     if (!this.program.hasFolder) return this.#download(new Blob([this.document.text]), this.document.path || this.named || "model.json");
     if (this.document.path === null) {
       const name = await this.#askName();
@@ -785,8 +799,8 @@ class Page {
     on("slide", "change", () => this.form.slide(true));
     on("view-form", "click", () => this.#show("form"));
     on("view-text", "click", () => this.#show("text"));
-    on("undo", "click", () => this.document.undo());
-    on("redo", "click", () => this.document.redo());
+    on("undo", "click", () => this.undo());
+    on("redo", "click", () => this.redo());
     on("save", "click", () => this.save());
     on("open", "click", () => this.#openDialog());
     on("new", "click", () => this.#newDialog());
@@ -809,8 +823,8 @@ class Page {
       if (!(event.ctrlKey || event.metaKey) || event.altKey) return;
       const key = event.key.toLowerCase();
       const act = key === "s" ? () => this.save()
-        : key === "z" && !event.shiftKey ? () => this.document.undo()
-        : key === "y" || key === "z" && event.shiftKey ? () => this.document.redo() : null;
+        : key === "z" && !event.shiftKey ? () => this.undo()
+        : key === "y" || key === "z" && event.shiftKey ? () => this.redo() : null;
       if (!act || this.element("dialog").open) return;
       event.preventDefault();
       act();

@@ -29,11 +29,26 @@ pub(crate) fn part(html: &str, names: RowNames) -> String {
     let mut made = String::with_capacity(html.len() + html.len() / 8);
     let mut rest = html;
     while let Some((before, tag, inner, after)) = next_holder(rest) {
-        made += before;
+        made += &labelled(before);
         made += &of_holder(tag, inner, names);
         rest = after;
     }
-    made + rest
+    made + &labelled(rest)
+}
+
+/// Markup with the names of its figures, which only those hear who do not see them, in German.
+fn labelled(markup: &str) -> String {
+    const LABEL: &str = "aria-label=\"";
+    let mut parts = markup.split(LABEL);
+    let mut made = parts.next().unwrap_or("").to_owned();
+    for part in parts {
+        let (label, rest) = part.split_once('"').unwrap_or((part, ""));
+        made += LABEL;
+        made += &text_of(label).unwrap_or_else(|| label.to_owned());
+        made += "\"";
+        made += rest;
+    }
+    made
 }
 
 /// A note on an evaluation in German.
