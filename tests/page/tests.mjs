@@ -63,6 +63,7 @@ await test("the resistor of the README from nothing, with the command line's dig
   await field(page, "Unit of power").fill("mW");
   // the certificate's own words: expanded uncertainty with its factor
   await page.click("#view-text");
+  await until(page, () => document.getElementById("source").value.includes('"mW"'));
   const typed = (await source(page)).replace('"std": 0.01', '"expanded": 0.02, "k": 2');
   await page.fill("#source", typed);
   await page.click("#view-form");

@@ -23,7 +23,10 @@ pub(super) const SENTENCES: &[(&str, &str)] = &[
     ("for approximately {} %", "für etwa {0} %"),
     ("for {} %", "für {0} %"),
     ("for {}, fixed", "für {0:}, fest"),
-    ("{} interval from {} to {}; for {}", "{0}-Intervall von {1} bis {2}; für {3:}"),
+    (
+        "Coverage interval from {} to {}, by GUM alone",
+        "Überdeckungsintervall von {0} bis {1}, nach dem GUM allein",
+    ),
     // clause 8
     (
         "JCGM 101, clause 8: there is no GUM interval to compare; take the Monte Carlo one",

@@ -130,14 +130,14 @@ fn no_english_sentence_is_left_on_the_german_page() {
         answered += 1;
         let mut answers = vec![found];
         // the audit has few sentences, and takes long
-        if path.to_string_lossy().contains("models/examples") && answered % 6 == 0 {
+        if path.to_string_lossy().contains("models/examples") && answered % 12 == 0 {
             answers.push(asked("audit", &asks, folder));
             audited += 1;
         }
         let found = left(&answers, &text, &english);
         all.extend(found.into_iter().map(|said| format!("{}: {said}", path.display())));
     }
-    assert!(answered > 150 && audited > 5, "{answered} answered, {audited} audited");
+    assert!(answered > 150 && audited > 2, "{answered} answered, {audited} audited");
     assert!(all.is_empty(), "{} are left:\n{}", all.len(), all.join("\n"));
 }
 
