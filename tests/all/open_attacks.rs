@@ -415,13 +415,13 @@ fn nothing_of_a_model_is_markup() {
 fn what_lies_above_the_opened_folder_is_not_read() {
     let place = tempfile::tempdir().unwrap();
     let at = |name: &str| place.path().join(name);
-    std::fs::create_dir(at("own")).unwrap();
-    std::fs::write(at(".gumption-root"), "").unwrap();
-    std::fs::write(at("secret.csv"), "f\n1\n2\n").unwrap();
+    fs::create_dir(at("own")).unwrap();
+    fs::write(at(".gumption-root"), "").unwrap();
+    fs::write(at("secret.csv"), "f\n1\n2\n").unwrap();
     let model = r#"{"inputs": {"a": {"unit": "m", "distribution": "normal", "mean": 1, "std": 0.1}},
         "conditions": {"file": "../secret.csv", "units": {"f": "Hz"}},
         "equations": {"v": "a*f"}, "outputs": {"v": {"unit": "m/s"}}}"#;
-    std::fs::write(at("own/m.json"), model).unwrap();
+    fs::write(at("own/m.json"), model).unwrap();
     let server = PageServer::start(&at("own"));
     let asked =
         serde_json::json!({"path": "m.json", "text": model, "format": "csv", "name": "m.json"});
@@ -434,6 +434,6 @@ fn what_lies_above_the_opened_folder_is_not_read() {
     assert!(found["diagnostics"].to_string().contains("outside"), "{found}");
     // the file itself opens what belongs together
     let server = PageServer::start(&at("own/m.json"));
-    let asked = serde_json::json!({"path": "own/m.json", "text": model, "format": "csv"});
+    let asked = json!({"path": "own/m.json", "text": model, "format": "csv"});
     assert_eq!(server.post("/api/export", &asked).status, 200);
 }
