@@ -380,6 +380,8 @@ await test("no English sentence is left on the German page", async page => {
     await until(page, () => document.querySelector("#part-audit table") !== null || document.getElementById("box-audit").hidden === false);
     assert.deepEqual(await english(page), [], name);
   }
+  // a value without a name of a distribution
+  assert.equal(await page.inputValue('[aria-label="Verteilung von t"]'), "constant");
   await shot(page, "german", { fullPage: true });
   await page.selectOption("#language", "en");
   await until(page, () => /Subtotals|Sensitivity/.test(document.getElementById("part-budget").innerText));

@@ -209,7 +209,9 @@ export class Form {
     }
     const known = shape && shapeOf(kinds, shape.raw);
     if (shape && !known) choice.prepend(make("option", { value: shape.raw }, shape.raw));
-    choice.value = known ? known.name : shape ? shape.raw : "";
+    // a value without a name of a distribution is a constant
+    const unnamed = row.cells.some(of => of.key === "value") ? "constant" : "";
+    choice.value = known ? known.name : shape ? shape.raw : unnamed;
     choice.dataset.key = at([...row.path, "distribution"]) + "#choice";
     this.fields.set(choice.dataset.key, choice);
     return choice;
