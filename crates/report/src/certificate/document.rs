@@ -2,7 +2,8 @@
 
 use super::words::{self, Words, beside};
 use super::{
-    CertificateReport, administrative, conformity, file_name, functions, sentences, sheets,
+    CertificateReport, administrative, conformity, file_name, functions, measurement, sentences,
+    sheets,
 };
 use crate::document::{Block, Document, Foot};
 use crate::plain;
@@ -31,6 +32,7 @@ pub(super) fn of(report: &CertificateReport<'_>) -> Document {
         document.text(sentences::coverage(report, *language).join(" "));
     }
     functions::sections(&mut document, report);
+    measurement::sections(&mut document, report);
     if sheets::are_correlated(report) {
         document.section(beside(languages, |w| w.correlation));
         if certificate.lines.len() <= sheets::MOST_CORRELATED {
