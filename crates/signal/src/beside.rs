@@ -8,7 +8,7 @@ use super::analysed::Fundamental;
 use super::analysis::{FittedTones, Group, Refused};
 use super::passes::SampleSource;
 use super::residuals::{KEPT, Residuals};
-use super::sine_fit::ToneDesign;
+use super::sine_fit::{ToneCoefficients, ToneDesign};
 use super::spurious::{self, MOST};
 use gumption_engine::number::elementary::hypot;
 
@@ -29,6 +29,10 @@ const LARGEST_STEP: f64 = 0.25;
 /// Turns over the record within which two oscillations are one to this record.
 pub(super) const APART: f64 = 1.0;
 
+/// The least amplitude over its standard deviation of what counts as an oscillation: of white noise one
+/// in 270 000 bins has that.
+const CLEAR: f64 = 5.0;
+
 /// Turns over the record from a fitted frequency at which the search for one beside it begins at least.
 const NEAREST_START: f64 = 1.5;
 
@@ -43,6 +47,9 @@ pub(super) struct Beside {
     pub(super) cycles: f64,
     /// Their standard deviation.
     pub(super) deviation: f64,
+    /// Its amplitude over that one's standard deviation in white noise, in the channel where it is
+    /// clearest.
+    clear: f64,
 }
 
 /// What was found beside the named oscillations.
@@ -78,6 +85,7 @@ impl Group<'_> {
                 besides.too_near = true;
                 break;
             };
+            tuned.retain(|of| of.clear > CLEAR);
             let before = tuned.len();
             let named: Vec<f64> = self.named(&best.0).map(|(_, tone)| tone.cycles).collect();
             keep_apart(&mut tuned, &named, samples);
@@ -119,8 +127,10 @@ impl Group<'_> {
         cycles: Vec<f64>,
     ) -> Result<Option<Vec<Beside>>, Refused<P::Error>> {
         let samples = passes.frames();
-        let mut all: Vec<Beside> =
-            cycles.into_iter().map(|cycles| Beside { cycles, deviation: 0.0 }).collect();
+        let mut all: Vec<Beside> = cycles
+            .into_iter()
+            .map(|cycles| Beside { cycles, deviation: 0.0, clear: 0.0 })
+            .collect();
         for _ in 0..MOST_STEPS {
             let cycles: Vec<f64> = all.iter().map(|of| of.cycles).collect();
             let design =
@@ -135,6 +145,10 @@ impl Group<'_> {
             for (number, of) in all.iter_mut().enumerate() {
                 let (step, deviation) = step(&left, fundamentals.len() + number);
                 of.deviation = deviation;
+                let place = design.tones.iter().position(|tone| {
+                    tone.beside && tone.fundamental == fundamentals.len() + number
+                });
+                of.clear = place.map_or(0.0, |tone| clearness(&design, &fits, &left, tone));
                 let most = LARGEST_STEP / samples as f64;
                 let step = if step.is_finite() { step.clamp(-most, most) } else { 0.0 };
                 of.cycles += step;
@@ -149,6 +163,21 @@ impl Group<'_> {
         }
         Ok(Some(all))
     }
+}
+
+/// The amplitude of a tone over its standard deviation in white noise, in the channel where it is
+/// clearest.
+fn clearness(
+    design: &ToneDesign,
+    fits: &[ToneCoefficients],
+    left: &[Residuals],
+    tone: usize,
+) -> f64 {
+    let variance = f64::midpoint(design.even[(tone + 1, tone + 1)], design.odd[(tone, tone)]);
+    let of = |(fit, left): (&ToneCoefficients, &Residuals)| {
+        amplitude(fit, tone) / (variance * left.variance).sqrt()
+    };
+    fits.iter().zip(left).map(of).fold(0.0, f64::max)
 }
 
 /// By how much the cycles of an oscillation should be larger, of all channels together, and the
@@ -248,7 +277,7 @@ fn keep_apart(all: &mut Vec<Beside>, named: &[f64], samples: u64) {
 }
 
 /// The peak amplitude of a tone of a fit.
-pub(super) fn amplitude(fit: &super::sine_fit::ToneCoefficients, tone: usize) -> f64 {
+pub(super) fn amplitude(fit: &ToneCoefficients, tone: usize) -> f64 {
     hypot(
         fit.cosines.get(tone).copied().unwrap_or(0.0),
         fit.sines.get(tone).copied().unwrap_or(0.0),
