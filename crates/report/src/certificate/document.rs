@@ -2,8 +2,7 @@
 
 use super::words::{self, Words, beside};
 use super::{
-    CertificateReport, administrative, conformity, file_name, functions, measurement, sentences,
-    sheets,
+    CertificateReport, administrative, conformity, file_name, functions, sentences, sheets,
 };
 use crate::document::{Block, Document, Foot};
 use crate::plain;
@@ -32,7 +31,6 @@ pub(super) fn of(report: &CertificateReport<'_>) -> Document {
         document.text(sentences::coverage(report, *language).join(" "));
     }
     functions::sections(&mut document, report);
-    measurement::sections(&mut document, report);
     if sheets::are_correlated(report) {
         document.section(beside(languages, |w| w.correlation));
         if certificate.lines.len() <= sheets::MOST_CORRELATED {

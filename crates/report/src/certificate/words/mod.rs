@@ -88,10 +88,6 @@ pub(super) struct Words {
     pub(super) band: &'static str,
     pub(super) parameter: &'static str,
     pub(super) standard: &'static str,
-    pub(super) measurement: &'static str,
-    pub(super) equation: &'static str,
-    /// What stands for an estimate that differs between the rows.
-    pub(super) by_row: &'static str,
     pub(super) correlation: &'static str,
     pub(super) correlated: &'static str,
     /// `{rows}`: how many.
