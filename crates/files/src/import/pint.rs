@@ -26,10 +26,10 @@ const PREFIXES: [(&str, &str); 20] = [
 ];
 
 /// Words and their symbols; those of the second list take prefixes.
-const PLAIN: [(&str, &str); 41] = [
+const PLAIN: [(&str, &str); 38] = [
     ("dimensionless", "1"),
     ("percent", "%"),
-    ("permille", "permille"),
+    ("permille", "‰"),
     ("ppm", "ppm"),
     ("ppb", "ppb"),
     ("degree_Celsius", "degC"),
@@ -55,10 +55,7 @@ const PLAIN: [(&str, &str); 41] = [
     ("year", "year"),
     ("inch", "in"),
     ("foot", "ft"),
-    ("yard", "yd"),
-    ("mile", "mi"),
     ("pound", "lb"),
-    ("ounce", "oz"),
     ("force_pound", "lbf"),
     ("pound_force", "lbf"),
     ("pound_force_per_square_inch", "psi"),
@@ -190,8 +187,8 @@ mod tests {
             assert_eq!(unit(unknown), None, "{unknown}");
         }
         // every word stands for a unit
-        for (word, symbol) in PLAIN.iter().chain(&WITH_PREFIXES) {
-            assert!(Unit::parse(symbol).is_ok(), "{word} {symbol}");
-        }
+        let all = PLAIN.iter().chain(&WITH_PREFIXES);
+        let wrong: Vec<_> = all.filter(|(_, symbol)| Unit::parse(symbol).is_err()).collect();
+        assert!(wrong.is_empty(), "{wrong:?}");
     }
 }

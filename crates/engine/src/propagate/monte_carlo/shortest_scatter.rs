@@ -134,7 +134,7 @@ impl ShortestScatter {
             let by_third = third * scatter;
             // an end that scatters little more than a quantile is one for the most part
             let more = scatter / quantile - 1.0;
-            if !(more < 1.0) {
+            if more >= 1.0 || more.is_nan() {
                 return by_third.sqrt();
             }
             let apart = ratio * quantile + third * f64::max(scatter - quantile, 0.0);
