@@ -9,7 +9,7 @@ mod sweep;
 mod terminal;
 mod workbook;
 
-pub use parts::{OutputParts, PageParts, input_picture, page_parts};
+pub use parts::{OutputParts, PageChoice, PageParts, input_picture, page_parts};
 pub use results::ResultStatement;
 pub use terminal::histograms;
 pub use workbook::{MOST_RESULTS, xlsx};

@@ -17,6 +17,7 @@ mod hash;
 mod histogram;
 mod interval;
 mod joint_ranks;
+mod limit_scatter;
 mod moments;
 mod order;
 mod partition;
