@@ -4,7 +4,9 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use gumption_engine::model::formula::Formula;
-use gumption_engine::propagate::{Control, Evaluation, evaluate, histograms, warnings};
+use gumption_engine::propagate::{
+    Control, Evaluation, convergence, evaluate, histograms, warnings,
+};
 use gumption_engine::task::{MethodChoice, Task, Trials};
 use gumption_files::{Diagnostics, FileReader, ModelFile, TextKind};
 use gumption_report::{EvaluationReport, FigureSize, Provenance, Shown, page_parts};
@@ -215,6 +217,13 @@ fn results(file: &ModelFile, asked: &Asked, stop: &Arc<AtomicBool>) -> Result<Js
     } else {
         Vec::new()
     };
+    // when the hand rests: it takes as long as the run
+    let settled = if histograms.is_empty() || !asked.full {
+        None
+    } else {
+        convergence(&task, &evaluation, 0, &control).map_err(failed)?
+    };
+    let settled = settled.unwrap_or_default();
     let mut notes = file.warnings.clone();
     notes.extend(warnings(&task, &evaluation));
     let provenance = Provenance::default();
@@ -224,7 +233,7 @@ fn results(file: &ModelFile, asked: &Asked, stop: &Arc<AtomicBool>) -> Result<Js
         warnings: &notes,
         provenance: &provenance,
     };
-    let shown = Shown { histograms: &histograms, ..Shown::default() };
+    let shown = Shown { histograms: &histograms, convergence: &settled, ..Shown::default() };
     let size = if asked.narrow { FigureSize::Narrow } else { FigureSize::Page };
     let outputs = task.model.outputs.len();
     let only = asked.output.map(|wanted| if wanted < outputs { wanted } else { 0 });

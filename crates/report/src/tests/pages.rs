@@ -7,7 +7,7 @@ use serde_json::Value;
 
 use super::*;
 use crate::{BudgetColumn, Shown, html, latex, markdown};
-use gumption_engine::propagate::histograms;
+use gumption_engine::propagate::{convergence, histograms};
 use gumption_files::read_text;
 
 /// The rows of all tables of a page, cell by cell, as a reader sees them.
@@ -20,7 +20,15 @@ fn pages(case: &Case, columns: &[BudgetColumn]) -> [(&'static str, String, Rows)
     let histograms = [drawn.unwrap_or_default()];
     let replaced = ["tilt=35 deg".to_owned()];
     let model = "{\"title\": \"<model>\"}\n";
-    let shown = Shown { columns, histograms: &histograms, replaced: &replaced, model };
+    let settled = convergence(&case.task, &case.evaluation, 0, &Control::default()).unwrap();
+    let settled = settled.unwrap_or_default();
+    let shown = Shown {
+        columns,
+        histograms: &histograms,
+        convergence: &settled,
+        replaced: &replaced,
+        model,
+    };
     let markdown = markdown(&report, &shown);
     let latex = latex(&report, &shown);
     let html = html(&report, &shown);
