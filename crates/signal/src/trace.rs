@@ -271,7 +271,7 @@ mod tests {
         let tau = 2.0 * std::f64::consts::PI;
         let clean =
             |t: f64| 3.0 + 2.0 * (tau * 0.01 * t + 0.5).cos() + 0.1 * (tau * 0.03 * t).sin();
-        let noise = |i: u32| if i % 2 == 0 { 1e-4 } else { -1e-4 };
+        let noise = |i: u32| if i.is_multiple_of(2) { 1e-4 } else { -1e-4 };
         let values: Vec<f64> = (0..5000).map(|i| clean(f64::from(i)) + noise(i)).collect();
         let exact = |value| Measured {
             value,

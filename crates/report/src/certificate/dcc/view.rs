@@ -6,8 +6,11 @@ use gumption_analysis::certificate::contents::Language;
 /// The stylesheet, with places for words and for the style of pages.
 const TEMPLATE: &str = include_str!("view.xsl");
 
+/// A name in the template, and the word that stands for it.
+type NamedWord = (&'static str, fn(&Words) -> &'static str);
+
 /// The words that it takes from those of a certificate.
-const WORDS: [(&str, fn(&Words) -> &'static str); 17] = [
+const WORDS: [NamedWord; 17] = [
     ("title", |of| of.title),
     ("number", |of| of.number),
     ("device", |of| of.device),
