@@ -224,9 +224,13 @@ fn a_page_has_what_is_needed_to_repeat_it() {
 fn html_has_its_figures() {
     let case = Case::new(correlated(20_000));
     let [.., (_, page, _)] = pages(&case, &[]);
-    // shares and distribution of a_x and a_z; a_y does not vary; the inputs
+    // shares, distribution and settling of a_x and a_z; a_y does not vary; the inputs
     // each once for a page and once for a narrow screen
-    assert_eq!(page.matches("<svg").count(), 10);
+    assert_eq!(page.matches("<svg").count(), 14);
+    // what a method found is marked, so that a script can hide it
+    for method in ["GUM", "Monte Carlo"] {
+        assert_eq!(page.matches(&format!("data-method=\"{method}\"")).count(), 4, "{method}");
+    }
     for needed in
         ["GUM: normal", "Monte Carlo, symmetric", "Monte Carlo, shortest", "r(a_ref, tilt)"]
     {
@@ -235,7 +239,7 @@ fn html_has_its_figures() {
     let without = Case::new(plane_at(35.0, 0));
     let [.., (_, page, _)] = pages(&without, &[]);
     // shares of a_x and a_z, and of a_y, which is a_ref times the sine of an angle of 0
-    assert!(!page.contains("Monte Carlo trials (bars)"));
+    assert!(!page.contains("Monte Carlo trials (bars)") && !page.contains("figures settle"));
 }
 
 #[test]
