@@ -17,7 +17,7 @@ use std::error::Error;
 use std::fmt::Write as _;
 
 use gumption::file::FileReader;
-use gumption::gap::check::{TruthKind, truth};
+use gumption::gap::check::{CheckedNoise, TruthKind, truth};
 use gumption::gap::{Case, Diagnosis, DiagnosisOptions, diagnose};
 use gumption::task::Row;
 use serde_json::{Value, json};
@@ -183,7 +183,7 @@ fn measured(
     let of = case.observed[0].as_mut().ok_or("an observed output")?;
     of.values.resize(rows, 1.0);
     of.standard_uncertainties = Some(vec![bench.u; rows]);
-    let (truth, values) = truth(&case, &[vec![bench.u; rows]], 1, number)?;
+    let (truth, values) = truth(&case, &[vec![bench.u; rows]], CheckedNoise::AsStated, 1, number)?;
     let of = case.observed[0].as_mut().ok_or("an observed output")?;
     of.values.clone_from(&values[0]);
     Ok((truth.kind, case))

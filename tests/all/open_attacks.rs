@@ -409,3 +409,31 @@ fn nothing_of_a_model_is_markup() {
     let reply = server.post("/api/export", &wish);
     assert!(reply.header("content-disposition").unwrap().contains("filename=\"a_b.csv\""));
 }
+
+/// A `.gumption-root` above the opened folder opens nothing: neither for answers nor for exports.
+#[test]
+fn what_lies_above_the_opened_folder_is_not_read() {
+    let place = tempfile::tempdir().unwrap();
+    let at = |name: &str| place.path().join(name);
+    fs::create_dir(at("own")).unwrap();
+    fs::write(at(".gumption-root"), "").unwrap();
+    fs::write(at("secret.csv"), "f\n1\n2\n").unwrap();
+    let model = r#"{"inputs": {"a": {"unit": "m", "distribution": "normal", "mean": 1, "std": 0.1}},
+        "conditions": {"file": "../secret.csv", "units": {"f": "Hz"}},
+        "equations": {"v": "a*f"}, "outputs": {"v": {"unit": "m/s"}}}"#;
+    fs::write(at("own/m.json"), model).unwrap();
+    let server = PageServer::start(&at("own"));
+    let asked =
+        serde_json::json!({"path": "m.json", "text": model, "format": "csv", "name": "m.json"});
+    for path in ["/api/export", "/api/page"] {
+        let reply = server.post(path, &asked);
+        assert_eq!(reply.status, 422, "{path}: {}", reply.text());
+        assert!(reply.json()["diagnostics"][0]["message"].as_str().unwrap().contains("outside"));
+    }
+    let found = server.post("/api/call/answer?path=m.json", &asked).json();
+    assert!(found["diagnostics"].to_string().contains("outside"), "{found}");
+    // the file itself opens what belongs together
+    let server = PageServer::start(&at("own/m.json"));
+    let asked = json!({"path": "own/m.json", "text": model, "format": "csv"});
+    assert_eq!(server.post("/api/export", &asked).status, 200);
+}

@@ -32,7 +32,7 @@ export async function serve(place, ...more) {
     child.stderr.on("data", () => {});
     child.on("exit", code => reject(new Error(`gumption open ended with ${code}`)));
   });
-  return { address, stop: () => { child.removeAllListeners("exit"); child.kill("SIGINT"); } };
+  return { address, id: child.pid, stop: () => { child.removeAllListeners("exit"); child.kill("SIGINT"); } };
 }
 
 /** A page at an address. With PAGE_FILES the page's own files come from that folder instead of the program. */

@@ -63,6 +63,7 @@ await test("the resistor of the README from nothing, with the command line's dig
   await field(page, "Unit of power").fill("mW");
   // the certificate's own words: expanded uncertainty with its factor
   await page.click("#view-text");
+  await until(page, () => document.getElementById("source").value.includes('"mW"'));
   const typed = (await source(page)).replace('"std": 0.01', '"expanded": 0.02, "k": 2');
   await page.fill("#source", typed);
   await page.click("#view-form");
@@ -298,6 +299,92 @@ for (const [name, colorScheme] of [["light", "light"], ["dark", "dark"]]) {
   }, { ...POWER, colorScheme });
 }
 
+const SWEEP = { open: "m.json", files: [["models/examples/published/gum-h1-end-gauge.json", "m.json"]] };
+
+await test("a row of a sweep is chosen, and has headline and budget", async page => {
+  const model = { format: 1, title: "Speed", conditions: { f: { unit: "Hz", values: [10, 20, 30] } },
+    inputs: { a: { unit: "m", distribution: "normal", mean: 2, std: 0.1 } }, equations: { v: "a*f", w: "2*v" },
+    outputs: { v: { unit: "m/s" }, w: { unit: "m/s" } } };
+  await page.click("#view-text");
+  await page.fill("#source", JSON.stringify(model, null, 1));
+  await page.click("#view-form");
+  await until(page, () => /20\.0/.test((document.querySelector("#headline .value") || {}).innerText || ""));
+  await page.selectOption("#rows", { label: "f = 20 Hz" });
+  await until(page, () => /40\.0/.test(document.querySelector("#headline .value").innerText));
+  await page.click("#row-after");
+  await until(page, () => /60\.0/.test(document.querySelector("#headline .value").innerText));
+  await page.locator("#output-tabs button").nth(1).click();
+  await until(page, () => /120\.0|120/.test(document.querySelector("#headline .value").innerText));
+  assert.equal(await page.locator("#part-budget th[scope=row]").first().innerText(), "a");
+  assert.equal(await page.locator("#part-together table").count() >= 2, true);
+  await shot(page, "sweep", { fullPage: true });
+}, SWEEP);
+
+await test("mistakes of a certificate are underlined, and mended there", async page => {
+  await until(page, () => (document.getElementById("report").src || "").includes("api/page"));
+  const whole = await source(page);
+  await answered(page, () => page.fill("#source", whole.replace('"output": "R"', '"output": "Q"')));
+  await until(page, () => (document.querySelector("#source-box mark") || {}).textContent === '"Q"');
+  assert.match(await text(page, "#mistakes"), /`Q`/);
+  await shot(page, "certificate-mistake");
+  await answered(page, () => page.fill("#source", whole));
+  await until(page, () => document.querySelectorAll("#mistakes li").length === 0);
+}, { open: "certificate.json", files: [["models/examples", "."]] });
+
+await test("what only the evaluation of a recipe finds is underlined too", async page => {
+  // the recording that it names is not there
+  await until(page, () => (document.querySelector("#source-box mark") || {}).textContent === '"no.csv"');
+  assert.match(await text(page, "#mistakes"), /no\.csv/);
+}, { open: "recipe.json", files: [["tests/data/page-recipe.json", "recipe.json"]] });
+
+await test("readings are pasted from a spreadsheet", async (page, _, context) => {
+  await context.grantPermissions(["clipboard-read", "clipboard-write"]);
+  for (const [pasted, wanted] of [["99,8\t100,1\r\n100\t99,9\r\n", "[99.8, 100.1, 100, 99.9]"], ["1.5\n2.5\n3\n", "[1.5, 2.5, 3]"], ["1.000,5; 1.001,25", "[1000.5, 1001.25]"]]) {
+    await page.evaluate(text => navigator.clipboard.writeText(text), pasted);
+    await field(page, "values of resistance").focus();
+    await page.keyboard.press("Control+a");
+    await page.keyboard.press("Control+v");
+    await until(page, wanted => document.getElementById("source").value.includes(`"values": ${wanted}`), wanted);
+  }
+}, POWER);
+
+/** Sentences that are English, of what a page shows. */
+const english = page => page.evaluate(() => {
+  const own = document.getElementById("source").value.toLowerCase();
+  const words = /\b(the|of|is|are|and|with|from|which|by|not|that|to|for|no|row|what|how)\b/gi;
+  const found = [];
+  const walk = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
+  for (let node = walk.nextNode(); node; node = walk.nextNode()) {
+    const of = node.parentElement;
+    if (of.closest("script, noscript, pre, code, textarea, #mistakes, [lang=en]")) continue;
+    const left = (node.data.match(words) || []).filter(word => !own.includes(word.toLowerCase()));
+    if (left.length) found.push(node.data.trim());
+  }
+  for (const of of document.querySelectorAll("[aria-label], [title], [placeholder]")) {
+    for (const name of ["aria-label", "title", "placeholder"]) {
+      const said = of.getAttribute(name) || "";
+      if (words.test(said)) found.push(said);
+    }
+  }
+  return found;
+});
+
+await test("no English sentence is left on the German page", async page => {
+  await page.click("#more summary");
+  for (const name of ["gum-h1-end-gauge", "gum-h3-thermometer-line", "tn1900-e7-thermistor"]) {
+    await page.click("#new");
+    await page.locator("#dialog input").fill(name);
+    await page.locator("#dialog .entry", { hasText: name }).first().click();
+    await until(page, () => document.querySelector("#headline .value") && !document.getElementById("results").hidden);
+    await refined(page);
+    await until(page, () => document.querySelector("#part-audit table") !== null || document.getElementById("box-audit").hidden === false);
+    assert.deepEqual(await english(page), [], name);
+  }
+  await shot(page, "german", { fullPage: true });
+  await page.selectOption("#language", "en");
+  await until(page, () => /Subtotals|Sensitivity/.test(document.getElementById("part-budget").innerText));
+}, { lang: "de" });
+
 await test("speed with 20 inputs", async page => {
   const inputs = {}, terms = [];
   for (let number = 1; number <= 20; number++) {
@@ -328,6 +415,42 @@ await test("speed with 20 inputs", async page => {
   const at = share => took[Math.floor(share * (took.length - 1))].toFixed(0);
   console.log(`      key press to shown answer, 20 inputs, 1e5 trials: median ${at(0.5)} ms, p95 ${at(0.95)} ms, largest ${at(1)} ms`);
 });
+
+await test("a day's editing", async (page, folder, _, server) => {
+  const resident = async () => Number((await readFile(`/proc/${server.id}/status`, "utf8")).match(/VmRSS:\s*(\d+)/)[1]) / 1024;
+  await refined(page);
+  await page.waitForTimeout(6000);
+  const idle = await resident();
+  // as the page does it, with a save after every tenth change
+  const work = (from, to) => page.evaluate(async ([from, to]) => {
+    const ask = async (path, body) => (await fetch(path, { method: "POST", body: JSON.stringify(body), headers: { "X-Gumption": "1", "Content-Type": "application/json" } })).json();
+    let { text, version } = await ask("api/open", { path: "power.json" });
+    for (let key = from; key < to; key++) {
+      const edits = [{ path: ["inputs", "voltage", "mean"], typed: `5.${1000 + key % 997}` }];
+      ({ text } = await ask("api/call/answer?path=power.json", { text, edits, name: "power.json", output: 0, trials: 100000 }));
+      if (key % 10 === 0) ({ version } = await ask("api/save", { path: "power.json", text, version }));
+      if (key % 100 === 0) await ask("api/call/audit", { text });
+    }
+  }, [from, to]);
+  await work(0, 500);
+  const early = await resident();
+  await work(500, 500 + Number(process.env.EDITS || 3000));
+  await page.waitForTimeout(6000);
+  const late = await resident();
+  console.log(`      memory of the server: idle ${idle.toFixed(0)} MB, after 500 edits ${early.toFixed(0)} MB, after ${500 + Number(process.env.EDITS || 3000)} ${late.toFixed(0)} MB`);
+}, POWER);
+
+await test("opening", async page => {
+  // from the address to the first answer on the page
+  const took = [];
+  for (let turn = 0; turn < 5; turn++) {
+    await page.reload();
+    await page.waitForFunction(() => window.answered && window.answered.length > 0);
+    took.push(await page.evaluate(() => document.timeline.currentTime));
+  }
+  took.sort((a, b) => a - b);
+  console.log(`      opening a model: median ${took[2].toFixed(0)} ms, largest ${took[4].toFixed(0)} ms`);
+}, POWER);
 
 await chromium.close();
 if (failed === 0) await rm(work, { recursive: true, force: true });

@@ -7,7 +7,7 @@ use std::sync::atomic::AtomicBool;
 
 use super::{CommandLine, Exit, Failure, GivenFile};
 use gumption_engine::task::{Task, Trials};
-use gumption_files::TextKind;
+use gumption_files::{Diagnostics, TextKind};
 
 /// Trials in all rows that are made while somebody waits, at most: minutes on a usual machine.
 const MOST_TRIALS: u64 = 2_000_000_000;
@@ -30,13 +30,15 @@ impl fmt::Debug for ExportedAnswer {
 }
 
 /// Why an answer is not handed out; the text is for the user.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug)]
 #[non_exhaustive]
 pub enum NotExported {
     /// There is no such format.
     Format(String),
-    /// The text is at fault, or asks for too much.
+    /// The text asks for too much.
     Content(String),
+    /// The text, or a file that it names, is at fault: the mistakes, each with its place.
+    Mistakes(Diagnostics),
     /// It was stopped.
     Stopped(String),
     /// The system is at fault.
@@ -102,7 +104,10 @@ impl CommandLine {
         };
         // they need a clock and a disk
         if cfg!(target_family = "wasm") && ["xlsx", RESULT].contains(&format) {
-            let message = format!("the format `{format}` is not written in a browser alone");
+            let message = format!(
+                "the format `{format}` is not written in a browser alone, but by `gumption open` and on \
+                 the command line"
+            );
             return Err(NotExported::Format(message));
         }
         let kind = TextKind::of(&given.text);
@@ -128,6 +133,7 @@ impl CommandLine {
         let called = self.call(arguments, Some(given), Arc::clone(stop));
         let answered = called.map_err(|failure| match failure {
             Failure::System(_) => NotExported::System(failure.to_string()),
+            Failure::Diagnostics(found) => NotExported::Mistakes(found),
             _ => NotExported::Content(failure.to_string()),
         })?;
         if answered.exit == Exit::Interrupted {
@@ -158,8 +164,8 @@ impl CommandLine {
 
     /// Whether the trials that a text asks for can be made while somebody waits.
     fn check_trials(&self, given: &GivenFile, kind: TextKind) -> Result<(), NotExported> {
-        let GivenFile { name, text, folder, held } = given;
-        let files = self.files().holding(held);
+        let GivenFile { name, text, folder, within, held } = given;
+        let files = self.files().holding(held).within(within.as_deref());
         let of = |task: &Task| match task.settings.trials {
             Trials::Fixed(trials) => trials.saturating_mul(task.rows.len() as u64),
             Trials::Adaptive => 0,

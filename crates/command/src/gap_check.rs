@@ -16,7 +16,7 @@ use super::signals::{self, Temporary};
 use super::{CommandLine, Exit, Failure, output, parts, progress, run};
 use gumption_files::CaseFile;
 use gumption_gap as gap;
-use gumption_gap::check::{BlindDraw, Truth, score, truth};
+use gumption_gap::check::{BlindDraw, CheckedNoise, Truth, score, truth};
 use gumption_report as report;
 
 /// Check the diagnosis blindly at a case's own design.
@@ -29,6 +29,9 @@ pub(super) struct GapCheck {
     /// Number of truths to draw
     #[arg(long, value_name = "N", default_value = "200", value_parser = draws)]
     draws: u64,
+    /// What the noise of the draws is
+    #[arg(long, value_enum, default_value_t)]
+    noise: Noise,
     #[command(flatten)]
     answer: Answer<Format>,
     #[command(flatten)]
@@ -65,6 +68,25 @@ enum Format {
     Json,
 }
 
+/// What the noise of the draws is.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+enum Noise {
+    /// As it is stated
+    #[default]
+    AsStated,
+    /// Drawn as well: as stated, uncertainties off by a factor, single rows off, neighbours correlated
+    Uncertain,
+}
+
+impl From<Noise> for CheckedNoise {
+    fn from(noise: Noise) -> Self {
+        match noise {
+            Noise::AsStated => Self::AsStated,
+            Noise::Uncertain => Self::Uncertain,
+        }
+    }
+}
+
 fn draws(text: &str) -> Result<u64, String> {
     match text.parse::<u64>() {
         Ok(count @ 1..=100_000) => Ok(count),
@@ -87,7 +109,7 @@ impl GapCheck {
             Some(share) => share.of(self.draws, ("--share", "draws"))?,
             None => 0..self.draws,
         };
-        let shared = || SharedCheck::new(&file, seed, self.draws);
+        let shared = || SharedCheck::new(&file, seed, self.draws, self.noise.into());
         let checked = match &self.parts {
             Some(folder) => Some(shared().together(folder)?),
             None => self.made(program, &file, seed, range.clone(), &stop)?,
@@ -174,7 +196,8 @@ impl GapCheck {
         let sealed = folder.join("sealed");
         make(&sealed)?;
         range.into_par_iter().try_for_each(|number| {
-            let (truth, measured) = truth(&file.case, noise, seed, number).map_err(impossible)?;
+            let drawn = truth(&file.case, noise, self.noise.into(), seed, number);
+            let (truth, measured) = drawn.map_err(impossible)?;
             let own = folder.join(format!("{number:05}"));
             make(&own)?;
             let withheld = (truth.kind == gap::check::TruthKind::Withheld)

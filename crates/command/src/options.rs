@@ -304,7 +304,12 @@ pub(super) fn opened<T>(
     file: impl FnOnce(&Path) -> T,
 ) -> Result<T, Failure> {
     if let Some(of) = given_file(path) {
-        return Ok(text(files.holding(&of.held), &of.name, &of.text, &of.folder));
+        return Ok(text(
+            files.holding(&of.held).within(of.within.as_deref()),
+            &of.name,
+            &of.text,
+            &of.folder,
+        ));
     }
     given(path, |read| text(files, "<stdin>", read, Path::new("")), file)
 }

@@ -11,7 +11,7 @@ use super::parted_run::refused;
 use super::parts::{missing, ranges};
 use gumption_analysis::integrity::sha256;
 use gumption_files::{CaseFile, bytes};
-use gumption_gap::check::BlindDraw;
+use gumption_gap::check::{BlindDraw, CheckedNoise};
 
 /// The check that draws belong to: all that they depend on.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -25,6 +25,9 @@ pub(super) struct SharedCheck {
     seed: u64,
     /// How many draws the whole check has.
     draws: u64,
+    /// What their noise is drawn as.
+    #[serde(default)]
+    noise: CheckedNoise,
 }
 
 /// Some of the draws.
@@ -40,7 +43,7 @@ struct Part {
 type DrawsOfRange = (Range<u64>, Vec<BlindDraw>);
 
 impl SharedCheck {
-    pub(super) fn new(file: &CaseFile, seed: u64, draws: u64) -> Self {
+    pub(super) fn new(file: &CaseFile, seed: u64, draws: u64, noise: CheckedNoise) -> Self {
         let digest = |(name, bytes): &(String, Vec<u8>)| (name.clone(), sha256(bytes));
         Self {
             gumption: env!("CARGO_PKG_VERSION").to_owned(),
@@ -48,6 +51,7 @@ impl SharedCheck {
             files: file.files.iter().map(digest).collect(),
             seed,
             draws,
+            noise,
         }
     }
 
@@ -63,6 +67,8 @@ impl SharedCheck {
             format!("have the seed {}, not {}", other.seed, self.seed)
         } else if self.draws != other.draws {
             format!("are of a check of {} draws, not {}", other.draws, self.draws)
+        } else if self.noise != other.noise {
+            "have a noise that was drawn otherwise (`--noise`)".to_owned()
         } else {
             return None;
         })
@@ -150,11 +156,12 @@ impl SharedCheck {
         if let Some(first) = missing.first() {
             return Err(Failure::Argument(format!(
                 "the folder `{}` lacks draws of the check's {}: {}; make them with `gumption \
-                 gap-check CASE --draws {} --share {}..{} --partial FILE`",
+                 gap-check CASE --draws {}{} --share {}..{} --partial FILE`",
                 folder.display(),
                 self.draws,
                 ranges(&missing),
                 self.draws,
+                if self.noise == CheckedNoise::Uncertain { " --noise uncertain" } else { "" },
                 first.start,
                 first.end
             )));

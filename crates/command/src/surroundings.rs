@@ -17,6 +17,8 @@ pub struct GivenFile {
     pub text: String,
     /// The folder that the files it names are looked for in.
     pub folder: std::path::PathBuf,
+    /// The folder above which nothing is looked for, whatever a `.gumption-root` says there.
+    pub within: Option<std::path::PathBuf>,
     /// Files in memory that it may name, by their names.
     pub held: Vec<(String, Vec<u8>)>,
 }

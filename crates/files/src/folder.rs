@@ -33,12 +33,14 @@ pub(super) struct Folder<'a> {
     held: &'a [(String, Vec<u8>)],
     /// What gives the content of all others in place of the disk.
     source: Option<&'a dyn FileSource>,
+    /// The folder above which nothing is looked for, whatever stands there.
+    within: Option<&'a Path>,
 }
 
 impl<'a> Folder<'a> {
     /// A folder whose files may name others below it and below these.
     pub(super) fn new(path: &'a Path, allowed: &'a [PathBuf]) -> Self {
-        Self { path, allowed: Some(allowed), held: &[], source: None }
+        Self { path, allowed: Some(allowed), held: &[], source: None, within: None }
     }
 
     /// The same with files that are in memory.
@@ -51,13 +53,29 @@ impl<'a> Folder<'a> {
         Self { source, ..self }
     }
 
+    /// The same, where a [`ROOT`] above this folder says nothing.
+    pub(super) fn within(self, folder: Option<&'a Path>) -> Self {
+        Self { within: folder, ..self }
+    }
+
+    /// Whether what is named comes from memory or from a source, and not from the disk.
+    pub(super) fn holds(self, name: &str) -> bool {
+        self.source.is_some() || self.held(name).is_some()
+    }
+
+    /// The content in memory of that name.
+    pub(super) fn held(self, name: &str) -> Option<&'a [u8]> {
+        let found = self.held.iter().find(|(held, _)| held == name);
+        found.map(|(_, bytes)| bytes.as_slice())
+    }
+
     /// The content of the file of that name, from memory or from the disk, of at most so many bytes.
     ///
     /// # Errors
     /// As [`Folder::file`], or that it cannot be read.
     pub(super) fn content(self, name: &str, most: u64) -> Result<Vec<u8>, DiagnosticKind> {
-        if let Some((_, bytes)) = self.held.iter().find(|(held, _)| held == name) {
-            return Ok(bytes.clone());
+        if let Some(bytes) = self.held(name) {
+            return Ok(bytes.to_owned());
         }
         if let Some(source) = self.source {
             return source.content(name, most).map_err(|message| DiagnosticKind::Unreadable {
@@ -71,7 +89,22 @@ impl<'a> Folder<'a> {
 
     /// The current folder, for files that the user names himself.
     pub(super) fn of_the_user() -> Self {
-        Self { path: Path::new(""), allowed: None, held: &[], source: None }
+        Self { path: Path::new(""), allowed: None, held: &[], source: None, within: None }
+    }
+
+    /// The folder above which nothing is looked for.
+    pub(super) fn limit(self) -> Option<&'a Path> {
+        self.within
+    }
+
+    /// All content in memory.
+    pub(super) fn memory(self) -> &'a [(String, Vec<u8>)] {
+        self.held
+    }
+
+    /// What gives content in place of the disk.
+    pub(super) fn source(self) -> Option<&'a dyn FileSource> {
+        self.source
     }
 
     /// Its path.
@@ -93,7 +126,11 @@ impl<'a> Folder<'a> {
         let Some(allowed) = self.allowed else { return Ok(path) };
         let outside = || DiagnosticKind::Outside { name: name.to_owned() };
         let own = canonical(self.path);
-        let root = own.ancestors().find(|folder| folder.join(ROOT).is_file()).map(Path::to_owned);
+        let limit = self.within.map(canonical);
+        let mut above = own
+            .ancestors()
+            .take_while(|of| limit.as_ref().is_none_or(|limit| of.starts_with(limit)));
+        let root = above.find(|folder| folder.join(ROOT).is_file()).map(Path::to_owned);
         let mut folders = vec![own.clone()];
         folders.extend(root);
         folders.extend(allowed.iter().map(|folder| canonical(folder)));
@@ -176,5 +213,10 @@ mod tests {
         }
         fs::write(at(ROOT), "").unwrap();
         assert!(asked("../secret.csv") && !asked("/etc/passwd"));
+        // but not for those who have opened the folder below it and nothing else
+        let limited = |name: &str| Folder::new(&own, &[]).within(Some(&own)).file(name).is_ok();
+        assert!(limited("a.csv") && !limited("../secret.csv"));
+        let all = |name: &str| Folder::new(&own, &[]).within(Some(place.path())).file(name).is_ok();
+        assert!(all("../secret.csv"));
     }
 }

@@ -31,6 +31,7 @@ pub struct FileReader<'c> {
     allowed: &'c [PathBuf],
     held: &'c [(String, Vec<u8>)],
     source: Option<&'c dyn FileSource>,
+    within: Option<&'c Path>,
     changed_results: bool,
 }
 
@@ -44,7 +45,14 @@ impl Default for FileReader<'static> {
 impl<'c> FileReader<'c> {
     /// Readers of files that may name these measurements.
     pub fn new(catalogue: &'c Catalogue) -> Self {
-        Self { catalogue, allowed: &[], held: &[], source: None, changed_results: false }
+        Self {
+            catalogue,
+            allowed: &[],
+            held: &[],
+            source: None,
+            within: None,
+            changed_results: false,
+        }
     }
 
     /// The same for files that may name others below these folders too. Without them a file names
@@ -76,9 +84,15 @@ impl<'c> FileReader<'c> {
         Self { held: files, ..self }
     }
 
-    /// The same with a source that the tables, samples, results and certificates come from which a
-    /// file names; nothing of them is looked for on the disk. Other model files, which a certificate
-    /// names, and recordings are.
+    /// The same for files of a folder that was opened, and nothing above it: a `.gumption-root` above
+    /// that folder allows nothing.
+    #[must_use]
+    pub fn within(self, folder: Option<&'c Path>) -> Self {
+        Self { within: folder, ..self }
+    }
+
+    /// The same with a source that the tables, samples, results, certificates and model files come from
+    /// which a file names; nothing of them is looked for on the disk. Recordings are.
     #[must_use]
     pub fn reading(self, source: &'c dyn FileSource) -> Self {
         Self { source: Some(source), ..self }
@@ -101,7 +115,7 @@ impl<'c> FileReader<'c> {
     where
         'c: 'f,
     {
-        Folder::new(path, self.allowed).holding(self.held).sourced(self.source)
+        Folder::new(path, self.allowed).holding(self.held).sourced(self.source).within(self.within)
     }
 
     /// The measurements that files may name.

@@ -90,10 +90,10 @@ impl Case {
     }
 
     /// The same where what is known of the effects' parameters beforehand is [`WIDER`] times as wide,
-    /// for every effect alone: several wide effects together would explain anything.
+    /// of two effects at most: more wide ones together would explain anything.
     pub(crate) fn with_wide_priors(&self) -> Self {
         let mut wide = self.clone();
-        wide.prior = Prior { two: 0.0, three: 0.0, ..wide.prior };
+        wide.prior = Prior { three: 0.0, ..wide.prior };
         for place in 0..wide.candidates.len() {
             let listed = self.listed_parameters(place);
             for prior in wide.candidates[place].priors.iter_mut().take(listed) {

@@ -497,6 +497,8 @@ pub struct SuspectValue {
 pub struct PriorConflict {
     /// Name of the effect.
     pub effect: String,
+    /// Names of all effects that act together then, itself among them.
+    pub effects: Vec<String>,
     /// The parameter, with what the data say of it.
     pub parameter: EffectParameter,
     /// How far the estimate is from the prior: in its standard deviations, or for a bounded prior the
@@ -504,7 +506,7 @@ pub struct PriorConflict {
     pub prior_distance: f64,
     /// Whether the distance is beyond the bound of a bounded prior.
     pub bounded: bool,
-    /// Probability that this effect alone, with a wider prior, is the truth.
+    /// Probability that these effects, with wider priors, are the truth.
     pub probability: f64,
 }
 

@@ -35,6 +35,9 @@ const SAME: f64 = 1e-6;
 /// Steps of a fit.
 const STEPS: usize = 40;
 
+/// A step that leaves more than this of the sum of squares is one to a best fit that is not exact.
+const STALLED: f64 = 0.999;
+
 /// Half the step of differences in the scores.
 const DIFFERENCE: f64 = 1e-4;
 
@@ -252,7 +255,12 @@ impl Surface<'_> {
                     next[unknown] += by[n];
                 }
                 let there = first(&self.predictor.values(&[next.clone()]), &self.scales);
-                if residuals(&there).norm_squared() < square {
+                let there = residuals(&there).norm_squared();
+                if there < square {
+                    // the steps to an exact fit are no small ones
+                    if there > STALLED * square {
+                        return false;
+                    }
                     at = next;
                     damping = (0.1 * damping).max(1e-15);
                     moved = true;

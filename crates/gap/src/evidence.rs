@@ -5,8 +5,7 @@
 use super::differential_evolution;
 use super::latent::bounded_from_normal;
 use super::likelihood::Likelihood;
-use super::logarithm::ln_add;
-use super::mixture::{Mixture, ln_priors, standard_normals};
+use super::mixture::{Mixture, add_ln, ln_priors, standard_normals};
 use super::profile_path;
 use super::search::{self, Mode};
 use gumption_engine::distribution::StreamKey;
@@ -237,9 +236,7 @@ impl EvidenceEstimate {
         let ln_count = elementary::ln(columns as f64);
         // the new mixture's density at the old draws
         for (scores, sums) in self.columns.iter().zip(self.ln_proposals.chunks_mut(COLUMN)) {
-            for (sum, ln) in sums.iter_mut().zip(mixture.ln_density(scores)) {
-                *sum = ln_add(*sum, ln + ln_count);
-            }
+            add_ln(sums, &mixture.ln_density(scores), ln_count);
         }
         self.mixtures.push((mixture, columns));
         for number in 0..columns {
@@ -250,9 +247,7 @@ impl EvidenceEstimate {
             let mut sums = [f64::NEG_INFINITY; COLUMN];
             for (mixture, columns) in &self.mixtures {
                 let ln_count = elementary::ln(*columns as f64);
-                for (sum, ln) in sums.iter_mut().zip(mixture.ln_density(&scores)) {
-                    *sum = ln_add(*sum, ln + ln_count);
-                }
+                add_ln(&mut sums, &mixture.ln_density(&scores), ln_count);
             }
             self.ln_proposals.extend(sums);
             let priors = ln_priors(&likelihood.bounded(), &scores);

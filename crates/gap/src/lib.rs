@@ -17,6 +17,7 @@ mod diagnosis;
 mod differential_evolution;
 mod discrepancy;
 mod equivalent;
+mod evaluators;
 mod evidence;
 mod evidence_error;
 mod expected_entropy;

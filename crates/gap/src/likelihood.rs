@@ -16,6 +16,8 @@
 //! Where the noise of an output is estimated, B depends on the point. Then M' M is summed up lane by
 //! lane with the squares, and K is factored for each point.
 
+use std::sync::Arc;
+
 use super::covariance::Covariance;
 use super::data::Data;
 use super::latent::Role;
@@ -39,7 +41,7 @@ pub(crate) struct Likelihood<'c> {
     pub(crate) roles: Vec<Role>,
     /// How scores that are correlated beforehand follow from independent ones.
     mixing: Option<Vec<Vec<f64>>>,
-    evaluator: Evaluator,
+    evaluator: Arc<Evaluator>,
     /// For each value the logarithm of the model's size, which proportional noise follows.
     ln_sizes: Vec<f64>,
 }
@@ -121,6 +123,11 @@ impl Evaluator {
         self.conditions.as_ref().map_or(self.schedules.len(), Vec::len)
     }
 
+    /// Number of programs that are kept for them.
+    pub(crate) fn schedules(&self) -> usize {
+        self.schedules.len()
+    }
+
     pub(crate) fn workspace(&self) -> Vec<Column> {
         let most = self.schedules.iter().map(|schedule| schedule.registers).max();
         vec![Column::ZERO; most.unwrap_or(0)]
@@ -160,31 +167,38 @@ impl Evaluator {
 }
 
 impl<'c> Likelihood<'c> {
-    /// `roles` are the unknown quantities; variables of the program without a role are at their
-    /// estimates.
+    /// `roles` are the unknown quantities.
     pub(crate) fn new(
-        case: &Case,
         data: &'c Data,
         covariance: &'c Covariance,
-        program: &Program,
+        evaluator: Arc<Evaluator>,
         roles: Vec<Role>,
         mixing: Option<Vec<Vec<f64>>>,
         ln_sizes: Vec<f64>,
     ) -> Self {
+        Self { data, covariance, roles, mixing, evaluator, ln_sizes }
+    }
+
+    /// A program at the points of the data; its variables without a role are at their estimates.
+    pub(crate) fn evaluator(
+        case: &Case,
+        data: &Data,
+        program: &Program,
+        roles: &[Role],
+    ) -> Evaluator {
         let rows: Vec<usize> = data
             .points
             .iter()
             .filter_map(|point| point.rows.first().map(|&row| data.ids[row]))
             .collect();
         let at: Vec<Row> = rows.iter().map(|&row| case.task.rows[row].clone()).collect();
-        let evaluator = Evaluator::new(
+        Evaluator::new(
             program,
             at.iter().map(|row| row.conditions.clone()).collect(),
             case.task.variables.len(),
-            &fixed_at(&at, &roles),
+            &fixed_at(&at, roles),
             &data.outputs,
-        );
-        Self { data, covariance, roles, mixing, evaluator, ln_sizes }
+        )
     }
 
     /// For each unknown quantity whether its score is rectangular.

@@ -60,6 +60,11 @@ const MOST_SUSPECTS: usize = 5;
 /// A value is suspected where that may come to have this posterior probability.
 const WORTH_TRYING: f64 = 0.02;
 
+/// Pairs with wider priors are tried where what no effect within its prior explains has more than
+/// this probability, and of them those with one of the best single effects.
+const WORTH_PAIRS: f64 = 0.05;
+const MEMBERS: usize = 3;
+
 /// Half the step of differences in the scores.
 const STEP: f64 = 1e-4;
 
@@ -79,6 +84,19 @@ pub(crate) struct NoiseModel {
     pub(crate) suspects: Vec<Suspect>,
     /// The coefficient of correlation of the noise of neighbouring rows.
     pub(crate) serial: Option<f64>,
+}
+
+/// A kind of noise that is drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum DrawnNoise {
+    /// As it is stated.
+    AsStated,
+    /// Stated uncertainties are off by a factor.
+    Factor,
+    /// Neighbouring rows are correlated by this coefficient.
+    Serial(f64),
+    /// Single values are off.
+    Off,
 }
 
 impl NoiseModel {
@@ -131,6 +149,46 @@ impl NoiseModel {
         }
     }
 
+    /// The prior probabilities of hypotheses with a noise that is not as stated.
+    pub(crate) fn other_than_stated(stated: Prior) -> Prior {
+        Self::with_factor().hypotheses(stated)
+    }
+
+    /// The noise at a uniform number between 0 and 1, from the prior probabilities of those that are
+    /// weighed with data that state uncertainties or do not.
+    pub(crate) fn drawn(stated: bool, uniform: f64) -> DrawnNoise {
+        let as_stated = Self::default().prior(0);
+        let [factor, serial] = if stated { [PRIOR_FACTOR, PRIOR_SERIAL] } else { [0.0; 2] };
+        let place = uniform * (as_stated + factor + serial + PRIOR_SUSPECT);
+        if place < as_stated {
+            DrawnNoise::AsStated
+        } else if place < as_stated + factor {
+            DrawnNoise::Factor
+        } else if place < as_stated + factor + serial {
+            let share = (place - as_stated - factor) / serial;
+            DrawnNoise::Serial(
+                SERIAL[((share * SERIAL.len() as f64) as usize).min(SERIAL.len() - 1)],
+            )
+        } else {
+            DrawnNoise::Off
+        }
+    }
+
+    /// The bounds of the factor on stated uncertainties.
+    pub(crate) fn factors() -> [f64; 2] {
+        FACTORS
+    }
+
+    /// How many values are off, at most, and the probability that there is one more.
+    pub(crate) fn suspects() -> (usize, f64) {
+        (MOST_SUSPECTS, PRIOR_ANOTHER)
+    }
+
+    /// The size of what is wrong with a value that is off, in standard uncertainties.
+    pub(crate) fn suspect_size() -> f64 {
+        SUSPECT_SIZE
+    }
+
     /// Its prior probability, for data of so many values.
     fn prior(&self, values: usize) -> f64 {
         if self.factor {
@@ -174,21 +232,29 @@ pub(crate) fn weighings<'c>(
     effort: Effort<'_>,
     progress: &(dyn Fn(f64) + Sync),
 ) -> Vec<Weighing<'c>> {
-    let begun = |(setup, singles): (Setup<'c>, Vec<WeighedHypothesis>),
+    let begun = |(setup, singles, pairs): Begun<'c>,
                  prior: f64,
                  known: &[Weighing<'c>],
                  [from, to]: [f64; 2]| {
         let discrepancy = Discrepancy::new(&setup);
         let rivals = ln_total(known) - elementary::ln(prior);
-        let posterior =
-            posterior::posterior(&setup, singles, &discrepancy, seed, effort, rivals, &|share| {
+        let posterior = posterior::posterior(
+            &setup,
+            (singles, pairs),
+            &discrepancy,
+            seed,
+            effort,
+            rivals,
+            &|share| {
                 progress(from + (to - from) * share);
-            });
+            },
+        );
         Weighing { wide: false, setup, discrepancy, posterior, prior, probability: 0.0 }
     };
     let weighing = |setup: Setup<'c>, prior: f64, known: &[Weighing<'c>], parts: [f64; 2]| {
         let singles = posterior::singles(&setup, seed, effort);
-        begun((setup, singles), prior, known, parts)
+        let pairs = setup.case.pairs();
+        begun((setup, singles, pairs), prior, known, parts)
     };
     let values = case.task.rows.len() * case.observed.iter().flatten().count();
     let stated = NoiseModel::default().prior(values);
@@ -323,20 +389,48 @@ pub(crate) fn lag(coefficient: f64, before: usize, here: usize) -> f64 {
     (1..gap).fold(coefficient, |lag, _| lag * coefficient)
 }
 
+/// A setup with its single effects begun, and the pairs to be tried.
+type Begun<'c> = (Setup<'c>, Vec<WeighedHypothesis>, Vec<Vec<usize>>);
+
 /// Every effect alone with a wider prior, where one explains the data so much better than anything
-/// else that the conflict may be probable.
+/// else that the conflict may be probable; and where nothing explains them that its prior does not
+/// hold back, pairs with wider priors.
 fn prior_conflict<'c>(
     wide: &'c Case,
     weighings: &[Weighing<'_>],
     seed: u64,
     effort: Effort<'_>,
-) -> Option<(Setup<'c>, Vec<WeighedHypothesis>)> {
-    let setup = Setup::new(wide);
+) -> Option<Begun<'c>> {
+    let setup = Setup::new(wide).sharing(&weighings.first()?.setup);
     let singles = posterior::singles(&setup, seed, effort);
     let effects = singles.iter().filter(|h| !h.effects.is_empty());
-    let total = effects.map(WeighedHypothesis::ln_weight).fold(f64::NEG_INFINITY, ln_add);
-    let ln = total + elementary::ln(PRIOR_CONFLICT) - ln_total(weighings);
-    (ln > elementary::ln(WORTH_TRYING)).then_some((setup, singles))
+    let own = effects.clone().map(WeighedHypothesis::ln_weight).fold(f64::NEG_INFINITY, ln_add);
+    let own = own + elementary::ln(PRIOR_CONFLICT);
+    let total = ln_add(own, ln_total(weighings));
+    let pairs = if ln_held_back(weighings) - total > elementary::ln(WORTH_PAIRS) {
+        let mut best: Vec<&WeighedHypothesis> = effects.collect();
+        best.sort_by(|a, b| b.ln_weight().total_cmp(&a.ln_weight()));
+        best.truncate(MEMBERS);
+        let has =
+            |pair: &Vec<usize>| best.iter().any(|h| h.effects.iter().all(|e| pair.contains(e)));
+        wide.pairs().into_iter().filter(has).collect()
+    } else {
+        Vec::new()
+    };
+    let is_worth = !pairs.is_empty() || own - ln_total(weighings) > elementary::ln(WORTH_TRYING);
+    is_worth.then_some((setup, singles, pairs))
+}
+
+/// The logarithm of prior probabilities times evidences of what no effect within its prior explains:
+/// hypotheses with a parameter that its prior holds back, and "unexplained".
+fn ln_held_back(weighings: &[Weighing<'_>]) -> f64 {
+    let of = |weighing: &Weighing<'_>| {
+        let Weighing { setup, posterior, .. } = weighing;
+        let held = posterior.hypotheses.iter().filter(|h| h.is_held_back(setup));
+        let share = posterior.probability + held.map(|h| h.probability).sum::<f64>();
+        weighing.ln_weight() + elementary::ln(share.max(f64::MIN_POSITIVE))
+    };
+    weighings.iter().map(of).fold(f64::NEG_INFINITY, ln_add)
 }
 
 /// Posterior probabilities of the noise models.

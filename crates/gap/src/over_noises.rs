@@ -24,11 +24,14 @@ pub(crate) fn summed(mut weighings: Vec<Weighing<'_>>) -> (Setup<'_>, Discrepanc
     let most = most_probable(&weighings);
     let mut first = weighings.swap_remove(most);
     if let (true, Some(stated)) = (first.wide, weighings.first_mut()) {
-        // pairs are not among the hypotheses with wider priors; their draws are of other priors
-        let several = |h: &WeighedHypothesis| h.effects.len() > 1;
-        let at = stated.posterior.hypotheses.iter().position(several);
-        let pairs = at.map(|at| stated.posterior.hypotheses.split_off(at)).unwrap_or_default();
-        first.posterior.hypotheses.extend(pairs.into_iter().map(|pair| WeighedHypothesis {
+        // few pairs are among the hypotheses with wider priors; the draws of the others are of other
+        // priors
+        let own = &mut first.posterior.hypotheses;
+        let theirs = std::mem::take(&mut stated.posterior.hypotheses);
+        let (known, pairs): (Vec<_>, Vec<_>) =
+            theirs.into_iter().partition(|h| own.iter().any(|of| of.effects == h.effects));
+        stated.posterior.hypotheses = known;
+        own.extend(pairs.into_iter().map(|pair| WeighedHypothesis {
             probability: pair.probability * stated.probability / first.probability,
             evidence: pair.evidence.without_draws(),
             ..pair
@@ -48,13 +51,12 @@ pub(crate) fn summed(mut weighings: Vec<Weighing<'_>>) -> (Setup<'_>, Discrepanc
         };
     }
     posterior.prior = stated.unexplained;
-    for (place, hypothesis) in posterior.hypotheses.iter_mut().enumerate() {
+    for hypothesis in &mut posterior.hypotheses {
         let own = hypothesis.probability * own_share;
         hypothesis.probability = own;
-        // hypotheses stand in the same order whatever the noise
         let others: Vec<(f64, &Weighing<'_>, &WeighedHypothesis)> = weighings
             .iter()
-            .filter_map(|w| Some((w, w.posterior.hypotheses.get(place)?)))
+            .filter_map(|w| Some((w, w.posterior.of(&hypothesis.effects)?)))
             .map(|(w, theirs)| (w.probability * theirs.probability, w, theirs))
             .collect();
         hypothesis.probability += others.iter().map(|(p, ..)| p).sum::<f64>();

@@ -10,6 +10,7 @@ use super::discrepancy::{Base, Discrepancy, Unexplained};
 use super::evidence::EvidenceEstimate;
 use super::evidence_error;
 use super::exploration::Exploration;
+use super::latent::{EDGE, Map};
 use super::likelihood::Likelihood;
 use super::logarithm::ln_add;
 use super::setup::Setup;
@@ -95,6 +96,12 @@ impl Effort<'_> {
     };
 }
 
+/// A normal score beyond this is far out in its prior.
+const FAR_OUT: f64 = 2.5;
+
+/// A rectangular score beyond this share of its range is at a bound.
+const AT_BOUND: f64 = 0.98;
+
 /// Hypotheses above this probability are looked at from end to end.
 const LEADING: f64 = 0.01;
 
@@ -107,12 +114,12 @@ pub(crate) fn singles(setup: &Setup<'_>, seed: u64, effort: Effort<'_>) -> Vec<W
     Exploration::new(setup, seed, effort).singles()
 }
 
-/// Weighs all hypotheses against the data of a setup, of which the `singles` are begun. `rivals` is the logarithm of the evidence of
-/// everything else that may be true, over the prior probability of this setup: what is improbable
-/// beside it need not be known well.
+/// Weighs all hypotheses against the data of a setup, of which the `singles` are begun and the `pairs`
+/// not. `rivals` is the logarithm of the evidence of everything else that may be true, over the prior
+/// probability of this setup: what is improbable beside it need not be known well.
 pub(crate) fn posterior(
     setup: &Setup<'_>,
-    singles: Vec<WeighedHypothesis>,
+    (singles, pairs): (Vec<WeighedHypothesis>, Vec<Vec<usize>>),
     discrepancy: &Discrepancy,
     seed: u64,
     effort: Effort<'_>,
@@ -129,7 +136,6 @@ pub(crate) fn posterior(
     let unexplained = discrepancy.evidence(setup, &residuals, floor);
     progress(0.3);
     if prior.two > 0.0 && !effort.is_stopped() {
-        let pairs = setup.case.pairs();
         let of_pairs: Vec<WeighedHypothesis> =
             pairs.into_par_iter().filter_map(|of| exploration.begin(of, &hypotheses)).collect();
         hypotheses.extend(of_pairs);
@@ -221,6 +227,17 @@ impl WeighedHypothesis {
         ln_weight(self.prior, self.evidence.ln_evidence)
     }
 
+    /// Whether the prior of an effect's parameter holds its most probable point back: at a bound, or
+    /// many standard deviations out.
+    pub(crate) fn is_held_back(&self, setup: &Setup<'_>) -> bool {
+        let Some(mode) = self.evidence.modes.first() else { return false };
+        let priors = self.effects.iter().flat_map(|&e| &setup.case.candidates[e].priors);
+        priors.zip(mode.scores.iter().skip(setup.roles.len())).any(|(prior, score)| {
+            let most = if Map::of(prior).is_bounded() { AT_BOUND * EDGE } else { FAR_OUT };
+            score.abs() > most
+        })
+    }
+
     /// Whether its probability, beside everything else of which this setup has a share, is not yet
     /// known well enough.
     fn is_open(&self, error: f64, share: f64) -> bool {
@@ -303,6 +320,11 @@ impl Posterior {
         );
         self.unexplained = alone.joined(others, 1.0 - BESIDE_AN_EFFECT);
         self.weigh();
+    }
+
+    /// The hypothesis with these effects.
+    pub(crate) fn of(&self, effects: &[usize]) -> Option<&WeighedHypothesis> {
+        self.hypotheses.iter().find(|hypothesis| hypothesis.effects == effects)
     }
 
     /// The probability of all hypotheses together beside what else may be true.

@@ -4,6 +4,7 @@ use super::case::WIDER;
 use super::diagnosis::PriorConflict;
 use super::noise_model::Weighing;
 use super::parameters::parameters;
+use super::weighed::names;
 use crate::Case;
 use gumption_engine::distribution::Distribution;
 use gumption_engine::number::elementary;
@@ -24,18 +25,20 @@ pub(crate) fn conflicts(
     for weighing in weighings.iter().filter(|weighing| weighing.wide) {
         for hypothesis in &weighing.posterior.hypotheses {
             let probability = hypothesis.probability * weighing.probability;
-            let [effect] = hypothesis.effects[..] else { continue };
             if probability < LEAST {
                 continue;
             }
-            let candidate = &case.candidates[effect];
+            let effects = names(&weighing.setup, &hypothesis.effects);
+            let candidates = hypothesis.effects.iter().map(|&effect| &case.candidates[effect]);
+            let priors =
+                candidates.flat_map(|of| of.priors.iter().map(|prior| (&of.effect, prior)));
             let of = parameters(&weighing.setup, hypothesis, coverage);
-            for (parameter, prior) in of.into_iter().zip(&candidate.priors) {
+            for (parameter, (effect, prior)) in of.into_iter().zip(priors) {
                 let (prior_distance, bounded) = distance(prior, parameter.estimate);
                 if prior_distance > if bounded { 0.0 } else { FAR } {
-                    let effect = candidate.effect.name.clone();
                     found.push(PriorConflict {
-                        effect,
+                        effect: effect.name.clone(),
+                        effects: effects.clone(),
                         parameter,
                         prior_distance,
                         bounded,
@@ -69,9 +72,13 @@ fn distance(prior: &Distribution, value: f64) -> (f64, bool) {
 
 /// The sentence of the note.
 pub(crate) fn note(conflict: &PriorConflict) -> String {
-    let PriorConflict { effect, parameter, prior_distance, probability, .. } = conflict;
+    let PriorConflict { effects, parameter, prior_distance, probability, .. } = conflict;
+    let who = match &effects[..] {
+        [effect] => format!("{effect} alone"),
+        several => several.join(" and "),
+    };
     format!(
-        "{effect} alone would explain the data with {} of a size that is {prior_distance:.1} {} \
+        "{who} would explain the data with {} of a size that is {prior_distance:.1} {} \
          (probability {probability:.2}, with priors {WIDER} times as wide).",
         parameter.name,
         conflict.counted_in()

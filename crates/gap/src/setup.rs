@@ -1,8 +1,11 @@
 //! A case made ready: data, covariance, and which quantities are unknown whatever the hypothesis.
 
+use std::sync::Arc;
+
 use super::correlated;
 use super::covariance::Covariance;
 use super::data::{Data, Spread};
+use super::evaluators::Evaluators;
 use super::latent::{Map, Role};
 use super::likelihood::Likelihood;
 use super::noise_model::NoiseModel;
@@ -36,6 +39,7 @@ pub(crate) struct Setup<'c> {
     pub(crate) roles: Vec<Role>,
     mixing: Option<Vec<Vec<f64>>>,
     pub(crate) ln_sizes: Vec<f64>,
+    evaluators: Arc<Evaluators>,
 }
 
 impl<'c> Setup<'c> {
@@ -63,6 +67,15 @@ impl<'c> Setup<'c> {
         }
         let data = Data::of(self.case, self.data.ids.clone(), noise);
         Self::with_data_and_inputs(self.case, data, self.unknown_inputs.clone(), roles)
+            .sharing(self)
+    }
+
+    /// The same, where another setup of the same rows, model and effects has programs that are ready.
+    pub(crate) fn sharing(mut self, other: &Setup<'_>) -> Self {
+        if self.unknown_inputs == other.unknown_inputs {
+            self.evaluators = Arc::clone(&other.evaluators);
+        }
+        self
     }
 
     /// With other data of the case, and the unknown quantities of all of them.
@@ -93,7 +106,19 @@ impl<'c> Setup<'c> {
                 let row = |i: usize| (0..root.ncols()).map(|j| root[(i, j)]).collect();
                 (0..root.nrows()).map(row).collect()
             });
-        Self { case, data, spread, covariance, linear, unknown_inputs, roles, mixing, ln_sizes }
+        let evaluators = Arc::default();
+        Self {
+            case,
+            data,
+            spread,
+            covariance,
+            linear,
+            unknown_inputs,
+            roles,
+            mixing,
+            ln_sizes,
+            evaluators,
+        }
     }
 
     /// Prior probabilities of the hypotheses.
@@ -111,7 +136,6 @@ impl<'c> Setup<'c> {
     /// The likelihood with these effects acting.
     pub(crate) fn likelihood(&self, effects: &[usize]) -> Likelihood<'_> {
         let candidates: Vec<_> = effects.iter().map(|&e| &self.case.candidates[e]).collect();
-        let program = self.case.program(effects);
         let first = self.case.task.variables.len() + self.case.model.conditions.len();
         let parameters = candidates.iter().flat_map(|candidate| &candidate.priors).enumerate();
         let mut roles = self.roles.clone();
@@ -131,11 +155,13 @@ impl<'c> Setup<'c> {
                 })
                 .collect()
         });
+        let evaluator = self.evaluators.of(self.data.points.len(), effects, || {
+            Likelihood::evaluator(self.case, &self.data, &self.case.program(effects), &roles)
+        });
         Likelihood::new(
-            self.case,
             &self.data,
             &self.covariance,
-            &program,
+            evaluator,
             roles,
             mixing,
             self.ln_sizes.clone(),

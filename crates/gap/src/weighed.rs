@@ -129,7 +129,7 @@ impl<'c> Weighed<'c> {
         let mut verdict =
             most_probable(&self.setup, &self.posterior, self.best, self.explained, group);
         verdict.prior_conflict = self.prior_conflict
-            && self.prior_conflicts.iter().any(|of| verdict.effects == [of.effect.as_str()]);
+            && self.prior_conflicts.iter().any(|of| verdict.effects == of.effects);
         verdict
     }
 }

@@ -24,7 +24,9 @@ export class Code {
 
   /** Underlines ranges [start, end), in UTF-16 units. */
   mark(ranges) {
-    this.marks = ranges.map(([a, b]) => [a, Math.max(b, a + 1)]).sort((a, b) => a[0] - b[0]);
+    const marks = ranges.map(([a, b]) => [a, Math.max(b, a + 1)]).sort((a, b) => a[0] - b[0]);
+    if (String(marks) === String(this.marks)) return;
+    this.marks = marks;
     this.area.setAttribute("aria-invalid", ranges.length > 0);
     this.#draw();
   }
@@ -37,7 +39,14 @@ export class Code {
   }
 
   #draw() {
+    // without marks there is nothing to be seen behind the text, however it is scrolled
     const text = this.area.value, parts = [];
+    if (this.marks.length === 0) {
+      if (this.isMarked) this.back.replaceChildren();
+      this.isMarked = false;
+      return;
+    }
+    this.isMarked = true;
     let at = 0;
     for (const [start, end] of this.marks) {
       if (start < at) continue;

@@ -86,6 +86,7 @@ export class Form {
       oninput: () => { field.isTyped = true; this.#typed(field, path, properties.kind); },
       onfocus: () => this.#grab(path),
       onblur: () => { field.isTyped = false; },
+      onpaste: event => pasted(event, field, properties.kind),
     });
     field.dataset.key = key;
     if (properties.inputmode) field.setAttribute("inputmode", properties.inputmode);
@@ -108,7 +109,7 @@ export class Form {
     }
     field.written = typed;
     if (this.page.language === "de" && /^\s*[-+]?\d+,\d+(e[-+]?\d+)?\s*$/i.test(typed)) typed = typed.replace(",", ".");
-    if (kind === "list") typed = `[${typed}]`;
+    if (kind === "list") typed = `[${numbersOf(typed, this.page.language)}]`;
     const edit = kind === "text" ? { path, value: typed } : { path, typed };
     this.page.edit([edit], `typed:${at(path)}`);
   }
@@ -389,6 +390,24 @@ function signature(row) {
   const isExtra = cell => ["dof", "about", "tolerance"].includes(cell.key) || cell.path.length > 3 || cell.path[0] === "outputs";
   return [row.name, row.form, row.cells.filter(cell => !isExtra(cell)).map(cell =>
     [cell.key, ["list", "other"].includes(cell.kind) ? cell.kind : "", cell.key === "distribution" ? cell.raw : ""])];
+}
+
+/** What is pasted into a list: rows and columns of a table become one row. */
+function pasted(event, field, kind) {
+  const text = event.clipboardData.getData("text/plain");
+  if (kind !== "list" || !/[\t\r\n]/.test(text)) return;
+  event.preventDefault();
+  field.setRangeText(text.trim().replace(/[\t\r\n]+/g, "  "), field.selectionStart, field.selectionEnd, "end");
+  field.dispatchEvent(new InputEvent("input", { bubbles: true }));
+}
+
+/** Numbers as somebody typed or pasted them: with decimal commas where all of them can only be such. */
+function numbersOf(text, language) {
+  const numbers = text.trim().split(/[\s;]+/).filter(number => number !== "");
+  const isComma = number => /^[-+]?(\d+|\d{1,3}(\.\d{3})+)(,\d+)?(e[-+]?\d+)?$/i.test(number);
+  const commas = numbers.filter(number => number.includes(","));
+  if (commas.length === 0 || !numbers.every(isComma) || numbers.length < 2 && language !== "de") return text;
+  return numbers.map(number => number.includes(",") ? number.replaceAll(".", "").replace(",", ".") : number).join(" ");
 }
 
 function kindOf(cell) {

@@ -19,6 +19,7 @@ class Page {
     this.program = program;
     this.element = id => document.getElementById(id);
     this.chosen = 0;
+    this.row = 0;
     this.queue = [];
     this.kind = "model";
     this.found = null;
@@ -58,9 +59,26 @@ class Page {
   }
 
   #ask() {
+    if (!this.isGiven) this.answers.ask(this.#request());
+  }
+
+  /** What is asked about the text as it is. */
+  #request() {
     const narrow = matchMedia("(max-width: 40rem)").matches;
     const { text, path } = this.document;
-    this.answers.ask({ text, path, name: path || "", narrow, output: this.chosen });
+    return { text, path, name: path || this.named || "", narrow, output: this.chosen, row: this.row, lang: this.language, at: performance.now() };
+  }
+
+  /** A change whose answer comes with it. */
+  async #changeAndAnswer(edits, kind) {
+    const request = this.#request();
+    const found = await this.answers.edit(request, edits);
+    if (this.document.text !== request.text) return false;
+    this.isGiven = true;
+    this.document.set(found.text, kind);
+    this.isGiven = false;
+    this.answers.given({ ...request, text: found.text }, found);
+    return true;
   }
 
   /** Changes the file; changes of one kind that wait are made as one. */
@@ -77,6 +95,10 @@ class Page {
     while (this.queue.length) {
       const { call, edits, request, kind } = this.queue.shift();
       try {
+        if (!call && this.kind === "model" && this.answers.isQuick) {
+          if (!await this.#changeAndAnswer(edits, kind)) this.queue.unshift({ edits, kind });
+          continue;
+        }
         const text = this.document.text;
         const made = await this.program.call(call || "edit", { text, edits, ...request });
         // somebody may have typed into the text meanwhile; that is not lost
@@ -87,6 +109,21 @@ class Page {
       }
     }
     this.isWorking = false;
+  }
+
+  /** What was typed last is on its way into the text: until it is there. */
+  async #settled() {
+    for (let turn = 0; this.isWorking && turn < 200; turn++) await new Promise(done => setTimeout(done, 10));
+  }
+
+  async undo() {
+    await this.#settled();
+    this.document.undo();
+  }
+
+  async redo() {
+    await this.#settled();
+    this.document.redo();
   }
 
   reshape(path, distribution) {
@@ -255,20 +292,24 @@ class Page {
     const outputs = found.results;
     this.chosen = Math.max(0, Math.min(this.chosen, outputs.length - 1));
     this.#tabs(outputs);
+    this.#rows(found);
     const of = outputs[this.chosen];
     for (const id of ["box-budget", "box-comparison"]) this.element(id).hidden = !of;
     this.#headline(of, found);
-    const dict = words.report_words;
-    const part = (id, html) => put(this.element(`part-${id}`), html, dict, words.report_sentences);
+    const part = (id, html) => put(this.element(`part-${id}`), html);
     part("distribution", of ? of.html.distribution : "");
     part("budget", of ? of.html.budget : "");
     part("comparison", of ? of.html.comparison : "");
     part("conclusions", of ? of.html.conclusions : "");
     part("verdict", of ? of.html.verdict : "");
     part("together", found.together);
+    // the rows of a sweep are the result; correlations of outputs come after the outputs
+    const isSweep = (found.row_names || []).length > 0;
+    this.element("box-audit").before(this.element("part-together"));
+    if (isSweep) this.element("box-budget").before(this.element("part-together"));
     // what the sentences above say already is not said again
     const said = this.element("part-verdict").textContent;
-    const further = found.notes.filter(text => !said.includes(text));
+    const further = found.notes.map(text => text.replaceAll("`", "")).filter(text => !said.includes(text));
     const notes = this.element("notes"), key = JSON.stringify(further);
     if (notes.dataset.key !== key) {
       notes.dataset.key = key;
@@ -295,6 +336,23 @@ class Page {
       }, of.name)));
     }
     [...tabs.children].forEach((button, place) => button.setAttribute("aria-pressed", place === this.chosen));
+  }
+
+  /** The rows of conditions: the headline and the parts below it are about one of them. */
+  #rows(found) {
+    const box = this.element("rows-box"), choice = this.element("rows");
+    const names = found.row_names || [];
+    box.hidden = names.length === 0;
+    this.row = found.row || 0;
+    const key = JSON.stringify(names);
+    if (choice.dataset.names !== key) {
+      choice.dataset.names = key;
+      choice.replaceChildren(...names.map((name, place) => make("option", { value: String(place) }, name)));
+    }
+    choice.value = String(this.row);
+    const first = this.row === 0, last = this.row >= names.length - 1;
+    this.element("row-before").disabled = first;
+    this.element("row-after").disabled = last;
   }
 
   #headline(of, found) {
@@ -347,7 +405,7 @@ class Page {
 
   audit(found) {
     this.element("box-audit").hidden = !found.html;
-    put(this.element("part-audit"), found.html || "", this.words.report_words);
+    put(this.element("part-audit"), found.html || "");
   }
 
   /** The page of a case, a certificate, a comparison or a recipe. */
@@ -361,7 +419,9 @@ class Page {
     frame.hidden = false;
     clearTimeout(this.reporter);
     const { text, path } = request;
-    if (this.reported === text) return;
+    // what was true before the mistake stays there
+    frame.classList.toggle("stale", found.diagnostics.length > 0);
+    if (this.reported === text || found.diagnostics.length) return;
     this.reporter = setTimeout(async () => {
       try {
         const address = await this.program.page({ path, text });
@@ -369,7 +429,12 @@ class Page {
         this.reported = text;
         frame.src = address;
         this.#told(null);
-      } catch (error) { this.failed(error); }
+      } catch (error) {
+        const told = error.answer && error.answer.diagnostics;
+        if (!told || text !== this.document.text) return this.failed(error);
+        this.#mistakes({ ...found, diagnostics: told }, request);
+        frame.classList.add("stale");
+      }
     }, this.reported ? 900 : 0);
   }
 
@@ -391,7 +456,7 @@ class Page {
   #state() {
     const { words } = this;
     const { path, isSaved, text } = this.document;
-    this.element("path").textContent = path || words.unnamed;
+    this.element("path").textContent = path || this.named || words.unnamed;
     const wrong = this.diagnostics && this.diagnostics.length > 0;
     const state = !this.program.hasFolder ? words.offline : path === null && isSaved ? "" : isSaved ? words.saved : wrong ? words.changed_mistakes : words.changed;
     this.#say("state", state);
@@ -411,12 +476,15 @@ class Page {
     return await this.#choose(words.leave, make("p", {}, words.leave_text), [[words.go_on, "go"], [words.cancel, null]]) === "go";
   }
 
-  #take(text, path, version) {
+  #take(text, path, version, name = null) {
     this.document.replace(text, path, version);
+    // the name of a file that is not one of the folder
+    this.named = name;
     this.pristine = text;
     this.found = null;
     this.diagnostics = [];
     this.chosen = 0;
+    this.row = 0;
     this.hasResults = false;
     this.reported = null;
     this.force = true;
@@ -452,7 +520,8 @@ class Page {
   async save() {
     const { words } = this;
     clearTimeout(this.saver);
-    if (!this.program.hasFolder) return this.#download(new Blob([this.document.text]), this.document.path || "model.json");
+    await this.#settled();
+    if (!this.program.hasFolder) return this.#download(new Blob([this.document.text]), this.document.path || this.named || "model.json");
     if (this.document.path === null) {
       const name = await this.#askName();
       if (!name) return;
@@ -538,7 +607,7 @@ class Page {
     const filter = make("input", { type: "search", placeholder: words.search, "aria-label": words.search, oninput: () => body.replaceChildren(...list(filter.value.toLowerCase())) });
     const all = make("div", {}, shown.length > 8 ? filter : null, shown.length ? body : make("p", {}, words.open_none));
     const chosen = await this.#choose(words.open_title, all, [[words.from_disk, { pick: true }], [words.cancel, null]]);
-    if (chosen && chosen.pick) this.#pick(".json,.csv,.xlsx");
+    if (chosen && chosen.pick) this.#pick(this.program.hasFolder ? ".json,.csv,.xlsx" : "");
     else if (chosen) await this.#open(chosen);
   }
 
@@ -570,8 +639,8 @@ class Page {
     if (!format) return;
     try {
       const { path, text } = this.document;
-      const blob = await this.program.export({ path, text, format });
-      const stem = (path || "model.json").replace(/^.*\//, "").replace(/\.[^.]*$/, "");
+      const blob = await this.program.export({ path: path || (this.program.hasFolder ? null : this.named), text, format });
+      const stem = (path || this.named || "model.json").replace(/^.*\//, "").replace(/\.[^.]*$/, "");
       this.#download(blob, `${stem}.${ENDINGS[format] || format}`);
     } catch (error) { this.failed(error); }
   }
@@ -603,36 +672,56 @@ class Page {
   #pick(accept) {
     const picked = this.element("picked");
     picked.accept = accept;
+    picked.multiple = !this.program.hasFolder;
     picked.value = "";
-    picked.onchange = () => { if (picked.files[0]) this.#dropped(picked.files[0]); };
+    picked.onchange = () => { if (picked.files.length) this.#dropped([...picked.files]); };
     picked.click();
   }
 
-  /** A file of this computer: a model is opened, a budget imported; anything else is held for models that name it. */
-  async #dropped(file) {
+  /**
+   * Files of this computer. Those that the open text names are held for it; of others, one that no other
+   * one names is opened, or imported where it is a table, and what it names is held.
+   */
+  async #dropped(files) {
     const { words } = this;
+    const isJson = file => /\.json$/i.test(file.name);
     try {
-      if (/\.json$/i.test(file.name)) {
-        if (!await this.#mayLeave()) return;
-        const text = await file.text();
-        this.#take(text, null, null);
-        return;
+      const texts = new Map();
+      for (const file of files.filter(isJson)) texts.set(file, await file.text());
+      const held = file => this.document.text.includes(file.name) || [...texts].some(([of, text]) => of !== file && text.includes(file.name));
+      const kept = this.program.hasFolder ? [] : files.filter(held);
+      const rest = files.filter(file => !kept.includes(file));
+      // several files go together: the one that is opened names the others, perhaps after an edit
+      const first = rest.find(isJson) || rest[0];
+      if (!this.program.hasFolder) {
+        for (const file of files) {
+          if (file !== first || kept.includes(file)) await this.program.hold(file.name, await file.arrayBuffer());
+        }
       }
-      const bytes = new Uint8Array(await file.arrayBuffer());
-      if (!this.program.hasFolder && this.document.text.includes(file.name)) {
-        await this.program.hold(file.name, bytes.buffer);
-        this.#say("state", words.drop_held(file.name));
-        this.#ask();
-        return;
-      }
-      if (!await this.#mayLeave()) return;
-      let binary = "";
-      for (let place = 0; place < bytes.length; place += 0x8000) binary += String.fromCharCode(...bytes.subarray(place, place + 0x8000));
-      const made = await this.program.call("import", { name: file.name, base64: btoa(binary) });
-      this.#take(made.text, null, null);
-      const list = (title, said) => said.length ? [make("h3", {}, title), make("ul", {}, ...said.map(text => make("li", {}, text)))] : [];
-      await this.#choose(words.import_title, make("div", {}, ...list(words.understood, made.understood), ...list(words.guessed, made.guessed)), [[words.ok, null]]);
+      if (first && !await this.#mayLeave()) return;
+      if (first && isJson(first)) this.#take(texts.get(first), null, null, first.name);
+      else if (first) await this.#import(first);
+      else this.#ask();
+      const others = files.filter(file => file !== first).map(file => file.name);
+      if (others.length && !this.program.hasFolder) this.#say("state", words.drop_held(others.join(", ")));
+      this.reported = null;
     } catch (error) { this.failed(error); }
+  }
+
+  /** A table: one of results to be compared is opened, a budget imported. */
+  async #import(file) {
+    const { words } = this;
+    const bytes = new Uint8Array(await file.arrayBuffer());
+    if (/\.csv$/i.test(file.name)) {
+      const text = new TextDecoder().decode(bytes);
+      if (/^\ufeff?\s*"?label"?\s*[,;\t]/i.test(text)) { this.#take(text, null, null, file.name); return; }
+    }
+    let binary = "";
+    for (let place = 0; place < bytes.length; place += 0x8000) binary += String.fromCharCode(...bytes.subarray(place, place + 0x8000));
+    const made = await this.program.call("import", { name: file.name, base64: btoa(binary) });
+    this.#take(made.text, null, null);
+    const list = (title, said) => said.length ? [make("h3", {}, title), make("ul", {}, ...said.map(text => make("li", {}, text)))] : [];
+    await this.#choose(words.import_title, make("div", {}, ...list(words.understood, made.understood), ...list(words.guessed, made.guessed)), [[words.ok, null]]);
   }
 
   // dialogs
@@ -701,13 +790,17 @@ class Page {
       this.edit([this.found && this.found.correlations && many ? { path: ["correlations", many], value } : { path: ["correlations"], value: [value] }]);
     });
     on("add-condition", "click", () => this.edit([{ path: ["conditions", this.#freeName("condition")], value: { unit: "1", values: [1, 2] } }]));
+    const toRow = row => { this.row = row; this.#ask(); };
+    on("rows", "change", event => toRow(Number(event.target.value)));
+    on("row-before", "click", () => toRow(this.row - 1));
+    on("row-after", "click", () => toRow(this.row + 1));
     on("slid", "change", event => this.form.choose(event.target.value));
     on("slide", "input", () => this.form.slide(false));
     on("slide", "change", () => this.form.slide(true));
     on("view-form", "click", () => this.#show("form"));
     on("view-text", "click", () => this.#show("text"));
-    on("undo", "click", () => this.document.undo());
-    on("redo", "click", () => this.document.redo());
+    on("undo", "click", () => this.undo());
+    on("redo", "click", () => this.redo());
     on("save", "click", () => this.save());
     on("open", "click", () => this.#openDialog());
     on("new", "click", () => this.#newDialog());
@@ -722,14 +815,16 @@ class Page {
       try { localStorage.setItem("language", this.language); } catch { /* not kept */ }
       this.#translate();
       this.element("mistakes").dataset.shown = "";
+      put(this.element("part-audit"), "");
       if (this.found) this.answer(this.found, { text: this.document.text, path: this.document.path, at: performance.now() });
+      this.#ask();
     });
     document.addEventListener("keydown", event => {
       if (!(event.ctrlKey || event.metaKey) || event.altKey) return;
       const key = event.key.toLowerCase();
       const act = key === "s" ? () => this.save()
-        : key === "z" && !event.shiftKey ? () => this.document.undo()
-        : key === "y" || key === "z" && event.shiftKey ? () => this.document.redo() : null;
+        : key === "z" && !event.shiftKey ? () => this.undo()
+        : key === "y" || key === "z" && event.shiftKey ? () => this.redo() : null;
       if (!act || this.element("dialog").open) return;
       event.preventDefault();
       act();
@@ -737,8 +832,8 @@ class Page {
     document.addEventListener("dragover", event => event.preventDefault());
     document.addEventListener("drop", event => {
       event.preventDefault();
-      const file = event.dataTransfer && event.dataTransfer.files[0];
-      if (file) this.#dropped(file);
+      const files = [...(event.dataTransfer && event.dataTransfer.files || [])];
+      if (files.length) this.#dropped(files);
     });
     window.addEventListener("beforeunload", event => {
       if (!this.document.isSaved && this.document.text !== this.pristine) event.preventDefault();

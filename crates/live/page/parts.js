@@ -25,22 +25,10 @@ export function unit(text) {
 }
 
 /** Puts parts of the report there, unless they are there already. */
-export function put(element, html, words = {}, sentences = []) {
-  if (element.shownHtml === html && element.shownWords === words) return;
+export function put(element, html) {
+  if (element.shownHtml === html) return;
   element.shownHtml = html;
-  element.shownWords = words;
   element.innerHTML = html || "";
-  if (Object.keys(words).length === 0) return;
-  for (const found of element.querySelectorAll("th, td, svg text")) {
-    if (found.childElementCount > 0) continue;
-    const word = words[found.textContent.trim()];
-    if (word) found.textContent = word;
-  }
-  for (const found of element.querySelectorAll("p, figcaption")) {
-    if (found.childElementCount > 0) continue;
-    const rule = sentences.find(([form]) => form.test(found.textContent));
-    if (rule) found.textContent = found.textContent.replace(rule[0], rule[1]);
-  }
 }
 
 /** The key of a path. */

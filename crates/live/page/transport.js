@@ -77,7 +77,11 @@ class Alone {
       alone.waiting.delete(data.number);
       if (!of) return;
       if (data.status === 0) of.resolve(data.answer);
-      else of.reject(new Refused(data.status === 1 ? 400 : 500, { error: data.answer }));
+      else {
+        let told = { error: data.answer };
+        try { told = JSON.parse(data.answer); } catch { /* of the worker itself */ }
+        of.reject(new Refused(data.status === 1 ? 400 : 500, told));
+      }
     };
     alone.worker.onerror = event => {
       for (const of of alone.waiting.values()) of.reject(new Refused(500, { error: event.message }));

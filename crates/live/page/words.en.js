@@ -13,6 +13,7 @@ export default {
   mistakes: "Mistakes", result: "Result", budget: "Budget", methods: "Both methods",
   in_words: "In words", stakes: "What the Type B assumptions decide", report: "Page of this file",
   nothing: "The result stands here as soon as the measurement is complete: an equation, what is known about its inputs, and the unit of what is reported.",
+  row_of: "Row of conditions", row_before: "Row before", row_after: "Row after",
   use: "Add as inputs:", report_as: "Report:", all: "all of them", model_is: "Typed model:",
   saved: "saved", changed: "not saved", changed_mistakes: "not saved, as it has mistakes; Ctrl+S saves it all the same",
   unnamed: "new file", saving: "saving …", offline: "in this browser alone",
@@ -41,7 +42,7 @@ export default {
   mine: "Mine (write it)", theirs: "The one on the disk", disk: "taken over from the disk",
   gone: "the file is gone from the disk", lost: "no connection to gumption; is it still running?",
   leave: "Unsaved changes", leave_text: "There are changes that are not saved. Go on without them?", go_on: "Go on without them",
-  drop_held: n => `${n} is held in this page for models that name it`,
+  drop_held: n => `held in this page: ${n}`,
   key: {
     mean: "mean", value: "value", mode: "mode", count: "count", std: "std", expanded: "expanded", k: "k", p: "p",
     dof: "dof", half_width: "half-width", semi_range: "half-range", lower: "lower", upper: "upper", beta: "beta",
@@ -52,5 +53,5 @@ export default {
     coverage_probability: "coverage probability", coverage_factor: "coverage factor k", trials: "trials",
     seed: "seed", digits: "digits", name: "name",
   },
-  shapes: {}, report_words: {}, report_sentences: [],
+  shapes: {},
 };

@@ -8,13 +8,17 @@ use gumption_engine::propagate::{
     Control, Evaluation, convergence, evaluate, histograms, warnings,
 };
 use gumption_engine::task::{MethodChoice, Task, Trials};
-use gumption_files::{Diagnostics, FileReader, ModelFile, TextKind};
-use gumption_report::{EvaluationReport, FigureSize, Provenance, Shown, page_parts};
+use gumption_files::{
+    ComparisonOptions, Diagnostics, FileReader, ModelFile, TextKind, read_comparison_text,
+};
+use gumption_report::{EvaluationReport, FigureSize, PageChoice, Provenance, Shown, page_parts};
 use jsonc_parser::ast::Value;
 use serde::Deserialize;
 use serde_json::{Value as Json, json};
 use std::path::Path;
 
+use crate::edit::{Edit, edited};
+use crate::language::Language;
 use crate::tree::{self, path_of};
 use crate::{LiveError, diagnostics, inputs, limited, outputs};
 
@@ -29,6 +33,9 @@ const MOST_ROWS: usize = 10_000;
 #[derive(Debug, Deserialize)]
 pub(crate) struct Asked {
     text: String,
+    /// Changes that are made to the text first; the answer has it as it is then.
+    #[serde(default)]
+    edits: Vec<Edit>,
     #[serde(default)]
     name: String,
     /// Trials of all rows together, where not as many as the file asks for are made.
@@ -44,6 +51,13 @@ pub(crate) struct Asked {
     /// given, the first one where there is none of that number.
     #[serde(default)]
     output: Option<usize>,
+    /// The row of conditions, counted from 0, that the parts are about; the first one where there is
+    /// none of that number.
+    #[serde(default)]
+    row: usize,
+    /// The language of what is said: `de`, else English.
+    #[serde(default)]
+    lang: Language,
 }
 
 /// What a text says and what follows from it.
@@ -52,22 +66,28 @@ pub(crate) fn answer(
     asked: &Asked,
     stop: &Arc<AtomicBool>,
 ) -> Result<Json, LiveError> {
-    let text = limited(&asked.text)?;
+    let changed = match asked.edits.as_slice() {
+        [] => None,
+        edits => Some(edited(limited(&asked.text)?, edits).map_err(LiveError::Request)?),
+    };
+    let text = limited(changed.as_deref().unwrap_or(&asked.text))?;
     let bare = text.strip_prefix('\u{feff}').unwrap_or(text);
     let name = if asked.name.is_empty() { "the model" } else { &asked.name };
     let kind = TextKind::of(text);
     let mut answer = json!({ "kind": kind.name(), "diagnostics": [] });
+    if let Some(changed) = &changed {
+        answer["text"] = json!(changed);
+    }
     let root = tree::parse(bare).ok();
     let read = match kind {
-        // a certificate and a recipe open other files by their paths; their pages tell mistakes
-        TextKind::Case | TextKind::Costs => {
-            let found = files.check_text(name, text, Path::new("")).err();
+        TextKind::Model => files.model_text(name, text, Path::new(""), &[]),
+        // their pages evaluate them, and tell what only that finds
+        other => {
+            let found = checked(files, other, name, text).err();
             answer["diagnostics"] =
                 found.map_or(json!([]), |found| diagnostics::list(text, &found));
             return Ok(answer);
         }
-        TextKind::Model => files.model_text(name, text, Path::new(""), &[]),
-        _ => return Ok(answer),
     };
     let file = match &read {
         Ok(file) => Some(file),
@@ -87,6 +107,25 @@ pub(crate) fn answer(
         }
     }
     Ok(answer)
+}
+
+/// The mistakes of a text that is no model.
+fn checked(
+    files: FileReader<'_>,
+    kind: TextKind,
+    name: &str,
+    text: &str,
+) -> Result<(), Diagnostics> {
+    let folder = Path::new("");
+    match kind {
+        TextKind::Case => files.case_text(name, text, folder).map(drop),
+        TextKind::Certificate => files.certificate_text(name, text, folder).map(drop),
+        TextKind::Comparison => {
+            read_comparison_text(name, text, ComparisonOptions::default()).map(drop)
+        }
+        TextKind::Recipe | TextKind::Costs => files.check_text(name, text, folder),
+        _ => Ok(()),
+    }
 }
 
 fn merge(into: &mut Json, from: Json) {
@@ -212,16 +251,18 @@ fn results(file: &ModelFile, asked: &Asked, stop: &Arc<AtomicBool>) -> Result<Js
         file.evaluation_failed(error.to_string())
     };
     let evaluation = evaluate(&task, &control).map_err(failed)?;
-    let histograms = if evaluation.rows.len() == 1 && !evaluation.stopped {
-        histograms(&task, &evaluation, 0, &control).map_err(failed)?.into_iter().collect()
-    } else {
-        Vec::new()
-    };
+    let row = if asked.row < evaluation.rows.len() { asked.row } else { 0 };
+    let mut counts = vec![Vec::new(); evaluation.rows.len()];
+    if !evaluation.stopped
+        && let Some(place) = counts.get_mut(row)
+    {
+        let found = histograms(&task, &evaluation, row, &control).map_err(failed)?;
+        place.extend(found.into_iter().flatten());
+    }
     // when the hand rests: it takes as long as the run
-    let settled = if histograms.is_empty() || !asked.full {
-        None
-    } else {
-        convergence(&task, &evaluation, 0, &control).map_err(failed)?
+    let settled = match asked.full && !evaluation.stopped {
+        true => convergence(&task, &evaluation, row, &control).map_err(failed)?,
+        false => None,
     };
     let settled = settled.unwrap_or_default();
     let mut notes = file.warnings.clone();
@@ -233,15 +274,19 @@ fn results(file: &ModelFile, asked: &Asked, stop: &Arc<AtomicBool>) -> Result<Js
         warnings: &notes,
         provenance: &provenance,
     };
-    let shown = Shown { histograms: &histograms, convergence: &settled, ..Shown::default() };
+    let shown = Shown { histograms: &counts, convergence: &settled, ..Shown::default() };
     let size = if asked.narrow { FigureSize::Narrow } else { FigureSize::Page };
     let outputs = task.model.outputs.len();
-    let only = asked.output.map(|wanted| if wanted < outputs { wanted } else { 0 });
-    let parts = page_parts(&report, &shown, size, only);
+    let output = asked.output.map(|wanted| if wanted < outputs { wanted } else { 0 });
+    let parts = asked.lang.parts(page_parts(&report, &shown, size, PageChoice { output, row }));
+    let note =
+        |note: &gumption_engine::task::Warning| asked.lang.note(gumption_report::plain(&note.text));
     Ok(json!({
-        "results": outputs::results(&task, &evaluation, &parts),
+        "results": outputs::results(&task, &evaluation, row, &parts),
         "together": parts.together,
-        "notes": notes.iter().map(|note| gumption_report::plain(&note.text)).collect::<Vec<_>>(),
+        "notes": notes.iter().map(note).collect::<Vec<_>>(),
+        "row": row,
+        "row_names": parts.rows,
         "rows": all_rows,
         "rows_shown": task.rows.len(),
         "trials": made(&evaluation),

@@ -9,9 +9,23 @@ use gumption_engine::propagate::Control;
 use gumption_files::{FileReader, TextKind};
 use gumption_report::Provenance;
 use gumption_report::assumptions::{AuditReport, fragment};
+use serde::Deserialize;
 use serde_json::{Value as Json, json};
 
-use crate::{LiveError, Text, diagnostics, limited};
+use crate::german::RowNames;
+use crate::language::Language;
+use crate::{LiveError, diagnostics, limited};
+
+/// A request of the call `audit`.
+#[derive(Debug, Deserialize)]
+pub(crate) struct Asked {
+    text: String,
+    #[serde(default)]
+    name: String,
+    /// As of the call `answer`.
+    #[serde(default)]
+    lang: Language,
+}
 
 /// Trials of each variant: a page that follows the hand needs to see what is at stake, not its third
 /// digit.
@@ -26,7 +40,7 @@ const MOST: usize = 60;
 /// The audit as a part of the page; `null` where there is none to be made.
 pub(crate) fn audited(
     files: FileReader<'_>,
-    asked: &Text,
+    asked: &Asked,
     stop: &Arc<AtomicBool>,
 ) -> Result<Json, LiveError> {
     let text = limited(&asked.text)?;
@@ -53,5 +67,5 @@ pub(crate) fn audited(
     let Some(found) = found else { return Ok(json!({ "html": null, "stopped": true })) };
     let provenance = Provenance::default();
     let report = AuditReport { task, audit: &found, warnings: &[], provenance: &provenance };
-    Ok(json!({ "html": fragment(&report) }))
+    Ok(json!({ "html": asked.lang.part(fragment(&report), RowNames::OfFile) }))
 }

@@ -10,6 +10,12 @@ use crate::tree::{self, Step};
 /// Mistakes that are told, at most: a table of a million faulty cells helps nobody.
 const MOST: usize = 100;
 
+/// The mistakes of a text as the page lists and underlines them, for programs that find them
+/// elsewhere than in a call of the page.
+pub fn mistakes(text: &str, found: &Diagnostics) -> Json {
+    list(text, found)
+}
+
 /// The mistakes of a text as a list, each with its place in UTF-16 units, as scripts count, and the
 /// path of the value that it is about.
 pub(crate) fn list(text: &str, found: &Diagnostics) -> Json {

@@ -11,10 +11,12 @@ mod audit;
 mod diagnostics;
 mod edit;
 mod examples;
+mod german;
 mod held;
 mod import;
 mod inputs;
 mod kinds;
+mod language;
 mod outputs;
 pub mod page;
 mod reshape;
@@ -28,10 +30,10 @@ use std::sync::atomic::AtomicBool;
 
 use gumption_engine::model::typed::Catalogue;
 use gumption_files::FileReader;
-use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use serde_json::json;
 
+pub use diagnostics::mistakes;
 pub use gumption_files::FileSource;
 pub use held::HeldFiles;
 
@@ -68,14 +70,6 @@ impl fmt::Display for LiveError {
 
 impl std::error::Error for LiveError {}
 
-/// A request that has a text alone, and what it is called.
-#[derive(Debug, Deserialize)]
-struct Text {
-    text: String,
-    #[serde(default)]
-    name: String,
-}
-
 impl<'a> Live<'a> {
     /// Answers for files that may name these measurements; `examples` are model files to start from,
     /// by name.
@@ -91,8 +85,8 @@ impl<'a> Live<'a> {
     ///
     /// | call | request | answer |
     /// |---|---|---|
-    /// | `answer` | `text`, `name`, `trials`, `full`, `narrow`, `output` | mistakes; or inputs, outputs, results, parts of the page |
-    /// | `audit` | `text`, `name` | `html`: what the Type B assumptions decide |
+    /// | `answer` | `text`, `name`, `edits`, `trials`, `full`, `narrow`, `output`, `row`, `lang` | mistakes; or inputs, outputs, results, parts of the page |
+    /// | `audit` | `text`, `name`, `lang` | `html`: what the Type B assumptions decide |
     /// | `edit` | `text`, `edits` | `text` |
     /// | `reshape` | `text`, `path`, `distribution` | `text` with another distribution of an input |
     /// | `new` | `example`, `template` or nothing | `text` |

@@ -8,9 +8,14 @@ use gumption_engine::task::{Settings, Task};
 use gumption_report::{OutputParts, PageParts, ResultStatement, plain};
 use serde_json::{Value as Json, json};
 
-/// One entry for each output of an evaluation of one row; none of a sweep.
-pub(crate) fn results(task: &Task, evaluation: &Evaluation, parts: &PageParts) -> Vec<Json> {
-    let [row] = evaluation.rows.as_slice() else { return Vec::new() };
+/// One entry for each output, of a row of conditions.
+pub(crate) fn results(
+    task: &Task,
+    evaluation: &Evaluation,
+    row: usize,
+    parts: &PageParts,
+) -> Vec<Json> {
+    let Some(row) = evaluation.rows.get(row) else { return Vec::new() };
     let all = task.model.outputs.iter().zip(&row.outputs).zip(&parts.outputs);
     all.map(|((output, found), parts)| result(&evaluation.settings, output, found, parts)).collect()
 }

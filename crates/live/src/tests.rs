@@ -173,9 +173,88 @@ fn a_sweep_has_its_tables_together() {
         "\"conditions\": {\"f\": {\"unit\": \"1\", \"values\": [1, 2]}}, \"equations\"",
     );
     let found = answer(&text);
-    assert_eq!((&found["rows"], &found["results"]), (&json!(2), &json!([])), "{found}");
+    assert_eq!(found["rows"], 2, "{found}");
     assert!(found["together"].as_str().unwrap().contains("<table>"));
     assert_eq!(found["conditions"]["count"], 2);
+}
+
+/// A row of a sweep has the headline, the budget and the distribution that it has alone.
+#[test]
+fn a_row_of_a_sweep_is_shown_as_if_it_stood_alone() {
+    let swept = |conditions: &str| {
+        format!(
+            r#"{{"conditions": {{"f": {{"unit": "Hz", "values": {conditions}}}}},
+                "inputs": {{"a": {{"unit": "m", "distribution": "normal", "mean": 2, "std": 0.1}}}},
+                "equations": {{"v": "a*f"}}, "outputs": {{"v": {{"unit": "m/s"}}}}}}"#
+        )
+    };
+    let asked = |text: &str, row: usize| {
+        call("answer", &json!({"text": text, "trials": 100_000, "row": row}))
+    };
+    let (all, alone) = (swept("[10, 20, 30]"), swept("[20]"));
+    let found = asked(&all, 1);
+    assert_eq!(found["row_names"], json!(["f = 10 Hz", "f = 20 Hz", "f = 30 Hz"]));
+    // y = a f: 40 m/s with u = 2 m/s, whatever the method
+    let gum = &found["results"][0]["gum"];
+    assert_eq!(
+        (gum["estimate"].as_f64(), gum["standard_uncertainty"].as_f64()),
+        (Some(40.0), Some(2.0))
+    );
+    let alone = asked(&alone, 0);
+    assert_eq!(found["results"][0]["statement"], alone["results"][0]["statement"]);
+    assert_eq!(found["results"][0]["html"]["budget"], alone["results"][0]["html"]["budget"]);
+    let figure = found["results"][0]["html"]["distribution"].as_str().unwrap();
+    assert!(figure.contains("<svg"), "{figure}");
+    assert_eq!((&alone["row_names"], &asked(&all, 7)["row"]), (&json!([]), &json!(0)));
+}
+
+/// Mistakes of files that are no models stand at their places, and of a model that a certificate names
+/// under its name.
+#[test]
+fn mistakes_of_certificates_recipes_cases_and_tables_have_places() {
+    let places = |text: &str, files: &HeldFiles| {
+        let found = try_call("answer", &json!({"text": text, "name": "c"}), files).unwrap();
+        let all = found["diagnostics"].as_array().unwrap().clone();
+        let marked = |of: &Value| {
+            let [from, to] = ["start", "end"].map(|key| of[key].as_u64().unwrap() as usize);
+            let units: Vec<u16> = text.encode_utf16().collect();
+            (of["file"].as_str().map(str::to_owned), String::from_utf16_lossy(&units[from..to]))
+        };
+        all.iter().map(marked).collect::<Vec<_>>()
+    };
+    let none = HeldFiles::default();
+    let marks = |found: &[(Option<String>, String)], wanted: &str| {
+        assert!(found.iter().any(|(file, text)| file.is_none() && text == wanted), "{found:?}");
+    };
+    let certificate = include_str!("../../../models/examples/certificate.json");
+    let model = include_str!("../../../models/examples/this_year.json");
+    let named = |text: String| HeldFiles(vec![("this_year.json".to_owned(), text.into_bytes())]);
+    let beside = named(model.to_owned());
+    assert_eq!(places(certificate, &beside), []);
+    marks(&places(certificate, &none), "\"this_year.json\"");
+    marks(
+        &places(&certificate.replace("\"output\": \"R\"", "\"output\": \"Q\""), &beside),
+        "\"Q\"",
+    );
+    let found = places(certificate, &named(model.replacen("\"unit\"", "\"unti\"", 1)));
+    assert!(found.iter().any(|(file, _)| file.as_deref() == Some("this_year.json")), "{found:?}");
+    let recipe = r#"{"recordings": {"a": {"file": "a.csv", "sampling_rate": "-1 Hz"}}, "channels": {}, "rows": []}"#;
+    marks(&places(recipe, &none), "\"-1 Hz\"");
+    let case = POWER.replacen('{', "{\"observations\": 3,", 1);
+    marks(&places(&case, &none), "3");
+    let table = "label,x1,U1,x2,U2\na,1,0.1,b,0.2\n";
+    marks(&places(table, &none), "b");
+}
+
+/// A file that was dropped has a name without folders, also where a text names it in one.
+#[test]
+fn dropped_files_are_found_by_their_names() {
+    let held = HeldFiles(vec![("f.csv".to_owned(), b"f\n1\n".to_vec())]);
+    let text = r#"{"conditions": {"file": "tables/f.csv"}}"#;
+    let found = held.named_in(text);
+    assert_eq!(found.0.len(), 2);
+    assert_eq!(found.0[1], ("tables/f.csv".to_owned(), b"f\n1\n".to_vec()));
+    assert_eq!(held.named_in("{\"file\": \"pdf.csv\"}").0.len(), 1);
 }
 
 #[test]
@@ -280,4 +359,18 @@ fn a_call_is_stopped_by_its_flag() {
     let answer = live.call("answer", &request, &HeldFiles::default(), &stop).unwrap();
     let answer: Value = serde_json::from_str(&answer).unwrap();
     assert_eq!(answer["stopped"], true);
+}
+
+/// A change and what follows from it are one call: the text as `edit` makes it, its answer as without.
+#[test]
+fn a_change_and_its_answer_are_one_call() {
+    let edits = json!([{"path": ["inputs", "voltage", "mean"], "typed": "5.02"}]);
+    let both = call("answer", &json!({"text": POWER, "edits": edits, "trials": 10_000}));
+    let text = call("edit", &json!({"text": POWER, "edits": edits}))["text"].clone();
+    assert_eq!(both["text"], text);
+    let alone = call("answer", &json!({"text": text, "trials": 10_000}));
+    assert_eq!(both["results"], alone["results"]);
+    assert_eq!(alone["text"], Value::Null);
+    let wrong = json!({"text": POWER, "edits": [{"path": ["no", "such"], "remove": true}]});
+    assert!(try_call("answer", &wrong, &HeldFiles::default()).is_err());
 }

@@ -34,8 +34,8 @@ mod workbook;
 pub use answer::pretty;
 pub use csv::{csv, write_csv};
 pub use evaluation::{
-    MOST_RESULTS, OutputParts, PageParts, ResultStatement, Shown, histograms, html, input_picture,
-    latex, markdown, page_parts, xlsx,
+    MOST_RESULTS, OutputParts, PageChoice, PageParts, ResultStatement, Shown, histograms, html,
+    input_picture, latex, markdown, page_parts, xlsx,
 };
 pub use html::{FigureSize, interactive, interactive_script_digest, page_style};
 pub use json::{json, write_json};

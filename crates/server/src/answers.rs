@@ -37,6 +37,8 @@ pub struct TextOfFile {
     pub text: String,
     /// The folder that the files it names are relative to.
     pub folder: PathBuf,
+    /// The opened folder, above which nothing is read.
+    pub root: PathBuf,
 }
 
 /// A file that is handed out.
@@ -66,6 +68,13 @@ pub enum Refusal {
     Request(String),
     /// What the user wrote is at fault: the text of the message for him.
     Content(String),
+    /// What the user wrote has mistakes, each with its place.
+    Mistakes {
+        /// The text of the message for him.
+        message: String,
+        /// The mistakes as the page lists them.
+        list: serde_json::Value,
+    },
     /// It was stopped before there was anything to hand out.
     Stopped(String),
     /// The program or the system is at fault.

@@ -8,6 +8,10 @@ use std::fs::{self, File};
 use std::io::{self, ErrorKind, Read};
 use std::path::{Path, PathBuf};
 
+/// An empty file of this name makes its folder one below which files may name each other, as on the
+/// command line.
+pub(crate) const ROOT: &str = ".gumption-root";
+
 /// The longest path of a request, in bytes.
 const LONGEST: usize = 1024;
 
@@ -44,7 +48,8 @@ pub struct OpenedFolder {
 }
 
 impl OpenedFolder {
-    /// A folder, or that of a file, which is then the one to be shown first.
+    /// A folder, or that of a file, which is then the one to be shown first: its own, or the nearest one
+    /// above that holds a file `.gumption-root`, below which files may name each other.
     ///
     /// # Errors
     /// That nothing is there, or neither file nor folder; a file whose name no request can have.
@@ -59,10 +64,11 @@ impl OpenedFolder {
         }
         // a link names its file's own folder, whose other files the model may name
         let invalid = |message: &str| io::Error::new(ErrorKind::InvalidInput, message.to_owned());
-        let (Some(root), Some(name)) = (found.parent(), found.file_name()) else {
-            return Err(invalid("it stands in no folder"));
-        };
-        let name = name.to_str().ok_or_else(|| invalid("its name is not UTF-8"))?.to_owned();
+        let Some(own) = found.parent() else { return Err(invalid("it stands in no folder")) };
+        let root = own.ancestors().find(|folder| folder.join(ROOT).is_file()).unwrap_or(own);
+        let below = found.strip_prefix(root).unwrap_or(&found);
+        let names: Option<Vec<&str>> = below.iter().map(|word| word.to_str()).collect();
+        let name = names.ok_or_else(|| invalid("its name is not UTF-8"))?.join("/");
         words(&name).map_err(|message| invalid(&message))?;
         Ok(Self { root: root.to_owned(), named: Some(name) })
     }
@@ -253,5 +259,15 @@ mod tests {
         assert_eq!(folder.named(), Some("m.json"));
         assert_eq!(folder.root(), place.path().canonicalize().unwrap());
         assert!(OpenedFolder::new(&place.path().join("no")).is_err());
+        // files that belong together are opened together, but only by a file of theirs
+        fs::create_dir(place.path().join("below")).unwrap();
+        let below = place.path().join("below").join("n.json");
+        fs::write(&below, "{}").unwrap();
+        fs::write(place.path().join(ROOT), "").unwrap();
+        let folder = OpenedFolder::new(&below).unwrap();
+        assert_eq!(folder.named(), Some("below/n.json"));
+        assert_eq!(folder.root(), place.path().canonicalize().unwrap());
+        let folder = OpenedFolder::new(&place.path().join("below")).unwrap();
+        assert!(folder.root().ends_with("below"));
     }
 }

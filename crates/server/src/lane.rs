@@ -12,9 +12,6 @@ use std::time::Duration;
 use tokio::sync::{OwnedSemaphorePermit, Semaphore};
 use tokio::time::timeout;
 
-/// How long work may go on after it was stopped before it is given up.
-const GRACE: Duration = Duration::from_secs(20);
-
 /// What a lane holds.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Limits {
@@ -24,6 +21,8 @@ pub(crate) struct Limits {
     pub(crate) waiting: usize,
     /// How long one may take.
     pub(crate) time: Duration,
+    /// How long it may go on after it was stopped before it is given up.
+    pub(crate) grace: Duration,
     /// How long one may wait.
     pub(crate) patience: Duration,
     /// Whether the oldest is stopped for a newer one.
@@ -107,7 +106,7 @@ impl Lane {
             return ended.map_err(|_| Undone::Failed)?;
         }
         stop.store(true, Ordering::Relaxed);
-        match timeout(GRACE, done).await {
+        match timeout(self.limits.grace, done).await {
             Ok(ended) => ended.map_err(|_| Undone::Failed)?,
             Err(_) => Err(Undone::Endless),
         }
@@ -156,6 +155,7 @@ mod tests {
             at_once: 2,
             waiting: 2,
             time: Duration::from_secs(60),
+            grace: Duration::from_secs(60),
             patience: Duration::from_secs(60),
             newest_first: true,
         }

@@ -16,10 +16,12 @@ mod routes;
 mod saving;
 mod server;
 mod shown_pages;
+#[cfg(test)]
+mod tests;
 mod token;
 mod watch;
 
 pub use answers::{Answers, Exported, FileDescription, Refusal, ServedAsset, TextOfFile};
 pub use folder::{OpenedFolder, Unopened};
 pub use named_file::NamedFiles;
-pub use server::{LocalServer, ServerOptions};
+pub use server::{LocalServer, RequestTimes, ServerOptions};

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use super::folder::{OpenedFolder, Unopened};
+use super::folder::{OpenedFolder, ROOT, Unopened};
 use super::watch::Watch;
 
 /// The files below the opened folder as a file in it names them: relative to its own folder.
@@ -48,10 +48,6 @@ impl<'a> NamedFiles<'a> {
         Ok(content)
     }
 }
-
-/// An empty file of this name makes its folder one below which files may name each other, as on the
-/// command line.
-const ROOT: &str = ".gumption-root";
 
 /// The folder of a file below which it may name others, as words: its own, or the nearest one above,
 /// within the opened folder, that says so.

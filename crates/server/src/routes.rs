@@ -123,6 +123,11 @@ impl IntoResponse for Undone {
 impl IntoResponse for Refusal {
     fn into_response(self) -> Response {
         let (status, message) = match &self {
+            Self::Mistakes { message, list } => {
+                let body = serde_json::json!({ "error": message, "diagnostics": list });
+                return (StatusCode::UNPROCESSABLE_ENTITY, json_text(body.to_string()))
+                    .into_response();
+            }
             Self::Unknown(message) => (StatusCode::NOT_FOUND, message),
             Self::Request(message) => (StatusCode::BAD_REQUEST, message),
             Self::Content(message) => (StatusCode::UNPROCESSABLE_ENTITY, message),
@@ -291,7 +296,8 @@ fn placed(house: &House, path: Option<String>, text: String) -> Result<TextOfFil
     let path = path.filter(|path| !path.is_empty()).unwrap_or_else(|| "model.json".to_owned());
     let files = NamedFiles::new(&house.folder, &house.watch, Some(&path));
     let folder = files.disk()?;
-    Ok(TextOfFile { path, text, folder })
+    let root = house.folder.root().to_owned();
+    Ok(TextOfFile { path, text, folder, root })
 }
 
 async fn export(State(house): State<Arc<House>>, request: Request) -> Response {

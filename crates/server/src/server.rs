@@ -31,11 +31,33 @@ const BODIES: usize = 8;
 /// Threads for work that waits or computes: those of the lanes, and one that looks at files.
 const THREADS: usize = CALLS.at_once + MAKINGS.at_once + DISK.at_once + 1;
 
+/// How long requests may take.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct RequestTimes {
+    /// An answer of the page: what there is by then is the answer.
+    pub answer: Duration,
+    /// An export, or a page of a report.
+    pub export: Duration,
+    /// How long either may go on after it was stopped before it is given up.
+    pub grace: Duration,
+}
+
+impl Default for RequestTimes {
+    /// A minute, five minutes, 20 seconds.
+    fn default() -> Self {
+        Self { answer: Duration::from_secs(60), export: Duration::from_secs(300), grace: GRACE }
+    }
+}
+
+/// How long work goes on after it was stopped, at most.
+const GRACE: Duration = Duration::from_secs(20);
+
 /// What follows the hand of the user: the newest counts.
 const CALLS: Limits = Limits {
     at_once: 4,
     waiting: 32,
     time: Duration::from_secs(60),
+    grace: GRACE,
     patience: Duration::from_secs(30),
     newest_first: true,
 };
@@ -45,6 +67,7 @@ const MAKINGS: Limits = Limits {
     at_once: 2,
     waiting: 8,
     time: Duration::from_secs(300),
+    grace: GRACE,
     patience: Duration::from_secs(60),
     newest_first: false,
 };
@@ -54,6 +77,7 @@ const DISK: Limits = Limits {
     at_once: 4,
     waiting: 64,
     time: Duration::from_secs(30),
+    grace: GRACE,
     patience: Duration::from_secs(30),
     newest_first: false,
 };
@@ -69,6 +93,8 @@ pub struct ServerOptions {
     pub language: Option<&'static str>,
     /// What answers.
     pub answers: Arc<dyn Answers>,
+    /// How long requests may take.
+    pub times: RequestTimes,
 }
 
 impl fmt::Debug for ServerOptions {
@@ -133,7 +159,8 @@ impl LocalServer {
     /// # Errors
     /// A port that is taken or not allowed; no random numbers from the system.
     pub fn bind(options: ServerOptions) -> io::Result<Self> {
-        let ServerOptions { port, folder, language, answers } = options;
+        let ServerOptions { port, folder, language, answers, times } = options;
+        let RequestTimes { answer, export, grace } = times;
         let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, port))?;
         listener.set_nonblocking(true)?;
         let launch = Token::new()?;
@@ -146,8 +173,8 @@ impl LocalServer {
             folder,
             language,
             answers,
-            calls: Lane::new(CALLS),
-            makings: Lane::new(MAKINGS),
+            calls: Lane::new(Limits { time: answer, grace, ..CALLS }),
+            makings: Lane::new(Limits { time: export, grace, ..MAKINGS }),
             disk: Lane::new(DISK),
             bodies: Semaphore::new(BODIES),
             pages: ShownPages::default(),

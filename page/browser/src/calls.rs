@@ -16,6 +16,8 @@ use serde_json::{Value, json};
 pub(crate) enum Fault {
     /// The request.
     Request(String),
+    /// The text, or a file that it names: the mistakes as the page lists them.
+    Mistakes(Value, String),
     /// The program.
     Program(String),
 }
@@ -36,9 +38,17 @@ struct Compared {
     trials: Option<u64>,
 }
 
-/// A refusal as JSON.
-pub(crate) fn refusal(message: &str) -> String {
-    json!({ "error": message }).to_string()
+impl Fault {
+    /// The status of the answer, and the answer.
+    pub(crate) fn told(&self) -> (u32, String) {
+        match self {
+            Self::Request(message) => (1, json!({ "error": message }).to_string()),
+            Self::Mistakes(list, message) => {
+                (1, json!({ "error": message, "diagnostics": list }).to_string())
+            }
+            Self::Program(message) => (2, json!({ "error": message }).to_string()),
+        }
+    }
 }
 
 fn asked<T: DeserializeOwned>(request: &str) -> Result<T, Fault> {
@@ -82,7 +92,8 @@ pub(crate) fn answer(
             Ok(json!({ "html": String::from_utf8_lossy(&page.content) }).to_string())
         }
         other => {
-            let files = HeldFiles(held.to_vec());
+            // the request holds the text, in which quotes are escaped
+            let files = HeldFiles(held.to_vec()).named_in(&request.replace('\\', ""));
             let stop = Arc::new(AtomicBool::new(false));
             let called = program.command_line().live().call(other, request, &files, &stop);
             called.map_err(|error| match error {
@@ -108,9 +119,15 @@ fn exported(
     format: &str,
     held: &[(String, Vec<u8>)],
 ) -> Result<ExportedAnswer, Fault> {
-    let given = GivenFile { name, text, held: held.to_vec(), ..GivenFile::default() };
+    let held = HeldFiles(held.to_vec()).named_in(&text).0;
+    let given = GivenFile { name, text, held, ..GivenFile::default() };
     let stop = Arc::new(AtomicBool::new(false));
+    let own = given.text.clone();
     program.command_line().exported(given, format, &stop).map_err(|why| match why {
+        NotExported::Mistakes(found) => {
+            let message = found.0.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n");
+            Fault::Mistakes(gumption_live::mistakes(&own, &found), message)
+        }
         NotExported::System(message) => Fault::Program(message),
         NotExported::Format(message)
         | NotExported::Content(message)

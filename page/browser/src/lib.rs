@@ -48,8 +48,7 @@ pub unsafe extern "C" fn call(
         unsafe { (memory::text(name, name_length), memory::text(request, request_length)) };
     let (status, answer) = match calls::answer(&name, &request, &held()) {
         Ok(answer) => (0, answer),
-        Err(calls::Fault::Request(message)) => (1, calls::refusal(&message)),
-        Err(calls::Fault::Program(message)) => (2, calls::refusal(&message)),
+        Err(fault) => fault.told(),
     };
     memory::answer(status, &answer)
 }

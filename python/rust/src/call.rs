@@ -30,6 +30,7 @@ pub(crate) fn call(
             text: source.text.clone(),
             folder: source.folder.clone(),
             held: source.held.clone(),
+            ..GivenFile::default()
         }
     });
     // what stands for standard input is called so

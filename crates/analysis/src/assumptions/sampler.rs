@@ -2,7 +2,7 @@
 //! everything keeps its random numbers.
 
 use gumption_engine::distribution::{BLOCK, Draws, FromScore, StreamKey, Varying};
-use gumption_engine::model::{Schedule, ScheduledOutput};
+use gumption_engine::model::{Following, Schedule, ScheduledOutput};
 use gumption_engine::number::{COLUMN, CodePath, Column, Kernel};
 use gumption_engine::propagate::monte_carlo::{onto_branch, stream_name};
 use gumption_engine::propagate::{EvaluationError, gum, joint};
@@ -32,6 +32,23 @@ pub(super) enum Change {
     Shape(usize, FromScore),
     /// The distances of the quantity at this place from its mean are multiplied.
     Width { place: usize, mean: f64, factor: f64 },
+}
+
+/// A change with what is to be computed again for it.
+#[derive(Clone, Debug)]
+pub(super) struct Prepared<'a> {
+    change: &'a Change,
+    /// `None` where nothing changes.
+    following: Option<Following>,
+    /// Whether the change before it gives the same quantity the same shape, with other limits.
+    has_shape_before: bool,
+}
+
+/// A set of quantities with what is to be computed again where they have other values.
+#[derive(Clone, Debug)]
+pub(super) struct PreparedSet<'a> {
+    places: &'a [usize],
+    following: Following,
 }
 
 /// Buffers of one thread.
@@ -71,7 +88,7 @@ impl Sampler {
             output.period.map(|turn| (if middle.is_finite() { middle } else { 0.0 }, turn))
         });
         Ok(Self {
-            schedule: Schedule::keeping_variables(&task.model.program, &bound),
+            schedule: Schedule::keeping_all(&task.model.program, &bound),
             branches: branches.collect(),
             // no name of a variable has a bar
             keys: key(""),
@@ -115,12 +132,44 @@ impl Sampler {
         vec![vec![[0.0; BLOCK]; self.outputs()]; count]
     }
 
+    /// Changes made ready.
+    pub(super) fn prepared<'a>(&self, changes: &'a [Change]) -> Vec<Prepared<'a>> {
+        let before = std::iter::once(&Change::None).chain(changes);
+        let prepared = changes.iter().zip(before).map(|(change, before)| {
+            let following = match change {
+                Change::None => None,
+                Change::Shape(place, _) | Change::Width { place, .. } => {
+                    Some(self.schedule.following(&[*place]))
+                }
+            };
+            let has_shape_before = match (change, before) {
+                (Change::Shape(place, own), Change::Shape(other, before)) => {
+                    place == other && own.has_shape_of(before)
+                }
+                _ => false,
+            };
+            Prepared { change, following, has_shape_before }
+        });
+        prepared.collect()
+    }
+
+    /// A set made ready.
+    pub(super) fn prepared_set<'a>(&self, places: &'a [usize]) -> PreparedSet<'a> {
+        PreparedSet { places, following: self.schedule.following(places) }
+    }
+
+    /// An estimate of the bytes of a change or set that is made ready.
+    pub(super) fn prepared_bytes(&self) -> usize {
+        // a step takes about as much as a place of the registers' table
+        64 * self.schedule.registers
+    }
+
     /// The outputs in block `block` with each of the changes.
     pub(super) fn changed(
         &self,
         path: CodePath,
         block: u64,
-        changes: &[Change],
+        changes: &[Prepared<'_>],
         buffers: &mut Buffers,
         out: &mut [Block],
     ) {
@@ -134,7 +183,7 @@ impl Sampler {
         &self,
         path: CodePath,
         block: u64,
-        sets: &[Vec<usize>],
+        sets: &[PreparedSet<'_>],
         buffers: &mut Buffers,
         out: &mut [Block],
     ) {
@@ -146,17 +195,10 @@ impl Sampler {
         path.run(Drawn { path, sampler: self, block, buffers })
     }
 
-    /// The outputs for one column of values, of which that at `place` is changed to `mean` plus
-    /// `factor` times its distance from it.
-    pub(super) fn widened(
-        &self,
-        path: CodePath,
-        values: &[Column],
-        (place, mean, factor): (usize, f64, f64),
-        buffers: &mut Buffers,
-        take: impl FnMut(usize, &[f64; COLUMN]),
-    ) {
-        path.run(Widened { sampler: self, values, place, mean, factor, buffers, take });
+    /// What the outputs follow from where only the quantity at `place` changes: the columns of all
+    /// values that are computed before it matters.
+    pub(super) fn widening(&self, place: usize) -> Widening<'_> {
+        Widening { sampler: self, place, following: self.schedule.following(&[place]) }
     }
 
     #[inline(always)]
@@ -169,16 +211,29 @@ impl Sampler {
         }
     }
 
-    /// The column of an output after the schedule has run.
+    /// The column of an output after the steps that end in `outputs` have run.
     #[inline(always)]
-    fn output(&self, registers: &[Column], output: usize, out: &mut [f64]) {
-        match self.schedule.outputs[output] {
+    fn output(
+        &self,
+        outputs: &[ScheduledOutput],
+        registers: &[Column],
+        output: usize,
+        out: &mut [f64],
+    ) {
+        match outputs[output] {
             ScheduledOutput::Register(register) => out.copy_from_slice(&registers[register].0),
             ScheduledOutput::Constant(value) => out.fill(value),
         }
         if let Some((middle, turn)) = self.branches[output] {
             onto_branch(out, middle, turn);
         }
+    }
+}
+
+/// Room for the registers of what is computed again.
+fn make_room(registers: &mut Vec<Column>, following: &Following) {
+    if registers.len() < following.registers {
+        registers.resize(following.registers, Column::ZERO);
     }
 }
 
@@ -194,7 +249,7 @@ struct Changed<'a> {
     path: CodePath,
     sampler: &'a Sampler,
     block: u64,
-    changes: &'a [Change],
+    changes: &'a [Prepared<'a>],
     buffers: &'a mut Buffers,
     out: &'a mut [Block],
 }
@@ -208,29 +263,37 @@ impl Kernel for Changed<'_> {
         let Buffers { scores, values, registers, .. } = buffers;
         let count = sampler.variables.len();
         let places: Vec<usize> = (0..count).collect();
+        let followings = changes.iter().filter_map(|prepared| prepared.following.as_ref());
+        followings.for_each(|following| make_room(registers, following));
         let mut draws = Draws::new(&sampler.varying, &sampler.keys, path, block);
+        let mut standard = Column::ZERO;
         for first in (0..BLOCK).step_by(COLUMN) {
             draws.scores(scores, &places);
             sampler.values(scores, values);
             registers[..count].clone_from_slice(values);
-            for (change, out) in changes.iter().zip(out.iter_mut()) {
-                let changed = match change {
-                    Change::None => None,
-                    Change::Shape(place, from_score) => {
-                        from_score.values(&scores[*place], &mut registers[*place]);
-                        Some(*place)
+            sampler.schedule.run(registers);
+            for (prepared, out) in changes.iter().zip(out.iter_mut()) {
+                let Prepared { change, following, has_shape_before } = prepared;
+                let mut outputs = &sampler.schedule.outputs;
+                if let Some(following) = following {
+                    let changed = &mut registers[following.variables[0]];
+                    match change {
+                        Change::None => {}
+                        Change::Shape(place, from_score) => {
+                            if !has_shape_before {
+                                from_score.standard(&scores[*place], &mut standard);
+                            }
+                            from_score.placed(&standard, changed);
+                        }
+                        Change::Width { place, mean, factor } => {
+                            widen(&values[*place], *mean, *factor, changed);
+                        }
                     }
-                    Change::Width { place, mean, factor } => {
-                        widen(&values[*place], *mean, *factor, &mut registers[*place]);
-                        Some(*place)
-                    }
-                };
-                sampler.schedule.run(registers);
-                for (output, out) in out.iter_mut().enumerate() {
-                    sampler.output(registers, output, &mut out[first..first + COLUMN]);
+                    following.run(registers);
+                    outputs = &following.outputs;
                 }
-                if let Some(place) = changed {
-                    registers[place].0 = values[place].0;
+                for (output, out) in out.iter_mut().enumerate() {
+                    sampler.output(outputs, registers, output, &mut out[first..first + COLUMN]);
                 }
             }
         }
@@ -241,7 +304,7 @@ struct Mixed<'a> {
     path: CodePath,
     sampler: &'a Sampler,
     block: u64,
-    sets: &'a [Vec<usize>],
+    sets: &'a [PreparedSet<'a>],
     buffers: &'a mut Buffers,
     out: &'a mut [Block],
 }
@@ -255,6 +318,7 @@ impl Kernel for Mixed<'_> {
         let Buffers { scores, values, second, registers } = buffers;
         let count = sampler.variables.len();
         let places: Vec<usize> = (0..count).collect();
+        sets.iter().for_each(|set| make_room(registers, &set.following));
         let mut draws = Draws::new(&sampler.varying, &sampler.keys, path, block);
         let mut others = Draws::new(&sampler.varying, &sampler.second, path, block);
         for first in (0..BLOCK).step_by(COLUMN) {
@@ -262,23 +326,24 @@ impl Kernel for Mixed<'_> {
             sampler.values(scores, values);
             others.scores(scores, &places);
             sampler.values(scores, second);
-            for (number, out) in out.iter_mut().enumerate() {
-                let set = number.checked_sub(2).and_then(|set| sets.get(set));
-                match number {
-                    0 => registers[..count].clone_from_slice(values),
-                    1 => registers[..count].clone_from_slice(second),
-                    _ => {}
-                }
-                let set = set.map_or(&[][..], Vec::as_slice);
-                for &place in set {
-                    registers[place].0 = values[place].0;
-                }
+            let (samples, mixed) = out.split_at_mut(2);
+            // the second sample last, as the sets are taken into it
+            for (sample, out) in [&*values, &*second].into_iter().zip(samples) {
+                registers[..count].clone_from_slice(sample);
                 sampler.schedule.run(registers);
                 for (output, out) in out.iter_mut().enumerate() {
-                    sampler.output(registers, output, &mut out[first..first + COLUMN]);
+                    let out = &mut out[first..first + COLUMN];
+                    sampler.output(&sampler.schedule.outputs, registers, output, out);
                 }
-                for &place in set {
-                    registers[place].0 = second[place].0;
+            }
+            for (PreparedSet { places, following }, out) in sets.iter().zip(mixed) {
+                for (&place, &register) in places.iter().zip(&following.variables) {
+                    registers[register].0 = values[place].0;
+                }
+                following.run(registers);
+                for (output, out) in out.iter_mut().enumerate() {
+                    let out = &mut out[first..first + COLUMN];
+                    sampler.output(&following.outputs, registers, output, out);
                 }
             }
         }
@@ -311,13 +376,80 @@ impl Kernel for Drawn<'_> {
     }
 }
 
-struct Widened<'a, F> {
+/// What the outputs follow from where only one quantity changes.
+#[derive(Clone, Debug)]
+pub(super) struct Widening<'a> {
     sampler: &'a Sampler,
-    values: &'a [Column],
     place: usize,
-    mean: f64,
-    factor: f64,
-    buffers: &'a mut Buffers,
+    following: Following,
+}
+
+impl Widening<'_> {
+    /// The registers of computed values that are needed again, beside those of the variables.
+    fn computed(&self) -> &[usize] {
+        let variables = self.sampler.variables.len();
+        let first = self.following.reads.partition_point(|&register| register < variables);
+        &self.following.reads[first..]
+    }
+
+    /// How many columns [`Self::before`] adds for each column of trials.
+    pub(super) fn columns(&self) -> usize {
+        self.computed().len()
+    }
+
+    /// Adds the columns of what is computed from a column of trials before the quantity matters.
+    pub(super) fn before(
+        &self,
+        path: CodePath,
+        values: &[Column],
+        buffers: &mut Buffers,
+        before: &mut Vec<Column>,
+    ) {
+        let registers = &mut buffers.registers;
+        path.run(Before { widening: self, values, registers });
+        before.extend(self.computed().iter().map(|&register| registers[register].clone()));
+    }
+
+    /// The outputs for one column of trials, of which the quantity's values are changed to `mean`
+    /// plus `factor` times their distances from it. `before` is what was computed before, or nothing,
+    /// which is then computed again.
+    pub(super) fn widened(
+        &self,
+        path: CodePath,
+        (values, before): (&[Column], &[Column]),
+        change: (f64, f64),
+        buffers: &mut Buffers,
+        take: impl FnMut(usize, &[f64; COLUMN]),
+    ) {
+        let registers = &mut buffers.registers;
+        make_room(registers, &self.following);
+        path.run(Widened { widening: self, values, before, change, registers, take });
+    }
+}
+
+struct Before<'a> {
+    widening: &'a Widening<'a>,
+    values: &'a [Column],
+    registers: &'a mut [Column],
+}
+
+impl Kernel for Before<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let Self { widening, values, registers } = self;
+        registers[..values.len()].clone_from_slice(values);
+        widening.sampler.schedule.run(registers);
+    }
+}
+
+struct Widened<'a, F> {
+    widening: &'a Widening<'a>,
+    values: &'a [Column],
+    before: &'a [Column],
+    change: (f64, f64),
+    registers: &'a mut [Column],
     take: F,
 }
 
@@ -326,14 +458,25 @@ impl<F: FnMut(usize, &[f64; COLUMN])> Kernel for Widened<'_, F> {
 
     #[inline(always)]
     fn run(self) {
-        let Self { sampler, values, place, mean, factor, buffers, mut take } = self;
-        let registers = &mut buffers.registers;
-        registers[..values.len()].clone_from_slice(values);
-        widen(&values[place], mean, factor, &mut registers[place]);
-        sampler.schedule.run(registers);
+        let Self { widening, values, before, change: (mean, factor), registers, mut take } = self;
+        let Widening { sampler, place, following } = widening;
+        let computed = widening.computed();
+        if before.len() == computed.len() {
+            let variables = &following.reads[..following.reads.len() - computed.len()];
+            for &variable in variables {
+                registers[variable].0 = values[variable].0;
+            }
+            for (&register, column) in computed.iter().zip(before) {
+                registers[register].0 = column.0;
+            }
+        } else {
+            Before { widening, values, registers: &mut *registers }.run();
+        }
+        widen(&values[*place], mean, factor, &mut registers[following.variables[0]]);
+        following.run(registers);
         let mut out = [0.0; COLUMN];
         for output in 0..sampler.outputs() {
-            sampler.output(registers, output, &mut out);
+            sampler.output(&following.outputs, registers, output, &mut out);
             take(output, &out);
         }
     }

@@ -9,7 +9,7 @@
 
 use rayon::prelude::*;
 
-use super::sampler::Sampler;
+use super::sampler::{PreparedSet, Sampler};
 use super::spread::{batches, standard_error, trials_in};
 use gumption_engine::distribution::BLOCK;
 use gumption_engine::propagate::Control;
@@ -68,7 +68,7 @@ pub(super) fn indices(
     control: &Control<'_>,
 ) -> Option<Vec<Vec<Option<Sobol>>>> {
     // the outputs of a block for both samples and every set that is taken at a time
-    let block = size_of::<[f64; BLOCK]>() * sampler.outputs();
+    let block = size_of::<[f64; BLOCK]>() * sampler.outputs() + sampler.prepared_bytes();
     let at_a_time = (control.memory / block.max(1)).saturating_sub(2).max(1);
     let mut all = vec![Vec::with_capacity(sets.len()); sampler.outputs()];
     for sets in sets.chunks(at_a_time) {
@@ -86,10 +86,11 @@ fn indices_of(
     control: &Control<'_>,
 ) -> Option<Vec<Vec<Option<Sobol>>>> {
     let outputs = sampler.outputs();
+    let sets: Vec<PreparedSet<'_>> = sets.iter().map(|set| sampler.prepared_set(set)).collect();
     // about a value of the output, so that a common large part costs no digits
-    let mut first = sampler.blocks(1);
+    let mut first = sampler.blocks(2);
     sampler.mixed(control.path, 0, &[], &mut sampler.buffers(), &mut first);
-    let references: Vec<f64> = first.iter().flatten().map(|values| values[0]).collect();
+    let references: Vec<f64> = first[0].iter().map(|values| values[0]).collect();
     let batch = |blocks: std::ops::Range<u64>| {
         let mut buffers = sampler.buffers();
         let mut out = sampler.blocks(2 + sets.len());
@@ -99,7 +100,7 @@ fn indices_of(
             if control.is_stopped() {
                 return None;
             }
-            sampler.mixed(control.path, block, sets, &mut buffers, &mut out);
+            sampler.mixed(control.path, block, &sets, &mut buffers, &mut out);
             let count = trials_in(block, trials);
             for (output, (sums, reference)) in sums.iter_mut().zip(&references).enumerate() {
                 // the first sample gives the sets: it is B

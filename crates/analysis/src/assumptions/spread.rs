@@ -6,8 +6,9 @@
 
 use rayon::prelude::*;
 
-use super::sampler::{Change, Sampler};
+use super::sampler::{Change, Prepared, Sampler};
 use gumption_engine::distribution::BLOCK;
+use gumption_engine::number::Kernel;
 use gumption_engine::propagate::Control;
 use gumption_engine::propagate::monte_carlo::Ranks;
 
@@ -91,6 +92,8 @@ struct Tally {
     squares: f64,
     below: [u64; 2],
     kept: [Vec<f64>; 2],
+    /// Half the length of the coverage interval, of a whole batch; `None` if an end was not kept.
+    half_length: Option<f64>,
 }
 
 /// One change's values in one batch.
@@ -107,9 +110,11 @@ pub(super) fn spreads(
     (trials, probability): (u64, f64),
     control: &Control<'_>,
 ) -> Option<Vec<Vec<Spread>>> {
-    let mut plans = plans(sampler, changes, (trials, probability), control);
+    let changes = sampler.prepared(changes);
+    let mut plans = plans(sampler, &changes, (trials, probability), control);
     loop {
-        let batches = tallies(sampler, changes, &plans, trials, control)?;
+        let request = (trials, probability);
+        let batches = tallies(sampler, &changes, &plans, request, control)?;
         let found: Option<Vec<Vec<Spread>>> =
             (0..changes.len()).map(|c| finish(&batches, c, &plans, probability)).collect();
         if found.is_some() {
@@ -124,12 +129,13 @@ pub(super) fn spreads(
 pub(super) fn bytes(sampler: &Sampler, trials: u64) -> usize {
     let all = trials.div_ceil(BLOCK as u64) <= SMALL;
     let kept = if all { 1.0 } else { 0.04 };
-    (8.0 * kept * trials as f64) as usize * sampler.outputs() + sampler.outputs() * 8 * BLOCK
+    let values = (8.0 * kept * trials as f64) as usize * sampler.outputs();
+    values + sampler.outputs() * 8 * BLOCK + sampler.prepared_bytes()
 }
 
 fn plans(
     sampler: &Sampler,
-    changes: &[Change],
+    changes: &[Prepared<'_>],
     (trials, probability): (u64, f64),
     control: &Control<'_>,
 ) -> Vec<Plan> {
@@ -177,9 +183,9 @@ fn plans(
 /// All batches, in order; for each the changes.
 fn tallies(
     sampler: &Sampler,
-    changes: &[Change],
+    changes: &[Prepared<'_>],
     plans: &[Plan],
-    trials: u64,
+    (trials, probability): (u64, f64),
     control: &Control<'_>,
 ) -> Option<Vec<Vec<Batch>>> {
     let batch = |blocks: std::ops::Range<u64>| {
@@ -197,13 +203,18 @@ fn tallies(
                 let defined = defined(values, count);
                 batch.undefined += (count - defined) as u64;
                 for ((tally, values), plan) in batch.outputs.iter_mut().zip(values).zip(plan) {
-                    tally.add(&values[..defined], *plan);
+                    control.path.run(Add { tally, values: &values[..defined], plan: *plan });
                 }
             }
             control.advance((count * changes.len()) as u64);
         }
-        for tally in found.iter_mut().flat_map(|batch| &mut batch.outputs) {
-            tally.kept.iter_mut().for_each(|kept| kept.sort_unstable_by(f64::total_cmp));
+        for (batch, plan) in found.iter_mut().zip(plans) {
+            for (tally, &(limits, _)) in batch.outputs.iter_mut().zip(plan) {
+                if tally.trials > 0 {
+                    let interval = tally.interval(limits, probability);
+                    tally.half_length = interval.map(|[low, high]| 0.5 * high - 0.5 * low);
+                }
+            }
         }
         Some(found)
     };
@@ -214,7 +225,8 @@ fn tallies(
 fn defined(values: &mut [[f64; BLOCK]], count: usize) -> usize {
     let finite =
         |values: &[[f64; BLOCK]], trial: usize| values.iter().all(|v| v[trial].is_finite());
-    if values.iter().all(|v| v[..count].iter().map(|x| x * 0.0).sum::<f64>() == 0.0) {
+    // all values are looked at, so that several are at a time
+    if values.iter().all(|v| v[..count].iter().fold(true, |all, x| all & x.is_finite())) {
         return count;
     }
     let mut left = 0;
@@ -227,43 +239,67 @@ fn defined(values: &mut [[f64; BLOCK]], count: usize) -> usize {
     left
 }
 
-impl Tally {
-    fn add(&mut self, values: &[f64], (limits, reference): (Limits, f64)) {
-        self.trials += values.len() as u64;
-        let (mut sum, mut squares) = (0.0, 0.0);
-        for value in values {
+/// Sums are taken in so many lanes, and values sought among so many at a time.
+const LANES: usize = 16;
+
+/// Takes values into a tally.
+struct Add<'a> {
+    tally: &'a mut Tally,
+    values: &'a [f64],
+    plan: (Limits, f64),
+}
+
+impl Kernel for Add<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let Self { tally, values, plan: (limits, reference) } = self;
+        tally.trials += values.len() as u64;
+        let (mut sums, mut squares) = ([0.0; LANES], [0.0; LANES]);
+        let (chunks, rest) = values.as_chunks::<LANES>();
+        let mut add = |lane: usize, value: f64| {
             let d = value - reference;
-            sum += d;
-            squares += d * d;
+            sums[lane] += d;
+            squares[lane] += d * d;
+        };
+        for chunk in chunks {
+            (0..LANES).for_each(|lane| add(lane, chunk[lane]));
         }
-        self.sum += sum;
-        self.squares += squares;
+        rest.iter().enumerate().for_each(|(lane, &value)| add(lane, value));
+        tally.sum += sums.iter().sum::<f64>();
+        tally.squares += squares.iter().sum::<f64>();
         match limits {
-            Limits::All => self.kept[0].extend_from_slice(values),
+            Limits::All => tally.kept[0].extend_from_slice(values),
             Limits::About(about) => {
                 for ([low, high], (below, kept)) in
-                    about.into_iter().zip(self.below.iter_mut().zip(&mut self.kept))
+                    about.into_iter().zip(tally.below.iter_mut().zip(&mut tally.kept))
                 {
-                    let mut buffer = [0.0; BLOCK];
-                    let mut length = 0;
-                    for &value in values {
-                        *below += u64::from(value < low);
-                        buffer[length] = value;
-                        length += usize::from((value >= low) & (value <= high));
+                    let is_kept = |value: f64| (value >= low) & (value <= high);
+                    *below += values.iter().map(|&value| u64::from(value < low)).sum::<u64>();
+                    // few are kept, and mostly none of some neighbours
+                    for chunk in chunks {
+                        if chunk.iter().fold(false, |any, &value| any | is_kept(value)) {
+                            kept.extend(chunk.iter().filter(|value| is_kept(**value)));
+                        }
                     }
-                    kept.extend_from_slice(&buffer[..length]);
+                    kept.extend(rest.iter().filter(|value| is_kept(**value)));
                 }
             }
         }
     }
+}
 
+impl Tally {
     /// The coverage interval; `None` if an end was not kept.
-    fn interval(&self, limits: Limits, probability: f64) -> Option<[f64; 2]> {
+    fn interval(&mut self, limits: Limits, probability: f64) -> Option<[f64; 2]> {
         let ranks = Ranks::new(self.trials, probability);
-        let at = |side: usize, rank: u64| {
+        let mut at = |side: usize, rank: u64| {
             let side = if matches!(limits, Limits::All) { 0 } else { side };
-            let place = rank.checked_sub(self.below[side] + 1)?;
-            self.kept[side].get(place as usize).copied()
+            let place = rank.checked_sub(self.below[side] + 1)? as usize;
+            let kept = &mut self.kept[side];
+            let is_kept = place < kept.len();
+            is_kept.then(|| *kept.select_nth_unstable_by(place, f64::total_cmp).1)
         };
         Some([at(0, ranks.r)?, at(1, (ranks.r + ranks.q).min(self.trials))?])
     }
@@ -303,11 +339,7 @@ fn finish(
                 undefined: share,
             });
         }
-        all.kept.iter_mut().for_each(|kept| kept.sort_unstable_by(f64::total_cmp));
-        let half = |tally: &Tally| {
-            tally.interval(limits, probability).map(|[low, high]| 0.5 * high - 0.5 * low)
-        };
-        let half_lengths: Option<Vec<f64>> = parts.iter().map(|part| half(part)).collect();
+        let half_lengths: Option<Vec<f64>> = parts.iter().map(|part| part.half_length).collect();
         let variance = (all.squares - all.sum * (all.sum / n)) / (n - 1.0);
         Some(Spread {
             std: variance.max(0.0).sqrt(),

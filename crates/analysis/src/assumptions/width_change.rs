@@ -1,7 +1,7 @@
 //! The width at widths: how far a stated width may be wrong before the expanded uncertainty moves by
 //! more than is allowed.
 
-use super::sampler::{Buffers, Sampler};
+use super::sampler::{Buffers, Sampler, Widening};
 use gumption_engine::distribution::BLOCK;
 use gumption_engine::number::{COLUMN, Column};
 use gumption_engine::propagate::Control;
@@ -49,21 +49,24 @@ impl<'a> WidthSearch<'a> {
         Self { sampler, values: drawn.flatten().collect(), probability, allowed }
     }
 
-    /// Half the lengths of the outputs' coverage intervals where the width at `place` is multiplied;
-    /// not a number where a trial is not finite.
+    /// Half the lengths of the outputs' coverage intervals where the width of a quantity is
+    /// multiplied; not a number where a trial is not finite. `before` is what does not depend on it,
+    /// column by column, or nothing.
     fn half_lengths(
         &self,
-        (place, mean, factor): (usize, f64, f64),
+        (widening, before): (&Widening<'_>, &[Column]),
+        (mean, factor): (f64, f64),
         buffers: &mut Buffers,
         control: &Control<'_>,
     ) -> Vec<f64> {
         let mut found: Vec<Vec<f64>> = vec![Vec::new(); self.sampler.outputs()];
-        for values in self.values.chunks(self.sampler.variables.len().max(1)) {
-            let change = (place, mean, factor);
-            self.sampler.widened(
+        let each = if before.is_empty() { 0 } else { widening.columns() };
+        for (column, values) in self.columns().enumerate() {
+            let before = &before[column * each..(column + 1) * each];
+            widening.widened(
                 control.path,
-                values,
-                change,
+                (values, before),
+                (mean, factor),
                 buffers,
                 |output, values: &[f64; COLUMN]| {
                     found[output].extend_from_slice(values);
@@ -71,6 +74,29 @@ impl<'a> WidthSearch<'a> {
             );
         }
         found.iter_mut().map(|values| half_length(values, self.probability)).collect()
+    }
+
+    /// The values of all quantities in each column of trials.
+    fn columns(&self) -> std::slice::Chunks<'_, Column> {
+        self.values.chunks(self.sampler.variables.len().max(1))
+    }
+
+    /// What is computed before a quantity matters, column by column; nothing where that would take
+    /// more memory than the values of all quantities may.
+    fn before(
+        &self,
+        widening: &Widening<'_>,
+        buffers: &mut Buffers,
+        control: &Control<'_>,
+    ) -> Vec<Column> {
+        let mut before = Vec::new();
+        if widening.columns() * self.columns().len() <= MOST_VALUES / COLUMN {
+            before.reserve_exact(widening.columns() * self.columns().len());
+            for values in self.columns() {
+                widening.before(control.path, values, buffers, &mut before);
+            }
+        }
+        before
     }
 
     /// For each output how far the width of the quantity at `place` may change; `None` for an output
@@ -82,6 +108,8 @@ impl<'a> WidthSearch<'a> {
         control: &Control<'_>,
     ) -> Vec<Option<Allowed>> {
         let mut buffers = self.sampler.buffers();
+        let widening = self.sampler.widening(place);
+        let before = self.before(&widening, &mut buffers, control);
         let mut known: Vec<(f64, Vec<f64>)> = Vec::new();
         let mut at = |factor: f64, output: usize| {
             let found = known
@@ -89,7 +117,8 @@ impl<'a> WidthSearch<'a> {
                 .find(|(known, _)| *known == factor)
                 .map(|(_, lengths)| lengths[output]);
             found.unwrap_or_else(|| {
-                let lengths = self.half_lengths((place, mean, factor), &mut buffers, control);
+                let (of, change) = ((&widening, &before[..]), (mean, factor));
+                let lengths = self.half_lengths(of, change, &mut buffers, control);
                 let length = lengths[output];
                 known.push((factor, lengths));
                 length

@@ -6,6 +6,7 @@ use std::sync::atomic::AtomicBool;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use super::files_of_page;
+use crate::diagnostics::render as rendered;
 use crate::output::Destination;
 use crate::{CommandLine, ExportedAnswer, GivenFile, NotExported};
 use gumption_files::{FileSource, TextKind};
@@ -58,13 +59,18 @@ impl PageAnswers {
         format: &str,
         stop: &Arc<AtomicBool>,
     ) -> Result<ExportedAnswer, Refusal> {
-        let TextOfFile { path, text, folder } = file.clone();
-        let given = GivenFile { name: path, text, folder, held: Vec::new() };
+        let TextOfFile { path, text, folder, root } = file.clone();
+        let given =
+            GivenFile { name: path, text, folder, within: Some(root), ..GivenFile::default() };
         self.in_own_pool(|| {
             self.program.exported(given, format, stop).map_err(|why| match why {
                 NotExported::Format(message) => Refusal::Request(message),
                 NotExported::Content(message) => Refusal::Content(message),
                 NotExported::Stopped(message) => Refusal::Stopped(message),
+                NotExported::Mistakes(found) => Refusal::Mistakes {
+                    message: rendered(&found, false),
+                    list: gumption_live::mistakes(&file.text, &found),
+                },
                 NotExported::System(message) => Refusal::Internal(message),
             })
         })

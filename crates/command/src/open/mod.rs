@@ -16,7 +16,7 @@ use super::surroundings::in_call;
 use super::{CommandLine, Exit, Failure, signals};
 use answers::PageAnswers;
 use gumption_report::plain;
-use gumption_server::{LocalServer, OpenedFolder, ServerOptions};
+use gumption_server::{LocalServer, OpenedFolder, RequestTimes, ServerOptions};
 
 /// Work on a file or folder on a page in the browser, which answers while you type.
 ///
@@ -76,6 +76,7 @@ impl Open {
             folder,
             language: self.lang.map(Language::tag),
             answers: Arc::new(PageAnswers::new(program.clone())),
+            times: RequestTimes::default(),
         });
         let server = server.map_err(|error| self.unbound(&error))?;
         print_line(&server.address())?;

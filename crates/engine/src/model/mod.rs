@@ -17,7 +17,7 @@ pub use program::Program;
 pub use program::RoutineCall;
 pub(crate) use root::Root;
 pub(crate) use schedule::fold;
-pub use schedule::{Schedule, ScheduledOutput};
+pub use schedule::{Following, Schedule, ScheduledOutput};
 pub(crate) use slopes::{Columns, Slope, Slopes};
 pub use trace::{Recorder, Traced};
 

@@ -40,11 +40,22 @@ pub enum ScheduledOutput {
     Constant(f64),
 }
 
+/// Which values are still there after a run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Kept {
+    Outputs,
+    /// And those of the variables, so that one set of values can be used again.
+    Variables,
+    /// Every value, so that only what follows from a change need be computed again.
+    All,
+}
+
 /// A program over columns.
 #[derive(Clone, Debug)]
 pub struct Schedule {
     steps: Vec<Step>,
     routines: Vec<ScheduledRoutine>,
+    kept: Kept,
     /// Number of registers, those of the varying variables first.
     pub registers: usize,
     /// For each varying variable, in order, whether an output depends on it.
@@ -57,16 +68,22 @@ impl Schedule {
     /// `bound[v]` is the value of variable `v` where it is the same in all trials; the other
     /// variables arrive in registers 0, 1, 2, … in their order.
     pub fn new(program: &Program, bound: &[Option<f64>]) -> Self {
-        Self::with_variables(program, bound, false)
+        Self::keeping(program, bound, Kept::Outputs)
     }
 
     /// The same; the registers of the variables are never written to, so that one set of values can
     /// be used again.
     pub fn keeping_variables(program: &Program, bound: &[Option<f64>]) -> Self {
-        Self::with_variables(program, bound, true)
+        Self::keeping(program, bound, Kept::Variables)
     }
 
-    fn with_variables(program: &Program, bound: &[Option<f64>], keep: bool) -> Self {
+    /// The same; no register is written to twice, so that [`Schedule::following`] can tell what is to
+    /// be computed again where some variables change.
+    pub fn keeping_all(program: &Program, bound: &[Option<f64>]) -> Self {
+        Self::keeping(program, bound, Kept::All)
+    }
+
+    fn keeping(program: &Program, bound: &[Option<f64>], kept: Kept) -> Self {
         let folded = fold(program, bound);
         let needed = program.needed_by(&folded, program.outputs.iter().copied());
         let mut register_of_variable = vec![usize::MAX; program.variables];
@@ -92,11 +109,14 @@ impl Schedule {
         for &output in &program.outputs {
             last_use[output] = usize::MAX;
         }
-        if keep {
-            for (last, node) in last_use.iter_mut().zip(&program.nodes) {
-                if matches!(node, Node::Variable(_)) {
-                    *last = usize::MAX;
-                }
+        for (last, node) in last_use.iter_mut().zip(&program.nodes) {
+            let lasts = match kept {
+                Kept::Outputs => false,
+                Kept::Variables => matches!(node, Node::Variable(_)),
+                Kept::All => true,
+            };
+            if lasts {
+                *last = usize::MAX;
             }
         }
         let partner = sine_partners(program, &folded, &needed);
@@ -186,19 +206,140 @@ impl Schedule {
                 None => ScheduledOutput::Register(register[o]),
             })
             .collect();
-        Self { steps, routines, registers, used, outputs }
+        Self { steps, routines, kept, registers, used, outputs }
     }
 
     /// Runs all steps on one column of trials.
     #[inline(always)]
     pub fn run(&self, registers: &mut [Column]) {
+        run_steps(&self.steps, &self.routines, registers);
+    }
+
+    /// What is to be computed again where only the varying variables at these places, in their order,
+    /// have other values.
+    ///
+    /// # Panics
+    /// Of a schedule that does not keep all values.
+    pub fn following(&self, places: &[usize]) -> Following {
+        assert!(self.kept == Kept::All, "values that are needed again are not kept");
+        let mut own: Vec<Option<usize>> = vec![None; self.registers];
+        let mut registers = self.registers;
+        let mut take = || {
+            registers += 1;
+            registers - 1
+        };
+        let variables = places.iter().map(|&place| *own[place].insert(take()));
+        let variables: Vec<usize> = variables.collect();
+        let mut steps = Vec::new();
+        let mut routines: Vec<ScheduledRoutine> = Vec::new();
         for step in &self.steps {
+            let operand = |operand: Operand| match operand {
+                Operand::Register(r) => Operand::Register(own[r].unwrap_or(r)),
+                constant @ Operand::Constant(_) => constant,
+            };
+            let follows = |operand: &Operand| match *operand {
+                Operand::Register(r) => own[r].is_some(),
+                Operand::Constant(_) => false,
+            };
             match *step {
-                Step::Unary(operation, x, out) => apply_unary(registers, operation, x, out),
-                Step::Binary(operation, x, y, out) => apply_binary(registers, operation, x, y, out),
-                Step::SinCos { angle, sin, cos } => apply_sin_cos(registers, angle, sin, cos),
-                Step::Routine(number) => self.routines[number].run(registers),
+                Step::Unary(operation, x, out) => {
+                    if let Some(x) = own[x] {
+                        let to = take();
+                        own[out] = Some(to);
+                        steps.push(Step::Unary(operation, x, to));
+                    }
+                }
+                Step::Binary(operation, x, y, out) => {
+                    if follows(&x) || follows(&y) {
+                        let (x, y, to) = (operand(x), operand(y), take());
+                        own[out] = Some(to);
+                        steps.push(Step::Binary(operation, x, y, to));
+                    }
+                }
+                Step::SinCos { angle, sin, cos } => {
+                    if let Some(angle) = own[angle] {
+                        let to = [take(), take()];
+                        (own[sin], own[cos]) = (Some(to[0]), Some(to[1]));
+                        steps.push(Step::SinCos { angle, sin: to[0], cos: to[1] });
+                    }
+                }
+                Step::Routine(number) => {
+                    let ScheduledRoutine { routine, operands, out } = &self.routines[number];
+                    if operands.iter().any(follows) {
+                        let operands = operands.iter().map(|&x| operand(x)).collect();
+                        let to = take();
+                        own[*out] = Some(to);
+                        steps.push(Step::Routine(routines.len()));
+                        let routine = Arc::clone(routine);
+                        routines.push(ScheduledRoutine { routine, operands, out: to });
+                    }
+                }
             }
+        }
+        let outputs = self.outputs.iter().map(|output| match *output {
+            ScheduledOutput::Register(r) => ScheduledOutput::Register(own[r].unwrap_or(r)),
+            constant @ ScheduledOutput::Constant(_) => constant,
+        });
+        let outputs: Vec<ScheduledOutput> = outputs.collect();
+        let mut reads = Vec::new();
+        let mut read = |operand: &Operand| {
+            if let Operand::Register(r) = *operand
+                && r < self.registers
+            {
+                reads.push(r);
+            }
+        };
+        for step in &steps {
+            match step {
+                Step::Unary(..) | Step::SinCos { .. } => {}
+                Step::Binary(_, x, y, _) => [x, y].into_iter().for_each(&mut read),
+                Step::Routine(number) => routines[*number].operands.iter().for_each(&mut read),
+            }
+        }
+        for output in &outputs {
+            if let ScheduledOutput::Register(r) = *output {
+                read(&Operand::Register(r));
+            }
+        }
+        reads.sort_unstable();
+        reads.dedup();
+        Following { steps, routines, registers, variables, reads, outputs }
+    }
+}
+
+/// The steps of a schedule that depend on some of its variables. They read what the schedule has
+/// left in its registers and write to registers of their own behind those, so that one run of the
+/// schedule serves any number of changes; every value has the bits that the whole schedule would give.
+#[derive(Clone, Debug)]
+pub struct Following {
+    steps: Vec<Step>,
+    routines: Vec<ScheduledRoutine>,
+    /// Number of registers, those of the schedule first.
+    pub registers: usize,
+    /// Where the other values of the variables are put, in the order in which they were named.
+    pub variables: Vec<usize>,
+    /// Registers of the schedule that the steps read, in rising order.
+    pub reads: Vec<usize>,
+    /// Where each output is found after a run.
+    pub outputs: Vec<ScheduledOutput>,
+}
+
+impl Following {
+    /// Runs the steps on one column of trials.
+    #[inline(always)]
+    pub fn run(&self, registers: &mut [Column]) {
+        run_steps(&self.steps, &self.routines, registers);
+    }
+}
+
+#[inline(always)]
+fn run_steps(steps: &[Step], routines: &[ScheduledRoutine], registers: &mut [Column]) {
+    for step in steps {
+        match *step {
+            Step::Unary(operation, x, out) => apply_unary(registers, operation, x, out),
+            Step::Binary(operation, x, y, out) => apply_binary(registers, operation, x, y, out),
+            Step::SinCos { angle, sin, cos } => apply_sin_cos(registers, angle, sin, cos),
+            Step::Routine(number) => routines[number].run(registers),
         }
     }
 }
@@ -278,4 +419,56 @@ fn sine_partners(program: &Program, folded: &[Option<f64>], needed: &[bool]) -> 
         }
     }
     partner
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Recorder;
+    use super::*;
+
+    /// What follows from some variables, computed again beside a run of the whole, has the bits of a
+    /// whole run with the other values; and the first run's values are still there.
+    #[test]
+    fn what_follows_is_what_the_whole_gives() {
+        let recorder = Recorder::default();
+        let [x, y, z] = [0, 1, 2].map(|v| recorder.variable(v));
+        let shared = (x * y).sin() + (x * y).cos();
+        let outputs = [shared * z + x.sqrt(), z.exp() - y, y, (y - z).sin()];
+        let schedule = Schedule::keeping_all(&recorder.program(3, &outputs), &[None; 3]);
+        let column = |value: f64| Column(std::array::from_fn(|i| value + 0.001 * i as f64));
+        let (stated, other) = ([0.3, 0.7, 1.1].map(column), [2.3, 0.1, 0.4].map(column));
+        let found = |outputs: &[ScheduledOutput], registers: &[Column]| -> Vec<[f64; COLUMN]> {
+            let value = |output: &ScheduledOutput| match *output {
+                ScheduledOutput::Register(register) => registers[register].0,
+                ScheduledOutput::Constant(value) => [value; COLUMN],
+            };
+            outputs.iter().map(value).collect()
+        };
+        let whole = |values: &[Column; 3]| {
+            let mut registers = vec![Column::ZERO; schedule.registers];
+            registers[..3].clone_from_slice(values);
+            schedule.run(&mut registers);
+            registers
+        };
+        for places in [vec![0], vec![1], vec![2], vec![2, 0], vec![0, 1, 2], vec![]] {
+            let following = schedule.following(&places);
+            let mut registers = whole(&stated);
+            let before = found(&schedule.outputs, &registers);
+            registers.resize(following.registers, Column::ZERO);
+            let mut values = stated.clone();
+            for (&place, &register) in places.iter().zip(&following.variables) {
+                values[place] = other[place].clone();
+                registers[register] = other[place].clone();
+            }
+            following.run(&mut registers);
+            let expected = found(&schedule.outputs, &whole(&values));
+            assert_eq!(found(&following.outputs, &registers), expected, "{places:?}");
+            assert_eq!(found(&schedule.outputs, &registers), before);
+            // only what was not computed again is read of the first run
+            assert!(following.reads.iter().all(|read| *read < schedule.registers));
+        }
+        // of z there is no sine of x y to be computed
+        assert!(schedule.following(&[2]).steps.len() < schedule.steps.len());
+        assert!(schedule.following(&[]).steps.is_empty());
+    }
 }

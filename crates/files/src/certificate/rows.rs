@@ -2,9 +2,11 @@
 
 use std::collections::BTreeMap;
 use std::ops::Range;
+use std::path::Path;
 
 use super::super::DiagnosticKind;
-use super::super::diagnostics::{Collector, Diagnostic};
+use super::super::bytes;
+use super::super::diagnostics::{Collector, Diagnostic, Diagnostics};
 use super::super::json::{Json, Member, Node};
 use super::super::keys;
 use super::super::model_file::ModelFile;
@@ -15,8 +17,8 @@ use super::super::reader::FileReader;
 use super::super::source::Place;
 use super::administrative::localized;
 use super::{Asking, CertifiedModel};
-use crate::folder::Folder;
-use crate::open::is_no_object;
+use crate::folder::{FileSource, Folder};
+use crate::open::{is_no_object, text};
 use gumption_analysis::certificate::contents::{Asked, Line, StatedFunction};
 use gumption_engine::model::Quantity;
 use gumption_engine::task::{Task, Warning};
@@ -25,6 +27,22 @@ use gumption_units::nearest;
 
 /// At most so many rows: their correlations are a matrix.
 const MOST_ROWS: usize = 1000;
+
+/// The files beside a model that lies in another folder than the certificate.
+#[derive(Debug)]
+struct Beside<'a> {
+    above: &'a str,
+    source: &'a dyn FileSource,
+}
+
+impl FileSource for Beside<'_> {
+    fn content(&self, name: &str, most: u64) -> Result<Vec<u8>, String> {
+        match self.above {
+            "" => self.source.content(name, most),
+            above => self.source.content(&format!("{above}/{name}"), most),
+        }
+    }
+}
 
 /// What the rows ask for.
 #[derive(Debug)]
@@ -186,17 +204,38 @@ impl<'a> Rows<'a> {
         found
     }
 
+    /// A model file, from memory, from a source or from the disk; or why there is none.
+    fn opened(
+        &self,
+        name: &str,
+        overrides: &[Override],
+    ) -> Result<Result<ModelFile, Diagnostics>, DiagnosticKind> {
+        let (files, folder) = self.files_in;
+        if !folder.holds(name) {
+            return Ok(files.model(&folder.file(name)?, overrides));
+        }
+        let content = folder.content(name, bytes::MOST)?;
+        let text = text(content).map_err(|message| DiagnosticKind::Unreadable { message })?;
+        // what it names lies beside it
+        let above = name.rsplit_once('/').map_or("", |(above, _)| above);
+        let beside = folder.source().map(|source| Beside { above, source });
+        let files = match &beside {
+            Some(beside) => files.reading(beside),
+            None => files,
+        };
+        Ok(files.model_text(name, &text, Path::new(above), overrides))
+    }
+
     /// A model file with replacements; mistakes of the replacements are reported at `member`.
     fn model(&self, name: &str, member: &Member, overrides: &[Override]) -> Option<ModelFile> {
-        let (files, folder) = self.files_in;
-        let path = match folder.file(name) {
-            Ok(path) => path,
-            Err(outside) => {
-                self.log.report(&member.value.span, outside);
+        let found = match self.opened(name, overrides) {
+            Ok(found) => found,
+            Err(reason) => {
+                self.log.report(&member.value.span, reason);
                 return None;
             }
         };
-        let diagnostics = match files.model(&path, overrides) {
+        let diagnostics = match found {
             Ok(file) => return Some(file),
             Err(diagnostics) => diagnostics,
         };

@@ -294,14 +294,14 @@ impl RecipeFile {
             }
             let of = |channel: &usize| self.channels[*channel].wanted();
             let slowest = of_row.frequencies.iter().filter_map(|f| f.hertz).min_by(f64::total_cmp);
-            let path = match file.path(name) {
-                Ok(path) => path,
+            let bytes = match file.bytes(name) {
+                Ok(bytes) => bytes,
                 Err(outside) => {
                     log.report(place, outside);
                     continue;
                 }
             };
-            let named = (path, name.as_str());
+            let named = (bytes, name.as_str());
             let reading =
                 file.reading(named, channels.iter().map(of).collect(), slowest, *from, *to);
             match recording::open(reading) {

@@ -1,13 +1,14 @@
 //! The recordings of a recipe.
 
 use std::ops::Range;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use super::super::DiagnosticKind;
 use super::super::json::{Json, Member};
 use super::super::keys;
 use super::super::object::Object;
-use super::super::recording::{ColumnName, Conversion, Reading, Wanted};
+use super::super::recording::{Bytes, ColumnName, Conversion, Reading, Wanted};
 use super::check_name;
 use super::column::column;
 use super::quantity::{positive, quantity, unit};
@@ -40,6 +41,10 @@ pub(super) struct RecordingFile {
     folder: PathBuf,
     /// Other folders that its files may lie in.
     allowed: Vec<PathBuf>,
+    /// The folder above which nothing is looked for.
+    within: Option<PathBuf>,
+    /// Files in memory, by their names.
+    held: Vec<(String, Arc<[u8]>)>,
     /// How the sampling rate is found, where it is.
     pub(super) search: Option<SearchFile>,
     rate: Option<Measured>,
@@ -50,6 +55,9 @@ pub(super) fn read(root: &Object<'_>, folder: Folder<'_>) -> Option<Vec<Recordin
     let member = root.required("recordings")?;
     let object = Object::new(root.log, "`recordings`", &member.value, &member.key_span)?;
     let mut recordings = Vec::new();
+    let held =
+        folder.memory().iter().map(|(name, bytes)| (name.clone(), Arc::from(bytes.as_slice())));
+    let held: Vec<(String, Arc<[u8]>)> = held.collect();
     for member in object.members() {
         check_name(root.log, &member.key, &member.key_span);
         let Some(of) = Object::new(root.log, "a recording", &member.value, &member.key_span) else {
@@ -96,6 +104,8 @@ pub(super) fn read(root: &Object<'_>, folder: Folder<'_>) -> Option<Vec<Recordin
             jitter: jitter.map_or(0.0, |jitter| jitter.si()),
             folder: folder.path().to_owned(),
             allowed: folder.allowed().to_vec(),
+            within: folder.limit().map(Path::to_owned),
+            held: held.clone(),
             rate: rate.or(found),
             search,
             time: time.zip(unit.map(|unit| unit.factor())),
@@ -188,25 +198,29 @@ pub(super) fn check_part(object: &Object<'_>, from: Option<f64>, to: Option<f64>
 }
 
 impl RecordingFile {
-    /// The path of one of its files.
+    /// Where the bytes of one of its files are.
     ///
     /// # Errors
     /// That it may not be read.
-    pub(super) fn path(&self, name: &str) -> Result<PathBuf, DiagnosticKind> {
-        Folder::new(&self.folder, &self.allowed).file(name)
+    pub(super) fn bytes(&self, name: &str) -> Result<Bytes, DiagnosticKind> {
+        if let Some((_, bytes)) = self.held.iter().find(|(held, _)| held == name) {
+            return Ok(Bytes::Held(Arc::clone(bytes)));
+        }
+        let folder = Folder::new(&self.folder, &self.allowed).within(self.within.as_deref());
+        folder.file(name).map(Bytes::OnDisk)
     }
 
-    /// How to read one of its files, by its path and its name.
+    /// How to read one of its files, by its bytes and its name.
     pub(super) fn reading(
         &self,
-        (path, name): (PathBuf, &str),
+        (bytes, name): (Bytes, &str),
         channels: Vec<(Wanted, Conversion)>,
         slowest: Option<f64>,
         from: Option<f64>,
         to: Option<f64>,
     ) -> Reading {
         Reading {
-            path,
+            bytes,
             name: name.to_owned(),
             channels,
             time: self.time.clone(),

@@ -12,6 +12,7 @@ use std::fs::File;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
+use std::sync::Arc;
 
 use sha2::{Digest, Sha256};
 
@@ -83,7 +84,7 @@ pub(super) struct Conversion {
 /// How a recording is to be read.
 #[derive(Clone, Debug)]
 pub(super) struct Reading {
-    pub(super) path: PathBuf,
+    pub(super) bytes: Bytes,
     /// The name in messages.
     pub(super) name: String,
     pub(super) channels: Vec<(Wanted, Conversion)>,
@@ -153,12 +154,10 @@ impl Reading {
 
     fn frames<'r>(&self, reader: impl Read + 'r) -> Result<Box<dyn Frames + 'r>, String> {
         let wanted = self.wanted();
-        let extension = self.path.extension().and_then(|e| e.to_str()).unwrap_or("");
+        let extension = Path::new(&self.name).extension().and_then(|e| e.to_str()).unwrap_or("");
         match extension.to_ascii_lowercase().as_str() {
             "wav" | "wave" => {
-                let size = std::fs::metadata(&self.path).ok().filter(|of| of.is_file());
-                let size = size.map(|of| of.len());
-                Ok(Box::new(wav_frames::WavFrames::new(reader, size, wanted)?))
+                Ok(Box::new(wav_frames::WavFrames::new(reader, self.bytes.size(), wanted)?))
             }
             "npy" => Ok(Box::new(npy_frames::NpyFrames::new(reader, wanted)?)),
             _ => Ok(Box::new(csv_frames::CsvFrames::new(reader, wanted)?)),
@@ -178,7 +177,7 @@ impl SampleSource for Recording {
             in_blocks(&held.channels, each);
             return Ok(());
         }
-        let file = opened(&self.reading.path)?;
+        let file = self.reading.bytes.opened()?;
         let mut frames = self.reading.frames(io::BufReader::with_capacity(1 << 20, file))?;
         let count = self.reading.wanted().len();
         let mut columns = vec![Vec::with_capacity(BLOCK); count];
@@ -228,11 +227,37 @@ impl Conversion {
     }
 }
 
-fn opened(path: &Path) -> Result<File, String> {
-    let file = File::open(path).map_err(|error| error.to_string())?;
-    match file.metadata() {
-        Ok(data) if data.is_dir() => Err("it is a folder".to_owned()),
-        _ => Ok(file),
+/// Where the bytes of a recording are.
+#[derive(Clone, Debug)]
+pub(super) enum Bytes {
+    /// On the disk.
+    OnDisk(PathBuf),
+    /// In memory.
+    Held(Arc<[u8]>),
+}
+
+impl Bytes {
+    /// How many there are, where that is known.
+    fn size(&self) -> Option<u64> {
+        match self {
+            Self::OnDisk(path) => {
+                std::fs::metadata(path).ok().filter(|of| of.is_file()).map(|of| of.len())
+            }
+            Self::Held(bytes) => Some(bytes.len() as u64),
+        }
+    }
+
+    /// A reader of them from the beginning.
+    fn opened(&self) -> Result<Box<dyn Read + '_>, String> {
+        let path = match self {
+            Self::OnDisk(path) => path,
+            Self::Held(bytes) => return Ok(Box::new(&**bytes)),
+        };
+        let file = File::open(path).map_err(|error| error.to_string())?;
+        match file.metadata() {
+            Ok(data) if data.is_dir() => Err("it is a folder".to_owned()),
+            _ => Ok(Box::new(file)),
+        }
     }
 }
 

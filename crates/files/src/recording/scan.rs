@@ -7,7 +7,7 @@ use std::rc::Rc;
 use sha2::{Digest, Sha256};
 
 use super::{
-    BLOCK, Digesting, InMemorySamples, MOST_IN_MEMORY, Measured, Reading, Recording, opened, place,
+    BLOCK, Digesting, InMemorySamples, MOST_IN_MEMORY, Measured, Reading, Recording, place,
 };
 use gumption_engine::number::Shortest;
 use gumption_engine::task::Warning;
@@ -20,7 +20,8 @@ const SCATTER: f64 = 0.02;
 
 pub(super) fn scan(reading: Reading) -> Result<Recording, String> {
     let digest = Rc::new(RefCell::new(Sha256::new()));
-    let file = Digesting { inner: opened(&reading.path)?, digest: digest.clone() };
+    let bytes = reading.bytes.clone();
+    let file = Digesting { inner: bytes.opened()?, digest: digest.clone() };
     let mut reader = BufReader::with_capacity(1 << 20, file);
     let channels = reading.channels.len();
     let (stated, whole, mut scanned) = {

@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::drawn_noise::{CheckedNoise, NoiseOfDraw};
+use crate::Prior;
 use crate::data::{Data, Spread};
 use crate::latent::Map;
 use crate::mixture::standard_normals;
@@ -35,10 +37,13 @@ pub struct Truth {
     pub values: Vec<Vec<f64>>,
     /// Root mean square of what the effects change, in standard uncertainties of the data.
     pub gap: f64,
+    /// What the noise is, in words.
+    #[serde(default)]
+    pub noise: String,
 }
 
 /// Normal scores, one at a time.
-struct Scores {
+pub(super) struct Scores {
     key: StreamKey,
     block: u64,
     column: Column,
@@ -51,7 +56,7 @@ impl Scores {
         Self { key, block: 0, column: Column::ZERO, left: 0 }
     }
 
-    fn next(&mut self) -> f64 {
+    pub(super) fn next(&mut self) -> f64 {
         if self.left == 0 {
             standard_normals(&mut self.key.block(self.block), &mut self.column);
             self.block += 1;
@@ -62,30 +67,41 @@ impl Scores {
     }
 
     /// A number uniform on (0, 1).
-    fn uniform(&mut self) -> f64 {
+    pub(super) fn uniform(&mut self) -> f64 {
         gumption_engine::special::normal::cdf(self.next())
     }
 
-    fn choice(&mut self, count: usize) -> usize {
+    pub(super) fn choice(&mut self, count: usize) -> usize {
         ((self.uniform() * count as f64) as usize).min(count.saturating_sub(1))
     }
 }
 
 /// Draws a truth of a case and the data that it makes; `noise` is the standard deviation of every
-/// measured value, output by output.
+/// measured value as it is stated, output by output, and `of_noise` what the noise is drawn as.
 ///
 /// # Errors
 /// Effects that cannot act on the model.
 pub fn truth(
     case: &Case,
     noise: &[Vec<f64>],
+    of_noise: CheckedNoise,
     seed: u64,
     number: u64,
 ) -> Result<(Truth, Vec<Vec<f64>>), OverrideError> {
     case.check()?;
     let mut scores = Scores::new(seed, number);
-    let (kind, effects) = choose(case, &mut scores);
-    Ok(make(case, noise, kind, &effects, scores))
+    let drawn = match of_noise {
+        CheckedNoise::AsStated => NoiseOfDraw::as_stated(noise.len()),
+        CheckedNoise::Uncertain => {
+            let observed = || case.observed.iter().flatten();
+            let stated = observed().any(|of| of.standard_uncertainties.is_some());
+            // numbers of its own, so that effects and sizes are those without it
+            let mut own = Scores::new(seed, u64::MAX - number);
+            NoiseOfDraw::drawn(case.task.rows.len(), noise.len(), stated, &mut own)
+        }
+    };
+    let (kind, effects) = choose(case, drawn.hypotheses(case.prior), &mut scores);
+    Ok(make(case, noise, drawn, kind, &effects, scores))
 }
 
 /// Data that certain effects make.
@@ -97,12 +113,14 @@ pub(crate) fn truth_with(
     seed: u64,
     number: u64,
 ) -> (Truth, Vec<Vec<f64>>) {
-    make(case, noise, TruthKind::Catalogue, effects, Scores::new(seed, number))
+    let drawn = NoiseOfDraw::as_stated(noise.len());
+    make(case, noise, drawn, TruthKind::Catalogue, effects, Scores::new(seed, number))
 }
 
 fn make(
     case: &Case,
     noise: &[Vec<f64>],
+    mut drawn_noise: NoiseOfDraw,
     kind: TruthKind,
     effects: &[usize],
     mut scores: Scores,
@@ -132,14 +150,16 @@ fn make(
         for (place, &output) in data.outputs.iter().enumerate() {
             let u = noise[place][row];
             values[place].push(changed[output]);
-            measured[place].push(changed[output] + u * scores.next());
+            let own = drawn_noise.at(row, place, scores.next());
+            measured[place].push(changed[output] + u * own);
             squares += ((changed[output] - plain[output]) / u).powi(2);
             count += 1;
         }
     }
     let names = chosen.iter().map(|candidate| candidate.effect.name.clone()).collect();
     let gap = (squares / count.max(1) as f64).sqrt();
-    (Truth { kind, effects: names, parameters, values, gap }, measured)
+    let noise = drawn_noise.words();
+    (Truth { kind, effects: names, parameters, values, gap, noise }, measured)
 }
 
 /// The value at the probability of a standard normal score.
@@ -148,8 +168,7 @@ fn drawn(map: &Map, normal: f64) -> f64 {
 }
 
 /// The hypothesis that is true.
-fn choose(case: &Case, scores: &mut Scores) -> (TruthKind, Vec<usize>) {
-    let prior = case.prior;
+fn choose(case: &Case, prior: Prior, scores: &mut Scores) -> (TruthKind, Vec<usize>) {
     let count = case.candidates.len();
     let place = scores.uniform() * (prior.none + prior.one + prior.two + prior.unexplained);
     let one = scores.choice(count);

@@ -178,6 +178,11 @@ impl Coordinates {
         Self { distinct, touched, functions }
     }
 
+    /// Whether the function has its values at the same coordinates as another.
+    pub(crate) fn is_at_same(&self, other: &Self) -> bool {
+        self.distinct == other.distinct
+    }
+
     /// Features of the function at the distinct coordinates, a row each; `nodes` are those of the
     /// data, from which the function at other coordinates follows.
     pub(crate) fn roots(&self, term: &Term, length: f64, nodes: &Nodes) -> DMatrix<f64> {

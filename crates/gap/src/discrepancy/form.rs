@@ -1,6 +1,7 @@
 //! A term with a length, factored for a design.
 
 use std::borrow::Cow;
+use std::sync::Arc;
 
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
@@ -22,7 +23,7 @@ pub(crate) struct Form {
     pub(crate) length: f64,
     /// Logarithm of its prior weight among all forms.
     pub(crate) ln_weight: f64,
-    pub nodes: Nodes,
+    pub nodes: Arc<Nodes>,
     /// What unit variance is multiplied by: for an amplitude of one standard uncertainty where those
     /// are known.
     pub(crate) scale: f64,
@@ -64,10 +65,35 @@ pub(crate) fn forms(
             lengths.into_iter().map(move |length| (term, coordinates.clone(), length, ln_weight))
         })
         .collect();
-    with_lengths
+    // terms that are functions of the same at the same places have their nodes in common
+    let mut distinct: Vec<usize> = Vec::new();
+    let mut nodes_of = Vec::with_capacity(with_lengths.len());
+    for (place, (term, coordinates, length, _)) in with_lengths.iter().enumerate() {
+        let same = |&&of: &&usize| {
+            let (other, others, other_length, _) = &with_lengths[of];
+            term.of == other.of && length == other_length && coordinates.is_at_same(others)
+        };
+        let known = distinct.iter().find(same).copied();
+        nodes_of.push(known.unwrap_or(place));
+        if known.is_none() {
+            distinct.push(place);
+        }
+    }
+    let nodes: Vec<(usize, Arc<Nodes>)> = distinct
         .into_par_iter()
-        .map(|(term, coordinates, length, ln_weight)| {
-            let nodes = Nodes::new(term, length, &coordinates, setup.linear.fitted);
+        .map(|place| {
+            let (term, coordinates, length, _) = &with_lengths[place];
+            let nodes = Nodes::new(term, *length, coordinates, setup.linear.fitted);
+            (place, Arc::new(nodes))
+        })
+        .collect();
+    let with_nodes = with_lengths.into_iter().zip(nodes_of).filter_map(|(of, place)| {
+        Some((of, nodes.iter().find(|(other, _)| *other == place)?.1.clone()))
+    });
+    with_nodes
+        .collect::<Vec<_>>()
+        .into_par_iter()
+        .map(|((term, coordinates, length, ln_weight), nodes)| {
             let roots = coordinates.roots(term, length, &nodes);
             let features = coordinates.features(&roots, setup.data.len());
             let touched: Vec<usize> = coordinates.touched().collect();

@@ -80,7 +80,7 @@ fn probabilities_follow_from_exact_evidences() {
     let discrepancy = Discrepancy::new(&setup);
     let found = posterior(
         &setup,
-        singles(&setup, 1, Effort::FULL),
+        (singles(&setup, 1, Effort::FULL), case.pairs()),
         &discrepancy,
         1,
         Effort::FULL,

@@ -123,6 +123,30 @@ fn an_effect_far_outside_its_prior_is_named() {
     assert!(present(&found, "slope") > 0.5);
 }
 
+#[test]
+fn two_effects_far_outside_their_priors_are_named() {
+    // five and six standard deviations of the priors: neither alone, with whatever prior, fits a line
+    // that starts at 2 and rises by 0.3
+    let residuals: Vec<f64> = normals(30, 9)
+        .into_iter()
+        .enumerate()
+        .map(|(n, z)| 0.1 * z + 2.0 + 0.3 * n as f64)
+        .collect();
+    let mut case = line_with(&residuals);
+    // a third one that is no part of it
+    case.candidates.push(candidate("bend", "b", normal(0.0, 1e-3), &[("y", "y + b*x^2")]));
+    let found = diagnosed(&case, 1);
+    assert_eq!(found.most_probable.effects, ["offset", "slope"]);
+    assert!(found.most_probable.prior_conflict);
+    assert!(found.most_probable.probability > 0.5, "{:?}", found.most_probable);
+    for (effect, distance) in [("offset", 5.0), ("slope", 6.0)] {
+        let conflict = found.prior_conflicts.iter().find(|of| of.effect == effect).unwrap();
+        assert_eq!(conflict.effects, ["offset", "slope"]);
+        // the offset is known to 0.037, a tenth of its prior, the slope to 0.002
+        assert!((conflict.prior_distance - distance).abs() < 0.5, "{conflict:?}");
+    }
+}
+
 /// An oscillation of 70 periods in 200 rows: the mode of its frequency is a thousandth of the prior
 /// wide, and none of the draws of the prior is near it.
 fn oscillation() -> Case {

@@ -9,7 +9,7 @@ mod sweep;
 mod terminal;
 mod workbook;
 
-pub use parts::{OutputParts, PageParts, input_picture, page_parts};
+pub use parts::{OutputParts, PageChoice, PageParts, input_picture, page_parts};
 pub use results::ResultStatement;
 pub use terminal::histograms;
 pub use workbook::{MOST_RESULTS, xlsx};
@@ -25,8 +25,8 @@ pub struct Shown<'a> {
     pub columns: &'a [BudgetColumn],
     /// For each row of conditions the histograms of its outputs; none at all, or as many as rows.
     pub histograms: &'a [Vec<Option<Histogram>>],
-    /// For each output how its figures settle with the number of trials, the last ones being those of
-    /// all ([`gumption_engine::propagate::convergence`]); none unless there is one row of conditions.
+    /// For each output of the row that is shown how its figures settle with the number of trials, the
+    /// last ones being those of all ([`gumption_engine::propagate::convergence`]); or none.
     pub convergence: &'a [Vec<MonteCarlo>],
     /// What the command line replaces in the model file, as it was typed.
     pub replaced: &'a [String],

@@ -5,7 +5,7 @@ use super::{Shown, document, results};
 use crate::EvaluationReport;
 use crate::document::{Document, fragment};
 use crate::html::FigureSize;
-use crate::table::title_text;
+use crate::table::{conditions_text, title_text};
 use gumption_engine::distribution::Distribution;
 
 /// The parts of a page, each as HTML that needs the style of [`crate::page_style`]. Whatever a file
@@ -13,8 +13,10 @@ use gumption_engine::distribution::Distribution;
 #[derive(Clone, Debug, Default)]
 #[non_exhaustive]
 pub struct PageParts {
-    /// One entry for each output; none where there is more than one row of conditions.
+    /// One entry for each output, about the chosen row of conditions.
     pub outputs: Vec<OutputParts>,
+    /// The conditions of each row, as plain text; none where there is one row alone.
+    pub rows: Vec<String>,
     /// What concerns all outputs: a table and a figure for each of them where there is more than one
     /// row of conditions, correlations, coverage regions, calibration functions.
     pub together: String,
@@ -39,22 +41,31 @@ pub struct OutputParts {
     pub distribution: String,
 }
 
-/// The parts of the page of an evaluation; with `only`, those about that output alone, counted from
-/// 0, and of the others the title.
+/// What the parts of a page are about; all outputs of the first row unless it is said.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct PageChoice {
+    /// The output, counted from 0: of the others the title alone is given.
+    pub output: Option<usize>,
+    /// The row of conditions, counted from 0.
+    pub row: usize,
+}
+
+/// The parts of the page of an evaluation.
 pub fn page_parts(
     report: &EvaluationReport<'_>,
     shown: &Shown<'_>,
     size: FigureSize,
-    only: Option<usize>,
+    choice: PageChoice,
 ) -> PageParts {
-    let one_row = report.evaluation.rows.len() == 1;
-    let outputs = if one_row { report.task.model.outputs.len() } else { 0 };
+    let conditions = &report.task.model.conditions;
+    let rows = report.evaluation.rows.as_slice();
+    let swept = if rows.len() > 1 { rows } else { &[] };
     let part = |output: usize| {
-        if only.is_some_and(|only| only != output) {
+        if choice.output.is_some_and(|only| only != output) {
             let quantity = &report.task.model.outputs.get(output)?.quantity;
             return Some(OutputParts { title: title_text(quantity), ..OutputParts::default() });
         }
-        let section = results::section_of(report, shown, output)?;
+        let section = results::section_of(report, shown, (choice.row, output))?;
         Some(OutputParts {
             title: section.title,
             verdict: fragment(&section.verdict, size),
@@ -67,7 +78,8 @@ pub fn page_parts(
     let mut together = Document::default();
     document::together_of(&mut together, report);
     PageParts {
-        outputs: (0..outputs).filter_map(part).collect(),
+        outputs: (0..report.task.model.outputs.len()).filter_map(part).collect(),
+        rows: swept.iter().map(|row| conditions_text(conditions, &row.conditions)).collect(),
         together: fragment(&together, size),
     }
 }

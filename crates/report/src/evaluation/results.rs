@@ -37,7 +37,7 @@ pub(super) fn section(
     shown: &Shown<'_>,
     (output, folded): (usize, bool),
 ) {
-    let Some(section) = section_of(report, shown, output) else { return };
+    let Some(section) = section_of(report, shown, (0, output)) else { return };
     document.section(section.title);
     document.blocks.extend(section.verdict.blocks);
     let below = [section.budget, section.conclusions, section.comparison, section.distribution];
@@ -48,14 +48,14 @@ pub(super) fn section(
     }
 }
 
-/// The parts of the section of an output of the first row; `None` where there is no such output.
+/// The parts of the section of an output in a row; `None` where there is no such output or row.
 pub(super) fn section_of(
     report: &EvaluationReport<'_>,
     shown: &Shown<'_>,
-    output: usize,
+    (row, output): (usize, usize),
 ) -> Option<Section> {
     let EvaluationReport { task, evaluation, .. } = *report;
-    let found = evaluation.rows.first()?.outputs.get(output)?;
+    let found = evaluation.rows.get(row)?.outputs.get(output)?;
     let output_of = task.model.outputs.get(output)?;
     let quantity = &output_of.quantity;
     let digits = evaluation.settings.digits;
@@ -94,7 +94,7 @@ pub(super) fn section_of(
             side_by_side.sentence(&comparison::stability(quantity, end, figures.trials));
         }
     }
-    let histogram = shown.histogram(0, output);
+    let histogram = shown.histogram(row, output);
     section.distribution.figure(histogram.and_then(|counts| {
         figures::distribution(quantity, found, counts, evaluation.coverage_probability)
     }));

@@ -148,6 +148,7 @@ fn replication(diagnosis: &Diagnosis) -> Value {
 fn prior_conflict(of: &PriorConflict) -> Value {
     json!({
         "effect": of.effect,
+        "effects": of.effects,
         "parameter": of.parameter.name,
         "unit": of.parameter.unit,
         "estimate": of.parameter.estimate,

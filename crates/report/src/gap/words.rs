@@ -107,7 +107,7 @@ pub(super) fn conflicts(diagnosis: &Diagnosis) -> Vec<String> {
     diagnosis
         .prior_conflicts
         .iter()
-        .filter(|conflict| verdict.effects.contains(&conflict.effect))
+        .filter(|conflict| conflict.effects == verdict.effects)
         .map(sentence)
         .collect()
 }

@@ -12,6 +12,7 @@ use nalgebra::{DMatrix, DVector};
 use crate::dirichlet::Kernel;
 use crate::passes::{BLOCK, SampleSource};
 use crate::turns::{Turns, oscillation};
+use gumption_engine::number::CodePath;
 
 /// The largest condition number of the normal equations: beyond it the tones cannot be told apart
 /// (much less than a period, or two frequencies too near).
@@ -298,14 +299,29 @@ impl Sums {
 
 /// The sum of products in eight partial sums, always in the same order.
 pub(crate) fn dot(values: &[f64], wave: &[f64], pilot: f64) -> f64 {
-    let mut parts = [0.0; 8];
-    let (whole, rest) = (values.chunks_exact(8), wave.chunks_exact(8));
-    let tail: f64 =
-        whole.remainder().iter().zip(rest.remainder()).map(|(v, w)| (v - pilot) * w).sum();
-    for (values, wave) in whole.zip(rest) {
-        for i in 0..8 {
-            parts[i] += (values[i] - pilot) * wave[i];
+    CodePath::best().run(Dot { values, wave, pilot })
+}
+
+struct Dot<'a> {
+    values: &'a [f64],
+    wave: &'a [f64],
+    pilot: f64,
+}
+
+impl gumption_engine::number::Kernel for Dot<'_> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn run(self) -> f64 {
+        let Self { values, wave, pilot } = self;
+        let mut parts = [0.0; 8];
+        let ((whole, rest), (waves, wave_rest)) = (values.as_chunks::<8>(), wave.as_chunks::<8>());
+        let tail: f64 = rest.iter().zip(wave_rest).map(|(v, w)| (v - pilot) * w).sum();
+        for (values, wave) in whole.iter().zip(waves) {
+            for i in 0..8 {
+                parts[i] += (values[i] - pilot) * wave[i];
+            }
         }
+        parts.iter().sum::<f64>() + tail
     }
-    parts.iter().sum::<f64>() + tail
 }

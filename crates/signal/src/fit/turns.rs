@@ -1,6 +1,7 @@
 //! The phase of an oscillation at a sample, exact over any length.
 
 use gumption_engine::number::elementary::sin_cos_turn;
+use gumption_engine::number::{CodePath, Kernel};
 
 /// Two to the powers by which turns are kept as whole numbers.
 const TWO_64: f64 = (1u128 << 64) as f64;
@@ -57,13 +58,31 @@ impl Turns {
 
 /// Cosines and sines of an oscillation at the samples of a block that begins with sample `first`.
 pub(crate) fn oscillation(step: Turns, first: u64, cos: &mut [f64], sin: &mut [f64]) {
-    let start = (step.times(first).0 >> 64) as u64;
-    // within a block the error of 64 bits stays below 2^-50 turns for 2^14 samples
-    let by = (step.0 >> 64) as u64;
-    let mut at = start;
-    for (cos, sin) in cos.iter_mut().zip(sin) {
-        (*sin, *cos) = sin_cos_turn((at >> 11) as f64 / 9_007_199_254_740_992.0);
-        at = at.wrapping_add(by);
+    CodePath::best().run(Oscillation { step, first, cos, sin });
+}
+
+struct Oscillation<'a> {
+    step: Turns,
+    first: u64,
+    cos: &'a mut [f64],
+    sin: &'a mut [f64],
+}
+
+impl Kernel for Oscillation<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let Self { step, first, cos, sin } = self;
+        let start = (step.times(first).0 >> 64) as u64;
+        // within a block the error of 64 bits stays below 2^-50 turns for 2^14 samples
+        let by = (step.0 >> 64) as u64;
+        for (i, (cos, sin)) in cos.iter_mut().zip(sin).enumerate() {
+            let at = start.wrapping_add(by.wrapping_mul(i as u64));
+            // 53 bits as a signed number: every processor with vectors converts that at once
+            let turn = (at >> 11).cast_signed() as f64 / 9_007_199_254_740_992.0;
+            (*sin, *cos) = sin_cos_turn(turn);
+        }
     }
 }
 

@@ -164,6 +164,11 @@ pub(super) struct Table {
 }
 
 impl Table {
+    /// Whether both are of the same distribution.
+    pub(super) fn is_of(&self, other: &Self) -> bool {
+        self.distribution == other.distribution
+    }
+
     /// A function of its own, compiled once, so that it has the same bits in every compiled form
     /// of the inner loop.
     #[inline(never)]

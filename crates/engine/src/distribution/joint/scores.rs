@@ -44,16 +44,40 @@ impl FromScore {
         }
     }
 
+    /// Whether both have one shape, at another place or of another width.
+    pub fn has_shape_of(&self, other: &Self) -> bool {
+        match (&self.function, &other.function) {
+            (Function::Score, Function::Score) => true,
+            (Function::Tabulated(own), Function::Tabulated(other)) => own.is_of(other),
+            _ => false,
+        }
+    }
+
     /// The values at some scores.
     #[inline(always)]
     pub fn values(&self, scores: &Column, out: &mut Column) {
+        self.standard(scores, out);
+        for i in 0..COLUMN {
+            out.0[i] = self.location + self.scale * out.0[i];
+        }
+    }
+
+    /// The values of the shape in its standard place and width; [`Self::placed`] makes the
+    /// quantity's values of them.
+    #[inline(always)]
+    pub fn standard(&self, scores: &Column, out: &mut Column) {
         match &self.function {
             Function::Score => out.0 = scores.0,
             Function::Tabulated(table) => table.values(&scores.0, &mut out.0),
             Function::Quantiles(distribution) => quantiles(distribution, scores, out),
         }
+    }
+
+    /// The quantity's values from those of its standard shape.
+    #[inline(always)]
+    pub fn placed(&self, standard: &Column, out: &mut Column) {
         for i in 0..COLUMN {
-            out.0[i] = self.location + self.scale * out.0[i];
+            out.0[i] = self.location + self.scale * standard.0[i];
         }
     }
 }

@@ -53,11 +53,10 @@ pub(crate) fn joint_ranks(
 fn ranks_of(values: &[Vec<f64>], rows: usize) -> Vec<Vec<u32>> {
     let varies = |values: &Vec<f64>| values.iter().any(|value| *value != values[0]);
     let varying: Vec<&Vec<f64>> = values.iter().filter(|values| varies(values)).collect();
-    let scores = independent(varying.par_iter().map(|values| scores(values)).collect());
     let count = values.first().map_or(0, Vec::len);
-    let mut indices: Vec<u32> = (0..count as u32).collect();
-    let mut chosen = vec![0; rows.min(count)];
-    choose(&scores, &mut indices, &mut chosen);
+    let of_rank = scores_of_ranks(count);
+    let scores = varying.par_iter().map(|values| scores(values, &of_rank)).collect();
+    let mut chosen = chosen(&independent(scores), count, rows);
     chosen.sort_unstable();
     values
         .par_iter()
@@ -77,58 +76,132 @@ fn ranks_of(values: &[Vec<f64>], rows: usize) -> Vec<Vec<u32>> {
 
 /// The indices of values in ascending order; of equal ones the first comes first.
 fn order(values: &[f64]) -> Vec<u32> {
-    let mut indices: Vec<u32> = (0..values.len() as u32).collect();
-    indices.sort_unstable_by(|&a, &b| {
-        values[a as usize].total_cmp(&values[b as usize]).then(a.cmp(&b))
-    });
-    indices
+    let keys = values.iter().enumerate().map(|(index, value)| (ordered_bits(*value), index as u32));
+    let mut keys: Vec<(u64, u32)> = keys.collect();
+    if keys.len() >= RADIX {
+        sort_by_digits(&mut keys);
+    } else {
+        keys.sort_unstable();
+    }
+    keys.into_iter().map(|(_, index)| index).collect()
+}
+
+/// So many keys and more are sorted digit by digit, which takes as many passes whatever their order.
+const RADIX: usize = 1 << 14;
+
+/// Bits of a digit.
+const DIGIT: u32 = 11;
+
+/// Whole numbers in the order of the values (that of `f64::total_cmp`).
+fn ordered_bits(value: f64) -> u64 {
+    let bits = value.to_bits();
+    if bits >> 63 == 1 { !bits } else { bits | 1 << 63 }
+}
+
+/// Sorts by the keys, from the last digit to the first; equal ones stay in order.
+fn sort_by_digits(keys: &mut Vec<(u64, u32)>) {
+    let mut sorted = vec![(0, 0); keys.len()];
+    for shift in (0..u64::BITS).step_by(DIGIT as usize) {
+        let digit = |key: u64| (key >> shift) as usize & ((1 << DIGIT) - 1);
+        let mut next = [0; 1 << DIGIT];
+        keys.iter().for_each(|&(key, _)| next[digit(key)] += 1);
+        if next.contains(&keys.len()) {
+            continue;
+        }
+        let mut before = 0;
+        for next in &mut next {
+            (*next, before) = (before, before + *next);
+        }
+        for &entry in keys.iter() {
+            let place = &mut next[digit(entry.0)];
+            sorted[*place] = entry;
+            *place += 1;
+        }
+        std::mem::swap(keys, &mut sorted);
+    }
+}
+
+/// The standard normal score of each rank of so many values.
+fn scores_of_ranks(count: usize) -> Vec<f32> {
+    let score = |rank: usize| special::normal::quantile((rank as f64 + 0.5) / count as f64) as f32;
+    (0..count).into_par_iter().map(score).collect()
 }
 
 /// Standard normal scores of the ranks, all different ones.
-fn scores(values: &[f64]) -> Vec<f32> {
-    let n = values.len() as f64;
+fn scores(values: &[f64], of_rank: &[f32]) -> Vec<f32> {
     let mut scores = vec![0.0; values.len()];
-    for (rank, index) in order(values).into_iter().enumerate() {
-        scores[index as usize] = special::normal::quantile((rank as f64 + 0.5) / n) as f32;
+    for (score, index) in of_rank.iter().zip(order(values)) {
+        scores[index as usize] = *score;
     }
     scores
 }
 
-/// Cuts the trials at `indices` into as many cells as there is room in `chosen`, and puts the first
-/// trial of each there. There are at least as many trials as cells.
-fn choose(scores: &[Vec<f32>], indices: &mut [u32], chosen: &mut [u32]) {
+/// At most `rows` of the `count` trials, as many as there are of them, that represent all.
+fn chosen(scores: &[Vec<f32>], count: usize, rows: usize) -> Vec<u32> {
+    let mut chosen = vec![0; rows.min(count)];
+    match scores {
+        [] => {}
+        [x] => choose_among([x], count, &mut chosen),
+        [x, y] => choose_among([x, y], count, &mut chosen),
+        [x, y, z] => choose_among([x, y, z], count, &mut chosen),
+        [x, y, z, w] => choose_among([x, y, z, w], count, &mut chosen),
+        _ => {
+            let mut trials: Vec<u32> = (0..count as u32).collect();
+            let along = |direction: usize, trial: &u32| scores[direction][*trial as usize];
+            choose((scores.len(), &along, &|trial| *trial), &mut trials, &mut chosen);
+        }
+    }
+    chosen
+}
+
+/// The choice with the scores of a trial beside it: what is moved together is read together.
+fn choose_among<const N: usize>(scores: [&Vec<f32>; N], count: usize, chosen: &mut [u32]) {
+    let trial = |index: u32| (scores.map(|scores| scores[index as usize]), index);
+    let mut trials: Vec<([f32; N], u32)> = (0..count as u32).map(trial).collect();
+    let along = |direction: usize, trial: &([f32; N], u32)| trial.0[direction];
+    let index = |trial: &([f32; N], u32)| trial.1;
+    choose((N, &along, &index), &mut trials, chosen);
+}
+
+/// Cuts the trials into as many cells as there is room in `chosen`, and puts the first trial of each
+/// there. There are at least as many trials as cells. Given are the number of directions, a trial's
+/// score along one, and its index.
+fn choose<T: Send, A, I>(by: (usize, &A, &I), trials: &mut [T], chosen: &mut [u32])
+where
+    A: Fn(usize, &T) -> f32 + Sync,
+    I: Fn(&T) -> u32 + Sync,
+{
+    let (directions, along, index) = by;
     if let [only] = chosen {
-        *only = indices.iter().copied().min().unwrap_or(0);
+        *only = trials.iter().map(index).min().unwrap_or(0);
         return;
     }
     if chosen.is_empty() {
         return;
     }
-    let extent = |scores: &Vec<f32>| {
-        indices
+    let width = |direction: usize| {
+        let (least, most) = trials
             .iter()
-            .map(|&index| scores[index as usize])
+            .map(|trial| along(direction, trial))
             .fold((f32::INFINITY, f32::NEG_INFINITY), |(least, most), score| {
                 (least.min(score), most.max(score))
-            })
-    };
-    let widths = scores.iter().map(|scores| {
-        let (least, most) = extent(scores);
+            });
         most - least
+    };
+    let widest = (0..directions).fold((0, f32::NEG_INFINITY), |best, direction| {
+        let width = width(direction);
+        if width > best.1 { (direction, width) } else { best }
     });
-    let widest = widths
-        .enumerate()
-        .fold((0, f32::NEG_INFINITY), |best, width| if width.1 > best.1 { width } else { best });
     let cells = chosen.len() / 2;
     // as many trials for each cell, to one
-    let cut = (indices.len() as u64 * cells as u64 / chosen.len() as u64) as usize;
-    if let Some(scores) = scores.get(widest.0) {
-        let key = |index: &u32| scores[*index as usize];
-        indices.select_nth_unstable_by(cut, |a, b| key(a).total_cmp(&key(b)).then(a.cmp(b)));
-    }
-    let (low, high) = indices.split_at_mut(cut);
+    let cut = (trials.len() as u64 * cells as u64 / chosen.len() as u64) as usize;
+    let key = |trial: &T| along(widest.0, trial);
+    trials.select_nth_unstable_by(cut, |a, b| {
+        key(a).total_cmp(&key(b)).then_with(|| index(a).cmp(&index(b)))
+    });
+    let (low, high) = trials.split_at_mut(cut);
     let (of_low, of_high) = chosen.split_at_mut(cells);
-    rayon::join(|| choose(scores, low, of_low), || choose(scores, high, of_high));
+    rayon::join(|| choose(by, low, of_low), || choose(by, high, of_high));
 }
 
 /// Directions of the scores that are not correlated, each with variance 1: what is left of the score
@@ -199,6 +272,32 @@ mod tests {
         }
     }
 
+    /// The choice is the same whether scores stand beside the trials or are looked up.
+    #[test]
+    fn both_ways_to_choose_are_one() {
+        let x = normals("x", 8);
+        let y: Vec<f64> = normals("y", 8).iter().zip(&x).map(|(y, x)| y + 0.3 * x).collect();
+        let of_rank = scores_of_ranks(x.len());
+        let scores = [scores(&x, &of_rank), scores(&y, &of_rank)];
+        let mut looked_up = vec![0; 777];
+        let mut trials: Vec<u32> = (0..x.len() as u32).collect();
+        let along = |direction: usize, trial: &u32| scores[direction][*trial as usize];
+        choose((2, &along, &|trial| *trial), &mut trials, &mut looked_up);
+        assert_eq!(chosen(&scores, x.len(), 777), looked_up);
+    }
+
+    /// Sorting by digits is sorting: values of both signs and all sizes, equal ones in order.
+    #[test]
+    fn digits_sort_as_values() {
+        let mut values = normals("x", 32);
+        values.iter_mut().step_by(3).for_each(|x| *x = (*x * 4.0).round() * 1e-300);
+        values[5] = -0.0;
+        assert!(values.len() >= RADIX);
+        let mut expected: Vec<u32> = (0..values.len() as u32).collect();
+        expected.sort_by(|&a, &b| values[a as usize].total_cmp(&values[b as usize]));
+        assert_eq!(order(&values), expected);
+    }
+
     /// Equal values have ranks all the same.
     #[test]
     fn steps_have_ranks() {
@@ -225,10 +324,9 @@ mod tests {
         let difference = |index: usize| values[1][index] - values[0][index];
         let mut all: Vec<f64> = (0..values[0].len()).map(difference).collect();
         all.sort_unstable_by(f64::total_cmp);
-        let scores = independent(values.iter().map(|v| scores(v)).collect());
-        let mut indices: Vec<u32> = (0..all.len() as u32).collect();
-        let mut chosen = vec![0; 1024];
-        choose(&scores, &mut indices, &mut chosen);
+        let of_rank = scores_of_ranks(all.len());
+        let scores = independent(values.iter().map(|v| scores(v, &of_rank)).collect());
+        let chosen = chosen(&scores, all.len(), 1024);
         let squares = (1..20).map(|k| {
             let p = f64::from(k) / 20.0;
             let limit = all[(p * all.len() as f64) as usize];

@@ -254,6 +254,7 @@ fn diagnosis() -> Diagnosis {
         strength: Vec::new(),
         prior_conflicts: vec![PriorConflict {
             effect: "low-pass".into(),
+            effects: vec!["low-pass".into()],
             parameter: low_pass(),
             prior_distance: 6.1234,
             bounded: false,
