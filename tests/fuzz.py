@@ -3,8 +3,10 @@
 
     python3 tests/fuzz.py PROGRAM [SEED] [CASES] [--workers N] [--keep FOLDER]
 
-Every case is a right file (a model, a case of the gap diagnosis, a certificate, a recipe with its
-recordings, a table, a workbook, a saved result) with some changes, and a command that reads it; the
+Every case is a right file (a model with its tables and fits, a case of the gap diagnosis, a
+certificate, a recipe with its recordings, a table of results, a workbook, a saved result, a digital
+calibration certificate, a budget or project to import, costs of a plan, parts of a run) with some
+changes, and a command that reads it; the
 seed and the number of the case tell which. In the end stand the exit codes that were seen, the
 slowest case and the largest resident memory. It fails where a code is not 0, 2 or 3, a case takes
 more than 10 s of processor time or 1 GiB, an answer in JSON is none, or the program says that it
@@ -26,6 +28,22 @@ WORDS = ["", "x", "y", "1", "m", "m/s^2", "degC", "K", "dB", "%", "ppm", "rad", 
          "\u0000", "\u001b[2J", "\u202e", "µ", "5 %", "1 % + 2 V", "2 V", "1e400 V", "x^x^x", "((((", "))",
          "kelvin(x)", "x/[m]", "20 [degC]", "nan", "inf", "1,5", "'", "\"", "=1+1", "<script>", "adaptive",
          "max(x,y)", "if(x>0,x,y)", "10*log10(x)", "[c]*x", "x" * 300, "9" * 400, "a*" * 200 + "a"]
+
+
+BUDGETS = {
+    "b.csv": b"Calibration,,,,,\nR = U/I,,,,,\nQuantity,Estimate,Unit,+-,Distribution,Divisor,Degrees of freedom\n"
+             b"U,5.0112,V,0.0046,normal,2,50\nI,0.01,A,0.00001,rectangular,sqrt(3),inf\nR,501,ohm,,,,\n",
+    "d.csv": "Größe;Schätzwert;Einheit;Halbbreite;Verteilung;Sensitivitätskoeffizient\nm_S;10000,005;g;0,045;Normal;1\n"
+             "dm;0,02;g;0,0144;Rechteck;1\n".encode(),
+    "p.yaml": b"- name: flow\n  mode: uncertainty\n  samples: 10000\n  functions:\n"
+              b"  - {name: v, expr: 'v = sqrt(2*D*R*T/p)', units: meter / second, desc: speed, tolerance: {low: '50', high: '60', units: meter / second}}\n"
+              b"  inputs:\n  - name: D\n    mean: 1.993\n    units: kilopascal\n    uncerts:\n"
+              b"    - {name: u, degf: .inf, dist: normal, unc: 0.025, k: 2, units: kilopascal}\n    - {name: r, dist: resolution, a: 0.001}\n"
+              b"  - {name: R, mean: 287.058, units: joule / kelvin / kilogram, uncerts: [{name: u, dist: normal, unc: 0.1%, conf: 0.95}]}\n"
+              b"  - {name: T, typea: [19.6, 19.7, 19.65], units: degree_Celsius, uncerts: &a [{name: u, dist: uniform, a: 0.2, units: delta_degree_Celsius}]}\n"
+              b"  - {name: p, mean: 101.4, units: kilopascal, uncerts: [{name: u, dist: t, std: 2.1, degf: 9}]}\n"
+              b"  correlations:\n  - {var1: D, var2: p, cor: '0.3'}\n- {mode: risk, name: r}\n",
+}
 
 
 def bases():
@@ -66,6 +84,17 @@ def bases():
                     found.append((kind, main, data, files))
                     for other in files:
                         found.append((kind + "-data", other, files[other], {**files, main: data}))
+    published = folder(os.path.join(models, "examples", "published"))
+    others = {k: v for k, v in published.items() if k.endswith(".csv")}
+    for name, data in published.items():
+        if name.endswith(".json") and name != "expected.json" and b'"result"' not in data and len(data) < 20000:
+            found.append(("model", name, data, others))
+    plan = folder(os.path.join(models, "plan"))
+    for name, data in plan.items():
+        if b'"costs"' in data:
+            found.append(("costs", name, data, {k: v for k, v in plan.items() if k != name}))
+    found += [("import", name, data, {}) for name, data in BUDGETS.items()]
+    found.append(("import-book", "t.xlsx", workbook(BUDGETS["b.csv"]), {}))
     for name, data in folder(os.path.join(models, "certificates")).items():
         others = {n: d for n, d in folder(models).items() if n.endswith(".json")}
         found.append(("certificate", name, data.replace(b"../", b""), others))
@@ -301,6 +330,33 @@ def prepared(program):
         subprocess.run([program, "run", model, "--trials", "2000", "--save", saved, "--quiet"], check=True, stdout=subprocess.DEVNULL)
         with open(saved, "rb") as file:
             result = json.load(file)
+    with tempfile.TemporaryDirectory() as folder:
+        # what the program writes and reads again: parts of a run, a digital certificate, a workbook
+        with open(model, "rb") as file:
+            plane = file.read()
+        parts = {}
+        with open(os.path.join(folder, "m.json"), "wb") as file:
+            file.write(plane)
+        for part in "12":
+            name = part + ".part"
+            subprocess.run([program, "run", "m.json", "--trials", "6000", "--blocks", part + "/2", "--partial", name, "--quiet"], cwd=folder, check=True, stdout=subprocess.DEVNULL)
+            with open(os.path.join(folder, name), "rb") as file:
+                parts[name] = file.read()
+        for name, data in parts.items():
+            found.append(("parts", name, data, {**{k: v for k, v in parts.items() if k != name}, "m.json": plane}))
+        with open(os.path.join(ROOT, "tests", "readers", "certificate.json"), "rb") as file:
+            stated = file.read().replace(b"../../models/inclined_plane.json", b"m.json")
+        with open(os.path.join(folder, "c.json"), "wb") as file:
+            file.write(stated)
+        subprocess.run([program, "certificate", "c.json", "--trials", "0", "--format", "dcc", "--output", "ref.xml", "--quiet"], cwd=folder, check=True, stderr=subprocess.DEVNULL)
+        subprocess.run([program, "run", "m.json", "--trials", "0", "--format", "xlsx", "--output", "own.xlsx", "--quiet"], cwd=folder, check=True)
+        with open(os.path.join(folder, "ref.xml"), "rb") as file:
+            dcc = file.read()
+        with open(os.path.join(folder, "own.xlsx"), "rb") as file:
+            found.append(("import-book", "own.xlsx", file.read(), {}))
+    refer = {"inputs": {"v": {"distribution": "dcc", "file": "ref.xml", "quantity": 0, "index": 0}}, "equations": {"y": "2*v"}, "outputs": {"y": {}}, "check_units": False}
+    found.append(("dcc", "ref.xml", dcc, {"use.json": json.dumps(refer).encode()}))
+    found.append(("model", "use.json", json.dumps(refer).encode(), {"ref.xml": dcc}))
     output = next(iter(result["outputs"]))
     use = {"inputs": {"a": {"distribution": "result", "file": "r.json", "output": output}}, "equations": {"y": "2*a"}, "outputs": {"y": {"unit": result["outputs"][output]["unit"]}}}
     old = {key: value for key, value in result.items() if not key.startswith("sha256")}
@@ -309,7 +365,8 @@ def prepared(program):
     return found
 
 
-WEIGHTS = {"model": 60, "table": 8, "gap": 3, "gap-data": 1, "recipe": 4, "recipe-data": 6, "certificate": 4, "compare": 6, "workbook": 6, "result": 4}
+WEIGHTS = {"model": 60, "table": 8, "gap": 3, "gap-data": 1, "recipe": 4, "recipe-data": 6, "certificate": 4, "compare": 6, "workbook": 6, "result": 4,
+           "dcc": 5, "import": 4, "import-book": 3, "costs": 1, "parts": 4}
 
 
 def command(choice, kind, name, small):
@@ -336,15 +393,23 @@ def command(choice, kind, name, small):
         return ["certificate", name, "--trials", choice.choice(["0", "100"]), "--format", choice.choice(["table", "json", "dcc", "latex", "html", "xlsx", "csv"])]
     if kind in ("compare", "workbook"):
         return ["compare", name, "--format", choice.choice(["table", "json", "html", "markdown", "csv"])]
+    if kind == "dcc":
+        return choice.choice([["check", "use.json"], ["run", "use.json", "--trials", few, "--format", page]])
+    if kind in ("import", "import-book"):
+        return ["import", name]
+    if kind == "costs":
+        return choice.choice([["check", name], ["plan", "source.json", "--target", "U(source) <= 8 uV", "--cost", name, "--format", choice.choice(["table", "json"])]])
+    if kind == "parts":
+        return ["merge", ".", "--model", "m.json", "--format", choice.choice(["table", "json"])]
     flags = ["--accept-changed"] if choice.randrange(2) else []
     return choice.choice([["run", "use.json", "--trials", few, "--format", page], ["diff", "r.json", "r.json"]]) + flags
 
 
 def damaged(choice, kind, name, data, texts):
     times = choice.choice([1, 1, 1, 2, 2, 3, 6])
-    if kind == "workbook":
+    if kind in ("workbook", "import-book"):
         return book_changed(choice, data, times)
-    if name.endswith((".wav", ".npy")):
+    if name.endswith((".wav", ".npy", ".part")):
         head = data[:200]
         return bytes_changed(choice, head, times) + data[200:] if choice.randrange(2) else bytes_changed(choice, data, times)
     way = choice.randrange(10)

@@ -9,7 +9,7 @@ use serde_json::Value;
 use zip::write::SimpleFileOptions;
 use zip::{ZipArchive, ZipWriter};
 
-use crate::support::command;
+use crate::support::{command, root};
 
 /// Standard output and error of the program in a folder, with its exit code.
 fn told(folder: &Path, arguments: &[&str]) -> (String, String, Option<i32>) {
@@ -107,6 +107,40 @@ fn a_workbook_of_ours_comes_back_with_its_changed_cells() {
     let (text, said, code) = told(at, &["import", "b.xlsx"]);
     assert_eq!((text.as_str(), code), ("", Some(2)), "{said}");
     assert!(said.contains("expanded"), "{said}");
+}
+
+/// A project as suncal 1.7.1 saves it (Pitot tube and the flow in a duct: readings, components, a
+/// share of the estimate, a Celsius temperature, a correlation), and what that program computes of it.
+/// It takes 0.95 of an infinite t for the barometer, as we do; its numbers have all digits.
+#[test]
+fn a_project_of_suncal_becomes_a_model() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    fs::copy(root().join("models/examples/pitot.yaml"), at.join("pitot.yaml")).unwrap();
+    let (text, said, code) = told(at, &["import", "pitot.yaml", "--output", "pitot.json"]);
+    assert_eq!(code, Some(0), "{text} {said}");
+    for part in [
+        "understood: the calculation `Pitot tube` of a suncal project",
+        "guessed: in the equations `T`",
+    ] {
+        assert!(said.contains(part), "{part}: {said}");
+    }
+    let (text, said, code) = told(at, &["run", "pitot.json", "--trials", "0", "--format", "json"]);
+    assert_eq!(code, Some(0), "{said}");
+    let made: Value = serde_json::from_str(&text).unwrap();
+    let expected = [
+        ("v", [57.4804332925819, 0.3449876631219945, 22.977661886645702]),
+        ("q", [112.95287495969767, 0.6841870844123163, 23.83867084669384]),
+    ];
+    for (name, of) in expected {
+        let gum = &made["outputs"][name]["gum"];
+        for (key, value) in ["estimate", "standard_uncertainty", "dof"].into_iter().zip(of) {
+            let found = gum[key].as_f64().unwrap();
+            assert!((found / value - 1.0).abs() < 1e-9, "{name} {key}: {found}, not {value}");
+        }
+    }
+    let (_, said, code) = told(at, &["import", "none.yaml"]);
+    assert_eq!(code, Some(2), "{said}");
 }
 
 /// German headers, a title in merged cells, empty rows, a column of formulas.

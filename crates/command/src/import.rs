@@ -9,7 +9,8 @@ use super::output::Place;
 use super::{Exit, Failure, output};
 use gumption_files::import_budget;
 
-/// Make a model file of a budget in a spreadsheet (CSV, or the first sheet of an XLSX file).
+/// Make a model file of a budget in a spreadsheet (CSV, or the first sheet of an XLSX file), or of a
+/// suncal project (YAML).
 ///
 /// Columns are recognized in English and German: quantity, estimate, unit, +-, distribution, divisor,
 /// sensitivity coefficient, degrees of freedom. An equation on the sheet, such as `R = U/I`, is taken;
@@ -17,7 +18,7 @@ use gumption_files::import_budget;
 /// had to be guessed, is said on standard error.
 #[derive(Debug, Args)]
 pub(super) struct Import {
-    /// The budget: a CSV or XLSX file
+    /// The budget: a CSV, XLSX or YAML file
     file: PathBuf,
     /// Write the model file here instead of to standard output
     #[arg(long, value_name = "FILE")]

@@ -45,35 +45,70 @@ fn ratio(all: &[MonteCarlo], of: impl Fn(&MonteCarlo) -> (f64, Option<f64>)) -> 
 
 const NORMAL: &str = r#""x": {"distribution": "normal", "mean": 0, "std": 1}"#;
 
-/// The ends of the shortest interval scatter as they say: with smooth peaks by the cube-root law, with
-/// modes at a bound by that of quantiles. Sixty seeds know a scatter to 9 %, and the stated errors
-/// come from 15 batches each; the seeds are fixed. Before, the upper ends of the skew ones were stated
-/// 1.7 times too large. Lower ends at the limit itself, which scatter by almost nothing, may be stated
-/// too large.
+/// What the ends of the shortest interval scatter by over what they say, of one model.
+fn of_ends(inputs: &str, formula: &str, seeds: u64, trials: u64) -> [f64; 2] {
+    let mut task = task(inputs, formula);
+    let all: Vec<MonteCarlo> = (1..=seeds).map(|s| figures(&mut task, s, trials)).collect();
+    assert!(all.iter().all(|found| found.shortest_unique), "{inputs} {formula}");
+    [0, 1].map(|end| {
+        let of = |found: &MonteCarlo| {
+            let error = found.errors.shortest_interval[end];
+            (found.shortest_interval[end], Some(error).filter(|error| error.is_finite()))
+        };
+        let (ratio, stated) = ratio(&all, of);
+        assert!(stated > 0.9, "{inputs} {formula}: {stated} of the seeds");
+        ratio
+    })
+}
+
+/// Models, and where the mode of their output lies: inside (the cube-root law), at the lower or the
+/// upper bound (one end comes as near to it as the least trial, the other is a quantile).
+const ENDS: [(&str, &str); 13] = [
+    (r#"{"distribution": "exponential", "mean": 1}"#, "x"),
+    (r#"{"distribution": "normal", "mean": 0, "std": 1}"#, "abs(x)"),
+    (r#"{"distribution": "normal", "mean": 0.2, "std": 1}"#, "abs(x)"),
+    (r#"{"distribution": "beta", "alpha": 1, "beta": 3}"#, "x"),
+    (r#"{"distribution": "beta", "alpha": 5, "beta": 1}"#, "x"),
+    // a triangular one with its mode at the lower bound
+    (r#"{"distribution": "rectangular", "lower": 0, "upper": 1}"#, "1 - sqrt(x)"),
+    // chi-squared of one and of two degrees of freedom
+    (r#"{"distribution": "normal", "mean": 0, "std": 1}"#, "x^2"),
+    (r#"{"distribution": "gamma", "shape": 1, "rate": 0.5}"#, "x"),
+    (r#"{"distribution": "normal", "mean": 0, "std": 1}"#, "x"),
+    (r#"{"distribution": "lognormal", "mean": 1, "std": 1}"#, "x"),
+    (r#"{"distribution": "normal", "mean": 0, "std": 0.5}"#, "exp(x)"),
+    (r#"{"distribution": "gamma", "shape": 2.5, "rate": 0.5}"#, "x"),
+    (
+        r#"{"distribution": "curvilinear-trapezoid", "mean": 0, "half_width": 1, "inexactness": 0.3}"#,
+        "x",
+    ),
+];
+
+/// The ends of the shortest interval scatter as they say. A hundred seeds know a normal scatter to
+/// 7 %, and that of an end at a bound, which is exponential, to 15 % (of a square, whose fourth moment
+/// is large, to twice that); the seeds are fixed. Before, the ends at a bound were stated 3 to 100
+/// times too large.
 #[test]
 fn ends_of_the_shortest_interval_scatter_as_stated() {
-    let exponential = r#""x": {"distribution": "exponential", "mean": 1}"#;
-    let triangular = r#""x": {"distribution": "triangular", "mean": 0, "half_width": 1}"#;
-    let gamma = r#""x": {"distribution": "gamma", "shape": 2.5, "rate": 0.5}"#;
-    let lognormal = r#""x": {"distribution": "lognormal", "mean": 1, "std": 1}"#;
-    let cases = [
-        ("normal", NORMAL, "x", [0.7..1.4, 0.7..1.4]),
-        ("triangular", triangular, "x", [0.7..1.4, 0.7..1.4]),
-        ("gamma", gamma, "x", [0.7..1.4, 0.7..1.4]),
-        ("exponential", exponential, "x", [0.01..1.6, 0.7..1.4]),
-        ("half-normal", NORMAL, "abs(x)", [0.01..1.6, 0.7..1.4]),
-        ("lognormal", lognormal, "x", [0.01..1.6, 0.7..1.4]),
-    ];
-    for (name, inputs, formula, limits) in cases {
-        let mut task = task(inputs, formula);
-        let all: Vec<MonteCarlo> = (1..=SEEDS).map(|s| figures(&mut task, s, 30_000)).collect();
-        assert!(all.iter().all(|found| found.shortest_unique), "{name}");
-        for (end, limits) in limits.iter().enumerate() {
-            let of = |found: &MonteCarlo| {
-                (found.shortest_interval[end], Some(found.errors.shortest_interval[end]))
-            };
-            let (ratio, _) = ratio(&all, of);
-            assert!(limits.contains(&ratio), "{name}, end {end}: {ratio}");
+    for (input, formula) in ENDS {
+        let found = of_ends(&format!(r#""x": {input}"#), formula, 100, 30_000);
+        for ratio in found {
+            assert!((0.65..1.45).contains(&ratio), "{input} {formula}: {found:?}");
+        }
+    }
+}
+
+/// The whole study: 600 seeds know the scatters to 3 %, 6 % and 12 %.
+#[test]
+#[ignore = "minutes"]
+fn ends_of_the_shortest_interval_scatter_as_stated_over_600_seeds() {
+    for trials in [10_000, 30_000, 100_000] {
+        for (input, formula) in ENDS {
+            let found = of_ends(&format!(r#""x": {input}"#), formula, 600, trials);
+            println!("{trials:7} {input} {formula}: {:.2} {:.2}", found[0], found[1]);
+            for ratio in found {
+                assert!((0.7..1.35).contains(&ratio), "{trials} {input} {formula}: {found:?}");
+            }
         }
     }
 }

@@ -6,6 +6,9 @@
 mod columns;
 mod grid;
 mod own;
+mod pint;
+mod suncal;
+mod yaml;
 
 use crate::open::{FileKind, are_results};
 use std::path::Path;
@@ -31,7 +34,8 @@ pub struct ImportedBudget {
 }
 
 /// Reads a budget from a CSV file or from the first sheet of an XLSX file; of a workbook that this
-/// program has made, its model file with the cells that were changed.
+/// program has made, its model file with the cells that were changed; of a YAML file the first
+/// calculation of an uncertainty of a suncal project.
 ///
 /// # Errors
 /// A file that cannot be read, or in which no budget is found; rows with mistakes, all at once.
@@ -66,6 +70,15 @@ pub fn import_budget_bytes(path: &Path, content: Vec<u8>) -> Result<ImportedBudg
             Ok(Some(made)) => return made,
             Err(message) => return failed(DiagnosticKind::Unreadable { message }),
         }
+    }
+    let is_project = path.extension().is_some_and(|extension| {
+        extension.eq_ignore_ascii_case("yaml") || extension.eq_ignore_ascii_case("yml")
+    });
+    if is_project {
+        return match bytes::text(&content) {
+            Ok(text) => suncal::of_project(path, &text),
+            Err(message) => failed(DiagnosticKind::Unreadable { message }),
+        };
     }
     let (cells, text) = match grid::of_content(content, is_workbook) {
         Ok(read) => read,

@@ -4,6 +4,7 @@ use std::f64::consts::PI;
 use std::rc::Rc;
 
 use super::Measured;
+use super::beside::{Besides, amplitude};
 use super::effects::{Effects, KnownNoise};
 use super::quantization::quantization_variance;
 use super::recipe::TimeBase;
@@ -63,7 +64,10 @@ pub(super) struct Analysed {
     pub(super) fit: ToneCoefficients,
     pub(super) residuals: Residuals,
     pub(super) fundamentals: Vec<Fundamental>,
+    /// Oscillations in what the fit leaves.
     pub(super) spurious: Vec<Spurious>,
+    /// Oscillations that nobody named and that are fitted.
+    pub(super) besides: Besides,
     /// The resolution of the values, stated or seen; 0 where it is not known.
     pub(super) resolution: f64,
     /// What rounding to it does, where noise does not blur it.
@@ -89,6 +93,16 @@ impl Analysed {
         let residuals = &self.residuals;
         let left = (residuals.variance, residuals.first.as_slice());
         noise_before(&self.design, &self.fit, self.resolution, left)
+    }
+
+    /// The oscillations that nobody named: cycles in a sample interval and peak amplitude.
+    pub(super) fn fitted_besides(&self) -> impl Iterator<Item = Spurious> {
+        let tones = self.design.tones.iter().enumerate().filter(|(_, tone)| tone.beside);
+        tones.map(|(place, tone)| Spurious {
+            cycles: tone.cycles,
+            amplitude: amplitude(&self.fit, place),
+            fitted: true,
+        })
     }
 
     /// The peak amplitude of the strongest tone.

@@ -112,7 +112,7 @@ pub(super) struct Group<'g> {
 }
 
 /// The tones of a recording, and for each channel their coefficients and what they leave.
-type FittedTones = (ToneDesign, Vec<ToneCoefficients>, Vec<Residuals>);
+pub(super) type FittedTones = (ToneDesign, Vec<ToneCoefficients>, Vec<Residuals>);
 
 impl Group<'_> {
     /// Analyses the channels.
@@ -129,6 +129,11 @@ impl Group<'_> {
         let mut chosen = Selected { passes, columns: &columns };
         let fundamentals = self.fundamentals(&mut chosen)?;
         self.fitted(&mut chosen, self.base, fundamentals)
+    }
+
+    /// Whether tones are fitted at their frequencies, and not taken from bins.
+    pub(super) fn is_fit(&self) -> bool {
+        self.settings.method != Method::Fft
     }
 
     fn check_length<E>(&self, samples: u64) -> Result<(), Refused<E>> {
@@ -258,7 +263,7 @@ impl Group<'_> {
                     let cycles = cycles * f64::from(multiple);
                     let near = |tone: &Tone| (tone.cycles - cycles).abs() * (samples as f64) < 0.5;
                     if is_asked == asked && (asked || !tones.iter().any(near)) {
-                        tones.push(Tone { cycles, fundamental, multiple });
+                        tones.push(Tone { cycles, fundamental, multiple, beside: false });
                     }
                 }
             }
@@ -273,11 +278,11 @@ impl Group<'_> {
         mut fundamentals: Vec<Fundamental>,
     ) -> Result<Vec<Analysed>, Refused<P::Error>> {
         let lead = self.lead().1;
-        let (mut design, mut fits, mut left) =
-            self.at_own_frequencies(passes, &mut fundamentals)?;
+        let ((mut design, mut fits, mut left), besides) =
+            self.with_besides(passes, &mut fundamentals)?;
         if fundamentals.iter().any(|of| of.of_cut > 0.0) {
             // what a fit at the bins' frequencies leaves of the sine is no noise
-            design = self.design(&fundamentals, passes.frames(), |of| of.cycles)?;
+            design = self.design(&fundamentals, passes.frames(), &[], |of| of.cycles)?;
             fits = design.fit(passes).map_err(Refused::Unreadable)?;
         }
         if let Some(through) = self.through {
@@ -308,6 +313,7 @@ impl Group<'_> {
         let made = self.channels.iter().zip(fits).zip(left).zip(traces);
         let analysed = made.map(|(((at, fit), residuals), trace)| {
             let spurious = spurious::found(&residuals.first);
+            let besides = besides.clone();
             let stated = self.settings.channels.get(at.0).map_or(0.0, |of| of.resolution);
             // a step that is seen counts where it is coarser than the stated one
             let seen = residuals.lattice.filter(|step| *step > 1.5 * stated);
@@ -323,6 +329,7 @@ impl Group<'_> {
                 residuals,
                 fundamentals: fundamentals.clone(),
                 spurious,
+                besides,
                 effects: self.through.map_or_else(Rc::default, |of| of.effects.clone()),
                 trace,
             }
@@ -331,13 +338,21 @@ impl Group<'_> {
         Ok(analysed.collect())
     }
 
-    fn design<E>(
+    /// The design of the tones of all frequencies and of those `beside` them.
+    pub(super) fn design<E>(
         &self,
         fundamentals: &[Fundamental],
         samples: u64,
+        beside: &[f64],
         cycles: impl Fn(&Fundamental) -> f64,
     ) -> Result<ToneDesign, Refused<E>> {
-        let tones = self.tones(fundamentals, samples, cycles)?;
+        let mut tones = self.tones(fundamentals, samples, cycles)?;
+        tones.extend(beside.iter().zip(fundamentals.len()..).map(|(cycles, fundamental)| Tone {
+            cycles: *cycles,
+            fundamental,
+            multiple: 1,
+            beside: true,
+        }));
         ToneDesign::new(tones, samples).map_err(|no| self.refusal(no, samples))
     }
 
@@ -345,19 +360,23 @@ impl Group<'_> {
     /// the recording's within its uncertainty (and the rate's): where the recording tells the cycles
     /// of a sample interval better than these do, they are moved to its own. What a fit beside them
     /// leaves of the sine would pass for noise.
-    fn at_own_frequencies<P: SampleSource>(
+    /// With oscillations `beside` them an estimated frequency is estimated once more.
+    pub(super) fn at_own_frequencies<P: SampleSource>(
         &self,
         passes: &mut P,
         fundamentals: &mut [Fundamental],
+        beside: &[f64],
     ) -> Result<FittedTones, Refused<P::Error>> {
         let samples = passes.frames();
         let lead = self.lead().1;
         let as_stated = fundamentals.to_vec();
         let within = |of: &Fundamental| elementary::hypot(of.of_stated, of.of_rate);
-        let mut may_move: Vec<bool> = as_stated.iter().map(|of| within(of) > 0.0).collect();
+        let again_estimated = |of: &Fundamental| !of.is_stated && !beside.is_empty();
+        let mut may_move: Vec<bool> =
+            as_stated.iter().map(|of| within(of) > 0.0 || again_estimated(of)).collect();
         let mut moves = 0;
         loop {
-            let design = self.design(fundamentals, samples, |of| of.turning)?;
+            let design = self.design(fundamentals, samples, beside, |of| of.turning)?;
             let mut fits = design.fit(passes).map_err(Refused::Unreadable)?;
             let left = residuals::of(&design, passes, &mut fits).map_err(Refused::Unreadable)?;
             let Some(residuals) = left.get(lead) else { return Ok((design, fits, left)) };
@@ -369,6 +388,15 @@ impl Group<'_> {
                 let Some((step, variance)) = residuals.cycles.get(number).copied() else {
                     continue;
                 };
+                if again_estimated(of) {
+                    let most = 0.25 / samples as f64;
+                    let step = if variance.is_finite() { step.clamp(-most, most) } else { 0.0 };
+                    of.move_to(of.turning + step, variance);
+                    of.hertz.value = of.turning * self.base.rate.value;
+                    may_move[number] = moves < MOST_MOVES && step.abs() * samples as f64 > SETTLED;
+                    again |= may_move[number];
+                    continue;
+                }
                 let stated = as_stated[number];
                 let within = within(&stated);
                 let white = (variance * residuals.variance).sqrt();

@@ -26,6 +26,7 @@
 
 mod analysed;
 mod analysis;
+mod beside;
 mod budget;
 mod effects;
 mod fft;

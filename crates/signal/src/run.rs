@@ -10,6 +10,7 @@ use super::observation::{ChannelObservation, Observation};
 use super::passes::{InMemorySamples, SampleSource, gathered};
 use super::recipe::{Frequency, Method, RecipeSettings, TimeBase};
 use super::search;
+use super::spurious::Spurious;
 use super::step::ChannelStep;
 use super::surroundings::{Finding, Surroundings};
 use super::trace::RecordTrace;
@@ -323,6 +324,31 @@ fn notes(settings: &RecipeSettings, analysed: &[Analysed]) -> Vec<Note> {
             );
             notes.push(("correlated-residuals", of.channel, text));
         }
+        let found: Vec<Spurious> = of.fitted_besides().collect();
+        if !found.is_empty() {
+            let unit = unit_text(settings, of);
+            let each = found.iter().map(|found| {
+                let hertz = short(found.cycles * of.base.rate.value, 6);
+                format!("{hertz} Hz (amplitude {}{unit})", short(found.amplitude, 3))
+            });
+            let each = each.collect::<Vec<_>>().join(", ");
+            let text = format!(
+                "`{name}`: something oscillates that the recipe does not name, at {each}; it is \
+                 fitted together with the named frequencies and counts as noise in the \
+                 signal-to-noise ratio"
+            );
+            notes.push(("found-tone", of.channel, text));
+        }
+        if of.besides.too_near {
+            let text = format!(
+                "`{name}`: something oscillates within {} Hz (one over the record's length) of a \
+                 named frequency, or that one grows, fades or wanders; this record cannot tell them \
+                 apart, amplitude and phase are those of both together, and only a longer record \
+                 tells more",
+                short(of.base.rate.value / of.design.samples as f64, 2)
+            );
+            notes.push(("tones-too-near", of.channel, text));
+        }
         if residuals.coloured.as_ref().is_some_and(|coloured| coloured.walks) && !expected {
             let text = format!(
                 "`{name}`: the level wanders and does not come back within the record; the \
@@ -388,6 +414,12 @@ fn notes(settings: &RecipeSettings, analysed: &[Analysed]) -> Vec<Note> {
         }
     }
     notes
+}
+
+/// A number with so many digits.
+fn short(value: f64, digits: usize) -> String {
+    let text = format!("{value:.*e}", digits.saturating_sub(1));
+    gumption_engine::number::Shortest(text.parse().unwrap_or(value)).to_string()
 }
 
 /// The unit of a channel's values before its steps have none of their own, with a blank before it.

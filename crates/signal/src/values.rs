@@ -77,9 +77,8 @@ pub(super) fn observed(
             residuals.correlated,
         ),
         spurious: analysed
-            .spurious
-            .iter()
-            .copied()
+            .fitted_besides()
+            .chain(analysed.spurious.iter().copied())
             .filter(|s| s.amplitude > 1e-4 * first.amplitude)
             .collect(),
         findings,
@@ -333,7 +332,9 @@ fn ratio(analysed: &Analysed, tones: &[Polar], with_multiples: bool) -> Budgeted
         |polar: &&Polar| (polar.amplitude * polar.amplitude / 2.0 - scatter(polar)).max(0.0);
     let above = tones.iter().skip(if with_multiples { 1 } else { tones.len() });
     let others: f64 = above.clone().map(|polar| power(&polar)).sum();
-    let noise = residuals.variance;
+    // what oscillates beside the signal is no part of it, whether it is fitted or not
+    let besides: f64 = analysed.fitted_besides().map(|of| of.amplitude * of.amplitude / 2.0).sum();
+    let noise = residuals.variance + besides;
     let disturbance = noise + others;
     if disturbance <= 0.0 || amplitude <= 0.0 {
         return BudgetedValue::new(f64::INFINITY, Vec::new(), f64::INFINITY);

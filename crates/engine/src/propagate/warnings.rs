@@ -57,11 +57,14 @@ pub fn warnings(task: &Task, evaluation: &Evaluation) -> Vec<Warning> {
         }
         for (number, (output, evaluated)) in task.model.outputs.iter().zip(&row.outputs).enumerate()
         {
+            let mut jumps = false;
             if let (Some(gum), Some(trials)) = (&evaluated.gum, &evaluated.monte_carlo) {
                 let note = branch::note(&task.model.program, (number, output), gum, trials);
+                jumps = note.is_some();
                 note.into_iter().for_each(|note| push(&mut found, note));
             }
-            of_output((task, &named), &output.quantity.name, row, evaluated, &mut found);
+            let name = &output.quantity.name;
+            of_output((task, &named), (name, jumps), row, evaluated, &mut found);
             of_noiseless(&output.quantity.name, evaluated, &mut found);
             of_capability(output, evaluated, &mut found);
         }
@@ -216,7 +219,7 @@ fn of_capability(output: &Output, evaluated: &OutputEvaluation, found: &mut Vec<
 
 fn of_output(
     (task, named): (&Task, &[usize]),
-    name: &str,
+    (name, jumps): (&str, bool),
     row: &RowEvaluation,
     output: &OutputEvaluation,
     found: &mut Vec<Warning>,
@@ -303,7 +306,8 @@ fn of_output(
             }
         );
         push(found, Warning::new("no-variance", name, text));
-    } else {
+    } else if !jumps {
+        // a jump by a turn is why they differ, and the trials' figures mean nothing
         of_difference(task, (name, &at), row, (gum, output, monte_carlo), found);
     }
 }

@@ -277,3 +277,40 @@ fn polar_coordinates_of_the_supplement() {
     near(linear.ellipsoid_k.unwrap(), 2.447_746_830_680_816, 1e-12);
     near(linear.box_k, 2.241_402_727_604_947, 1e-9);
 }
+
+/// JCGM 102, 9.4, resistance and reactance of the means of JCGM 100, H.2: R = 127.732(71) ohm,
+/// X = 219.847(295) ohm, Z = 254.260(236) ohm with r(R, X) = -0.588, r(R, Z) = -0.485 and
+/// r(X, Z) = 0.993. The covariance matrix of all three is singular (Z^2 = R^2 + X^2), so that only the
+/// two of them have an ellipse, of the area pi k_p^2 sqrt(det U) = 0.3197 ohm^2, which the mesh of the
+/// trials' smallest region meets to a few parts in a hundred.
+#[test]
+fn resistance_and_reactance_of_the_supplement() {
+    let evaluation = run(r#"{"inputs": {
+        "v": {"unit": "V", "distribution": "normal", "mean": 4.999, "std": 0.00320936},
+        "i": {"unit": "mA", "distribution": "normal", "mean": 19.661, "std": 0.00947101},
+        "phi": {"unit": "rad", "distribution": "normal", "mean": 1.04446, "std": 0.0007520638}},
+        "correlations": [["v", "i", -0.355311], ["v", "phi", 0.857624], ["i", "phi", -0.645111]],
+        "equations": {"r": "v/i*cos(phi)", "x": "v/i*sin(phi)", "z": "v/i"},
+        "outputs": {"r": {"unit": "ohm"}, "x": {"unit": "ohm"}, "z": {"unit": "ohm"}},
+        "regions": [{"outputs": ["r", "x"], "probability": 0.95},
+                    {"outputs": ["r", "x", "z"], "probability": 0.95}],
+        "monte_carlo": {"trials": 200000}}"#);
+    let expected = [(127.732, 0.071), (219.847, 0.295), (254.260, 0.236)];
+    for (output, (estimate, u)) in expected.into_iter().enumerate() {
+        let gum = gum(&evaluation, output);
+        assert!(
+            (gum.estimate - estimate).abs() < 6e-4 && (gum.standard_uncertainty - u).abs() < 7e-4
+        );
+    }
+    let [two, three] = evaluation.rows[0].regions.as_slice() else { panic!("two regions") };
+    let linear = three.gum.as_ref().unwrap();
+    let of = |a: usize, b: usize| linear.covariance[3 * a + b];
+    for (a, b, r) in [(0, 1, -0.588), (0, 2, -0.485), (1, 2, 0.993)] {
+        assert!((of(a, b) / (of(a, a) * of(b, b)).sqrt() - r).abs() < 6e-4);
+    }
+    assert!(linear.ellipsoid_k.is_none());
+    near(two.gum.as_ref().unwrap().ellipsoid_k.unwrap(), 2.447_746_830_680_816, 1e-12);
+    let found = two.monte_carlo.as_ref().unwrap();
+    near(found.smallest.unwrap().volume, 0.3197, 0.04);
+    assert!(two.validation.as_ref().unwrap().gum_valid);
+}

@@ -76,6 +76,7 @@ fn channel(observed: &ObservationReport<'_>, of: &ChannelObservation) -> Value {
         object([
             ("frequency", Value::from(spurious.cycles * of.rate.value)),
             ("amplitude", spurious.amplitude.into()),
+            ("fitted", spurious.fitted.into()),
         ])
     });
     let findings = of

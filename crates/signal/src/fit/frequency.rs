@@ -84,6 +84,7 @@ fn fitted<P: SampleSource>(
         cycles: cycles * f64::from(*multiple),
         fundamental: 0,
         multiple: *multiple,
+        beside: false,
     };
     let design = ToneDesign::new(multiples.iter().map(tone).collect(), samples);
     let design = design.map_err(NoFrequency::NoFit)?;
@@ -107,14 +108,19 @@ fn strongest<P: SampleSource>(passes: &mut P) -> Result<Option<f64>, P::Error> {
     })?;
     let spectrum = windowed(&values);
     let highest = spectrum.iter().enumerate().skip(1).max_by(|a, b| a.1.total_cmp(b.1));
-    Ok(highest.filter(|(_, size)| **size > 0.0).map(|(bin, _)| {
-        // the ratio of neighbours under a Hann window (Grandke 1983)
-        let at = |bin: usize| spectrum.get(bin).copied().unwrap_or(0.0).sqrt();
-        let (left, peak, right) = (at(bin - 1), at(bin), at(bin + 1));
-        let (sign, ratio) = if right > left { (1.0, right / peak) } else { (-1.0, left / peak) };
-        let shift = sign * ((2.0 * ratio - 1.0) / (ratio + 1.0)).clamp(0.0, 1.0);
-        (bin as f64 + shift) / values.len() as f64
-    }))
+    Ok(highest
+        .filter(|(_, size)| **size > 0.0)
+        .map(|(bin, _)| between(&spectrum, bin) / values.len() as f64))
+}
+
+/// Where between the bins the peak lies that has its highest bin at `bin`: the ratio of neighbours
+/// under a Hann window (Grandke 1983).
+pub(crate) fn between(spectrum: &[f64], bin: usize) -> f64 {
+    let at = |bin: usize| spectrum.get(bin).copied().unwrap_or(0.0).sqrt();
+    let (left, peak, right) = (at(bin - 1), at(bin), at(bin + 1));
+    let (sign, ratio) = if right > left { (1.0, right / peak) } else { (-1.0, left / peak) };
+    let shift = sign * ((2.0 * ratio - 1.0) / (ratio + 1.0)).clamp(0.0, 1.0);
+    bin as f64 + shift
 }
 
 /// The power of each frequency of values, their mean taken off, under a Hann window; bins 0 to half

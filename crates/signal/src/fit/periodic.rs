@@ -103,8 +103,12 @@ impl Periodic {
         if samples < needed {
             return Err(Unsuitable::TooShort { samples, needed });
         }
-        let tone =
-            |multiple: u32| Tone { cycles: turns * f64::from(multiple), fundamental: 0, multiple };
+        let tone = |multiple: u32| Tone {
+            cycles: turns * f64::from(multiple),
+            fundamental: 0,
+            multiple,
+            beside: false,
+        };
         let tones = (1..=count as u32).map(tone).collect();
         let design = ToneDesign::new(tones, samples as u64)
             .map_err(|_| Unsuitable::TooShort { samples, needed: samples + needed })?;

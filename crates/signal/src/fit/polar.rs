@@ -93,6 +93,14 @@ pub(crate) fn polar(
     let (sa, sb) = (slope.cosines[tone], slope.sines[tone]);
     let phase_slope = (b * sa - a * sb) / (size * size);
     let cut = phase_slope * size * of.of_cut;
+    // oscillations beside it, whose frequencies the recording tells no better than that
+    let mut beside = [0.0; 2];
+    for (number, of) in analysed.besides.fitted.iter().enumerate() {
+        let slope = design.slope(fit, analysed.fundamentals.len() + number);
+        let (sa, sb) = (slope.cosines[tone] * of.deviation, slope.sines[tone] * of.deviation);
+        beside[0] += (ca * sa + cb * sb).powi(2);
+        beside[1] += (ca * sb - cb * sa).powi(2);
+    }
     let mut own: Vec<(UncertaintySource, f64, f64)> = Vec::new();
     let mut scatter = [0.0; 2];
     let mut add = |source, along: f64, across: f64| {
@@ -107,7 +115,8 @@ pub(crate) fn polar(
         across * scattered + rounded[1],
     );
     add(UncertaintySource::Jitter, along * jitter * fore, across * jitter * aside);
-    add(UncertaintySource::Leakage, leakage * leakage, leakage * leakage + cut * cut);
+    let [fore, aside] = beside.map(|of_frequency| leakage * leakage + of_frequency);
+    add(UncertaintySource::Leakage, fore, aside + cut * cut);
 
     // a fit at the wrong frequency: to first order by its slope; to second order the amplitude falls
     // as sin(x)/x with x = pi n N dc, whose x^2/6 has the rms value sqrt(3)/6 u(x)^2

@@ -91,7 +91,8 @@ pub(crate) fn of<P: SampleSource>(
 
 /// Into how many parts a record is cut: each has a whole period of every fundamental at least.
 fn parts(design: &ToneDesign) -> Option<u64> {
-    let slowest = design.tones.iter().map(|tone| tone.cycles).fold(f64::INFINITY, f64::min);
+    let named = design.tones.iter().filter(|tone| !tone.beside);
+    let slowest = named.map(|tone| tone.cycles).fold(f64::INFINITY, f64::min);
     let periods = (slowest * design.samples as f64).floor();
     let parts = (periods as u64).min(MOST_PARTS).min(design.samples / 16);
     (periods.is_finite() && parts >= LEAST_PARTS).then_some(parts)

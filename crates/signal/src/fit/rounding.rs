@@ -253,6 +253,7 @@ mod tests {
                 cycles: cycles * f64::from(multiple),
                 fundamental: 0,
                 multiple,
+                beside: false,
             };
             let design = ToneDesign::new(vec![tone(1), tone(2)], samples).unwrap();
             let values = |size: f64, turn: f64| -> Vec<f64> {

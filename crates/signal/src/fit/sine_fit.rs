@@ -27,6 +27,9 @@ pub struct Tone {
     pub fundamental: usize,
     /// Which multiple of the fundamental's frequency it is, 1 or more.
     pub multiple: u32,
+    /// Whether nobody named it: an oscillation that was found in what the others leave. It counts as
+    /// a fundamental after those that were named.
+    pub beside: bool,
 }
 
 /// Why tones cannot be fitted.

@@ -1,6 +1,6 @@
 //! Oscillations that a fit does not have: found in the spectrum of its residuals.
 
-use crate::frequency::windowed;
+use crate::frequency::{between, windowed};
 
 /// The power of a bin over the median that noise alone exceeds in less than one record in a
 /// thousand: of 2^15 exponential bins the largest is above ln 2 x 25 times the median with a
@@ -8,7 +8,12 @@ use crate::frequency::windowed;
 const OVER_MEDIAN: f64 = 25.0;
 
 /// Oscillations that are named at most.
-const MOST: usize = 5;
+pub(crate) const MOST: usize = 5;
+
+/// Bins on each side of one that its background is taken from: from the third, which its own flanks
+/// do not reach, to this one; and how many there must be.
+const BACKGROUND: usize = 16;
+const LEAST_BACKGROUND: usize = 6;
 
 /// An oscillation in residuals.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -17,6 +22,8 @@ pub struct Spurious {
     pub cycles: f64,
     /// Its amplitude, in the channel's unit.
     pub amplitude: f64,
+    /// Whether it is fitted with the frequencies that the recipe names.
+    pub fitted: bool,
 }
 
 /// The oscillations that stand out of the spectrum of residuals, strongest first.
@@ -37,12 +44,48 @@ pub(crate) fn found(residuals: &[f64]) -> Vec<Spurious> {
             // the Hann window's gain is 1/2, and its peak and neighbours hold 3/2 of the peak's power
             let energy = at(bin - 1) + at(bin) + at(bin + 1);
             let amplitude = 4.0 * (energy / 1.5).sqrt() / count as f64;
-            Spurious { cycles: bin as f64 / count as f64, amplitude }
+            Spurious { cycles: bin as f64 / count as f64, amplitude, fitted: false }
         })
         .collect();
     peaks.sort_by(|a, b| b.amplitude.total_cmp(&a.amplitude));
     peaks.truncate(MOST);
     peaks
+}
+
+/// Lines: oscillations that stand out of the spectrum of residuals on both sides, strongest first,
+/// between the bins. Noise that is stronger at one end of the spectrum than at the other is none.
+pub(crate) fn lines(residuals: &[f64]) -> Vec<Spurious> {
+    let count = residuals.len();
+    if count < 64 {
+        return Vec::new();
+    }
+    let power = windowed(residuals);
+    let at = |bin: usize| power.get(bin).copied().unwrap_or(0.0);
+    let middle = |bins: std::ops::Range<usize>| {
+        let mut near: Vec<f64> = bins.map(at).collect();
+        near.sort_by(f64::total_cmp);
+        (near.len() >= LEAST_BACKGROUND).then(|| near[near.len() / 2])
+    };
+    let mut found: Vec<Spurious> = (2..power.len().saturating_sub(1))
+        .filter(|bin| at(*bin) >= at(bin - 1) && at(*bin) > at(bin + 1))
+        .filter(|bin| {
+            let below = middle(bin.saturating_sub(BACKGROUND).max(1)..bin.saturating_sub(2).max(1));
+            let above = middle((bin + 3).min(power.len())..(bin + BACKGROUND + 1).min(power.len()));
+            match (below, above) {
+                (Some(below), Some(above)) => at(*bin) > OVER_MEDIAN * below.max(above),
+                _ => false,
+            }
+        })
+        .map(|bin| {
+            let energy = at(bin - 1) + at(bin) + at(bin + 1);
+            let amplitude = 4.0 * (energy / 1.5).sqrt() / count as f64;
+            let cycles = between(&power, bin) / count as f64;
+            Spurious { cycles, amplitude, fitted: false }
+        })
+        .collect();
+    found.sort_by(|a, b| b.amplitude.total_cmp(&a.amplitude));
+    found.truncate(MOST);
+    found
 }
 
 #[cfg(test)]

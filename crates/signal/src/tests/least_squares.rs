@@ -34,6 +34,7 @@ fn fits_are_those_of_the_singular_value_decomposition() {
             cycles: *cycles,
             fundamental: number,
             multiple: 1,
+            beside: false,
         };
         let design = ToneDesign::new(cycles.iter().enumerate().map(tone).collect(), samples as u64);
         let fit = design.unwrap().fit(&mut held).unwrap().swap_remove(0);
@@ -74,6 +75,7 @@ fn fits_are_those_of_scipy() {
                 cycles: cycles * f64::from(multiple),
                 fundamental: 0,
                 multiple,
+                beside: false,
             };
             let design = ToneDesign::new(vec![tone(1), tone(2)], samples).unwrap();
             let fit = design.fit(&mut held).unwrap().swap_remove(0);

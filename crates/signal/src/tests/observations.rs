@@ -72,6 +72,34 @@ fn situations() -> Vec<Situation> {
             RATIOS,
             Bench { frequency_uncertainty: 0.01, noise: 1e-3, ..plain.clone() },
         ),
+        of("tone 1.3 Hz beside", ALL, Bench { beside: Some((1.3, 0.2)), ..plain.clone() }),
+        of("tone 0.5 Hz beside", MAIN, Bench { beside: Some((0.5, 0.2)), ..plain.clone() }),
+        of("tone 0.4 Hz below", MAIN, Bench { beside: Some((-0.4, 0.05)), ..plain.clone() }),
+        of(
+            "tone 1.3 Hz beside, estimated",
+            MAIN,
+            Bench { beside: Some((1.3, 0.2)), estimate: true, ..plain.clone() },
+        ),
+        of(
+            "tone 1.3 Hz beside, frequency off",
+            MAIN,
+            Bench {
+                beside: Some((1.3, 0.2)),
+                frequency_uncertainty: 0.01,
+                noise: 1e-3,
+                ..plain.clone()
+            },
+        ),
+        of(
+            "tone 1.3 Hz beside, AR(1) 0.9",
+            MAIN,
+            Bench { beside: Some((1.3, 0.2)), memory: 0.9, ..plain.clone() },
+        ),
+        of(
+            "tone 1.3 Hz beside, trials",
+            MAIN,
+            Bench { beside: Some((1.3, 0.2)), trials: 2000, ..plain.clone() },
+        ),
         of("bins", RATIOS, Bench { method: Method::Fft, noise: 1e-3, ..plain.clone() }),
         of(
             "trend removed",
@@ -154,6 +182,9 @@ fn standard_scores_of_30_recordings() {
         "resolution not stated",
         "common noise",
         "frequency off",
+        "tone 1.3 Hz beside",
+        "tone 0.5 Hz beside",
+        "tone 1.3 Hz beside, estimated",
         "bins",
         "trend removed",
     ];
@@ -206,6 +237,35 @@ fn what_is_seen_in_a_recording_is_said() {
     // within its uncertainty a frequency that is off is no news; far outside it is
     let off = Bench { frequency_uncertainty: 0.01, ..plain.clone() };
     assert_eq!(found(&off, "frequency-differs"), None);
+}
+
+/// A tone beside the signal is found, fitted and named; one within 1/T cannot be told apart, and the
+/// answer says so. Before, the tone's leakage made u five times too large.
+#[test]
+fn a_tone_beside_is_fitted_or_said_to_be_too_near() {
+    let plain = plain();
+    let of = |hertz: f64| Bench { beside: Some((hertz, 0.2)), ..plain.clone() };
+    let found = |bench: &Bench, wanted: &str| {
+        notes(bench).into_iter().find(|(code, _)| *code == wanted).map(|(_, text)| text)
+    };
+    for code in ["found-tone", "tones-too-near"] {
+        assert_eq!(found(&plain, code), None);
+    }
+    let text = found(&of(1.3), "found-tone").unwrap();
+    assert!(
+        text.contains("at 8.599") && !text.contains("),") && text.contains("does not name"),
+        "{text}"
+    );
+    let text = found(&of(0.1), "tones-too-near").unwrap();
+    assert!(text.contains("within 0.32 Hz"), "{text}");
+    assert_eq!(found(&of(0.1), "found-tone"), None);
+    let bench = of(1.3);
+    let observation = bench.observe(bench.values(1));
+    let first = &observation.frequencies[0][0];
+    assert!(first.spurious[0].fitted && (first.spurious[0].amplitude - 0.2).abs() < 0.002);
+    // sqrt(2/3150) of noise of 0.01
+    let u = first.components[0].amplitude.measured.standard_uncertainty;
+    assert!((u / 2.52e-4 - 1.0).abs() < 0.1, "{u}");
 }
 
 /// A stated frequency with an uncertainty gives way to what the recording tells only within it.

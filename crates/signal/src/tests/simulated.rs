@@ -44,6 +44,9 @@ pub(super) struct Bench {
     /// What is done with every channel.
     pub(super) steps: Vec<ChannelStep>,
     pub(super) jitter: f64,
+    /// An oscillation that the recipe does not name: by so many hertz above it, of this amplitude in
+    /// every channel, with a phase of its own in each.
+    pub(super) beside: Option<(f64, f64)>,
     /// Standard uncertainties of frequency and rate, and what they really are off by, in units of
     /// that.
     pub(super) frequency_uncertainty: f64,
@@ -68,6 +71,7 @@ impl Default for Bench {
             hidden: false,
             steps: Vec::new(),
             jitter: 0.0,
+            beside: None,
             frequency_uncertainty: 0.0,
             rate_uncertainty: 0.0,
             estimate: false,
@@ -119,6 +123,11 @@ impl Bench {
                 .map(|(own, first)| rest * own + share * first)
                 .collect();
             let jitter = normals(seed, &format!("jitter {name}"), self.samples);
+            let turn = normals(seed, &format!("beside {name}"), 1)[0];
+            let beside = |t: f64| {
+                let (hertz, amplitude) = self.beside.unwrap_or_default();
+                amplitude * (2.0 * PI * ((self.hertz + hertz) * t + 5.0 * turn)).cos()
+            };
             let walks = self.memory == 1.0;
             let mut last = if walks { 0.0 } else { noise[self.samples] };
             let grown = if walks { 1.0 } else { (1.0 - self.memory * self.memory).sqrt() };
@@ -128,7 +137,7 @@ impl Bench {
                 let waves = tones.iter().enumerate().map(|(n, (amplitude, phase))| {
                     amplitude * (2.0 * PI * hertz * (n + 1) as f64 * t + phase).cos()
                 });
-                let value = self.offset + waves.sum::<f64>() + self.noise * last;
+                let value = self.offset + waves.sum::<f64>() + beside(t) + self.noise * last;
                 if self.resolution > 0.0 {
                     (value / self.resolution).round() * self.resolution
                 } else {

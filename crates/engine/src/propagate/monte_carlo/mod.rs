@@ -18,6 +18,7 @@ mod hash;
 mod histogram;
 mod interval;
 mod joint_ranks;
+mod limit_scatter;
 mod moments;
 mod order;
 mod partition;

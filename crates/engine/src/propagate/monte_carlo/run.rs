@@ -106,7 +106,7 @@ pub(super) fn scatters(
     (0..plans.len())
         .map(|output| {
             let batches = found.iter().filter_map(|(_, intervals)| intervals.get(output)?.as_ref());
-            ShortestScatter::of(batches.copied().collect(), request.trials)
+            ShortestScatter::of(batches.cloned().collect(), request.trials)
         })
         .collect()
 }

@@ -4,11 +4,13 @@
 //! number of all trials. Where along the possible intervals the shortest one lies is known only to
 //! the cube root of the trials where the density has a smooth peak (Kim and Pollard, Annals of
 //! Statistics 18, 1990). Where the density falls from a limit on, the interval begins at the limit,
-//! and its other end is a quantile, which settles with the square root. Where the density is flat,
-//! or rises to both limits, many intervals are equally short and the trials choose among them by
-//! chance: then there is no one interval to have a numerical error.
+//! to which it comes as near as the least of the trials (`limit_scatter`), and its other end is a
+//! quantile, which settles with the square root. Where the density is flat, or rises to both limits,
+//! many intervals are equally short and the trials choose among them by chance: then there is no one
+//! interval to have a numerical error.
 
-use super::interval::{Ranks, quantile_error, shortest};
+use super::interval::{Ranks, quantile_error, rank_spread, shortest};
+use super::limit_scatter;
 use super::order::Order;
 use crate::distribution::BLOCK;
 use crate::number::elementary;
@@ -31,11 +33,12 @@ const ENOUGH: usize = 16;
 const BY_CHANCE: f64 = 0.22;
 
 /// The interval begins at the limit if its lower end is one of so many lowest values in nearly all
-/// batches.
+/// batches, or the very lowest in a quarter of them: where the density at the other end is not much
+/// smaller than at the limit, some begin farther in.
 const LOWEST: u64 = 5;
 
 /// But only where it could lie at so many places.
-const MANY_PLACES: u64 = 10 * LOWEST;
+const MANY_PLACES: u64 = 4 * LOWEST;
 
 /// Consecutive blocks that are summed up together and make a batch.
 pub(super) fn batch_blocks(trials: u64) -> u64 {
@@ -43,7 +46,7 @@ pub(super) fn batch_blocks(trials: u64) -> u64 {
 }
 
 /// The shortest interval of a batch.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct BatchInterval {
     trials: u64,
     ends: [f64; 2],
@@ -53,6 +56,10 @@ pub(super) struct BatchInterval {
     /// The rank of the lower end, from 1, and the largest that it can have.
     rank: u64,
     most: u64,
+    /// The trials next to the least and to the greatest one.
+    near: [Vec<f64>; 2],
+    /// By how much each end moves from one rank of the batch to the next; where errors were asked for.
+    steps: [f64; 2],
 }
 
 impl BatchInterval {
@@ -66,7 +73,11 @@ impl BatchInterval {
         let is_asked = number.is_multiple_of(ASKED);
         let mut error = |rank| quantile_error(order, rank).unwrap_or(f64::NAN);
         let errors = if is_asked { [error(rank), error(upper)] } else { [f64::NAN; 2] };
-        Some(Self { trials, ends, errors, rank, most: trials.saturating_sub(q).max(1) })
+        let step = |error: f64, rank| error / rank_spread(trials, rank) as f64;
+        let steps = [step(errors[0], rank), step(errors[1], upper)];
+        let most = trials.saturating_sub(q).max(1);
+        let near = [false, true].map(|upper| limit_scatter::nearest(order, upper, most));
+        Some(Self { trials, ends, errors, rank, most, near, steps })
     }
 
     /// Where the interval lies along all possible ones, from 0 to 1.
@@ -99,41 +110,58 @@ impl ShortestScatter {
             return Self { errors: [f64::NAN; 2], unique: false };
         }
         let ratio = largest as f64 / total as f64;
-        let nearly_all = |is: &dyn Fn(&BatchInterval) -> bool| {
-            10 * batches.iter().filter(|batch| is(batch)).count() >= 9 * batches.len()
-        };
-        let at_limit = [
-            nearly_all(&|batch| batch.rank <= LOWEST && batch.most > MANY_PLACES),
-            nearly_all(&|batch| batch.most - batch.rank < LOWEST && batch.most > MANY_PLACES),
-        ];
+        let at_limit = at_limits(&batches);
         let errors = [0, 1].map(|end| {
+            let mean = |of: &dyn Fn(&BatchInterval) -> f64| {
+                let known: Vec<f64> = batches.iter().map(of).filter(|x| x.is_finite()).collect();
+                known.iter().sum::<f64>() / known.len() as f64
+            };
+            // that of a quantile, which settles with the square root
+            let quantile = mean(&|batch| batch.errors[end].powi(2));
+            if at_limit[1 - end] {
+                return (ratio * quantile).sqrt();
+            }
+            if at_limit[end] {
+                let near: Vec<&[f64]> =
+                    batches.iter().map(|batch| batch.near[end].as_slice()).collect();
+                let sampled = batches.iter().map(|batch| batch.trials).sum();
+                let step = mean(&|batch| batch.steps[1 - end].powi(2)).sqrt() * ratio;
+                return limit_scatter::scatter(&near, sampled, total, step);
+            }
             let scatter =
                 variance(&batches.iter().map(|batch| batch.ends[end]).collect::<Vec<_>>());
-            let squares = batches.iter().map(|batch| batch.errors[end].powi(2));
-            let known: Vec<f64> = squares.filter(|square| square.is_finite()).collect();
-            let quantile = known.iter().sum::<f64>() / known.len().max(1) as f64;
-            let by_quantile = ratio * quantile;
-            if at_limit[1 - end] {
-                return by_quantile.sqrt();
+            let third = elementary::cbrt(ratio).powi(2);
+            let by_third = third * scatter;
+            // an end that scatters little more than a quantile is one for the most part
+            let more = scatter / quantile - 1.0;
+            if more >= 1.0 || more.is_nan() {
+                return by_third.sqrt();
             }
-            let third = elementary::cbrt(ratio);
-            if at_limit[end] {
-                // the least of the trials would come as near to the limit as there are trials, but a
-                // peak may lie too near to the limit for a batch to tell, so this may be too large
-                return third * scatter.sqrt();
-            }
-            if scatter > 2.0 * quantile {
-                return third * scatter.sqrt();
-            }
-            // an end that scatters little more than a quantile
-            (by_quantile + third * third * f64::max(scatter - quantile, 0.0)).sqrt()
+            let apart = ratio * quantile + third * f64::max(scatter - quantile, 0.0);
+            let more = more.max(0.0);
+            (more * by_third + (1.0 - more) * apart).sqrt()
         });
         Self { errors, unique: true }
     }
 }
 
+/// Whether the interval begins at the least, or ends at the greatest value. Where it seems to do both,
+/// it does neither.
+fn at_limits(batches: &[BatchInterval]) -> [bool; 2] {
+    let share = |is: &dyn Fn(&BatchInterval) -> bool| {
+        let are = batches.iter().filter(|batch| batch.most > MANY_PLACES && is(batch)).count();
+        are as f64 / batches.len() as f64
+    };
+    let at = |place: &dyn Fn(&BatchInterval) -> u64| {
+        share(&|batch| place(batch) <= LOWEST) >= 0.9 || share(&|batch| place(batch) == 1) >= 0.25
+    };
+    let lower = at(&|batch| batch.rank);
+    let upper = at(&|batch| (batch.most + 1).saturating_sub(batch.rank));
+    [lower && !upper, upper && !lower]
+}
+
 /// The variance of some values, with divisor n - 1.
-fn variance(values: &[f64]) -> f64 {
+pub(super) fn variance(values: &[f64]) -> f64 {
     let n = values.len() as f64;
     let mean = values.iter().sum::<f64>() / n;
     values.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / (n - 1.0)

@@ -1,0 +1,285 @@
+//! Oscillations beside those that a recipe names: found in what a fit leaves, and fitted with it.
+//!
+//! What leaks from an oscillation that is not fitted into one that is depends on phases that a budget
+//! can only take for unknown. Fitted with the others it leaks nothing, and the uncertainty that is
+//! left is that of the joint fit, its frequency's included.
+
+use super::analysed::Fundamental;
+use super::analysis::{FittedTones, Group, Refused};
+use super::passes::SampleSource;
+use super::residuals::{KEPT, Residuals};
+use super::sine_fit::{ToneCoefficients, ToneDesign};
+use super::spurious::{self, MOST};
+use gumption_engine::number::elementary::hypot;
+
+/// Records of so many samples at most are looked through: the spectrum of the first residuals tells
+/// a frequency to less than a quarter of a turn over them.
+const LONGEST: u64 = 16 * KEPT as u64;
+
+/// Searches for further oscillations, each beside those that were found before.
+const ROUNDS: usize = 3;
+
+/// Steps to their frequencies at most, in each round.
+const MOST_STEPS: usize = 25;
+
+/// Turns over the record to which a frequency is brought, and a step at most.
+const SETTLED: f64 = 1e-4;
+const LARGEST_STEP: f64 = 0.25;
+
+/// Turns over the record within which two oscillations are one to this record.
+pub(super) const APART: f64 = 1.0;
+
+/// The least amplitude over its standard deviation of what counts as an oscillation: of white noise one
+/// in 270 000 bins has that.
+const CLEAR: f64 = 5.0;
+
+/// Turns over the record from a fitted frequency at which the search for one beside it begins at least.
+const NEAREST_START: f64 = 1.5;
+
+/// Turns over the record on both sides of a fitted frequency within which two oscillations are one
+/// that grows, fades or wanders.
+const SIDEBANDS: f64 = 3.0;
+
+/// An oscillation that no one named.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Beside {
+    /// Cycles in a sample interval.
+    pub(super) cycles: f64,
+    /// Their standard deviation.
+    pub(super) deviation: f64,
+    /// Its amplitude over that one's standard deviation in white noise, in the channel where it is
+    /// clearest.
+    clear: f64,
+}
+
+/// What was found beside the named oscillations.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Besides {
+    /// Those that are fitted.
+    pub(super) fitted: Vec<Beside>,
+    /// Whether there is one that is too near to a named one to be told from it.
+    pub(super) too_near: bool,
+}
+
+impl Group<'_> {
+    /// The fits at the frequencies that the recording has, with what oscillates beside them.
+    pub(super) fn with_besides<P: SampleSource>(
+        &self,
+        passes: &mut P,
+        fundamentals: &mut Vec<Fundamental>,
+    ) -> Result<(FittedTones, Besides), Refused<P::Error>> {
+        let mut best = self.at_own_frequencies(passes, fundamentals, &[])?;
+        let mut besides = Besides::default();
+        let samples = passes.frames();
+        if !self.is_fit() || samples > LONGEST {
+            return Ok((best, besides));
+        }
+        for _ in 0..ROUNDS {
+            let known: Vec<f64> = besides.fitted.iter().map(|of| of.cycles).collect();
+            let new = candidates(&best, samples, &known);
+            if new.is_empty() {
+                break;
+            }
+            let all: Vec<f64> = known.into_iter().chain(new).collect();
+            let Some(mut tuned) = self.tuned(passes, fundamentals, all)? else {
+                besides.too_near = true;
+                break;
+            };
+            tuned.retain(|of| of.clear > CLEAR);
+            let before = tuned.len();
+            let named: Vec<f64> = self.named(&best.0).map(|(_, tone)| tone.cycles).collect();
+            keep_apart(&mut tuned, &named, samples);
+            besides.too_near |= tuned.len() < before;
+            let is_more = tuned.len() > besides.fitted.len();
+            if tuned.len() == besides.fitted.len() {
+                break;
+            }
+            let cycles: Vec<f64> = tuned.iter().map(|of| of.cycles).collect();
+            let mut moved = fundamentals.clone();
+            let Ok(fits) = self.at_own_frequencies(passes, &mut moved, &cycles) else {
+                besides.too_near = true;
+                break;
+            };
+            *fundamentals = moved;
+            (best, besides.fitted) = (fits, tuned);
+            if !is_more {
+                break;
+            }
+        }
+        Ok((best, besides))
+    }
+
+    /// The tones of a design that the recipe names, with their places.
+    pub(super) fn named<'d>(
+        &self,
+        design: &'d ToneDesign,
+    ) -> impl Iterator<Item = (usize, &'d super::sine_fit::Tone)> {
+        let count = self.frequencies.len();
+        design.tones.iter().enumerate().filter(move |(_, tone)| tone.fundamental < count)
+    }
+
+    /// Brings the cycles of oscillations to those at which the fits leave least; none where they
+    /// cannot be told apart.
+    fn tuned<P: SampleSource>(
+        &self,
+        passes: &mut P,
+        fundamentals: &[Fundamental],
+        cycles: Vec<f64>,
+    ) -> Result<Option<Vec<Beside>>, Refused<P::Error>> {
+        let samples = passes.frames();
+        let mut all: Vec<Beside> = cycles
+            .into_iter()
+            .map(|cycles| Beside { cycles, deviation: 0.0, clear: 0.0 })
+            .collect();
+        for _ in 0..MOST_STEPS {
+            let cycles: Vec<f64> = all.iter().map(|of| of.cycles).collect();
+            let design =
+                match self.design::<P::Error>(fundamentals, samples, &cycles, |of| of.turning) {
+                    Ok(design) => design,
+                    Err(_) => return Ok(None),
+                };
+            let mut fits = design.fit(passes).map_err(Refused::Unreadable)?;
+            let left =
+                super::residuals::of(&design, passes, &mut fits).map_err(Refused::Unreadable)?;
+            let mut largest = 0.0_f64;
+            for (number, of) in all.iter_mut().enumerate() {
+                let (step, deviation) = step(&left, fundamentals.len() + number);
+                of.deviation = deviation;
+                let place = design.tones.iter().position(|tone| {
+                    tone.beside && tone.fundamental == fundamentals.len() + number
+                });
+                of.clear = place.map_or(0.0, |tone| clearness(&design, &fits, &left, tone));
+                let most = LARGEST_STEP / samples as f64;
+                let step = if step.is_finite() { step.clamp(-most, most) } else { 0.0 };
+                of.cycles += step;
+                largest = largest.max(step.abs() * samples as f64);
+            }
+            if all.iter().any(|of| !(of.cycles > 0.0 && of.cycles < 0.5)) {
+                return Ok(None);
+            }
+            if largest < SETTLED {
+                break;
+            }
+        }
+        Ok(Some(all))
+    }
+}
+
+/// The amplitude of a tone over its standard deviation in white noise, in the channel where it is
+/// clearest.
+fn clearness(
+    design: &ToneDesign,
+    fits: &[ToneCoefficients],
+    left: &[Residuals],
+    tone: usize,
+) -> f64 {
+    let variance = f64::midpoint(design.even[(tone + 1, tone + 1)], design.odd[(tone, tone)]);
+    let of = |(fit, left): (&ToneCoefficients, &Residuals)| {
+        amplitude(fit, tone) / (variance * left.variance).sqrt()
+    };
+    fits.iter().zip(left).map(of).fold(0.0, f64::max)
+}
+
+/// By how much the cycles of an oscillation should be larger, of all channels together, and the
+/// standard deviation of that.
+fn step(left: &[Residuals], number: usize) -> (f64, f64) {
+    let (mut weights, mut sum) = (0.0, 0.0);
+    for residuals in left {
+        let Some((step, variance)) = residuals.cycles.get(number) else { continue };
+        let weight = 1.0 / (variance * residuals.variance);
+        if weight.is_finite() {
+            weights += weight;
+            sum += weight * step;
+        }
+    }
+    if weights > 0.0 { (sum / weights, weights.sqrt().recip()) } else { (0.0, f64::INFINITY) }
+}
+
+/// Oscillations that stand out of what fits leave in any of the channels, the clearest first. Of what
+/// lies within some turns of a fitted frequency only the clearest: a fit beside an oscillation leaves
+/// a hump on either side.
+fn candidates(of: &FittedTones, samples: u64, known: &[f64]) -> Vec<f64> {
+    let (design, _, left) = of;
+    let mut found: Vec<(f64, f64)> = Vec::new();
+    for residuals in left {
+        let deviation = residuals.variance.sqrt();
+        for of in spurious::lines(&residuals.first) {
+            found.push((of.amplitude / deviation, of.cycles));
+        }
+    }
+    found.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let samples = samples as f64;
+    let mut new: Vec<f64> = Vec::new();
+    let mut flanked = vec![false; design.tones.len()];
+    for (_, cycles) in found {
+        let apart = |other: f64| (cycles - other).abs() * samples;
+        if new.iter().chain(known).any(|other| apart(*other) < 2.0) {
+            continue;
+        }
+        let near = design.tones.iter().position(|tone| apart(tone.cycles) < SIDEBANDS);
+        let start = match near {
+            Some(tone) => {
+                if std::mem::replace(&mut flanked[tone], true) {
+                    continue;
+                }
+                let from = design.tones[tone].cycles;
+                let away = f64::max(apart(from), NEAREST_START) / samples;
+                from + if cycles < from { -away } else { away }
+            }
+            None if is_multiple(design, cycles) => continue,
+            None => cycles,
+        };
+        if new.len() + known.len() < MOST {
+            new.push(start);
+        }
+    }
+    new
+}
+
+/// Whether an oscillation is a multiple of one that is fitted: distortion, which is said of the signal
+/// and not beside it.
+fn is_multiple(design: &ToneDesign, cycles: f64) -> bool {
+    let samples = design.samples as f64;
+    let folded = |cycles: f64| {
+        let turn = cycles.fract();
+        if turn > 0.5 { 1.0 - turn } else { turn }
+    };
+    design.tones.iter().filter(|tone| tone.multiple == 1).any(|tone| {
+        // those of rounding fold back at half the sampling rate
+        (2..200).any(|multiple| {
+            (folded(f64::from(multiple) * tone.cycles) - cycles).abs() * samples < 1.5
+        })
+    })
+}
+
+/// Takes out what is too near to a named oscillation, and what lies on both sides of one.
+fn keep_apart(all: &mut Vec<Beside>, named: &[f64], samples: u64) {
+    let samples = samples as f64;
+    let from = |of: &Beside, tone: f64| (of.cycles - tone) * samples;
+    let both_sides = |tone: f64, all: &[Beside]| {
+        let near =
+            |sign: f64| all.iter().any(|of| (0.0..SIDEBANDS).contains(&(sign * from(of, tone))));
+        near(1.0) && near(-1.0)
+    };
+    let modulated: Vec<f64> = named.iter().copied().filter(|tone| both_sides(*tone, all)).collect();
+    all.retain(|of| {
+        let alone = named.iter().all(|tone| from(of, *tone).abs() >= APART);
+        let beside = modulated.iter().all(|tone| from(of, *tone).abs() >= SIDEBANDS);
+        alone && beside && of.deviation * samples < APART / 4.0
+    });
+    let mut kept: Vec<Beside> = Vec::new();
+    for of in all.drain(..) {
+        if kept.iter().all(|other| (of.cycles - other.cycles).abs() * samples >= APART) {
+            kept.push(of);
+        }
+    }
+    *all = kept;
+}
+
+/// The peak amplitude of a tone of a fit.
+pub(super) fn amplitude(fit: &ToneCoefficients, tone: usize) -> f64 {
+    hypot(
+        fit.cosines.get(tone).copied().unwrap_or(0.0),
+        fit.sines.get(tone).copied().unwrap_or(0.0),
+    )
+}
