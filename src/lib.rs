@@ -307,8 +307,8 @@ pub mod number {
 pub mod propagate {
     pub use gumption_engine::propagate::{
         Accuracy, CapabilityStatement, Conformity, Control, Evaluation, EvaluationError,
-        GlobalRisks, Noiseless, OutputEvaluation, RowEvaluation, Scatter, evaluate, for_each_block,
-        histograms, quantiles, trial_hash, warnings,
+        GlobalRisks, Noiseless, OutputEvaluation, RowEvaluation, Scatter, convergence, evaluate,
+        for_each_block, histograms, quantiles, trial_hash, warnings,
     };
 
     /// The law of propagation of uncertainty (JCGM 100).

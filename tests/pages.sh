@@ -32,8 +32,12 @@ page conformity run tests/cases/feat-tolerance-normal/model.json --trials 200000
 page gap gap models/gap/lateral_motion/case.json
 page observe observe models/recordings/rotating_table/recipe.json
 page verify verify
+page compare compare models/examples/results.csv
+page diff diff models/examples/last_year.json models/examples/this_year.json
+page assumptions assumptions models/spurious_component.json --trials 100000
 page plan plan models/inclined_plane.json --target "U(a_x) <= 0.01 m/s^2"
 page certificate certificate models/certificates/three_axis_accelerometer.json
+page interactive run models/inclined_plane.json --trials 200000 --interactive
 
 for columns in 60 80 100 140; do
   session="pages-$$-$columns"
@@ -51,4 +55,6 @@ for columns in 60 80 100 140; do
 done
 
 cd "$work"
-node "$OLDPWD/tests/pages/pages.mjs" "$folder" "$work"/{run,sweep,outputs,conformity,gap,observe,verify,plan,certificate}.html
+node "$OLDPWD/tests/pages/pages.mjs" "$folder" "$work"/{run,sweep,outputs,conformity,gap,observe,compare,diff,assumptions,verify,plan,certificate}.html
+# the script under the page's own policy, with its picture
+node "$OLDPWD/tests/pages/interactive.mjs" "$work"/{run,interactive}.html "$folder/interactive.png"

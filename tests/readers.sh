@@ -254,6 +254,30 @@ tables() {
     "$DIR/$name.sheet/$name.xlsx"
 }
 
+# the stylesheet beside a digital certificate makes a page of it with the stated figures, which
+# Chromium shows; in every language of the certificate
+shown() {
+  local name=$1 base="$DIR/$1.stylesheet" language
+  "$GUMPTION" certificate "$2" --format dcc --stylesheet --output "$base.xml" \
+    --allow-path models --quiet || return 1
+  for language in $(sed -n 's/.*usedLangCodeISO639_1>\(..\)<.*/\1/p' "$base.xml"); do
+    xsltproc --nonet --stringparam lang "$language" "$base.xsl" "$base.xml" \
+      > "$base.$language.html" || return 1
+    "$PYTHON" - "$DIR/$name.json" "$base.$language.html" << 'END' || return 1
+import html, json, re, sys
+answer, page = (open(name, encoding="utf-8").read() for name in sys.argv[1:])
+cells = [html.unescape(re.sub("<[^>]*>", "", cell)).strip()
+         for cell in re.findall("<td[^>]*>(.*?)</td>", page, re.S)]
+for row in json.loads(answer)["rows"]:
+    stated = row["stated"]
+    for figure in (stated["value"], stated["expanded_uncertainty"]):
+        if str(figure) not in cells:
+            sys.exit(f"{figure} is not on the page")
+END
+    page "$base.$language.html" || return 1
+  done
+}
+
 certificate_case() {
   local name=$1 file=$2 format
   for format in json csv xlsx markdown latex html dcc; do
@@ -263,6 +287,7 @@ certificate_case() {
   check "$name: pdflatex compiles it" tex "$DIR/$name.latex"
   check "$name: GitHub's renderer shows its tables" github "$DIR/$name.markdown"
   check "$name: LibreOffice and Python read the stated figures" tables "$name"
+  check "$name: xsltproc shows the digital certificate with its stylesheet" shown "$name" "$file"
   check "$name: pydcc reads the stated figures" \
     "$PYTHON" tests/readers/digital_certificate.py "$DIR/$name.json" "$DIR/$name.dcc"
   if [ -n "${DCC_SCHEMAS:-}" ]; then
@@ -318,7 +343,7 @@ if wanted certificate; then
   packages chromium chromium fonts-dejavu && packages soffice libreoffice-calc &&
     packages pdflatex texlive-latex-base texlive-latex-recommended texlive-science \
       texlive-fonts-recommended &&
-    packages cmark-gfm cmark-gfm && packages xmllint libxml2-utils && python openpyxl dcc &&
+    packages cmark-gfm cmark-gfm && packages xmllint libxml2-utils && packages xsltproc xsltproc && python openpyxl dcc &&
     for line in "${CERTIFICATES[@]}"; do
       read -r name file <<< "$line"
       certificate_case "$name" "$file"

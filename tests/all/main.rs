@@ -39,6 +39,7 @@ mod outputs;
 mod own_program;
 #[cfg(feature = "open")]
 mod page_server;
+mod pages;
 mod parts;
 mod phases;
 mod planning;

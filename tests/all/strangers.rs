@@ -355,11 +355,14 @@ fn hostile_texts_are_harmless_in_every_format() {
             ),
             (&["compare", "t.csv"], &["table", "html", "markdown", "json", "csv"]),
             (&["compare", "l.csv"], &["table", "html", "markdown", "json", "csv"]),
-            (&["gap", "g.json"], &["table", "html", "json", "csv"]),
+            (&["gap", "g.json"], &["table", "html", "markdown", "json", "csv"]),
             (&["gap-check", "g.json", "--draws", "1"], &["table", "html", "json"]),
-            (&["assumptions", "m.json", "--trials", "20000"], &["table", "html", "json", "csv"]),
-            (&["diff", "m.json", "m.json"], &["table", "json"]),
-            (&["observe", "o.json"], &["table", "json", "csv"]),
+            (
+                &["assumptions", "m.json", "--trials", "20000"],
+                &["table", "html", "markdown", "json", "csv"],
+            ),
+            (&["diff", "m.json", "m.json"], &["table", "html", "markdown", "json"]),
+            (&["observe", "o.json"], &["table", "html", "markdown", "json", "csv"]),
             (&["check", "m.json"], &["table", "json"]),
         ];
         for (arguments, formats) in kinds {

@@ -4,7 +4,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use clap::{Args, ValueEnum};
 
-use super::options::{Answer, CoverageOption, Model, Seed, Threads};
+use super::options::{Answer, CoverageOption, Interactive, Model, Seed, Threads};
 use super::{CommandLine, Exit, Failure, options, progress, run, signals};
 use gumption_analysis::assumptions::{Audit, Question, audit, trials_to_make};
 use gumption_engine::task::{Task, Trials, Warning};
@@ -18,6 +18,8 @@ pub(super) struct Assumptions {
     model: Model,
     #[command(flatten)]
     answer: Answer<Format>,
+    #[command(flatten)]
+    interactive: Interactive,
     /// Relative change of the expanded uncertainty that is allowed
     #[arg(long, value_name = "SHARE", default_value = "0.05", value_parser = allowed)]
     allow: f64,
@@ -37,6 +39,8 @@ pub(super) struct Assumptions {
 enum Format {
     /// A page of text for people
     Table,
+    /// A page as GitHub shows it
+    Markdown,
     /// A page with figures for a browser and for print, in one file
     Html,
     /// The whole answer for programs
@@ -70,6 +74,7 @@ fn trials(text: &str) -> Result<u64, String> {
 
 impl Assumptions {
     pub(super) fn execute(&self, program: &CommandLine) -> Result<Exit, Failure> {
+        let page = self.interactive.of(&self.answer)?;
         let file = self.model.read(program)?;
         let mut task = file.task.clone();
         task.settings.seed = self.seed.or(task.settings.seed);
@@ -91,7 +96,8 @@ impl Assumptions {
         };
         let answer = match self.answer.format {
             Format::Table => report::assumptions::table(&report),
-            Format::Html => report::assumptions::html(&report),
+            Format::Markdown => report::assumptions::markdown(&report),
+            Format::Html => page(report::assumptions::html(&report)),
             Format::Json => report::assumptions::json(&report),
             Format::Csv => report::assumptions::csv(&report),
         };

@@ -6,8 +6,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use clap::{Args, ValueEnum};
 
-use super::options::{self, Answer, CoverageOption, Seed, Threads, Trust};
-use super::{CommandLine, Exit, Failure, progress, run, signals};
+use super::options::{self, Answer, CoverageOption, Interactive, Seed, Threads, Trust};
+use super::output::Place;
+use super::{CommandLine, Exit, Failure, output, progress, run, signals};
 use gumption_analysis::certificate::contents::{Certificate as Asked, Line};
 use gumption_analysis::certificate::{Basis, Failed, Issued, issue};
 use gumption_engine::propagate::{EvaluationError, warnings};
@@ -25,6 +26,8 @@ pub(super) struct Certificate {
     #[command(flatten)]
     answer: Answer<Format>,
     #[command(flatten)]
+    interactive: Interactive,
+    #[command(flatten)]
     seed: Seed,
     /// Number of Monte Carlo trials for each row; 0 for the law of propagation alone
     #[arg(long, value_name = "N|adaptive", value_parser = options::trials)]
@@ -37,6 +40,10 @@ pub(super) struct Certificate {
     /// Version of the digital certificate, with `--format dcc`; 3.2.1 unless given
     #[arg(long, value_name = "VERSION")]
     dcc_version: Option<Version>,
+    /// Write a stylesheet beside the digital certificate, NAME.xsl, that shows it to people, and name it
+    /// in the certificate; with `--format dcc --output NAME.xml`
+    #[arg(long)]
+    stylesheet: bool,
     #[command(flatten)]
     coverage: CoverageOption,
     #[command(flatten)]
@@ -86,9 +93,20 @@ impl From<Version> for DccVersion {
 
 impl Certificate {
     pub(super) fn execute(&self, program: &CommandLine) -> Result<Exit, Failure> {
+        let page = self.interactive.of(&self.answer)?;
         let mut file = self.read(program)?;
         self.check_format(&file)?;
-        let place = self.answer.open(&self.paths(&file))?;
+        let beside = self.beside()?;
+        let [place, view] = output::open(
+            [
+                ("--output", self.answer.output.as_deref()),
+                ("--stylesheet", beside.as_ref().map(|(path, _)| path.as_path())),
+            ],
+            &self.paths(&file),
+        )?;
+        let page_or_pipe =
+            if self.answer.format == Format::Table { Place::Page } else { Place::StandardOutput };
+        let place = place.map_or(page_or_pipe, Place::File);
         for asked in &mut file.certificate.evaluations {
             let settings = &mut asked.task.settings;
             settings.seed = self.seed.or(settings.seed);
@@ -141,9 +159,14 @@ impl Certificate {
             Format::Csv => report::csv(&report),
             Format::Markdown => report::markdown(&report),
             Format::Latex => report::latex(&report),
-            Format::Html => report::html(&report),
+            Format::Html => page(report::html(&report)),
             Format::Dcc => {
-                report::dcc(&report, self.dcc_version.map_or_else(Default::default, Into::into))
+                let version = self.dcc_version.map_or_else(Default::default, Into::into);
+                let made = report::dcc(&report, version);
+                match &beside {
+                    Some((_, name)) => report::with_stylesheet(&made, name),
+                    None => made,
+                }
             }
             Format::Xlsx => {
                 let bytes = report::xlsx(&report)
@@ -152,8 +175,29 @@ impl Certificate {
                 return Ok(Exit::Done);
             }
         };
+        if let Some(view) = view {
+            Place::File(view).write(&report::dcc_stylesheet())?;
+        }
         place.write(&answer)?;
         Ok(Exit::Done)
+    }
+
+    /// The path of the stylesheet and its name, where one is asked for.
+    fn beside(&self) -> Result<Option<(PathBuf, String)>, Failure> {
+        let refuse = |reason: &str| Err(Failure::Argument(reason.to_owned()));
+        if !self.stylesheet {
+            return Ok(None);
+        }
+        let Some(output) =
+            self.answer.output.as_ref().filter(|_| self.answer.format == Format::Dcc)
+        else {
+            return refuse("`--stylesheet` goes with `--format dcc --output NAME.xml`");
+        };
+        let path = output.with_extension("xsl");
+        match path.file_name().and_then(|name| name.to_str()) {
+            Some(name) => Ok(Some((path.clone(), name.to_owned()))),
+            None => refuse("`--stylesheet` needs a name of the certificate that is Unicode text"),
+        }
     }
 
     fn read(&self, program: &CommandLine) -> Result<CertificateFile, Failure> {

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
-use super::options::{self, Answer};
+use super::options::{self, Answer, Interactive};
 use super::{Exit, Failure};
 use gumption_analysis::compare::{Estimator, ResultPair, laboratories};
 use gumption_files as file;
@@ -37,6 +37,8 @@ pub(super) struct Compare {
     fail: bool,
     #[command(flatten)]
     answer: Answer<Format>,
+    #[command(flatten)]
+    interactive: Interactive,
 }
 
 /// The format of the answer.
@@ -71,6 +73,7 @@ fn estimator(text: &str) -> Result<Estimator, String> {
 
 impl Compare {
     pub(super) fn execute(&self) -> Result<Exit, Failure> {
+        let page = self.interactive.of(&self.answer)?;
         let options = ComparisonOptions {
             against: self.against.as_deref(),
             correlations: self.correlations.as_deref(),
@@ -101,7 +104,7 @@ impl Compare {
         };
         let answer = match self.answer.format {
             Format::Table => report::table(&found),
-            Format::Html => report::html(&found),
+            Format::Html => page(report::html(&found)),
             Format::Markdown => report::markdown(&found),
             Format::Json => report::json(&found),
             Format::Csv => report::csv(&found),

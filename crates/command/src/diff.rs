@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 
-use super::options::{self, Answer, CoverageOption, Trust};
+use super::options::{self, Answer, CoverageOption, Interactive, Trust};
 use super::{CommandLine, Exit, Failure};
 use gumption_files as file;
 use gumption_files::{Diagnostics, ModelOrResult};
@@ -21,6 +21,8 @@ pub(super) struct Diff {
     trust: Trust,
     #[command(flatten)]
     answer: Answer<Format>,
+    #[command(flatten)]
+    interactive: Interactive,
     #[command(flatten)]
     coverage: CoverageOption,
 }
@@ -40,6 +42,7 @@ enum Format {
 
 impl Diff {
     pub(super) fn execute(&self, program: &CommandLine) -> Result<Exit, Failure> {
+        let page = self.interactive.of(&self.answer)?;
         let standard = |path: &Path| path == Path::new("-");
         if standard(&self.a) && standard(&self.b) {
             return Err(Failure::Argument("only one of the files can be standard input".into()));
@@ -83,7 +86,7 @@ impl Diff {
             Format::Table => report::diff::table(names, &difference),
             Format::Json => report::diff::json(names, &difference),
             Format::Markdown => report::diff::markdown(names, &difference),
-            Format::Html => report::diff::html(names, &difference),
+            Format::Html => page(report::diff::html(names, &difference)),
         };
         place.write(&answer)?;
         Ok(Exit::Done)

@@ -8,11 +8,11 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use clap::Args;
 
 use super::exit::say;
-use super::options::{self, Answer, Page};
+use super::options::{self, Answer, Interactive, Page};
 use super::output::{Destination, Place};
 use super::{Exit, Failure, output, save};
-use gumption_engine::propagate::monte_carlo::Histogram;
-use gumption_engine::propagate::{Control, Evaluation, histograms, warnings};
+use gumption_engine::propagate::monte_carlo::{Histogram, MonteCarlo};
+use gumption_engine::propagate::{Control, Evaluation, convergence, histograms, warnings};
 use gumption_engine::task::{Task, Trials};
 use gumption_files::ModelFile;
 use gumption_report as report;
@@ -23,6 +23,8 @@ use gumption_report::{BudgetColumn, EvaluationReport, Shown, TableStyle};
 pub(super) struct Evaluated {
     #[command(flatten)]
     pub(super) answer: Answer<Page>,
+    #[command(flatten)]
+    interactive: Interactive,
     /// More columns of the budget in a table: names with commas between them
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = options::columns())]
     columns: Vec<BudgetColumn>,
@@ -100,8 +102,14 @@ impl Evaluated {
             EvaluationReport { task, evaluation, warnings: &notes, provenance: &provenance };
         self.answer.say(&notes);
         let histograms = self.histograms(&report, control)?;
-        let shown =
-            Shown { columns: &self.columns, histograms: &histograms, replaced, model: text };
+        let convergence = self.convergence(&report, control)?;
+        let shown = Shown {
+            columns: &self.columns,
+            histograms: &histograms,
+            convergence: &convergence,
+            replaced,
+            model: text,
+        };
         // what fails is told when all that can be written is
         let saver = save::Saver { report: &report, control, quantiles: quantiles.as_deref() };
         let Places { answer, saved, samples } = places;
@@ -114,7 +122,8 @@ impl Evaluated {
         let format = self.answer.format;
         let page = if format == Page::Table { Place::Page } else { Place::StandardOutput };
         let place = answer.map_or(page, Place::File);
-        let written = place.write_with(|out| write(format, &report, &shown, out));
+        let page = self.interactive.of(&self.answer)?;
+        let written = place.write_with(|out| write((format, page), &report, &shown, out));
         let mut failures: Vec<Failure> = written.err().into_iter().collect();
         for (path, left) in left.into_iter().flatten() {
             match left {
@@ -156,6 +165,7 @@ impl Evaluated {
 
     /// Whether the answer can be given in the format that was asked for.
     fn check_format(&self, task: &Task) -> Result<(), Failure> {
+        self.interactive.of(&self.answer)?;
         let refuse = |reason: &str| Err(Failure::Argument(reason.to_owned()));
         let format = self.answer.format;
         if format == Page::Xlsx && self.answer.is_terminal() {
@@ -209,11 +219,24 @@ impl Evaluated {
         }
         Ok(all)
     }
+
+    /// How the figures settle, where the answer shows it.
+    fn convergence(
+        &self,
+        report: &EvaluationReport<'_>,
+        control: &Control<'_>,
+    ) -> Result<Vec<Vec<MonteCarlo>>, Failure> {
+        let EvaluationReport { task, evaluation, .. } = *report;
+        if self.answer.format != Page::Html || evaluation.rows.len() != 1 {
+            return Ok(Vec::new());
+        }
+        Ok(convergence(task, evaluation, 0, control)?.unwrap_or_default())
+    }
 }
 
-/// Writes the answer in a format.
+/// Writes the answer in a format; `page` is what is done to a page for a browser.
 fn write(
-    format: Page,
+    (format, page): (Page, fn(String) -> String),
     report: &EvaluationReport<'_>,
     shown: &Shown<'_>,
     out: &mut dyn Write,
@@ -228,7 +251,7 @@ fn write(
         Page::Csv => report::write_csv(report, out),
         Page::Markdown => out.write_all(report::markdown(report, shown).as_bytes()),
         Page::Latex => out.write_all(report::latex(report, shown).as_bytes()),
-        Page::Html => out.write_all(report::html(report, shown).as_bytes()),
+        Page::Html => out.write_all(page(report::html(report, shown)).as_bytes()),
         Page::Xlsx => out.write_all(&report::xlsx(report, shown)?),
     }
 }

@@ -5,7 +5,7 @@ use std::sync::atomic::AtomicBool;
 
 use clap::{Args, ValueEnum};
 
-use super::options::{Answer, Case, CoverageOption, Seed, Threads};
+use super::options::{Answer, Case, CoverageOption, Interactive, Seed, Threads};
 use super::{CommandLine, Exit, Failure, progress, run, signals};
 use gumption_engine::task::Row;
 use gumption_files::CaseFile;
@@ -24,6 +24,8 @@ pub(super) struct Gap {
     predict: Option<PathBuf>,
     #[command(flatten)]
     answer: Answer<Format>,
+    #[command(flatten)]
+    interactive: Interactive,
     #[command(flatten)]
     seed: Seed,
     #[command(flatten)]
@@ -49,6 +51,7 @@ enum Format {
 
 impl Gap {
     pub(super) fn execute(&self, program: &CommandLine) -> Result<Exit, Failure> {
+        let page = self.interactive.of(&self.answer)?;
         let mut file = self.case.read(program)?;
         let settings = &mut file.case.task.settings;
         settings.coverage = self.coverage.or(settings.coverage);
@@ -62,7 +65,7 @@ impl Gap {
         let diagnosis = self.diagnose(&file, at.as_deref(), &stop)?;
         let answer = match self.answer.format {
             Format::Table => report::gap::table(&diagnosis),
-            Format::Html => report::gap::html(&diagnosis, &self.provenance(&file)?),
+            Format::Html => page(report::gap::html(&diagnosis, &self.provenance(&file)?)),
             Format::Markdown => report::gap::markdown(&diagnosis, &self.provenance(&file)?),
             Format::Json => report::gap::json(&diagnosis),
             Format::Csv => report::gap::csv(&diagnosis),

@@ -10,7 +10,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use clap::{Args, ValueEnum};
 use rayon::prelude::*;
 
-use super::options::{Answer, Case, Seed, Threads};
+use super::options::{Answer, Case, Interactive, Seed, Threads};
 use super::shared_draws::SharedCheck;
 use super::signals::{self, Temporary};
 use super::{CommandLine, Exit, Failure, output, parts, progress, run};
@@ -34,6 +34,8 @@ pub(super) struct GapCheck {
     noise: Noise,
     #[command(flatten)]
     answer: Answer<Format>,
+    #[command(flatten)]
+    interactive: Interactive,
     #[command(flatten)]
     seed: Seed,
     #[command(flatten)]
@@ -94,6 +96,7 @@ fn draws(text: &str) -> Result<u64, String> {
 
 impl GapCheck {
     pub(super) fn execute(&self, program: &CommandLine) -> Result<Exit, Failure> {
+        let page = self.interactive.of(&self.answer)?;
         let file = self.case.read(program)?;
         let read = self.case.paths(&file);
         let place = self.answer.open(&read)?;
@@ -123,7 +126,7 @@ impl GapCheck {
             Format::Table => report::gap::check::table(&design, &scores),
             Format::Html => {
                 let provenance = run::provenance(&file.source.text, &file.files);
-                report::gap::check::html(&design, &scores, &provenance)
+                page(report::gap::check::html(&design, &scores, &provenance))
             }
             Format::Json => report::gap::check_json(&design.title, &scores),
         };

@@ -4,12 +4,12 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 
-use super::options::{self, AllowedFolders, Answer, Seed};
+use super::options::{self, AllowedFolders, Answer, Interactive, Seed};
 use super::{CommandLine, Exit, Failure, run};
 use gumption_engine::task::Warning;
 use gumption_files::{FileReader, RecipeFile};
 use gumption_report::observe::{self as report, ObservationReport};
-use gumption_signal::{Observation, observe};
+use gumption_signal::{Observation, RecordTrace, observe, observe_with_traces};
 
 /// Take amplitudes, phases and delays from recordings.
 #[derive(Debug, Args)]
@@ -22,6 +22,8 @@ pub(super) struct Observe {
     seed: Seed,
     #[command(flatten)]
     answer: Answer<Format>,
+    #[command(flatten)]
+    interactive: Interactive,
 }
 
 /// The format of the answer.
@@ -41,6 +43,7 @@ enum Format {
 
 impl Observe {
     pub(super) fn execute(&self, program: &CommandLine) -> Result<Exit, Failure> {
+        let page = self.interactive.of(&self.answer)?;
         let files = self.allowed.files(program);
         let text = |files: FileReader<'_>, name: &str, text: &str, folder: &Path| {
             files.recipe_text(name, text, folder)
@@ -51,8 +54,12 @@ impl Observe {
         let mut provenance = run::provenance(&file.source.text, &[]);
         let mut warnings: Vec<Warning> = Vec::new();
         let mut rows = Vec::new();
+        let mut traces = Vec::new();
         for row in 0..file.rows.len() {
-            let (observation, found, digests) = observed(&file, row)?;
+            let is_page = self.answer.format == Format::Html;
+            let Row { observation, traces: seen, warnings: found, digests } =
+                observed(&file, row, is_page)?;
+            traces.push(seen);
             for warning in found {
                 if !warnings.contains(&warning) {
                     warnings.push(warning);
@@ -71,6 +78,7 @@ impl Observe {
             conditions: &file.conditions,
             frequency: &file.frequency,
             rows: &rows,
+            traces: &traces,
             warnings: &warnings,
             provenance: &provenance,
         };
@@ -79,7 +87,7 @@ impl Observe {
             Format::Json => report::json(&found),
             Format::Csv => report::csv(&found),
             Format::Markdown => report::markdown(&found),
-            Format::Html => report::html(&found),
+            Format::Html => page(report::html(&found)),
         };
         // a page on standard output has the notes itself
         if self.answer.format != Format::Table || self.answer.output.is_some() {
@@ -90,14 +98,24 @@ impl Observe {
     }
 }
 
-type Row = (Observation, Vec<Warning>, Vec<(String, String)>);
-
 /// What was found in a row, with notes and the digests of its files.
-fn observed(file: &RecipeFile, row: usize) -> Result<Row, Failure> {
+struct Row {
+    observation: Observation,
+    /// What figures show, where there are figures.
+    traces: Vec<RecordTrace>,
+    warnings: Vec<Warning>,
+    digests: Vec<(String, String)>,
+}
+
+fn observed(file: &RecipeFile, row: usize, traced: bool) -> Result<Row, Failure> {
     let mut opened = file.open(row)?;
     let frequencies = &file.rows[row].frequencies;
-    let observation = observe(&opened.settings, frequencies, &mut opened.tracks)
-        .map_err(|refused| file.refusal(row, &refused))?;
+    let found = match traced {
+        true => observe_with_traces(&opened.settings, frequencies, &mut opened.tracks),
+        false => observe(&opened.settings, frequencies, &mut opened.tracks)
+            .map(|observation| (observation, Vec::new())),
+    };
+    let (observation, traces) = found.map_err(|refused| file.refusal(row, &refused))?;
     let mut warnings = opened.warnings;
     let several = file.rows.len() > 1;
     for (code, channel, text) in &observation.notes {
@@ -105,5 +123,5 @@ fn observed(file: &RecipeFile, row: usize) -> Result<Row, Failure> {
         let text = if several { format!("row {}, {text}", row + 1) } else { text.clone() };
         warnings.push(Warning::new(code, name, text));
     }
-    Ok((observation, warnings, opened.digests))
+    Ok(Row { observation, traces, warnings, digests: opened.digests })
 }

@@ -89,6 +89,35 @@ impl<F: ValueEnum + Send + Sync + 'static> Answer<F> {
     }
 }
 
+/// Whether a page for a browser has a script.
+#[derive(Debug, Args)]
+pub(super) struct Interactive {
+    /// Give the HTML page a script: values under the pointer, tables that sort, figures that enlarge,
+    /// methods that hide. It loads nothing, and the page says the same without it
+    #[arg(long)]
+    interactive: bool,
+}
+
+impl Interactive {
+    /// What is done to the page.
+    ///
+    /// # Errors
+    /// Where the answer is no page.
+    pub(super) fn of<F: ValueEnum + Send + Sync>(
+        &self,
+        answer: &Answer<F>,
+    ) -> Result<fn(String) -> String, Failure> {
+        let is_html = answer.format.to_possible_value().is_some_and(|of| of.get_name() == "html");
+        match (self.interactive, is_html) {
+            (false, _) => Ok(|page| page),
+            (true, true) => Ok(|page| gumption_report::interactive(&page)),
+            (true, false) => {
+                Err(Failure::Argument("`--interactive` goes with `--format html`".to_owned()))
+            }
+        }
+    }
+}
+
 /// A workbook on a screen is no answer.
 pub(super) fn workbook_in_terminal() -> Failure {
     let reason = "a workbook cannot be shown in a terminal; add `--output FILE.xlsx`, or give it \

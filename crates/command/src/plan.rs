@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
 
-use super::options::{self, Answer, CoverageOption, Model, Seed, Threads};
+use super::options::{self, Answer, CoverageOption, Interactive, Model, Seed, Threads};
 use super::{CommandLine, Exit, Failure, progress, run, signals};
 use gumption_analysis::integrity;
 use gumption_analysis::plan::{Costs, DriftLaw, NoPlan, Plan, PlanQuestion, plan};
@@ -37,6 +37,8 @@ pub(super) struct Planning {
     drift_law: DriftLaw,
     #[command(flatten)]
     answer: Answer<Format>,
+    #[command(flatten)]
+    interactive: Interactive,
     #[command(flatten)]
     seed: Seed,
     /// Number of Monte Carlo trials of the plan's check, 0 for none
@@ -72,6 +74,7 @@ fn law() -> impl TypedValueParser<Value = DriftLaw> {
 
 impl Planning {
     pub(super) fn execute(&self, program: &CommandLine) -> Result<Exit, Failure> {
+        let page = self.interactive.of(&self.answer)?;
         let file = self.model.read(program)?;
         let mut task = file.task.clone();
         task.settings.seed = self.seed.or(task.settings.seed);
@@ -111,7 +114,7 @@ impl Planning {
             Format::Markdown => report::markdown(&report),
             Format::Json => report::json(&report),
             Format::Csv => report::csv(&report),
-            Format::Html => report::html(&report),
+            Format::Html => page(report::html(&report)),
         };
         self.answer.say(&file.warnings);
         place.write(&answer)?;

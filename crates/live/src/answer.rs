@@ -4,7 +4,9 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use gumption_engine::model::formula::Formula;
-use gumption_engine::propagate::{Control, Evaluation, evaluate, histograms, warnings};
+use gumption_engine::propagate::{
+    Control, Evaluation, convergence, evaluate, histograms, warnings,
+};
 use gumption_engine::task::{MethodChoice, Task, Trials};
 use gumption_files::{
     ComparisonOptions, Diagnostics, FileReader, ModelFile, TextKind, read_comparison_text,
@@ -257,6 +259,12 @@ fn results(file: &ModelFile, asked: &Asked, stop: &Arc<AtomicBool>) -> Result<Js
         let found = histograms(&task, &evaluation, row, &control).map_err(failed)?;
         place.extend(found.into_iter().flatten());
     }
+    // when the hand rests: it takes as long as the run
+    let settled = match asked.full && !evaluation.stopped {
+        true => convergence(&task, &evaluation, row, &control).map_err(failed)?,
+        false => None,
+    };
+    let settled = settled.unwrap_or_default();
     let mut notes = file.warnings.clone();
     notes.extend(warnings(&task, &evaluation));
     let provenance = Provenance::default();
@@ -266,7 +274,7 @@ fn results(file: &ModelFile, asked: &Asked, stop: &Arc<AtomicBool>) -> Result<Js
         warnings: &notes,
         provenance: &provenance,
     };
-    let shown = Shown { histograms: &counts, ..Shown::default() };
+    let shown = Shown { histograms: &counts, convergence: &settled, ..Shown::default() };
     let size = if asked.narrow { FigureSize::Narrow } else { FigureSize::Page };
     let outputs = task.model.outputs.len();
     let output = asked.output.map(|wanted| if wanted < outputs { wanted } else { 0 });

@@ -37,7 +37,7 @@ pub use evaluation::{
     MOST_RESULTS, OutputParts, PageChoice, PageParts, ResultStatement, Shown, histograms, html,
     input_picture, latex, markdown, page_parts, xlsx,
 };
-pub use html::{FigureSize, page_style};
+pub use html::{FigureSize, interactive, interactive_script_digest, page_style};
 pub use json::{json, write_json};
 pub use samples::TrialsForm;
 pub use saved::{SaveError, saved, saved_result};

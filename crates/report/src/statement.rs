@@ -1,5 +1,6 @@
 //! What the pages state of the measurement: its source, its model and the equations.
 
+use super::document::Document;
 use super::plain;
 use super::sheet::{Kind, Sheet};
 use gumption_engine::task::Task;
@@ -50,4 +51,19 @@ pub(crate) fn sheet(task: &Task) -> Option<Sheet> {
     sheet.text("quantity", equations.iter().map(|(name, _)| name.clone()));
     sheet.push("equation", equations.into_iter().map(|(_, text)| text), Kind::Equations);
     Some(sheet)
+}
+
+/// The measurement: its sources and equations.
+pub(crate) fn section(document: &mut Document, task: &Task) {
+    let sources = sources(task);
+    let equations = sheet(task);
+    if sources.is_empty() && equations.is_none() {
+        return;
+    }
+    document.section("Measurement model");
+    for said in sources {
+        document.sentence(&said);
+    }
+    equations.into_iter().for_each(|sheet| document.table(sheet));
+    left_out(task).into_iter().for_each(|said| document.sentence(&said));
 }

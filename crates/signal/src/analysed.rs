@@ -12,6 +12,7 @@ use super::residuals::Residuals;
 use super::rounding::{Rounding, noise_before};
 use super::sine_fit::{ToneCoefficients, ToneDesign};
 use super::spurious::Spurious;
+use super::trace::RecordTrace;
 use gumption_engine::number::elementary::{exp, hypot, sinh};
 
 /// A frequency in a recording.
@@ -73,6 +74,8 @@ pub(super) struct Analysed {
     pub(super) rounding: Option<Rounding>,
     /// What the channel's steps did.
     pub(super) effects: Rc<Effects>,
+    /// What figures show of it, where they were asked for.
+    pub(super) trace: Option<RecordTrace>,
 }
 
 impl Analysed {

@@ -12,6 +12,7 @@ use super::recipe::{Frequency, Method, RecipeSettings, TimeBase};
 use super::residuals::{self, Residuals};
 use super::sine_fit::{NoFit, Tone, ToneCoefficients, ToneDesign};
 use super::spurious;
+use super::trace;
 use super::whole_periods::whole_periods;
 use gumption_engine::number::elementary;
 
@@ -106,6 +107,8 @@ pub(super) struct Group<'g> {
     pub(super) channels: &'g [(usize, usize)],
     /// The steps that they went through, if these have an effect.
     pub(super) through: Option<&'g Through>,
+    /// Whether figures are asked for.
+    pub(super) traced: bool,
 }
 
 /// The tones of a recording, and for each channel their coefficients and what they leave.
@@ -299,8 +302,16 @@ impl Group<'_> {
                 }
             }
         }
+        let mut traces = vec![None; self.channels.len()];
+        if self.traced {
+            let channels = self.channels.iter().map(|(channel, _)| *channel).zip(&fits);
+            let channels: Vec<_> = channels.collect();
+            let found = trace::traces(passes, (base, &design), &fundamentals, &channels);
+            traces = found.map_err(Refused::Unreadable)?.into_iter().map(Some).collect();
+        }
         let design = Rc::new(design);
-        let analysed = self.channels.iter().zip(fits).zip(left).map(|((at, fit), residuals)| {
+        let made = self.channels.iter().zip(fits).zip(left).zip(traces);
+        let analysed = made.map(|(((at, fit), residuals), trace)| {
             let spurious = spurious::found(&residuals.first);
             let besides = besides.clone();
             let stated = self.settings.channels.get(at.0).map_or(0.0, |of| of.resolution);
@@ -320,6 +331,7 @@ impl Group<'_> {
                 spurious,
                 besides,
                 effects: self.through.map_or_else(Rc::default, |of| of.effects.clone()),
+                trace,
             }
             .rounded()
         });

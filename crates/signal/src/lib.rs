@@ -15,7 +15,7 @@
 //!
 //! [`observe`] (`run`) leads each channel through its steps (`step`, `effects`: what they did to
 //! oscillations and noise; `found`: what they find beside it; `search`: sampling rates), fits what
-//! comes out (`analysis`, `sine_fit`, `frequency`, `residuals`, `spurious`), and makes values with
+//! comes out (`analysis`, `sine_fit`, `frequency`, `residuals`, `spurious`; `trace`: what figures show of it), and makes values with
 //! budgets of it (`polar`, `trials`, `values`, `observation`). `butterworth`, `derivative`,
 //! `rotation`, `correction`, `delay`, `rms` and `sampling_rate` are steps as functions of signals.
 //! The one fit is `sine_fit`: any tones of a recording that streams in blocks, or of a signal in
@@ -43,6 +43,7 @@ mod signal;
 mod step;
 mod steps;
 mod surroundings;
+mod trace;
 mod track;
 mod trials;
 mod unsuitable;
@@ -78,7 +79,7 @@ pub use recipe::{
 pub use resimulation::{Colour, Resimulation, Scatter};
 pub use rms::{Improvement, Rms, RmsOf, improvement};
 pub use rotation::{Accelerations, Oscillation, Rotation};
-pub use run::observe;
+pub use run::{observe, observe_with_traces};
 pub use sampling_rate::{Rate, RateSearch, sampling_rate};
 pub use signal::Signal;
 pub use sine_fit::{NoFit, Tone, ToneCoefficients, ToneDesign};
@@ -86,6 +87,7 @@ pub use spectral::Ends;
 pub use spurious::Spurious;
 pub use step::{ChannelStep, Stepped};
 pub use surroundings::{Finding, Surroundings};
+pub use trace::{RecordTrace, SampleRanges, SpectrumColumn, TRACE_COLUMNS, TraceTone};
 pub use track::ChannelRecording;
 pub use unsuitable::Unsuitable;
 pub use whole_periods::{WholePeriods, whole_periods};

@@ -13,6 +13,7 @@ use super::search;
 use super::spurious::Spurious;
 use super::step::ChannelStep;
 use super::surroundings::{Finding, Surroundings};
+use super::trace::RecordTrace;
 use super::track::ChannelRecording;
 use super::values::observed;
 use super::{Measured, Signal};
@@ -41,6 +42,27 @@ pub fn observe<P: SampleSource>(
     frequencies: &[Frequency],
     tracks: &mut [ChannelRecording<P>],
 ) -> Result<Observation, Refused<P::Error>> {
+    Ok(row(settings, frequencies, tracks, false)?.0)
+}
+
+/// The same, and for each channel what figures show of its record, which takes another pass.
+///
+/// # Errors
+/// As [`observe`].
+pub fn observe_with_traces<P: SampleSource>(
+    settings: &RecipeSettings,
+    frequencies: &[Frequency],
+    tracks: &mut [ChannelRecording<P>],
+) -> Result<(Observation, Vec<RecordTrace>), Refused<P::Error>> {
+    row(settings, frequencies, tracks, true)
+}
+
+fn row<P: SampleSource>(
+    settings: &RecipeSettings,
+    frequencies: &[Frequency],
+    tracks: &mut [ChannelRecording<P>],
+    traced: bool,
+) -> Result<(Observation, Vec<RecordTrace>), Refused<P::Error>> {
     let mut findings: Vec<(usize, Finding)> = search::rates(settings, frequencies, tracks)?;
     let mut stepped: Vec<Stepped> = Vec::new();
     for channel in in_order(settings) {
@@ -60,8 +82,9 @@ pub fn observe<P: SampleSource>(
             continue;
         }
         let base = recording.base;
-        let group =
-            Group { settings, frequencies, base, track, clock, channels: &plain, through: None };
+        let through = None;
+        let channels = &plain;
+        let group = Group { settings, frequencies, base, track, clock, channels, through, traced };
         analysed.extend(group.analyse(&mut recording.passes)?);
         track += 1;
     }
@@ -70,8 +93,8 @@ pub fn observe<P: SampleSource>(
         let channels = [(of.channel, 0)];
         let (base, clock) = (of.base, of.clock);
         let through = of.through.as_ref();
-        let group =
-            Group { settings, frequencies, base, track, clock, channels: &channels, through };
+        let channels = &channels;
+        let group = Group { settings, frequencies, base, track, clock, channels, through, traced };
         analysed.extend(group.analyse(&mut of.held).map_err(unreadable)?);
         findings.extend(of.findings.into_iter().map(|finding| (of.channel, finding)));
         of_steps.extend(of.notes);
@@ -93,7 +116,8 @@ pub fn observe<P: SampleSource>(
     let count = if settings.method == Method::Fft { 1 } else { frequencies.len() };
     let mut notes = notes(settings, &analysed);
     notes.extend(of_steps);
-    Ok(Observation { frequencies: (0..count).map(at).collect(), notes })
+    let observation = Observation { frequencies: (0..count).map(at).collect(), notes };
+    Ok((observation, analysed.into_iter().filter_map(|of| of.trace).collect()))
 }
 
 /// The channels, the reference first.
@@ -145,6 +169,7 @@ fn through_steps<P: SampleSource>(
                 clock,
                 channels: &channels,
                 through: None,
+                traced: false,
             };
             let mut held = InMemorySamples { channels: vec![now.values] };
             before = group.analyse(&mut held).map_err(unreadable)?.pop();

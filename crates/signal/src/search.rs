@@ -78,6 +78,7 @@ fn rate<P: SampleSource>(
         clock: 0,
         channels: &channels,
         through: None,
+        traced: false,
     };
     let analysed = group.analyse(&mut held).map_err(unreadable)?;
     let found = analysed.first().and_then(|of| Some((of.fundamentals.first()?, of)));

@@ -4,8 +4,10 @@ use std::sync::Arc;
 
 use gumption::command::Failure;
 use gumption::file::ModelFile;
-use gumption::propagate::monte_carlo::Histogram;
-use gumption::propagate::{Control, Evaluation, EvaluationError, for_each_block, histograms};
+use gumption::propagate::monte_carlo::{Histogram, MonteCarlo};
+use gumption::propagate::{
+    Control, Evaluation, EvaluationError, convergence, for_each_block, histograms,
+};
 use gumption::report::{
     self, EvaluationReport, Provenance, SaveError, Shown, TableStyle, TrialsForm,
 };
@@ -89,15 +91,18 @@ impl Ran {
     fn formatted(&self, format: &str, control: &Control<'_>) -> Result<Option<Vec<u8>>, String> {
         let report = self.report();
         let rows = &self.evaluation.rows;
-        let drawn: Vec<Vec<Option<Histogram>>> = if format == "html" && rows.len() == 1 {
+        let mut drawn: Vec<Vec<Option<Histogram>>> = Vec::new();
+        let mut settled: Vec<Vec<MonteCarlo>> = Vec::new();
+        if format == "html" && rows.len() == 1 {
             let found = histograms(&self.task, &self.evaluation, 0, control);
-            vec![found.map_err(|error| error.to_string())?.unwrap_or_default()]
-        } else {
-            Vec::new()
-        };
+            drawn.push(found.map_err(|error| error.to_string())?.unwrap_or_default());
+            let found = convergence(&self.task, &self.evaluation, 0, control);
+            settled = found.map_err(|error| error.to_string())?.unwrap_or_default();
+        }
         let shown = Shown {
             columns: &[],
             histograms: &drawn,
+            convergence: &settled,
             replaced: &self.replaced,
             model: &self.file.source.text,
         };

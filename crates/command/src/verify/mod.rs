@@ -9,7 +9,7 @@ use std::sync::atomic::Ordering;
 
 use clap::{Args, ValueEnum};
 
-use super::options::{Answer, Threads};
+use super::options::{Answer, Interactive, Threads};
 use super::{CommandLine, Exit, Failure, progress, signals};
 pub use examples::PublishedExamples;
 use gumption_analysis::verification::{PublishedVerdict, RecomputedExample};
@@ -27,6 +27,8 @@ pub(super) struct Verify {
     compared: paths::Paths,
     #[command(flatten)]
     answer: Answer<Format>,
+    #[command(flatten)]
+    interactive: Interactive,
     #[command(flatten)]
     threads: Threads,
     /// End with exit code 3 if a value differs, or with --paths a hash
@@ -51,6 +53,7 @@ enum Format {
 
 impl Verify {
     pub(super) fn execute(&self, program: &CommandLine) -> Result<Exit, Failure> {
+        let page = self.interactive.of(&self.answer)?;
         let threads = self.threads.count();
         if self.paths {
             return self.compared.execute(program, threads, self.fail);
@@ -75,7 +78,7 @@ impl Verify {
             Format::Json => verification::json(&found),
             Format::Csv => verification::csv(&found),
             Format::Markdown => verification::markdown(&found),
-            Format::Html => verification::html(&found),
+            Format::Html => page(verification::html(&found)),
         };
         place.write(&answer)?;
         if stop.load(Ordering::Relaxed) {

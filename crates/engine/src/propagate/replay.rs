@@ -1,8 +1,8 @@
 //! A finished run's trials generated again: for what needs more of them than an evaluation keeps.
 
-use super::evaluation::{in_pool, joint};
+use super::evaluation::{drawn_dof, in_pool, joint, reach};
 use super::gum::Gum;
-use super::monte_carlo::{self, Histogram, RowTrials};
+use super::monte_carlo::{self, Histogram, MonteCarlo, Request, RowTrials};
 use super::{Control, Evaluation, EvaluationError, gum};
 use crate::task::Task;
 
@@ -94,6 +94,39 @@ pub fn histograms(
     })?
 }
 
+/// How the figures of a row settle: for each output those of its first 1000, 2000, 5000, 10 000, ...
+/// trials, up to ten million, and last those of all of them. Each are what a run of so many trials
+/// gives, with its numerical standard errors. `None` without trials, or if stopped.
+///
+/// # Errors
+/// Threads that cannot be started.
+pub fn convergence(
+    task: &Task,
+    evaluation: &Evaluation,
+    row: usize,
+    control: &Control<'_>,
+) -> Result<Option<Vec<Vec<MonteCarlo>>>, EvaluationError> {
+    let count = made(evaluation, row);
+    let (Some(of), Some(whole)) = (task.rows.get(row), evaluation.rows.get(row)) else {
+        return Ok(None);
+    };
+    let reaches = reach(&task.model.program, task.variables.len());
+    let drawn_dof = drawn_dof(&reaches, of);
+    let probability = task.settings.coverage.probability();
+    let request = Request { trials: count, probability, drawn_dof: &drawn_dof };
+    in_pool(task, control, || {
+        let trials = trials(task, row)?.filter(|_| count > 0);
+        let found =
+            trials.and_then(|mut trials| monte_carlo::settling(&mut trials, request, control));
+        Ok(found.map(|mut outputs| {
+            for (stages, output) in outputs.iter_mut().zip(&whole.outputs) {
+                stages.extend(output.monte_carlo.clone());
+            }
+            outputs
+        }))
+    })?
+}
+
 /// Hands over the trials of a row, block by block in order: for each output its values, without
 /// the trials that were left out of the figures. The bits are those of the run. `false` if stopped.
 ///
@@ -111,4 +144,54 @@ pub fn for_each_block<E: Send + From<EvaluationError>>(
         Some(trials) if count > 0 => monte_carlo::repeat(&trials, count, control, take),
         _ => Ok(true),
     })?
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::distribution::Input;
+    use crate::model::typed::example::Projection;
+    use crate::propagate::evaluate;
+    use crate::task::{Settings, Trials};
+
+    /// A task with readings, whose t distribution has few degrees of freedom.
+    fn task(trials: u64) -> Task {
+        let plane = Projection {
+            a_ref: Input::readings(&[9.81, 9.79, 9.82, 9.80, 9.80, 9.83], "m/s^2").unwrap(),
+            tilt: Input::rectangular(30.0, 0.5, "deg").unwrap(),
+            rotation: Input::normal(10.0, 0.2, "deg").unwrap(),
+        };
+        let settings = Settings { trials: Trials::Fixed(trials), ..Settings::default() };
+        Task::of(plane, settings).unwrap()
+    }
+
+    /// Every stage is what a run of so many trials prints, whatever the threads and the memory, and the
+    /// last is the run itself, to the bit.
+    #[test]
+    fn a_stage_is_a_run_of_so_many_trials() {
+        let of = |trials| {
+            let task = task(trials);
+            let evaluation = evaluate(&task, &Control::default()).unwrap();
+            (task, evaluation)
+        };
+        let (whole, evaluation) = of(30_000);
+        let settled = |control| convergence(&whole, &evaluation, 0, &control).unwrap().unwrap();
+        let stages = settled(Control::default());
+        let counts: Vec<u64> = stages[0].iter().map(|figures| figures.trials).collect();
+        assert_eq!(counts, [1000, 2000, 5000, 10_000, 20_000, 30_000]);
+        for (place, count) in counts.into_iter().enumerate() {
+            let (_, alone) = of(count);
+            assert_eq!(Some(&stages[0][place]), alone.rows[0].outputs[0].monte_carlo.as_ref());
+        }
+        assert_eq!(stages, settled(Control::default().with_threads(3)));
+        assert_eq!(stages, settled(Control::default().with_threads(1).with_memory(1 << 16)));
+    }
+
+    #[test]
+    fn without_trials_nothing_settles() {
+        let task = task(0);
+        let evaluation = evaluate(&task, &Control::default()).unwrap();
+        assert_eq!(convergence(&task, &evaluation, 0, &Control::default()), Ok(None));
+        assert_eq!(convergence(&task, &evaluation, 7, &Control::default()), Ok(None));
+    }
 }

@@ -1,6 +1,7 @@
 //! Reports of the audit of Type B assumptions, one file for each format.
 
 mod csv;
+mod document;
 mod figure;
 mod html;
 mod json;
@@ -11,13 +12,23 @@ mod tests;
 mod words;
 
 pub use csv::csv;
-pub use html::{fragment, html};
+pub use html::fragment;
 pub use json::json;
 pub use table::table;
 
-use crate::Provenance;
+use crate::{Provenance, document as look};
 use gumption_analysis::assumptions::Audit;
 use gumption_engine::task::{Task, Warning};
+
+/// The audit in GitHub Flavored Markdown.
+pub fn markdown(report: &AuditReport<'_>) -> String {
+    look::markdown(&document::of(report))
+}
+
+/// The audit as one HTML file with figures that needs nothing else.
+pub fn html(report: &AuditReport<'_>) -> String {
+    look::html(&document::of(report))
+}
 
 /// Everything that a report of an audit may show.
 #[derive(Clone, Copy, Debug)]

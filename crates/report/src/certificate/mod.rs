@@ -16,7 +16,7 @@ mod workbook;
 pub use csv::csv;
 #[cfg(test)]
 pub(crate) use dcc::unit::unit as dcc_unit;
-pub use dcc::{DccVersion, Needed, dcc, needed};
+pub use dcc::{DccVersion, Needed, dcc, dcc_stylesheet, needed, with_stylesheet};
 pub use json::json;
 pub use workbook::xlsx;
 

@@ -25,7 +25,7 @@ pub(super) fn of(report: &EvaluationReport<'_>, shown: &Shown<'_>) -> Document {
     document.subtitle.push(table::settings_text(evaluation));
     document.subtitle.extend(table::at(task, evaluation));
     document.subtitle.extend(table::stopped(evaluation));
-    stated(&mut document, task);
+    statement::section(&mut document, task);
     if let [row] = evaluation.rows.as_slice() {
         if row.outputs.len() > MOST_UNSUMMED {
             document.section("Results");
@@ -67,21 +67,6 @@ pub(super) fn together_of(document: &mut Document, report: &EvaluationReport<'_>
     let digits = evaluation.settings.digits;
     let curves = task.curves.iter().map(|curve| &**curve);
     crate::fits::sections(document, curves, evaluation.settings.coverage, digits);
-}
-
-/// The measurement: its sources and equations.
-fn stated(document: &mut Document, task: &Task) {
-    let sources = statement::sources(task);
-    let equations = statement::sheet(task);
-    if sources.is_empty() && equations.is_none() {
-        return;
-    }
-    document.section("Measurement model");
-    for said in sources {
-        document.sentence(&said);
-    }
-    equations.into_iter().for_each(|sheet| document.table(sheet));
-    statement::left_out(task).into_iter().for_each(|said| document.sentence(&said));
 }
 
 /// How the outputs vary together, and the trials that were left out.

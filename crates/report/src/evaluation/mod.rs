@@ -16,7 +16,7 @@ pub use workbook::{MOST_RESULTS, xlsx};
 
 use super::document as look;
 use super::{BudgetColumn, EvaluationReport};
-use gumption_engine::propagate::monte_carlo::Histogram;
+use gumption_engine::propagate::monte_carlo::{Histogram, MonteCarlo};
 
 /// What a page shows beside the results.
 #[derive(Clone, Copy, Debug, Default)]
@@ -25,6 +25,9 @@ pub struct Shown<'a> {
     pub columns: &'a [BudgetColumn],
     /// For each row of conditions the histograms of its outputs; none at all, or as many as rows.
     pub histograms: &'a [Vec<Option<Histogram>>],
+    /// For each output of the row that is shown how its figures settle with the number of trials, the
+    /// last ones being those of all ([`gumption_engine::propagate::convergence`]); or none.
+    pub convergence: &'a [Vec<MonteCarlo>],
     /// What the command line replaces in the model file, as it was typed.
     pub replaced: &'a [String],
     /// The text of the model file, for pages that show it.

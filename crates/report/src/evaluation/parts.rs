@@ -36,7 +36,8 @@ pub struct OutputParts {
     pub conclusions: String,
     /// Both methods side by side, with both coverage intervals.
     pub comparison: String,
-    /// The distribution of the trials with the density that the GUM gives; empty without a histogram.
+    /// The distribution of the trials with the density that the GUM gives, and how the figures settle
+    /// with the number of trials; empty without a histogram and stages.
     pub distribution: String,
 }
 

@@ -98,6 +98,8 @@ pub(super) fn section_of(
     section.distribution.figure(histogram.and_then(|counts| {
         figures::distribution(quantity, found, counts, evaluation.coverage_probability)
     }));
+    let stages = shown.convergence.get(output).map_or(&[][..], Vec::as_slice);
+    section.distribution.figure(figures::convergence(quantity, stages));
     Some(section)
 }
 

@@ -54,8 +54,7 @@ pub fn table(diagnosis: &Diagnosis) -> String {
     let plots = terminal::plots(diagnosis);
     if !plots.is_empty() {
         page.push(
-            section("Residuals over their standard uncertainty u, before and after")
-                + &plots.join("\n"),
+            section("Residuals over their uncertainty u, before and after") + &plots.join("\n"),
         );
     }
     let notes = paragraphs(words::notes(diagnosis));

@@ -2,10 +2,12 @@
 //! elsewhere.
 
 mod foot;
+mod interactive;
 mod mathml;
 mod raised;
 mod table;
 
+pub use interactive::{interactive, interactive_script_digest};
 pub(super) use raised::raised;
 pub(super) use table::table;
 

@@ -2,6 +2,7 @@
 
 mod csv;
 mod document;
+mod figures;
 mod json;
 mod sheets;
 mod table;
@@ -23,7 +24,9 @@ pub fn html(observed: &ObservationReport<'_>) -> String {
 use super::{Provenance, document as look};
 use gumption_engine::task::Warning;
 use gumption_files::RecipeCondition;
-use gumption_signal::{BudgetedValue, ChannelObservation, Observation, RecipeSettings};
+use gumption_signal::{
+    BudgetedValue, ChannelObservation, Observation, RecipeSettings, RecordTrace,
+};
 
 /// Observations with what a report says about them.
 #[derive(Clone, Debug)]
@@ -38,6 +41,9 @@ pub struct ObservationReport<'a> {
     pub frequency: &'a str,
     /// The rows: values of the conditions, and what was found.
     pub rows: &'a [(Vec<f64>, Observation)],
+    /// For each row what figures show of its records, by channel; none at all where there are no
+    /// figures.
+    pub traces: &'a [Vec<RecordTrace>],
     /// Warnings and notes.
     pub warnings: &'a [Warning],
     /// Where it comes from.

@@ -17,5 +17,6 @@ pub(super) use marks::{Fill, mark};
 pub(super) use panel::{Chart, Panel};
 pub(super) use strip::{STRIP_AXIS, Strip, centred, faded, line, stroke};
 pub(super) use svg::{
-    Anchor, Area, Drawn, FONT, Titles, Write, px, shortened, svg, svg_with_titles, write,
+    Anchor, Area, Drawn, FONT, Layer, Titles, Write, px, shortened, svg, svg_in_layers,
+    svg_with_titles, write,
 };

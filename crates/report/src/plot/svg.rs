@@ -1,6 +1,6 @@
 //! Figures as SVG texts that stand in a page.
 
-use maud::{Markup, html};
+use maud::{Markup, PreEscaped, html};
 use plotters::backend::SVGBackend;
 use plotters::coord::Shift;
 use plotters::drawing::{DrawingArea, DrawingAreaErrorKind, IntoDrawingArea};
@@ -91,6 +91,33 @@ pub(crate) fn svg_with_titles(
         text.insert_str(end, &titles.markup().into_string());
     }
     text
+}
+
+/// A layer of a figure: the method that found what it shows, if it is one's, and what draws it.
+pub(crate) type Layer<'l> = (Option<&'static str>, &'l dyn Fn(&Area<'_>, &mut Titles) -> Drawn);
+
+/// A figure of layers, one over the other; what a method found is a group that is marked with its
+/// name, so that it can be hidden.
+pub(crate) fn svg_in_layers(width: f64, height: f64, layers: &[Layer<'_>]) -> String {
+    let mut whole = String::new();
+    for (method, draw) in layers {
+        let drawn = svg_with_titles(width, height, draw);
+        let inside =
+            drawn.find("<svg ").and_then(|from| Some(from + drawn.get(from..)?.find('>')?));
+        let (Some(from), Some(to)) = (inside, drawn.rfind("</svg>")) else { continue };
+        if whole.is_empty() {
+            whole.push_str(&drawn[..=from]);
+        }
+        let inside = drawn[from + 1..to].trim();
+        match method {
+            Some(method) => {
+                whole += &html! { g data-method=(method) { (PreEscaped(inside)) } }.into_string();
+            }
+            None => whole += inside,
+        }
+        whole.push('\n');
+    }
+    whole + "</svg>\n"
 }
 
 /// Which part of a text stands at its place.

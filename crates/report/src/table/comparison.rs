@@ -319,13 +319,32 @@ impl<'a> Lines<'a> {
 
     fn grid(&self) -> Grid {
         let mut grid = Grid::default();
-        grid.text("", self.names(0));
-        for (heading, texts) in self.columns() {
+        let columns = self.columns();
+        let longest = |heading: &str, texts: &[String]| {
+            let lines = heading.lines().chain(texts.iter().map(String::as_str));
+            lines.map(|line| line.chars().count()).max().unwrap_or(0) + 2
+        };
+        let numbers: usize = columns.iter().map(|(of, texts)| longest(of, texts)).sum();
+        // a name that wrapped would leave the "to" below it without its "from"
+        let room = width().saturating_sub(numbers);
+        let names: Vec<String> = self.names(0).collect();
+        let is_narrow = names.iter().any(|name| name.chars().count() > room);
+        let shortened = |name: String| match name.get(..INTERVAL.len()) {
+            Some(begin) if is_narrow && (begin == INTERVAL || begin.trim().is_empty()) => {
+                name[INTERVAL.len()..].to_owned()
+            }
+            _ => name,
+        };
+        grid.text("", names.into_iter().map(shortened));
+        for (heading, texts) in columns {
             grid.numbers(heading, texts);
         }
         grid
     }
 }
+
+/// What the names of the ends of intervals begin with, or are indented by.
+const INTERVAL: &str = "coverage interval, ";
 
 const SYMMETRIC_LOW: [&str; 2] =
     ["coverage interval, symmetric: from", "coverage interval, symmetric: from"];

@@ -7,7 +7,7 @@ use serde_json::Value;
 
 use super::*;
 use crate::{BudgetColumn, Shown, html, latex, markdown};
-use gumption_engine::propagate::histograms;
+use gumption_engine::propagate::{convergence, histograms};
 use gumption_files::read_text;
 
 /// The rows of all tables of a page, cell by cell, as a reader sees them.
@@ -20,7 +20,15 @@ fn pages(case: &Case, columns: &[BudgetColumn]) -> [(&'static str, String, Rows)
     let histograms = [drawn.unwrap_or_default()];
     let replaced = ["tilt=35 deg".to_owned()];
     let model = "{\"title\": \"<model>\"}\n";
-    let shown = Shown { columns, histograms: &histograms, replaced: &replaced, model };
+    let settled = convergence(&case.task, &case.evaluation, 0, &Control::default()).unwrap();
+    let settled = settled.unwrap_or_default();
+    let shown = Shown {
+        columns,
+        histograms: &histograms,
+        convergence: &settled,
+        replaced: &replaced,
+        model,
+    };
     let markdown = markdown(&report, &shown);
     let latex = latex(&report, &shown);
     let html = html(&report, &shown);
@@ -216,9 +224,13 @@ fn a_page_has_what_is_needed_to_repeat_it() {
 fn html_has_its_figures() {
     let case = Case::new(correlated(20_000));
     let [.., (_, page, _)] = pages(&case, &[]);
-    // shares and distribution of a_x and a_z; a_y does not vary; the inputs
+    // shares, distribution and settling of a_x and a_z; a_y does not vary; the inputs
     // each once for a page and once for a narrow screen
-    assert_eq!(page.matches("<svg").count(), 10);
+    assert_eq!(page.matches("<svg").count(), 14);
+    // what a method found is marked, so that a script can hide it
+    for method in ["GUM", "Monte Carlo"] {
+        assert_eq!(page.matches(&format!("data-method=\"{method}\"")).count(), 4, "{method}");
+    }
     for needed in
         ["GUM: normal", "Monte Carlo, symmetric", "Monte Carlo, shortest", "r(a_ref, tilt)"]
     {
@@ -227,7 +239,7 @@ fn html_has_its_figures() {
     let without = Case::new(plane_at(35.0, 0));
     let [.., (_, page, _)] = pages(&without, &[]);
     // shares of a_x and a_z, and of a_y, which is a_ref times the sine of an angle of 0
-    assert!(!page.contains("Monte Carlo trials (bars)"));
+    assert!(!page.contains("Monte Carlo trials (bars)") && !page.contains("figures settle"));
 }
 
 #[test]

@@ -13,7 +13,7 @@ use crate::csv::of_records;
 use crate::document::{self, Block, Document};
 use crate::number::{MISSING, align, exact, position, rounded, significant};
 use crate::sheet::Sheet;
-use crate::table::text_width;
+use crate::table::{Grid, text_width, width};
 use gumption_analysis::verification::{PublishedVerdict, RecomputedExample, RecomputedValue};
 use gumption_engine::task::Trials;
 
@@ -110,6 +110,10 @@ pub fn table(found: &[RecomputedExample]) -> String {
         }
         line.trim_end().to_owned() + "\n"
     };
+    let whole = widths.iter().map(|width| width + 2).sum::<usize>();
+    if whole > width() {
+        return folded(found, (&header, &blocks));
+    }
     let mut page = line(header);
     let _ = writeln!(page, "{}", "─".repeat(widths.iter().map(|w| w + 2).sum::<usize>() - 1));
     for (example, block) in found.iter().zip(&blocks) {
@@ -124,6 +128,33 @@ pub fn table(found: &[RecomputedExample]) -> String {
     page.push('\n');
     page += &wrapped(&summary(found), "");
     page
+}
+
+/// The page for a terminal that is too narrow for all columns: every example has a table of its own.
+fn folded(
+    found: &[RecomputedExample],
+    (header, blocks): (&[&str; 6], &[Vec<[String; 6]>]),
+) -> String {
+    let mut page = String::new();
+    for (example, block) in found.iter().zip(blocks) {
+        page += &wrapped(&format!("{}: {}", example.name, example.source), "");
+        let mut grid = Grid::default();
+        for (place, name) in header.iter().enumerate() {
+            let cells = block.iter().map(|cells| cells[place].clone());
+            match place {
+                2..=4 => grid.numbers(name, cells.map(|cell| cell.trim().to_owned())),
+                _ => grid.text(name, cells),
+            }
+        }
+        if !block.is_empty() {
+            page += &grid.render(width());
+        }
+        if let Some(failure) = &example.failure {
+            page += &wrapped(failure, "  ");
+        }
+        page.push('\n');
+    }
+    page + &wrapped(&summary(found), "")
 }
 
 /// The lines of an example, decimal points under each other.

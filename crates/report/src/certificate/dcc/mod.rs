@@ -10,11 +10,13 @@ mod people;
 mod results;
 mod statements;
 pub(super) mod unit;
+mod view;
 mod xml;
 
 use super::{CertificateReport, administrative};
 use gumption_analysis::certificate::contents::{Certificate, Localized};
 use people::contact;
+pub use view::dcc_stylesheet;
 use xml::Xml;
 
 /// Keys of the certificate file that a DCC cannot do without, and that are not there.
@@ -100,6 +102,25 @@ pub fn dcc(report: &CertificateReport<'_>, version: DccVersion) -> String {
         xml.element("dcc:measurementResults", |xml| results::write(xml, report, languages));
     });
     xml.finish()
+}
+
+/// The certificate with the name of the file that has its stylesheet ([`dcc_stylesheet`]), beside it.
+pub fn with_stylesheet(certificate: &str, file: &str) -> String {
+    // as an address, in which no name can end the attribute
+    let address: String = file
+        .bytes()
+        .map(|byte| match byte {
+            b'a'..=b'z' | b'A'..=b'Z' | b'0'..=b'9' | b'-' | b'.' | b'_' | b'~' => {
+                char::from(byte).to_string()
+            }
+            _ => format!("%{byte:02X}"),
+        })
+        .collect();
+    let asked = format!("<?xml-stylesheet type=\"text/xsl\" href=\"{address}\"?>");
+    match certificate.split_once("?>\n") {
+        Some((declaration, rest)) => format!("{declaration}?>\n{asked}\n{rest}"),
+        None => certificate.to_owned(),
+    }
 }
 
 fn administrative(xml: &mut Xml, report: &CertificateReport<'_>, version: DccVersion) {

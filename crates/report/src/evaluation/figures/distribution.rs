@@ -6,17 +6,22 @@ use plotters::style::{Color, RGBColor};
 
 use super::curve;
 use crate::html::Drawing;
+use crate::number::{exact, position, significant, to};
 use crate::plain;
 use crate::plot::{
-    AFTER, Anchor, Area, Axis, BEFORE, Drawn, EVEN, FAINT, FONT, INK, STRIP_AXIS, Strip, Write,
-    centred, faded, line, px, shortened, stroke, svg, write,
+    AFTER, Anchor, Area, Axis, BEFORE, Drawn, EVEN, FAINT, FONT, INK, Layer, STRIP_AXIS, Strip,
+    Titles, Write, centred, faded, line, px, shortened, stroke, svg_in_layers, write,
 };
-use crate::table::{grouped, has_name, title_text};
+use crate::table::{grouped, has_name, in_unit, title_text};
 use gumption_engine::model::Quantity;
 use gumption_engine::propagate::OutputEvaluation;
 use gumption_engine::propagate::gum::{Dof, Gum};
 use gumption_engine::propagate::monte_carlo::Histogram;
 use gumption_units::Unit;
+
+/// Methods that found what a layer shows, as the columns of tables have them.
+const GUM: &str = "GUM";
+const TRIALS: &str = "Monte Carlo";
 
 /// Heights in pixels: of the densities, and of a row with an interval.
 const TALL: f64 = 230.0;
@@ -41,6 +46,8 @@ const DENSITIES: usize = 4;
 /// What stands below the density: its name, its ends, infinite where it has none, its estimate, and
 /// its colour.
 struct Row {
+    /// The method that found it; none for what the file states.
+    method: Option<&'static str>,
     name: &'static str,
     ends: [f64; 2],
     estimate: Option<f64>,
@@ -68,23 +75,24 @@ pub(in crate::evaluation) fn distribution(
     let top = density.iter().map(|point| point.1).fold(highest, f64::max).min(3.0 * highest) * 1.06;
     let y = |density: f64| TALL * (1.0 - (density / top).min(1.0));
     let mut rows = Vec::new();
-    let mut row = |name, ends: Option<[f64; 2]>, estimate, colour| {
-        rows.extend(ends.map(|ends| Row { name, ends, estimate, colour }));
+    let mut row = |(method, name), ends: Option<[f64; 2]>, estimate, colour| {
+        rows.extend(ends.map(|ends| Row { method, name, ends, estimate, colour }));
     };
-    row("GUM", gum.and_then(Gum::interval), gum.map(|gum| gum.estimate), INK);
+    row((Some(GUM), "GUM"), gum.and_then(Gum::interval), gum.map(|gum| gum.estimate), INK);
     let trials = figures.estimate.unwrap_or(figures.median);
-    row("Monte Carlo, symmetric", Some(figures.symmetric_interval), Some(trials), AFTER);
-    row("Monte Carlo, shortest", Some(figures.shortest_interval), Some(trials), AFTER);
+    let (symmetric, shortest) = ("Monte Carlo, symmetric", "Monte Carlo, shortest");
+    row((Some(TRIALS), symmetric), Some(figures.symmetric_interval), Some(trials), AFTER);
+    row((Some(TRIALS), shortest), Some(figures.shortest_interval), Some(trials), AFTER);
     if let Some(conformity) = &found.conformity {
-        row("tolerance", Some(conformity.tolerance.ends()), None, BEFORE);
+        row((None, "tolerance"), Some(conformity.tolerance.ends()), None, BEFORE);
         let accepted = conformity.acceptance.filter(|_| conformity.wanted_risk.is_some());
-        row("acceptance", accepted.map(|limits| limits.ends()), None, BEFORE);
+        row((None, "acceptance"), accepted.map(|limits| limits.ends()), None, BEFORE);
     }
     let axis = axis(low, high, rows.iter().flat_map(|row| row.ends));
     let bottom = TALL + 6.0 + ROW * rows.len() as f64;
     let drawn = |width: f64| {
         let strip = Strip::within(&axis, width, [LEFT, RIGHT]);
-        svg(width, bottom + STRIP_AXIS, |area| {
+        let ground = |area: &Area<'_>, _: &mut Titles| -> Drawn {
             let label = title_text(&Quantity { about: String::new(), ..output.clone() });
             strip.draw(area, 0.0, bottom, &label)?;
             for (position, text) in Axis::linear(0.0, top).marks(DENSITIES) {
@@ -94,38 +102,49 @@ pub(in crate::evaluation) fn distribution(
                     strip.name(area, &text, at)?;
                 }
             }
+            density_legend(area, strip.from, &output.unit)
+        };
+        let of_rows = |method: Option<&'static str>, area: &Area<'_>, titles: &mut Titles| {
+            let own = rows.iter().enumerate().filter(|(_, row)| row.method == method);
+            own.clone().try_for_each(|(number, row)| {
+                let at = TALL + 6.0 + ROW * (number as f64 + 0.5);
+                row.draw((&strip, &output.unit), area, titles, at)
+            })
+        };
+        let of_trials = |area: &Area<'_>, titles: &mut Titles| -> Drawn {
             for (bin, density) in histogram.densities().enumerate() {
                 if density > 0.0 {
-                    let from = strip.x(low + bin as f64 * histogram.width);
-                    let to = strip.x(low + (bin + 1) as f64 * histogram.width);
+                    let ends = [bin, bin + 1].map(|end| low + end as f64 * histogram.width);
+                    let [from, to] = ends.map(|end| strip.x(end));
                     let corners = [(px(from), px(y(density))), (px(to), px(TALL))];
                     area.draw(&Rectangle::new(corners, EVEN.filled()))?;
+                    let share = significant(100.0 * density * histogram.width, 2);
+                    let said = format!("{}: {share} % of the trials", range(ends, &output.unit));
+                    titles.at_pixels((0.5 * (from + to), y(density)), &said);
                 }
             }
+            trials_legend(area, strip.from)?;
+            of_rows(Some(TRIALS), area, titles)
+        };
+        let of_file = |area: &Area<'_>, titles: &mut Titles| -> Drawn {
             line(area, [(strip.from, TALL), (strip.to, TALL)], stroke(INK, 0.75))?;
+            of_rows(None, area, titles)
+        };
+        let of_law = |area: &Area<'_>, titles: &mut Titles| -> Drawn {
             let places: Vec<(f64, f64)> =
                 density.iter().map(|&(x, d)| (strip.x(x), y(d))).collect();
             curve(area, &places, stroke(INK, 2.0))?;
-            for (number, row) in rows.iter().enumerate() {
-                let at = TALL + 6.0 + ROW * (number as f64 + 0.5);
-                strip.name(area, row.name, at)?;
-                strip.interval(area, row.ends, at, row.colour)?;
-                for end in row.ends.into_iter().filter(|end| end.is_finite()) {
-                    let x = strip.x(end);
-                    line(area, [(x, at), (x, 0.35 * TALL)], faded(row.colour, 0.55, 0.75))?;
-                }
-                if let Some(estimate) = row.estimate {
-                    let place = (px(strip.x(estimate)), px(at));
-                    area.draw(&Circle::new(place, px(3.5), row.colour.filled()))?;
-                }
-            }
-            legend(area, gum.filter(|_| !density.is_empty()), strip.from, &output.unit)
-        })
+            law_legend(area, gum.filter(|_| !density.is_empty()), strip.from)?;
+            of_rows(Some(GUM), area, titles)
+        };
+        let layers: [Layer<'_>; 4] =
+            [(None, &ground), (Some(TRIALS), &of_trials), (None, &of_file), (Some(GUM), &of_law)];
+        svg_in_layers(width, bottom + STRIP_AXIS, &layers)
     };
     let trials = grouped(histogram.trials());
     let first = if histogram.trials() < figures.trials { "first " } else { "" };
     let line = if density.is_empty() { "" } else { ", the density that the GUM gives (line)" };
-    let percent = crate::number::exact(100.0 * probability);
+    let percent = exact(100.0 * probability);
     let limits = match found.conformity.as_ref().map(|of| of.wanted_risk) {
         None => "",
         Some(None) => "; below them the tolerance",
@@ -149,30 +168,75 @@ fn axis(low: f64, high: f64, ends: impl Iterator<Item = f64>) -> Axis {
     Axis::linear(from, to)
 }
 
-/// What bars, line and the axis of densities are, left of a place.
-fn legend(area: &Area<'_>, gum: Option<&Gum>, room: f64, unit: &Unit) -> Drawn {
-    let text = |text: &str, from: f64, y: f64| {
-        let how = Write { anchor: Anchor::Start, ..centred((from, y), FONT) };
-        write(area, &shortened(text, room - from - NUMBERS, FONT), how)
-    };
+impl Row {
+    /// Draws it at a height in pixels.
+    fn draw(
+        &self,
+        (strip, unit): (&Strip<'_>, &Unit),
+        area: &Area<'_>,
+        titles: &mut Titles,
+        at: f64,
+    ) -> Drawn {
+        strip.name(area, self.name, at)?;
+        strip.interval(area, self.ends, at, self.colour)?;
+        let said = format!("{}: {}", self.name, range(self.ends, unit));
+        for end in self.ends.into_iter().filter(|end| end.is_finite()) {
+            let x = strip.x(end);
+            line(area, [(x, at), (x, 0.35 * TALL)], faded(self.colour, 0.55, 0.75))?;
+            titles.at_pixels((x, at), &said);
+        }
+        if let Some(estimate) = self.estimate {
+            let place = (px(strip.x(estimate)), px(at));
+            area.draw(&Circle::new(place, px(3.5), self.colour.filled()))?;
+            titles.at_pixels((strip.x(estimate), at), &said);
+        }
+        Ok(())
+    }
+}
+
+/// Ends of a range in words, told apart to a hundredth of it.
+fn range([low, high]: [f64; 2], unit: &Unit) -> String {
+    let place = position(high - low, 3);
+    let text = |end: f64| if end.is_finite() { to(end, place) } else { exact(end) };
+    match (low.is_finite(), high.is_finite()) {
+        (false, true) => format!("up to {}", in_unit(&exact(high), unit)),
+        (true, false) => format!("from {} on", in_unit(&exact(low), unit)),
+        _ => format!("{} to {}", text(low), in_unit(&text(high), unit)),
+    }
+}
+
+/// A text of the legend, left of a place.
+fn said(area: &Area<'_>, text: &str, (from, y): (f64, f64), room: f64) -> Drawn {
+    let how = Write { anchor: Anchor::Start, ..centred((from, y), FONT) };
+    write(area, &shortened(text, room - from - NUMBERS, FONT), how)
+}
+
+/// What the bars are.
+fn trials_legend(area: &Area<'_>, room: f64) -> Drawn {
     let corners = [(px(14.0), px(14.0)), (px(34.0), px(26.0))];
     area.draw(&Rectangle::new(corners, EVEN.filled()))?;
-    text("Monte Carlo", 42.0, 20.0)?;
+    said(area, "Monte Carlo", (42.0, 20.0), room)
+}
+
+/// What the line is.
+fn law_legend(area: &Area<'_>, gum: Option<&Gum>, room: f64) -> Drawn {
     let shape = match gum.map(|gum| gum.dof) {
-        Some(Dof::Infinite) => Some("GUM: normal"),
-        Some(Dof::Finite(_)) => Some("GUM: t"),
-        _ => None,
+        Some(Dof::Infinite) => "GUM: normal",
+        Some(Dof::Finite(_)) => "GUM: t",
+        _ => return Ok(()),
     };
-    if let Some(shape) = shape {
-        line(area, [(14.0, 42.0), (34.0, 42.0)], stroke(INK, 2.0))?;
-        text(shape, 42.0, 42.0)?;
-    }
-    text("density", 14.0, 64.0)?;
+    line(area, [(14.0, 42.0), (34.0, 42.0)], stroke(INK, 2.0))?;
+    said(area, shape, (42.0, 42.0), room)
+}
+
+/// What the axis of densities is.
+fn density_legend(area: &Area<'_>, room: f64, unit: &Unit) -> Drawn {
+    said(area, "density", (14.0, 64.0), room)?;
     if has_name(unit) {
         let unit = plain(unit.text());
         let is_one = unit.chars().all(|c| c.is_alphanumeric());
         let unit = if is_one { unit } else { format!("({unit})") };
-        text(&format!("in 1/{unit}"), 14.0, 80.0)?;
+        said(area, &format!("in 1/{unit}"), (14.0, 80.0), room)?;
     }
     Ok(())
 }

@@ -1,10 +1,12 @@
 //! The figures of an evaluation.
 
+mod convergence;
 mod distribution;
 mod inputs;
 mod shares;
 mod sweep;
 
+pub(super) use convergence::convergence;
 pub(super) use distribution::distribution;
 pub(super) use inputs::{inputs, picture};
 pub(super) use shares::shares;

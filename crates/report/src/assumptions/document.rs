@@ -1,0 +1,55 @@
+//! The audit as a document for a browser, for print and for GitHub.
+
+use super::{AuditReport, figure, sheets, words};
+use crate::document::{Block, Document};
+use crate::{plain, statement};
+
+/// The whole document.
+pub(super) fn of(report: &AuditReport<'_>) -> Document {
+    let mut document = Document {
+        title: words::title(report),
+        subtitle: vec![words::settings(report)],
+        ..Document::default()
+    };
+    document.blocks.extend(words::contradicted(report).map(|said| Block::Verdict(vec![said])));
+    statement::section(&mut document, report.task);
+    for (row, of_row) in report.audit.rows.iter().enumerate() {
+        for (output, of) in of_row.outputs.iter().enumerate() {
+            document.section(words::heading(report, row, output));
+            document.text(words::baseline(report, output, of));
+            document.blocks.push(Block::Verdict(vec![words::verdict(report, of)]));
+            document.table(sheets::widths(report, of));
+            if let Some(shapes) = sheets::shapes(report, of) {
+                document.text("With another shape:");
+                document.table(shapes);
+            }
+            document.figure(figure::draw(of, |variable| plain(report.name(variable))));
+        }
+    }
+    if let Some(evidence) = sheets::evidence(report) {
+        document.section("Do the readings agree?");
+        document.table(evidence);
+        document.text(words::EVIDENCE);
+    }
+    document.section("How to read this");
+    for said in [words::MOVES, words::SHAPES, words::SOBOL] {
+        document.text(said);
+    }
+    if !report.warnings.is_empty() {
+        document.section("Notes");
+        let notes = report.warnings.iter().map(|warning| plain(&warning.text));
+        document.blocks.push(Block::List(notes.collect()));
+    }
+    document.section("To repeat this");
+    let provenance = report.provenance;
+    let mut lines = vec![
+        format!("gumption {}", env!("CARGO_PKG_VERSION")),
+        format!("trials: {}", report.audit.question.trials),
+        format!("seed: {}", report.task.settings.seed),
+        format!("model file, SHA-256: {}", provenance.model_sha256),
+    ];
+    let files = provenance.files.iter();
+    lines.extend(files.map(|(name, digest)| format!("{}, SHA-256: {digest}", plain(name))));
+    document.blocks.push(Block::List(lines));
+    document
+}
