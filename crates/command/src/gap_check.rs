@@ -121,14 +121,14 @@ impl GapCheck {
             return Ok(Exit::Done);
         }
         let scores = self.threads.install(|| score(&file.case, checked, seed))?;
-        let design = report::gap::check::CheckedDesign::of(&file.case);
+        let design = report::gap::check::CheckedDesign::of(&file.case, self.noise.into());
         let answer = match self.answer.format {
             Format::Table => report::gap::check::table(&design, &scores),
             Format::Html => {
                 let provenance = run::provenance(&file.source.text, &file.files);
                 page(report::gap::check::html(&design, &scores, &provenance))
             }
-            Format::Json => report::gap::check_json(&design.title, &scores),
+            Format::Json => report::gap::check_json(&design.title, design.noise, &scores),
         };
         place.write(&answer)?;
         Ok(Exit::Done)

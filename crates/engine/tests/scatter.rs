@@ -85,15 +85,18 @@ const ENDS: [(&str, &str); 13] = [
 ];
 
 /// The ends of the shortest interval scatter as they say. A hundred seeds know a normal scatter to
-/// 7 %, and that of an end at a bound, which is exponential, to 15 % (of a square, whose fourth moment
-/// is large, to twice that); the seeds are fixed. Before, the ends at a bound were stated 3 to 100
-/// times too large.
+/// 7 %, and that of an end at a bound, which is exponential, to 15 %. The lower end of a square is the
+/// square of an exponential one: its kurtosis of 88 leaves the scatter of a hundred seeds known to
+/// 47 % only, mostly too small, as the rare large ones are not among them. The seeds are fixed.
+/// Before, the ends at a bound were stated 3 to 100 times too large.
 #[test]
 fn ends_of_the_shortest_interval_scatter_as_stated() {
     for (input, formula) in ENDS {
         let found = of_ends(&format!(r#""x": {input}"#), formula, 100, 30_000);
-        for ratio in found {
-            assert!((0.65..1.45).contains(&ratio), "{input} {formula}: {found:?}");
+        let of_square = if formula == "x^2" { 0.35..1.9 } else { 0.65..1.45 };
+        let limits = [of_square, 0.65..1.45];
+        for (ratio, limits) in found.iter().zip(limits) {
+            assert!(limits.contains(ratio), "{input} {formula}: {found:?}");
         }
     }
 }

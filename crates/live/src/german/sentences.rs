@@ -251,6 +251,27 @@ pub(super) const SENTENCES: &[(&str, &str)] = &[
         "; darunter die Toleranz und die Annahmegrenzen",
     ),
     ("; below them the tolerance", "; darunter die Toleranz"),
+    ("Monte Carlo, symmetric: {}", "Monte Carlo, symmetrisch: {0:}"),
+    ("Monte Carlo, shortest: {}", "Monte Carlo, kürzestes: {0:}"),
+    ("tolerance: {}", "Toleranz: {0:}"),
+    ("acceptance: {}", "Annahme: {0:}"),
+    ("{}: {} % of the trials", "{0:}: {1} % der Versuche"),
+    // how the trials settle
+    (
+        "How the Monte Carlo figures settle: those of the first {} to {} trials (dots), each less that of all {} trials (line), with one numerical standard error either way (band)",
+        "Wie sich die Monte-Carlo-Werte einstellen: die der ersten {0} bis {1} Versuche (Punkte), jeweils ohne den aller {2} Versuche (Linie), mit einem numerischen Standardfehler nach beiden Seiten (Band)",
+    ),
+    (
+        "The ends are those of the symmetric coverage interval",
+        "Die Enden sind die des symmetrischen Überdeckungsintervalls",
+    ),
+    (
+        "The ends are those of the shortest coverage interval",
+        "Die Enden sind die des kürzesten Überdeckungsintervalls",
+    ),
+    ("difference in % of u", "Unterschied in % von u"),
+    ("difference in % of half the interval", "Unterschied in % des halben Intervalls"),
+    ("{} trials: {} of {}", "{0} Versuche: {1:} von {2}"),
     // all outputs together
     ("Correlation of the outputs", "Korrelation der Ergebnisgrößen"),
     (

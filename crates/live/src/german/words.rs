@@ -62,6 +62,9 @@ pub(super) const WORDS: &[(&str, &str)] = &[
     ("global", "globales"),
     // figures
     ("share of the variance in %", "Anteil an der Varianz in %"),
+    ("trials", "Versuche"),
+    ("lower end", "unteres Ende"),
+    ("upper end", "oberes Ende"),
     ("Monte Carlo, symmetric", "Monte Carlo, symmetrisch"),
     ("Monte Carlo, shortest", "Monte Carlo, kürzestes"),
     ("GUM: normal", "GUM: normal"),

@@ -5,12 +5,13 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 
 use crate::answer::pretty;
-use gumption_gap::check::{BlindCheckScores, BlindDraw, SmallestEffect};
+use gumption_gap::check::{BlindCheckScores, BlindDraw, CheckedNoise, SmallestEffect};
 
 #[derive(Serialize)]
 struct Answer<'r> {
     title: &'r str,
     draws: usize,
+    noise: CheckedNoise,
     seed: u64,
     top1: f64,
     top1_interval: [f64; 2],
@@ -49,11 +50,13 @@ impl<'r> Smallest<'r> {
     }
 }
 
-/// The scores as JSON, keys in a fixed order. It ends in a newline.
-pub fn check_json(title: &str, report: &BlindCheckScores) -> String {
+/// The scores of data that were drawn with this noise, as JSON with keys in a fixed order. It ends in a
+/// newline.
+pub fn check_json(title: &str, noise: CheckedNoise, report: &BlindCheckScores) -> String {
     let answer = Answer {
         title,
         draws: report.draws,
+        noise,
         seed: report.seed,
         top1: report.top1,
         top1_interval: report.top1_interval,

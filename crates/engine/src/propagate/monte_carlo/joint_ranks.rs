@@ -17,8 +17,8 @@ use super::repeat::repeat;
 use crate::propagate::Control;
 use crate::special;
 
-/// Values of all outputs together that are looked at, at most: 64 MiB with what is needed beside
-/// them.
+/// Values of all outputs together that are looked at, at most: 32 MiB, and about as much again for
+/// their scores and for each thread that sorts.
 const MOST_VALUES: usize = 1 << 22;
 
 /// Trials that are looked at, at most.

@@ -2,6 +2,7 @@
 
 use gumption_gap::Case;
 use gumption_gap::NamedQuantity;
+use gumption_gap::check::CheckedNoise;
 
 /// What a page says of the case whose design was checked.
 #[derive(Clone, Debug, PartialEq)]
@@ -16,11 +17,13 @@ pub struct CheckedDesign {
     pub conditions: Vec<(NamedQuantity, [f64; 2])>,
     /// Number of candidate effects.
     pub effects: usize,
+    /// What the noise of the draws was.
+    pub noise: CheckedNoise,
 }
 
 impl CheckedDesign {
-    /// The design of a case.
-    pub fn of(case: &Case) -> Self {
+    /// The design of a case, at which data with this noise were drawn.
+    pub fn of(case: &Case, noise: CheckedNoise) -> Self {
         let rows = &case.task.rows;
         let measured = case.model.outputs.iter().zip(&case.observed);
         let measured = measured.filter(|(_, observed)| observed.is_some());
@@ -41,6 +44,7 @@ impl CheckedDesign {
             outputs: measured.map(|(output, _)| output.quantity.name.clone()).collect(),
             conditions: conditions.collect(),
             effects: case.candidates.len(),
+            noise,
         }
     }
 }

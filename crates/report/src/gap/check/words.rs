@@ -7,7 +7,7 @@ use super::design::CheckedDesign;
 use super::label::Label;
 use super::sheets;
 use crate::plain;
-use gumption_gap::check::BlindCheckScores;
+use gumption_gap::check::{BlindCheckScores, CheckedNoise};
 
 /// The title of the page.
 pub(super) fn title(design: &CheckedDesign) -> String {
@@ -64,11 +64,18 @@ pub(super) fn done(design: &CheckedDesign, report: &BlindCheckScores) -> String 
     let outputs: Vec<String> = design.outputs.iter().map(|name| plain(name)).collect();
     let rows = if design.rows == 1 { "row" } else { "rows" };
     let effects = if design.effects == 1 { "effect" } else { "effects" };
+    let noise = match design.noise {
+        CheckedNoise::AsStated => "the stated uncertainties",
+        CheckedNoise::Uncertain => {
+            "noise that was drawn too (as stated, uncertainties off by a factor, single rows off, \
+             neighbours correlated)"
+        }
+    };
     format!(
         "Truths were drawn from the case's own prior and its list of {} candidate {effects}: {none} \
          without a gap, {one} with one effect, {two} with two, {withheld} with an effect that was then \
-         taken out of the list. Each made data with the stated uncertainties at the case's design: {} \
-         {rows} of {}{}. The data were diagnosed without the truths, which were opened afterwards.",
+         taken out of the list. Each made data with {noise} at the case's design: {} {rows} of {}{}. \
+         The data were diagnosed without the truths, which were opened afterwards.",
         design.effects,
         design.rows,
         outputs.join(", "),

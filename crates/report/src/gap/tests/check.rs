@@ -7,7 +7,9 @@ use super::super::check::{CheckedDesign, html, table};
 use super::super::check_json;
 use super::html::{SVG, assert_inside, parsed, text, with_body};
 use super::{assert_rounded, named, provenance, strings};
-use gumption_gap::check::{BlindCheckScores, BlindDraw, Confusion, Reliability, SmallestEffect};
+use gumption_gap::check::{
+    BlindCheckScores, BlindDraw, CheckedNoise, Confusion, Reliability, SmallestEffect,
+};
 
 fn design() -> CheckedDesign {
     CheckedDesign {
@@ -20,6 +22,7 @@ fn design() -> CheckedDesign {
             (named("step", ""), [0.0, 3.0]),
         ],
         effects: 3,
+        noise: CheckedNoise::AsStated,
     }
 }
 
@@ -163,6 +166,7 @@ fn bare() -> (CheckedDesign, BlindCheckScores) {
         outputs: strings(&["y"]),
         conditions: Vec::new(),
         effects: 1,
+        noise: CheckedNoise::Uncertain,
     };
     let mut report = scores(vec![draw(&["gain"], &["gain"], 1.0, true)]);
     report.intervals = 0;
@@ -182,7 +186,7 @@ fn page(design: &CheckedDesign, report: &BlindCheckScores) -> String {
 }
 
 fn json(report: &BlindCheckScores) -> Value {
-    serde_json::from_str(&check_json("", report)).unwrap()
+    serde_json::from_str(&check_json("", CheckedNoise::AsStated, report)).unwrap()
 }
 
 /// Compares the cells of the tables with the JSON; `cells` gives the numbers of the line that begins
