@@ -79,7 +79,7 @@ const ENDS: [(&str, &str); 13] = [
     (r#"{"distribution": "normal", "mean": 0, "std": 0.5}"#, "exp(x)"),
     (r#"{"distribution": "gamma", "shape": 2.5, "rate": 0.5}"#, "x"),
     (
-        r#"{"distribution": "curvilinear-trapezoid", "mean": 0, "half_width": 1, "inexactness": 0.3}"#,
+        r#"{"distribution": "curvilinear-trapezoid", "lower": -1, "upper": 1, "inexactness": 0.3}"#,
         "x",
     ),
 ];
