@@ -7,6 +7,7 @@ use plotters::chart::{ChartBuilder, ChartContext};
 use plotters::coord::cartesian::Cartesian2d;
 use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, ValueFormatter};
 use plotters::style::Color;
+use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::axis::Axis;
 use super::ink::{FAINT, INK, WEAK};
@@ -79,12 +80,10 @@ impl Panel<'_> {
     /// Draws axes and grid.
     pub(crate) fn draw<'a>(&self, area: &Area<'a>) -> Drawn<Chart<'a>> {
         let inner = f64::from(area.dim_in_pixel().0) / f64::from(px(1.0)) - LEFT - 18.0;
-        let mut builder = ChartBuilder::on(area);
-        builder.margin_top(px(8.0)).margin_right(px(12.0)).margin_left(px(6.0));
+        let area = area.margin(px(8.0), 0, px(6.0), px(12.0));
+        let area = if self.title.is_empty() { area } else { titled(&area, &self.title)? };
+        let mut builder = ChartBuilder::on(&area);
         builder.x_label_area_size(px(BELOW)).y_label_area_size(px(LEFT));
-        if !self.title.is_empty() {
-            builder.caption(&self.title, text_style(FONT, INK, true));
-        }
         let mut chart = builder.build_cartesian_2d(
             Marked::new(self.x.0, self.marks[0].min(marks_within(inner))),
             Marked::new(self.y.0, self.marks[1]),
@@ -101,4 +100,18 @@ impl Panel<'_> {
             .draw()?;
         Ok(chart)
     }
+}
+
+/// Writes a title over an area and gives back what is left below it. The plotting library's own
+/// measures the text, for which it needs a document where it runs in a browser.
+fn titled<'a>(area: &Area<'a>, title: &str) -> Drawn<Area<'a>> {
+    let style = text_style(FONT, INK, true);
+    // what the library takes an em to be
+    let em = style.font.get_size() / 1.24 / 1.24;
+    let height = em.round() as i32 + (0.24 * em).round() as i32;
+    let space = (height / 2).min(5);
+    let middle = area.dim_in_pixel().0.cast_signed() / 2;
+    let centred = style.pos(Pos::new(HPos::Center, VPos::Top));
+    area.draw_text(title, &centred, (middle, space))?;
+    Ok(area.margin(2 * space + height, 0, 0, 0))
 }
