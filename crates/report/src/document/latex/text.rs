@@ -10,8 +10,14 @@ pub(super) fn escaped(text: &str) -> String {
     let letters: Vec<char> = words.chars().collect();
     let mut out = String::with_capacity(words.len());
     let mut place = 0;
+    let mut unbroken = 0;
     while let Some(&letter) = letters.get(place) {
         place += 1;
+        // a line may end within what is as long as a digest
+        unbroken = if letter.is_ascii_alphanumeric() { unbroken + 1 } else { 0 };
+        if unbroken > UNBROKEN && unbroken % 8 == 1 {
+            out += "\\allowbreak{}";
+        }
         if letter == '^' {
             let power = exponent(letters.get(place..).unwrap_or_default());
             place += power.chars().count();
@@ -26,6 +32,9 @@ pub(super) fn escaped(text: &str) -> String {
     }
     out
 }
+
+/// So many letters and digits stand on one line.
+const UNBROKEN: usize = 24;
 
 /// The whole number that an exponent begins with.
 fn exponent(letters: &[char]) -> String {
@@ -177,5 +186,16 @@ mod tests {
         assert_eq!(escaped("Prüfling, Škoda"), "Pr\\\"{u}fling, \\v{S}koda");
         assert_eq!(escaped("温\u{7}度"), "{[}U+6E29{]}{[}U+0007{]}{[}U+5EA6{]}");
         assert_eq!(escaped("-"), "--");
+    }
+
+    #[test]
+    fn digests_may_be_broken() {
+        let digest = "0123456789abcdef".repeat(4);
+        let broken = escaped(&digest);
+        assert_eq!(broken.replace("\\allowbreak{}", ""), digest);
+        // pieces of eight behind the first 24
+        assert_eq!(broken.matches("\\allowbreak{}").count(), 5);
+        assert_eq!(escaped("electroencephalographical"), "electroencephalographica\\allowbreak{}l");
+        assert_eq!(escaped("a calibration certificate"), "a calibration certificate");
     }
 }
