@@ -436,10 +436,10 @@ await test("a day's editing", async (page, folder, _, server) => {
   }, [from, to]);
   await work(0, 500);
   const early = await resident();
-  await work(500, 500 + Number(process.env.EDITS || 3000));
+  await work(500, 500 + Number(process.env.EDITS || 1000));
   await page.waitForTimeout(6000);
   const late = await resident();
-  console.log(`      memory of the server: idle ${idle.toFixed(0)} MB, after 500 edits ${early.toFixed(0)} MB, after ${500 + Number(process.env.EDITS || 3000)} ${late.toFixed(0)} MB`);
+  console.log(`      memory of the server: idle ${idle.toFixed(0)} MB, after 500 edits ${early.toFixed(0)} MB, after ${500 + Number(process.env.EDITS || 1000)} ${late.toFixed(0)} MB`);
 }, POWER);
 
 await test("opening", async page => {
