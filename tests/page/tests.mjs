@@ -440,6 +440,7 @@ await test("a day's editing", async (page, folder, _, server) => {
   await page.waitForTimeout(6000);
   const late = await resident();
   console.log(`      memory of the server: idle ${idle.toFixed(0)} MB, after 500 edits ${early.toFixed(0)} MB, after ${500 + Number(process.env.EDITS || 1000)} ${late.toFixed(0)} MB`);
+  if (late > early + 15) throw new Error(`a day's editing takes ${(late - early).toFixed(0)} MB of the server`);
 }, POWER);
 
 await test("opening", async page => {

@@ -11,6 +11,7 @@ mod events;
 mod folder;
 mod lane;
 mod listing;
+mod memory;
 mod named_file;
 mod routes;
 mod saving;

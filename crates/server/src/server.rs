@@ -14,6 +14,7 @@ use super::answers::Answers;
 use super::connections::Connections;
 use super::folder::OpenedFolder;
 use super::lane::{Lane, Limits};
+use super::memory;
 use super::routes::routes;
 use super::shown_pages::ShownPages;
 use super::token::Token;
@@ -197,11 +198,13 @@ impl LocalServer {
         self.with(&self.launch)
     }
 
-    /// Serves until the flag is set.
+    /// Serves until the flag is set. With glibc, memory of 1 MiB and more is mapped for itself in the
+    /// whole process from here on, so that an idle server holds none of it.
     ///
     /// # Errors
     /// Threads or system resources that cannot be had.
     pub fn run(self, stop: &AtomicBool) -> io::Result<()> {
+        memory::return_large_arrays();
         let runtime = tokio::runtime::Builder::new_current_thread()
             .enable_io()
             .enable_time()
