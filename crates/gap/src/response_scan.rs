@@ -70,6 +70,10 @@ struct Scanned {
     score: f64,
     /// For each combination of the other non-linear parameters the response to the effect.
     responses: Vec<Whitened>,
+    /// The products of the responses with themselves.
+    squares: Vec<f64>,
+    /// Whether the responses are known to be like those of the next value.
+    like_next: bool,
     cost: f64,
     /// The scores of all unknown quantities of least cost.
     best: Vec<f64>,
@@ -77,7 +81,22 @@ struct Scanned {
 
 impl Scanned {
     fn without_responses(self) -> Self {
-        Self { responses: Vec::new(), ..self }
+        Self { responses: Vec::new(), squares: Vec::new(), ..self }
+    }
+
+    /// Whether the responses at two values resemble each other, for all of the other parameters.
+    fn is_like(&self, other: &Self) -> bool {
+        let largest = |of: &Self| of.squares.iter().copied().fold(0.0, f64::max);
+        let least = 1e-6 * largest(self).max(largest(other));
+        self.responses
+            .iter()
+            .zip(&other.responses)
+            .zip(self.squares.iter().zip(&other.squares))
+            .all(|((a, b), (aa, bb))| {
+                aa.max(*bb) <= least
+                    || !(aa * bb).is_finite()
+                    || a.dot(b).abs() >= ALIKE * (aa * bb).sqrt()
+            })
     }
 }
 
@@ -359,6 +378,8 @@ impl Scan<'_, '_> {
                 let mut scanned = Scanned {
                     score,
                     responses: Vec::with_capacity(own.len()),
+                    squares: Vec::with_capacity(own.len()),
+                    like_next: false,
                     cost: f64::INFINITY,
                     best: self.base.to_vec(),
                 };
@@ -367,6 +388,7 @@ impl Scan<'_, '_> {
                         scanned.cost = cost;
                         scanned.best = best;
                     }
+                    scanned.squares.push(response.dot(&response));
                     scanned.responses.push(response);
                 }
                 scanned
@@ -391,11 +413,16 @@ impl Scan<'_, '_> {
         for next in ends {
             let mut stretch: Vec<Scanned> = last.into_iter().chain([next]).collect();
             loop {
-                let open: Vec<f64> = stretch
-                    .windows(2)
-                    .filter(|pair| !alike(&pair[0], &pair[1]))
-                    .map(|pair| 0.5 * (pair[0].score + pair[1].score))
-                    .collect();
+                let mut open = Vec::new();
+                for n in 1..stretch.len() {
+                    if !stretch[n - 1].like_next {
+                        let like = stretch[n - 1].is_like(&stretch[n]);
+                        stretch[n - 1].like_next = like;
+                        if !like {
+                            open.push(0.5 * (stretch[n - 1].score + stretch[n].score));
+                        }
+                    }
+                }
                 if open.is_empty() || stretch.len() + open.len() > affordable {
                     break;
                 }
@@ -408,16 +435,6 @@ impl Scan<'_, '_> {
         whole.extend(last);
         whole
     }
-}
-
-/// Whether the responses at two values resemble each other, for all of the other parameters.
-fn alike(a: &Scanned, b: &Scanned) -> bool {
-    let size = |of: &Scanned| of.responses.iter().map(|r| r.dot(r)).fold(0.0, f64::max);
-    let least = 1e-6 * size(a).max(size(b));
-    a.responses.iter().zip(&b.responses).all(|(a, b)| {
-        let (aa, bb) = (a.dot(a), b.dot(b));
-        aa.max(bb) <= least || a.dot(b).abs() >= ALIKE * (aa * bb).sqrt() || !(aa * bb).is_finite()
-    })
 }
 
 /// The points of the least costs among their neighbours, best first.
