@@ -591,6 +591,43 @@ fn a_paper_for_a_customer() {
     assert!(page("markdown").contains("9.810"));
 }
 
+/// The measurement is on the paper: equation, and what the symbols mean. What a model says of where its
+/// values come from names files of the laboratory, and is not; the certificate file can leave it out.
+#[test]
+fn a_certificate_states_the_measurement() {
+    let mut files = small();
+    files[1].1["inputs"]["n"]["about"] = json!("reading, see drift/customer 7.csv. Not corrected.");
+    files[1].1["inputs"]["r"]["about"] = json!("resolution of the indicator");
+    files[1].1["equations"]["b"] =
+        json!("n + sqrt(r^2)*table(n/n, \"secret.csv\", \"f\", \"c\", \"linear\")");
+    let folder = folder(&files);
+    fs::write(folder.path().join("secret.csv"), "f,c\n0,1\n2,1\n").expect("a table");
+    let name = path(folder.path(), "c.json");
+    let page = |format: &str| output(&["certificate", &name, "--format", format, "--quiet"]);
+    for format in ["table", "markdown", "latex", "html"] {
+        let page = page(format);
+        for said in ["Measurement model", "Modell der Messung", "resolution of the indicator"] {
+            assert!(page.contains(said), "{format} does not say {said}\n{page}");
+        }
+        let measured = page.split("Modell der Messung").nth(1).expect("the section");
+        let section: String = measured.chars().take(4000).collect();
+        let section = section.split("a remark").next().expect("the section");
+        assert!(!section.contains(".csv"), "{format}\n{section}");
+        assert!(!page.contains("drift") && !page.contains("Not corrected"), "{format}\n{page}");
+    }
+    assert!(page("html").contains("<msqrt>"), "{}", page("html"));
+    let found: Value = serde_json::from_str(&page("json")).expect("JSON");
+    let stated = &found["measurement"][0];
+    assert_eq!(stated["equations"]["a"], "n");
+    assert_eq!(
+        stated["symbols"]["r"],
+        json!({"meaning": "resolution of the indicator", "unit": "m/s^2"})
+    );
+    files[0].1["equations"] = json!(false);
+    fs::write(folder.path().join("c.json"), files[0].1.to_string()).expect("a file");
+    assert!(!page("markdown").contains("Measurement model"));
+}
+
 /// Like rows print like coverage factors: the last digit is one that another seed does not change.
 #[test]
 fn coverage_factors_do_not_scatter() {

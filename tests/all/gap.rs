@@ -68,6 +68,11 @@ fn every_format_says_the_same() {
     assert_eq!(said, "", "the page has the notes itself");
     let (html, _) = diagnosed(&path, &["--format", "html"]);
     assert!(html.contains(&sentence) && html.contains("</html>"), "{html}");
+    // all of them state what the sim computes
+    assert_eq!(answer["sim"]["equations"]["shown"], "load + zero");
+    let (markdown, _) = diagnosed(&path, &["--format", "markdown"]);
+    assert!(markdown.contains("load + zero") && page.contains("shown = load + zero"), "{page}");
+    assert!(html.contains(">The sim</h2>"), "{html}");
     let (csv, _) = diagnosed(&path, &["--format", "csv"]);
     let first: Vec<&str> = csv.lines().nth(1).unwrap().split(',').collect();
     assert_eq!(first[..2], ["explained", "gain"]);

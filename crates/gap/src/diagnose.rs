@@ -179,6 +179,8 @@ fn diagnosed(
     };
     Ok(Diagnosis {
         title: case.task.title.clone(),
+        source: case.task.source.clone(),
+        sim: case.task.statement.clone(),
         outputs: setup
             .data
             .outputs

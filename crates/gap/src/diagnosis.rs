@@ -1,12 +1,17 @@
 //! What a diagnosis says.
 
 use super::composed::ComposedEffect;
+use gumption_engine::task::ModelStatement;
 
 /// The answer of the gap diagnosis.
 #[derive(Clone, Debug)]
 pub struct Diagnosis {
     /// Title of the case.
     pub title: String,
+    /// The document that the measurement follows; empty where the case names none.
+    pub source: String,
+    /// The sim's model and its equations.
+    pub sim: ModelStatement,
     /// The observed outputs with their units.
     pub outputs: Vec<NamedQuantity>,
     /// The conditions with their units.

@@ -154,6 +154,7 @@ fn certificate<'a>(
         named(&root, "decimal_mark", DecimalMark::named, &DecimalMark::ALL.map(DecimalMark::name));
     let digits = root.whole("digits", 1, MOST_DIGITS).unwrap_or(2);
     let coverage = settings::coverage(&root);
+    let equations = root.truth("equations").unwrap_or(true);
     let trials = root.get("monte_carlo").map(|_| settings::read(&root));
     let mut rows = Rows::new(
         root.log,
@@ -193,6 +194,7 @@ fn certificate<'a>(
         languages,
         rounding: rounding.unwrap_or_default(),
         digits: u32::try_from(digits).unwrap_or(2),
+        equations,
         evaluations,
         lines,
         functions,

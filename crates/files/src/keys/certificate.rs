@@ -98,6 +98,10 @@ pub(crate) const CERTIFICATE: &[Key] = keys![
     "digits" => described("integer", "Significant digits of U; 2 unless given.")
                 .with("minimum", 1)
                 .with("maximum", 4),
+    "equations" => described(
+                "boolean",
+                "State the models: their equations and what the symbols mean. True unless given.",
+            ),
     "monte_carlo" => referenced("monte-carlo", "Trials and seed of all models, in place of their own."),
     "conditions" => names("Conditions that the table shows; all of them unless given."),
     "shared_inputs" => names("Inputs that are one and the same quantity in all model files."),

@@ -12,7 +12,7 @@ pub(super) fn of(report: &AuditReport<'_>) -> Document {
         ..Document::default()
     };
     document.blocks.extend(words::contradicted(report).map(|said| Block::Verdict(vec![said])));
-    statement::section(&mut document, report.task);
+    statement::section(&mut document, statement::TITLE, report.task.into());
     for (row, of_row) in report.audit.rows.iter().enumerate() {
         for (output, of) in of_row.outputs.iter().enumerate() {
             document.section(words::heading(report, row, output));

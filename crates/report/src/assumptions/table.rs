@@ -8,7 +8,8 @@ use crate::{Grid, statement, table::width, wrapped};
 pub fn table(report: &AuditReport<'_>) -> String {
     let mut heading = wrapped(&words::title(report)) + &wrapped(&words::settings(report));
     heading += &words::contradicted(report).map(|said| wrapped(&said)).unwrap_or_default();
-    let stated: String = statement::lines(report.task).iter().map(|line| wrapped(line)).collect();
+    let stated: String =
+        statement::lines(report.task.into()).iter().map(|line| wrapped(line)).collect();
     let mut page = vec![heading];
     page.extend((!stated.is_empty()).then_some(stated));
     for (number, row) in report.audit.rows.iter().enumerate() {

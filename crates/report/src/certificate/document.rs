@@ -2,7 +2,8 @@
 
 use super::words::{self, Words, beside};
 use super::{
-    CertificateReport, administrative, conformity, file_name, functions, sentences, sheets,
+    CertificateReport, administrative, conformity, file_name, functions, measurement, sentences,
+    sheets,
 };
 use crate::document::{Block, Document, Foot};
 use crate::plain;
@@ -51,6 +52,7 @@ pub(super) fn of(report: &CertificateReport<'_>) -> Document {
         document.section(beside(languages, |w| w.conformity));
         document.blocks.push(Block::List(decided));
     }
+    measurement::sections(&mut document, report);
     document.section(beside(languages, |w| w.remarks));
     let remarks = certificate.administrative.remarks.iter();
     let remarks = remarks.flat_map(|remark| remark.all(languages)).map(plain);

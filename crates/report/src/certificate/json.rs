@@ -2,7 +2,7 @@
 
 use super::functions::At;
 use super::stated::{self, Stated};
-use super::{CertificateReport, administrative, functions, sentences};
+use super::{CertificateReport, administrative, functions, measurement, sentences};
 use crate::answer::{list, object, pretty};
 use crate::fits::{self, FitSide};
 use crate::sheet::Figure;
@@ -46,6 +46,7 @@ pub fn json(report: &CertificateReport<'_>) -> String {
         ("rows", list(rows.iter().map(|row| one(report, row)))),
         ("correlations", list(matrix)),
         ("statements", object(statements)),
+        ("measurement", measured(report)),
         ("warnings", list(warnings)),
         ("provenance", provenance(report)),
     ];
@@ -54,6 +55,28 @@ pub fn json(report: &CertificateReport<'_>) -> String {
         answer.insert(7, ("functions", list(functions)));
     }
     pretty(&object(answer))
+}
+
+/// The equations of the models and their symbols.
+fn measured(report: &CertificateReport<'_>) -> Value {
+    let models = measurement::stated(report).into_iter().map(|(place, of)| {
+        let model = report.models.get(place).map_or("", |model| model.name);
+        let equations = of.equations.iter();
+        let equations = equations.map(|[name, text]| (name.as_str(), Value::from(text.as_str())));
+        let symbols = of.symbols.iter().map(|[name, meaning, unit]| {
+            let about = object([
+                ("meaning", Value::from(meaning.as_str())),
+                ("unit", unit.as_str().into()),
+            ]);
+            (name.as_str(), about)
+        });
+        object([
+            ("model", Value::from(model)),
+            ("equations", object(equations)),
+            ("symbols", object(symbols)),
+        ])
+    });
+    list(models)
 }
 
 /// A calibration function: its parameters in full precision, and what is stated.

@@ -7,6 +7,7 @@ mod dcc;
 mod document;
 mod functions;
 mod json;
+mod measurement;
 mod sentences;
 mod sheets;
 mod stated;

@@ -25,7 +25,7 @@ pub(super) fn of(report: &EvaluationReport<'_>, shown: &Shown<'_>) -> Document {
     document.subtitle.push(table::settings_text(evaluation));
     document.subtitle.extend(table::at(task, evaluation));
     document.subtitle.extend(table::stopped(evaluation));
-    statement::section(&mut document, task);
+    statement::section(&mut document, statement::TITLE, task.into());
     if let [row] = evaluation.rows.as_slice() {
         if row.outputs.len() > MOST_UNSUMMED {
             document.section("Results");

@@ -16,6 +16,7 @@ pub fn json(diagnosis: &Diagnosis) -> String {
     let Diagnosis { gap, most_probable: verdict, .. } = diagnosis;
     let mut entries = vec![
         ("title", json!(diagnosis.title)),
+        ("sim", sim(diagnosis)),
         (
             "gap",
             json!({
@@ -71,6 +72,22 @@ pub fn json(diagnosis: &Diagnosis) -> String {
 /// Values by name, in the order in which they are given.
 fn named<V: Into<Value>>(names: &[NamedQuantity], values: impl IntoIterator<Item = V>) -> Value {
     object(names.iter().map(|named| named.name.as_str()).zip(values))
+}
+
+/// What the sim computes.
+fn sim(diagnosis: &Diagnosis) -> Value {
+    let given = |text: &str| Some(text.trim().to_owned()).filter(|text| !text.is_empty());
+    let of = &diagnosis.sim;
+    let equations = of.equations.iter();
+    object([
+        ("source", json!(given(&diagnosis.source))),
+        ("model", json!(of.name)),
+        ("model_source", json!(given(&of.source))),
+        (
+            "equations",
+            object(equations.map(|(name, text)| (name.as_str(), Value::from(text.as_str())))),
+        ),
+    ])
 }
 
 fn regions(diagnosis: &Diagnosis) -> Value {

@@ -5,6 +5,7 @@ use crate::Provenance;
 use crate::document::{Block, Document};
 use crate::plain;
 use crate::sheet::Sheet;
+use crate::statement;
 use gumption_gap::Diagnosis;
 
 /// All that the page says, with figures.
@@ -21,6 +22,7 @@ pub(super) fn document(diagnosis: &Diagnosis, provenance: &Provenance) -> Docume
     verdict.extend(words::present(diagnosis));
     verdict.extend(words::look_alikes(diagnosis));
     page.blocks.push(Block::Verdict(verdict));
+    statement::section(&mut page, words::SIM, words::sim(diagnosis));
     page.section("What was measured, and what the sim says");
     for output in 0..diagnosis.outputs.len() {
         page.figure(html::overlay(diagnosis, output));

@@ -1,7 +1,7 @@
 //! The page for a terminal.
 
 use super::{composed, departure, sheets, strength, terminal, words};
-use crate::{Grid, plain, table::width, wrapped};
+use crate::{Grid, plain, statement, table::width, wrapped};
 use gumption_gap::{Diagnosis, Predicted};
 
 /// The diagnosis as a page of at most 100 columns: the verdict, whether there is a gap, where, which
@@ -10,6 +10,11 @@ use gumption_gap::{Diagnosis, Predicted};
 /// output.
 pub fn table(diagnosis: &Diagnosis) -> String {
     let mut page = vec![heading(diagnosis)];
+    let sim: String =
+        statement::lines(words::sim(diagnosis)).iter().map(|said| wrapped(said)).collect();
+    if !sim.is_empty() {
+        page.push(section(words::SIM) + &sim);
+    }
     let overlays = terminal::overlays(diagnosis);
     if !overlays.is_empty() {
         page.push(section("What was measured, and what the sim says") + &overlays.join("\n"));

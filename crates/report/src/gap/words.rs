@@ -3,6 +3,7 @@
 use super::digits::{self, condition, p_equals, percent, probability, share, tenths};
 use crate::number::{exact, position, rounded, significant, with_uncertainty};
 use crate::plain;
+use crate::statement::Measurement;
 use gumption_gap::{
     Diagnosis, GapRegion, HypothesisKind, NamedQuantity, PriorConflict, ProposalKind,
     ProposedMeasurement, Shrunk,
@@ -183,6 +184,14 @@ pub(super) const ODDS: &str = "Odds: how much more probable the first hypothesis
 pub(super) fn interrupted(diagnosis: &Diagnosis) -> Option<String> {
     let note = diagnosis.notes.iter().find(|note| note.code == "interrupted");
     note.filter(|_| diagnosis.interrupted).map(|note| plain(&note.text))
+}
+
+/// The title above what the sim computes.
+pub(super) const SIM: &str = "The sim";
+
+/// What the sim computes.
+pub(super) fn sim(diagnosis: &Diagnosis) -> Measurement<'_> {
+    Measurement { source: &diagnosis.source, model: &diagnosis.sim }
 }
 
 /// What stands above the formulas of an effect.

@@ -24,7 +24,7 @@ pub fn table(report: &PlanReport<'_>) -> String {
 fn document(report: &PlanReport<'_>) -> Document {
     let plan = report.plan;
     let mut document = Document { title: words::title(report), ..Document::default() };
-    document.subtitle.extend(statement::sources(report.task));
+    document.subtitle.extend(statement::sources(report.task.into()));
     document.blocks.push(Block::Verdict(vec![document::sentence(&words::target(report))]));
     document.section("One input alone");
     document.table(sheets::inputs(report));
@@ -42,7 +42,7 @@ fn document(report: &PlanReport<'_>) -> Document {
         document.text(words::interval(report, found));
         document.figure(figure::interval(report, found));
     }
-    if let Some(sheet) = statement::sheet(report.task) {
+    if let Some(sheet) = statement::sheet(report.task.into()) {
         document.section("Measurement model");
         document.table(sheet);
     }

@@ -128,7 +128,7 @@ pub(super) fn at(task: &Task, evaluation: &Evaluation) -> Option<String> {
 
 /// The sources and the equations.
 fn equations(task: &Task) -> Option<String> {
-    let page: String = statement::lines(task).iter().map(|line| wrapped(line)).collect();
+    let page: String = statement::lines(task.into()).iter().map(|line| wrapped(line)).collect();
     (!page.is_empty()).then_some(page)
 }
 

@@ -26,6 +26,8 @@ pub struct Certificate {
     pub rounding: Rounding,
     /// Significant digits of a rounded expanded uncertainty.
     pub digits: u32,
+    /// Whether the models are stated: their equations and what the symbols mean.
+    pub equations: bool,
     /// What is evaluated: each model file with each set of replacements once.
     pub evaluations: Vec<Asked>,
     /// The rows of the table, in order.

@@ -88,6 +88,10 @@ pub(super) const WORDS: Words = Words {
         which the standard uncertainties and correlation coefficients r of the parameters make up.",
     parameter: "parameter",
     standard: "u",
+    measurement: "Measurement model",
+    equation: "equation",
+    symbol: "symbol",
+    meaning: "meaning",
     correlation: "Correlation of the rows",
     correlated: "Rows that share inputs are correlated. The standard uncertainty of the difference \
         of rows i and j follows from u² = u_i² + u_j² - 2 r u_i u_j, with u_i = U_i / k_i and the \

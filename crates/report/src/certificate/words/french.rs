@@ -88,6 +88,10 @@ pub(super) const WORDS: Words = Words {
         que forment les incertitudes-types et les coefficients de corrélation r des paramètres.",
     parameter: "paramètre",
     standard: "u",
+    measurement: "Modèle de mesure",
+    equation: "équation",
+    symbol: "symbole",
+    meaning: "signification",
     correlation: "Corrélation des lignes",
     correlated: "Les lignes qui ont des grandeurs d'entrée en commun sont corrélées. L'incertitude-type de la \
         différence des lignes i et j découle de u² = u_i² + u_j² - 2 r u_i u_j, avec u_i = U_i / k_i et le \

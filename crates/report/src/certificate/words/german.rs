@@ -91,6 +91,10 @@ pub(super) const WORDS: Words = Words {
         der Parameter besteht.",
     parameter: "Parameter",
     standard: "u",
+    measurement: "Modell der Messung",
+    equation: "Gleichung",
+    symbol: "Formelzeichen",
+    meaning: "Bedeutung",
     correlation: "Korrelation der Zeilen",
     correlated: "Zeilen mit gemeinsamen Eingangsgrößen sind korreliert. Die Standardmessunsicherheit \
         der Differenz der Zeilen i und j folgt aus u² = u_i² + u_j² - 2 r u_i u_j mit u_i = U_i / k_i \

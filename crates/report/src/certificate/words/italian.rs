@@ -88,6 +88,10 @@ pub(super) const WORDS: Words = Words {
         dai coefficienti di correlazione r dei parametri.",
     parameter: "parametro",
     standard: "u",
+    measurement: "Modello di misura",
+    equation: "equazione",
+    symbol: "simbolo",
+    meaning: "significato",
     correlation: "Correlazione fra le righe",
     correlated: "Le righe che hanno grandezze d'ingresso in comune sono correlate. L'incertezza tipo della \
         differenza fra le righe i e j segue da u² = u_i² + u_j² - 2 r u_i u_j, con u_i = U_i / k_i e il \

@@ -88,6 +88,10 @@ pub(super) struct Words {
     pub(super) band: &'static str,
     pub(super) parameter: &'static str,
     pub(super) standard: &'static str,
+    pub(super) measurement: &'static str,
+    pub(super) equation: &'static str,
+    pub(super) symbol: &'static str,
+    pub(super) meaning: &'static str,
     pub(super) correlation: &'static str,
     pub(super) correlated: &'static str,
     /// `{rows}`: how many.

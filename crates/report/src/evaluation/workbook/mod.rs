@@ -138,8 +138,8 @@ fn worksheet(book: &mut Book, name: &str, document: &Document) -> Result<(), Xls
 
 /// The worksheet that states the measurement: sources and equations.
 fn measurement(book: &mut Book, task: &Task) -> Result<Option<Leaf>, XlsxError> {
-    let sources = statement::sources(task);
-    let equations = statement::sheet(task);
+    let sources = statement::sources(task.into());
+    let equations = statement::sheet(task.into());
     if sources.is_empty() && equations.is_none() {
         return Ok(None);
     }
@@ -153,7 +153,7 @@ fn measurement(book: &mut Book, task: &Task) -> Result<Option<Leaf>, XlsxError> 
     if let Some(sheet) = equations {
         at = leaf.table(at + 1, &sheet)?;
     }
-    if let Some(said) = statement::left_out(task) {
+    if let Some(said) = statement::left_out(task.into()) {
         leaf.line(at, &said)?;
     }
     Ok(Some(leaf))

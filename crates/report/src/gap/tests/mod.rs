@@ -9,6 +9,7 @@ mod table;
 use serde_json::Value;
 
 use crate::Provenance;
+use gumption_engine::task::ModelStatement;
 use gumption_gap::{
     DepartureForm, DepartureKind, DepartureOver, DepartureShape, DescribedEffect, Diagnosis,
     DiagnosisNote, EffectParameter, EstimatedNoise, GapRegion, GapTest, Hypothesis, HypothesisKind,
@@ -157,6 +158,11 @@ fn diagnosis() -> Diagnosis {
     };
     Diagnosis {
         title: "Two outputs of a bench".to_owned(),
+        source: "a bench of two".to_owned(),
+        sim: ModelStatement::of_formulas([
+            ("a_x".to_owned(), "g*sin(tilt)".to_owned()),
+            ("ratio".to_owned(), "a_x/a_r".to_owned()),
+        ]),
         outputs: vec![named("a_x", "m/s^2"), named("ratio", "")],
         conditions: vec![named("f", "Hz"), named("tilt", "deg")],
         gap: GapTest { present: true, p_value: Some(8.836_58e-47), chi2: 346.237_98, dof: 40.0 },
@@ -279,6 +285,9 @@ fn hostile() -> Diagnosis {
         )
     };
     hostile.title = name("title");
+    (hostile.source, hostile.sim.source) = (name("source"), name("model"));
+    hostile.sim.name = Some(name("typed"));
+    hostile.sim.equations.iter_mut().for_each(|(of, formula)| *formula = name(of));
     for named in hostile.outputs.iter_mut().chain(&mut hostile.conditions) {
         *named = NamedQuantity { name: name(&named.name).replace(' ', "_"), unit: name("unit") };
     }
@@ -312,6 +321,8 @@ fn hostile() -> Diagnosis {
 fn bare() -> Diagnosis {
     let mut bare = diagnosis();
     bare.title = String::new();
+    bare.source = String::new();
+    bare.sim = ModelStatement::default();
     bare.conditions.clear();
     bare.regions.clear();
     bare.gap = GapTest { present: false, p_value: None, chi2: f64::NAN, dof: 0.0 };
