@@ -129,10 +129,11 @@ impl Normals {
     fn next(&mut self) -> f64 {
         if self.place == BLOCK {
             self.key.block(self.block).uniform(&mut self.numbers);
+            self.numbers.iter_mut().for_each(|number| *number = normal::quantile(*number));
             self.block += 1;
             self.place = 0;
         }
         self.place += 1;
-        normal::quantile(self.numbers[self.place - 1])
+        self.numbers[self.place - 1]
     }
 }
