@@ -11,6 +11,7 @@ use serde_json::{Map, Value, json};
 
 use super::dcc;
 use super::diagnostics::{Collector, Diagnostics};
+use super::loose_files::named_in;
 use super::source::SourceText;
 use super::{DiagnosticKind, bytes, workbook};
 
@@ -87,11 +88,19 @@ fn of_certificate(file: &str, text: &str, content: &[u8]) -> Result<Vec<CarriedM
             of.contains_key("inputs") && of.contains_key("outputs") && !of.contains_key("gumption")
         })
     };
-    let models = attached.iter().filter(|(_, bytes)| is_model(bytes));
-    let models: Vec<CarriedModel> = models
-        .filter_map(|(name, bytes)| {
+    // what a model names follows it, and has no folder any more
+    let starts: Vec<usize> = (0..attached.len()).filter(|&n| is_model(&attached[n].1)).collect();
+    let ends = starts.iter().copied().skip(1).chain([attached.len()]);
+    let models: Vec<CarriedModel> = starts
+        .iter()
+        .zip(ends)
+        .filter_map(|(&start, end)| {
+            let (name, bytes) = &attached[start];
             let text = String::from_utf8(bytes.clone()).ok()?;
-            Some(CarriedModel { name: name.clone(), text, files: attached.clone() })
+            let mut files = named_in(&attached[start..end], &text);
+            files.extend(attached[..start].iter().chain(&attached[end..]).cloned());
+            let files = named_in(&files, &text);
+            Some(CarriedModel { name: name.clone(), text, files })
         })
         .collect();
     if !models.is_empty() {

@@ -68,6 +68,13 @@ pub enum DiagnosticKind {
         /// What is concerned, in words.
         what: &'static str,
     },
+    /// An input or a component without a distribution.
+    NoDistribution {
+        /// What is concerned, in words.
+        what: &'static str,
+        /// The distributions that have all of its keys; none where it has no key of a distribution.
+        fitting: Vec<&'static str>,
+    },
     /// A version of the file format that this program does not know.
     UnknownFormat {
         /// What stands there.
@@ -496,7 +503,7 @@ impl DiagnosticKind {
             Self::WrongType { .. } => "wrong-type",
             Self::UnknownKey { .. } => "unknown-key",
             Self::DuplicateKey { .. } => "duplicate-key",
-            Self::MissingKey { .. } => "missing-key",
+            Self::MissingKey { .. } | Self::NoDistribution { .. } => "missing-key",
             Self::UnknownFormat { .. } => "unknown-format",
             Self::NoModel => "no-model",
             Self::TwoModels => "two-models",
@@ -638,6 +645,14 @@ impl fmt::Display for DiagnosticKind {
             }
             Self::DuplicateKey { key } => write!(f, "the key `{key}` stands here a second time"),
             Self::MissingKey { key, what } => write!(f, "{what} needs the key `{key}`"),
+            Self::NoDistribution { what, fitting } => {
+                write!(f, "{what} needs the key `distribution`")?;
+                match fitting.as_slice() {
+                    [] => f.write_str(", such as `\"distribution\": \"rectangular\"`"),
+                    [only] => write!(f, "; its keys are those of `\"distribution\": \"{only}\"`"),
+                    several => write!(f, "; its keys are those of {}", list(several)),
+                }
+            }
             Self::UnknownFormat { found } => {
                 write!(f, "file format {found} is not known; this version reads `\"format\": 1`")
             }

@@ -34,6 +34,7 @@ mod json;
 mod keys;
 mod known;
 mod links;
+mod loose_files;
 mod model_checks;
 mod model_file;
 mod model_reader;
@@ -85,6 +86,7 @@ pub use difference::difference;
 pub use either::ModelOrResult;
 pub use folder::FileSource;
 pub use import::{ImportedBudget, import_budget, import_budget_bytes};
+pub use loose_files::named_in;
 pub use model_file::ModelFile;
 pub use overrides::{Override, Overrides};
 pub use reader::{

@@ -52,6 +52,11 @@ impl<'a> Object<'a> {
         Some(Self { log, what, members, place })
     }
 
+    /// What it is, for messages.
+    pub(crate) fn what(&self) -> &'static str {
+        self.what
+    }
+
     pub(crate) fn members(&self) -> &'a [Member] {
         self.members
     }

@@ -63,7 +63,18 @@ const KEYS: [&str; 10] = [
 
 /// The shape that an object names.
 pub(super) fn kind(object: &Object<'_>) -> Option<&'static Shape> {
-    let Some(member) = object.required("distribution") else {
+    let Some(member) = object.get("distribution") else {
+        let own =
+            || object.members().iter().map(|m| &m.key).filter(|k| !KEYS.contains(&k.as_str()));
+        let has_all = |kind: &&Shape| own().all(|key| kind.fields.contains(&key.as_str()));
+        let fitting: Vec<_> = SHAPES.iter().filter(has_all).map(|kind| kind.name).collect();
+        object.report(match own().next() {
+            None => DiagnosticKind::NoDistribution { what: object.what(), fitting: Vec::new() },
+            Some(_) if fitting.is_empty() => {
+                DiagnosticKind::MissingKey { key: "distribution", what: object.what() }
+            }
+            Some(_) => DiagnosticKind::NoDistribution { what: object.what(), fitting },
+        });
         // it may be misspelt; nothing else can be said of the keys
         let fields = SHAPES.iter().flat_map(|kind| kind.fields).copied();
         object.check_names(&KEYS.into_iter().chain(fields).collect::<Vec<_>>());

@@ -12,17 +12,7 @@ impl HeldFiles {
     /// a file that was dropped has lost its folder.
     #[must_use]
     pub fn named_in(&self, text: &str) -> Self {
-        let own = self.0.iter().filter(|(name, _)| name.ends_with(".json"));
-        let own = own.filter_map(|(_, bytes)| std::str::from_utf8(bytes).ok());
-        let said = own.chain([text]).flat_map(|text| text.split('"'));
-        let mut all = self.0.clone();
-        for name in said.filter(|said| said.contains('/') && said.len() < 1024) {
-            let last = name.rsplit('/').next().unwrap_or(name);
-            let is_new = all.iter().all(|(known, _)| known != name);
-            let found = self.0.iter().find(|(held, _)| held == last);
-            all.extend(found.filter(|_| is_new).map(|(_, bytes)| (name.to_owned(), bytes.clone())));
-        }
-        Self(all)
+        Self(gumption_files::named_in(&self.0, text))
     }
 }
 

@@ -7,7 +7,7 @@
 use super::analysed::Fundamental;
 use super::analysis::{FittedTones, Group, Refused};
 use super::passes::SampleSource;
-use super::residuals::{KEPT, Residuals};
+use super::residuals::{KEPT, Remainder};
 use super::sine_fit::{ToneCoefficients, ToneDesign};
 use super::spurious::{self, MOST};
 use gumption_engine::number::elementary::hypot;
@@ -139,8 +139,8 @@ impl Group<'_> {
                     Err(_) => return Ok(None),
                 };
             let mut fits = design.fit(passes).map_err(Refused::Unreadable)?;
-            let left =
-                super::residuals::of(&design, passes, &mut fits).map_err(Refused::Unreadable)?;
+            let left = super::residuals::remainders(&design, passes, &mut fits)
+                .map_err(Refused::Unreadable)?;
             let mut largest = 0.0_f64;
             for (number, of) in all.iter_mut().enumerate() {
                 let (step, deviation) = step(&left, fundamentals.len() + number);
@@ -170,11 +170,11 @@ impl Group<'_> {
 fn clearness(
     design: &ToneDesign,
     fits: &[ToneCoefficients],
-    left: &[Residuals],
+    left: &[Remainder],
     tone: usize,
 ) -> f64 {
     let variance = f64::midpoint(design.even[(tone + 1, tone + 1)], design.odd[(tone, tone)]);
-    let of = |(fit, left): (&ToneCoefficients, &Residuals)| {
+    let of = |(fit, left): (&ToneCoefficients, &Remainder)| {
         amplitude(fit, tone) / (variance * left.variance).sqrt()
     };
     fits.iter().zip(left).map(of).fold(0.0, f64::max)
@@ -182,7 +182,7 @@ fn clearness(
 
 /// By how much the cycles of an oscillation should be larger, of all channels together, and the
 /// standard deviation of that.
-fn step(left: &[Residuals], number: usize) -> (f64, f64) {
+fn step(left: &[Remainder], number: usize) -> (f64, f64) {
     let (mut weights, mut sum) = (0.0, 0.0);
     for residuals in left {
         let Some((step, variance)) = residuals.cycles.get(number) else { continue };

@@ -51,34 +51,46 @@ pub(super) fn scatter(
     let harmonics = || tones.iter().filter(|polar| analysed.design.tones[polar.tone].multiple > 1);
     let size = square(plain(first)).sqrt();
     let stated = of(&mut harmonics().map(|p| (square(plain(p)), noise(p)))) / size;
-    for _ in 0..trials {
-        let detuned = hypot(hypot(first.of.of_stated, first.of.of_estimate), first.of.of_rate);
-        let detuned = detuned * normals.next();
-        let drawn: Vec<(f64, f64)> = tones
-            .iter()
-            .map(|polar| {
-                let (a, b) = plain(polar);
-                let multiple = f64::from(analysed.design.tones[polar.tone].multiple);
-                let x = PI * multiple * samples * detuned;
-                let fall = if x.abs() > 1e-6 { sin(x) / x } else { 1.0 };
-                let size = hypot(a, b);
-                let (ca, cb) = if size > 0.0 { (a / size, b / size) } else { (1.0, 0.0) };
-                let [along, across] = polar.scatter;
-                let (fore, aside) = (along * normals.next(), across * normals.next());
-                (a * fall + ca * fore - cb * aside, b * fall + cb * fore + ca * aside)
-            })
-            .collect();
-        for (number, (polar, factors)) in tones.iter().zip(&drawn).enumerate() {
+    let detuned = hypot(hypot(first.of.of_stated, first.of.of_estimate), first.of.of_rate);
+    let centres: Vec<Centre> = tones
+        .iter()
+        .map(|polar| {
             let (a, b) = plain(polar);
-            let amplitude = (hypot(factors.0, factors.1) - hypot(a, b)) / polar.blur;
-            let phase = wrapped(atan2(-factors.1, factors.0) - atan2(-b, a));
+            let size = hypot(a, b);
+            Centre {
+                factors: (a, b),
+                size,
+                phase: atan2(-b, a),
+                direction: if size > 0.0 { (a / size, b / size) } else { (1.0, 0.0) },
+                multiple: f64::from(analysed.design.tones[polar.tone].multiple),
+                noise: noise(polar),
+            }
+        })
+        .collect();
+    let mut drawn = vec![(0.0, 0.0); count];
+    for _ in 0..trials {
+        let detuned = detuned * normals.next();
+        for ((polar, centre), drawn) in tones.iter().zip(&centres).zip(&mut drawn) {
+            let (a, b) = centre.factors;
+            let x = PI * centre.multiple * samples * detuned;
+            let fall = if x.abs() > 1e-6 { sin(x) / x } else { 1.0 };
+            let (ca, cb) = centre.direction;
+            let [along, across] = polar.scatter;
+            let (fore, aside) = (along * normals.next(), across * normals.next());
+            *drawn = (a * fall + ca * fore - cb * aside, b * fall + cb * fore + ca * aside);
+        }
+        for (number, ((polar, centre), factors)) in
+            tones.iter().zip(&centres).zip(&drawn).enumerate()
+        {
+            let amplitude = (hypot(factors.0, factors.1) - centre.size) / polar.blur;
+            let phase = wrapped(atan2(-factors.1, factors.0) - centre.phase);
             scatter.amplitudes[number] += amplitude * amplitude;
             scatter.phases[number] += phase * phase;
         }
-        let pairs = tones.iter().zip(&drawn);
+        let pairs = centres.iter().zip(&drawn);
         let mut multiples = pairs
-            .filter(|(polar, _)| analysed.design.tones[polar.tone].multiple > 1)
-            .map(|(polar, factors)| (square(*factors), noise(polar)));
+            .filter(|(centre, _)| centre.multiple > 1.0)
+            .map(|(centre, factors)| (square(*factors), centre.noise));
         let main = drawn.first().map_or(size, |factors| square(*factors).sqrt());
         let error = of(&mut multiples) / main - stated;
         scatter.distortion += error * error;
@@ -87,6 +99,18 @@ pub(super) fn scatter(
     scatter.amplitudes.iter_mut().chain(&mut scatter.phases).for_each(root);
     root(&mut scatter.distortion);
     scatter
+}
+
+/// A tone as it was fitted, about which the trials lie.
+struct Centre {
+    /// Of cosine and sine, without the gain.
+    factors: (f64, f64),
+    size: f64,
+    phase: f64,
+    direction: (f64, f64),
+    multiple: f64,
+    /// The square of the noise's size.
+    noise: f64,
 }
 
 /// Standard normal numbers of a stream, one after the other.
@@ -105,10 +129,11 @@ impl Normals {
     fn next(&mut self) -> f64 {
         if self.place == BLOCK {
             self.key.block(self.block).uniform(&mut self.numbers);
+            self.numbers.iter_mut().for_each(|number| *number = normal::quantile(*number));
             self.block += 1;
             self.place = 0;
         }
         self.place += 1;
-        normal::quantile(self.numbers[self.place - 1])
+        self.numbers[self.place - 1]
     }
 }

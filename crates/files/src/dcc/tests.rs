@@ -181,3 +181,36 @@ fn the_quantities_of_a_certificate_are_a_model() {
         assert!(crate::carried_models(&other).is_err(), "{content}");
     }
 }
+
+/// Attached files have no folders; each model finds its own, which follow it.
+#[test]
+fn attached_models_find_their_tables() {
+    use base64::Engine as _;
+    use base64::engine::general_purpose::STANDARD;
+    let attached = |name: &str, content: &str| {
+        let data = STANDARD.encode(content);
+        format!(
+            "<dcc:byteData><dcc:fileName>{name}</dcc:fileName>\
+             <dcc:dataBase64>{data}</dcc:dataBase64></dcc:byteData>"
+        )
+    };
+    let model = r#"{"inputs": {}, "conditions": {"file": "rows/f.csv", "units": {"f": "m"}}, "equations": {"y": "2*f"},
+        "outputs": {"y": {"unit": "m"}}}"#;
+    let parts = [
+        attached("a.json", model),
+        attached("f.csv", "f\n1\n"),
+        attached("b.json", model),
+        attached("f.csv", "f\n1\n2\n"),
+    ];
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("c.xml");
+    std::fs::write(&path, certificate("3.2.1", &parts.concat())).unwrap();
+    let carried = crate::carried_models(&path).unwrap();
+    let rows = |of: &crate::CarriedModel| {
+        let reader = crate::FileReader::default().holding(&of.files);
+        let file = reader.model_text("m", &of.text, std::path::Path::new(""), &[]).unwrap();
+        file.task.rows.len()
+    };
+    let found: Vec<(&str, usize)> = carried.iter().map(|of| (of.name.as_str(), rows(of))).collect();
+    assert_eq!(found, [("a.json", 1), ("b.json", 2)]);
+}

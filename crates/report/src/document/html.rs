@@ -13,7 +13,7 @@ pub(crate) fn html(document: &Document) -> String {
     let mut counts = Counts::default();
     let body = html! {
         h1 { (document.title) }
-        @for line in &document.subtitle { p.settings { (line) } }
+        @for line in &document.subtitle { p.settings { (raised(line)) } }
         (contents(document))
         @for part in &document.blocks { (block(part, document.comma, &mut counts)) }
     };

@@ -207,7 +207,12 @@ impl Shown<'_> {
         let unit = &self.channel.unit;
         let said = |what: &str, hertz: f64, amplitude: f64| {
             let amplitude = in_unit(&significant(amplitude, 4), unit);
-            format!("{what}, {} Hz: {amplitude}", significant(hertz, 6))
+            let frequency = significant(hertz, 6);
+            let frequency = match frequency.contains('.') && !frequency.contains('e') {
+                true => frequency.trim_end_matches('0').trim_end_matches('.'),
+                false => &frequency,
+            };
+            format!("{what}, {frequency} Hz: {amplitude}")
         };
         for tone in &self.trace.tones {
             let place = (x(tone.hertz), y(tone.amplitude));

@@ -326,25 +326,17 @@ impl Fitted<'_> {
             logarithms += ln(relative);
             relative = 1.0 + theta * theta - theta * theta / relative;
         }
-        let of = |column: &&[f64]| {
-            let mut predicted = 0.0;
-            let mut out = Vec::with_capacity(column.len());
-            for (i, value) in column.iter().enumerate() {
-                let error = value - predicted;
-                match start.get(i) {
-                    Some(relative) => {
-                        out.push(error / relative.sqrt());
-                        predicted = rho * value + theta * error / relative;
-                    }
-                    None => {
-                        out.push(error);
-                        predicted = rho * value + theta * error;
-                    }
-                }
+        // each value waits for the one before it: several columns go side by side
+        let mut out: Vec<Vec<f64>> = self.columns.iter().map(|column| column.to_vec()).collect();
+        for side_by_side in out.chunks_mut(4) {
+            match side_by_side {
+                [a, b, c, d] => innovate([a, b, c, d], &start, rho, theta),
+                [a, b, c] => innovate([a, b, c], &start, rho, theta),
+                [a, b] => innovate([a, b], &start, rho, theta),
+                fewer => fewer.iter_mut().for_each(|a| innovate([a], &start, rho, theta)),
             }
-            out
-        };
-        (self.columns.iter().map(of).collect(), logarithms)
+        }
+        (out, logarithms)
     }
 
     /// Whether the innovations that a process leaves are white as far as [`LAGS`] lags show it.
@@ -370,6 +362,28 @@ impl Fitted<'_> {
         // the tones that were taken out leave correlations of their own
         let taken = 1.0 + count as f64 / 8.0;
         rest.len() as f64 * (1..=LAGS).map(lag).sum::<f64>() < NOT_WHITE * taken
+    }
+}
+
+/// Values become their errors of prediction; `start` has the relative variances that differ from 1.
+fn innovate<const N: usize>(columns: [&mut [f64]; N], start: &[f64], rho: f64, theta: f64) {
+    let length = columns.iter().map(|column| column.len()).min().unwrap_or(0);
+    let columns = columns.map(|column| &mut column[..length]);
+    let early = start.len().min(length);
+    let mut predicted = [0.0; N];
+    for (i, relative) in start[..early].iter().enumerate() {
+        for k in 0..N {
+            let (value, error) = (columns[k][i], columns[k][i] - predicted[k]);
+            columns[k][i] = error / relative.sqrt();
+            predicted[k] = rho * value + theta * error / relative;
+        }
+    }
+    for i in early..length {
+        for k in 0..N {
+            let (value, error) = (columns[k][i], columns[k][i] - predicted[k]);
+            columns[k][i] = error;
+            predicted[k] = rho * value + theta * error;
+        }
     }
 }
 

@@ -50,6 +50,16 @@ pub(crate) struct Residuals {
     pub(crate) known: Option<KnownNoise>,
 }
 
+/// Of what a fit leaves, the variance and where the frequencies should go.
+#[derive(Clone, Debug)]
+pub(crate) struct Remainder {
+    /// As in [`Residuals`].
+    pub(crate) variance: f64,
+    degrees_of_freedom: f64,
+    /// As in [`Residuals`].
+    pub(crate) cycles: Vec<(f64, f64)>,
+}
+
 impl Residuals {
     /// Whether the noise near the tones is known from parts of the record or from a model that fits.
     pub(crate) fn is_measured(&self) -> bool {
@@ -76,6 +86,27 @@ pub(crate) fn of<P: SampleSource>(
     passes: &mut P,
     fits: &mut [ToneCoefficients],
 ) -> Result<Vec<Residuals>, P::Error> {
+    let gathered = gathered(design, passes, fits)?;
+    let of = |(gathered, fit): (Gathered, &mut ToneCoefficients)| gathered.residuals(design, fit);
+    Ok(gathered.into_iter().zip(fits).map(of).collect())
+}
+
+/// The same without a look at what the noise is, for steps on the way to the frequencies.
+pub(crate) fn remainders<P: SampleSource>(
+    design: &ToneDesign,
+    passes: &mut P,
+    fits: &mut [ToneCoefficients],
+) -> Result<Vec<Remainder>, P::Error> {
+    let gathered = gathered(design, passes, fits)?;
+    let of = |(gathered, fit): (&Gathered, &mut ToneCoefficients)| gathered.remainder(design, fit);
+    Ok(gathered.iter().zip(fits).map(of).collect())
+}
+
+fn gathered<P: SampleSource>(
+    design: &ToneDesign,
+    passes: &mut P,
+    fits: &[ToneCoefficients],
+) -> Result<Vec<Gathered>, P::Error> {
     let fundamentals = design.tones.iter().map(|tone| tone.fundamental + 1).max().unwrap_or(0);
     let parts = parts(design);
     let mut gathered: Vec<Gathered> =
@@ -85,8 +116,7 @@ pub(crate) fn of<P: SampleSource>(
             gathered.add(design, first, values, waves);
         }
     })?;
-    let of = |(gathered, fit): (Gathered, &mut ToneCoefficients)| gathered.residuals(design, fit);
-    Ok(gathered.into_iter().zip(fits).map(of).collect())
+    Ok(gathered)
 }
 
 /// Into how many parts a record is cut: each has a whole period of every fundamental at least.
@@ -207,7 +237,7 @@ impl Gathered {
         self.last = joined.split_off(keep);
     }
 
-    fn residuals(self, design: &ToneDesign, fit: &mut ToneCoefficients) -> Residuals {
+    fn remainder(&self, design: &ToneDesign, fit: &mut ToneCoefficients) -> Remainder {
         // one step of refinement: what the residuals still have of the constant and the tones
         let rest = design.solve(&self.sums);
         fit.offset += rest.offset;
@@ -217,12 +247,7 @@ impl Gathered {
         for (value, rest) in fit.sines.iter_mut().zip(&rest.sines) {
             *value += rest;
         }
-        let samples = design.samples as f64;
-        let degrees_of_freedom = samples - 1.0 - 2.0 * design.tones.len() as f64;
-        let variance = self.squares / degrees_of_freedom;
-        let power = if self.squares > 0.0 { self.squares } else { 1.0 };
-        let autocorrelation: Vec<f64> = self.products.iter().map(|p| p / power).collect();
-        let statistic = samples * autocorrelation.iter().map(|r| r * r).sum::<f64>();
+        let degrees_of_freedom = design.samples as f64 - 1.0 - 2.0 * design.tones.len() as f64;
         let cycles = self.derivatives.iter().enumerate();
         let cycles = cycles.map(|(fundamental, (product, square))| {
             let (even, odd) = design.derivative_products(fit, fundamental);
@@ -230,6 +255,19 @@ impl Gathered {
             let left = square - explained;
             if left > 0.0 { (product / left, 1.0 / left) } else { (0.0, f64::INFINITY) }
         });
+        Remainder {
+            variance: self.squares / degrees_of_freedom,
+            degrees_of_freedom,
+            cycles: cycles.collect(),
+        }
+    }
+
+    fn residuals(self, design: &ToneDesign, fit: &mut ToneCoefficients) -> Residuals {
+        let Remainder { variance, degrees_of_freedom, cycles } = self.remainder(design, fit);
+        let samples = design.samples as f64;
+        let power = if self.squares > 0.0 { self.squares } else { 1.0 };
+        let autocorrelation: Vec<f64> = self.products.iter().map(|p| p / power).collect();
+        let statistic = samples * autocorrelation.iter().map(|r| r * r).sum::<f64>();
         let correlated = statistic > NOT_WHITE;
         let mut parts = self.part.as_ref().map_or(0, |part| part.count);
         let coloured = (correlated || self.series.wanders(variance))
@@ -250,7 +288,7 @@ impl Gathered {
             parts,
             local,
             coloured,
-            cycles: cycles.collect(),
+            cycles,
             autocorrelation,
             first: self.first,
             // a step below a third of the noise adds less than a hundredth to its variance
