@@ -378,6 +378,7 @@ fn innovate<const N: usize>(columns: [&mut [f64]; N], start: &[f64], rho: f64, t
             predicted[k] = rho * value + theta * error / relative;
         }
     }
+    #[expect(clippy::needless_range_loop, reason = "a place in each of the columns")]
     for i in early..length {
         for k in 0..N {
             let (value, error) = (columns[k][i], columns[k][i] - predicted[k]);
