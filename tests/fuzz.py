@@ -203,10 +203,14 @@ def text_changed(choice, data, times):
                 if kind == 3:
                     del lines[at]
                 elif kind == 4:
-                    lines[at:at] = [lines[at]] * choice.choice([1, 1, 3, 300])
+                    # as long as no reader takes, but not longer than this machine has room for
+                    most = 1 + 60_000_000 // len(lines[at])
+                    lines[at:at] = [lines[at]] * min(choice.choice([1, 1, 3, 300]), most)
                 else:
                     lines[at] = choice.choice(["", "#", "\"", ";", "\r", "\ufeff", "a,b,c"]) + lines[at]
                 text = "".join(lines)
+        if len(text) > 60_000_000:
+            break
     return text.encode("utf-8", "surrogatepass")
 
 
