@@ -335,6 +335,15 @@ pub enum DiagnosticKind {
         /// What stands there.
         found: String,
     },
+    /// A column whose heading has another unit than its values are read in.
+    ColumnUnit {
+        /// The heading.
+        column: String,
+        /// Its unit.
+        heading: String,
+        /// The unit that the file declares.
+        declared: String,
+    },
     /// A table without rows, or a bad header.
     Table {
         /// Why, as a part of the sentence.
@@ -540,6 +549,7 @@ impl DiagnosticKind {
             Self::Cell { .. } => "bad-cell",
             Self::ShortRow { .. } => "short-row",
             Self::Sample { .. } => "bad-sample",
+            Self::ColumnUnit { .. } => "column-unit",
             Self::Table { .. } => "bad-table",
             Self::Correlation { .. } => "bad-correlation",
             Self::Complex { .. } => "bad-complex",
@@ -785,6 +795,11 @@ impl fmt::Display for DiagnosticKind {
                 f,
                 "`{found}` is not a finite number; a file of samples has one on each line, and `#` \
                  before words"
+            ),
+            Self::ColumnUnit { column, heading, declared } => write!(
+                f,
+                "the heading of the column `{column}` says `{heading}`, but its values are read in \
+                 `{declared}`; state the unit that they have, or change the heading"
             ),
             Self::Table { reason }
             | Self::Cost { reason }

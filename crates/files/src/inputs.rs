@@ -296,7 +296,7 @@ impl<'a> Reader<'a, '_> {
             return;
         };
         let samples = self.samples(&object, self.name, (unit, ValueOf::Quantity), kind);
-        let read = self.readings_of_file(&object, self.name, kind);
+        let read = self.readings_of_file(&object, self.name, unit, kind);
         let Some(read) = read else { return };
         if kind.name == "dcc" && self.certificate.is_none() {
             return;
@@ -392,12 +392,13 @@ impl<'a> Reader<'a, '_> {
         &mut self,
         object: &Object<'_>,
         name: &str,
+        unit: &Unit,
         kind: &Shape,
     ) -> Option<Option<FileReadings>> {
         if kind.name != "readings" {
             return Some(None);
         }
-        match readings::of_file(object, name, self.folder, &mut self.inputs.files) {
+        match readings::of_file(object, name, unit, self.folder, &mut self.inputs.files) {
             Some(read) => read.map(Some),
             None => {
                 for key in ["column", "groups"] {
@@ -652,7 +653,9 @@ impl<'a> Reader<'a, '_> {
                     keys::COMPONENT.into_iter().chain(kind.fields.iter().copied()).collect();
                 component.check_names(&known);
                 let samples = self.samples(&component, &full, (unit, ValueOf::Difference), kind);
-                let Some(read) = self.readings_of_file(&component, &full, kind) else { continue };
+                let Some(read) = self.readings_of_file(&component, &full, unit, kind) else {
+                    continue;
+                };
                 let beside_others = list.len() > 1;
                 let mut certificate = None;
                 if kind.name == "dcc" {

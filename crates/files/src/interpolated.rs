@@ -4,6 +4,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use super::DiagnosticKind;
+use super::column_heading::heading;
 use super::diagnostics::Collector;
 use super::folder::Folder;
 use super::model_reader::Equation;
@@ -60,23 +61,6 @@ pub(super) fn read(
     found
 }
 
-/// The name of a column and its unit: `t [degC]`, `t (degC)`, `t / degC`; a plain number without.
-fn header<'h>(log: &Collector, text: &'h str) -> Option<(&'h str, Unit)> {
-    let parts = |open: char, close: &str| {
-        let (name, unit) = text.strip_suffix(close)?.rsplit_once(open)?;
-        Some((name.trim(), unit.trim()))
-    };
-    if let Some((name, unit)) = parts('[', "]") {
-        return Some((name, log.unit(unit).ok()?));
-    }
-    let other = parts('(', ")").or_else(|| {
-        let (name, unit) = text.split_once('/')?;
-        Some((name.trim(), unit.trim()))
-    });
-    let known = other.and_then(|(name, unit)| Some((name, log.unit(unit).ok()?)));
-    Some(known.filter(|(name, _)| !name.is_empty()).unwrap_or((text.trim(), Unit::one())))
-}
-
 fn of_columns(
     log: &Collector,
     table: &Table,
@@ -86,7 +70,7 @@ fn of_columns(
 ) -> Option<TableData> {
     let fault = |reason: String| log.report(named, DiagnosticKind::Table { reason });
     let headers: Vec<Option<(&str, Unit)>> =
-        table.columns.iter().map(|column| header(log, column)).collect();
+        table.columns.iter().map(|column| heading(log, column)).collect();
     let place = |name: &str| {
         let is_it = |(text, header): (&String, &Option<(&str, Unit)>)| {
             text == name || header.as_ref().is_some_and(|(short, _)| *short == name)

@@ -12,6 +12,7 @@ mod case;
 mod catalogue;
 mod certificate;
 mod checked;
+mod column_heading;
 mod comparison;
 mod condition_values;
 mod conditions;

@@ -23,6 +23,7 @@ use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
 
+use super::column_heading;
 use super::conditions::{self, Conditions};
 use super::diagnostics::{Collector, Diagnostics};
 use super::fits::{self, FitSet};
@@ -388,6 +389,12 @@ impl<'a> ModelReader<'a> {
                     sim.outputs.iter().map(|output| output.quantity.name.clone()).collect();
                 unknown_output(self.root.log, &column.output, &known, &column.place);
                 clean = false;
+            }
+            let own = sim.outputs.iter().find(|of| of.quantity.name == column.output);
+            for (heading, place) in &column.headings {
+                clean &= own.is_none_or(|of| {
+                    column_heading::check(self.root.log, place, heading, &of.quantity.unit)
+                });
             }
         }
         let of = |output: &Output| {

@@ -28,6 +28,8 @@ pub(super) struct Observations {
 /// What the table says of one output.
 #[derive(Debug)]
 pub(super) struct Column {
+    /// The headings that are named, with their places.
+    pub(super) headings: Vec<(String, Range<usize>)>,
     pub(super) output: String,
     pub(super) place: Range<usize>,
     pub(super) observed: ObservedOutput,
@@ -149,7 +151,12 @@ impl Reader<'_> {
             let (first, second) = ("sim_standard_uncertainty", "sim_covariance");
             self.log.report(&member.key_span, DiagnosticKind::Exclusive { first, second });
         }
+        let headings = ["value", "standard_uncertainty", "sim", "sim_standard_uncertainty"];
+        let headings = headings.into_iter().filter_map(|key| {
+            Some((object.text(key)?.to_owned(), object.get(key)?.value.span.clone()))
+        });
         Some(Column {
+            headings: headings.collect(),
             output: member.key.clone(),
             place: member.key_span.clone(),
             observed: ObservedOutput {

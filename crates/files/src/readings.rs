@@ -4,6 +4,7 @@
 use std::sync::Arc;
 
 use super::DiagnosticKind;
+use super::column_heading;
 use super::folder::Folder;
 use super::json::{Json, Node};
 use super::object::Object;
@@ -42,14 +43,15 @@ pub(super) fn is_formula(node: &Node) -> bool {
 pub(super) fn of_file(
     object: &Object<'_>,
     name: &str,
+    unit: &Unit,
     folder: Folder<'_>,
     files: &mut Vec<(String, Vec<u8>)>,
 ) -> Option<Option<FileReadings>> {
     let file = object.get("file")?;
     if object.get("column").is_none() && object.get("groups").is_none() {
         // a file has numbers alone
-        let unit = (&Unit::one(), ValueOf::Quantity);
-        let numbers = samples::numbers(object, name, unit, folder, files);
+        let plain = (&Unit::one(), ValueOf::Quantity);
+        let numbers = samples::numbers(object, name, plain, folder, files);
         return Some(numbers.map(|(values, _)| FileReadings { values, note: None }));
     }
     if let Some(second) = object.get("values") {
@@ -65,6 +67,9 @@ pub(super) fn of_file(
             files.push((path.to_owned(), bytes));
         }
         let values = column(object, "column", &table)?;
+        if let (Some(member), Some(column)) = (object.get("column"), object.text("column")) {
+            column_heading::check(object.log, &member.value.span, column, unit).then_some(())?;
+        }
         if object.get("groups").is_none() {
             return Some(FileReadings { values, note: None });
         }

@@ -3,6 +3,7 @@
 use std::rc::Rc;
 
 use super::super::DiagnosticKind;
+use super::super::column_heading;
 use super::super::conditions::unit;
 use super::super::diagnostics::Collector;
 use super::super::folder::Folder;
@@ -85,6 +86,7 @@ pub(super) fn read(
             };
             let place = object.get("column").or(object.get("file"));
             let place = place.map_or(object.place(), |member| &member.value.span);
+            column_heading::check(log, place, column, &unit).then_some(())?;
             column_of(log, table, column, place)?
         }
         (None, _) => {
@@ -161,6 +163,7 @@ fn spread(
                     each
                 }
                 Json::Text(text) if column(text).is_some() => {
+                    column_heading::check(log, &member.value.span, text, unit).then_some(())?;
                     column_of(log, column(text)?, text, &member.value.span)?
                 }
                 _ => {

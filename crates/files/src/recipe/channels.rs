@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use super::super::DiagnosticKind;
+use super::super::column_heading;
 use super::super::diagnostics::Collector;
 use super::super::json::Member;
 use super::super::keys;
@@ -55,6 +56,13 @@ fn channel(log: &Collector, member: &Member, recordings: &[RecordingFile]) -> Op
         (None, false, Some(own)) => Some(own.clone()),
         _ => unit(&of, "raw_unit", "1"),
     };
+    if let (Some(member), Some(ColumnName::Name(name)), Some(raw)) =
+        (of.get("column"), &column, &raw)
+        // counts that are scaled may have any heading unless their unit is stated
+        && (of.get("raw_unit").is_some() || !scaled)
+    {
+        column_heading::check(log, &member.value.span, name, raw);
+    }
     let scale = own.as_ref().zip(raw.as_ref()).and_then(|(own, raw)| scale(&of, own, raw));
     let zero = of.number("offset").unwrap_or(0.0);
     let range = range(&of);

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::super::DiagnosticKind;
+use super::super::column_heading;
 use super::super::json::{Json, Member};
 use super::super::keys;
 use super::super::object::Object;
@@ -90,6 +91,11 @@ pub(super) fn read(root: &Object<'_>, folder: Folder<'_>) -> Option<Vec<Recordin
             }
         }
         let time = of.get("time").and_then(|member| column(root.log, member));
+        if let (Some(member), Some(ColumnName::Name(name)), Some(unit)) =
+            (of.get("time"), &time, &unit)
+        {
+            column_heading::check(root.log, &member.value.span, name, unit);
+        }
         let (from, to) = (seconds("from"), seconds("to"));
         check_part(&of, from, to);
         recordings.push(RecordingFile {
