@@ -892,3 +892,57 @@ fn a_certificate_comes_back_with_its_correlations() {
     let u = answer["outputs"]["y"]["gum"]["standard_uncertainty"].as_f64().unwrap();
     assert!((u - 0.315 * 2.0_f64.sqrt()).abs() < 1e-9, "{u}");
 }
+
+/// A complex result has its region in the digital certificate (JCGM 102, 6.5): the covariance matrix,
+/// k of two normal quantities, sqrt(-2 ln 0.05) = 2.448 (ellipse), and what reads the certificate still
+/// finds the rows with their correlation.
+#[test]
+fn coverage_regions_are_in_the_digital_certificate() {
+    let part = |mean: f64, std: f64| json!({"distribution": "normal", "mean": mean, "std": std});
+    let model = json!({"inputs": {"z": {"unit": "ohm", "complex": {"re": part(50.0, 0.3),
+            "im": part(2.0, 0.4), "correlation": 0.5}}, "w": part(1.0, 0.01)},
+        "equations": {"Z": "z", "v": "w"}, "outputs": {"Z": {"unit": "ohm", "complex": "re-im"}, "v": {}},
+        "coverage_probability": 0.95, "regions": [{"outputs": ["Z"]}, {"outputs": ["Z", "v"]}],
+        "monte_carlo": {"trials": 0}});
+    let mut files = small();
+    files[1].1 = model;
+    files[0].1["monte_carlo"] = json!({"trials": 0});
+    let row = |output: &str| json!({"model": "m.json", "output": output});
+    files[0].1["rows"] = json!([row("Z.re"), row("Z.im"), row("v")]);
+    let folder = folder(&files);
+    let name = path(folder.path(), "c.json");
+    let text = output(&["certificate", &name, "--format", "dcc", "--quiet"]);
+    let document = roxmltree::Document::parse(&text).expect("XML");
+    let within = |place: usize, tag: &str| -> Vec<String> {
+        let regions = document.descendants().filter(|n| n.tag_name().name() == "ellipsoidalRegion");
+        let region = regions.clone().nth(place).expect("a region");
+        let nodes = region.descendants().filter(|n| n.tag_name().name() == tag);
+        nodes.map(|node| node.text().unwrap_or_default().to_owned()).collect()
+    };
+    let covariance: Vec<f64> = within(0, "value").iter().map(|v| v.parse().expect("one")).collect();
+    for (found, exact) in covariance.iter().zip([0.09, 0.06, 0.06, 0.16]) {
+        assert!((found - exact).abs() < 1e-12, "{covariance:?}");
+    }
+    assert_eq!(within(0, "unit"), vec![r"\ohm\tothe{2}"; 4]);
+    assert_eq!(within(0, "coverageFactor"), ["2.448"]);
+    // three normal quantities: the 0.95 quantile of chi with 3 degrees of freedom
+    assert_eq!(within(1, "coverageFactor"), ["2.795"]);
+    assert_eq!(within(1, "unit")[2], r"\ohm");
+    let has = |tag: &str| document.descendants().filter(|n| n.tag_name().name() == tag).count();
+    assert_eq!([has("complex"), has("realList"), has("rectangularRegion")], [2, 2, 2]);
+    let found = answer(&files, &[]);
+    assert_eq!(found["regions"][0]["rows"], json!([1, 2]));
+    assert_eq!(found["regions"][1]["region"]["outputs"], json!(["Z.re", "Z.im", "v"]));
+    // read back: the difference of the parts has u^2 = 0.09 + 0.16 - 2*0.06
+    fs::write(folder.path().join("c.xml"), &text).expect("written");
+    let taken = |index: usize| json!({"distribution": "dcc", "file": "c.xml", "quantity": index});
+    let back = json!({"inputs": {"a": taken(0), "b": taken(1)}, "equations": {"d": "a - b"},
+        "outputs": {"d": {"unit": "ohm"}}});
+    fs::write(folder.path().join("back.json"), back.to_string()).expect("written");
+    let name = path(folder.path(), "back.json");
+    let said = output(&["run", &name, "--trials", "0", "--format", "json", "--quiet"]);
+    let answer: Value = serde_json::from_str(&said).expect("JSON");
+    let u = number(&answer["outputs"]["d"]["gum"]["standard_uncertainty"]);
+    // U of the certificate has two digits
+    assert!((u - 0.13_f64.sqrt()).abs() < 0.01, "{u}");
+}

@@ -15,6 +15,7 @@ mod catalogue;
 mod certificate;
 mod commands;
 mod compare;
+mod complex;
 mod conformity;
 mod diff;
 mod errors;

@@ -2,7 +2,7 @@
 
 use super::functions::At;
 use super::stated::{self, Stated};
-use super::{CertificateReport, administrative, functions, measurement, sentences};
+use super::{CertificateReport, administrative, functions, measurement, regions, sentences};
 use crate::answer::{list, object, pretty};
 use crate::fits::{self, FitSide};
 use crate::sheet::Figure;
@@ -50,6 +50,10 @@ pub fn json(report: &CertificateReport<'_>) -> String {
         ("warnings", list(warnings)),
         ("provenance", provenance(report)),
     ];
+    let covered: Vec<Value> = regions::covered(report).iter().map(|of| of.json()).collect();
+    if !covered.is_empty() {
+        answer.push(("regions", covered.into()));
+    }
     if !certificate.functions.is_empty() {
         let functions = certificate.functions.iter().map(|of| function(report, of));
         answer.insert(7, ("functions", list(functions)));

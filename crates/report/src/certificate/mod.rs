@@ -8,6 +8,7 @@ mod document;
 mod functions;
 mod json;
 mod measurement;
+mod regions;
 mod sentences;
 mod sheets;
 mod stated;

@@ -7,6 +7,7 @@
 //! are attached as bytes.
 
 mod people;
+mod regions;
 mod results;
 mod statements;
 pub(super) mod unit;

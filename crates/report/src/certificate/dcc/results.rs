@@ -58,6 +58,7 @@ pub(super) fn write(xml: &mut Xml, report: &CertificateReport<'_>, languages: &[
             for of in &report.certificate.functions {
                 xml.element("dcc:result", |xml| function(xml, report, of, languages));
             }
+            super::regions::write(xml, report, languages);
             xml.element("dcc:result", |xml| attachments(xml, report, languages));
         });
     });
@@ -110,7 +111,11 @@ fn result(
 }
 
 /// `row 3: a_x, tilt = 35 deg`
-fn named(report: &CertificateReport<'_>, row: &Stated<'_>, language: Language) -> String {
+pub(super) fn named(
+    report: &CertificateReport<'_>,
+    row: &Stated<'_>,
+    language: Language,
+) -> String {
     let mut parts = vec![row.name(&[language])];
     parts.extend(row.circumstances(report));
     format!("{} {}: {}", words::of(language).row, row.number, parts.join(", "))

@@ -88,6 +88,11 @@ pub(super) struct Words {
     pub(super) band: &'static str,
     pub(super) parameter: &'static str,
     pub(super) standard: &'static str,
+    pub(super) region: &'static str,
+    pub(super) ellipsoid: &'static str,
+    pub(super) cuboid: &'static str,
+    /// `{volume}`
+    pub(super) smallest: &'static str,
     pub(super) measurement: &'static str,
     pub(super) equation: &'static str,
     pub(super) symbol: &'static str,
