@@ -50,7 +50,7 @@ impl<T: Number> Equations<T> for Impedance<T> {
 ///
 /// # Errors
 /// Those of inputs that are none.
-pub fn task(settings: Settings) -> Result<Task, Box<dyn std::error::Error>> {
+pub(crate) fn task(settings: Settings) -> Result<Task, Box<dyn std::error::Error>> {
     let impedance = Impedance {
         v_re: Input::normal(4.999, 0.0032, "V")?,
         v_im: Input::normal(0.31, 0.004, "V")?,

@@ -274,3 +274,16 @@ fn mistakes_of_tables() {
         assert!(!refused.stderr.is_empty() && refused.stdout.is_empty());
     }
 }
+
+/// Where no two results agree there is no consistent subset, and the page says so whatever the order
+/// of the rows.
+#[test]
+fn one_laboratory_is_no_consistent_subset() {
+    for rows in ["A,10.00,0.02\nB,10.03,0.02\n", "B,10.03,0.02\nA,10.00,0.02\n"] {
+        let (folder, _) = with("labs.csv", &format!("label,x,U\n{rows}"));
+        let page = run(folder.path(), &["labs.csv", "--format", "markdown"]).stdout;
+        let page = String::from_utf8_lossy(&page).replace('\n', " ");
+        assert!(page.contains("No two of the results agree"), "{page}");
+        assert!(!page.contains("1 laboratories"), "{page}");
+    }
+}

@@ -28,7 +28,8 @@ fn bits(evaluation: &Evaluation) -> Vec<u64> {
         let gum = output.gum.as_ref().expect("a result");
         let trials = output.monte_carlo.as_ref().expect("trials");
         let [low, high] = trials.symmetric_interval;
-        [gum.estimate, gum.standard_uncertainty, trials.estimate, low, high].map(f64::to_bits)
+        [gum.estimate, gum.standard_uncertainty, trials.estimate.unwrap_or(f64::NAN), low, high]
+            .map(f64::to_bits)
     };
     outputs.iter().flat_map(of).collect()
 }

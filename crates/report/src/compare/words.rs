@@ -113,6 +113,20 @@ fn of_laboratories(comparison: &Comparison) -> Vec<String> {
     };
     let out: Vec<String> =
         comparison.rows.iter().filter(|row| !row.member).map(|row| plain(&row.label)).collect();
+    if let [only] = reference.members[..] {
+        let name = comparison.rows.get(only).map_or_else(String::new, |row| plain(&row.label));
+        return vec![
+            consistency,
+            format!(
+                "No two of the results agree, so that there is no consistent subset: the reference \
+                 value {} is the result of {name} alone, and that of any other laboratory would do \
+                 as well. Find the reason of the disagreement, or choose `{}`, which takes all of \
+                 them with a common additional uncertainty.",
+                value(reference),
+                Estimator::MandelPaule.name()
+            ),
+        ];
+    }
     vec![
         consistency,
         format!(
