@@ -664,6 +664,37 @@ fn what_is_raised_to_the_capability_states_nothing_narrower() {
     assert!(said.contains("at least approximately 95 %") && !said.contains("shortest"), "{said}");
 }
 
+/// A decision rests on the uncertainty that is stated: with u = 1 um and a capability of 3 um, k = 2,
+/// the guard band is 1.959964 * 1.5 um, and P = cdf(2.5/1.5) = 0.9522 (JCGM 106, 7.2 and 8.3.2).
+#[test]
+fn what_is_raised_to_the_capability_is_decided_with_it() {
+    let input = json!({"unit": "mm", "distribution": "normal", "mean": 10.0075, "std": 0.001});
+    let tolerance = json!({"lower": 9.99, "upper": 10.01, "risk": 0.025});
+    let output = json!({"unit": "mm", "tolerance": tolerance});
+    let model = json!({"inputs": {"x": input}, "equations": {"d": "x"}, "outputs": {"d": output}});
+    let page = |floor: bool| {
+        let rows = json!([{"model": "m.json", "output": "d", "cmc": 0.003, "cmc_floor": floor}]);
+        let certificate = json!({"rows": rows, "coverage_factor": 2});
+        let folder = folder(&[("c.json", certificate), ("m.json", model.clone())]);
+        let name = path(folder.path(), "c.json");
+        let found: Value = serde_json::from_str(&output_of(&name, "json")).expect("JSON");
+        (output_of(&name, "markdown"), found["rows"][0].clone())
+    };
+    let (said, row) = page(true);
+    assert!(said.contains("95.22 %") && said.contains("0.00294 mm"), "{said}");
+    assert!(said.contains("does not conform") || said.contains("rejected"), "{said}");
+    assert_eq!(number(&row["coverage_factor"]), 2.0);
+    assert_eq!(number(&row["standard_uncertainty"]), 0.0015);
+    // as evaluated: P = cdf(2.5), guard band 1.96 um
+    let (said, row) = page(false);
+    assert!(said.contains("0.00196 mm") && !said.contains("95.22 %"), "{said}");
+    assert_eq!(number(&row["coverage_factor"]), 2.0);
+}
+
+fn output_of(certificate: &str, format: &str) -> String {
+    output(&["certificate", certificate, "--format", format, "--quiet"])
+}
+
 /// A certificate with a number is one that leaves the house, and says what a laboratory has to.
 #[test]
 fn what_a_laboratory_has_to_say_and_does_not_is_noted() {

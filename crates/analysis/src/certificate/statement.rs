@@ -56,13 +56,14 @@ pub struct Statement {
     /// The value: the estimate by the law of propagation, or of the trials where the statement
     /// rests on them.
     pub value: f64,
-    /// Its standard uncertainty.
+    /// Its standard uncertainty; the capability over the coverage factor if it was raised to that.
     pub standard_uncertainty: f64,
     /// The expanded uncertainty that is stated: k u, or the capability if it was raised. Where the
     /// statement rests on the trials it is the distance of the value from the farther end of the
     /// interval.
     pub expanded_uncertainty: f64,
-    /// The coverage factor: the evaluated expanded uncertainty over the standard uncertainty.
+    /// The coverage factor: the expanded uncertainty over the standard uncertainty; that of a normal
+    /// distribution if it was raised to the capability.
     pub coverage_factor: f64,
     /// Effective degrees of freedom; undefined where there is no evaluation by the law of
     /// propagation.
@@ -175,12 +176,21 @@ pub(super) fn of(
     {
         rounded = rounding::expanded(expanded_uncertainty, wanted.digits, Rounding::Up);
     }
+    // a capability is k standard uncertainties of a normal distribution, whatever was evaluated
+    let (basis, coverage_factor, standard_uncertainty) = match raised {
+        None => (found.basis, found.coverage_factor, found.standard_uncertainty),
+        Some(limit) => {
+            let factor = normal_factor(settings.coverage);
+            let basis = if found.basis == Basis::Fixed { Basis::Fixed } else { Basis::Normal };
+            (basis, factor, limit.cmc / factor)
+        }
+    };
     Some(Statement {
-        basis: found.basis,
+        basis,
         value: found.value,
-        standard_uncertainty: found.standard_uncertainty,
+        standard_uncertainty,
         expanded_uncertainty,
-        coverage_factor: found.coverage_factor,
+        coverage_factor,
         dof: output.gum.as_ref().map_or(Dof::Undefined, |gum| gum.dof),
         coverage_probability: (found.basis != Basis::Fixed)
             .then(|| settings.coverage.probability()),
@@ -213,9 +223,13 @@ fn by_propagation(gum: &Gum, settings: &Settings) -> Option<Found> {
 
 /// Whether a coverage factor is printed like that of a normal distribution: to two decimals.
 fn is_normal(factor: f64, coverage: Coverage) -> bool {
+    to_position(factor, -2) == to_position(normal_factor(coverage), -2)
+}
+
+/// The coverage factor of a normal distribution.
+fn normal_factor(coverage: Coverage) -> f64 {
     let of_probability = || special::normal::quantile(0.5 + 0.5 * coverage.probability());
-    let normal = coverage.nominal_factor().unwrap_or_else(of_probability);
-    to_position(factor, -2) == to_position(normal, -2)
+    coverage.nominal_factor().unwrap_or_else(of_probability)
 }
 
 /// A symmetric interval that is longer than the shortest one by less than this share is stated in its

@@ -103,6 +103,39 @@ impl Conformity {
             global,
         })
     }
+
+    /// The decision about an estimate of which a standard uncertainty is stated that is not the
+    /// evaluated one, such as a laboratory's capability: the estimate is taken to be normally
+    /// distributed with it (JCGM 106, 7.2). `None` without a tolerance or an uncertainty above zero.
+    pub fn with_stated(output: &Output, estimate: f64, u: f64) -> Option<Self> {
+        let tolerance = output.tolerance?;
+        let limits = tolerance.ends();
+        if !(u > 0.0 && u.is_finite()) {
+            return None;
+        }
+        let inspection = output.prior.as_deref().map(|prior| Inspection::new(prior, u, limits));
+        let guard_band = match (output.risk, &inspection) {
+            (None, _) => Some(0.0),
+            (Some(risk), Some(inspection)) => inspection.guard_band(risk),
+            (Some(risk), None) => guard_band(risk, u, limits),
+        };
+        let acceptance = guard_band.map(|width| tolerance.narrowed(width));
+        let [lower, upper] = limits.map(|limit| (limit - estimate) / u);
+        let share = special::normal::cdf(upper) - special::normal::cdf(lower);
+        let global = inspection.as_ref().zip(acceptance).map(|(of, to)| of.risks(to.ends()));
+        Some(Self {
+            tolerance,
+            estimate,
+            probability: inspection.as_ref().map_or(share, |of| of.conformance(estimate)),
+            without_prior: inspection.as_ref().map(|_| share),
+            numerical_standard_error: 0.0,
+            wanted_risk: output.risk,
+            acceptance,
+            guard_band,
+            conforms: acceptance.is_some_and(|acceptance| acceptance.holds(estimate)),
+            global,
+        })
+    }
 }
 
 /// The guard band with which a value measured at an acceptance limit does not conform with at most

@@ -23,8 +23,8 @@ pub(super) fn statements(report: &CertificateReport<'_>, language: Language) -> 
     let words = words::of(language);
     let rows = stated::rows(report);
     let of = |row: &Stated<'_>| {
-        let found = row.found.conformity.as_ref()?;
-        Some(about(&[row.number], words) + &said(report, row, found, words))
+        let found = row.conformity()?;
+        Some(about(&[row.number], words) + &said(report, row, &found, words))
     };
     rows.iter().filter_map(of).collect()
 }
@@ -32,7 +32,7 @@ pub(super) fn statements(report: &CertificateReport<'_>, language: Language) -> 
 /// Whether each row with a tolerance conforms.
 pub(super) fn decisions(report: &CertificateReport<'_>) -> Vec<bool> {
     let rows = stated::rows(report);
-    rows.iter().filter_map(|row| Some(row.found.conformity.as_ref()?.conforms)).collect()
+    rows.iter().filter_map(|row| Some(row.conformity()?.conforms)).collect()
 }
 
 fn said(

@@ -8,8 +8,8 @@ use gumption_analysis::certificate::contents::{Asked, Language, Line};
 use gumption_analysis::certificate::{Basis, Statement};
 use gumption_engine::decimal::{Decimal, to_digits, to_position};
 use gumption_engine::model::Quantity;
-use gumption_engine::propagate::OutputEvaluation;
 use gumption_engine::propagate::gum::Dof;
+use gumption_engine::propagate::{Conformity, OutputEvaluation};
 
 /// Position of the last digit of coverage factors.
 const FACTOR: i32 = -2;
@@ -78,6 +78,16 @@ impl Stated<'_> {
 
     pub(super) fn expanded(&self) -> Figure {
         self.statement.rounded.map_or_else(|| Figure::of(0.0, "0".to_owned()), figure)
+    }
+
+    /// What is decided about a tolerance, with the uncertainty that is stated (ISO/IEC 17025, 7.8.6).
+    pub(super) fn conformity(&self) -> Option<Conformity> {
+        if !self.is_raised() {
+            return self.found.conformity.as_deref().copied();
+        }
+        let output = self.asked.task.model.outputs.get(self.line.output)?;
+        let Statement { value, standard_uncertainty, .. } = *self.statement;
+        Conformity::with_stated(output, value, standard_uncertainty)
     }
 
     /// Whether the uncertainty is the laboratory's capability.
