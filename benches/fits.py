@@ -15,9 +15,10 @@ import argparse, array, json, math, os, random, resource, subprocess, sys, tempf
 
 
 def correlated(folder, count):
-    """y = 2 + 3 x + e, with e an autoregressive process: V(i, j) = 0.01^2 0.9^|i - j|."""
-    choice, memory, size = random.Random(1), 0.9, 0.01
-    powers = [size * size * memory ** k for k in range(count)]
+    """y = 2 + 3 x + e, with e an autoregressive process and what all have in common:
+    V(i, j) = 0.01^2 0.9^|i - j| + 0.002^2, which is full to its corners."""
+    choice, memory, size, shared = random.Random(1), 0.9, 0.01, 0.002
+    powers = [size * size * memory ** k + shared * shared for k in range(count)]
     header = "{'descr': '<f8', 'fortran_order': False, 'shape': (%d, %d), }" % (count, count)
     header = header.ljust(127 - 10) + "\n"
     with open(os.path.join(folder, "v.npy"), "wb") as out:
@@ -27,9 +28,10 @@ def correlated(folder, count):
             first = count - 1 - row
             out.write(both[first:first + count].tobytes())
     noise, lines = size * choice.gauss(0, 1), ["x,y"]
+    level = 2 + shared * choice.gauss(0, 1)
     for i in range(count):
         x = i / count
-        lines.append("%r,%r" % (x, 2 + 3 * x + noise))
+        lines.append("%r,%r" % (x, level + 3 * x + noise))
         noise = memory * noise + math.sqrt(1 - memory * memory) * size * choice.gauss(0, 1)
     with open(os.path.join(folder, "points.csv"), "w") as out:
         out.write("\n".join(lines) + "\n")

@@ -3,6 +3,10 @@
 //! The order of the operations on every entry is fixed by the matrix alone, however many threads
 //! take part and whatever their vectors' width is: each tile is computed by one thread, and within it
 //! every entry has its products subtracted one after the other.
+//!
+//! A covariance matrix whose correlations die away has a root whose far entries do so too, down to
+//! numbers below the least normal one, on which processors work a hundred times slower. Such an
+//! entry is zero here (see [`NEGLIGIBLE`]), and tiles of zeros are passed over.
 
 use rayon::prelude::*;
 
@@ -11,16 +15,25 @@ use crate::number::{CodePath, Kernel};
 /// Rows and columns of a tile: two of them fit a second-level cache.
 const TILE: usize = 128;
 
-/// Rows and columns of the part of a tile that stays in registers.
+/// Rows and columns of the part of a tile that stays in registers, those of AVX2 among them.
 const ROWS: usize = 4;
-const COLUMNS: usize = 16;
+const COLUMNS: usize = 8;
+
+/// Entries of a panel: some columns of a transposed tile, row after row, so that a product reads
+/// them one after the other. A panel stays in a first-level cache while a whole tile passes it.
+const PANEL: usize = COLUMNS * TILE;
+
+/// An entry of the root is zero below this share of its row's length (the root of the diagonal entry
+/// of the matrix): what it would add to an entry (i, j) of L L' is below 1e-40 of the root of the
+/// product of the diagonal entries i and j, 24 digits below the rounding of that entry itself.
+const NEGLIGIBLE: f64 = 1e-40;
 
 /// The Cholesky root of a symmetric matrix.
 #[derive(Clone, Debug)]
 pub struct BlockedRoot {
     order: usize,
-    /// Tiles (i, j), j <= i, at `triangle(i) + j`, each row by row. Beyond the matrix there is the
-    /// identity.
+    /// Tiles (i, j), j <= i, at `triangle(i) + j`, each row by row; a tile of zeros is empty. Beyond
+    /// the matrix there is the identity.
     tiles: Vec<Vec<f64>>,
 }
 
@@ -41,23 +54,29 @@ impl BlockedRoot {
         let mut tiles: Vec<Vec<f64>> = Vec::with_capacity(count * (count + 1) / 2);
         tiles.resize(count * (count + 1) / 2, Vec::new());
         let at = |i: usize, j: usize| i * (i + 1) / 2 + j;
+        let negligible: Vec<f64> = (0..count * TILE)
+            .map(|row| if row < order { NEGLIGIBLE * entry(row, row).sqrt() } else { 0.0 })
+            .collect();
         for j in 0..count {
             // the row of tiles left of the diagonal, turned so that its columns lie side by side
-            let turned: Vec<Vec<f64>> = (0..j).map(|k| transposed(&tiles[at(j, k)])).collect();
+            let turned: Vec<Vec<f64>> = (0..j).map(|k| panels(&tiles[at(j, k)])).collect();
             let done = &tiles;
             let column: Vec<Vec<f64>> = (j..count)
                 .into_par_iter()
                 .map(|i| {
                     let mut tile = filled(order, i, j, &entry);
                     for (k, right) in turned.iter().enumerate() {
-                        path.run(Subtract { from: &mut tile, left: &done[at(i, k)], right });
+                        let left = &done[at(i, k)];
+                        if !left.is_empty() && !right.is_empty() {
+                            path.run(Subtract { from: &mut tile, left, right });
+                        }
                     }
                     tile
                 })
                 .collect();
             let mut column = column.into_iter();
             let Some(mut diagonal) = column.next() else { break };
-            factor(&mut diagonal, |row| {
+            factor(&mut diagonal, &negligible[j * TILE..], |row| {
                 let row = j * TILE + row;
                 if row < order { least * entry(row, row) } else { 0.0 }
             })
@@ -65,11 +84,12 @@ impl BlockedRoot {
             let right = transposed(&diagonal);
             tiles[at(j, j)] = diagonal;
             let below: Vec<Vec<f64>> = column
+                .zip(negligible[(j + 1) * TILE..].chunks_exact(TILE))
                 .collect::<Vec<_>>()
                 .into_par_iter()
-                .map(|mut tile| {
-                    path.run(Divide { tile: &mut tile, root: &right });
-                    tile
+                .map(|(mut tile, negligible)| {
+                    path.run(Divide { tile: &mut tile, root: &right, negligible });
+                    if tile.iter().any(|x| *x != 0.0) { tile } else { Vec::new() }
                 })
                 .collect();
             for (i, tile) in below.into_iter().enumerate() {
@@ -126,11 +146,11 @@ impl BlockedRoot {
         }
     }
 
-    /// The part of row i in the tile of column j.
+    /// The part of row i in the tile of column j; empty where that tile is zero.
     fn row(&self, i: usize, j: usize) -> &[f64] {
         let block = i / TILE;
         let tile = &self.tiles[block * (block + 1) / 2 + j];
-        &tile[(i % TILE) * TILE..(i % TILE + 1) * TILE]
+        tile.get((i % TILE) * TILE..(i % TILE + 1) * TILE).unwrap_or_default()
     }
 }
 
@@ -161,8 +181,23 @@ fn transposed(tile: &[f64]) -> Vec<f64> {
     turned
 }
 
+/// A tile transposed, in panels; nothing of a tile of zeros.
+fn panels(tile: &[f64]) -> Vec<f64> {
+    if tile.is_empty() {
+        return Vec::new();
+    }
+    let mut turned = vec![0.0; TILE * TILE];
+    for (r, row) in tile.chunks_exact(TILE).enumerate() {
+        let panel = &mut turned[r / COLUMNS * PANEL..][..PANEL];
+        for (c, entry) in row.iter().enumerate() {
+            panel[c * COLUMNS + r % COLUMNS] = *entry;
+        }
+    }
+    turned
+}
+
 /// The root of a tile on the diagonal; the first row whose pivot is not above what `least` says.
-fn factor(tile: &mut [f64], least: impl Fn(usize) -> f64) -> Result<(), usize> {
+fn factor(tile: &mut [f64], negligible: &[f64], least: impl Fn(usize) -> f64) -> Result<(), usize> {
     for i in 0..TILE {
         let (above, rest) = tile.split_at_mut(i * TILE);
         let row = &mut rest[..TILE];
@@ -172,7 +207,7 @@ fn factor(tile: &mut [f64], least: impl Fn(usize) -> f64) -> Result<(), usize> {
             for (x, y) in row[..j].iter().zip(other) {
                 sum -= x * y;
             }
-            row[j] = sum / other[j];
+            row[j] = unless_negligible(sum / other[j], negligible[i]);
         }
         let pivot = row[..i].iter().fold(row[i], |pivot, x| pivot - x * x);
         if pivot <= least(i) || pivot.is_nan() {
@@ -184,7 +219,12 @@ fn factor(tile: &mut [f64], least: impl Fn(usize) -> f64) -> Result<(), usize> {
     Ok(())
 }
 
-/// Subtracts the product of two tiles, the second of which is transposed already.
+#[inline(always)]
+fn unless_negligible(x: f64, negligible: f64) -> f64 {
+    if x.abs() < negligible { 0.0 } else { x }
+}
+
+/// Subtracts the product of two tiles, the second of which is transposed already, in panels.
 struct Subtract<'a> {
     from: &'a mut [f64],
     left: &'a [f64],
@@ -196,16 +236,15 @@ impl Kernel for Subtract<'_> {
 
     #[inline(always)]
     fn run(self) {
-        for (rows, left) in
-            self.from.chunks_exact_mut(ROWS * TILE).zip(self.left.chunks_exact(ROWS * TILE))
-        {
-            for first in (0..TILE).step_by(COLUMNS) {
+        for (first, panel) in (0..TILE).step_by(COLUMNS).zip(self.right.chunks_exact(PANEL)) {
+            for (rows, left) in
+                self.from.chunks_exact_mut(ROWS * TILE).zip(self.left.chunks_exact(ROWS * TILE))
+            {
                 let mut sums = [[0.0; COLUMNS]; ROWS];
                 for (sums, row) in sums.iter_mut().zip(rows.chunks_exact(TILE)) {
                     sums.copy_from_slice(&row[first..first + COLUMNS]);
                 }
-                for (k, right) in self.right.chunks_exact(TILE).enumerate() {
-                    let right = &right[first..first + COLUMNS];
+                for (k, right) in panel.chunks_exact(COLUMNS).enumerate() {
                     for (r, sums) in sums.iter_mut().enumerate() {
                         let factor = left[r * TILE + k];
                         for (sum, right) in sums.iter_mut().zip(right) {
@@ -225,6 +264,8 @@ impl Kernel for Subtract<'_> {
 struct Divide<'a> {
     tile: &'a mut [f64],
     root: &'a [f64],
+    /// Of each row.
+    negligible: &'a [f64],
 }
 
 impl Kernel for Divide<'_> {
@@ -232,10 +273,13 @@ impl Kernel for Divide<'_> {
 
     #[inline(always)]
     fn run(self) {
-        for row in self.tile.chunks_exact_mut(TILE) {
+        for (row, negligible) in self.tile.chunks_exact_mut(TILE).zip(self.negligible) {
             for (m, column) in self.root.chunks_exact(TILE).enumerate() {
-                let known = row[m] / column[m];
+                let known = unless_negligible(row[m] / column[m], *negligible);
                 row[m] = known;
+                if known == 0.0 {
+                    continue;
+                }
                 for (rest, entry) in row[m + 1..].iter_mut().zip(&column[m + 1..]) {
                     *rest -= known * entry;
                 }
@@ -276,6 +320,25 @@ mod tests {
             packed::solve_transposed(&plain, &mut b);
             assert!(a.iter().zip(&b).all(|(a, b)| (a - b).abs() < 1e-11), "{n}");
         }
+    }
+
+    /// An autoregressive process, V(i, j) = r^|i - j|, has the root L(i, 0) = r^i and
+    /// L(i, j) = sqrt(1 - r^2) r^(i - j) beyond the first column. Its far entries are not negligible
+    /// for the root's length only down to 1e-40, r^875; the other bound is that of rounding.
+    #[test]
+    fn what_dies_away_ends_in_zeros() {
+        let (n, r) = (1200, 0.9_f64);
+        let powers: Vec<f64> = (0..n).map(|k| libm::pow(r, f64::from(k))).collect();
+        let root = BlockedRoot::of(n as usize, 0.0, |i, j| powers[i - j]).unwrap();
+        let length = (1.0 - r * r).sqrt();
+        for i in 0..n as usize {
+            for j in 0..=i {
+                let found = root.row(i, j / TILE).get(j % TILE).map_or(0.0, |entry| *entry);
+                let exact = if j == 0 { 1.0 } else { length } * powers[i - j];
+                assert!((found - exact).abs() < 1e-12 * exact + 2e-40, "{i} {j} {found:e}");
+            }
+        }
+        assert!(root.tiles[9 * 10 / 2].is_empty() && !root.tiles[6 * 7 / 2].is_empty());
     }
 
     #[test]
