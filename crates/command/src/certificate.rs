@@ -300,15 +300,21 @@ fn notes(file: &CertificateFile, issued: &Issued) -> Vec<Warning> {
             notes.push(Warning::new("digits-of-trials", format!("row {row}"), text));
         }
         let Some(limit) = statement.limit.filter(|limit| limit.below) else { continue };
-        let (row, cmc) = (number + 1, gumption_engine::decimal::significant(limit.cmc, 3));
+        let task = file.certificate.evaluations.get(line.evaluation).map(|asked| &asked.task);
+        let Some(output) = task.and_then(|task| task.model.outputs.get(line.output)) else {
+            continue;
+        };
+        let in_unit = |number: String| output.quantity.unit.after(&number);
+        let row = number + 1;
+        let cmc = in_unit(gumption_engine::decimal::significant(limit.cmc, 3));
         let (code, text) = if limit.raised {
             let text =
                 format!("row {row}: U is raised to the laboratory's capability (CMC) of {cmc}");
             ("raised-to-cmc", text)
         } else {
-            let u = statement.rounded.map_or("0".to_owned(), |to| to.to_string());
+            let expanded = in_unit(statement.rounded.map_or("0".to_owned(), |to| to.to_string()));
             let text = format!(
-                "row {row}: U = {u} is below the laboratory's capability (CMC) of {cmc}, which an \
+                "row {row}: U = {expanded} is below the laboratory's capability (CMC) of {cmc}, which an \
                  accredited certificate may not state (ILAC-P14); `\"cmc_floor\": true` raises it"
             );
             ("below-cmc", text)

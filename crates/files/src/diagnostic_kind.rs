@@ -53,6 +53,8 @@ pub enum DiagnosticKind {
         what: &'static str,
         /// The known name that is nearest, if one is near.
         nearest: Option<String>,
+        /// The objects of this kind of file that have such a key, in words.
+        homes: Vec<&'static str>,
         /// What is known there.
         known: Vec<&'static str>,
     },
@@ -650,8 +652,16 @@ impl fmt::Display for DiagnosticKind {
             Self::WrongType { what, found, expected } => {
                 write!(f, "{what} is {found}, but must be {expected}")
             }
-            Self::UnknownKey { key, what, nearest, known } => {
-                write!(f, "unknown key `{key}` in {what}{}", hint(nearest.as_ref(), &list(known)))
+            Self::UnknownKey { key, what, nearest, homes, known } => {
+                write!(f, "unknown key `{key}` in {what}")?;
+                if homes.is_empty() || nearest.is_some() {
+                    f.write_str(&hint(nearest.as_ref(), &list(known)))?;
+                }
+                if homes.is_empty() {
+                    return Ok(());
+                }
+                let begin = if nearest.is_some() { " It" } else { "; it" };
+                write!(f, "{begin} is a key of {}", homes.join(" and of "))
             }
             Self::DuplicateKey { key } => write!(f, "the key `{key}` stands here a second time"),
             Self::MissingKey { key, what } => write!(f, "{what} needs the key `{key}`"),

@@ -17,7 +17,8 @@ enum Stated {
     Exact(String),
     /// A value and its standard uncertainty.
     Standard(String, String),
-    /// A value and its expanded uncertainty, with `k` or `p` and its number.
+    /// A value and its expanded uncertainty, which has a unit where it is not that of the value, with
+    /// `k` or `p` and its number.
     Expanded { value: String, expanded: String, key: &'static str, factor: String },
     /// A most probable value, and standard uncertainties below and above it.
     Asymmetric { mode: String, low: String, high: String },
@@ -132,7 +133,11 @@ fn members(span: &Range<usize>, unit: Option<String>, stated: Stated) -> Vec<Mem
         Stated::Expanded { value, expanded, key, factor } => vec![
             text("distribution", "normal"),
             number("mean", value),
-            number("expanded", expanded),
+            if expanded.contains(' ') {
+                text("expanded", &expanded)
+            } else {
+                number("expanded", expanded)
+            },
             number(key, factor),
         ],
         Stated::Asymmetric { mode, low, high } => vec![
@@ -186,11 +191,22 @@ fn stated(text: &str) -> Result<(String, Stated), String> {
             None => (behind.trim(), ""),
         };
         let first = before.trim();
-        if !first.is_empty() && first != own {
-            return Err(format!("value and uncertainty have different units; {FORMS}"));
+        if !first.is_empty() && own.is_empty() {
+            return Err(format!("the uncertainty has no unit; {FORMS}"));
+        }
+        if first.is_empty() && own == "%" && outer.is_none() {
+            return Err(format!(
+                "`± {expanded} %` is {expanded} % of the value, or both are in %: write \
+                 `{value} % ± {expanded} %`, or the uncertainty in the unit of the value"
+            ));
         }
         let (key, factor) = coverage_of(coverage)?;
-        return Ok((unit(own)?, Stated::Expanded { value, expanded, key, factor }));
+        if first.is_empty() || first == own {
+            return Ok((unit(own)?, Stated::Expanded { value, expanded, key, factor }));
+        }
+        // a width that names its own unit, or per cent of the value
+        let expanded = format!("{expanded} {}", unit(own)?);
+        return Ok((unit(first)?, Stated::Expanded { value, expanded, key, factor }));
     }
     if rest.starts_with('+') || (rest.starts_with('-') && rest.contains('+')) {
         let (first, rest) = signed(rest).ok_or_else(|| FORMS.to_owned())?;
@@ -330,6 +346,9 @@ mod tests {
             ("5.0112 +- 0.0046 V (k = 2)", "V", expanded("5.0112", "0.0046", "k", "2")),
             ("(5.0112 +/- 0.0046) V (p = 95 %)", "V", expanded("5.0112", "0.0046", "p", "0.95")),
             ("20.0 degC ± 0.2 degC (95 %)", "degC", expanded("20.0", "0.2", "p", "0.95")),
+            ("5.01 V ± 20 mV (k=2)", "V", expanded("5.01", "20 mV", "k", "2")),
+            ("5.01 V ± 0.5 % (k=2)", "V", expanded("5.01", "0.5 %", "k", "2")),
+            ("(5.01 ± 0.02) % (k=2)", "%", expanded("5.01", "0.02", "k", "2")),
         ];
         for (text, unit, expected) in table {
             assert_eq!(read(text), (unit.to_owned(), expected), "{text}");
@@ -347,7 +366,8 @@ mod tests {
     fn what_is_not_clear_is_asked() {
         for (text, part) in [
             ("5.0112 V ± 0.0046 V", "must be said"),
-            ("5.0112 V ± 0.0046 mV (k=2)", "different units"),
+            ("5.0112 V ± 0.0046 (k=2)", "has no unit"),
+            ("5.01 ± 1 % (k=2)", "or both are in %"),
             ("5,0112 V", "point"),
             ("about 5 V", "begin with a number"),
             ("5.01(2", "not closed"),

@@ -6,7 +6,7 @@ use std::ops::Range;
 use super::DiagnosticKind;
 use super::diagnostics::Collector;
 use super::json::{Json, Member, Node};
-use super::keys::Key;
+use super::keys::{Key, homes};
 use super::value_text::{ValueOf, converted, with_unit};
 use gumption_units::{Unit, nearest};
 
@@ -84,6 +84,7 @@ impl<'a> Object<'a> {
                         key: member.key.clone(),
                         what: self.what,
                         nearest: nearest(&member.key, known.iter().copied()).map(str::to_owned),
+                        homes: homes(&member.key, self.what),
                         known: known.to_vec(),
                     },
                 );

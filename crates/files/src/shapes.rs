@@ -620,11 +620,22 @@ impl<'a> Fields<'a> {
     fn width(&self, key: &'static str, estimate: f64) -> Option<Option<f64>> {
         let member = self.object.required(key)?;
         if let (Some(text), Some(at)) = (formula_of_width(&self.object, key, self.unit), self.at) {
-            // without conditions a name is no formula of them, and the specification's fault is told
-            let formula = || self.object.log.formula(&text);
-            let is_number = || formula().is_ok_and(|of| of.names().next().is_none());
-            if !at.0.names().is_empty() || is_number() {
+            let formula = self.object.log.formula(&text).ok();
+            let name =
+                formula.as_ref().and_then(|of| of.names().next()).map(|(name, _)| name.to_owned());
+            if !at.0.names().is_empty() || formula.is_some() && name.is_none() {
                 return self.width_of_row(key, &text, at);
+            }
+            if let Some(condition) = name {
+                let reason = format!(
+                    "as a formula it needs the value of `{condition}`: a width is a formula of \
+                     conditions, and there are none; what depends on other inputs stands in an \
+                     equation",
+                );
+                let (name, found) = (self.name.to_owned(), text);
+                let kind = DiagnosticKind::Width { name, found, reason };
+                self.object.log.report(&member.value.span, kind);
+                return None;
             }
         }
         let log = self.object.log;

@@ -22,6 +22,10 @@ const ROUNDS: usize = 3;
 /// Steps to their frequencies at most, in each round.
 const MOST_STEPS: usize = 25;
 
+/// Turns that named and further oscillations take in being brought to their frequencies: what one
+/// leaves to the other falls to a hundredth with each.
+const MOST_TURNS: usize = 4;
+
 /// Turns over the record to which a frequency is brought, and a step at most.
 const SETTLED: f64 = 1e-4;
 const LARGEST_STEP: f64 = 0.25;
@@ -94,9 +98,8 @@ impl Group<'_> {
             if tuned.len() == besides.fitted.len() {
                 break;
             }
-            let cycles: Vec<f64> = tuned.iter().map(|of| of.cycles).collect();
             let mut moved = fundamentals.clone();
-            let Ok(fits) = self.at_own_frequencies(passes, &mut moved, &cycles) else {
+            let Some(fits) = self.settled_together(passes, &mut moved, &mut tuned)? else {
                 besides.too_near = true;
                 break;
             };
@@ -107,6 +110,33 @@ impl Group<'_> {
             }
         }
         Ok((best, besides))
+    }
+
+    /// The fits at the frequencies that the recording has, those of what oscillates beside the named
+    /// ones among them; none where they cannot be told apart. As each was brought to its frequency
+    /// while the other still leaked into it, they take turns until neither moves.
+    fn settled_together<P: SampleSource>(
+        &self,
+        passes: &mut P,
+        fundamentals: &mut [Fundamental],
+        tuned: &mut Vec<Beside>,
+    ) -> Result<Option<FittedTones>, Refused<P::Error>> {
+        let samples = passes.frames() as f64;
+        let mut turns = 0;
+        loop {
+            let before: Vec<f64> = fundamentals.iter().map(|of| of.turning).collect();
+            let cycles: Vec<f64> = tuned.iter().map(|of| of.cycles).collect();
+            let Ok(fits) = self.at_own_frequencies(passes, fundamentals, &cycles) else {
+                return Ok(None);
+            };
+            let moves = |of: (&Fundamental, f64)| (of.0.turning - of.1).abs() * samples > SETTLED;
+            turns += 1;
+            if turns == MOST_TURNS || !fundamentals.iter().zip(before).any(moves) {
+                return Ok(Some(fits));
+            }
+            let Some(again) = self.tuned(passes, fundamentals, cycles)? else { return Ok(None) };
+            *tuned = again;
+        }
     }
 
     /// The tones of a design that the recipe names, with their places.

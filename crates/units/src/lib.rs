@@ -412,6 +412,24 @@ impl FromStr for Unit {
     }
 }
 
+impl Unit {
+    /// Whether there is anything to write behind a number: not of the unit one.
+    pub fn has_name(&self) -> bool {
+        !matches!(self.text.trim(), "" | "1")
+    }
+
+    /// A number with the unit behind it, if that has a name.
+    ///
+    /// ```
+    /// use gumption_units::Unit;
+    /// assert_eq!(Unit::parse("m/s^2").unwrap().after("9.81"), "9.81 m/s^2");
+    /// assert_eq!(Unit::one().after("0.5"), "0.5");
+    /// ```
+    pub fn after(&self, number: &str) -> String {
+        if self.has_name() { format!("{number} {}", self.text) } else { number.to_owned() }
+    }
+}
+
 impl fmt::Display for Unit {
     /// The text as written.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

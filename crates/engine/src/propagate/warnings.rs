@@ -9,8 +9,7 @@ use super::evaluation::{
 use super::gum::{BudgetLine, Dof, Gum};
 use super::monte_carlo::{Adaptive, MonteCarlo};
 use super::second_order::SecondOrder;
-use crate::decimal;
-use crate::decimal::to_digits;
+use crate::decimal::{significant, to_digits};
 use crate::model::Output;
 use crate::number::Shortest;
 use crate::task::{Task, Trials, Warning};
@@ -193,22 +192,19 @@ fn of_capability(output: &Output, evaluated: &OutputEvaluation, found: &mut Vec<
     let Some(stated) = evaluated.stated(output) else {
         return;
     };
-    let name = &output.quantity.name;
+    let (name, unit) = (&output.quantity.name, &output.quantity.unit);
+    let in_unit = |value: f64| unit.after(&significant(value, 3));
+    let (cmc, expanded) = (in_unit(stated.cmc), in_unit(stated.expanded_uncertainty));
     let (code, text) = if stated.raised {
         let text = format!(
             "the expanded uncertainty of `{name}` is below the laboratory's capability (CMC) and \
-             raised to it: {} {} is to be stated",
-            Shortest(stated.cmc),
-            output.quantity.unit
+             raised to it: {cmc} is to be stated"
         );
         ("raised-to-cmc", text)
     } else if stated.expanded_uncertainty < stated.cmc {
         let text = format!(
-            "the expanded uncertainty of `{name}` is {}, below the laboratory's capability (CMC) of \
-             {} {}, and must not be stated (ILAC-P14)",
-            Shortest(stated.expanded_uncertainty),
-            Shortest(stated.cmc),
-            output.quantity.unit
+            "the expanded uncertainty of `{name}` is {expanded}, below the laboratory's capability \
+             (CMC) of {cmc}, and must not be stated (ILAC-P14)"
         );
         ("below-cmc", text)
     } else {
@@ -277,7 +273,7 @@ fn of_output(
              101, 3.6, note 1): estimate and standard uncertainty of the trials are of these trials \
              alone and have no numerical standard error; median and coverage intervals stand",
             monte_carlo.trials,
-            decimal::significant(monte_carlo.excess_kurtosis.unwrap_or(f64::NAN), 1)
+            significant(monte_carlo.excess_kurtosis.unwrap_or(f64::NAN), 1)
         );
         push(found, Warning::new("heavy-tails", name, text));
     }
@@ -387,7 +383,7 @@ fn fewest(output: &OutputEvaluation) -> String {
 /// What the terms of second order of the law of propagation make of it, and which products matter
 /// though nothing is seen of them at the estimates.
 pub fn second_order_text(task: &Task, gum: &Gum, second: &SecondOrder) -> String {
-    let number = |value: f64| decimal::significant(value, task.settings.digits.max(2));
+    let number = |value: f64| significant(value, task.settings.digits.max(2));
     let mut text = format!(
         "with its terms of second order (JCGM 100, 5.1.2, note) the law of propagation gives {} \
          instead of {}",

@@ -5,6 +5,7 @@ mod case;
 mod certificate;
 mod costs;
 mod fits;
+mod homes;
 mod model_file;
 mod node;
 mod recipe;
@@ -22,6 +23,7 @@ pub(crate) use certificate::{
 };
 pub(crate) use costs::{COST, COSTS, COSTS_KEY, OFFER};
 pub(crate) use fits::{COVARIANCE_FILE, FIT, POINTS};
+pub(crate) use homes::homes;
 pub(crate) use model_file::{
     CONDITION, CORRELATION_MATRIX, MODEL, MONTE_CARLO, OUTPUT, REGION, TABLE_OF_CONDITIONS,
     TOLERANCE,

@@ -8,7 +8,7 @@ use crate::sheet::Sheet;
 use crate::table;
 use crate::table::budget;
 use crate::table::budget::Budget;
-use crate::table::{comparison, has_name, in_unit};
+use crate::table::{comparison, in_unit};
 use gumption_engine::model::{Output, Quantity};
 use gumption_engine::propagate::OutputEvaluation;
 use gumption_engine::task::{Coverage, Settings};
@@ -127,7 +127,7 @@ fn result(settings: &Settings, output: &Quantity, found: &OutputEvaluation) -> S
     let coverage = table::coverage_text(settings.coverage);
     match ResultStatement::of(settings, found) {
         ResultStatement::Expanded { estimate, expanded, factor } => {
-            let value = match has_name(&output.unit) {
+            let value = match output.unit.has_name() {
                 true => in_unit(&format!("({estimate} ± {expanded})"), &output.unit),
                 false => format!("{estimate} ± {expanded}"),
             };
@@ -239,7 +239,7 @@ fn conclusions(
     sheet.text("result", lines.iter().map(|line| line.name.to_owned()));
     sheet.figures("value", lines.iter().map(|line| line.figure.clone()));
     let unit = |line: &budget::Conclusion<'_>| {
-        line.unit.filter(|unit| has_name(unit)).map_or_else(String::new, |unit| unit.text().into())
+        line.unit.filter(|unit| unit.has_name()).map_or_else(String::new, |unit| unit.text().into())
     };
     sheet.units("unit", lines.iter().map(unit));
     let remark = |line: &budget::Conclusion<'_>| match (line.name, settings.coverage) {

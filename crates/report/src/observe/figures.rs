@@ -11,7 +11,7 @@ use crate::plot::{
     AFTER, Area, Axis, BEFORE, Chart, Drawn, EVEN, Fill, INK, Panel, Titles, mark, px, stroke,
     svg_with_titles,
 };
-use crate::table::{grouped, has_name, in_unit};
+use crate::table::{grouped, in_unit};
 use gumption_signal::{
     Amplitude, Channel, ChannelObservation, RecordTrace, SampleRanges, SpectrumColumn,
 };
@@ -116,7 +116,7 @@ struct Axes {
 
 impl Shown<'_> {
     fn label(&self, what: &str) -> String {
-        match has_name(&self.channel.unit) {
+        match self.channel.unit.has_name() {
             true => format!("{what} in {}", plain(self.channel.unit.text())),
             false => what.to_owned(),
         }

@@ -2,7 +2,7 @@
 
 use super::columns::{self, BudgetColumn};
 use super::grid::Grid;
-use super::{coverage_text, has_name, in_unit, text, width};
+use super::{coverage_text, in_unit, text, width};
 use crate::number::{coefficient, exact, position, rounded, significant, with_uncertainty};
 use crate::sheet::{Figure, Kind, Sheet};
 use crate::subtotals::Subtotals;
@@ -277,7 +277,7 @@ fn distribution(line: &BudgetLine) -> String {
 
 /// What the columns mean.
 pub(crate) fn legend(output: &Quantity, columns: &[BudgetColumn]) -> String {
-    let mut legend = if has_name(&output.unit) {
+    let mut legend = if output.unit.has_name() {
         let unit = output.unit.text();
         format!(
             "sensitivity coefficients in {unit} per unit of the quantity, contributions in {unit}"

@@ -196,7 +196,7 @@ fn title(quantity: &Quantity) -> String {
 /// Name, unit and words of an output.
 pub(super) fn title_text(quantity: &Quantity) -> String {
     let mut line = plain(&quantity.name);
-    if has_name(&quantity.unit) {
+    if quantity.unit.has_name() {
         line += &format!(" in {}", plain(quantity.unit.text()));
     }
     if !quantity.about.trim().is_empty() {
@@ -249,9 +249,5 @@ pub(crate) fn conditions_text(conditions: &[Quantity], values: &[f64]) -> String
 
 /// A number with its unit, if that has a name.
 pub(crate) fn in_unit(number: &str, unit: &Unit) -> String {
-    if has_name(unit) { format!("{number} {}", plain(unit.text())) } else { number.to_owned() }
-}
-
-pub(super) fn has_name(unit: &Unit) -> bool {
-    !matches!(unit.text().trim(), "" | "1")
+    plain(&unit.after(number))
 }

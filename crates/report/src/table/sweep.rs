@@ -1,7 +1,7 @@
 //! A sweep over conditions: one table for each output, one line for each row.
 
 use super::grid::{Grid, PAGE};
-use super::{USUAL, conditions_text, has_name, text, title, width};
+use super::{USUAL, conditions_text, text, title, width};
 use crate::number::{
     MISSING, align, exact, justified, place_of_ends, position, rounded, significant, to,
 };
@@ -326,7 +326,7 @@ impl Sweep<'_> {
 
 fn header(condition: &Quantity) -> String {
     let name = text::plain(&condition.name);
-    if has_name(&condition.unit) {
+    if condition.unit.has_name() {
         format!("{name}\nin {}", text::plain(condition.unit.text()))
     } else {
         name

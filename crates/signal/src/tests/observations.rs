@@ -185,6 +185,7 @@ fn standard_scores_of_30_recordings() {
         "tone 1.3 Hz beside",
         "tone 0.5 Hz beside",
         "tone 1.3 Hz beside, estimated",
+        "tone 1.3 Hz beside, frequency off",
         "bins",
         "trend removed",
     ];

@@ -12,7 +12,7 @@ use crate::plot::{
     AFTER, Anchor, Area, Axis, BEFORE, Drawn, EVEN, FAINT, FONT, INK, Layer, STRIP_AXIS, Strip,
     Titles, Write, centred, faded, line, px, shortened, stroke, svg_in_layers, write,
 };
-use crate::table::{grouped, has_name, in_unit, title_text};
+use crate::table::{grouped, in_unit, title_text};
 use gumption_engine::model::Quantity;
 use gumption_engine::propagate::OutputEvaluation;
 use gumption_engine::propagate::gum::{Dof, Gum};
@@ -232,7 +232,7 @@ fn law_legend(area: &Area<'_>, gum: Option<&Gum>, room: f64) -> Drawn {
 /// What the axis of densities is.
 fn density_legend(area: &Area<'_>, room: f64, unit: &Unit) -> Drawn {
     said(area, "density", (14.0, 64.0), room)?;
-    if has_name(unit) {
+    if unit.has_name() {
         let unit = plain(unit.text());
         let is_one = unit.chars().all(|c| c.is_alphanumeric());
         let unit = if is_one { unit } else { format!("({unit})") };

@@ -6,7 +6,7 @@ use crate::html::Drawing;
 use crate::number::{exact, with_uncertainty};
 use crate::plain;
 use crate::plot::{AFTER, Axis, Fill, Groups, INK, Panel, mark, px, stroke, svg_with_titles};
-use crate::table::{conditions_text, has_name, in_unit};
+use crate::table::{conditions_text, in_unit};
 use gumption_engine::model::Quantity;
 use gumption_engine::propagate::{RowEvaluation, naming};
 use gumption_engine::task::Task;
@@ -144,7 +144,7 @@ fn about(
 /// Name and unit.
 fn axis(quantity: &Quantity) -> String {
     let name = plain(&quantity.name);
-    if has_name(&quantity.unit) {
+    if quantity.unit.has_name() {
         format!("{name} in {}", plain(quantity.unit.text()))
     } else {
         name
