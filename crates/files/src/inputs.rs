@@ -331,11 +331,16 @@ impl<'a> Reader<'a, '_> {
         self.note_of_readings(self.name, kind, shared, read.as_ref());
         let same_elsewhere = !differs && self.conditions.rows() > 1;
         if let Some(first) = zero_width.first() {
+            let place = match () {
+                () if self.conditions.rows() <= 1 => String::new(),
+                () if zero_width.len() > 1 || same_elsewhere => {
+                    format!(" in row {first} and others")
+                }
+                () => format!(" in row {first}"),
+            };
             let text = format!(
-                "the width of `{}` follows its estimate and becomes 0 in row {first}{}; it is a \
-                 constant there",
+                "the width of `{}` follows its estimate and becomes 0{place}; it is a constant there",
                 self.name,
-                if zero_width.len() > 1 || same_elsewhere { " and others" } else { "" }
             );
             self.inputs.warnings.push(Warning::new("width-zero", self.name, text));
         }

@@ -4,6 +4,7 @@
 use std::ops::Range;
 
 use super::folder::Folder;
+use super::json::Json;
 use super::object::Object;
 use super::source::{Place, SourceText};
 use super::value_text::ValueOf;
@@ -79,7 +80,13 @@ fn from_file(
         Ok(numbers) => numbers,
         // it may be anything, and is not shown
         Err(_) if !has_numbers(&source.text) => {
-            unreadable("it is no file of numbers, one a line: no line is one".to_owned());
+            let is_readings = matches!(
+                object.get("distribution").map(|member| &member.value.value),
+                Some(Json::Text(shape)) if shape == "readings"
+            );
+            let instead = if is_readings { "; a table needs the name of its `column`" } else { "" };
+            let message = "it is no file of numbers, one a line: no line is one";
+            unreadable(format!("{message}{instead}"));
             return None;
         }
         Err(kinds) => {

@@ -61,6 +61,8 @@ pub struct DegreeOfEquivalence {
     pub value: f64,
     /// Its expanded uncertainty as stated.
     pub expanded_stated: f64,
+    /// Its coverage factor.
+    pub factor_stated: f64,
     /// Difference from the reference value.
     pub difference: f64,
     /// The expanded uncertainty of the difference, k = 2; the reference value depends on the results
@@ -289,6 +291,7 @@ pub fn compare_by(
             label: laboratory.label.clone(),
             value: laboratory.result.value,
             expanded_stated: laboratory.result.expanded,
+            factor_stated: laboratory.result.factor,
             difference,
             expanded: FACTOR * u,
             normalized_error: difference.abs() / (FACTOR * u),

@@ -172,9 +172,9 @@ fn what_is_withheld_is_named_and_explains_once_it_is_listed() {
     }
 }
 
-/// A data set of a bench with two departures: what another withheld effect adds comes on top.
-fn with_another(bench: &Bench, one: usize, of: impl Fn(&[f64]) -> f64) -> Simulated {
-    let mut simulated = simulated(bench, Some(one), 1);
+/// A data set of a bench with what adds to its first output, on top of a withheld effect or of none.
+fn with_another(bench: &Bench, one: Option<usize>, of: impl Fn(&[f64]) -> f64) -> Simulated {
+    let mut simulated = simulated(bench, one, 1);
     for (conditions, values) in simulated.rows.iter().zip(&mut simulated.values) {
         values[0] += of(conditions);
     }
@@ -185,7 +185,7 @@ fn with_another(bench: &Bench, one: usize, of: impl Fn(&[f64]) -> f64) -> Simula
 #[test]
 fn pairs_are_composed() {
     let bench = BENCHES.iter().find(|bench| bench.name == "balance").unwrap();
-    let data = with_another(bench, 1, |c| 0.004 * (-c[2] / 15.0).exp());
+    let data = with_another(bench, Some(1), |c| 0.004 * (-c[2] / 15.0).exp());
     let found = diagnosed(bench, &data);
     let first = found.composed.first().unwrap();
     let mut over: Vec<&DepartureOver> = first.terms.iter().map(|term| &term.over).collect();
@@ -196,11 +196,33 @@ fn pairs_are_composed() {
     assert!(first.shrunk.removed_fraction > 0.95, "{:?}", first.shrunk);
 }
 
+/// A departure that is a product of functions of two conditions is named as one: a non-linearity that
+/// grows with the temperature.
+#[test]
+fn products_are_composed() {
+    let bench = BENCHES.iter().find(|bench| bench.name == "torque transducer").unwrap();
+    let data = with_another(bench, None, |c| 0.02 * (c[0] / 100.0).powi(3) * (c[1] - 10.0) / 30.0);
+    let found = diagnosed(bench, &data);
+    let first = found.composed.first().unwrap();
+    assert!(first.product && first.terms.len() == 2, "{first:?}");
+    let over: Vec<&str> = first.terms.iter().filter_map(|term| term.over.name()).collect();
+    assert!(over.contains(&"T"), "{over:?}");
+    // the torque, or the signal that follows it
+    assert!(over.contains(&"M") || over.contains(&"value"), "{over:?}");
+    assert!(first.shrunk.removed_fraction > 0.95, "{:?}", first.shrunk);
+    // what it is ready to paste
+    let mut case = case_of(bench, &data);
+    case.candidates.push(pasted(first));
+    let again = diagnose(&case, None, DiagnosisOptions::new(1), &|_| {}).unwrap();
+    let present = again.present.iter().find(|of| of.effect == first.name).unwrap();
+    assert!(present.probability > 0.9, "{present:?}");
+}
+
 /// What the list lacks may come beside what it has.
 #[test]
 fn a_term_beside_a_listed_effect_is_composed() {
     let bench = BENCHES.iter().find(|bench| bench.name == "encoder").unwrap();
-    let data = with_another(bench, 0, |_| 0.03);
+    let data = with_another(bench, Some(0), |_| 0.03);
     let found = diagnosed(bench, &data);
     let beside = found.composed.iter().take(3).find(|of| of.beside == ["zero"]);
     let beside = beside.unwrap_or_else(|| {

@@ -132,6 +132,10 @@ pub(super) const NOTES: &[(&str, &str)] = &[
         "die Breite von {0} folgt ihrem Schätzwert und wird in Zeile {1} und anderen 0; dort ist sie eine Konstante",
     ),
     (
+        "the width of {} follows its estimate and becomes 0; it is a constant there",
+        "die Breite von {0} folgt ihrem Schätzwert und wird 0; dort ist sie eine Konstante",
+    ),
+    (
         "the width of {} follows its estimate and becomes 0 in row {}; it is a constant there",
         "die Breite von {0} folgt ihrem Schätzwert und wird in Zeile {1} 0; dort ist sie eine Konstante",
     ),

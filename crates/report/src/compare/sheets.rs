@@ -45,6 +45,9 @@ pub(super) fn laboratories(comparison: &Comparison) -> Sheet {
     let own = |row: &DegreeOfEquivalence| with_uncertainty(row.value, row.expanded_stated, DIGITS);
     sheet.numbers("x", rows.iter().map(|row| own(row).0));
     sheet.numbers("U(x)", rows.iter().map(|row| own(row).1));
+    if rows.iter().any(|row| row.factor_stated != FACTOR) {
+        sheet.numbers("k of\nthat", rows.iter().map(|row| factor(row.factor_stated)));
+    }
     let of = |row: &DegreeOfEquivalence| with_uncertainty(row.difference, row.expanded, DIGITS);
     sheet.numbers("difference", rows.iter().map(|row| of(row).0));
     sheet.numbers("U", rows.iter().map(|row| of(row).1));
