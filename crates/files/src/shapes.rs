@@ -626,7 +626,7 @@ impl<'a> Fields<'a> {
             if !at.0.names().is_empty() || formula.is_some() && name.is_none() {
                 return self.width_of_row(key, &text, at);
             }
-            if let Some(condition) = name {
+            if let Some(condition) = name.filter(|name| name != text.trim()) {
                 let reason = format!(
                     "as a formula it needs the value of `{condition}`: a width is a formula of \
                      conditions, and there are none; what depends on other inputs stands in an \
