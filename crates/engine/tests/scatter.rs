@@ -101,7 +101,8 @@ fn ends_of_the_shortest_interval_scatter_as_stated() {
     }
 }
 
-/// The whole study: 600 seeds know the scatters to 3 %, 6 % and 12 %.
+/// The whole study: 600 seeds know the scatters to 3 % and 6 %, and that of the lower end of a square
+/// to sqrt(87/2400) = 19 %, mostly too small.
 #[test]
 #[ignore = "minutes"]
 fn ends_of_the_shortest_interval_scatter_as_stated_over_600_seeds() {
@@ -109,8 +110,9 @@ fn ends_of_the_shortest_interval_scatter_as_stated_over_600_seeds() {
         for (input, formula) in ENDS {
             let found = of_ends(&format!(r#""x": {input}"#), formula, 600, trials);
             println!("{trials:7} {input} {formula}: {:.2} {:.2}", found[0], found[1]);
-            for ratio in found {
-                assert!((0.7..1.35).contains(&ratio), "{trials} {input} {formula}: {found:?}");
+            let of_square = if formula == "x^2" { 0.5..1.6 } else { 0.7..1.35 };
+            for (ratio, limits) in found.iter().zip([of_square, 0.7..1.35]) {
+                assert!(limits.contains(ratio), "{trials} {input} {formula}: {found:?}");
             }
         }
     }
