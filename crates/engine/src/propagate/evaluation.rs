@@ -294,16 +294,22 @@ pub(super) fn evaluate_rows(
     // every row has its slot from the start: a million of them are not to be held twice
     let mut rows: Vec<Option<Result<RowEvaluation, EvaluationError>>> = Vec::new();
     rows.resize_with(task.rows.len(), || None);
-    rows.par_chunks_mut(COLUMN).zip(task.rows.par_chunks(COLUMN)).enumerate().for_each(
-        |(chunk, (slots, rows))| {
-            let linear = gum.evaluate_all(rows, control.path);
-            let rows = rows.par_iter().zip(linear).enumerate();
-            slots.par_iter_mut().zip(rows).for_each(|(slot, (number, (row, linear)))| {
-                let row = (chunk * COLUMN + number, row, linear);
-                *slot = Some(evaluate_row(task, row, &reaches, control, (known, &notes)));
-            });
-        },
-    );
+    let of_row = |row| Some(evaluate_row(task, row, &reaches, control, (known, &notes)));
+    if let ([row], [slot]) = (task.rows.as_slice(), rows.as_mut_slice()) {
+        // no hand-over to the threads of the pool, which takes longer than a budget: trials go there
+        let mut linear = gum.evaluate_all(std::slice::from_ref(row), control.path);
+        *slot = linear.pop().and_then(|linear| of_row((0, row, linear)));
+    } else {
+        rows.par_chunks_mut(COLUMN).zip(task.rows.par_chunks(COLUMN)).enumerate().for_each(
+            |(chunk, (slots, rows))| {
+                let linear = gum.evaluate_all(rows, control.path);
+                let rows = rows.par_iter().zip(linear).enumerate();
+                slots.par_iter_mut().zip(rows).for_each(|(slot, (number, (row, linear)))| {
+                    *slot = of_row((chunk * COLUMN + number, row, linear));
+                });
+            },
+        );
+    }
     // the first row that failed, whichever was ready first
     let rows = rows.into_iter().map_while(|row| row).collect::<Result<Vec<_>, _>>()?;
     let notes = notes.into_inner().unwrap_or_else(PoisonError::into_inner);

@@ -197,6 +197,9 @@ impl<'a> AtEstimates<'a> {
     }
 }
 
+/// From so many outputs on their correlations are worth the threads of the pool.
+const MANY_OUTPUTS: usize = 64;
+
 impl GumRow {
     /// The sensitivity coefficients of an output.
     pub(crate) fn gradient(&self, output: usize) -> Option<&[f64]> {
@@ -227,7 +230,11 @@ impl GumRow {
                 .map(|(b, other)| (covariance(a, b) / (own * other).sqrt()).clamp(-1.0, 1.0))
                 .collect::<Vec<f64>>()
         };
-        (0..self.gradients.len()).into_par_iter().flat_map_iter(of_first).collect()
+        let count = self.gradients.len();
+        if count < MANY_OUTPUTS {
+            return (0..count).flat_map(of_first).collect();
+        }
+        (0..count).into_par_iter().flat_map_iter(of_first).collect()
     }
 }
 
