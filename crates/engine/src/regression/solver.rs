@@ -115,15 +115,21 @@ impl<'p> Solver<'p> {
                 *parameter += step;
             }
             steps += 1;
+            let exact = self.is_exact_in_x();
             // a second step of a linear fit mends the rounding of the first
-            if (linear && steps == 2) || (ends && (steps > 1 || self.is_exact_in_x())) {
+            if (linear && steps == 2) || (ends && exact) {
                 return Ok(squares);
             }
             if steps == MOST_STEPS || !squares.is_finite() {
                 return Err(RegressionError::NotConverged { steps });
             }
-            if !self.is_exact_in_x() {
-                self.correct_abscissae(x);
+            if !exact {
+                // parameters that stay where they are say nothing while the abscissae still move: the
+                // first step, from a curve without slope, leaves those where they were measured
+                let moved = self.correct_abscissae(x);
+                if ends && steps > 1 && moved <= tolerance * self.scale(squares) {
+                    return Ok(squares);
+                }
             }
         }
     }
@@ -133,12 +139,16 @@ impl<'p> Solver<'p> {
         self.white_misfits.iter().skip(self.count).map(|misfit| misfit * misfit).sum()
     }
 
+    /// What the stated uncertainties are to be multiplied by.
+    fn scale(&self, squares: f64) -> f64 {
+        let spare = self.white_misfits.len().saturating_sub(self.count).max(1) as f64;
+        if self.estimated { (squares / spare).sqrt() } else { 1.0 }
+    }
+
     /// Whether the last step is small: in standard uncertainties, or at the rounding of the
     /// parameters.
     fn is_small(&self, squares: f64, tolerance: f64) -> bool {
-        let points = self.white_misfits.len();
-        let spare = points.saturating_sub(self.count).max(1) as f64;
-        let scale = if self.estimated { (squares / spare).sqrt() } else { 1.0 };
+        let scale = self.scale(squares);
         // R times the step, which is what the step changes in units of the misfits
         let moved: f64 =
             self.white_misfits.iter().take(self.count).map(|change| change * change).sum();
@@ -210,9 +220,16 @@ impl<'p> Solver<'p> {
         Ok(())
     }
 
-    /// The true abscissae that belong to the step.
-    fn correct_abscissae(&mut self, x: &[f64]) {
+    /// The true abscissae that belong to the step, and by how much they moved: the root of the sum of
+    /// squares, each in its standard uncertainty.
+    fn correct_abscissae(&mut self, x: &[f64]) -> f64 {
         let n = x.len();
+        let mut moved = 0.0;
+        // a move within the rounding of the abscissa is none
+        let share = |to: f64, from: f64, variance: f64| {
+            let by = to - from;
+            if by.abs() <= 1e-13 * to.abs() { 0.0 } else { by * by / variance }
+        };
         let mut left = std::mem::take(&mut self.misfits);
         for (column, step) in self.derivatives.chunks_exact(n).zip(&self.solution.parameters) {
             for (left, derivative) in left.iter_mut().zip(column) {
@@ -225,7 +242,9 @@ impl<'p> Solver<'p> {
                     let (variance, slope) = (variances[i], self.slopes[i]);
                     let weight = *left / self.noise.of_misfit(i, slope);
                     let cross = xy.get(i).copied().unwrap_or(0.0);
-                    self.abscissae[i] = x[i] + (variance * slope - cross) * weight;
+                    let to = x[i] + (variance * slope - cross) * weight;
+                    moved += share(to, self.abscissae[i], variance);
+                    self.abscissae[i] = to;
                 }
             }
             Noise::Ordinates(_) => {}
@@ -240,11 +259,14 @@ impl<'p> Solver<'p> {
                     let terms = terms.zip(&left);
                     let change: f64 =
                         terms.map(|(((v, c), slope), weight)| (v * slope - c) * weight).sum();
-                    self.abscissae[i] = x + change;
+                    let to = x + change;
+                    moved += share(to, self.abscissae[i], variances[i * n + i]);
+                    self.abscissae[i] = to;
                 }
             }
         }
         self.misfits = left;
+        moved.sqrt()
     }
 
     /// The parameters of a curve that is not linear in them, by the method of Levenberg and Marquardt

@@ -67,6 +67,45 @@ fn lines_of_iso_ts_28037() {
     check_line(&joint, [-0.6456, 2.2014, 1.2726, 0.2015, -0.1669, 2.074]);
 }
 
+/// Where all points have the same uncertainties in x and in y the line is Deming's, in closed form (W.
+/// E. Deming, Statistical Adjustment of Data, 1943): with d = u(y)^2/u(x)^2 the slope is
+/// (Syy - d Sxx + sqrt((Syy - d Sxx)^2 + 4 d Sxy^2))/(2 Sxy). The least squares of y alone, from which
+/// the search starts, satisfy its first two steps.
+#[test]
+fn equal_uncertainties_of_both_give_the_line_of_deming() {
+    let cases = [
+        (vec![1.0, 2.0, 3.0, 4.0], vec![1.1, 2.6, 2.7, 3.9], 0.5, 0.1),
+        (six(), vec![1.3, 0.6, 3.1, 2.3, 6.7, 4.1], 0.5, 0.5),
+    ];
+    for (x, y, ux, uy) in cases {
+        let n = x.len();
+        let mean = |values: &[f64]| values.iter().sum::<f64>() / n as f64;
+        let (at, of) = (mean(&x), mean(&y));
+        let sum = |f: &dyn Fn(usize) -> f64| (0..n).map(f).sum::<f64>();
+        let sxx = sum(&|i| (x[i] - at).powi(2));
+        let syy = sum(&|i| (y[i] - of).powi(2));
+        let sxy = sum(&|i| (x[i] - at) * (y[i] - of));
+        let d: f64 = uy * uy / (ux * ux);
+        let half = syy - d * sxx;
+        let slope = (half + (half * half + 4.0 * d * sxy * sxy).sqrt()) / (2.0 * sxy);
+        let exact = [of - slope * at, slope];
+        let chi2 = sum(&|i| (y[i] - exact[0] - exact[1] * x[i]).powi(2))
+            / (uy * uy + slope * slope * ux * ux);
+        let points = Points::new(x.clone(), y.clone());
+        let diagonal = |u: f64| Spread::Joint(lower(n, |i, j| if i == j { u * u } else { 0.0 }));
+        let each = points.clone().with_x(squares(&vec![ux; n])).with_y(squares(&vec![uy; n]));
+        let full = points.with_x(diagonal(ux)).with_y(diagonal(uy));
+        for points in [each.clone(), full, each.with_cross(Cross::Each(vec![0.0; n]))] {
+            let points = Arc::new(points);
+            let line = Regression::of("line", &Curve::polynomial(1), &points, &[]).unwrap();
+            for (k, exact) in exact.into_iter().enumerate() {
+                assert!((line.estimate(k) - exact).abs() < 1e-8, "{} {exact}", line.estimate(k));
+            }
+            assert!((line.chi2 / chi2 - 1.0).abs() < 1e-8, "{} {chi2}", line.chi2);
+        }
+    }
+}
+
 /// The general case of clause 10 has to give each of the others: with full matrices that say the same
 /// as standard uncertainties and pairs.
 #[test]
