@@ -9,6 +9,7 @@ use std::ops::Range;
 use super::DiagnosticKind;
 use super::diagnostics::Collector;
 use super::json::{Json, Member, Node};
+use super::value_text::grouped_digits;
 
 /// What a text says of a quantity: numbers as written, without the unit.
 #[derive(Clone, Debug, PartialEq)]
@@ -221,7 +222,8 @@ fn stated(text: &str) -> Result<(String, Stated), String> {
     Ok((unit(rest)?, Stated::Exact(value)))
 }
 
-/// What stands behind `±`: `(k=2)`, `(p=95 %)`, `(p=0.95)`, `(95 %)`.
+/// What stands behind `±`: `(k=2)`, `(p=95 %)`, `(p=0.95)`, `(95 %)`; of `(k=2, p=95 %)`, as
+/// certificates have it, the factor.
 fn coverage_of(text: &str) -> Result<(&'static str, String), String> {
     let inside = text.strip_prefix('(').and_then(|rest| rest.strip_suffix(')'));
     let missing = || {
@@ -229,6 +231,17 @@ fn coverage_of(text: &str) -> Result<(&'static str, String), String> {
             .to_owned()
     };
     let inside = inside.ok_or_else(missing)?.trim();
+    let inside = match inside.split_once([',', ';']) {
+        Some((factor, probability)) if factor.trim_start().starts_with('k') => {
+            let probability = probability.trim_start();
+            if probability.starts_with(|c: char| c.is_ascii_digit()) && !probability.ends_with('%')
+            {
+                return Err("a decimal fraction is written with a point, such as `k=2.28`".into());
+            }
+            factor.trim()
+        }
+        _ => inside,
+    };
     let (key, number) = match inside.split_once('=') {
         Some((key, number)) if key.trim() == "k" => ("k", number.trim()),
         Some((key, number)) if key.trim() == "p" => ("p", number.trim()),
@@ -314,6 +327,9 @@ fn unit(text: &str) -> Result<String, String> {
     if text.contains(['±', '+', '=']) {
         return Err(format!("`{text}` is no unit"));
     }
+    if let Some(reason) = grouped_digits(text) {
+        return Err(reason);
+    }
     Ok(text.to_owned())
 }
 
@@ -349,6 +365,9 @@ mod tests {
             ("5.01 V ± 20 mV (k=2)", "V", expanded("5.01", "20 mV", "k", "2")),
             ("5.01 V ± 0.5 % (k=2)", "V", expanded("5.01", "0.5 %", "k", "2")),
             ("(5.01 ± 0.02) % (k=2)", "%", expanded("5.01", "0.02", "k", "2")),
+            ("5.01 V ± 0.02 V (k=2, p=95 %)", "V", expanded("5.01", "0.02", "k", "2")),
+            ("5.01 V ± 0.02 V (k = 2.28; 95 %)", "V", expanded("5.01", "0.02", "k", "2.28")),
+            ("3 1/s", "1/s", Stated::Exact("3".into())),
         ];
         for (text, unit, expected) in table {
             assert_eq!(read(text), (unit.to_owned(), expected), "{text}");
@@ -368,6 +387,11 @@ mod tests {
             ("5.0112 V ± 0.0046 V", "must be said"),
             ("5.0112 V ± 0.0046 (k=2)", "has no unit"),
             ("5.01 ± 1 % (k=2)", "or both are in %"),
+            ("5.01 V ± 0.02 V (k = 2,28)", "with a point"),
+            ("5 012 V", "without blanks"),
+            ("5 012.3(4) V", "without blanks"),
+            ("10 500 V ± 20 V (k=2)", "without blanks"),
+            ("10 V ± 1 020 mV (k=2)", "without blanks"),
             ("5,0112 V", "point"),
             ("about 5 V", "begin with a number"),
             ("5.01(2", "not closed"),

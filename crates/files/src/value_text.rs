@@ -31,6 +31,18 @@ fn is_comma(rest: &str) -> bool {
     digits.is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit()))
 }
 
+/// What is wrong with a unit that begins with digits, as in `1 234 V`, where the number may have been
+/// written in groups; a unit may begin with 1/.
+pub(super) fn grouped_digits(unit: &str) -> Option<String> {
+    let per = unit.strip_prefix('1').is_some_and(|rest| rest.trim_start().starts_with('/'));
+    (unit.starts_with(|c: char| c.is_ascii_digit()) && !per).then(|| {
+        format!(
+            "behind the blank stands another number (`{unit}`): digits are written without blanks, \
+             such as `1234.5`"
+        )
+    })
+}
+
 /// A number in a unit given as text, which may be one of the file's own, converted to another unit.
 ///
 /// # Errors
@@ -47,6 +59,9 @@ pub(super) fn converted(
     // also one that another file defines
     if text == unit.text().trim() {
         return Ok(value);
+    }
+    if let Some(reason) = grouped_digits(text) {
+        return Err(reason);
     }
     let given = Unit::parse_among(text, own).map_err(|error| error.to_string())?;
     if of == ValueOf::Either && given.zero() != unit.zero() {
