@@ -12,6 +12,8 @@ use super::value_text::ValueOf;
 pub(super) trait ConditionValues: Debug {
     /// The number of rows.
     fn rows(&self) -> usize;
+    /// Whether a mistake among them, which is reported already, leaves them without values.
+    fn are_unreadable(&self) -> bool;
     /// Checks a formula of conditions for an estimate or width in `unit`.
     fn check(&self, formula: &Formula, unit: &Unit, of: ValueOf)
     -> Result<(), Vec<DiagnosticKind>>;

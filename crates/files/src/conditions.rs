@@ -338,6 +338,10 @@ impl super::condition_values::ConditionValues for NoConditions {
         1
     }
 
+    fn are_unreadable(&self) -> bool {
+        false
+    }
+
     fn check(&self, formula: &Formula, _: &Unit, _: ValueOf) -> Result<(), Vec<DiagnosticKind>> {
         let kinds = |errors: Vec<FormulaError>| {
             errors.into_iter().map(|error| DiagnosticKind::Formula { error }).collect::<Vec<_>>()

@@ -100,6 +100,10 @@ impl ConditionValues for ConditionSet<'_> {
         self.conditions.rows.len()
     }
 
+    fn are_unreadable(&self) -> bool {
+        self.conditions.unreadable
+    }
+
     fn check(
         &self,
         formula: &Formula,

@@ -404,6 +404,9 @@ impl<'a> Fields<'a> {
         let Some((conditions, row)) = at else {
             return object.values("values", self.unit, self.of());
         };
+        if conditions.are_unreadable() {
+            return None;
+        }
         let mut values = Vec::new();
         for node in object.list("values")? {
             let Json::Text(text) = &node.value else {
@@ -708,7 +711,12 @@ impl<'a> Fields<'a> {
             Ok(distribution) => Some(distribution),
             Err(error) => {
                 let place = self.place_of(error.parameter());
-                let name = self.name.to_owned();
+                let name = match self.at {
+                    Some((_, row)) if readings::are_of_rows(&self.object) => {
+                        format!("{} in row {}", self.name, row + 1)
+                    }
+                    _ => self.name.to_owned(),
+                };
                 self.object.log.report(&place, DiagnosticKind::Distribution { name, error });
                 None
             }

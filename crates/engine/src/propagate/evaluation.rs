@@ -182,7 +182,20 @@ impl fmt::Display for EvaluationError {
                 }
                 let at = inputs.iter().map(|(name, v)| format!("{name} = {}", Shortest(*v)));
                 let at: Vec<String> = at.collect();
-                if at.is_empty() { Ok(()) } else { write!(f, ", at {}", at.join(", ")) }
+                if !at.is_empty() {
+                    write!(f, ", at {}", at.join(", "))?;
+                }
+                let missing = inputs.iter().filter(|(_, value)| value.is_nan());
+                let missing: Vec<&str> = missing.map(|(name, _)| name.as_str()).collect();
+                if missing.is_empty() {
+                    return Ok(());
+                }
+                write!(
+                    f,
+                    "; a fit to the drawn data of that trial finds no {}: stated uncertainties or \
+                     fewer parameters help, or allow a share of such trials (`allow_undefined`)",
+                    missing.join(", ")
+                )
             }
             Self::NotFinite { share } => write!(
                 f,
@@ -522,9 +535,13 @@ pub(super) fn differs_from_linear(gum: &Gum, figures: &MonteCarlo) -> bool {
     match figures.errors.standard_uncertainty {
         Some(error) => (u - drawn).abs() > f64::max(3.0 * error, noteworthy),
         // of few degrees of freedom it settles slowly, and of up to 3, which have no skewness, so
-        // slowly that it may still be anywhere below
+        // slowly that it may still be anywhere below, down to what the GUM says, or a little below
+        // that where the GUM has the same
         None if figures.skewness.is_some() => (u - drawn).abs() > 0.03 * drawn,
-        None => u > 1.03 * drawn || u < gum.standard_uncertainty - noteworthy,
+        None => {
+            let least = f64::min(gum.standard_uncertainty - noteworthy, 0.97 * drawn);
+            u > 1.03 * drawn || u < least
+        }
     }
 }
 

@@ -1,5 +1,7 @@
 //! The pages for a terminal, for a browser, and for GitHub.
 
+use std::borrow::Cow;
+
 use maud::html;
 
 use super::{Compare, figure, sheets, words};
@@ -25,11 +27,13 @@ fn estimators(compare: &Compare) -> Option<(Sheet, String)> {
     }
 }
 
-fn notes(compare: &Compare) -> Vec<&'static str> {
+fn notes(compare: &Compare) -> Vec<Cow<'static, str>> {
     match compare {
-        Compare::Pairs { rounding: true, .. } => vec![words::PAIRS, words::ROUNDING],
-        Compare::Pairs { .. } => vec![words::PAIRS],
-        Compare::Laboratories(_) => vec![words::LABORATORIES, words::ESTIMATORS],
+        Compare::Pairs { rounding: true, .. } => vec![words::PAIRS.into(), words::ROUNDING.into()],
+        Compare::Pairs { .. } => vec![words::PAIRS.into()],
+        Compare::Laboratories(comparison) => {
+            vec![words::laboratories(comparison).into(), words::ESTIMATORS.into()]
+        }
     }
 }
 
@@ -43,7 +47,7 @@ pub fn table(compare: &Compare) -> String {
     if let Some((sheet, said)) = estimators(compare) {
         parts.push(Grid::of(&sheet).render(width()) + &wrapped(&said));
     }
-    parts.push(paragraphs(&notes(compare)));
+    parts.push(notes(compare).iter().map(|note| wrapped(note)).collect());
     parts.join("\n")
 }
 
@@ -73,6 +77,6 @@ pub fn markdown(compare: &Compare) -> String {
         document.table(sheet);
         document.text(said);
     }
-    document.blocks.extend(notes(compare).into_iter().map(|note| Block::Text(note.to_owned())));
+    document.blocks.extend(notes(compare).into_iter().map(|note| Block::Text(note.into_owned())));
     document::markdown(&document)
 }

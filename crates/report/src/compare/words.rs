@@ -16,11 +16,29 @@ pub(super) const PAIRS: &str = "En is the modulus of the difference over its exp
 pub(super) const ROUNDING: &str = "En by the digits: what values and uncertainties that print alike \
     allow.";
 
-pub(super) const LABORATORIES: &str = "The reference value is the mean weighted by the inverse \
-    covariance matrix (Cox 2002, procedure A); it is consistent if the probability of chi-squared is \
-    at least 5 %. U of a difference (k = 2) takes into account that the reference value is made from \
-    the results. Where all are not consistent, it is made from the largest consistent subset (Cox \
-    2007).";
+/// What the figures of laboratories are.
+pub(super) fn laboratories(comparison: &Comparison) -> String {
+    let made = match comparison.estimator {
+        Estimator::WeightedMean => {
+            "The reference value is the mean of all results, weighted by the inverse covariance matrix \
+             (Cox 2002, procedure A)."
+        }
+        Estimator::LargestConsistentSubset => {
+            "The reference value is the mean of the largest consistent subset (Cox 2007), weighted by \
+             the inverse covariance matrix."
+        }
+        Estimator::Birge | Estimator::DerSimonianLaird | Estimator::MandelPaule => {
+            "The reference value is that of the estimator that was asked for, from all results, with \
+             what it adds to their uncertainties."
+        }
+    };
+    format!(
+        "{made} Results are consistent if the probability of chi-squared of their mean weighted by the \
+         stated uncertainties is at least 5 %. U of a difference (k = 2) takes into account that the \
+         reference value is made from the results; results are compatible where En is at most 1, the \
+         probability is that of a normal distribution."
+    )
+}
 
 pub(super) const ESTIMATORS: &str = "Birge multiplies all stated uncertainties by one factor; \
     DerSimonian-Laird and Mandel-Paule add one standard deviation tau between laboratories to each. \
