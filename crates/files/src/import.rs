@@ -17,8 +17,9 @@ use super::diagnostics::{Collector, Diagnostics};
 use super::reader::read_text;
 use super::source::SourceText;
 use super::{DiagnosticKind, bytes};
-use columns::{Column, Header};
+use columns::{Column, Header, HeaderCoverage};
 use gumption_engine::model::formula::{Formula, check_name};
+use gumption_engine::number::Shortest;
 use gumption_units::Unit;
 use serde_json::{Map, Value, json};
 
@@ -153,7 +154,8 @@ impl Budget<'_> {
             self.guessed.push(format!("the column `{text}` is not taken"));
         }
         let equation = self.equation();
-        let (rows, result) = self.rows(&header);
+        let measured = equation.as_ref().map(|(name, _)| name.as_str());
+        let (rows, result) = self.rows(&header, measured);
         if rows.is_empty() && self.log.is_clean() {
             self.fail(header.line, "no row below this header is a quantity".to_owned());
         }
@@ -252,7 +254,7 @@ impl Budget<'_> {
     }
 
     /// The rows of the quantities, and that of the result.
-    fn rows(&mut self, header: &Header) -> (Vec<Row>, Option<Row>) {
+    fn rows(&mut self, header: &Header, measurand: Option<&str>) -> (Vec<Row>, Option<Row>) {
         let (mut rows, mut result): (Vec<Row>, Option<Row>) = (Vec::new(), None);
         let mut empty = 0;
         for line in header.line + 1..self.cells.lines() {
@@ -268,20 +270,35 @@ impl Budget<'_> {
             }
             empty = 0;
             let mut row = Row { line, about: label.clone(), ..Row::default() };
-            let is_result = columns::is_result(&label);
+            let symbol = header.cell(self.cells, line, Column::Symbol).trim().to_owned();
+            let is_measurand = [&label, &symbol]
+                .into_iter()
+                .any(|words| measurand.is_some_and(|name| columns::identifier(words) == name));
+            let is_result = columns::is_result(&label) || is_measurand;
+            row.unit = self.unit(header, line, is_result);
+            row.estimate = self.in_unit(header, line, (Column::Estimate, is_result), &row);
+            row.width = self.in_unit(header, line, (Column::Width, is_result), &row);
+            row.std = self.in_unit(header, line, (Column::Std, is_result), &row);
             let number = |column: Column| self.number(header, line, column, is_result);
-            row.estimate = number(Column::Estimate);
-            row.width = number(Column::Width);
-            row.std = number(Column::Std);
             row.sensitivity = number(Column::Sensitivity);
             row.divisor = self.divisor(header, line);
             row.dof = number(Column::Dof).filter(|dof| dof.is_finite() && *dof < 1e6);
-            row.unit = self.unit(header, line, is_result);
+            let of_shape = header.cell(self.cells, line, Column::Distribution).trim();
+            let is_alone = row.width.is_none() && row.std.is_none() && row.sensitivity.is_none();
+            if columns::is_factor(&label) && is_alone && row.unit.is_empty() && of_shape.is_empty()
+            {
+                let text = format!("line {}: `{label}` is a coverage factor, not taken", line + 1);
+                self.understood.push(text);
+                continue;
+            }
             let nothing = row.estimate.is_none() && row.width.is_none() && row.std.is_none();
             if label.is_empty() && nothing {
                 continue;
             }
             if is_result || label.contains('=') {
+                if columns::is_of_uncertainty(&label) {
+                    row.estimate = None;
+                }
                 let known = result.get_or_insert_with(|| row.clone());
                 known.estimate = known.estimate.or(row.estimate);
                 if known.unit.is_empty() {
@@ -293,10 +310,10 @@ impl Budget<'_> {
                 self.guessed.push(format!("line {}: `{label}` has no numbers; left out", line + 1));
                 continue;
             }
-            let symbol = header.cell(self.cells, line, Column::Symbol).trim().to_owned();
             let words = if symbol.is_empty() { &label } else { &symbol };
             row.name = self.name(words, &rows, line);
             row.distribution = self.distribution(header, line);
+            self.coverage(header, &mut row);
             // the measurand stands below the quantities without an uncertainty of its own
             rows.push(row);
         }
@@ -359,6 +376,75 @@ impl Budget<'_> {
             self.fail(line, reason);
         }
         read
+    }
+
+    /// A number in the unit of its row; per cent are a share of the estimate where the unit is neither
+    /// per cent nor one.
+    fn in_unit(
+        &mut self,
+        header: &Header,
+        line: usize,
+        (column, lenient): (Column, bool),
+        row: &Row,
+    ) -> Option<f64> {
+        let value = self.number(header, line, column, lenient)?;
+        let text = header.cell(self.cells, line, column).trim();
+        if column != Column::Estimate && value < 0.0 && !lenient {
+            self.fail(line, format!("the {} `{text}` is below zero", column.name()));
+            return None;
+        }
+        if !text.ends_with('%') || row.unit.is_empty() {
+            return Some(value);
+        }
+        if row.unit == "%" {
+            return Some(100.0 * value);
+        }
+        let Some(estimate) = row.estimate.filter(|_| column != Column::Estimate) else {
+            let reason = format!("`{text}` is a share, but the unit of this row is `{}`", row.unit);
+            self.fail(line, reason);
+            return None;
+        };
+        self.guessed.push(format!(
+            "line {}: `{text}` is taken of the estimate {}",
+            line + 1,
+            Shortest(estimate)
+        ));
+        Some(value * estimate.abs())
+    }
+
+    /// The coverage factor of a row from the header of its column, and what a row's shape and divisor
+    /// do not say together.
+    fn coverage(&mut self, header: &Header, row: &mut Row) {
+        let line = row.line + 1;
+        let place = header.columns.iter().find(|(_, column)| *column == Column::Width);
+        let of_header = place
+            .filter(|_| row.width.is_some() && row.divisor.is_none())
+            .map(|(place, _)| self.cells.text(header.line, *place));
+        match of_header.map(HeaderCoverage::of) {
+            Some(HeaderCoverage::Factor(factor)) => row.divisor = Some(factor),
+            Some(HeaderCoverage::Expanded) if matches!(row.distribution, None | Some("normal")) => {
+                row.divisor = Some(2.0);
+                self.guessed.push(format!(
+                    "line {line}: `{}` is expanded, and nothing says by which factor: k = 2 is taken",
+                    row.name
+                ));
+            }
+            _ => {}
+        }
+        let shape = row.distribution.filter(|shape| *shape != "normal");
+        let uncertain = row.std.or(row.width).is_some_and(|u| u > 0.0);
+        if let Some(shape) = row.distribution.filter(|_| !uncertain) {
+            self.guessed.push(format!(
+                "line {line}: `{}` is {shape} without an uncertainty; it is taken for a constant",
+                row.name
+            ));
+        } else if let (Some(shape), true) = (shape, is_normal_here(row)) {
+            self.guessed.push(format!(
+                "line {line}: `{}` is {shape}, but its uncertainty is not half a width: a normal \
+                 distribution of that standard uncertainty is taken",
+                row.name
+            ));
+        }
     }
 
     /// A divisor: a number, or a root such as `√3` or `sqrt(3)`.
@@ -437,7 +523,7 @@ impl Budget<'_> {
                 ));
             }
         }
-        let number = |x: f64| gumption_engine::number::Shortest(x).to_string();
+        let number = |x: f64| Shortest(x).to_string();
         let sum: f64 = rows
             .iter()
             .map(|row| row.sensitivity.unwrap_or(1.0) * row.estimate.unwrap_or(0.0))
@@ -465,6 +551,28 @@ impl Budget<'_> {
     }
 }
 
+/// What a shape's half width is divided by.
+fn divisor_of(shape: &str) -> Option<f64> {
+    match shape {
+        "rectangular" => Some(3.0_f64.sqrt()),
+        "triangular" => Some(6.0_f64.sqrt()),
+        "arcsine" => Some(2.0_f64.sqrt()),
+        _ => None,
+    }
+}
+
+fn near(a: f64, b: f64) -> bool {
+    (a / b - 1.0).abs() < 0.01
+}
+
+/// Whether a row whose shape is not normal becomes a normal input: its uncertainty is a standard one,
+/// or divided by something else than the shape's divisor.
+fn is_normal_here(row: &Row) -> bool {
+    let usual = row.distribution.and_then(divisor_of);
+    row.width.is_none()
+        || row.divisor.zip(usual).is_some_and(|(divisor, usual)| !near(divisor, usual))
+}
+
 /// What an input of the model file says of a row.
 fn input(row: &Row) -> Value {
     let mut input = Map::new();
@@ -473,7 +581,6 @@ fn input(row: &Row) -> Value {
     }
     let mut put = |key: &str, value: Value| input.insert(key.to_owned(), value);
     let mean = row.estimate.unwrap_or(0.0);
-    let near = |a: f64, b: f64| (a / b - 1.0).abs() < 0.01;
     let uncertain = row.std.filter(|std| *std > 0.0).or(row.width.filter(|width| *width > 0.0));
     if uncertain.is_none() {
         put("distribution", "constant".into());
@@ -487,12 +594,7 @@ fn input(row: &Row) -> Value {
                 .map(|(_, name)| name)
         });
         let named = row.distribution.or(of_divisor).unwrap_or("normal");
-        let usual = match named {
-            "rectangular" => 3.0_f64.sqrt(),
-            "triangular" => 6.0_f64.sqrt(),
-            "arcsine" => 2.0_f64.sqrt(),
-            _ => 1.0,
-        };
+        let usual = divisor_of(named).unwrap_or(1.0);
         match named {
             "rectangular" | "triangular" | "arcsine"
                 if divisor.is_none_or(|divisor| near(divisor, usual)) =>
@@ -618,6 +720,90 @@ mod tests {
         );
         assert_eq!(of[1].name(), "rectangular");
         assert!(budget.text.contains(r#""R":"U/I""#), "{}", budget.text);
+    }
+
+    /// The standard uncertainties of a budget's inputs, in units of their own.
+    fn uncertainties(text: &str) -> (Vec<f64>, ImportedBudget) {
+        let budget = import("b.csv", text.as_bytes()).unwrap_or_else(|error| panic!("{error}"));
+        let found = task(&budget);
+        (found.rows[0].distributions.iter().map(|d| d.standard_uncertainty()).collect(), budget)
+    }
+
+    fn guesses(budget: &ImportedBudget, part: &str) -> bool {
+        budget.guessed.iter().any(|said| said.contains(part))
+    }
+
+    /// A header that names the factor of its uncertainties; before, they were taken for standard ones.
+    #[test]
+    fn expanded_uncertainties_have_the_factor_of_their_header() {
+        // u = U/k; the quantile of 0.975 is 1.959964
+        for (header, u) in [
+            ("Expanded uncertainty (k=2)", 2e-4),
+            ("U (k = 2.5)", 1.6e-4),
+            ("U (p=95 %)", 4e-4 / 1.959_963_984_540_054),
+            ("Erweiterte Messunsicherheit (k=2)", 2e-4),
+            ("Erw. Unsicherheit (k=2)", 2e-4),
+        ] {
+            let text =
+                format!("Quantity,Estimate,Unit,{header},Distribution\nm,1,kg,0.0004,normal\n");
+            let (found, budget) = uncertainties(&text);
+            assert!((found[0] / u - 1.0).abs() < 1e-12, "{header}: {found:?}");
+            assert!(!guesses(&budget, "expanded"), "{:?}", budget.guessed);
+        }
+        for header in ["U", "Expanded uncertainty", "Erweiterte Unsicherheit"] {
+            let text = format!("Quantity,Estimate,Unit,{header}\nm,1,kg,0.0004\n");
+            let (found, budget) = uncertainties(&text);
+            assert_eq!(found, [2e-4], "{header}");
+            assert!(guesses(&budget, "k = 2 is taken"), "{:?}", budget.guessed);
+        }
+    }
+
+    /// Per cent of the estimate, but of a quantity in per cent per cent.
+    #[test]
+    fn per_cent_are_of_the_estimate() {
+        let text = "Quantity,Estimate,Unit,+-,Divisor,Distribution\nx,5,V,0.4 %,2,normal\n\
+                    h,50,%,2 %,2,normal\n";
+        let (found, budget) = uncertainties(text);
+        assert!((found[0] - 0.01).abs() < 1e-15 && (found[1] - 1.0).abs() < 1e-15, "{found:?}");
+        assert!(guesses(&budget, "of the estimate 5"), "{:?}", budget.guessed);
+        let error = import("x.csv", b"quantity,estimate,unit,+-\nx,5,V,-0.1\n").unwrap_err();
+        assert!(error.to_string().contains("below zero"), "{error}");
+    }
+
+    /// The factor of a summary is no input, and what is printed beside it not the result's estimate.
+    #[test]
+    fn summaries_are_no_inputs() {
+        let text = "Quantity,Estimate,Unit,Standard uncertainty,Sensitivity coefficient\n\
+                    U,5.01,V,0.01,1\nI,2,A,0.02,3\nCombined standard uncertainty,0.061,,,\n\
+                    k,2,,,\nExpanded uncertainty,0.12,,,\n";
+        let budget = import("b.csv", text.as_bytes()).unwrap();
+        let found = task(&budget);
+        assert_eq!(found.variables.len(), 2);
+        assert!(budget.text.contains(r#""y":"U + (3)*I""#), "{}", budget.text);
+    }
+
+    /// A row that is named as the equation's left side is the result, with its unit.
+    #[test]
+    fn the_row_of_the_measurand_is_the_result() {
+        let text = "R = U/I,,,\n\nQuantity,Estimate,Unit,Standard uncertainty\n\
+                    U,5.01,V,0.01\nI,1.25,mA,0.001\nR,4.01,kohm,\n";
+        let budget = import("b.csv", text.as_bytes()).unwrap();
+        let found = task(&budget);
+        let output = &found.model.outputs[0].quantity;
+        assert_eq!((output.name.as_str(), output.unit.text()), ("R", "kohm"));
+        assert_eq!(found.variables.len(), 2);
+        assert!(!guesses(&budget, "not checked"), "{:?}", budget.guessed);
+    }
+
+    /// What a shape does not say of its uncertainty is told.
+    #[test]
+    fn other_divisors_and_missing_uncertainties_are_told() {
+        let text = "Quantity,Estimate,Unit,+-,Divisor,Distribution\nb,1,V,,,normal\n\
+                    a,1,V,0.1,2,rectangular\n";
+        let (found, budget) = uncertainties(text);
+        assert_eq!(found, [0.0, 0.05]);
+        assert!(guesses(&budget, "`a` is rectangular, but"), "{:?}", budget.guessed);
+        assert!(guesses(&budget, "`b` is normal without"), "{:?}", budget.guessed);
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! What the columns of a budget are called, in English and in German.
 
-use super::grid::Cells;
+use super::grid::{Cells, number as number_of_cell};
+use gumption_engine::special::normal;
 
 /// What a column holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -93,7 +94,11 @@ const WORDS: &[(Column, &[&str])] = &[
             "halbweite",
             "grenze",
             "grenzen",
+            "expanded measurement uncertainty",
             "erweiterte unsicherheit",
+            "erweiterte messunsicherheit",
+            "erw. unsicherheit",
+            "erw. messunsicherheit",
             "toleranz",
             "angegebene unsicherheit",
         ],
@@ -333,6 +338,71 @@ impl Header {
         let place = self.columns.iter().find(|(_, of)| *of == column);
         place.map_or("", |(place, _)| cells.text(line, *place))
     }
+}
+
+/// What a column of expanded uncertainties says of its coverage in its header.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum HeaderCoverage {
+    /// Nothing: the header does not speak of expanded uncertainties.
+    None,
+    /// The factor: `U (k=2)`, `U (p=95 %)`.
+    Factor(f64),
+    /// That they are expanded, and no more.
+    Expanded,
+}
+
+impl HeaderCoverage {
+    /// Of a header's cell.
+    pub(super) fn of(text: &str) -> Self {
+        let compact: String = text.to_lowercase().split_whitespace().collect();
+        let behind = |sign: &str| {
+            let number = compact.split_once(sign)?.1;
+            let end = |c: char| !(c.is_ascii_digit() || matches!(c, '.' | ',' | '%'));
+            let number = number.split(end).next()?.trim_end_matches([',', '.']);
+            number_of_cell(number, true)
+        };
+        if let Some(factor) = behind("k=").filter(|factor| *factor > 0.0) {
+            return Self::Factor(factor);
+        }
+        let share = behind("p=").map(|p| if p > 1.0 { p / 100.0 } else { p });
+        if let Some(p) = share.filter(|p| *p > 0.0 && *p < 1.0) {
+            return Self::Factor(normal::quantile(0.5 + 0.5 * p));
+        }
+        let words = ["expanded", "erweiterte", "erw."];
+        if words.iter().any(|word| compact.starts_with(word)) || plain_case(text) == "U" {
+            Self::Expanded
+        } else {
+            Self::None
+        }
+    }
+}
+
+/// A header without what stands in brackets.
+fn plain_case(text: &str) -> &str {
+    text.split(['(', '[']).next().unwrap_or_default().trim()
+}
+
+/// Whether a row's words are those of a coverage factor.
+pub(super) fn is_factor(words: &str) -> bool {
+    const FACTORS: [&str; 7] = [
+        "k",
+        "k factor",
+        "k-factor",
+        "k-faktor",
+        "coverage factor",
+        "erweiterungsfaktor",
+        "überdeckungsfaktor",
+    ];
+    let words = plain(words);
+    FACTORS.iter().any(|of| words == *of || words == format!("{of} k"))
+}
+
+/// Whether a row that is one of results holds an uncertainty and not the result's estimate.
+pub(super) fn is_of_uncertainty(words: &str) -> bool {
+    let words = plain(words);
+    ["uncertainty", "unsicherheit", "freedom", "freiheitsgrad"].iter().any(|of| words.contains(of))
+        || words == "combined"
+        || is_factor(&words)
 }
 
 /// Whether a row's words are those of a result.

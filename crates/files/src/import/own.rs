@@ -151,7 +151,8 @@ impl Reader<'_> {
                 self.fail(line, &format!("`{cell}` is no number"));
                 return None;
             };
-            let same = value == before || (value - before).abs() <= ROUNDING * before.abs();
+            let near = || (value - before).abs() <= ROUNDING * before.abs();
+            let same = value == before || before.is_finite() && near();
             *now = (!same).then_some(value);
         }
         Some(now)
