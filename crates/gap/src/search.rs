@@ -311,6 +311,27 @@ impl<'l> Moments<'l> {
     }
 }
 
+/// Adds what one value gives to a gradient, a multiple of its slopes, and to a packed information,
+/// a multiple of their products.
+#[inline(always)]
+fn add_products(
+    gradient: &mut [f64],
+    information: &mut [f64],
+    first: f64,
+    second: f64,
+    slopes: &[f64],
+) {
+    for ((t, slope), gradient) in slopes.iter().enumerate().zip(gradient) {
+        if *slope == 0.0 {
+            continue;
+        }
+        *gradient += first * slope;
+        let row = information[triangle(t)..].iter_mut().zip(&slopes[..=t]);
+        let slope = second * slope;
+        row.for_each(|(cell, other)| *cell += slope * other);
+    }
+}
+
 impl Visitor for Moments<'_> {
     #[inline(always)]
     fn row(&mut self, row: usize, residuals: &[Column], ln_variances: &[Column]) {
@@ -321,37 +342,22 @@ impl Visitor for Moments<'_> {
                 let lane = number * (unknowns + 1);
                 let r = residual.0[lane];
                 group.square += r * r;
-                for t in 0..unknowns {
-                    group.slopes[t] =
-                        if self.noise[t] { 0.0 } else { (residual.0[lane + 1 + t] - r) / STEP };
+                let moved = &residual.0[lane + 1..][..unknowns];
+                for ((slope, moved), noise) in group.slopes.iter_mut().zip(moved).zip(&self.noise) {
+                    *slope = if *noise { 0.0 } else { (moved - r) / STEP };
                 }
-                for t in 0..unknowns {
-                    let slope = group.slopes[t];
-                    group.gradient[t] += r * slope;
-                    for s in 0..=t {
-                        group.information[triangle(t) + s] += slope * group.slopes[s];
-                    }
-                }
+                add_products(&mut group.gradient, &mut group.information, r, 1.0, &group.slopes);
                 if self.fitted {
                     let ln = ln_variance.0[lane];
                     group.half_ln_variances += 0.5 * ln;
-                    for t in 0..unknowns {
-                        group.ln_slopes[t] = if self.noise[t] {
-                            (ln_variance.0[lane + 1 + t] - ln) / STEP
-                        } else {
-                            0.0
-                        };
+                    let moved = &ln_variance.0[lane + 1..][..unknowns];
+                    let slopes = group.ln_slopes.iter_mut().zip(moved).zip(&self.noise);
+                    for ((slope, moved), noise) in slopes {
+                        *slope = if *noise { (moved - ln) / STEP } else { 0.0 };
                     }
-                    for t in 0..unknowns {
-                        let slope = group.ln_slopes[t];
-                        if slope != 0.0 {
-                            group.gradient[t] += 0.5 * (1.0 - r * r) * slope;
-                            for s in 0..=t {
-                                group.information[triangle(t) + s] +=
-                                    0.5 * slope * group.ln_slopes[s];
-                            }
-                        }
-                    }
+                    let excess = 0.5 * (1.0 - r * r);
+                    let Group { gradient, information, ln_slopes, .. } = group;
+                    add_products(gradient, information, excess, 0.5, ln_slopes);
                 }
                 if self.basis.is_empty() {
                     continue;
