@@ -314,6 +314,7 @@ impl Budget<'_> {
             row.name = self.name(words, &rows, line);
             row.distribution = self.distribution(header, line);
             self.coverage(header, &mut row);
+            self.contradictions(&row);
             // the measurand stands below the quantities without an uncertainty of its own
             rows.push(row);
         }
@@ -412,8 +413,7 @@ impl Budget<'_> {
         Some(value * estimate.abs())
     }
 
-    /// The coverage factor of a row from the header of its column, and what a row's shape and divisor
-    /// do not say together.
+    /// The coverage factor of a row from the header of its column.
     fn coverage(&mut self, header: &Header, row: &mut Row) {
         let line = row.line + 1;
         let place = header.columns.iter().find(|(_, column)| *column == Column::Width);
@@ -431,6 +431,11 @@ impl Budget<'_> {
             }
             _ => {}
         }
+    }
+
+    /// Says what a row's shape, uncertainty and divisor do not say together.
+    fn contradictions(&mut self, row: &Row) {
+        let line = row.line + 1;
         let shape = row.distribution.filter(|shape| *shape != "normal");
         let uncertain = row.std.or(row.width).is_some_and(|u| u > 0.0);
         if let Some(shape) = row.distribution.filter(|_| !uncertain) {
@@ -551,14 +556,12 @@ impl Budget<'_> {
     }
 }
 
+/// Shapes that are stated by a half width, and the square of what that is divided by.
+const HALF_WIDTHS: [(&str, f64); 3] = [("rectangular", 3.0), ("triangular", 6.0), ("arcsine", 2.0)];
+
 /// What a shape's half width is divided by.
 fn divisor_of(shape: &str) -> Option<f64> {
-    match shape {
-        "rectangular" => Some(3.0_f64.sqrt()),
-        "triangular" => Some(6.0_f64.sqrt()),
-        "arcsine" => Some(2.0_f64.sqrt()),
-        _ => None,
-    }
+    HALF_WIDTHS.iter().find(|(name, _)| *name == shape).map(|(_, square)| square.sqrt())
 }
 
 fn near(a: f64, b: f64) -> bool {
@@ -588,17 +591,12 @@ fn input(row: &Row) -> Value {
     } else if let (Some(width), divisor) = (row.width.filter(|width| *width > 0.0), row.divisor) {
         // a divisor of root 3, 6 or 2 stands for a shape where none is named
         let of_divisor = divisor.and_then(|divisor| {
-            [(3.0_f64, "rectangular"), (6.0, "triangular"), (2.0, "arcsine")]
-                .into_iter()
-                .find(|(square, _)| near(divisor, square.sqrt()))
-                .map(|(_, name)| name)
+            let shape = HALF_WIDTHS.iter().find(|(_, square)| near(divisor, square.sqrt()));
+            shape.map(|(name, _)| *name)
         });
         let named = row.distribution.or(of_divisor).unwrap_or("normal");
-        let usual = divisor_of(named).unwrap_or(1.0);
-        match named {
-            "rectangular" | "triangular" | "arcsine"
-                if divisor.is_none_or(|divisor| near(divisor, usual)) =>
-            {
+        match divisor_of(named) {
+            Some(usual) if divisor.is_none_or(|divisor| near(divisor, usual)) => {
                 put("distribution", named.into());
                 put("mean", json!(mean));
                 put("half_width", json!(width));

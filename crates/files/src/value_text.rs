@@ -43,6 +43,17 @@ pub(super) fn grouped_digits(unit: &str) -> Option<String> {
     })
 }
 
+/// The unit that stands behind a number; it may be one of the file's own.
+///
+/// # Errors
+/// Why it is none, as a sentence without a capital.
+pub(super) fn unit_behind_number(text: &str, own: &[Unit]) -> Result<Unit, String> {
+    match grouped_digits(text) {
+        Some(reason) => Err(reason),
+        None => Unit::parse_among(text, own).map_err(|error| error.to_string()),
+    }
+}
+
 /// A number in a unit given as text, which may be one of the file's own, converted to another unit.
 ///
 /// # Errors
@@ -60,10 +71,7 @@ pub(super) fn converted(
     if text == unit.text().trim() {
         return Ok(value);
     }
-    if let Some(reason) = grouped_digits(text) {
-        return Err(reason);
-    }
-    let given = Unit::parse_among(text, own).map_err(|error| error.to_string())?;
+    let given = unit_behind_number(text, own)?;
     if of == ValueOf::Either && given.zero() != unit.zero() {
         return Err(format!(
             "nothing tells whether it is a temperature or a difference of temperatures; write it \

@@ -4,7 +4,7 @@
 use super::DiagnosticKind;
 use super::diagnostics::Collector;
 use super::json::{Json, Node};
-use super::value_text::grouped_digits;
+use super::value_text::unit_behind_number;
 use gumption_units::Unit;
 
 /// A width that may follow the estimate: `relative` times its modulus, plus `absolute`.
@@ -157,10 +157,7 @@ fn converted(
     if text == unit.text().trim() {
         return Ok(value);
     }
-    if let Some(reason) = grouped_digits(text) {
-        return Err(format!("in `{term}`: {reason}"));
-    }
-    let given = Unit::parse_among(text, own).map_err(|error| format!("in `{term}`: {error}"))?;
+    let given = unit_behind_number(text, own).map_err(|error| format!("in `{term}`: {error}"))?;
     let factor = Unit::conversion_factor(&given, unit)
         .map_err(|_| format!("`{text}` in `{term}` cannot be converted to the unit `{unit}`"))?;
     Ok(value * factor)

@@ -9,19 +9,22 @@ use super::{
 /// An object of a file, as messages call it, and its keys.
 type Home = (&'static str, &'static [Key]);
 
+/// The objects of a model file beside its inputs, whose keys depend on their distributions.
+const OF_MODELS: &[Home] = &[
+    ("a model file", MODEL),
+    ("`monte_carlo`", MONTE_CARLO),
+    ("an output", OUTPUT),
+    ("`tolerance`", TOLERANCE),
+    ("a condition", CONDITION),
+    ("a fit", FIT),
+    ("an effect", EFFECT),
+    ("`observations`", OBSERVATIONS),
+    ("an observed output", OBSERVED),
+];
+
 /// The objects of each kind of file, the outer ones first.
 const FILES: [&[Home]; 3] = [
-    &[
-        ("a model file", MODEL),
-        ("`monte_carlo`", MONTE_CARLO),
-        ("an output", OUTPUT),
-        ("`tolerance`", TOLERANCE),
-        ("a condition", CONDITION),
-        ("a fit", FIT),
-        ("an effect", EFFECT),
-        ("`observations`", OBSERVATIONS),
-        ("an observed output", OBSERVED),
-    ],
+    OF_MODELS,
     &[
         ("a certificate file", CERTIFICATE),
         ("a row", CERTIFICATE_ROW),
@@ -41,27 +44,23 @@ const FILES: [&[Home]; 3] = [
     ],
 ];
 
-/// The objects that an input is made of, whose keys depend on their distributions.
+/// What an input is called, and what it may be made of.
 const OF_INPUTS: [&str; 2] = ["an input", "a component"];
 
 /// The objects of the file around an object which have a key of this name, in words; none where the
 /// object is not one of those above.
 pub(crate) fn homes(key: &str, object: &str) -> Vec<&'static str> {
-    let is_of = |file: &&&[Home]| file.iter().any(|(what, _)| *what == object);
-    let of_input = OF_INPUTS.contains(&object);
-    let models = FILES.first().filter(|_| of_input);
-    let Some(file) = models.or_else(|| FILES.iter().find(is_of)) else { return Vec::new() };
-    let others = file
-        .iter()
-        .filter(|(what, keys)| *what != object && keys.iter().any(|known| known.name == key));
-    let mut homes: Vec<&'static str> = others.map(|(what, _)| *what).collect();
-    let is_model = FILES.first().is_some_and(|models| std::ptr::eq(*models, *file));
-    let is_of_inputs = || {
-        let mut shapes = SHAPES.iter().flat_map(|shape| shape.fields);
-        INPUT.contains(&key) || COMPONENT.contains(&key) || shapes.any(|field| *field == key)
-    };
-    if is_model && !of_input && is_of_inputs() {
-        homes.push("an input");
-    }
-    homes
+    let is_of_input = OF_INPUTS.contains(&object);
+    let holds = |file: &[Home]| file.iter().any(|(what, _)| *what == object);
+    let file =
+        if is_of_input { Some(OF_MODELS) } else { FILES.into_iter().find(|file| holds(file)) };
+    let has_key = |home: &&Home| home.0 != object && home.1.iter().any(|known| known.name == key);
+    let homes = file.unwrap_or_default().iter().filter(has_key).map(|(what, _)| *what);
+    let input = (holds(OF_MODELS) && is_key_of_inputs(key)).then_some("an input");
+    homes.chain(input).collect()
+}
+
+fn is_key_of_inputs(key: &str) -> bool {
+    let mut shapes = SHAPES.iter().flat_map(|shape| shape.fields);
+    INPUT.contains(&key) || COMPONENT.contains(&key) || shapes.any(|field| *field == key)
 }
