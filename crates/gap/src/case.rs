@@ -1,7 +1,7 @@
 //! A case of the gap diagnosis: a model, what was measured, and the effects that may be missing.
 
 use crate::{Effect, OverridableModel, OverrideError, Replication};
-use gumption_engine::distribution::{Distribution, LogUniform, Normal, Rectangular};
+use gumption_engine::distribution::Distribution;
 use gumption_engine::model::Program;
 use gumption_engine::task::Task;
 
@@ -89,18 +89,18 @@ impl Case {
         Ok(())
     }
 
-    /// The same where what is known of the effects' parameters beforehand is [`WIDER`] times as wide,
-    /// of two effects at most: more wide ones together would explain anything.
-    pub(crate) fn with_wide_priors(&self) -> Self {
-        let mut wide = self.clone();
-        wide.prior = Prior { three: 0.0, ..wide.prior };
-        for place in 0..wide.candidates.len() {
+    /// The same with other priors of the listed parameters, of two effects at most: more wide ones
+    /// together would explain anything.
+    pub(crate) fn with_priors(&self, other: impl Fn(&Distribution) -> Distribution) -> Self {
+        let mut case = self.clone();
+        case.prior = Prior { three: 0.0, ..case.prior };
+        for place in 0..case.candidates.len() {
             let listed = self.listed_parameters(place);
-            for prior in wide.candidates[place].priors.iter_mut().take(listed) {
-                *prior = widened(prior);
+            for prior in case.candidates[place].priors.iter_mut().take(listed) {
+                *prior = other(prior);
             }
         }
-        wide
+        case
     }
 
     fn recorded(&self, effects: &[usize]) -> Result<Program, OverrideError> {
@@ -114,31 +114,6 @@ impl Case {
         self.recorded(effects).expect("effects that were checked")
     }
 }
-
-/// A prior that is [`WIDER`] times as wide; one with a form that has no width of its own stays.
-fn widened(prior: &Distribution) -> Distribution {
-    let wide = match prior {
-        Distribution::Normal(_) => {
-            Normal::new(prior.mean(), WIDER * prior.standard_uncertainty()).map(Into::into)
-        }
-        Distribution::Rectangular(_) => {
-            let half_width = prior.quantile(0.75) - prior.quantile(0.25);
-            Rectangular::new(prior.mean(), WIDER * half_width).map(Into::into)
-        }
-        Distribution::LogUniform(_) => {
-            let ends = [prior.quantile(0.25), prior.quantile(0.75)];
-            let ratio = ends[1] / ends[0];
-            let [low, high] = [ends[0] / ratio.sqrt(), ends[1] * ratio.sqrt()];
-            LogUniform::new(low / WIDER, high * WIDER).map(Into::into)
-        }
-        _ => return prior.clone(),
-    };
-    // what is not finite once it is wider stays as it is
-    wide.unwrap_or_else(|_| prior.clone())
-}
-
-/// By how much priors are widened where they contradict the data.
-pub(crate) const WIDER: f64 = 10.0;
 
 impl Prior {
     /// The prior of a file that says nothing of it.

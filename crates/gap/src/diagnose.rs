@@ -17,6 +17,7 @@ use super::noise_model::NoiseModel;
 use super::notes::notes;
 use super::parameters::{equal_tails, parameters, present};
 use super::posterior::{Effort, Posterior};
+use super::prior_widths::{self, OtherPriors};
 use super::setup::Setup;
 use super::weighed::{Weighed, names, rival};
 use super::weighed_noise::WeighedNoise;
@@ -92,12 +93,13 @@ fn diagnosed(
 ) -> Result<Diagnosis, OverrideError> {
     case.check()?;
     let seed = options.seed;
-    let wide = case.with_wide_priors();
+    let others = OtherPriors::of(case);
     let effort = Effort { stop, ..Effort::FULL };
-    let weighed = Weighed::new(case, &wide, seed, effort, &|share| progress(0.6 * share));
+    let weighed = Weighed::new(case, &others, seed, effort, &|share| progress(0.6 * share));
     let group = weighed.indistinguishable();
     let verdict = weighed.most_probable(&group);
     let Weighed {
+        wide_priors,
         prior_conflicts,
         departure,
         composed,
@@ -164,6 +166,10 @@ fn diagnosed(
         code: "prior-conflict",
         text: prior_conflict::note(conflict),
     }));
+    if wide_priors {
+        let text = prior_widths::note(&verdict.effects);
+        notes.push(DiagnosisNote { code: "wide-priors", text });
+    }
     if let Some(note) = at.and_then(|at| extrapolated(&setup, &posterior, at)) {
         notes.push(note);
     }

@@ -36,6 +36,7 @@ mod parameters;
 mod posterior;
 mod predict;
 mod prior_conflict;
+mod prior_widths;
 mod profile_path;
 mod reachable;
 mod replication;

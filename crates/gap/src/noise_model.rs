@@ -14,6 +14,7 @@ use super::discrepancy::Discrepancy;
 use super::latent::{Map, Role};
 use super::logarithm::ln_add;
 use super::posterior::{self, Effort, MANY_VALUES, Posterior, WeighedHypothesis};
+use super::prior_widths::{self, Begun, OtherPriors, PriorWidths};
 use super::setup::Setup;
 use super::whitened::{self, WhitenedResiduals};
 use crate::{Case, Prior};
@@ -24,6 +25,10 @@ use gumption_engine::number::elementary;
 /// The factor on stated uncertainties is log-uniform between these.
 const FACTORS: [f64; 2] = [0.25, 10.0];
 
+/// Prior probability that the noise and the priors are as they are stated. It and those of all else
+/// count relative to each other; what was not tried takes nothing from them.
+const PRIOR_AS_STATED: f64 = 0.35;
+
 /// Prior probability that stated uncertainties are off by a factor.
 const PRIOR_FACTOR: f64 = 0.2;
 
@@ -32,9 +37,6 @@ const PRIOR_SUSPECT: f64 = 0.15;
 
 /// Prior probability that there is one more, once there is one.
 const PRIOR_ANOTHER: f64 = 0.3;
-
-/// Prior probability that the priors of the effects' parameters are too narrow.
-const PRIOR_CONFLICT: f64 = 0.05;
 
 /// Prior probability that neighbouring rows share noise.
 const PRIOR_SERIAL: f64 = 0.25;
@@ -57,13 +59,9 @@ const SUSPECT_SIZE: f64 = 10.0;
 /// Values that are off, at most.
 const MOST_SUSPECTS: usize = 5;
 
-/// A value is suspected where that may come to have this posterior probability.
-const WORTH_TRYING: f64 = 0.02;
-
-/// Pairs with wider priors are tried where what no effect within its prior explains has more than
-/// this probability, and of them those with one of the best single effects.
-const WORTH_PAIRS: f64 = 0.05;
-const MEMBERS: usize = 3;
+/// A value is suspected, or other priors are tried, where that may come to have this posterior
+/// probability.
+pub(crate) const WORTH_TRYING: f64 = 0.02;
 
 /// Half the step of differences in the scores.
 const STEP: f64 = 1e-4;
@@ -198,7 +196,7 @@ impl NoiseModel {
             return PRIOR_SERIAL / SERIAL.len() as f64;
         }
         let mut prior = match self.suspects.len() {
-            0 => return 1.0 - PRIOR_FACTOR - PRIOR_SUSPECT - PRIOR_SERIAL - PRIOR_CONFLICT,
+            0 => return PRIOR_AS_STATED,
             _ => PRIOR_SUSPECT,
         };
         for more in 0..self.suspects.len() {
@@ -212,22 +210,23 @@ impl NoiseModel {
 
 /// The hypotheses weighed with one noise model.
 pub(crate) struct Weighing<'c> {
-    /// Whether the priors of the effects' parameters are wider than stated.
-    pub(crate) wide: bool,
+    /// How wide the priors of the effects' parameters are.
+    pub(crate) widths: PriorWidths,
     pub(crate) setup: Setup<'c>,
     pub(crate) discrepancy: Discrepancy,
     pub(crate) posterior: Posterior,
-    /// Prior probability of the noise model.
+    /// Prior probability of the noise model, or of priors of other widths.
     prior: f64,
     /// Its posterior probability.
     pub(crate) probability: f64,
 }
 
 /// The hypotheses weighed with every noise model that the data do not rule out, the one as stated
-/// first; and with wider priors, which `wide` has, where the stated ones contradict the data.
+/// first; and with priors of other widths where the stated ones contradict the data or may hide what
+/// explains them.
 pub(crate) fn weighings<'c>(
     case: &'c Case,
-    wide: &'c Case,
+    others: &'c OtherPriors,
     seed: u64,
     effort: Effort<'_>,
     progress: &(dyn Fn(f64) + Sync),
@@ -249,7 +248,14 @@ pub(crate) fn weighings<'c>(
                 progress(from + (to - from) * share);
             },
         );
-        Weighing { wide: false, setup, discrepancy, posterior, prior, probability: 0.0 }
+        Weighing {
+            widths: PriorWidths::AsStated,
+            setup,
+            discrepancy,
+            posterior,
+            prior,
+            probability: 0.0,
+        }
     };
     let weighing = |setup: Setup<'c>, prior: f64, known: &[Weighing<'c>], parts: [f64; 2]| {
         let singles = posterior::singles(&setup, seed, effort);
@@ -276,15 +282,15 @@ pub(crate) fn weighings<'c>(
             weighings.push(weighing(setup, prior, &weighings, [0.7, 0.7]));
         }
     }
-    let conflict = if few && !effort.is_stopped() {
-        prior_conflict(wide, &weighings, seed, effort)
-    } else {
-        None
-    };
-    if let Some(conflict) = conflict {
-        let mut of_wide = begun(conflict, PRIOR_CONFLICT, &weighings, [0.7, 0.8]);
-        of_wide.wide = true;
-        weighings.push(of_wide);
+    for widths in [PriorWidths::Wider, PriorWidths::Narrower] {
+        if !few || effort.is_stopped() {
+            break;
+        }
+        let other = prior_widths::begin(widths, others, &weighings, seed, effort);
+        if let Some(other) = other {
+            let prior = widths.prior();
+            weighings.push(Weighing { widths, ..begun(other, prior, &weighings, [0.7, 0.8]) });
+        }
     }
     for _ in 0..if few { MOST_SUSPECTS } else { 0 } {
         if effort.is_stopped() {
@@ -302,12 +308,12 @@ pub(crate) fn weighings<'c>(
 }
 
 /// The logarithm of prior probabilities times evidences, summed.
-fn ln_total(weighings: &[Weighing<'_>]) -> f64 {
+pub(crate) fn ln_total(weighings: &[Weighing<'_>]) -> f64 {
     weighings.iter().map(Weighing::ln_weight).fold(f64::NEG_INFINITY, ln_add)
 }
 
 impl Weighing<'_> {
-    fn ln_weight(&self) -> f64 {
+    pub(crate) fn ln_weight(&self) -> f64 {
         elementary::ln(self.prior) + self.posterior.ln_evidence
     }
 }
@@ -389,50 +395,6 @@ pub(crate) fn lag(coefficient: f64, before: usize, here: usize) -> f64 {
     (1..gap).fold(coefficient, |lag, _| lag * coefficient)
 }
 
-/// A setup with its single effects begun, and the pairs to be tried.
-type Begun<'c> = (Setup<'c>, Vec<WeighedHypothesis>, Vec<Vec<usize>>);
-
-/// Every effect alone with a wider prior, where one explains the data so much better than anything
-/// else that the conflict may be probable; and where nothing explains them that its prior does not
-/// hold back, pairs with wider priors.
-fn prior_conflict<'c>(
-    wide: &'c Case,
-    weighings: &[Weighing<'_>],
-    seed: u64,
-    effort: Effort<'_>,
-) -> Option<Begun<'c>> {
-    let setup = Setup::new(wide).sharing(&weighings.first()?.setup);
-    let singles = posterior::singles(&setup, seed, effort);
-    let effects = singles.iter().filter(|h| !h.effects.is_empty());
-    let own = effects.clone().map(WeighedHypothesis::ln_weight).fold(f64::NEG_INFINITY, ln_add);
-    let own = own + elementary::ln(PRIOR_CONFLICT);
-    let total = ln_add(own, ln_total(weighings));
-    let pairs = if ln_held_back(weighings) - total > elementary::ln(WORTH_PAIRS) {
-        let mut best: Vec<&WeighedHypothesis> = effects.collect();
-        best.sort_by(|a, b| b.ln_weight().total_cmp(&a.ln_weight()));
-        best.truncate(MEMBERS);
-        let has =
-            |pair: &Vec<usize>| best.iter().any(|h| h.effects.iter().all(|e| pair.contains(e)));
-        wide.pairs().into_iter().filter(has).collect()
-    } else {
-        Vec::new()
-    };
-    let is_worth = !pairs.is_empty() || own - ln_total(weighings) > elementary::ln(WORTH_TRYING);
-    is_worth.then_some((setup, singles, pairs))
-}
-
-/// The logarithm of prior probabilities times evidences of what no effect within its prior explains:
-/// hypotheses with a parameter that its prior holds back, and "unexplained".
-fn ln_held_back(weighings: &[Weighing<'_>]) -> f64 {
-    let of = |weighing: &Weighing<'_>| {
-        let Weighing { setup, posterior, .. } = weighing;
-        let held = posterior.hypotheses.iter().filter(|h| h.is_held_back(setup));
-        let share = posterior.probability + held.map(|h| h.probability).sum::<f64>();
-        weighing.ln_weight() + elementary::ln(share.max(f64::MIN_POSITIVE))
-    };
-    weighings.iter().map(of).fold(f64::NEG_INFINITY, ln_add)
-}
-
 /// Posterior probabilities of the noise models.
 fn weigh(weighings: &mut [Weighing<'_>]) {
     let total = ln_total(weighings);
@@ -448,9 +410,9 @@ pub(crate) fn most_probable(weighings: &[Weighing<'_>]) -> usize {
         .unwrap_or(0)
 }
 
-/// Whether wider priors than stated are most probable.
-pub(crate) fn is_prior_conflict(weighings: &[Weighing<'_>]) -> bool {
-    weighings[most_probable(weighings)].wide
+/// How wide the priors are that are most probable.
+pub(crate) fn most_probable_widths(weighings: &[Weighing<'_>]) -> PriorWidths {
+    weighings[most_probable(weighings)].widths
 }
 
 /// A set of values that are off which may be worth an evidence of its own: the last one that was
@@ -458,7 +420,7 @@ pub(crate) fn is_prior_conflict(weighings: &[Weighing<'_>]) -> bool {
 fn more_suspects(weighings: &[Weighing<'_>]) -> Option<Vec<Suspect>> {
     let is_known = |w: &&Weighing<'_>| {
         let noise = &w.setup.data.noise;
-        !noise.factor && noise.serial.is_none() && !w.wide
+        !noise.factor && noise.serial.is_none() && w.widths == PriorWidths::AsStated
     };
     let last = weighings.iter().rfind(is_known)?;
     let values = last.setup.data.len();

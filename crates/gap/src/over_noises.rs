@@ -9,6 +9,7 @@ use super::evidence::EvidenceEstimate;
 use super::latent::Role;
 use super::noise_model::{Weighing, most_probable};
 use super::posterior::{Posterior, WeighedHypothesis};
+use super::prior_widths::PriorWidths;
 use super::setup::Setup;
 use gumption_engine::number::Column;
 
@@ -23,9 +24,9 @@ const LEAST_SHARE: f64 = 0.01;
 pub(crate) fn summed(mut weighings: Vec<Weighing<'_>>) -> (Setup<'_>, Discrepancy, Posterior) {
     let most = most_probable(&weighings);
     let mut first = weighings.swap_remove(most);
-    if let (true, Some(stated)) = (first.wide, weighings.first_mut()) {
-        // few pairs are among the hypotheses with wider priors; the draws of the others are of other
-        // priors
+    let other = first.widths != PriorWidths::AsStated;
+    if let (true, Some(stated)) = (other, weighings.first_mut()) {
+        // few pairs are among the hypotheses with other priors, whose draws those of the rest are not
         let own = &mut first.posterior.hypotheses;
         let theirs = std::mem::take(&mut stated.posterior.hypotheses);
         let (known, pairs): (Vec<_>, Vec<_>) =

@@ -1,9 +1,9 @@
 //! Effects that explain the data with a size that their prior all but excludes.
 
-use super::case::WIDER;
 use super::diagnosis::PriorConflict;
 use super::noise_model::Weighing;
 use super::parameters::parameters;
+use super::prior_widths::{PriorWidths, WIDER};
 use super::weighed::names;
 use crate::Case;
 use gumption_engine::distribution::Distribution;
@@ -22,7 +22,7 @@ pub(crate) fn conflicts(
     coverage: f64,
 ) -> Vec<PriorConflict> {
     let mut found = Vec::new();
-    for weighing in weighings.iter().filter(|weighing| weighing.wide) {
+    for weighing in weighings.iter().filter(|weighing| weighing.widths == PriorWidths::Wider) {
         for hypothesis in &weighing.posterior.hypotheses {
             let probability = hypothesis.probability * weighing.probability;
             if probability < LEAST {

@@ -3,6 +3,7 @@
 use super::diagnose::{hypotheses, prediction};
 use super::diagnosis::{Hypothesis, MostProbable, Predicted};
 use super::posterior::Effort;
+use super::prior_widths::OtherPriors;
 use super::shrink;
 use super::weighed::Weighed;
 use crate::{Case, OverrideError};
@@ -31,8 +32,8 @@ pub fn noise(case: &Case, seed: u64) -> Result<Vec<Vec<f64>>, OverrideError> {
     let data = super::data::Data::new(case);
     let stated: Option<Vec<Vec<f64>>> = data.uncertainties.into_iter().collect();
     Ok(stated.unwrap_or_else(|| {
-        let wide = case.with_wide_priors();
-        let weighed = Weighed::new(case, &wide, seed, Effort::QUICK, &|_| {});
+        let others = OtherPriors::of(case);
+        let weighed = Weighed::new(case, &others, seed, Effort::QUICK, &|_| {});
         let outputs = weighed.setup.data.outputs.len();
         (0..outputs)
             .map(|output| {
@@ -57,8 +58,8 @@ pub fn nominal(case: &Case) -> Vec<Vec<f64>> {
 /// Effects that cannot act on the model.
 pub fn select_model(case: &Case, seed: u64) -> Result<ModelSelection, OverrideError> {
     case.check()?;
-    let wide = case.with_wide_priors();
-    let weighed = Weighed::new(case, &wide, seed, Effort::QUICK, &|_| {});
+    let others = OtherPriors::of(case);
+    let weighed = Weighed::new(case, &others, seed, Effort::QUICK, &|_| {});
     let rows: Vec<Row> = case.task.rows.clone();
     let group = weighed.indistinguishable();
     Ok(ModelSelection {

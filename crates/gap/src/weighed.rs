@@ -13,6 +13,7 @@ use super::over_noises;
 use super::posterior::{Effort, Posterior};
 use super::predict;
 use super::prior_conflict;
+use super::prior_widths::{self, OtherPriors, PriorWidths};
 use super::setup::Setup;
 use super::shrink::Correction;
 use super::unlisted;
@@ -36,6 +37,8 @@ const RIVAL: f64 = 1e-4;
 pub(crate) struct Weighed<'c> {
     /// Whether wider priors than stated are most probable.
     pub(crate) prior_conflict: bool,
+    /// Whether the verdict's effects are more probable than "unexplained" only with narrower priors.
+    pub(crate) wide_priors: bool,
     /// Effects whose priors the data contradict.
     pub(crate) prior_conflicts: Vec<PriorConflict>,
     /// What is known of a departure that no candidate makes.
@@ -64,16 +67,17 @@ pub(crate) struct Weighed<'c> {
 }
 
 impl<'c> Weighed<'c> {
-    /// `wide` is the case with wider priors.
+    /// `others` is the case with priors of other widths.
     pub(crate) fn new(
         case: &'c Case,
-        wide: &'c Case,
+        others: &'c OtherPriors,
         seed: u64,
         effort: Effort<'_>,
         progress: &(dyn Fn(f64) + Sync),
     ) -> Self {
-        let weighings = noise_model::weighings(case, wide, seed, effort, progress);
-        let prior_conflict = noise_model::is_prior_conflict(&weighings);
+        let weighings = noise_model::weighings(case, others, seed, effort, progress);
+        let prior_conflict = noise_model::most_probable_widths(&weighings) == PriorWidths::Wider;
+        let hidden = prior_widths::hidden(&weighings);
         let prior_conflicts =
             prior_conflict::conflicts(case, &weighings, super::diagnose::coverage(case));
         let noise = WeighedNoise::of(&weighings);
@@ -88,6 +92,7 @@ impl<'c> Weighed<'c> {
             })
             .unwrap_or(0);
         let explained = posterior.hypotheses[best].probability >= posterior.probability;
+        let wide_priors = explained && hidden.contains(&posterior.hypotheses[best].effects);
         let correction = if explained {
             Correction::Effects(posterior.hypotheses[best].effects.clone())
         } else {
@@ -96,6 +101,7 @@ impl<'c> Weighed<'c> {
         let variances = noise_variances(&setup, &posterior, best, explained);
         Self {
             prior_conflict,
+            wide_priors,
             prior_conflicts,
             departure,
             composed,

@@ -2,6 +2,7 @@
 
 use super::{candidate, case, line, normal, observed};
 use crate::expected_entropy::{Detail, Normals, Outlook, expected_loss, ln_odds};
+use crate::prior_widths::OtherPriors;
 use crate::{
     Case, Diagnosis, DiagnosisOptions, HypothesisKind, Prior, ProposalKind, ProposedMeasurement,
     diagnose,
@@ -256,9 +257,9 @@ fn promises_are_kept() {
     let row =
         Row { conditions: best.kind.conditions().unwrap().to_vec(), ..case.task.rows[0].clone() };
     // the truth is drawn from the posterior: a hypothesis, then its parameters
-    let wide = case.with_wide_priors();
+    let others = OtherPriors::of(&case);
     let weighed =
-        crate::weighed::Weighed::new(&case, &wide, 1, crate::posterior::Effort::FULL, &|_| {});
+        crate::weighed::Weighed::new(&case, &others, 1, crate::posterior::Effort::FULL, &|_| {});
     let mut total = 0.0;
     let sets = 100;
     let chances: Vec<f64> = weighed

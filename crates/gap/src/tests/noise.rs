@@ -147,6 +147,32 @@ fn two_effects_far_outside_their_priors_are_named() {
     }
 }
 
+#[test]
+fn priors_that_are_much_too_wide_do_not_hide_an_effect() {
+    // an offset of one and a half standard uncertainties in every row
+    let residuals: Vec<f64> = normals(30, 11).into_iter().map(|z| 0.1 * z + 0.15).collect();
+    let with_priors = |scale: f64| {
+        let mut case = line_with(&residuals);
+        case.candidates[0].priors = vec![normal(0.0, 0.4 * scale)];
+        case.candidates[1].priors = vec![normal(0.0, 0.05 * scale)];
+        let found = diagnosed(&case, 1);
+        let is_told = found.notes.iter().any(|note| note.code == "wide-priors");
+        (found.most_probable.effects, found.most_probable.probability, is_told)
+    };
+    for scale in [1.0, 3.0, 10.0] {
+        let (effects, probability, is_told) = with_priors(scale);
+        assert_eq!(effects, ["offset"], "{scale}");
+        assert!(probability > 0.85 && !is_told, "{scale}: {probability}");
+    }
+    // the stated priors speak for a departure without a name
+    let (effects, probability, is_told) = with_priors(100.0);
+    assert_eq!(effects, ["offset"]);
+    assert!(probability > 0.5 && is_told, "{probability}");
+    // nothing helps against any width: a tenth of this one is still 270 times the offset
+    let (effects, probability, _) = with_priors(1000.0);
+    assert!(effects.is_empty() && probability < 0.9, "{probability}");
+}
+
 /// An oscillation of 70 periods in 200 rows: the mode of its frequency is a thousandth of the prior
 /// wide, and none of the draws of the prior is near it.
 fn oscillation() -> Case {
