@@ -17,7 +17,7 @@ def measured(arguments, kept):
     """Measures; an interrupted run goes on where it stopped if it is told to."""
     paths = arguments.paths.split(",")
     binaries = arguments.workload_binary, arguments.command_binary
-    plan = Plan(*binaries, paths, arguments.quick, arguments.rounds)
+    plan = Plan(*binaries, paths, arguments.quick, arguments.rounds, arguments.before)
     if arguments.resume:
         results = json.loads(kept.read_text())
     else:
@@ -36,6 +36,7 @@ def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--workload-binary", required=True)
     parser.add_argument("--command-binary", required=True)
+    parser.add_argument("--before", help="the program in an earlier version, for what users wait for")
     parser.add_argument("--paths", required=True, help="code paths, slowest first")
     parser.add_argument("--quick", action="store_true")
     parser.add_argument("--rounds", type=int, default=9, help="of a comparison, at most")

@@ -7,6 +7,7 @@ import subprocess
 import sys
 import time
 
+import waits
 from contest import Contender, contest
 
 CONDITIONS = 384  # of W3
@@ -16,8 +17,8 @@ PEERS = os.path.join(os.path.dirname(__file__), "..", "peers.py")
 class Plan:
     """`paths`: the machine's code paths, slowest first."""
 
-    def __init__(self, workload_binary, command_binary, paths, quick, most_rounds):
-        self.binary, self.command = workload_binary, command_binary
+    def __init__(self, workload_binary, command_binary, paths, quick, most_rounds, before=None):
+        self.binary, self.command, self.before = workload_binary, command_binary, before
         self.paths, self.quick = paths, quick
         self.most_rounds = most_rounds
         self.best = paths[-1]
@@ -223,12 +224,22 @@ class Plan:
             ]
         return done
 
+    # -------------------------------------------------------------------------- whole commands
+
+    def waits(self):
+        """Commands that users wait for, and the same of an earlier version if there is one."""
+        programs = {"after": self.command}
+        if self.before:
+            programs = {"before": self.before, **programs}
+        return waits.measured(programs, self.rounds(3), self.quick, self.say)
+
     def parts(self):
         """What is measured, by name."""
         return {
             "workloads": self.workloads,
             "adaptive": self.adaptive,
             "process": self.process,
+            "waits": self.waits,
             "inputs": self.inputs,
             "threads": self.threads,
             "large": self.large,

@@ -131,6 +131,39 @@ def large(results):
     return "## Large models\n\n" + text + table(head, rows)
 
 
+def waits(results):
+    """Commands that users wait for, of the earlier version as well where it was measured."""
+    found = results.get("waits")
+    if not found:
+        return ""
+    with_before = "before" in found[0]["runs"]
+    rows = []
+    for wait in found:
+        cells = [wait["what"]]
+        figures = []
+        for name in ("before", "after") if with_before else ("after",):
+            runs = wait["runs"][name]
+            if not runs:
+                cells.append("refused")
+                figures.append(None)
+                continue
+            figures.append(statistics.median(runs))
+            cells.append(seconds(figures[-1]))
+        if with_before:
+            times = figures[0] / figures[1] if all(figures) else None
+            cells.append(f"{times:.3g} x" if times else "")
+        goal = wait["goal"]
+        met = goal and figures[-1] is not None and figures[-1] <= goal
+        cells.append(f"<= {seconds(goal)}: {'met' if met else 'not met'}" if goal else "")
+        rows.append(cells)
+    head = ["", "before", "after", "times as fast", "goal"]
+    if not with_before:
+        head = ["", "CPU", "goal"]
+    text = "Whole commands, from process start to exit, in processor time of all threads"
+    text += "; before is the version of before the crates.\n\n" if with_before else ".\n\n"
+    return "## What users wait for\n\n" + text + table(head, rows)
+
+
 def with_capped(results):
     """The curve of trials with the capped run at its end."""
     curve = {name: list(points) for name, points in results["trials"].items()}
@@ -174,5 +207,5 @@ def generator(text):
 
 def write(results, generator_text):
     parts = [opening(results), goals(results), workloads(results), agreement(results)]
-    parts += [curves(results), large(results), generator(generator_text)]
-    return "\n".join(parts)
+    parts += [curves(results), large(results), waits(results), generator(generator_text)]
+    return "\n".join(part for part in parts if part)

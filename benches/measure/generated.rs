@@ -14,6 +14,7 @@ const FORMULA_INPUTS: usize = 10;
 fn read(model: &Value, trials: u64) -> Result<Task, Diagnostics> {
     let mut task = read_text("generated", &model.to_string(), "".as_ref(), &[])?.task;
     task.settings.trials = Trials::Fixed(trials);
+    task.settings.coverage = 0.95.into();
     Ok(task)
 }
 

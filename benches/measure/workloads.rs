@@ -36,6 +36,8 @@ pub fn model(text: &str, trials: u64) -> Result<Task, String> {
     let file = read_text("model", text, Path::new(MODELS), &[]).map_err(|e| e.to_string())?;
     let mut task = file.task;
     task.settings.trials = Trials::Fixed(trials);
+    // as the other tools have it
+    task.settings.coverage = 0.95.into();
     Ok(task)
 }
 

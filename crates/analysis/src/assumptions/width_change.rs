@@ -185,11 +185,14 @@ fn half_length(values: &mut [f64], probability: f64) -> f64 {
         return f64::NAN;
     }
     let ranks = Ranks::new(values.len() as u64, probability);
-    let mut at = |rank: u64| {
-        let place = (rank as usize).clamp(1, values.len()) - 1;
-        *values.select_nth_unstable_by(place, f64::total_cmp).1
+    let place = |rank: u64| (rank as usize).clamp(1, values.len()) - 1;
+    let (lower, upper) = (place(ranks.r), place(ranks.r + ranks.q));
+    let (_, &mut low, above) = values.select_nth_unstable_by(lower, f64::total_cmp);
+    // the upper end is among those above the lower one
+    let high = match upper.checked_sub(lower + 1) {
+        Some(place) => *above.select_nth_unstable_by(place, f64::total_cmp).1,
+        None => low,
     };
-    let (low, high) = (at(ranks.r), at(ranks.r + ranks.q));
     0.5 * high - 0.5 * low
 }
 

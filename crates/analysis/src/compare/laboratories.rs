@@ -147,7 +147,8 @@ impl Results {
         let n = members.len();
         let part = DMatrix::from_fn(n, n, |i, j| self.covariance[(members[i], members[j])]);
         let residuals = deviations.add_scalar(-mean);
-        let chi_squared = residuals.dot(&part.cholesky()?.solve(&residuals)).max(0.0);
+        // a zero has no sign
+        let chi_squared = residuals.dot(&part.cholesky()?.solve(&residuals)).max(0.0) + 0.0;
         let dof = n - 1;
         let p_value =
             if dof == 0 { 1.0 } else { special::gamma::sf(0.5 * chi_squared, 0.5 * dof as f64) };

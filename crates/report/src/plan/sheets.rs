@@ -49,6 +49,15 @@ pub(super) fn inputs(report: &PlanReport<'_>) -> Sheet {
     sheet
 }
 
+/// A cost as it adds up: in whole units of the currency from 100 on.
+fn cost(of: f64) -> String {
+    match of.abs() {
+        0.0 => "0".to_owned(),
+        large if large >= 100.0 => to(of, Some(0)),
+        _ => significant(of, DIGITS),
+    }
+}
+
 /// The cheapest combination.
 pub(super) fn cheapest(report: &PlanReport<'_>, plan: &CheapestPlan) -> Sheet {
     let inputs = &plan.inputs;
@@ -74,8 +83,21 @@ pub(super) fn cheapest(report: &PlanReport<'_>, plan: &CheapestPlan) -> Sheet {
     sheet.text("how", with(inputs.iter().map(how).collect(), ""));
     let header =
         if currency.is_empty() { "cost".to_owned() } else { format!("cost\nin {currency}") };
-    let cost = |cost: f64| if cost == 0.0 { "0".to_owned() } else { significant(cost, DIGITS) };
     let costs = inputs.iter().map(|of| cost(of.cost)).collect();
     sheet.numbers(&header, with(costs, &cost(plan.cost)));
     sheet
+}
+
+#[cfg(test)]
+mod tests {
+    use super::cost;
+
+    /// 1500 and 104 make 1604, not 1600.
+    #[test]
+    fn costs_add_up() {
+        assert_eq!(
+            [1500.0, 104.0, 1604.0, 99.5, 0.125].map(cost),
+            ["1500", "104", "1604", "99.5", "0.125"]
+        );
+    }
 }

@@ -154,44 +154,84 @@ pub(super) struct Cell {
     high: f64,
 }
 
-/// The values of a quantity at standard normal ones: cells on \[-9, 9\], `None` where the quantile
-/// function itself has to be taken.
+/// Places of the table: those of cells, and further ones without a cell.
+const PLACES: usize = 128;
+
+/// A place without a cell, for what lies outside of the table.
+const OUTSIDE: i32 = PLACES as i32 - 1;
+
+/// The values of a quantity at standard normal ones: cells on \[-9, 9\]. Where there is none the
+/// figures are no numbers, and the quantile function itself has to be taken.
 #[derive(Clone, Debug)]
 pub(super) struct Table {
     distribution: Arc<Distribution>,
     mean: f64,
-    cells: Vec<Option<Cell>>,
+    /// For each power its coefficients by place.
+    polynomials: Box<[[f64; PLACES]; NODES]>,
+    low: Box<[f64; PLACES]>,
+    high: Box<[f64; PLACES]>,
 }
 
 impl Table {
+    fn new(distribution: &Arc<Distribution>, mean: f64, cells: &[Option<Cell>]) -> Self {
+        let none = || Box::new([f64::NAN; PLACES]);
+        let (mut low, mut high) = (none(), none());
+        let mut polynomials = Box::new([[f64::NAN; PLACES]; NODES]);
+        for (place, cell) in cells.iter().enumerate().take(OUTSIDE as usize) {
+            let Some(cell) = cell else { continue };
+            (low[place], high[place]) = (cell.low, cell.high);
+            for (powers, coefficient) in polynomials.iter_mut().zip(cell.polynomial) {
+                powers[place] = coefficient;
+            }
+        }
+        Self { distribution: Arc::clone(distribution), mean, polynomials, low, high }
+    }
+
     /// Whether both are of the same distribution.
     pub(super) fn is_of(&self, other: &Self) -> bool {
         self.distribution == other.distribution
     }
 
-    /// A function of its own, compiled once, so that it has the same bits in every compiled form
-    /// of the inner loop.
-    #[inline(never)]
+    /// The values of a column, operation by operation, so that several are made at a time.
+    #[inline(always)]
     pub(super) fn values(&self, z: &[f64; COLUMN], out: &mut [f64; COLUMN]) {
-        for (&z, out) in z.iter().zip(out) {
+        let mut places = [OUTSIDE; COLUMN];
+        let mut t = [0.0; COLUMN];
+        for ((place, t), z) in places.iter_mut().zip(&mut t).zip(z) {
             let position = (z + f64::from(TABLE) * WIDTH) / WIDTH;
-            // what lies left of the table would be converted to 0
-            let number = if position >= 0.0 { position as usize } else { usize::MAX };
-            *out = match self.cells.get(number) {
-                Some(Some(cell)) => {
-                    let t = 2.0 * (position - number as f64) - 1.0;
-                    let value = self.mean + horner(&cell.polynomial, t);
-                    value.max(cell.low).min(cell.high)
-                }
-                _ => at_normal(&self.distribution, z),
-            };
+            let is_inside = position >= 0.0 && position < f64::from(2 * TABLE);
+            *place = if is_inside { position as i32 } else { OUTSIDE };
+            *t = 2.0 * (position - f64::from(*place)) - 1.0;
+        }
+        let at = |of: &[f64; PLACES], place: i32| of[place as usize % PLACES];
+        let mut sums = [0.0; COLUMN];
+        for powers in self.polynomials.iter().rev() {
+            for ((sum, t), place) in sums.iter_mut().zip(&t).zip(&places) {
+                *sum = *sum * t + at(powers, *place);
+            }
+        }
+        let mut all = true;
+        for ((out, sum), place) in out.iter_mut().zip(&sums).zip(&places) {
+            *out = (self.mean + sum).max(at(&self.low, *place)).min(at(&self.high, *place));
+            all &= !out.is_nan();
+        }
+        if !all {
+            self.fill(z, out);
+        }
+    }
+
+    /// The quantile function where the table has no cell.
+    #[inline(never)]
+    fn fill(&self, z: &[f64; COLUMN], out: &mut [f64; COLUMN]) {
+        for (z, out) in z.iter().zip(out).filter(|(_, out)| out.is_nan()) {
+            *out = at_normal(&self.distribution, *z);
         }
     }
 
     /// How many cells with |z| below 6 need the quantile function itself.
     #[cfg(test)]
     fn exact_cells(&self) -> usize {
-        self.cells.iter().skip(12).take(48).filter(|cell| cell.is_none()).count()
+        self.low.iter().skip(12).take(48).filter(|low| low.is_nan()).count()
     }
 }
 
@@ -211,7 +251,7 @@ impl Profile {
             distribution.saved().map_or_else(|| distribution.mean(), SavedResult::drawn_mean);
         let std = distribution.standard_deviation();
         let (profile, cells) = Self::new(mean, std, |z| at_normal(distribution, z));
-        (profile, Table { distribution: Arc::clone(distribution), mean, cells })
+        (profile, Table::new(distribution, mean, &cells))
     }
 
     /// The profile of a rising function of z with this mean and standard deviation, and the cells
