@@ -15,8 +15,11 @@ const MEMORY: usize = 256 << 20;
 /// are added up.
 const TILE: usize = 32;
 
+/// Pairs whose sums run side by side.
+const TOGETHER: usize = 4;
+
 /// Adds the products of a block's values to the sums; `count` trials of the block count. Every pair
-/// is added up by itself, so the tiles do not show in the sums.
+/// is added up by itself, so neither the tiles nor what runs side by side shows in the sums.
 #[inline(always)]
 pub(super) fn add<'s>(
     values: &[[f64; BLOCK]],
@@ -29,26 +32,66 @@ pub(super) fn add<'s>(
     for (output, products) in products.iter_mut().enumerate() {
         products.resize(outputs.saturating_sub(output + 1), 0.0);
     }
+    let mut rows = vec![[0.0; BLOCK]; outputs.min(TILE)];
+    let mut columns = vec![[0.0; BLOCK]; outputs.saturating_sub(TILE).min(TILE)];
     for first in (0..outputs).step_by(TILE) {
+        let own = first..(first + TILE).min(outputs);
+        standardize(&values[own.clone()], count, &plans[own.clone()], &mut rows);
         for second in (first..outputs).step_by(TILE) {
-            for i in first..(first + TILE).min(outputs) {
-                let (a, about_a) = (&values[i][..count], plans[i].reference);
-                let inverse_a = 1.0 / about_a.scale;
-                for j in second.max(i + 1)..(second + TILE).min(outputs) {
-                    let (b, about_b) = (&values[j][..count], plans[j].reference);
-                    let inverse_b = 1.0 / about_b.scale;
-                    let mut lanes = [0.0; LANES];
-                    for (a, b) in a.chunks(LANES).zip(b.chunks(LANES)) {
-                        for l in 0..a.len().min(b.len()) {
-                            let d = (a[l] - about_a.middle) * inverse_a;
-                            lanes[l] += d * ((b[l] - about_b.middle) * inverse_b);
-                        }
-                    }
-                    products[i][j - i - 1] += pairwise(lanes);
+            let others = second..(second + TILE).min(outputs);
+            if second > first {
+                standardize(&values[others.clone()], count, &plans[others.clone()], &mut columns);
+            }
+            let columns = if second > first { &columns } else { &rows };
+            for i in own.clone() {
+                let a = &rows[i - first];
+                let from = second.max(i + 1);
+                let others = columns.get(from - second..others.end - second).unwrap_or_default();
+                let mut sums = products[i].iter_mut().skip(from - i - 1);
+                let (together, rest) = others.as_chunks::<TOGETHER>();
+                for b in together {
+                    let found = sums_of_products(a, b, count);
+                    found.into_iter().zip(&mut sums).for_each(|(found, sum)| *sum += found);
+                }
+                for (b, sum) in rest.iter().zip(&mut sums) {
+                    let [found] = sums_of_products(a, std::array::from_ref(b), count);
+                    *sum += found;
                 }
             }
         }
     }
+}
+
+/// The first `count` values about their outputs' references, then zeros.
+#[inline(always)]
+fn standardize(values: &[[f64; BLOCK]], count: usize, plans: &[Plan], out: &mut [[f64; BLOCK]]) {
+    for ((values, plan), out) in values.iter().zip(plans).zip(out) {
+        let inverse = 1.0 / plan.reference.scale;
+        let middle = plan.reference.middle;
+        for (value, out) in values[..count].iter().zip(out.iter_mut()) {
+            *out = (value - middle) * inverse;
+        }
+        out[count..].fill(0.0);
+    }
+}
+
+/// The sums of products of the first `count` values, in lanes, then lane by lane.
+#[inline(always)]
+fn sums_of_products<const N: usize>(
+    a: &[f64; BLOCK],
+    b: &[[f64; BLOCK]; N],
+    count: usize,
+) -> [f64; N] {
+    let mut lanes = [[0.0; LANES]; N];
+    let b: [&[[f64; LANES]]; N] = std::array::from_fn(|n| b[n].as_chunks().0);
+    for (chunk, a) in a.as_chunks::<LANES>().0.iter().enumerate().take(count.div_ceil(LANES)) {
+        for (lanes, b) in lanes.iter_mut().zip(b) {
+            for ((lane, a), b) in lanes.iter_mut().zip(a).zip(&b[chunk]) {
+                *lane += a * b;
+            }
+        }
+    }
+    lanes.map(pairwise)
 }
 
 /// Some chunks in waves.
