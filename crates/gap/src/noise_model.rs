@@ -131,11 +131,21 @@ impl NoiseModel {
         Role::Noise { output, map }
     }
 
-    /// The prior probabilities of hypotheses with it, from those with the noise as stated.
-    pub(crate) fn hypotheses(&self, stated: Prior) -> Prior {
-        if *self == Self::default() {
-            return stated;
+    /// The prior probabilities of a case's hypotheses with it. Where no uncertainties are stated nobody
+    /// has seen that the data depart by more than they should, and the noise is not as stated either.
+    pub(crate) fn hypotheses(&self, case: &Case) -> Prior {
+        let mut observed = case.observed.iter().flatten();
+        let is_stated = observed.any(|of| of.standard_uncertainties.is_some());
+        if is_stated && *self == Self::default() {
+            case.prior
+        } else {
+            Self::other_than_stated(case.prior)
         }
+    }
+
+    /// The prior probabilities of hypotheses with a noise that is not as stated, from those with the
+    /// noise as stated.
+    pub(crate) fn other_than_stated(stated: Prior) -> Prior {
         let total = 1.0 + (EXPLAINED_AWAY - 1.0) * stated.none;
         let Prior { none, one, two, three, unexplained } = stated;
         Prior {
@@ -145,11 +155,6 @@ impl NoiseModel {
             three: three / total,
             unexplained: unexplained / total,
         }
-    }
-
-    /// The prior probabilities of hypotheses with a noise that is not as stated.
-    pub(crate) fn other_than_stated(stated: Prior) -> Prior {
-        Self::with_factor().hypotheses(stated)
     }
 
     /// The noise at a uniform number between 0 and 1, from the prior probabilities of those that are
@@ -348,7 +353,7 @@ fn serial_correlations(weighings: &[Weighing<'_>]) -> Vec<f64> {
 
 /// By how much the logarithm of the prior probability of a hypothesis rises if the noise is another.
 fn ln_explained_away(setup: &Setup<'_>, hypothesis: &WeighedHypothesis) -> f64 {
-    let other = NoiseModel::with_factor().hypotheses(setup.case.prior);
+    let other = NoiseModel::other_than_stated(setup.case.prior);
     let (here, there) = (setup.prior(), other);
     let [here, there] = if hypothesis.effects.is_empty() {
         [here.none, there.none]

@@ -7,7 +7,7 @@
 use super::discrepancy::Discrepancy;
 use super::evidence::EvidenceEstimate;
 use super::latent::Role;
-use super::noise_model::{Weighing, most_probable};
+use super::noise_model::{NoiseModel, Weighing, most_probable};
 use super::posterior::{Posterior, WeighedHypothesis};
 use super::prior_widths::PriorWidths;
 use super::setup::Setup;
@@ -39,7 +39,7 @@ pub(crate) fn summed(mut weighings: Vec<Weighing<'_>>) -> (Setup<'_>, Discrepanc
         }));
     }
     let Weighing { setup, discrepancy, mut posterior, probability: own_share, .. } = first;
-    let stated = setup.case.prior;
+    let stated = NoiseModel::default().hypotheses(setup.case);
     let scale = |of: f64, own: f64| if own > 0.0 { of / own } else { 1.0 };
     let own = setup.prior();
     for hypothesis in &mut posterior.hypotheses {

@@ -123,7 +123,7 @@ impl<'c> Setup<'c> {
 
     /// Prior probabilities of the hypotheses.
     pub(crate) fn prior(&self) -> Prior {
-        self.data.noise.hypotheses(self.case.prior)
+        self.data.noise.hypotheses(self.case)
     }
 
     /// Whether an output states uncertainties of which a factor is estimated.

@@ -3,8 +3,8 @@
 use serde::{Deserialize, Serialize};
 
 use super::truth::Scores;
-use crate::Prior;
 use crate::noise_model::{DrawnNoise, NoiseModel};
+use crate::{Case, Prior};
 use gumption_engine::number::elementary;
 
 /// What the noise of blind draws is.
@@ -70,11 +70,11 @@ impl NoiseOfDraw {
         of
     }
 
-    /// The prior probabilities of the hypotheses with it.
-    pub(super) fn hypotheses(&self, stated: Prior) -> Prior {
+    /// The prior probabilities of a case's hypotheses with it.
+    pub(super) fn hypotheses(&self, case: &Case) -> Prior {
         match self.kind {
-            DrawnNoise::AsStated => stated,
-            _ => NoiseModel::other_than_stated(stated),
+            DrawnNoise::AsStated => NoiseModel::default().hypotheses(case),
+            _ => NoiseModel::other_than_stated(case.prior),
         }
     }
 

@@ -100,7 +100,7 @@ pub fn truth(
             NoiseOfDraw::drawn(case.task.rows.len(), noise.len(), stated, &mut own)
         }
     };
-    let (kind, effects) = choose(case, drawn.hypotheses(case.prior), &mut scores);
+    let (kind, effects) = choose(case, drawn.hypotheses(case), &mut scores);
     Ok(make(case, noise, drawn, kind, &effects, scores))
 }
 

@@ -147,6 +147,20 @@ fn two_effects_far_outside_their_priors_are_named() {
     }
 }
 
+/// With the noise estimated, chance makes a slope or an offset of two standard uncertainties in one
+/// set of twenty for each. Three of 24 sets come by chance in 5 % of all runs where 4 % are alarms;
+/// the seeds are fixed.
+#[test]
+fn noise_that_is_not_stated_is_seldom_a_gap() {
+    let alarms = (0..24).filter(|seed| {
+        let residuals: Vec<f64> = normals(30, 100 + seed).into_iter().map(|z| 0.1 * z).collect();
+        let mut case = line_with(&residuals);
+        case.observed[0].as_mut().unwrap().standard_uncertainties = None;
+        diagnosed(&case, 1).most_probable.kind != HypothesisKind::None
+    });
+    assert!(alarms.count() <= 2);
+}
+
 #[test]
 fn priors_that_are_much_too_wide_do_not_hide_an_effect() {
     // an offset of one and a half standard uncertainties in every row
