@@ -5,6 +5,7 @@
 
 mod columns;
 mod grid;
+mod linear;
 mod own;
 mod pint;
 mod suncal;
@@ -18,7 +19,8 @@ use super::reader::read_text;
 use super::source::SourceText;
 use super::{DiagnosticKind, bytes};
 use columns::{Column, Header, HeaderCoverage};
-use gumption_engine::model::formula::{Formula, check_name};
+use linear::standard_uncertainty;
+use gumption_engine::model::formula::{Formula, Scope, Typing, check_name};
 use gumption_engine::number::Shortest;
 use gumption_units::Unit;
 use serde_json::{Map, Value, json};
@@ -173,13 +175,48 @@ impl Budget<'_> {
         match &equation {
             Some((_, formula)) => {
                 self.understood.push(format!("the equation {measurand} = {formula}"));
+                self.unused(&rows, &measurand, formula);
+                let unit = if unit.is_empty() {
+                    self.unit_of_equation(&rows, &measurand, formula)
+                } else {
+                    unit
+                };
                 let model = |checked| document(title, &rows, &measurand, &unit, formula, checked);
                 self.checked(model)
             }
             None => {
-                let formula = self.linear(&rows, result.as_ref(), &measurand);
-                Some(document(title, &rows, &measurand, &unit, &formula, false))
+                let linear = self.linear(&header, &rows, result.as_ref(), &measurand)?;
+                Some(document(title, &rows, &measurand, &linear.unit, &linear.formula, false))
             }
+        }
+    }
+
+    /// The usual unit of what an equation gives; empty for a plain number or after a mistake.
+    fn unit_of_equation(&mut self, rows: &[Row], measurand: &str, formula: &str) -> String {
+        let mut scope = Scope::new();
+        for row in rows {
+            let unit = Unit::parse(&row.unit).unwrap_or_default();
+            scope.define(row.name.as_str(), Typing::in_unit(&unit));
+        }
+        let typing = Formula::parse(formula).ok().and_then(|formula| formula.check(&scope).ok());
+        let dimension = typing.and_then(|typing| typing.dimension).filter(|of| !of.is_none());
+        let Some(unit) = dimension.map(|dimension| dimension.usual_unit()) else {
+            return String::new();
+        };
+        self.guessed.push(format!("the unit of {measurand} is not given: `{unit}` is taken"));
+        unit
+    }
+
+    /// Says which rows the equation does not name.
+    fn unused(&mut self, rows: &[Row], measurand: &str, formula: &str) {
+        let Ok(formula) = Formula::parse(formula) else { return };
+        let used: Vec<&str> = formula.names().map(|(name, _)| name).collect();
+        for row in rows.iter().filter(|row| !used.contains(&row.name.as_str())) {
+            self.guessed.push(format!(
+                "line {}: `{}` is not in the equation of {measurand}: it contributes nothing",
+                row.line + 1,
+                row.name
+            ));
         }
     }
 
@@ -318,21 +355,18 @@ impl Budget<'_> {
             // the measurand stands below the quantities without an uncertainty of its own
             rows.push(row);
         }
-        // the last row without an uncertainty is the result, where every other one has one
-        let bare = |row: &Row| row.width.is_none() && row.std.is_none();
+        // an equation names its result itself
         if result.is_none()
-            && rows.len() > 1
-            && rows.last().is_some_and(bare)
-            && rows.iter().rev().skip(1).all(|row| !bare(row))
+            && let Some(reason) = last_is_result(&rows)
+            && (measurand.is_none() || reason == NO_UNCERTAINTY)
+            && let Some(last) = rows.pop()
         {
-            result = rows.pop();
-            if let Some(result) = &result {
-                self.guessed.push(format!(
-                    "line {}: `{}` has no uncertainty of its own and is taken for the result",
-                    result.line + 1,
-                    result.about
-                ));
-            }
+            self.guessed.push(format!(
+                "line {}: `{}` {reason} and is taken for the result",
+                last.line + 1,
+                last.about
+            ));
+            result = Some(last);
         }
         if let Some(result) = &mut result
             && columns::is_result(&result.about)
@@ -507,53 +541,36 @@ impl Budget<'_> {
         }
         found
     }
+}
 
-    /// The linear model of the sensitivity coefficients.
-    fn linear(&mut self, rows: &[Row], result: Option<&Row>, measurand: &str) -> String {
-        let with = rows.iter().filter(|row| row.sensitivity.is_some()).count();
-        if with == 0 {
-            self.guessed.push(format!(
-                "there is neither an equation nor a column of sensitivity coefficients: {measurand} \
-                 is taken for the sum of the quantities"
-            ));
-        } else {
-            let said = "the linear model of the sensitivity coefficients, which are in units of the \
-                        result per unit of the quantity";
-            self.understood.push(said.to_owned());
-            for row in rows.iter().filter(|row| row.sensitivity.is_none()) {
-                self.guessed.push(format!(
-                    "line {}: `{}` has no sensitivity coefficient; 1 is taken",
-                    row.line + 1,
-                    row.name
-                ));
-            }
-        }
-        let number = |x: f64| Shortest(x).to_string();
-        let sum: f64 = rows
-            .iter()
-            .map(|row| row.sensitivity.unwrap_or(1.0) * row.estimate.unwrap_or(0.0))
-            .sum();
-        let estimate = result.and_then(|result| result.estimate);
-        let mut terms = Vec::new();
-        match estimate {
-            Some(estimate) if (estimate - sum).abs() > 1e-9 * estimate.abs().max(sum.abs()) => {
-                terms.push(number(estimate - sum));
-            }
-            Some(_) => {}
-            None if with > 0 => self.guessed.push(format!(
-                "the estimate of {measurand} is not given: that of the linear model is taken, {}",
-                number(sum)
-            )),
-            None => {}
-        }
-        for row in rows {
-            terms.push(match row.sensitivity.unwrap_or(1.0) {
-                1.0 => row.name.clone(),
-                factor => format!("({})*{}", number(factor), row.name),
-            });
-        }
-        terms.join(" + ")
+/// Why the last row of a budget is taken for its result.
+const NO_UNCERTAINTY: &str = "has no uncertainty of its own";
+
+/// Why the last row is the result and no quantity, if it is: it lacks what every other one has, or it
+/// is their sum with their combined uncertainty.
+fn last_is_result(rows: &[Row]) -> Option<&'static str> {
+    let (last, others) = rows.split_last().filter(|(_, others)| !others.is_empty())?;
+    let bare = |row: &Row| row.width.is_none() && row.std.is_none();
+    if bare(last) {
+        return others.iter().all(|row| !bare(row)).then_some(NO_UNCERTAINTY);
     }
+    if last.distribution.is_some() || last.sensitivity.is_some() {
+        return None;
+    }
+    if others.iter().all(|row| row.sensitivity.is_some()) {
+        return Some("has neither a sensitivity coefficient nor a distribution");
+    }
+    // a sum of two rows may be a third one by chance, with its uncertainty as well hardly
+    let near = |a: f64, b: f64| (a - b).abs() <= 0.01 * a.abs().max(b.abs());
+    let of = |row: &Row| row.sensitivity.unwrap_or(1.0);
+    let sum: f64 = others.iter().map(|row| of(row) * row.estimate.unwrap_or(0.0)).sum();
+    let squares = others.iter().filter_map(|row| Some((of(row) * standard_uncertainty(row)?).powi(2)));
+    let combined = squares.sum::<f64>().sqrt();
+    let stated = last.std.or(last.width)?;
+    let is_sum = last.estimate.is_some_and(|estimate| near(estimate, sum));
+    let is_combined = near(stated, combined) || near(stated, 2.0 * combined);
+    (others.len() > 1 && is_sum && is_combined)
+        .then_some("is the sum of the others with their combined uncertainty")
 }
 
 /// Shapes that are stated by a half width, and the square of what that is divided by.
@@ -759,8 +776,8 @@ mod tests {
     /// Per cent of the estimate, but of a quantity in per cent per cent.
     #[test]
     fn per_cent_are_of_the_estimate() {
-        let text = "Quantity,Estimate,Unit,+-,Divisor,Distribution\nx,5,V,0.4 %,2,normal\n\
-                    h,50,%,2 %,2,normal\n";
+        let text = "Quantity,Estimate,Unit,+-,Divisor,Distribution,c_i\n\
+                    x,5,V,0.4 %,2,normal,1\nh,50,%,2 %,2,normal,0.02\n";
         let (found, budget) = uncertainties(text);
         assert!((found[0] - 0.01).abs() < 1e-15 && (found[1] - 1.0).abs() < 1e-15, "{found:?}");
         assert!(guesses(&budget, "of the estimate 5"), "{:?}", budget.guessed);
@@ -802,6 +819,91 @@ mod tests {
         assert_eq!(found, [0.0, 0.05]);
         assert!(guesses(&budget, "`a` is rectangular, but"), "{:?}", budget.guessed);
         assert!(guesses(&budget, "`b` is normal without"), "{:?}", budget.guessed);
+    }
+
+    /// Quantities in units of one dimension are added in one of them; before, as bare numbers.
+    #[test]
+    fn sums_are_in_one_unit() {
+        let text = "Quantity,Estimate,Unit,Standard uncertainty\n\
+                    a,5,V,0.002\nb,2,mV,1\n";
+        let (found, budget) = uncertainties(text);
+        assert_eq!(found, [0.002, 1.0]);
+        assert!(budget.text.contains(r#""y":"a + (0.001)*b""#), "{}", budget.text);
+        assert_eq!(task(&budget).model.outputs[0].quantity.unit.text(), "V");
+        assert!(guesses(&budget, "`b` in mV is converted to V"), "{:?}", budget.guessed);
+        for (row, part) in [
+            ("b,2,A,1", "`b` is in `A`, the result in `V`"),
+            ("b,2,,1", "`b` is without a unit, the result in `V`"),
+        ] {
+            let text = format!("Quantity,Estimate,Unit,Standard uncertainty\na,5,V,0.002\n{row}\n");
+            let error = import("b.csv", text.as_bytes()).unwrap_err().to_string();
+            assert!(error.contains(part), "{error}");
+        }
+    }
+
+    /// A coefficient of a quantity in mV, of a result in V: with its unit, without it, and the same
+    /// number in both readings.
+    #[test]
+    fn coefficients_have_units() {
+        let table = |rows: &str| {
+            let head = "Quantity,Estimate,Unit,Standard uncertainty,c_i,Unit of c_i";
+            format!("{head}\n{rows}\nResult,5.002,V,,,\n")
+        };
+        for rows in [
+            "a,5,V,0.002,1,V/V\nb,2,mV,1,1,V/V",
+            "a,5,V,0.002,1,1\nb,2,mV,1,0.001,V/mV",
+            "a,5,V,0.002,1,1\nb,2,mK,1,1,V/K",
+            "a,5,V,0.002,1,\nb,2,mV,1,0.001,",
+        ] {
+            let budget = import("b.csv", table(rows).as_bytes()).unwrap();
+            assert!(budget.text.contains(r#""y":"a + (0.001)*b""#), "{}", budget.text);
+        }
+        // the contribution tells which
+        let text = "Quantity,Estimate,Unit,Standard uncertainty,c_i,Contribution\n\
+                    a,5,V,0.002,1,2 mV\nb,2,mV,1,1,1 mV\nResult,5.002,V,,,\n";
+        let budget = import("b.csv", text.as_bytes()).unwrap();
+        assert!(budget.text.contains(r#""y":"a + (0.001)*b""#), "{}", budget.text);
+        assert!(!guesses(&budget, "contributes"), "{:?}", budget.guessed);
+        for (rows, part) in [
+            ("a,5,V,0.002,1,\nb,2,mV,1,1,", "can be 1 V/mV or 1 V/V"),
+            ("a,5,V,0.002,1,1\nb,2,mV,1,1,V/A", "a coefficient in `V/A` times `mV`"),
+            ("a,5,V,0.002,1,1\nb,2,mV,1,1,V/foo", "`V/foo` of the coefficient is not known"),
+        ] {
+            let error = import("b.csv", table(rows).as_bytes()).unwrap_err().to_string();
+            assert!(error.contains(part), "{error}");
+        }
+    }
+
+    /// A result below its quantities that has an uncertainty, but neither a coefficient nor a shape.
+    #[test]
+    fn the_last_row_may_be_the_result() {
+        for text in [
+            "Quantity,Estimate,Unit,Standard uncertainty,Distribution,c_i\n\
+             a,5,V,0.003,normal,1\nb,2,V,0.004,normal,1\nU_x,7,V,0.005,,\n",
+            "Quantity,Estimate,Unit,Standard uncertainty\na,5,V,0.003\nb,2,V,0.004\nU_x,7,V,0.005\n",
+            "Quantity,Estimate,Unit,U (k=2)\na,5,V,0.006\nb,2,V,0.008\nU_x,7,V,0.01\n",
+        ] {
+            let (found, budget) = uncertainties(text);
+            assert_eq!(found, [0.003, 0.004], "{}", budget.text);
+            assert!(guesses(&budget, "taken for the result"), "{:?}", budget.guessed);
+            assert_eq!(task(&budget).model.outputs[0].quantity.name, "U_x");
+        }
+    }
+
+    /// What the equation does not name, and contributions of the sheet that are others, are told.
+    #[test]
+    fn what_contributes_nothing_or_something_else_is_told() {
+        let text = "R = U/I,,,\n\nQuantity,Estimate,Unit,Standard uncertainty\n\
+                    U,5.01,V,0.01\nI,1.25,mA,0.001\ndT,0,K,0.1\n";
+        let budget = import("b.csv", text.as_bytes()).unwrap();
+        assert_eq!(task(&budget).model.outputs[0].quantity.unit.text(), "ohm");
+        assert!(guesses(&budget, "`ohm` is taken"), "{:?}", budget.guessed);
+        assert!(guesses(&budget, "`dT` is not in the equation of R"), "{:?}", budget.guessed);
+        let text = "Quantity,Estimate,Unit,Standard uncertainty,c_i,Contribution\n\
+                    a,5,V,0.002,1,0.002\nb,2,K,0.5,3,0.5\n";
+        let (_, budget) = uncertainties(text);
+        assert!(guesses(&budget, "`b` contributes 0.5, this model 1.5 V"), "{:?}", budget.guessed);
+        assert!(!guesses(&budget, "`a` contributes"), "{:?}", budget.guessed);
     }
 
     #[test]

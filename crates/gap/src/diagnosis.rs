@@ -254,8 +254,8 @@ pub struct Shrinkage {
     pub within: [f64; 2],
     /// Gain in the logarithm of the predictive density of data that were left out.
     pub log_density_gain: f64,
-    /// How many blocks of conditions were left out in turn; 0 where that was interrupted, so that what
-    /// is after the correction is of the fit to all data.
+    /// How many blocks of conditions were left out in turn; 0 where that was interrupted or where there
+    /// is one row only, so that what is after the correction is of the fit to all data.
     pub blocks: usize,
     /// How many values were measured.
     pub values: usize,

@@ -107,13 +107,11 @@ pub(crate) fn notes(
         );
     }
     if setup.data.points.len() < 8 {
-        note(
-            "few-conditions",
-            format!(
-                "There are only {} different conditions; effects that differ elsewhere look alike here.",
-                setup.data.points.len()
-            ),
-        );
+        let said = match setup.data.points.len() {
+            1 => "There is only one condition".to_owned(),
+            count => format!("There are only {count} different conditions"),
+        };
+        note("few-conditions", format!("{said}; effects that differ elsewhere look alike here."));
     }
     notes
 }

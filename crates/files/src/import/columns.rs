@@ -15,9 +15,13 @@ pub(super) enum Column {
     Distribution,
     Divisor,
     Sensitivity,
+    /// The unit of the sensitivity coefficient.
+    UnitOfSensitivity,
     Dof,
-    /// What the program computes itself.
+    /// In the unit of the result; computed here, and compared.
     Contribution,
+    /// What the program computes itself.
+    Share,
 }
 
 /// The words of each column, without what stands in brackets.
@@ -183,15 +187,31 @@ const WORDS: &[(Column, &[&str])] = &[
             "u_i(y)",
             "ui(y)",
             "beitrag",
-            "index",
-            "share",
-            "anteil",
             "ci*ui",
             "c_i*u_i",
             "c*u",
-            "variance",
-            "varianz",
-            "percent",
+        ],
+    ),
+    (Column::Share, &["index", "share", "anteil", "variance", "varianz", "percent"]),
+    (
+        Column::UnitOfSensitivity,
+        &[
+            "unit of sensitivity",
+            "unit of sensitivity coefficient",
+            "unit of c_i",
+            "unit of ci",
+            "unit c_i",
+            "unit ci",
+            "unit of c",
+            "sensitivity unit",
+            "c_i unit",
+            "ci unit",
+            "einheit c_i",
+            "einheit ci",
+            "einheit von c_i",
+            "einheit von ci",
+            "einheit des sensitivitätskoeffizienten",
+            "einheit sensitivitätskoeffizient",
         ],
     ),
 ];
@@ -238,7 +258,9 @@ impl Column {
             Self::Divisor => "divisor",
             Self::Sensitivity => "sensitivity coefficient",
             Self::Dof => "degrees of freedom",
+            Self::UnitOfSensitivity => "unit of the sensitivity coefficient",
             Self::Contribution => "contribution (computed here)",
+            Self::Share => "share (computed here)",
         }
     }
 }

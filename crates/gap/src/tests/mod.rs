@@ -11,6 +11,7 @@ mod interrupted;
 mod likelihood;
 mod next;
 mod noise;
+mod one_row;
 mod regions;
 mod replication;
 

@@ -363,11 +363,15 @@ pub(super) fn shrinkage(diagnosis: &Diagnosis) -> Vec<String> {
         );
     }
     if shrinkage.blocks == 0 {
-        said.push(
-            "Nothing was left out of the fit, since the diagnosis was interrupted: what is after the \
-             correction is too small."
-                .to_owned(),
-        );
+        let because = if diagnosis.rows.len() < 2 {
+            "there is one row only"
+        } else {
+            "the diagnosis was interrupted"
+        };
+        said.push(format!(
+            "Nothing was left out of the fit, since {because}: what is after the correction is too \
+             small."
+        ));
         return said;
     }
     said.push(format!(
