@@ -51,6 +51,7 @@ mod reproducible;
 mod results;
 mod schema;
 mod seeds;
+mod seldom_meant;
 mod sizes;
 mod stack;
 mod strangers;

@@ -8,6 +8,7 @@ use serde::Serialize;
 use super::exit::say;
 use super::options::{self, Answer, Format, Trust};
 use super::{CommandLine, Exit, Failure, diagnostics};
+use gumption_engine::task::Warning;
 use gumption_files::{Diagnostic, Diagnostics};
 use gumption_report::{plain, pretty};
 
@@ -24,9 +25,27 @@ pub(super) struct Check {
 
 /// The answer for programs.
 #[derive(Debug, Serialize)]
-struct Verdict {
+struct Verdict<'n> {
     ok: bool,
     errors: Vec<Mistake>,
+    /// What is right and seldom meant, as a run says it.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    warnings: Vec<Said<'n>>,
+}
+
+/// A note, with the keys that it has in every answer.
+#[derive(Debug, Serialize)]
+struct Said<'n> {
+    code: &'n str,
+    #[serde(rename = "where")]
+    place: &'n str,
+    text: &'n str,
+}
+
+impl<'n> From<&'n Warning> for Said<'n> {
+    fn from(Warning { code, place, text }: &'n Warning) -> Self {
+        Self { code, place, text }
+    }
 }
 
 /// A mistake in a file as `check --format json` tells it.
@@ -66,15 +85,16 @@ impl Check {
         let place = self.answer.open(std::slice::from_ref(&self.file))?;
         let text = |text: &str| files.check_text("<stdin>", text, Path::new(""));
         let result = options::given(&self.file, text, |path| files.check(path))?;
-        let found = match result {
-            Ok(()) => Diagnostics(Vec::new()),
-            Err(found) => found,
+        let (found, notes) = match result {
+            Ok(notes) => (Diagnostics(Vec::new()), notes),
+            Err(found) => (found, Vec::new()),
         };
         let right = found.0.is_empty();
         let answer = match self.answer.format {
             Format::Json => {
                 let errors = found.0.iter().map(Mistake::from).collect();
-                let verdict = Verdict { ok: right, errors };
+                let warnings = notes.iter().map(Said::from).collect();
+                let verdict = Verdict { ok: right, errors, warnings };
                 pretty(&verdict)
             }
             Format::Csv => {
@@ -88,6 +108,7 @@ impl Check {
                 return Err(Failure::Diagnostics(found));
             }
         };
+        self.answer.say(&notes);
         place.write(&answer)?;
         if !right && !self.answer.quiet {
             say(&diagnostics::render(&found, true));

@@ -1,11 +1,13 @@
 //! A case of the gap diagnosis as a whole: a model file with observations and candidate effects.
 
+use std::collections::HashSet;
 use std::path::Path;
 use std::sync::Arc;
 
 use super::diagnostics::Diagnostics;
 use super::effect_context::EffectContext;
 use super::effects;
+use super::formula_notes::UNUSED_INPUT;
 use super::model_reader::{Found, ModelOptions, ModelReader, read_with};
 use super::reader::FileReader;
 use super::results::Results;
@@ -61,12 +63,13 @@ impl Found {
 }
 
 impl ModelReader<'_> {
-    /// Reads the file as a case where it has a key that only cases have, else as a model.
-    pub(super) fn checked(&self) -> Option<()> {
+    /// The notes on the file as a case where it has a key that only cases have, else as a model;
+    /// `None` after a mistake.
+    pub(super) fn checked(&self) -> Option<Vec<Warning>> {
         if KEYS.iter().any(|key| self.root.get(key).is_some()) {
-            self.case().map(|_| ())
+            self.case().map(|case| case.warnings)
         } else {
-            self.found().map(|_| ())
+            self.found().map(|found| found.file.warnings)
         }
     }
 
@@ -100,7 +103,17 @@ impl ModelReader<'_> {
         let Found { file, sim, observed, simulated, reachable, replication, .. } = found?;
         let of = |name: String| sim.conditions.iter().position(|condition| condition.name == name);
         let groups = replication.and_then(of);
-        warnings.splice(0..0, file.warnings);
+        let by_effects: HashSet<&str> = placed
+            .iter()
+            .flat_map(|placed| &placed.candidate.effect.overrides)
+            .flat_map(|(_, formula)| formula.names())
+            .map(|(name, _)| name)
+            .collect();
+        let of_file = file
+            .warnings
+            .into_iter()
+            .filter(|note| note.code != UNUSED_INPUT || !by_effects.contains(note.place.as_str()));
+        warnings.splice(0..0, of_file.collect::<Vec<_>>());
         let candidates = placed.into_iter().map(|placed| placed.candidate).collect();
         let case = Case {
             task: file.task,

@@ -11,6 +11,7 @@ use super::open::is_table_of_results;
 use super::reader::FileReader;
 use super::recipe;
 use super::source::SourceText;
+use gumption_engine::task::Warning;
 
 /// What a file is, as its keys or its header tell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -77,23 +78,23 @@ impl TextKind {
     }
 }
 
-/// Checks a text: as a certificate, a recipe, a file of costs or a case of the gap diagnosis where it has a key that
-/// only those have, else as a model.
+/// Checks a text: as a certificate, a recipe, a file of costs or a case of the gap diagnosis where it
+/// has a key that only those have, else as a model. Hands back the notes on it.
 pub(super) fn check_text(
     files: FileReader<'_>,
     name: &str,
     text: &str,
     folder: &Path,
-) -> Result<(), Diagnostics> {
+) -> Result<Vec<Warning>, Diagnostics> {
     if let Ok(root) = json::parse(&SourceText::new(name, text)) {
         if recipe::is_meant(&root) {
-            return recipe::check_text(name, text, files.folder(folder));
+            return recipe::check_text(name, text, files.folder(folder)).map(|()| Vec::new());
         }
         if costs::is_meant(&root) {
-            return costs::check_text(name, text);
+            return costs::check_text(name, text).map(|()| Vec::new());
         }
         if certificate::is_meant(&root) {
-            return files.certificate_text(name, text, folder).map(|_| ());
+            return files.certificate_text(name, text, folder).map(|file| file.warnings);
         }
     }
     read_with(name, text, folder, ModelOptions::with(files), |reader| reader.checked())

@@ -51,6 +51,7 @@ pub(super) fn read(
     if reader.are_shared_alike(root) {
         reader.check(root, fits);
     }
+    warnings.extend(reader.with_constants());
     (reader.found, warnings)
 }
 
@@ -101,6 +102,26 @@ impl Reader<'_> {
             links::some(&kept)
         );
         (!kept.is_empty()).then(|| Warning::new("certificate-correlation", "", text))
+    }
+
+    /// Notes on coefficients of what has no uncertainty.
+    fn with_constants(&self) -> Vec<Warning> {
+        let constant = |place: &usize| !self.inputs.known.varies(*place);
+        let name = |place: usize| self.inputs.variables.get(place).map(|v| v.name.as_str());
+        let declared = self.found.iter().filter(|of| of.coefficient != 0.0);
+        declared
+            .filter_map(|of| {
+                let place = [of.first, of.second].into_iter().find(constant)?;
+                let of_both = [name(of.first)?, name(of.second)?];
+                let text = format!(
+                    "the correlation of `{}` and `{}` has no effect, as `{}` has no uncertainty",
+                    of_both[0],
+                    of_both[1],
+                    name(place)?
+                );
+                Some(Warning::new("correlation-with-constant", name(place)?, text))
+            })
+            .collect()
     }
 
     fn triple(&mut self, node: &Node) {

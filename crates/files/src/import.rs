@@ -19,10 +19,10 @@ use super::reader::read_text;
 use super::source::SourceText;
 use super::{DiagnosticKind, bytes};
 use columns::{Column, Header, HeaderCoverage};
-use linear::standard_uncertainty;
 use gumption_engine::model::formula::{Formula, Scope, Typing, check_name};
 use gumption_engine::number::Shortest;
 use gumption_units::Unit;
+use linear::standard_uncertainty;
 use serde_json::{Map, Value, json};
 
 /// A model file that was made of a budget.
@@ -564,7 +564,8 @@ fn last_is_result(rows: &[Row]) -> Option<&'static str> {
     let near = |a: f64, b: f64| (a - b).abs() <= 0.01 * a.abs().max(b.abs());
     let of = |row: &Row| row.sensitivity.unwrap_or(1.0);
     let sum: f64 = others.iter().map(|row| of(row) * row.estimate.unwrap_or(0.0)).sum();
-    let squares = others.iter().filter_map(|row| Some((of(row) * standard_uncertainty(row)?).powi(2)));
+    let squares =
+        others.iter().filter_map(|row| Some((of(row) * standard_uncertainty(row)?).powi(2)));
     let combined = squares.sum::<f64>().sqrt();
     let stated = last.std.or(last.width)?;
     let is_sum = last.estimate.is_some_and(|estimate| near(estimate, sum));

@@ -27,6 +27,7 @@ mod effects;
 mod either;
 mod fits;
 mod folder;
+mod formula_notes;
 mod import;
 mod input_set;
 mod inputs;

@@ -14,9 +14,9 @@ use super::model_reader::{Equation, ModelBody};
 use super::object::Object;
 use super::outputs::Outputs;
 use super::scopes::{coherent, condition_scope, report_formula};
+use gumption_engine::model::Quantity;
 use gumption_engine::model::formula::{Scope, TableCall, TableData, Typing, check_name};
 use gumption_engine::model::typed::CatalogueEntry;
-use gumption_engine::model::{Output, Quantity};
 use gumption_engine::task::Warning;
 use gumption_units::Unit;
 use gumption_units::nearest;
@@ -337,28 +337,6 @@ pub(super) fn check_formula_outputs(log: &Collector, scope: &Scope, of: &Quantit
             log.report(unit_place, DiagnosticKind::WrongScale { name, unit, misfit });
         }
     }
-}
-
-/// Outputs in K of what a coefficient's unit makes a number of degrees: a temperature or a
-/// difference.
-pub(super) fn celsius_as_kelvin(scope: &Scope, outputs: &[Output]) -> Vec<Warning> {
-    outputs
-        .iter()
-        .map(|output| &output.quantity)
-        .filter(|output| {
-            let counts_degrees = scope.get(&output.name).is_some_and(Typing::counts_degrees);
-            counts_degrees && !output.unit.is_celsius()
-        })
-        .map(|output| {
-            let text = format!(
-                "`{}` is a number of degrees Celsius by the unit of a coefficient, and is reported \
-                 in {} as a difference; write kelvin(...) for a thermodynamic temperature, or \
-                 report it in degC",
-                output.name, output.unit
-            );
-            Warning::new("celsius-as-kelvin", &output.name, text)
-        })
-        .collect()
 }
 
 /// What is to be said where units are not checked: that formulas compute with the numbers as they

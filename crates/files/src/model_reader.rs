@@ -28,12 +28,13 @@ use super::conditions::{self, Conditions};
 use super::diagnostics::{Collector, Diagnostics};
 use super::fits::{self, FitSet};
 use super::folder::Folder;
+use super::formula_notes;
 use super::input_set::InputSet;
 use super::interpolated;
 use super::json::{Json, Member, Node};
 use super::model_checks::{
-    Quantities, celsius_as_kelvin, check_equations, check_formula_outputs, check_names,
-    check_typed, units_not_checked, unknown_output,
+    Quantities, check_equations, check_formula_outputs, check_names, check_typed,
+    units_not_checked, unknown_output,
 };
 use super::model_file::ModelFile;
 use super::object::Object;
@@ -348,16 +349,12 @@ impl<'a> ModelReader<'a> {
                 warnings.extend(tables.notes);
                 let scope = check_equations(log, &equations, of, tables.tables);
                 check_formula_outputs(log, &scope, of);
-                if of.check_units {
-                    warnings.extend(celsius_as_kelvin(&scope, &of.outputs.outputs));
-                } else {
+                if !of.check_units {
                     warnings.push(units_not_checked(&self.root, of));
                 }
-                for (name, _, formula) in &equations {
-                    let notes = formula.iter().flat_map(Formula::notes);
-                    warnings
-                        .extend(notes.map(|(text, _)| Warning::new("angle-of-turns", name, text)));
-                }
+                warnings.extend(formula_notes::of_formulas(&equations, &scope, of));
+                let outputs = &of.outputs.outputs;
+                warnings.extend(formula_notes::unused_inputs(&self.root, &equations, outputs));
                 let formulas =
                     equations.into_iter().filter_map(|(name, _, formula)| Some((name, formula?)));
                 (scope, ModelForm::Equations(formulas.collect()))

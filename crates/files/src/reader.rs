@@ -14,7 +14,7 @@ use super::overrides::Override;
 use super::recipe::{self, RecipeFile};
 use super::result_file::{self, ResultFile};
 use gumption_engine::model::typed::Catalogue;
-use gumption_engine::task::Row;
+use gumption_engine::task::{Row, Warning};
 
 /// Reads files that may name the typed measurements of a catalogue: the built-in ones
 /// ([`FileReader::default`]), or those of one's own as well.
@@ -218,13 +218,18 @@ impl<'c> FileReader<'c> {
     }
 
     /// Checks a file: as a certificate, a recipe or a case of the gap diagnosis where it has a key
-    /// that only those have, else as a model.
-    pub fn check(self, path: &Path) -> Result<(), Diagnostics> {
+    /// that only those have, else as a model. What is right and seldom meant is handed back.
+    pub fn check(self, path: &Path) -> Result<Vec<Warning>, Diagnostics> {
         open(path, |name, text, folder| self.check_text(name, text, folder))
     }
 
     /// Checks a file's text as [`FileReader::check`] does.
-    pub fn check_text(self, name: &str, text: &str, folder: &Path) -> Result<(), Diagnostics> {
+    pub fn check_text(
+        self,
+        name: &str,
+        text: &str,
+        folder: &Path,
+    ) -> Result<Vec<Warning>, Diagnostics> {
         checked::check_text(self, name, text, folder)
     }
 }
@@ -251,6 +256,6 @@ with_built_in_measurements! {
     read_result = result_text(name: &str, text: &str) -> ResultFile;
     read_recipe = recipe(path: &Path) -> RecipeFile;
     read_recipe_text = recipe_text(name: &str, text: &str, folder: &Path) -> RecipeFile;
-    check = check(path: &Path) -> ();
-    check_text = check_text(name: &str, text: &str, folder: &Path) -> ();
+    check = check(path: &Path) -> Vec<Warning>;
+    check_text = check_text(name: &str, text: &str, folder: &Path) -> Vec<Warning>;
 }

@@ -123,7 +123,7 @@ fn checked(
         TextKind::Comparison => {
             read_comparison_text(name, text, ComparisonOptions::default()).map(drop)
         }
-        TextKind::Recipe | TextKind::Costs => files.check_text(name, text, folder),
+        TextKind::Recipe | TextKind::Costs => files.check_text(name, text, folder).map(drop),
         _ => Ok(()),
     }
 }

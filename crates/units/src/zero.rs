@@ -1,6 +1,8 @@
 //! Scales that do not begin at nothing: temperatures in degrees Celsius or Fahrenheit, and levels
 //! with a reference.
 
+use super::Unit;
+
 /// The zero of the Celsius scale in K (SI Brochure, 9th ed., 2.3.1).
 const CELSIUS_ZERO: f64 = 273.15;
 
@@ -46,6 +48,21 @@ impl Zero {
             Self::Carrier => "dBc",
             Self::Isotropic => "dBi",
         }
+    }
+
+    /// The reference that one such unit of power or voltage is: 1 mW of `mW`. `None` for every other
+    /// unit.
+    pub fn above(unit: &Unit) -> Option<Self> {
+        [(Self::Milliwatt, "mW"), (Self::Watt, "W"), (Self::Volt, "V")]
+            .into_iter()
+            .chain([(Self::Millivolt, "mV"), (Self::Microvolt, "uV")])
+            .find(|(_, text)| {
+                let of = Unit::parse(text).ok();
+                of.is_some_and(|of| {
+                    of.dimension() == unit.dimension() && of.factor() == unit.factor()
+                })
+            })
+            .map(|(zero, _)| zero)
     }
 
     /// How far it lies above the nothing of its kind of quantity: in K, or in dB above 1 W or 1 V.

@@ -4,7 +4,7 @@
 use std::error::Error;
 use std::fmt;
 
-use super::typing::{KelvinKind, Typing};
+use super::typing::{KelvinKind, LevelReference, Typing};
 use gumption_units::{Exponent, Turn, Unit, Zero};
 
 /// Why a quantity cannot be given in a unit, although the dimension fits. `Display` gives the
@@ -115,8 +115,13 @@ impl Typing {
                 let thermodynamic = self.kelvin == KelvinKind::Thermodynamic;
                 Err(ScaleMisfit::KelvinInCelsius { thermodynamic })
             }
-            // of what `10*log10(...)` is above nothing is known
-            (None, _) => Ok(()),
+            (None, expected @ Some(zero)) => match self.reference {
+                LevelReference::Above(found) if found != zero => {
+                    Err(ScaleMisfit::OtherReference { found: Some(found), expected })
+                }
+                _ => Ok(()),
+            },
+            (None, None) => Ok(()),
             (found, expected) => match Zero::shift(found, expected) {
                 Some(_) => Ok(()),
                 None => Err(ScaleMisfit::OtherReference { found, expected }),

@@ -58,6 +58,7 @@ mod lexer;
 mod message;
 mod misfit;
 mod name;
+mod note;
 mod parser;
 mod scale;
 mod scale_fault;
@@ -78,9 +79,10 @@ pub use function::functions;
 pub use layout::Layout;
 pub use misfit::ScaleMisfit;
 pub use name::{NameError, check_name, is_name};
+pub use note::FormulaNote;
 pub use scale_fault::{ScaleFault, ScaledPlace};
 pub use syntax::TableCall;
-pub use typing::{KelvinKind, Scope, TableData, Typing};
+pub use typing::{KelvinKind, LevelReference, Scope, TableData, Typing};
 
 use super::Traced;
 use crate::number::Number;
@@ -173,28 +175,11 @@ impl Formula {
         self.checked(scope, false)
     }
 
-    /// What is right by the rules and seldom meant: `sin(30)`, which is of 30 rad. Each with its
-    /// place.
-    pub fn notes(&self) -> Vec<(String, Range<usize>)> {
-        let constants = evaluate::constants(&self.tree);
-        let of_call = |node: &syntax::Node| {
-            let Kind::Call { function: Some(function), arguments, .. } = &node.kind else {
-                return None;
-            };
-            let [argument] = arguments.as_slice() else { return None };
-            let angle = constants.get(*argument).copied().flatten()?;
-            if !function.takes_angle() || angle.abs() <= std::f64::consts::TAU {
-                return None;
-            }
-            let text = self.text.get(self.tree.span(*argument)).unwrap_or_default();
-            let note = format!(
-                "`{}` takes radians, and {text} rad are more than a turn; an angle in degrees is \
-                 written `{text} [deg]`",
-                function.name()
-            );
-            (!text.contains("pi") && !text.contains('π')).then(|| (note, node.span.clone()))
-        };
-        self.tree.nodes.iter().filter_map(of_call).collect()
+    /// What is right by the rules and seldom meant: `sin(30)`, which is of 30 rad, `phi + 90` of an
+    /// angle in degrees. `unit_of` gives the unit that a name's values are given in where formulas have
+    /// them in coherent SI, else `None`.
+    pub fn notes<'u>(&self, unit_of: impl Fn(&str) -> Option<&'u Unit>) -> Vec<FormulaNote> {
+        note::notes(&self.text, &self.tree, unit_of)
     }
 
     fn checked(&self, scope: &Scope, units: bool) -> Result<Typing, Vec<FormulaError>> {

@@ -9,7 +9,7 @@ use super::function::Function;
 use super::scale_fault::{ScaleFault, ScaledPlace};
 use super::syntax::{Kind, Node, Operator};
 use super::tie::{Tie, borne, taken_up};
-use super::typing::{KelvinKind, Typing};
+use super::typing::{KelvinKind, LevelReference, Typing};
 use crate::number::Unary;
 use gumption_units::{Dimension, Exponent, Turn, Unit, Zero};
 
@@ -66,6 +66,30 @@ impl Checker<'_> {
             (part(left), part(right)),
             (LevelPart::Factor, LevelPart::Logarithm) | (LevelPart::Logarithm, LevelPart::Factor)
         )
+    }
+
+    /// What a level is above by its logarithm: `10*log10(P/[mW])`, `20*log10(v/[uV])`.
+    fn reference(&self, left: usize, right: usize) -> Option<LevelReference> {
+        let (factor, logarithm) = match self.constant(left) {
+            Some(factor) => (factor, right),
+            None => (self.constant(right)?, left),
+        };
+        let kind = |index: usize| self.tree.nodes.get(index).map(|node| &node.kind);
+        let Some(Kind::Call { arguments, .. }) = kind(logarithm) else { return None };
+        let Kind::Infix { operator: Operator::Divide, right, .. } = kind(*arguments.first()?)?
+        else {
+            return None;
+        };
+        let unit = match kind(*right)? {
+            Kind::Unit(unit) => unit,
+            Kind::InUnit { number, unit } if self.constant(*number) == Some(1.0) => unit,
+            _ => return None,
+        };
+        let of_factor = |zero: &Zero| match zero {
+            Zero::Milliwatt | Zero::Watt => factor == 10.0,
+            _ => factor == 20.0,
+        };
+        Zero::above(unit).filter(of_factor).map(LevelReference::Above)
     }
 
     /// What a node is where it is used as a whole; anything after a mistake.
@@ -244,6 +268,7 @@ impl Checker<'_> {
             zero: None,
             kelvin: kelvin_of_sum(sign, x.kelvin, y.kelvin),
             celsius_exponent: nearer_zero(x.celsius_exponent, y.celsius_exponent),
+            reference: reference_of_sum(sign, x, y),
             turn: x.turn.or(y.turn),
             ..x
         };
@@ -297,13 +322,18 @@ impl Checker<'_> {
         [left, right]: [usize; 2],
     ) -> (Typing, Tie) {
         if self.makes_level(left, right) {
-            return (Typing { level: Exponent::ONE, ..Typing::NUMBER }, Tie::None);
+            let reference = self.reference(left, right).unwrap_or_default();
+            return (Typing { level: Exponent::ONE, reference, ..Typing::NUMBER }, Tie::None);
         }
         for (number, other) in [(left, right), (right, left)] {
             let Some(factor) = self.constant(number) else { continue };
             let typing = self.typing(other);
             let turn = self.turned(typing.turn, number, factor);
-            return (Typing { dimension, turn, ..typing }, self.tie(other).times(factor));
+            let reference = LevelReference::Unknown;
+            return (
+                Typing { dimension, turn, reference, ..typing },
+                self.tie(other).times(factor),
+            );
         }
         let (x, y) = (self.typing(left), self.typing(right));
         let turn = match (x.turn, y.turn) {
@@ -334,7 +364,11 @@ impl Checker<'_> {
                 Some(Turn::Angle) if x.turn == Some(Turn::Angle) => Some(Turn::Periods),
                 _ => None,
             };
-            return (Typing { dimension, turn, ..x }, self.tie(left).times(1.0 / divisor));
+            let reference = LevelReference::Unknown;
+            return (
+                Typing { dimension, turn, reference, ..x },
+                self.tie(left).times(1.0 / divisor),
+            );
         }
         if let Some(Kind::Unit(unit)) = self.tree.nodes.get(right).map(|node| &node.kind)
             && unit.zero().is_some()
@@ -508,6 +542,17 @@ impl Checker<'_> {
             let (text, unit) = (self.quoted(left), unit.text().trim().to_owned());
             self.fault(left, ScaleFault::KelvinPerCelsius { text, unit });
         }
+    }
+}
+
+/// What a sum of levels is above: what one of them is, beside one that is above nothing known.
+fn reference_of_sum(sign: f64, x: Typing, y: Typing) -> LevelReference {
+    use LevelReference::{Above, Added, Unknown};
+    match (x.reference, y.reference) {
+        (Added, _) | (_, Added) => Added,
+        (Above(zero), Unknown) if y.zero.is_none() => Above(zero),
+        (Unknown, Above(zero)) if x.zero.is_none() && sign > 0.0 => Above(zero),
+        _ => Unknown,
     }
 }
 

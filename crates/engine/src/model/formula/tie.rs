@@ -5,7 +5,7 @@
 //! same way a product with a number of degrees Celsius is right only with the coefficient per degC
 //! that may still follow.
 
-use super::typing::{KelvinKind, Typing};
+use super::typing::{KelvinKind, LevelReference, Typing};
 use gumption_units::{Dimension, Exponent, Zero};
 
 /// What two sums of factors may differ by through rounding: far more than double precision leaves
@@ -62,6 +62,10 @@ impl Tie {
     /// The kind of a sum as a whole; `None` if it is none: factors that add to neither 1 nor 0.
     pub(super) fn settled(self, typing: Typing) -> Option<Typing> {
         let is = |sum: f64, whole: f64| (sum - whole).abs() < ROUNDING;
+        let typing = match self {
+            Self::Sum { .. } => Typing { reference: LevelReference::Unknown, ..typing },
+            Self::None | Self::Product { .. } => typing,
+        };
         match self {
             Self::None => Some(typing),
             Self::Sum { zero, weight, .. } if is(weight, 1.0) => {
@@ -79,9 +83,9 @@ impl Tie {
             Self::Sum { weight, loose, .. } if is(weight + loose, 0.0) => {
                 Some(Typing { zero: None, kelvin: KelvinKind::Difference, ..typing })
             }
-            // levels may be added and scaled as one likes; then nothing is known of a reference
+            // levels may be added and scaled as one likes; then they are above no reference
             Self::Sum { zero, .. } if zero != Zero::Celsius => {
-                Some(Typing { zero: None, ..typing })
+                Some(Typing { zero: None, reference: LevelReference::Added, ..typing })
             }
             Self::Sum { .. } | Self::Product { .. } => None,
         }

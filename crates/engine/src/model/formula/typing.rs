@@ -24,8 +24,22 @@ pub struct Typing {
     pub celsius_exponent: Exponent,
     /// The exponent of decibels in it: 1 of a level, 0 of everything that is no level.
     pub level: Exponent,
+    /// What a level is above that has no declared zero.
+    pub reference: LevelReference,
     /// Whether it counts periods or angle, as far as that is known.
     pub turn: Option<Turn>,
+}
+
+/// What a level is above by the formula that makes it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum LevelReference {
+    /// Nothing is known of it, or it is the ratio of two quantities.
+    #[default]
+    Unknown,
+    /// What its logarithm is divided by: 1 uV in `20*log10(v/[uV])`.
+    Above(Zero),
+    /// It adds levels with a reference, or multiplies one, and is above none.
+    Added,
 }
 
 /// What is known about a temperature in K.
@@ -55,6 +69,7 @@ impl Typing {
             kelvin: KelvinKind::Either,
             celsius_exponent: Exponent::ZERO,
             level: Exponent::ZERO,
+            reference: LevelReference::Unknown,
             turn: None,
         }
     }

@@ -1,0 +1,128 @@
+//! Notes on formulas: what is right by the rules and seldom meant, and inputs that no formula uses.
+
+use std::collections::HashSet;
+
+use super::json::Json;
+use super::model_checks::Quantities;
+use super::model_reader::Equation;
+use super::object::Object;
+use gumption_engine::model::formula::{Formula, LevelReference, Scope, Typing};
+use gumption_engine::model::{Output, Quantity};
+use gumption_engine::task::Warning;
+use gumption_units::{FactorBase, Unit};
+
+/// Notes on the formulas of a file whose units are checked, and on the units of its outputs.
+pub(super) fn of_formulas(
+    equations: &[Equation<'_>],
+    scope: &Scope,
+    of: &Quantities,
+) -> Vec<Warning> {
+    let inputs = of.inputs.quantities.iter().map(|input| &input.quantity);
+    let quantities: Vec<&Quantity> = inputs.chain(&of.conditions.quantities).collect();
+    let unit_of = |name: &str| -> Option<&Unit> {
+        let own = |quantity: &&&Quantity| quantity.name == name;
+        quantities.iter().find(own).map(|quantity| &quantity.unit).filter(|_| of.check_units)
+    };
+    let mut found = Vec::new();
+    for (name, _, formula) in equations {
+        let notes = formula.iter().flat_map(|formula| formula.notes(unit_of));
+        found.extend(notes.map(|note| Warning::new(note.code, name, note.text)));
+    }
+    if of.check_units {
+        found.extend(celsius_as_kelvin(scope, &of.outputs.outputs));
+        found.extend(of.outputs.outputs.iter().filter_map(|output| sum_of_levels(scope, output)));
+        found.extend(of.outputs.outputs.iter().filter_map(|output| rate_of_turns(scope, output)));
+    }
+    found
+}
+
+/// Inputs that stand in no equation and are no output.
+pub(super) fn unused_inputs(
+    root: &Object<'_>,
+    equations: &[Equation<'_>],
+    outputs: &[Output],
+) -> Vec<Warning> {
+    let Some(Json::Object(inputs)) = root.get("inputs").map(|member| &member.value.value) else {
+        return Vec::new();
+    };
+    // what an equation with a mistake uses is not known
+    if equations.iter().any(|(_, _, formula)| formula.is_none()) {
+        return Vec::new();
+    }
+    let formulas = equations.iter().filter_map(|(_, _, formula)| formula.as_ref());
+    let mut used: HashSet<&str> = formulas.flat_map(Formula::names).map(|(name, _)| name).collect();
+    used.extend(outputs.iter().map(|output| output.quantity.name.as_str()));
+    let is_used = |name: &str| {
+        let part_of = |used: &&str| used.rsplit_once('.').is_some_and(|(whole, _)| whole == name);
+        used.contains(name) || used.iter().any(part_of)
+    };
+    let unused = inputs.iter().filter(|member| !is_used(&member.key));
+    unused
+        .map(|member| {
+            let text = format!(
+                "no equation uses the input `{}`: it contributes nothing to any uncertainty",
+                member.key
+            );
+            Warning::new(UNUSED_INPUT, &member.key, text)
+        })
+        .collect()
+}
+
+/// The code of [`unused_inputs`].
+pub(super) const UNUSED_INPUT: &str = "unused-input";
+
+/// A result that adds levels above a reference, as 5 dBm and 2 dBm.
+fn sum_of_levels(scope: &Scope, output: &Output) -> Option<Warning> {
+    let Quantity { name, unit, .. } = &output.quantity;
+    let typing = scope.get(name)?;
+    let adds = typing.zero.is_none() && typing.reference == LevelReference::Added;
+    adds.then(|| {
+        let text = format!(
+            "`{name}` in {unit} adds levels above a reference, or multiplies one, so that it is above no \
+             reference itself; the level of a sum of powers is `10*log10(10^(L1/10) + 10^(L2/10))`, \
+             and gains are in dB"
+        );
+        Warning::new("sum-of-levels", name, text)
+    })
+}
+
+/// A result in revolutions per minute of which nothing tells that it counts angle.
+fn rate_of_turns(scope: &Scope, output: &Output) -> Option<Warning> {
+    let Quantity { name, unit, .. } = &output.quantity;
+    let typing = scope.get(name)?;
+    let of_turns = unit.factors().iter().any(|factor| match factor.base {
+        FactorBase::Named { symbol, .. } => matches!(symbol.name(), "rpm" | "rev" | "turn"),
+        _ => false,
+    });
+    let unknown = typing.turn.is_none() && typing.dimension.is_some_and(|of| !of.is_none());
+    (of_turns && unknown && unit.turn().is_some()).then(|| {
+        let text = format!(
+            "`{name}` is taken for an angular frequency, of which 2*pi radians are a revolution, as \
+             nothing says that it counts revolutions; if it does, write `...*[rev]`, or give it in \
+             `1/min`"
+        );
+        Warning::new("rate-of-turns", name, text)
+    })
+}
+
+/// Outputs in K of what a coefficient's unit makes a number of degrees: a temperature or a
+/// difference.
+fn celsius_as_kelvin(scope: &Scope, outputs: &[Output]) -> Vec<Warning> {
+    outputs
+        .iter()
+        .map(|output| &output.quantity)
+        .filter(|output| {
+            let counts_degrees = scope.get(&output.name).is_some_and(Typing::counts_degrees);
+            counts_degrees && !output.unit.is_celsius()
+        })
+        .map(|output| {
+            let text = format!(
+                "`{}` is a number of degrees Celsius by the unit of a coefficient, and is reported \
+                 in {} as a difference; write kelvin(...) for a thermodynamic temperature, or \
+                 report it in degC",
+                output.name, output.unit
+            );
+            Warning::new("celsius-as-kelvin", &output.name, text)
+        })
+        .collect()
+}

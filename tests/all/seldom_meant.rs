@@ -1,0 +1,103 @@
+//! Notes on what is right by the rules and seldom meant, and files of the same kind without one.
+
+use std::path::Path;
+
+use gumption::file::check_text;
+use serde_json::{Value, json};
+
+/// Codes of the notes on a file that has no mistake.
+fn codes(file: &Value) -> Vec<&'static str> {
+    let notes = check_text("m.json", &file.to_string(), Path::new(""));
+    notes.unwrap_or_else(|faults| panic!("{file}\n{faults}")).iter().map(|note| note.code).collect()
+}
+
+fn normal(unit: &str, mean: f64) -> Value {
+    json!({"unit": unit, "distribution": "normal", "mean": mean, "std": 0.1})
+}
+
+fn of(unit: &str, formula: &str, unit_of_result: &str) -> Value {
+    json!({"inputs": {"x": normal(unit, 5.0)}, "equations": {"y": formula},
+        "outputs": {"y": {"unit": unit_of_result}}})
+}
+
+#[test]
+fn formulas() {
+    for (unit, formula, result, wanted) in [
+        ("deg", "x + 90", "deg", Some("bare-number")),
+        ("deg", "90 - 2*x", "deg", Some("bare-number")),
+        ("deg", "if(x > 45, x, 0)", "deg", Some("bare-number")),
+        ("%", "x + 2", "%", Some("bare-number")),
+        ("ppm", "x - 10", "ppm", Some("bare-number")),
+        ("deg", "x + 90 [deg]", "deg", None),
+        ("%", "1 + x", "1", None),
+        ("%", "x + 2 [%]", "%", None),
+        ("%", "if(x > 0, x, 0)", "%", None),
+        ("rad", "x + 1.5", "rad", None),
+        ("1", "x + 90", "1", None),
+        ("deg", "sin(x*pi/180)", "1", Some("angle-converted-twice")),
+        ("deg", "sin(x/180*pi)", "1", Some("angle-converted-twice")),
+        ("deg", "sin(0.0174533*x)", "1", Some("angle-converted-twice")),
+        ("deg", "sin(2*x)", "1", None),
+        ("1", "sin(x*pi/180)", "1", None),
+        ("deg", "x*180/pi", "1", None),
+        ("1", "sin(30)*x", "1", Some("angle-of-turns")),
+        ("dBm", "x + x", "dBm", Some("sum-of-levels")),
+        ("dBm", "2*x", "dBm", Some("sum-of-levels")),
+        ("dBm", "(x + x)/2", "dBm", None),
+        ("dBm", "x + 3 [dB]", "dBm", None),
+        ("dBm", "x - 10*log10(2 [mW]/[mW])", "dBm", None),
+        ("dBm", "10*log10(10^(x/10) + 10^(x/10))", "dBm", None),
+        ("1/min", "x", "rpm", Some("rate-of-turns")),
+        ("1/min", "x*[rev]", "rpm", None),
+        ("rpm", "x", "rpm", None),
+        ("1/min", "x", "1/min", None),
+    ] {
+        let found = codes(&of(unit, formula, result));
+        assert_eq!(found, Vec::from_iter(wanted), "{formula} of {unit} in {result}");
+    }
+    // numbers in their own units are meant so
+    let mut unchecked = of("deg", "sin((x + 90)*pi/180)", "1");
+    unchecked["check_units"] = json!(false);
+    assert_eq!(codes(&unchecked), ["units-not-checked-changed"]);
+}
+
+/// A level that its formula puts above 1 uV is none above 1 V.
+#[test]
+fn levels_have_the_reference_of_their_formula() {
+    for (unit, formula, result, right) in [
+        ("uV", "20*log10(x/[uV])", "dBuV", true),
+        ("uV", "20*log10(x/[uV])", "dB", true),
+        ("uV", "20*log10(x/[uV])", "dBV", false),
+        ("uV", "20*log10(x/1 [uV]) + 3 [dB]", "dBmV", false),
+        ("W", "10*log10(x/[mW])", "dBm", true),
+        ("W", "10*log10(x/[mW])", "dBW", false),
+        ("V", "20*log10(x/2 [V])", "dBV", true),
+        ("uV", "20*log10(x/[uV]) - 20*log10(2 [V]/[V])", "dB", true),
+    ] {
+        let found = check_text("m.json", &of(unit, formula, result).to_string(), Path::new(""));
+        match found {
+            Ok(_) => assert!(right, "{formula} in {result}"),
+            Err(faults) => {
+                assert!(!right, "{formula} in {result}: {faults}");
+                assert!(faults.to_string().contains("write the reference out"), "{faults}");
+            }
+        }
+    }
+}
+
+#[test]
+fn inputs_and_correlations() {
+    // one part of a complex input is use enough
+    let mut file = json!({
+        "inputs": {"a": normal("V", 1.0), "b": normal("V", 1.0), "unused": normal("V", 0.0),
+            "Z": {"unit": "ohm", "complex": {"re": normal("ohm", 1.0), "im": normal("ohm", 2.0)}}},
+        "equations": {"y": "a + b", "z": "abs(Z)"},
+        "outputs": {"y": {"unit": "V"}, "z": {"unit": "ohm"}},
+        "correlations": [["a", "b", 0.5]]
+    });
+    assert_eq!(codes(&file), ["unused-input"]);
+    file["equations"]["y"] = json!("a + b + unused");
+    assert_eq!(codes(&file), Vec::<&str>::new());
+    file["inputs"]["b"] = json!({"unit": "V", "distribution": "constant", "value": 1});
+    assert_eq!(codes(&file), ["correlation-with-constant"]);
+}
